@@ -243,7 +243,6 @@ void find_shell_rows(State& state) {
 void find_spot_rows(State& state) {
   const Setting setting = open_world();
   const assign::RowPlanes planes(setting.grid.screen());
-  const assign::SpotsAndPlanes from{&setting.lights, planes.side.data(), planes.slope.data(), planes.depth.data()};
   assign::BallArrays around;
   assign::find_spot_balls(setting.lights, view::k_given_roundoffs, true, around);
   assign::VisibleBalls visible;
@@ -254,10 +253,10 @@ void find_spot_rows(State& state) {
   assign::SpotSlices slices;
   for (int slice = 0; slice < planes.slices; ++slice)
     for (const std::uint32_t place : balls.of(slice))
-      slices.add(visible.light[place], static_cast<std::uint32_t>(slice));
+      slices.add(visible.light[place] - setting.lights.spots.first, static_cast<std::uint32_t>(slice));
   assign::SpotRows rows;
   for (auto _ : state) {
-    assign::find_spot_rows(from, planes, slices, rows);
+    assign::find_spot_rows(setting.lights, planes, slices, rows);
     benchmark::ClobberMemory();
   }
   items(state, rows.count);
@@ -287,10 +286,9 @@ void look_at_spot_cells(State& state) {
   constexpr int k_slice = 10;
   const Setting setting = open_world();
   const assign::RowPlanes planes(setting.grid.screen());
-  const assign::SpotsAndPlanes from{&setting.lights, planes.side.data(), planes.slope.data(), planes.depth.data()};
   assign::SpotCells cells = some_spot_cells(setting, k_slice);
   for (auto _ : state) {
-    assign::look_at_cells(from, cells);
+    assign::look_at_cells(setting.lights, planes, cells);
     benchmark::ClobberMemory();
   }
   items(state, cells.count);

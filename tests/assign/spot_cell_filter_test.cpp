@@ -63,42 +63,42 @@ std::vector<testing::settings::Plan> all_plans() {
   return testing::settings::plans_for(*find_assigner("exact"), grid::Kind::frustum);
 }
 
-SpotsAndPlanes from_these(const view::LightArrays& lights, const RowPlanes& planes) {
-  return {&lights, planes.side.data(), planes.slope.data(), planes.depth.data(), 0.0f, planes.orthographic};
+// Of spots however small.
+RowPlanes planes_of(const grid::Grid& grid) {
+  RowPlanes planes(grid.screen());
+  planes.least_reach = 0.0f;
+  return planes;
 }
 
-// Calls check(plan, close, planes, from) for each view. `longer`: times the spots' usual ranges.
+// Calls check(plan, close, planes) for each view. `longer`: times the spots' usual ranges.
 template <class Check>
 void for_close_spots(std::uint64_t seed, double longer, Check&& check) {
   for (const testing::settings::Plan& plan : all_plans()) {
     const CloseSpots close = close_spots(plan, seed, longer);
-    const RowPlanes planes(close.grid.screen());
-    check(plan, close, planes, from_these(close.lights, planes));
+    check(plan, close, planes_of(close.grid));
   }
 }
 
 TEST(SpotLooks, say_yes_and_no_only_where_it_is_true_on_every_target) {
-  for_close_spots(
-      5, 1.0,
-      [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes&, const SpotsAndPlanes& from) {
-        SpotCells pairs;
-        std::vector<bool> touched;
-        for (std::uint32_t spot = 0; spot < close.cells.size(); ++spot) {
-          pairs.add(place_of(close.grid, spot, close.cells[spot]));
-          touched.push_back(SpotJudge(close.grid, close.lights, spot).touches(close.cells[spot]));
-        }
-        on_each_target([&](const std::string& target) {
-          look_at_cells(from, pairs);
-          std::size_t wrong = 0, settled = 0;
-          for (std::uint32_t i = 0; i < pairs.count; ++i) {
-            if (pairs.touch[i] == Touch::uncertain) continue;
-            ++settled;
-            if ((pairs.touch[i] == Touch::yes) != touched[i]) ++wrong;
-          }
-          EXPECT_EQ(wrong, 0u) << target << ", " << plan.name;
-          EXPECT_GT(settled, pairs.count / 100) << target << ", " << plan.name;
-        });
-      });
+  for_close_spots(5, 1.0, [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes) {
+    SpotCells pairs;
+    std::vector<bool> touched;
+    for (std::uint32_t spot = 0; spot < close.cells.size(); ++spot) {
+      pairs.add(place_of(close.grid, spot, close.cells[spot]));
+      touched.push_back(SpotJudge(close.grid, close.lights, spot).touches(close.cells[spot]));
+    }
+    on_each_target([&](const std::string& target) {
+      look_at_cells(close.lights, planes, pairs);
+      std::size_t wrong = 0, settled = 0;
+      for (std::uint32_t i = 0; i < pairs.count; ++i) {
+        if (pairs.touch[i] == Touch::uncertain) continue;
+        ++settled;
+        if ((pairs.touch[i] == Touch::yes) != touched[i]) ++wrong;
+      }
+      EXPECT_EQ(wrong, 0u) << target << ", " << plan.name;
+      EXPECT_GT(settled, pairs.count / 100) << target << ", " << plan.name;
+    });
+  });
 }
 
 // Cells long in depth that a spot's ball touches and its cone misses: the plane between often touches an edge alone.
@@ -109,7 +109,7 @@ TEST(SpotLooks, tell_nearly_all_cells_beside_cones) {
     const view::Frame frame = testing::frame_of(plan.projection, {1280, 717}, testing::random_lights(0, 100, 5));
     const grid::Grid grid = testing::grid_of(spec, frame);
     const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
-    const RowPlanes planes(grid.screen());
+    const RowPlanes planes = planes_of(grid);
     SpotCells missed;
     for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot) {
       SpotJudge judge(grid, lights, spot);
@@ -119,7 +119,7 @@ TEST(SpotLooks, tell_nearly_all_cells_beside_cones) {
           missed.add(place_of(grid, spot, cell));
     }
     on_each_target([&](const std::string& target) {
-      look_at_cells(from_these(lights, planes), missed);
+      look_at_cells(lights, planes, missed);
       const auto told = std::count(missed.touch.begin(), missed.touch.begin() + missed.count, Touch::no);
       EXPECT_GT(missed.count, 5000U) << plan.name;
       EXPECT_GE(100 * told, 99 * missed.count) << target << ", " << plan.name;
@@ -147,8 +147,8 @@ struct RowParts {
     asked.push_back(part);
     touched.push_back(in_row);
   }
-  void look(const SpotsAndPlanes& from, const RowPlanes& planes) {
-    touches.look(from, planes);
+  void look(const view::LightArrays& lights, const RowPlanes& planes) {
+    touches.look(lights, planes);
     wrong = settled = alone = 0;
     for (std::uint32_t i = 0; i < touches.count(); ++i) {
       const Touch touch = touches.touch(i);
@@ -164,25 +164,23 @@ struct RowParts {
 };
 
 TEST(SpotTouches, are_true_on_every_target) {
-  for_close_spots(9, 1.0,
-                  [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes,
-                     const SpotsAndPlanes& from) {
-                    RowParts parts;
-                    const auto columns = static_cast<std::uint32_t>(planes.columns);
-                    for (std::uint32_t spot = 0; spot < close.cells.size(); spot += 3) {
-                      SpotCell cell = place_of(close.grid, spot, close.cells[spot]);
-                      SpotJudge judge(close.grid, close.lights, spot);
-                      const grid::IndexRange touched = touched_columns(judge, planes, cell);
-                      parts.add(cell, touched);
-                      parts.add({cell.spot, cell.slice, cell.row, 0, columns}, touched);
-                      parts.add({cell.spot, cell.slice, cell.row, 0, cell.column + 1}, touched);
-                    }
-                    on_each_target([&](const std::string& target) {
-                      parts.look(from, planes);
-                      EXPECT_EQ(parts.wrong, 0u) << target << ", " << plan.name;
-                      EXPECT_GT(parts.settled, parts.asked.size() / 4) << target << ", " << plan.name;
-                    });
-                  });
+  for_close_spots(9, 1.0, [](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes) {
+    RowParts parts;
+    const auto columns = static_cast<std::uint32_t>(planes.columns);
+    for (std::uint32_t spot = 0; spot < close.cells.size(); spot += 3) {
+      SpotCell cell = place_of(close.grid, spot, close.cells[spot]);
+      SpotJudge judge(close.grid, close.lights, spot);
+      const grid::IndexRange touched = touched_columns(judge, planes, cell);
+      parts.add(cell, touched);
+      parts.add({cell.spot, cell.slice, cell.row, 0, columns}, touched);
+      parts.add({cell.spot, cell.slice, cell.row, 0, cell.column + 1}, touched);
+    }
+    on_each_target([&](const std::string& target) {
+      parts.look(close.lights, planes);
+      EXPECT_EQ(parts.wrong, 0u) << target << ", " << plan.name;
+      EXPECT_GT(parts.settled, parts.asked.size() / 4) << target << ", " << plan.name;
+    });
+  });
 }
 
 // Spots at whole places that shine at the middle planes of the picture and end there, before a camera that has come to
@@ -201,7 +199,7 @@ TEST(SpotTouches, say_which_columns_share_a_single_point) {
     }
     const grid::Grid grid = testing::grid_of(plan.spec, frame);
     const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
-    const RowPlanes planes(grid.screen());
+    const RowPlanes planes = planes_of(grid);
     const auto rows = static_cast<std::uint32_t>(planes.rows), columns = static_cast<std::uint32_t>(planes.columns);
     RowParts parts;
     for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot)
@@ -215,7 +213,7 @@ TEST(SpotTouches, say_which_columns_share_a_single_point) {
         }
       }
     on_each_target([&](const std::string& target) {
-      parts.look(from_these(lights, planes), planes);
+      parts.look(lights, planes);
       EXPECT_EQ(parts.wrong, 0u) << target << ", turned by " << turn;
       EXPECT_GT(parts.alone, lights.spots.count / 3) << target << ", turned by " << turn;
     });
@@ -231,9 +229,7 @@ struct TrueRow {
 // `usual`: spots of usual ranges, of which much is known.
 void expect_only_what_is_true(double longer, bool usual) {
   for_close_spots(
-      6, longer,
-      [&](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes,
-          const SpotsAndPlanes& from) {
+      6, longer, [&](const testing::settings::Plan& plan, const CloseSpots& close, const RowPlanes& planes) {
         const auto columns = static_cast<std::uint32_t>(planes.columns), rows = static_cast<std::uint32_t>(planes.rows);
         SpotSlices slices;
         std::vector<TrueRow> truth;  // the row that is touched by a hair, and its neighbours
@@ -250,7 +246,7 @@ void expect_only_what_is_true(double longer, bool usual) {
         }
         on_each_target([&](const std::string& target) {
           SpotRows found;
-          find_spot_rows(from, planes, slices, found);
+          find_spot_rows(close.lights, planes, slices, found);
           std::size_t wrong = 0, settled = 0, listed = 0, at = 0;
           for (const TrueRow& row : truth) {
             while (at < found.count && (found.spot[at] < row.spot ||
@@ -303,13 +299,13 @@ struct SpotsInGrid {
     const view::Frame frame = testing::frame_of(plan.projection, {1280, 717}, spots);
     const grid::Grid grid = testing::grid_of(plan.spec, frame);
     lights = view::lights_in(frame, grid::space_of(grid, frame));
-    planes = RowPlanes(grid.screen());
+    planes = planes_of(grid);
     for (std::uint32_t slice = 0; slice < static_cast<std::uint32_t>(planes.slices); ++slice)
       for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot) slices.add(spot, slice);
   }
   SpotRows rows() {
     SpotRows found;
-    find_spot_rows(from_these(lights, planes), planes, slices, found);
+    find_spot_rows(lights, planes, slices, found);
     for (std::vector<std::uint32_t>* list : {&found.spot, &found.slice, &found.row}) list->resize(found.count);
     for (std::vector<std::int32_t>* list : {&found.first, &found.last}) list->resize(found.count);
     found.known.resize(found.count);

@@ -1,15 +1,12 @@
 #include "assign/bounds/ball_boxes.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/bounds/ball_boxes.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 // geom::ball_touches_box, along one axis.
@@ -20,22 +17,19 @@ HWY_INLINE V squared_gap(const float* centers, float lo, float hi) {
 
 std::uint32_t lights_touching(const float* const* centers, const float* squared_radii, const std::uint32_t* lights,
                               std::uint32_t count, const geom::Box& box, std::uint32_t* out) {
-  const D d;
-  const DU du;
   std::uint32_t found = 0;
-  for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(Lanes(d))) {
+  for (std::uint32_t i = 0; i < count; i += lane_count()) {
     const V squared = squared_gap(centers[0] + i, box.lo.x, box.hi.x) +
                       squared_gap(centers[1] + i, box.lo.y, box.hi.y) + squared_gap(centers[2] + i, box.lo.z, box.hi.z);
-    const M touches = And(FirstN(d, count - i), squared <= LoadU(d, squared_radii + i));
-    StoreU(compressed(du, LoadU(du, lights + i), RebindMask(du, touches)), du, out + found);
-    found += static_cast<std::uint32_t>(CountTrue(d, touches));
+    const M touches = And(FirstN(D(), count - i), squared <= LoadU(D(), squared_radii + i));
+    store_wanted(LoadU(DU(), lights + i), touches, out + found);
+    found += static_cast<std::uint32_t>(CountTrue(D(), touches));
   }
   return found;
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -1,5 +1,4 @@
-// Balls with their boxes of cells in vectors, for files that are compiled once per target. Included after
-// hwy/highway.h; defines its names anew for each target.
+// Balls with their boxes of cells in vectors, for files that are compiled once per target.
 
 #if defined(CLUSTERBENCH_BOUNDS_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_BOUNDS_ROWS_INL_H
@@ -14,8 +13,7 @@
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 
 // The boxes of a batch.
 class Boxes {
@@ -25,11 +23,11 @@ class Boxes {
         first_row(gathered(batch.bounded.first_row, indices)),
         first_column(gathered(batch.bounded.first_column, indices)) {
     lights = GatherIndex(DU(), batch.bounded.light.data(), indices);
-    rows = gathered(batch.bounded.last_row, indices) - first_row + all_int(1);
+    rows = gathered(batch.bounded.last_row, indices) - first_row + all(1);
     rows = IfThenElseZero(FirstN(DI(), batch.count), rows);
-    columns = gathered(batch.bounded.last_column, indices) - first_column + all_int(1);
+    columns = gathered(batch.bounded.last_column, indices) - first_column + all(1);
     // Below all lights (lights are fewer than 2^31), none is uncertain.
-    uncertain = IfThenElseZero(Not(lights < Set(DU(), batch.first_uncertain)), Set(DU(), BatchRows::k_uncertain));
+    uncertain = IfThenElseZero(Not(lights < all(batch.first_uncertain)), all(BatchRows::k_uncertain));
   }
 
   // Leaves out the balls that do not reach the slice.
@@ -38,18 +36,17 @@ class Boxes {
   HWY_INLINE void take_rows(M reaches, const Indices& range) {
     keep(reaches);
     first_row = range.first;
-    rows = IfThenElseZero(rows > Zero(DI()), Max(range.last - range.first + all_int(1), Zero(DI())));
+    rows = IfThenElseZero(rows > Zero(DI()), Max(range.last - range.first + all(1), Zero(DI())));
   }
 
   // Prepares the answer; false if there are no rows.
   HWY_INLINE bool start(int grid_rows, std::uint32_t count, BatchRows& out) const {
-    const DI di;
-    out.lanes = static_cast<std::uint32_t>(Lanes(di));
-    const auto row_count = static_cast<std::uint32_t>(GetLane(SumOfLanes(di, rows)));
+    out.lanes = static_cast<std::uint32_t>(Lanes(DI()));
+    const auto row_count = static_cast<std::uint32_t>(GetLane(SumOfLanes(DI(), rows)));
     out.tests = count + row_count;
-    const auto has_rows = rows > Zero(di);
-    out.first_row = GetLane(MinOfLanes(di, IfThenElse(has_rows, first_row, all_int(grid_rows))));
-    out.last_row = GetLane(MaxOfLanes(di, IfThenElseZero(has_rows, first_row + rows))) - 1;
+    const auto has_rows = rows > Zero(DI());
+    out.first_row = GetLane(MinOfLanes(DI(), IfThenElse(has_rows, first_row, all(grid_rows))));
+    out.last_row = GetLane(MaxOfLanes(DI(), IfThenElseZero(has_rows, first_row + rows))) - 1;
     if (row_count == 0) return false;
     StoreU(lights, DU(), out.lights);
     out.make_room(grid_rows);
@@ -60,7 +57,7 @@ class Boxes {
   HWY_INLINE VU entry(MI are_some, VI first, VI last) const {
     const VU from = BitCast(DU(), first_column + first), to = BitCast(DU(), first_column + last);
     const VU span = Or(Or(from, ShiftLeft<16>(to)), uncertain);
-    return IfThenElse(RebindMask(DU(), are_some), span, Set(DU(), BatchRows::k_none));
+    return IfThenElse(RebindMask(DU(), are_some), span, all(BatchRows::k_none));
   }
 
   int most_columns() const { return GetLane(MaxOfLanes(DI(), IfThenElseZero(rows > Zero(DI()), columns))); }
@@ -72,19 +69,18 @@ class Boxes {
 // Takes each lane through its rows. entry_of(row, wanted) is the answer of the wanted lanes for their row.
 template <class EntryOf>
 HWY_INLINE void walk_rows(const Boxes& boxes, int grid_rows, BatchRows& out, EntryOf&& entry_of) {
-  const DI di;
-  const auto lanes = static_cast<int>(Lanes(di));
+  const auto lanes = static_cast<int>(Lanes(DI()));
   for (int row = out.first_row; row <= out.last_row; ++row)
-    StoreU(Set(DU(), BatchRows::k_none), DU(), out.columns.data() + row * lanes);
-  const int most = GetLane(MaxOfLanes(di, boxes.rows));
-  VI row = boxes.first_row, to = row * all_int(lanes) + Iota(di, 0);
+    StoreU(all(BatchRows::k_none), DU(), out.columns.data() + row * lanes);
+  const int most = GetLane(MaxOfLanes(DI(), boxes.rows));
+  VI row = boxes.first_row, to = row * all(lanes) + Iota(DI(), 0);
   for (int i = 0; i < most; ++i) {
-    const MI wanted = boxes.rows > all_int(i);
+    const MI wanted = boxes.rows > all(i);
     const VU entry = entry_of(row, wanted);
-    ScatterIndex(BitCast(di, entry), di, reinterpret_cast<std::int32_t*>(out.columns.data()),
-                 IfThenElse(wanted, to, all_int(grid_rows * lanes)));
-    row = row + all_int(1);
-    to = to + all_int(lanes);
+    ScatterIndex(BitCast(DI(), entry), DI(), reinterpret_cast<std::int32_t*>(out.columns.data()),
+                 IfThenElse(wanted, to, all(grid_rows * lanes)));
+    row = row + all(1);
+    to = to + all(lanes);
   }
 }
 
@@ -110,7 +106,7 @@ HWY_INLINE void write_cells(const CellRanges& cells, BoundedBalls& out, Write&& 
 
 // Appends the wanted balls, without their boxes.
 HWY_INLINE void append_balls(M wanted, const Balls& balls, VU lights, BoundedBalls& out) {
-  const Appender append(wanted, out.count);
+  const auto append = [&, count = out.count](auto value, auto& to) { store_wanted(value, wanted, to.data() + count); };
   append(balls.x, out.x);
   append(balls.y, out.y);
   append(balls.depth, out.depth);
@@ -124,27 +120,24 @@ HWY_INLINE void append_balls(M wanted, const Balls& balls, VU lights, BoundedBal
 template <class Reaches, class CellsOf>
 HWY_INLINE void append_given(const GivenBalls& given, float roundoffs, BoundedBalls& out, Reaches&& reaches,
                              CellsOf&& cells_of) {
-  const D d;
-  const auto n = static_cast<std::uint32_t>(Lanes(d));
-  const std::uint32_t begin = out.count;
+  const std::uint32_t n = lane_count(), begin = out.count;
   for (std::uint32_t i = 0; i < given.lights.count; i += n) {
     const std::uint32_t left = std::min(n, given.lights.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V radius = load(given.radius);
     const Balls balls{load(given.x), load(given.y), Neg(load(given.z)), padded(radius, load(given.reach), roundoffs)};
-    const M is_ball = And(radius > Zero(d), FirstN(d, left));
+    const M is_ball = And(radius > Zero(D()), FirstN(D(), left));
     const VU lights = BitCast(DU(), from_on(static_cast<std::int32_t>(given.lights.first + i)));
     append_balls(And(is_ball, reaches(balls)), balls, lights, out);
   }
   for (std::uint32_t i = begin; i < out.count; i += n) {
-    const auto at = [&](const AlignedVector<float>& list) { return LoadU(d, list.data() + i); };
+    const auto at = [&](const AlignedVector<float>& list) { return LoadU(D(), list.data() + i); };
     const CellRanges cells = cells_of(Balls{at(out.x), at(out.y), at(out.depth), at(out.radius)});
     write_cells(cells, out, [&](VI indices, AlignedVector<std::int32_t>& to) { StoreU(indices, DI(), to.data() + i); });
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

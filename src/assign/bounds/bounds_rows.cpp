@@ -2,31 +2,28 @@
 
 #include <limits>
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/bounds/bounds_rows.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/bounds/bounds_rows-inl.h"
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 // Takes each lane through its rows of which reaches(row) says that the ball reaches them. Their columns go from the
 // first to the last that touches(column) says it touches; they are counted from the box's first, in lockstep.
 template <class Reaches, class Touches>
 HWY_INLINE void walk_columns(const Boxes& boxes, int grid_rows, BatchRows& out, Reaches&& reaches, Touches&& touches) {
-  const VI beyond = all_int(std::numeric_limits<std::int32_t>::max());
+  const VI beyond = all(std::numeric_limits<std::int32_t>::max());
   const int most = boxes.most_columns();
   walk_rows(boxes, grid_rows, out, [&](VI row, MI wanted) {
     const MI is_reached = And(wanted, RebindMask(DI(), reaches(row)));
     const int count = AllFalse(DI(), is_reached) ? 0 : most;
     VI first = beyond, last = Zero(DI());
     for (int column = 0; column < count; ++column) {
-      const VI index = all_int(column);
+      const VI index = all(column);
       const MI is_touched = And(RebindMask(DI(), touches(column)), boxes.columns > index);
       first = Min(first, IfThenElse(is_touched, index, beyond));
       last = IfThenElse(is_touched, index, last);
@@ -38,20 +35,20 @@ HWY_INLINE void walk_columns(const Boxes& boxes, int grid_rows, BatchRows& out, 
 // Calls prepare(column, at) for each column of the lanes' boxes: at `at` is room for what the lanes know of it.
 template <class Prepare>
 HWY_INLINE void each_column(const Boxes& boxes, int count, int grid_columns, Prepare&& prepare) {
-  const VI last = all_int(grid_columns - 1);
+  const VI last = all(grid_columns - 1);
   for (int i = 0; i < count; ++i)
-    prepare(Min(boxes.first_column + all_int(i), last), static_cast<std::size_t>(i) * Lanes(D()));
+    prepare(Min(boxes.first_column + all(i), last), static_cast<std::size_t>(i) * Lanes(D()));
 }
 
 // Row by row, without scattering: the entries of a ball are all the same.
 void bounds_rows(int grid_rows, const BallBatch& batch, BatchRows& out) {
   const Boxes boxes(batch);
   if (!boxes.start(grid_rows, batch.count, out)) return;
-  const VU entry = boxes.entry(boxes.rows > Zero(DI()), Zero(DI()), boxes.columns - all_int(1));
+  const VU entry = boxes.entry(boxes.rows > Zero(DI()), Zero(DI()), boxes.columns - all(1));
   const VI end = boxes.first_row + boxes.rows;
   for (int row = out.first_row; row <= out.last_row; ++row) {
-    const MI holds = AndNot(all_int(row) < boxes.first_row, all_int(row) < end);
-    StoreU(IfThenElse(RebindMask(DU(), holds), entry, Set(DU(), BatchRows::k_none)), DU(),
+    const MI holds = AndNot(all(row) < boxes.first_row, all(row) < end);
+    StoreU(IfThenElse(RebindMask(DU(), holds), entry, all(BatchRows::k_none)), DU(),
            out.columns.data() + static_cast<std::size_t>(row) * out.lanes);
   }
 }
@@ -115,7 +112,7 @@ void refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneCo
     StoreU(plane.along, D(), of_depth + at);
   });
   const auto row_plane = [&](VI index) {
-    const Planes plane = gathered_planes(planes.rows, Min(index, all_int(row_planes - 1)));
+    const Planes plane = gathered_planes(planes.rows, Min(index, all(row_planes - 1)));
     return RowPlane{plane.along, plane.across * y + plane.along * ball.depth + plane.offset};
   };
   RowPlane top = row_plane(boxes.first_row);
@@ -126,7 +123,7 @@ void refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneCo
   };
   V left;
   const auto reaches = [&](VI row) {
-    const RowPlane bottom = row_plane(row + all_int(1));
+    const RowPlane bottom = row_plane(row + all(1));
     in_row = cut_to_row(ball, top, bottom);
     top.along = bottom.along;  // g++ 12 copies a whole struct of vectors through memory
     top.distance = bottom.distance;
@@ -154,17 +151,17 @@ void box_rows(const CellExtents& cells, const BallBatch& batch, LaneColumns& col
   const BoundedBalls& bounded = batch.bounded;
   Boxes boxes(batch);
   const V radius = gathered(bounded.radius, boxes.indices), squared_radius = radius * radius;
-  const V z = Neg(gathered(bounded.depth, boxes.indices)), gap_z = squared_gap(cells.z, all_int(batch.slice), z);
+  const V z = Neg(gathered(bounded.depth, boxes.indices)), gap_z = squared_gap(cells.z, all(batch.slice), z);
   boxes.keep(gap_z <= squared_radius);
   if (!boxes.start(cells.rows, batch.count, out)) return;
 
   columns.reserve(static_cast<std::size_t>(cells.columns) * k_row_lanes);
   float* const gaps_x = columns.first.data();
   const V x = gathered(bounded.x, boxes.indices), y = gathered(bounded.y, boxes.indices);
-  const VI first_x = all_int(batch.slice * cells.x.pitch), first_y = all_int(batch.slice * cells.y.pitch);
+  const VI first_x = all(batch.slice * cells.x.pitch), first_y = all(batch.slice * cells.y.pitch);
   each_column(boxes, boxes.most_columns(), cells.columns,
               [&](VI column, std::size_t at) { StoreU(squared_gap(cells.x, first_x + column, x), D(), gaps_x + at); });
-  const VI last_row = all_int(cells.rows - 1);
+  const VI last_row = all(cells.rows - 1);
   V gap_y;
   const auto reaches = [&](VI row) {
     gap_y = squared_gap(cells.y, first_y + Min(row, last_row), y);
@@ -177,8 +174,7 @@ void box_rows(const CellExtents& cells, const BallBatch& batch, LaneColumns& col
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -1,16 +1,13 @@
 #include "assign/bounds/screen_bounds.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/bounds/screen_bounds.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/bounds/bounds_rows-inl.h"
 #include "assign/rows/disks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 // Of balls in the picture.
@@ -39,14 +36,11 @@ HWY_INLINE Extents extents_of(const BoxPlanes& planes, const Balls& balls, std::
 // Those of the visible balls from `begin` on whose extents touch cells.
 void find_boxes(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32_t begin, const GivenBalls& given,
                 const BallPadding& padding, BoundedBalls& bounded) {
-  const D d;
-  const DU du;
-  const auto n = static_cast<std::uint32_t>(Lanes(d));
-  for (std::uint32_t i = begin; i < visible.count; i += n) {
-    const auto at = [&](const AlignedVector<float>& list) { return LoadU(d, list.data() + i); };
-    const VU light = LoadU(du, visible.light.data() + i);
+  for (std::uint32_t i = begin; i < visible.count; i += lane_count()) {
+    const auto at = [&](const AlignedVector<float>& list) { return LoadU(D(), list.data() + i); };
+    const VU light = LoadU(DU(), visible.light.data() + i);
     // Beyond the last ball there is anything.
-    const VU index = Min(light - Set(du, given.lights.first), Set(du, given.lights.count - 1));
+    const VU index = Min(light - all(given.lights.first), all(given.lights.count - 1));
     const V radius = gathered(given.radius, BitCast(DI(), index)), reach = gathered(given.reach, BitCast(DI(), index));
     Balls balls{at(visible.x), at(visible.y), at(visible.depth), padded(radius, reach, padding.box)};
     const Extents extents = extents_of(planes, balls, visible.count - i);
@@ -55,19 +49,19 @@ void find_boxes(const BoxPlanes& planes, const VisibleBalls& visible, std::uint3
                            touched(planes.rows, Neg(extents.high_y), Neg(extents.low_y)),
                            {first_touched(planes.depths, guess(visible.first_slice), balls.depth - balls.radius),
                             last_touched(planes.depths, guess(visible.last_slice), balls.depth + balls.radius)}};
-    const auto is_some = [&](const Indices& some) { return RebindMask(d, Not(some.last < some.first)); };
+    const auto is_some = [&](const Indices& some) { return RebindMask(D(), Not(some.last < some.first)); };
     const M has_extents = And(extents.low_x <= extents.high_x, extents.low_y <= extents.high_y);
     const M has_cells = And(is_some(cells.columns), And(is_some(cells.rows), is_some(cells.slices)));
     balls.radius = padded(radius, reach, padding.ball);
-    const M wanted = And(FirstN(d, visible.count - i), And(has_extents, has_cells));
-    write_cells(cells, bounded, Appender(wanted, bounded.count));
+    const M wanted = And(FirstN(D(), visible.count - i), And(has_extents, has_cells));
+    write_cells(cells, bounded,
+                [&, count = bounded.count](VI indices, auto& to) { store_wanted(indices, wanted, to.data() + count); });
     append_balls(wanted, balls, light, bounded);
   }
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -1,15 +1,12 @@
 #include "assign/box_grid/box_ranges.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/box_grid/box_ranges.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/bounds/bounds_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 // Along an axis; a negated coordinate has the same distances from negated boundaries.
@@ -32,7 +29,7 @@ HWY_INLINE Indices range_on(const RangeAxis& axis, V given, V radius) {
 }
 
 HWY_INLINE MI lies_in(const Indices& range, const grid::IndexRange& hole) {
-  return AndNot(range.first < all_int(hole.first), Not(range.last > all_int(hole.last)));
+  return AndNot(range.first < all(hole.first), Not(range.last > all(hole.last)));
 }
 
 // Those in the hole reach no slice.
@@ -41,7 +38,7 @@ HWY_INLINE CellRanges cells_of(const RangeAxes& axes, const Balls& balls) {
                    range_on(axes.z, Neg(balls.depth), balls.radius)};
   const MI is_in_hole = And(lies_in(cells.columns, axes.hole_x),
                             And(lies_in(cells.rows, axes.hole_y), lies_in(cells.slices, axes.hole_z)));
-  cells.slices.last = IfThenElse(is_in_hole, all_int(-1), cells.slices.last);
+  cells.slices.last = IfThenElse(is_in_hole, all(-1), cells.slices.last);
   return cells;
 }
 
@@ -54,8 +51,7 @@ void box_ranges(const RangeAxes& axes, const GivenBalls& given, float roundoffs,
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -7,16 +7,13 @@
 #include "core/arrays.h"
 #include "core/memory.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/cone/cone_against_cell_spheres.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/cone/spot_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 // Rows are short: longer vectors would hold few cells and cost more.
@@ -59,9 +56,7 @@ std::uint64_t touched_of(const CellRun& run, const SpotCone& cone, const CellBal
   const auto lanes = static_cast<std::uint32_t>(Lanes(Few()));
   std::uint64_t bits = 0;
   for (std::uint32_t i = 0; i < run.count; i += lanes) {
-    std::uint8_t bytes[8] = {};
-    StoreMaskBits(Few(), cone.touches(cells, std::size_t{run.cell} + i), bytes);
-    for (std::uint32_t byte = 0; 8 * byte < lanes; ++byte) bits |= std::uint64_t{bytes[byte]} << (i + 8 * byte);
+    bits |= std::uint64_t{bits_of(Few(), cone.touches(cells, std::size_t{run.cell} + i))} << i;
   }
   return run.count < 64 ? bits & ((std::uint64_t{1} << run.count) - 1) : bits;
 }
@@ -73,8 +68,7 @@ void touched_cells(const geom::SphericalCone& given, const CellBalls& cells, std
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -94,10 +88,6 @@ CellBalls::CellBalls(std::span<const geom::Ball> balls) {
     radius[cell] = balls[cell].radius;
     size[cell] = std::fabs(center.x) + std::fabs(center.y) + std::fabs(center.z);
   }
-}
-
-std::size_t CellBalls::capacity_bytes() const {
-  return bytes_of(x, y, z, radius, size);
 }
 
 void find_touched_cells(const geom::SphericalCone& cone, const CellBalls& cells, std::span<const CellRun> runs,

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/arrays.h"
 #include "geom/shapes/ball_and_cone.h"
 
 namespace clusterbench::assign {
@@ -17,7 +18,7 @@ struct CellBalls {
   explicit CellBalls(std::span<const geom::Ball> balls);
   CellBalls() = default;
   bool empty() const { return x.empty(); }
-  std::size_t capacity_bytes() const;
+  std::size_t capacity_bytes() const { return bytes_of(x, y, z, radius, size); }
 };
 
 // Neighbouring cells of a row, at most 64.

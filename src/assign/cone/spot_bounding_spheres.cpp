@@ -4,31 +4,26 @@
 
 #include "assign/simd/lanes.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/cone/spot_bounding_spheres.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 // geom::bounding_ball, or with `around_cones` not set the ball of the range.
 void spot_balls(const view::LightArrays& lights, float roundoffs, bool around_cones, BallArrays& balls) {
-  const D d;
-  const auto n = static_cast<std::uint32_t>(Lanes(d));
-  for (std::uint32_t i = 0; i < lights.spots.count; i += n) {
-    const std::uint32_t left = std::min(n, lights.spots.count - i);
+  for (std::uint32_t i = 0; i < lights.spots.count; i += lane_count()) {
+    const std::uint32_t left = std::min(lane_count(), lights.spots.count - i);
     const auto of_spot = [&](const std::vector<float>& list) { return loaded(list.data() + i, left); };
     const auto of_light = [&](const std::vector<float>& list) {
       return loaded(list.data() + lights.spots.first + i, left);
     };
     const V given = of_light(lights.radius), range = padded(given, of_light(lights.reach), roundoffs);
     const V x = of_light(lights.x), y = of_light(lights.y), z = of_light(lights.z);
-    V along = Zero(d), radius = range;
+    V along = Zero(D()), radius = range;
     if (around_cones) {
       const V cosine = of_spot(lights.cos_angle), sine = of_spot(lights.sin_angle);
       const M is_narrow = cosine > sine, is_endless = range == infinity();
@@ -37,16 +32,15 @@ void spot_balls(const view::LightArrays& lights, float roundoffs, bool around_co
       along = IfThenZeroElse(is_endless, of_cone);
       radius = IfThenElse(is_endless, range, around + all(0x1p-20f) * (Abs(x) + Abs(y) + Abs(z) + range));
     }
-    StoreU(x + along * of_spot(lights.axis_x), d, balls.x.data() + i);
-    StoreU(y + along * of_spot(lights.axis_y), d, balls.y.data() + i);
-    StoreU(z + along * of_spot(lights.axis_z), d, balls.z.data() + i);
-    StoreU(IfThenElseZero(given > Zero(d), radius), d, balls.radius.data() + i);
+    StoreU(x + along * of_spot(lights.axis_x), D(), balls.x.data() + i);
+    StoreU(y + along * of_spot(lights.axis_y), D(), balls.y.data() + i);
+    StoreU(z + along * of_spot(lights.axis_z), D(), balls.z.data() + i);
+    StoreU(IfThenElseZero(given > Zero(D()), radius), D(), balls.radius.data() + i);
   }
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -54,12 +48,8 @@ namespace clusterbench::assign {
 
 HWY_EXPORT(spot_balls);
 
-void BallArrays::resize(std::size_t size) {
-  for (std::vector<float>* list : {&x, &y, &z, &radius}) list->resize(size + k_most_lanes);
-}
-
 void find_spot_balls(const view::LightArrays& lights, float roundoffs, bool around_cones, BallArrays& balls) {
-  balls.resize(lights.spots.count);
+  grow_to(lights.spots.count + k_most_lanes, balls.x, balls.y, balls.z, balls.radius);
   HWY_DYNAMIC_DISPATCH(spot_balls)(lights, roundoffs, around_cones, balls);
 }
 

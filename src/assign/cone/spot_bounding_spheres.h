@@ -14,7 +14,6 @@ namespace clusterbench::assign {
 struct BallArrays {
   std::vector<float> x, y, z, radius;
 
-  void resize(std::size_t size);
   std::size_t capacity_bytes() const { return bytes_of(x, y, z, radius); }
 };
 

@@ -1,5 +1,5 @@
 // A vector of cells, each with its own spot, and what may settle whether they share a point. For files that are
-// compiled once per target; included after hwy/highway.h; defines its names anew for each target.
+// compiled once per target.
 
 #if defined(CLUSTERBENCH_SPOT_CELLS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_SPOT_CELLS_INL_H
@@ -11,8 +11,7 @@
 #include "assign/cone/spot_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 
 // A vector of cells, each with its own cone. Sides and rows are slopes, without perspective coordinates.
 template <bool orthographic>
@@ -45,7 +44,7 @@ class Cells {
     each_face([&](const Point& normal, V offset) {
       const V scale = all(1.0f) / face_length(normal);
       const V beyond = scale * (dot(normal, cone_.apex) - offset);
-      apart = Or(apart, beyond - extent(Neg(scale) * normal) > tolerance_);
+      apart = Or(apart, beyond - extent_of(cone_, Neg(scale) * normal, all(1.0f)) > tolerance_);
     });
     return apart;
   }
@@ -90,12 +89,7 @@ class Cells {
   // Evidence.
 
   // Is the point v from the apex in volume and cell, by more than the tolerance?
-  HWY_INLINE M is_common(const Point& v) const { return And(is_inside(v), is_in_cell(v, tolerance_)); }
-
-  // Outwards, of the plane along the cone's side in a direction across the axis.
-  HWY_INLINE Point side_normal(const Point& across) const {
-    return (cone_.cosine / length(across)) * across - cone_.sine * cone_.axis;
-  }
+  HWY_INLINE M is_common(const Point& v) const { return And(is_inside(v), is_in_cell(v)); }
 
   // Do all corners lie beyond the plane along the cone's side in the direction of v? And which is lowest over it.
   HWY_INLINE M is_beside(const Point& v, Point& lowest) const {
@@ -104,7 +98,8 @@ class Cells {
     // the axis; once more leaves 6 u.
     const M is_good = dot(part, part) > all(0.01f) * dot(v, v);
     const Point across = part - dot(part, cone_.axis) * cone_.axis;
-    return And(is_good, least_along(side_normal(across), lowest) > tolerance_);
+    const Point outwards = (cone_.cosine / length(across)) * across - cone_.sine * cone_.axis;
+    return And(is_good, least_along(outwards, lowest) > tolerance_);
   }
 
  private:
@@ -135,11 +130,11 @@ class Cells {
     return Min(all(1.0f), range / Max(length(to), tiny)) * to;
   }
 
-  // By more than this much.
-  HWY_INLINE M is_in_cell(const Point& v, V margin) const {
+  // By more than the tolerance.
+  HWY_INLINE M is_in_cell(const Point& v) const {
     M is_in = yes();
     each_face([&](const Point& outward, V offset) {
-      is_in = And(is_in, offset - dot(outward, cone_.apex + v) > margin * face_length(outward));
+      is_in = And(is_in, offset - dot(outward, cone_.apex + v) > tolerance_ * face_length(outward));
     });
     return is_in;
   }
@@ -191,16 +186,12 @@ class Cells {
     return And(is_in_cone, And(safe_range_ > zero, dot(v, v) < safe_range_ * safe_range_));
   }
 
-  // How far the volume extends from its apex along a unit vector.
-  HWY_INLINE V extent(const Point& normal) const { return extent_of(cone_, normal, all(1.0f)); }
-
   Cone cone_;
   V left_, right_, y0_, y1_, depth0_, depth1_, tolerance_, safe_range_;
   Point from_apex_[8];
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

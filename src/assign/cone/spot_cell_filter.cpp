@@ -6,48 +6,48 @@
 #include "assign/contract/lists.h"
 #include "core/memory.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/cone/spot_cell_filter.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/cone/spot_cell_filter-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 template <bool orthographic>
-void look_at(const SpotsAndPlanes& from, SpotCells& cells) {
-  const D d;
-  const DU du;
+void look_at(const view::LightArrays& lights, const RowPlanes& planes, SpotCells& cells) {
   const hn::Rebind<std::uint8_t, DU> du8;
-  const auto lanes = static_cast<std::uint32_t>(Lanes(d));
-  for (std::uint32_t first = 0; first < cells.count; first += lanes) {
-    const SpotsInRows rows = spots_in_rows(from, loaded_indices(cells.spot, first), loaded_indices(cells.slice, first),
-                                           loaded_indices(cells.row, first));
-    const Cells<orthographic> these(rows, gathered(from.side, loaded_indices(cells.column, first)),
-                                    gathered(from.side, loaded_indices(cells.end_column, first)));
-    const M plain = are_plain(from, rows.light);
+  for (std::uint32_t first = 0; first < cells.count; first += lane_count()) {
+    const GivenSpots given(lights, loaded_indices(cells.spot, first));
+    const VI slice = loaded_indices(cells.slice, first), row = loaded_indices(cells.row, first);
+    const SpotsInRows rows{given.cone,
+                           given.light,
+                           gathered(planes.slope.data() + 1, row),
+                           gathered(planes.slope, row),
+                           gathered(planes.depth, slice),
+                           gathered(planes.depth.data() + 1, slice)};
+    const Cells<orthographic> these(rows, gathered(planes.side, loaded_indices(cells.column, first)),
+                                    gathered(planes.side, loaded_indices(cells.end_column, first)));
+    const M plain = are_plain(planes, rows.light);
     Point lowest;
     const M common = And(these.holds_corner(), plain);
     M apart = And(these.is_apart(lowest), plain);
-    if (!AllTrue(d, Or(Not(plain), Or(common, apart)))) apart = Or(apart, And(these.is_beside_corners(lowest), plain));
-    const auto code = [&](Touch touch) { return Set(du, static_cast<std::uint32_t>(touch)); };
-    const auto answer = IfThenElse(RebindMask(du, common), code(Touch::yes),
-                                   IfThenElse(RebindMask(du, apart), code(Touch::no), code(Touch::uncertain)));
+    if (!AllTrue(D(), Or(Not(plain), Or(common, apart))))
+      apart = Or(apart, And(these.is_beside_corners(lowest), plain));
+    const auto code = [&](Touch touch) { return all(static_cast<std::uint32_t>(touch)); };
+    const auto answer = IfThenElse(RebindMask(DU(), common), code(Touch::yes),
+                                   IfThenElse(RebindMask(DU(), apart), code(Touch::no), code(Touch::uncertain)));
     StoreU(U8FromU32(answer), du8, reinterpret_cast<std::uint8_t*>(cells.touch.data()) + first);
   }
 }
 
-void look(const SpotsAndPlanes& from, SpotCells& cells) {
-  from.orthographic ? look_at<true>(from, cells) : look_at<false>(from, cells);
+void look(const view::LightArrays& lights, const RowPlanes& planes, SpotCells& cells) {
+  planes.orthographic ? look_at<true>(lights, planes, cells) : look_at<false>(lights, planes, cells);
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -67,9 +67,9 @@ void SpotCells::pad() {
     std::fill_n(list->begin() + count, std::min(k_most_lanes, list->size() - count), list == &end_column ? 1 : 0);
 }
 
-void look_at_cells(const SpotsAndPlanes& from, SpotCells& cells) {
+void look_at_cells(const view::LightArrays& lights, const RowPlanes& planes, SpotCells& cells) {
   cells.pad();
-  HWY_DYNAMIC_DISPATCH(look)(from, cells);
+  HWY_DYNAMIC_DISPATCH(look)(lights, planes, cells);
 }
 
 }  // namespace clusterbench::assign

@@ -39,17 +39,8 @@ struct SpotCells {
   std::size_t capacity_bytes() const { return bytes_of(spot, slice, row, column, end_column, touch); }
 };
 
-// What the pairs are made of: lights, sides of columns (x / depth), slopes of rows from the top, depths of slices. As
-// in RowPlanes, sides and slopes are x and y where the projection is orthographic. Spots whose reach
-// and range together are not from least_reach to k_most_row_reach are left uncertain.
-struct SpotsAndPlanes {
-  const view::LightArrays* lights;
-  const float *side, *slope, *depth;
-  float least_reach = 0.0f;
-  bool orthographic = false;
-};
-
-// A cell's corner well inside of the volume, or a face of the cell between, or a plane along the cone's side.
-void look_at_cells(const SpotsAndPlanes& from, SpotCells& cells);
+// A cell's corner well inside of the volume, or a face of the cell between, or a plane along the cone's side. Spots
+// whose reach and range together are not from planes.least_reach to k_most_row_reach are left uncertain.
+void look_at_cells(const view::LightArrays& lights, const RowPlanes& planes, SpotCells& cells);
 
 }  // namespace clusterbench::assign

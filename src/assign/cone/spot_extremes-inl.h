@@ -1,6 +1,5 @@
 // Where spots reach farthest to the left and to the right, or up and down, between planes: in single precision and
-// without proof. For files that are compiled once per target; included after hwy/highway.h; defines its names anew for
-// each target.
+// without proof. For files that are compiled once per target.
 
 #if defined(CLUSTERBENCH_SPOT_EXTREMES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_SPOT_EXTREMES_INL_H
@@ -12,8 +11,7 @@
 #include "assign/cone/spot_cell_filter-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 
 HWY_INLINE V square_of(V x) {
   return x * x;
@@ -241,7 +239,7 @@ struct SpotsInSlices {
     inverse_form = inverse(square_of(cone.axis.x) - square_of(cone.cosine));
   }
 
-  // Calls take for each of its vectors, in the same order every time.
+  // Calls take for each of its vectors, in the same order every time; but m1 and m2, which only `generators` needed.
   template <class Take>
   HWY_INLINE void each(Take&& take) {
     const auto take_point = [&](Point& p) {
@@ -249,15 +247,15 @@ struct SpotsInSlices {
       take(p.y);
       take(p.depth);
     };
-    for (Point* p : {&shapes.cone.apex, &shapes.cone.axis, &shapes.m1, &shapes.m2, &shapes.rim, &shapes.rim1,
-                     &shapes.rim2, &generators[0], &generators[1]})
+    for (Point* p : {&shapes.cone.apex, &shapes.cone.axis, &shapes.rim, &shapes.rim1, &shapes.rim2, &generators[0],
+                     &generators[1]})
       take_point(*p);
     for (V* v :
          {&shapes.cone.range, &shapes.cone.cosine, &shapes.cone.sine, &shapes.slack, &shapes.least_along, &between.near,
           &between.far, &between.inverse_near, &between.inverse_far, &light, &tangent, &inverse_form})
       take(*v);
   }
-  static constexpr int k_vectors = 39;
+  static constexpr int k_vectors = 33;
 
   // What reaches farthest in a tile plane, y = slope * w. `tilt`: sqrt(1 + slope²).
   HWY_INLINE PlaneExtremes<orthographic> in_tile_plane(V slope, V tilt, V inverse_tilt) const {
@@ -339,8 +337,7 @@ struct SpotsInSlices {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -6,16 +6,13 @@
 #include "assign/contract/lists.h"
 #include "core/memory.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/cone/spot_rows.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/cone/spot_slices-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 // What reaches farthest in the tile planes of rows and between them.
@@ -54,19 +51,19 @@ template <bool orthographic>
 class Ends {
  public:
   // `rows`: their rows of these spots' slices.
-  HWY_INLINE Ends(const SpotsAndPlanes& from, const RowPlanes& planes, const SpotsInSlices<orthographic>& spots,
-                  const SpotsInRows& rows, const RowExtremes<orthographic>& found)
-      : from_(from), spots_(spots), rows_(rows), found_(found), exist_(found.outmost.exist()) {
+  HWY_INLINE Ends(const RowPlanes& planes, const SpotsInSlices<orthographic>& spots, const SpotsInRows& rows,
+                  const RowExtremes<orthographic>& found)
+      : planes_(planes), spots_(spots), rows_(rows), found_(found), exist_(found.outmost.exist()) {
     const V left = all(planes.left), right = all(planes.right), scale = all(planes.columns_per_slope);
     const V low = found.outmost.low.across, high = found.outmost.high.across;
-    const VI columns = all_int(planes.columns), last_column = columns - all_int(1);
+    const VI columns = all(planes.columns), last_column = columns - all(1);
     const auto column_at = [&](V slope) {
       const V at = (Min(Max(slope, left), right) - left) * scale;
       return Min(whole(Floor(at)), last_column);
     };
     const MI is_right = RebindMask(DI(), low > right), is_left = RebindMask(DI(), high < left);
     first_ = IfThenElse(is_right, columns, column_at(low));
-    last_ = IfThenElse(is_left, all_int(-1), column_at(high));
+    last_ = IfThenElse(is_left, all(-1), column_at(high));
     is_first_column_ = RebindMask(D(), first_ == Zero(DI()));
     is_last_column_ = RebindMask(D(), last_ == last_column);
     is_beside_view_ = RebindMask(D(), Or(is_right, is_left));
@@ -79,7 +76,7 @@ class Ends {
     return Or(is_first_column_, And(exist_, is_apart(found_.outmost.low, side(first_), all(-1.0f))));
   }
   HWY_INLINE M none_behind() const {
-    return Or(is_last_column_, And(exist_, is_apart(found_.outmost.high, side(last_ + all_int(1)), all(1.0f))));
+    return Or(is_last_column_, And(exist_, is_apart(found_.outmost.high, side(last_ + all(1)), all(1.0f))));
   }
   HWY_INLINE M first_is_touched() const { return is_touched(first_); }
   HWY_INLINE M last_is_touched() const { return is_touched(Max(last_, Zero(DI()))); }
@@ -87,7 +84,7 @@ class Ends {
   HWY_INLINE M is_beside_view() const { return is_beside_view_; }
 
  private:
-  HWY_INLINE V side(VI column) const { return gathered(from_.side, column); }
+  HWY_INLINE V side(VI column) const { return gathered(planes_.side, column); }
 
   HWY_INLINE M is_apart(const ProjectedPoint<orthographic>& extreme, V boundary, V to_side) const {
     const V along_w = w_along<orthographic>(to_side * extreme.across);
@@ -102,7 +99,7 @@ class Ends {
   // Is there a common point near the way from an extreme to the middle?
   HWY_INLINE M is_touched(VI column) const {
     const Point& middle = found_.middle;
-    const V left = side(column), right = side(column + all_int(1));
+    const V left = side(column), right = side(column + all(1));
     const V from = Max(left, found_.outmost.low.across), to = Min(right, found_.outmost.high.across);
     const V quarter = all(0.25f) * (to - from), amid = middle.x / w_of<orthographic>(middle.depth);
     const V slope = Max(from + quarter, Min(amid, to - quarter));
@@ -123,7 +120,7 @@ class Ends {
     return And(wanted, touched);
   }
 
-  const SpotsAndPlanes& from_;
+  const RowPlanes& planes_;
   const SpotsInSlices<orthographic>& spots_;
   const SpotsInRows& rows_;
   const RowExtremes<orthographic>& found_;
@@ -133,50 +130,48 @@ class Ends {
 
 // The rows of some spots in slices, to the end of what was found.
 template <bool orthographic>
-void rows_of(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTables& tables,
-             const Slices<orthographic>& slices, SpotRows& out) {
-  const D d;
-  const DI di;
-  const DU du;
+void rows_of(const RowPlanes& planes, const PlaneTables& tables, const Slices<orthographic>& slices, SpotRows& out) {
   const hn::Rebind<std::uint8_t, DU> du8;
-  const auto n = static_cast<std::int32_t>(Lanes(d));
+  const auto n = static_cast<std::int32_t>(Lanes(D()));
   const std::int32_t count = slices.list_rows(out);
   Carried carry;
   PlaneExtremes<orthographic> turned;
-  VI turned_slice = all_int(-1);
+  VI turned_slice = all(-1);
   for (std::int32_t t = 0; t < count; t += n) {
-    const VI in_slice = LoadU(di, out.listed_slice.data() + t), row = LoadU(di, out.listed_row.data() + t);
+    const VI in_slice = LoadU(DI(), out.listed_slice.data() + t), row = LoadU(DI(), out.listed_row.data() + t);
     const std::int32_t first_slice = GetLane(in_slice);
     const typename Slices<orthographic>::Lookup lookup{slices, first_slice,
-                                                       IndicesFromVec(di, in_slice - all_int(first_slice))};
+                                                       IndicesFromVec(DI(), in_slice - all(first_slice))};
     const SpotsInSlices<orthographic> spots = lookup.spots();
-    const VI above_row = Max(row, Zero(di)), below_row = row + all_int(1);
+    const VI above_row = Max(row, Zero(DI())), below_row = row + all(1);
     const V top = tables.slope.at(above_row), bottom = tables.slope.at(below_row);
     const PlaneExtremes<orthographic> below =
         spots.in_tile_plane(bottom, tables.tilt.at(below_row), tables.inverse_tilt.at(below_row));
     const PlaneExtremes<orthographic> above = below.carried(carry, turned, top);
-    const M has_above = RebindMask(d, carry(in_slice, turned_slice) == in_slice);
+    const M has_above = RebindMask(D(), carry(in_slice, turned_slice) == in_slice);
     const V room = spots.shapes.slack * spots.between.inverse_far;
     const RowExtremes<orthographic> found(lookup.between(bottom, top, room), above, has_above, below);
     const SpotsInRows rows{spots.shapes.cone, spots.light, bottom, top, spots.between.near, spots.between.far};
-    const Ends<orthographic> ends(from, planes, spots, rows, found);
-    const M plain = are_plain(from, spots.light);
+    const Ends<orthographic> ends(planes, spots, rows, found);
+    const M plain = are_plain(planes, spots.light);
     const M none_before = And(plain, ends.none_before()), none_behind = And(plain, ends.none_behind());
     // No row, or proven to be beside all of the picture.
-    const M is_out = Or(RebindMask(d, row < Zero(di)), And(ends.is_beside_view(), And(none_before, none_behind)));
-    const auto bit = [&](M where, std::uint8_t value) { return IfThenElseZero(RebindMask(du, where), Set(du, value)); };
+    const M is_out = Or(RebindMask(D(), row < Zero(DI())), And(ends.is_beside_view(), And(none_before, none_behind)));
+    const auto bit = [&](M where, std::uint8_t value) {
+      return IfThenElseZero(RebindMask(DU(), where), all(std::uint32_t{value}));
+    };
     const VU known = Or(Or(bit(none_before, SpotRows::k_none_before), bit(none_behind, SpotRows::k_none_behind)),
                         Or(bit(And(plain, ends.first_is_touched()), SpotRows::k_first_is_touched),
                            bit(And(plain, ends.last_is_touched()), SpotRows::k_last_is_touched)));
     const std::uint32_t to = out.count + static_cast<std::uint32_t>(t);
     const auto store = [&](VI value, auto& list) {
-      StoreU(BitCast(du, value), du, reinterpret_cast<std::uint32_t*>(list.data()) + to);
+      StoreU(BitCast(DU(), value), DU(), reinterpret_cast<std::uint32_t*>(list.data()) + to);
     };
-    const MI out_lanes = RebindMask(di, is_out);
+    const MI out_lanes = RebindMask(DI(), is_out);
     store(lookup.spot(), out.spot);
     store(lookup.slice(), out.slice);
     store(row, out.row);
-    store(IfThenElse(out_lanes, all_int(1), ends.first()), out.first);
+    store(IfThenElse(out_lanes, all(1), ends.first()), out.first);
     store(IfThenZeroElse(out_lanes, ends.last()), out.last);
     StoreU(U8FromU32(Or(known, bit(is_out, SpotRows::k_all))), du8, out.known.data() + to);
   }
@@ -184,24 +179,24 @@ void rows_of(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTab
 }
 
 template <bool orthographic>
-void rows_of_all(const SpotsAndPlanes& from, const RowPlanes& planes, const SpotSlices& slices, SpotRows& out) {
+void rows_of_all(const view::LightArrays& lights, const RowPlanes& planes, const SpotSlices& slices, SpotRows& out) {
   const PlaneTables tables(planes);
   constexpr std::uint32_t k_most = Slices<orthographic>::k_most;
   for (std::uint32_t begin = 0; begin < slices.count; begin += k_most) {
     const std::uint32_t end = std::min(begin + k_most, slices.count);
-    const Slices<orthographic> some(from, planes, tables, slices, begin, end);
+    const Slices<orthographic> some(lights, planes, tables, slices, begin, end);
     out.make_room(std::size_t{k_most} * static_cast<std::size_t>(planes.rows + 1));
-    rows_of(from, planes, tables, some, out);
+    rows_of(planes, tables, some, out);
   }
 }
 
-void spot_rows(const SpotsAndPlanes& from, const RowPlanes& planes, const SpotSlices& slices, SpotRows& out) {
-  planes.orthographic ? rows_of_all<true>(from, planes, slices, out) : rows_of_all<false>(from, planes, slices, out);
+void spot_rows(const view::LightArrays& lights, const RowPlanes& planes, const SpotSlices& slices, SpotRows& out) {
+  planes.orthographic ? rows_of_all<true>(lights, planes, slices, out)
+                      : rows_of_all<false>(lights, planes, slices, out);
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -227,13 +222,13 @@ void SpotRows::make_room(std::size_t rows) {
   grow_to(size, spot, slice, row, first, last, known);
 }
 
-void find_spot_rows(const SpotsAndPlanes& from, const RowPlanes& planes, SpotSlices& slices, SpotRows& out) {
+void find_spot_rows(const view::LightArrays& lights, const RowPlanes& planes, SpotSlices& slices, SpotRows& out) {
   out.count = 0;
   // What a whole vector reads beyond the end must be indices that exist.
   if (slices.count + k_most_lanes > slices.spot.size()) slices.make_room();
   for (std::vector<std::uint32_t>* list : {&slices.spot, &slices.slice})
     std::fill_n(list->begin() + slices.count, k_most_lanes, 0);
-  HWY_DYNAMIC_DISPATCH(spot_rows)(from, planes, slices, out);
+  HWY_DYNAMIC_DISPATCH(spot_rows)(lights, planes, slices, out);
 }
 
 }  // namespace clusterbench::assign

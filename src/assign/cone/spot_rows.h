@@ -52,6 +52,6 @@ struct SpotRows {
   }
 };
 
-void find_spot_rows(const SpotsAndPlanes& from, const RowPlanes& planes, SpotSlices& slices, SpotRows& out);
+void find_spot_rows(const view::LightArrays& lights, const RowPlanes& planes, SpotSlices& slices, SpotRows& out);
 
 }  // namespace clusterbench::assign

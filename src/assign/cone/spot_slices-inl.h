@@ -1,6 +1,5 @@
 // What is found once for all rows of spots in slices: the rows, proven, and the points that can be extreme between tile
-// planes. For files that are compiled once per target; included after hwy/highway.h; defines its names anew for each
-// target.
+// planes. For files that are compiled once per target.
 
 #if defined(CLUSTERBENCH_SPOT_SLICES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_SPOT_SLICES_INL_H
@@ -13,8 +12,7 @@
 #include "assign/cone/spot_rows.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 
 // The tile planes between rows, looked up.
 struct PlaneTables {
@@ -100,7 +98,7 @@ class Reached {
     const M exist = found.exist();
     const M none_above = And(And(plain, exist), is_apart(found.high, tables_.slope.at(guess.first), all(1.0f)));
     const M none_below = And(And(plain, exist), is_apart(found.low, tables_.slope.at(guess.end), all(-1.0f)));
-    const VI none = Zero(DI()), rows = all_int(planes_.rows);
+    const VI none = Zero(DI()), rows = all(planes_.rows);
     Range touched = {none, rows};
     if (!AllTrue(D(), Or(And(none_above, none_below), Not(plain)))) touched = rows_of_extents(plain);
     // Lane by lane, whatever others of the vector have: counters would differ from machine to machine.
@@ -122,12 +120,12 @@ class Reached {
   HWY_INLINE Range rows_between(V low, V high) const {
     const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
     const V scale = all(planes_.rows_per_slope), tolerance = all(planes_.row_tolerance), zero = Zero(D());
-    const VI none = Zero(DI()), rows = all_int(planes_.rows), last_row = rows - all_int(1);
+    const VI none = Zero(DI()), rows = all(planes_.rows), last_row = rows - all(1);
     const V from = (top - Min(high, top)) * scale - tolerance;
     const V to = (top - Max(low, bottom)) * scale + tolerance;
     const MI is_below = RebindMask(DI(), high < bottom), is_above = RebindMask(DI(), low > top);
     return {IfThenElse(is_below, rows, Min(whole(Floor(Max(from, zero))), last_row)),
-            IfThenElse(is_above, none, Min(whole(Floor(Max(to, zero))) + all_int(1), rows))};
+            IfThenElse(is_above, none, Min(whole(Floor(Max(to, zero))) + all(1), rows))};
   }
 
   // Proven: of plain spots those of a box around what they can have in the slice, larger by twice the tolerance, so
@@ -141,7 +139,7 @@ class Reached {
     const V far = w_of<orthographic>(Max(Min(between_.far, farthest() + room), all(1e-30f)));
     const Range rows = rows_between(low / IfThenElse(low < zero, near, far), high / IfThenElse(high > zero, near, far));
     const MI is_plain = RebindMask(DI(), plain);
-    return {IfThenElseZero(is_plain, rows.first), IfThenElse(is_plain, rows.end, all_int(planes_.rows))};
+    return {IfThenElseZero(is_plain, rows.first), IfThenElse(is_plain, rows.end, all(planes_.rows))};
   }
 
   // Depths of the whole spot.
@@ -184,58 +182,55 @@ class Slices {
  public:
   static constexpr std::uint32_t k_most = 64;
 
-  HWY_INLINE Slices(const SpotsAndPlanes& from, const RowPlanes& planes, const PlaneTables& tables,
+  HWY_INLINE Slices(const view::LightArrays& lights, const RowPlanes& planes, const PlaneTables& tables,
                     const SpotSlices& slices, std::uint32_t begin, std::uint32_t end) {
-    const D d;
-    const DI di;
-    const auto n = static_cast<std::uint32_t>(Lanes(d));
     const float widest = std::max(std::abs(planes.left), std::abs(planes.right));
     const float highest =
         std::max(std::abs(planes.slope.front()), std::abs(planes.slope[static_cast<std::size_t>(planes.rows)]));
-    for (std::uint32_t i = begin; i < end; i += n) {
+    for (std::uint32_t i = begin; i < end; i += lane_count()) {
       const VI spot = loaded_indices(slices.spot, i), slice = loaded_indices(slices.slice, i);
-      const GivenSpots given(*from.lights, spot);
+      const GivenSpots given(lights, spot);
       const auto inverse_w = [&](const float* of) { return orthographic ? all(1.0f) : gathered(of, slice); };
       const SlicePlanes between = {gathered(planes.depth, slice), gathered(planes.depth.data() + 1, slice),
                                    inverse_w(planes.inverse_depth.data()), inverse_w(planes.inverse_depth.data() + 1)};
       const V farthest = between.template farthest<orthographic>();
       const SpotShapes shapes(given.cone, tolerance_of<orthographic>(given.light, farthest, all(widest), all(highest)));
       const Reached<orthographic> reached(planes, tables, shapes, between, given.light);
-      const RowsReached rows = reached.rows(are_plain(from, given.light));
+      const RowsReached rows = reached.rows(are_plain(planes, given.light));
       SpotsInSlices<orthographic> in_slices(shapes, between, given.light);
-      const MI wanted = And(rows.count > Zero(di), FirstN(di, end - i));
-      Writer writer{*this, wanted};
-      in_slices.each([&](V& value) { writer.put(value); });
+      const MI wanted = And(rows.count > Zero(DI()), FirstN(DI(), end - i));
+      int field = 0;
+      const auto put = [&](V value) { store_wanted(value, wanted, values_[field++] + count_); };
+      in_slices.each(put);
       // Points that do not exist are neither above nor below anything.
       each_point_in_slice<orthographic>(shapes, between, [&](M where, const Projected& p, Side) {
-        writer.put(p.across);
-        writer.put(IfThenElse(where, p.up, all(std::numeric_limits<float>::quiet_NaN())));
-        writer.put(p.depth);
+        put(p.across);
+        put(IfThenElse(where, p.up, all(std::numeric_limits<float>::quiet_NaN())));
+        put(p.depth);
       });
-      StoreU(compressed(di, spot, wanted), di, spot_ + count_);
-      StoreU(compressed(di, slice, wanted), di, slice_ + count_);
-      const VI lead = IfThenElseZero(rows.with_top, all_int(1));
-      StoreU(compressed(di, rows.first - lead, wanted), di, first_row_ + count_);
-      StoreU(compressed(di, rows.count + lead, wanted), di, row_count_ + count_);
-      count_ += static_cast<std::int32_t>(CountTrue(di, wanted));
+      store_wanted(spot, wanted, spot_ + count_);
+      store_wanted(slice, wanted, slice_ + count_);
+      const VI lead = IfThenElseZero(rows.with_top, all(1));
+      store_wanted(rows.first - lead, wanted, first_row_ + count_);
+      store_wanted(rows.count + lead, wanted, row_count_ + count_);
+      count_ += static_cast<std::int32_t>(CountTrue(DI(), wanted));
     }
   }
 
   // Lists the rows. The first ones of a slice may be above the picture. Returns how many.
   HWY_INLINE std::int32_t list_rows(SpotRows& out) const {
-    const DI di;
-    const auto n = static_cast<std::int32_t>(Lanes(di));
+    const auto n = static_cast<std::int32_t>(Lanes(DI()));
     std::int32_t count = 0;
     for (std::int32_t i = 0; i < count_; ++i) {
       // What is written beyond a slice's end, the next one overwrites.
       for (std::int32_t at = 0; at < row_count_[i]; at += n) {
-        StoreU(all_int(i), di, out.listed_slice.data() + count + at);
-        StoreU(from_on(first_row_[i] + at), di, out.listed_row.data() + count + at);
+        StoreU(all(i), DI(), out.listed_slice.data() + count + at);
+        StoreU(from_on(first_row_[i] + at), DI(), out.listed_row.data() + count + at);
       }
       count += row_count_[i];
     }
-    StoreU(all_int(std::max(count_ - 1, 0)), di, out.listed_slice.data() + count);
-    StoreU(Zero(di), di, out.listed_row.data() + count);
+    StoreU(all(std::max(count_ - 1, 0)), DI(), out.listed_slice.data() + count);
+    StoreU(Zero(DI()), DI(), out.listed_row.data() + count);
     return count;
   }
 
@@ -280,23 +275,12 @@ class Slices {
   static constexpr int k_fields = k_vectors + 3 * k_points_in_slice;
   static constexpr std::size_t k_pitch = k_most + k_most_lanes;
 
-  struct Writer {
-    Slices& to;
-    MI wanted;
-    int field = 0;
-
-    HWY_INLINE void put(V value) {
-      StoreU(compressed(D(), value, RebindMask(D(), wanted)), D(), to.values_[field++] + to.count_);
-    }
-  };
-
   std::int32_t count_ = 0;
   alignas(64) float values_[k_fields][k_pitch];
   std::int32_t spot_[k_pitch], slice_[k_pitch], first_row_[k_pitch], row_count_[k_pitch];
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

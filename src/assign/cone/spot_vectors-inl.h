@@ -1,5 +1,5 @@
 // Points, cones and rows in vectors, each lane with its own spot, and how well they are measured. For files that are
-// compiled once per target; included after hwy/highway.h; defines its names anew for each target.
+// compiled once per target.
 
 #if defined(CLUSTERBENCH_SPOT_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_SPOT_VECTORS_INL_H
@@ -12,8 +12,7 @@
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 
 // Points and directions as x to the right, y up, depth ahead; each coordinate a vector of numbers.
 template <class Numbers>
@@ -120,7 +119,7 @@ struct GivenSpots {
   HWY_INLINE GivenSpots(const view::LightArrays& lights, VI spot) {
     // Gathering takes longer than much of what follows, and where spots are few, vectors are often of one.
     const std::int32_t first = GetLane(spot);
-    if (AllTrue(DI(), spot == all_int(first)))
+    if (AllTrue(DI(), spot == all(first)))
       take(lights, [&](const float* from) { return all(from[first]); });
     else
       take(lights, [&](const float* from) { return gathered(from, spot); });
@@ -140,8 +139,8 @@ struct GivenSpots {
 };
 
 // Which spots of these sizes are to be judged in single precision.
-HWY_INLINE M are_plain(const SpotsAndPlanes& from, V light) {
-  return is_between(all(from.least_reach), light, all(k_most_row_reach));
+HWY_INLINE M are_plain(const RowPlanes& planes, V light) {
+  return is_between(all(planes.least_reach), light, all(k_most_row_reach));
 }
 
 // Spots, each with its own run of a row: tile planes below and above, slice planes in front and behind.
@@ -157,23 +156,13 @@ struct SpotsInRows {
     return tolerance_of<orthographic>(light, depth, Max(Abs(left), Abs(right)), Max(Abs(y0), Abs(y1)));
   }
 };
-HWY_INLINE SpotsInRows spots_in_rows(const SpotsAndPlanes& from, VI spot, VI slice, VI row) {
-  const GivenSpots given(*from.lights, spot);
-  return {given.cone,
-          given.light,
-          gathered(from.slope + 1, row),
-          gathered(from.slope, row),
-          gathered(from.depth, slice),
-          gathered(from.depth + 1, slice)};
-}
 
 // The indices of a list from `first` on.
 HWY_INLINE VI loaded_indices(const std::vector<std::uint32_t>& list, std::uint32_t first) {
   return BitCast(DI(), LoadU(DU(), list.data() + first));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

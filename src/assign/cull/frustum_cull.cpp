@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/cull/frustum_cull.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 // The sides of the picture as planes through the eye (orthographic: along the view axis), and the grid's ends in depth.
@@ -71,26 +68,26 @@ class SliceSearch {
       below = IfThenElse(RebindMask(DI(), is_below), probe, below);
     };
     for (std::int32_t step = count_ / stride_ / 2; step > 0; step /= 2) {
-      const VI probe = below + all_int(step);
+      const VI probe = below + all(step);
       go_on(probe, some_.at(probe));
     }
-    if (stride_ == 1) return Min(below, all_int(last_));
+    if (stride_ == 1) return Min(below, all(last_));
     const V between = between_.at(below);
-    below = below * all_int(stride_);
-    go_on(below + all_int(stride_ / 2), between);
+    below = below * all(stride_);
+    go_on(below + all(stride_ / 2), between);
     for (std::int32_t step = stride_ / 4; step > 0; step /= 2) {
-      const VI probe = below + all_int(step);
+      const VI probe = below + all(step);
       go_on(probe, gathered(planes_, probe));
     }
-    return Min(below, all_int(last_));
+    return Min(below, all(last_));
   }
 
  private:
   // Every stride-th plane, from the one at `skipped` on.
   RegisterTable every(std::int32_t skipped) const {
     const auto from = [&](std::int32_t first) {
-      const VI index = from_on(first) * all_int(stride_) + all_int(skipped);
-      return gathered(planes_, Min(index, all_int(count_ - 1)));
+      const VI index = from_on(first) * all(stride_) + all(skipped);
+      return gathered(planes_, Min(index, all(count_ - 1)));
     };
     return {from(0), from(static_cast<std::int32_t>(Lanes(D())))};
   }
@@ -102,22 +99,21 @@ class SliceSearch {
 };
 
 void cull(const RowPlanes& planes, const GivenBalls& balls, VisibleBalls& visible, float roundoffs) {
-  const D d;
-  const DI di;
-  const auto n = static_cast<std::uint32_t>(Lanes(d));
   const View view(planes);
   const std::uint32_t before = visible.count;
-  for (std::uint32_t i = 0; i < balls.lights.count; i += n) {
-    const std::uint32_t left = std::min(n, balls.lights.count - i);
+  for (std::uint32_t i = 0; i < balls.lights.count; i += lane_count()) {
+    const std::uint32_t left = std::min(lane_count(), balls.lights.count - i);
     const auto load = [&](const float* from) { return loaded(from + i, left); };
     const V x = load(balls.x), y = load(balls.y), depth = Neg(load(balls.z)), given = load(balls.radius);
     const V reach = load(balls.reach), slack = reach * all(roundoffs * 0x1p-24f);
     const V radius = given + slack;
-    const M reaches = And(view.gap(x, y, depth) <= radius, given > Zero(d));
-    const M wanted = And(reaches, FirstN(d, left));
-    const std::size_t kept = CountTrue(d, wanted);
+    const M reaches = And(view.gap(x, y, depth) <= radius, given > Zero(D()));
+    const M wanted = And(reaches, FirstN(D(), left));
+    const std::size_t kept = CountTrue(D(), wanted);
     if (kept == 0) continue;
-    const Appender append(wanted, visible.count);
+    const auto append = [&, count = visible.count](auto value, auto& to) {
+      store_wanted(value, wanted, to.data() + count);
+    };
     append(x, visible.x);
     append(y, visible.y);
     append(depth, visible.depth);
@@ -129,18 +125,17 @@ void cull(const RowPlanes& planes, const GivenBalls& balls, VisibleBalls& visibl
     visible.count += static_cast<std::uint32_t>(kept);
   }
   const SliceSearch search(planes);
-  for (std::uint32_t i = before; i < visible.count; i += n) {
-    const V depth = LoadU(d, visible.depth.data() + i), radius = LoadU(d, visible.radius.data() + i);
+  for (std::uint32_t i = before; i < visible.count; i += lane_count()) {
+    const V depth = LoadU(D(), visible.depth.data() + i), radius = LoadU(D(), visible.radius.data() + i);
     const VI first = search.planes_below<false>(depth - radius);
     const VI last = search.planes_below<true>(depth + radius);
-    StoreU(first, di, visible.first_slice.data() + i);
-    StoreU(last, di, visible.last_slice.data() + i);
+    StoreU(first, DI(), visible.first_slice.data() + i);
+    StoreU(last, DI(), visible.last_slice.data() + i);
   }
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -2,10 +2,8 @@
 
 #include "assign/distance/shells.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/distance/shell_rows.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/bounds/bounds_rows-inl.h"
 #include "assign/rows/disks-inl.h"
@@ -13,8 +11,7 @@
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 // --- Which shells ---
@@ -47,12 +44,12 @@ HWY_INLINE CellRanges cells_of(const ShellPlanes& planes, const Balls& balls) {
   const V length = Sqrt(balls.x * balls.x + balls.y * balls.y + balls.depth * balls.depth), radius = with_slack(balls);
   const std::vector<float>& distances = planes.boundaries.depths;
   const VI none = Zero(DI());
-  VI first = none, last = all_int(-1);
+  VI first = none, last = all(-1);
   for (std::size_t shell = 0; shell + 1 < distances.size(); ++shell) {
     first = first - VecFromMask(DI(), RebindMask(DI(), all(distances[shell + 1]) < length - radius));
     last = last - VecFromMask(DI(), RebindMask(DI(), all(distances[shell]) <= length + radius));
   }
-  return {{none, none}, {none, all_int(planes.rows() - 1)}, {first, last}};
+  return {{none, none}, {none, all(planes.rows() - 1)}, {first, last}};
 }
 
 void shells(const ShellPlanes& planes, const GivenBalls& given, float roundoffs, BoundedBalls& bounded) {
@@ -175,11 +172,11 @@ void shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& ou
   }
   boxes.take_rows(low.whole() <= high.whole(), touched(planes.boundaries.rows, Neg(high.whole()), Neg(low.whole())));
   if (!boxes.start(planes.rows(), batch.count, out)) return;
-  const auto slopes_at = [&](VI row) { return Parts(gathered(planes.slope, Min(row, all_int(planes.rows())))); };
+  const auto slopes_at = [&](VI row) { return Parts(gathered(planes.slope, Min(row, all(planes.rows())))); };
   const Parts top = slopes_at(boxes.first_row);
   for (std::size_t part = 0; part < Parts::k_count; ++part) caps[part].start_rows(top.wide(part));
   walk_rows(boxes, planes.rows(), out, [&](VI row, MI) {
-    const Parts bottom = slopes_at(row + all_int(1));
+    const Parts bottom = slopes_at(row + all(1));
     for (std::size_t part = 0; part < Parts::k_count; ++part) {
       const Hull slopes = caps[part].slopes_above(bottom.wide(part));
       low.set(part, slopes.low);
@@ -192,8 +189,7 @@ void shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& ou
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

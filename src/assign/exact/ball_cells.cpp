@@ -2,16 +2,13 @@
 
 #include <algorithm>
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/exact/ball_cells.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/exact/ball_runs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 void look(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells) {
@@ -32,8 +29,7 @@ void look(const view::LightArrays& lights, const RowPlanes& planes, BallCells& c
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -1,5 +1,5 @@
 // A vector of balls, each with its own run of a row of cells, in doubles with a bound of their error. For files that
-// are compiled once per target; included after hwy/highway.h; defines its names anew for each target.
+// are compiled once per target.
 
 #if defined(CLUSTERBENCH_BALL_RUNS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_BALL_RUNS_INL_H
@@ -16,8 +16,7 @@
 #include "view/frame.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 
 // geom::Bounded, one per lane; but what errors lose when they are added and multiplied, fewer than a hundred times, is
 // made up for where they are used, by enlarged().
@@ -96,17 +95,13 @@ HWY_INLINE Bound half_slope(const Gap& gap, VD slope_low, VD slope_high) {
   return {product.value, enlarged(product.error + unsure)};
 }
 
-// Bit i is lane i's.
-HWY_INLINE unsigned bits_of(MD mask) {
-  static_assert(MaxLanes(DD()) <= 8);
-  std::uint8_t bits[8] = {};
-  StoreMaskBits(DD(), mask, bits);
-  return bits[0];
+HWY_INLINE VD gathered_wide(const std::vector<float>& from, VH indices) {
+  return PromoteTo(DD(), GatherIndex(DF(), from.data(), indices));
 }
 
 // What is known of each lane, to touch[0] and on.
 HWY_INLINE void store_touches(MD touches, MD misses, Touch* touch) {
-  const unsigned yes = bits_of(touches), no = bits_of(misses);
+  const unsigned yes = bits_of(DD(), touches), no = bits_of(DD(), misses);
   for (std::size_t lane = 0; lane < Lanes(DD()); ++lane)
     touch[lane] = (yes >> lane & 1) != 0 ? Touch::yes : (no >> lane & 1) != 0 ? Touch::no : Touch::uncertain;
 }
@@ -121,16 +116,13 @@ class BallRuns {
  public:
   HWY_INLINE BallRuns(const view::LightArrays& lights, const RowPlanes& planes, const RowRuns& runs)
       : orthographic_(planes.orthographic) {
-    const auto plane_at = [&](const std::vector<float>& from, VH index) {
-      return PromoteTo(DD(), GatherIndex(DF(), from.data(), index));
-    };
     const VH next = Set(DH(), 1);
-    x0_ = plane_at(planes.side, runs.column);
-    x1_ = plane_at(planes.side, runs.end_column);
-    y0_ = plane_at(planes.slope, runs.row + next);
-    y1_ = plane_at(planes.slope, runs.row);
-    depth0_ = plane_at(planes.depth, runs.slice);
-    depth1_ = plane_at(planes.depth, runs.slice + next);
+    x0_ = gathered_wide(planes.side, runs.column);
+    x1_ = gathered_wide(planes.side, runs.end_column);
+    y0_ = gathered_wide(planes.slope, runs.row + next);
+    y1_ = gathered_wide(planes.slope, runs.row);
+    depth0_ = gathered_wide(planes.depth, runs.slice);
+    depth1_ = gathered_wide(planes.depth, runs.slice + next);
 
     constexpr std::size_t k_stride = sizeof(scene::WorldLight) / sizeof(double);
     static_assert(sizeof(scene::WorldLight) % sizeof(double) == 0);
@@ -236,8 +228,7 @@ class BallRuns {
   Bound x_, y_, depth_, squared_range_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -17,27 +17,24 @@ void SpotSpans::find(const ExactFrame& frame, int first, int last) {
   judge_.reset();
   balls_.reset();
   if (frame.first_spot == frame.visible.count) return;
-  const RowPlanes& planes = frame.planes;
-  const SpotsAndPlanes from{&frame.lights,       planes.side.data(), planes.slope.data(),
-                            planes.depth.data(), planes.least_reach, planes.orthographic};
   slices_.count = 0;
   for (int slice = first; slice < last; ++slice)
     for (const std::uint32_t ball : frame.spots_of(slice))
       slices_.add(frame.visible.light[ball] - frame.lights.spots.first, static_cast<std::uint32_t>(slice));
-  find_spot_rows(from, planes, slices_, rows_);
+  find_spot_rows(frame.lights, frame.planes, slices_, rows_);
   tests_ += rows_.count;
-  settle_uncertain_rows(from);
+  settle_uncertain_rows();
 }
 
-void SpotSpans::settle_uncertain_rows(const SpotsAndPlanes& from) {
+void SpotSpans::settle_uncertain_rows() {
   take_uncertain_rows();
   if (spans_.empty()) return;
-  settle_touches(from);
-  shorten(from);
+  settle_touches();
+  shorten();
   narrow();
   while (ask_for_ends()) {
     tests_ += cells_.count;
-    look_at_cells(from, cells_);
+    look_at_cells(frame_->lights, frame_->planes, cells_);
     for (const Ends& ends : ends_) settle(ends);
   }
   for (const Span& span : spans_) {
@@ -75,11 +72,11 @@ void SpotSpans::take_uncertain_rows() {
   }
 }
 
-void SpotSpans::settle_touches(const SpotsAndPlanes& from) {
+void SpotSpans::settle_touches() {
   runs_.clear();
   touches_.clear();
   for (std::uint32_t i = 0; i < spans_.size(); ++i) ask_for_touches(i);
-  touches_.look(from, frame_->planes);
+  touches_.look(frame_->lights, frame_->planes);
   tests_ += runs_.size();
   for (std::uint32_t i = 0; i < runs_.size(); ++i) take_touch(runs_[i], i);
 }
@@ -148,7 +145,7 @@ void SpotSpans::take_touch(const Run& run, std::uint32_t index) {
 
 // Takes away what a quick look at several columns at once can tell is not touched: half of each span at its uncertain
 // ends, where they are touched or in doubt a quarter, and so on.
-void SpotSpans::shorten(const SpotsAndPlanes& from) {
+void SpotSpans::shorten() {
   uncertain_.clear();
   for (std::uint32_t i = 0; i < spans_.size(); ++i)
     if (spans_[i].is_uncertain()) uncertain_.push_back(i);
@@ -167,7 +164,7 @@ void SpotSpans::shorten(const SpotsAndPlanes& from) {
                                                           : IndexRange{columns.last - run.columns + 1, columns.last}));
     }
     tests_ += cells_.count;
-    look_at_cells(from, cells_);
+    look_at_cells(frame_->lights, frame_->planes, cells_);
     std::size_t kept = 0;
     for (std::size_t at = 0; at < long_.size(); ++at) {
       Long run = long_[at];

@@ -55,12 +55,12 @@ class SpotSpans {
     bool from_left, from_right;
   };
 
-  void settle_uncertain_rows(const SpotsAndPlanes& from);
+  void settle_uncertain_rows();
   void take_uncertain_rows();
-  void settle_touches(const SpotsAndPlanes& from);
+  void settle_touches();
   void ask_for_touches(std::uint32_t i);
   void take_touch(const Run& run, std::uint32_t index);
-  void shorten(const SpotsAndPlanes& from);
+  void shorten();
   void narrow();
   bool ask_for_ends();
   SpotCell cells_of(const Span& span, const grid::IndexRange& columns) const;

@@ -5,40 +5,25 @@
 #include "assign/cull/frustum_cull.h"
 #include "geom/numbers/bounded_double.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/exact/spot_touches.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/cone/spot_vectors-inl.h"
 #include "assign/exact/ball_runs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
-// A vector of cones in single precision: axes of length 1 to 5 u, all numbers off by u of themselves, u = 2^-24.
-struct Cones {
-  PointOf<VD> axis;
-  VD cosine, sine;
-
-  Cones(const view::LightArrays& lights, VH spot) {
-    const auto of = [&](const std::vector<float>& list) {
-      return PromoteTo(DD(), GatherIndex(DF(), list.data(), spot));
-    };
-    axis = {of(lights.axis_x), of(lights.axis_y), Neg(of(lights.axis_z))};
-    cosine = of(lights.cos_angle);
-    sine = of(lights.sin_angle);
-  }
-
-  // How far inside of the cone's side a way from the apex ends, which changes by no more than the way does. The numbers
-  // above make it off by less than 20 u of the way's length.
-  HWY_INLINE VD margin(const PointOf<VD>& way) const {
-    const VD along = dot(way, axis);
-    return sine * along - cosine * length(way - along * axis);
-  }
-};
+// How far inside of the cone's side a way from the apex ends, which changes by no more than the way does. The cone is
+// given in single precision: the axis of length 1 to 5 u, all numbers off by u of themselves, u = 2^-24. So this is off
+// by less than 20 u of the way's length.
+HWY_INLINE VD cone_margin(const view::LightArrays& lights, VH spot, const PointOf<VD>& way) {
+  const auto of = [&](const std::vector<float>& list) { return gathered_wide(list, spot); };
+  const PointOf<VD> axis{of(lights.axis_x), of(lights.axis_y), Neg(of(lights.axis_z))};
+  const VD along = dot(way, axis);
+  return of(lights.sin_angle) * along - of(lights.cos_angle) * length(way - along * axis);
+}
 constexpr double k_cone_error = 0x1p-19;  // 32 u
 
 // From the centre to a gap's other end.
@@ -46,8 +31,7 @@ HWY_INLINE VD across(const Gap& gap) {
   return IfThenElse(gap.is_below, gap.size.value, Neg(gap.size.value));
 }
 
-void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& out) {
-  const view::LightArrays& lights = *from.lights;
+void look_at(const view::LightArrays& lights, const RowPlanes& planes, SpotTouches& out) {
   const SpotCells& runs = out.runs;
   const std::size_t lanes = Lanes(DD());
   const VD zero = Zero(DD());
@@ -70,16 +54,13 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
 
     const PointOf<VD> way{across(nearest.x), across(nearest.y), nearest.along.value};
     const VD off = nearest.x.size.error + nearest.y.size.error + nearest.along.error;
-    const VD margin = Cones(lights, spot).margin(way);
+    const VD margin = cone_margin(lights, spot, way);
     const VD tolerance = all(k_cone_error) * length(way) + all(2.0) * off;
     const MD is_in_cone = margin > tolerance;
     const MD is_beside = margin + all(2.0) * (shift + play) < Neg(tolerance);
 
-    const auto value_of = [&](const std::vector<float>& list) {
-      return PromoteTo(DD(), GatherIndex(DF(), list.data(), light));
-    };
-    const VD reach = value_of(lights.reach);
-    const MD is_plain = And(all(double{from.least_reach}) <= reach, reach <= all(double{k_most_row_reach}));
+    const VD reach = gathered_wide(lights.reach, light);
+    const MD is_plain = And(all(double{planes.least_reach}) <= reach, reach <= all(double{k_most_row_reach}));
     const MD touches = And(is_plain, And(excess <= Neg(error), is_in_cone));
     const MD misses = And(is_plain, Or(excess - undershoot > error, is_beside));
     const auto store = [&](VD value, std::vector<double>& list) { StoreU(value, DD(), list.data() + first); };
@@ -90,8 +71,8 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
     store(enlarged(nearest.depth.error), out.depth_error);
     store_touches(touches, misses, out.runs.touch.data() + first);
     const MD is_alone = And(And(touches, is_exact), Or(is_x_sure, Not(nearest.x.is_outside)));
-    const unsigned alone = bits_of(is_alone);
-    const unsigned outside = bits_of(nearest.x.is_outside), below = bits_of(nearest.x.is_below);
+    const unsigned alone = bits_of(DD(), is_alone);
+    const unsigned outside = bits_of(DD(), nearest.x.is_outside), below = bits_of(DD(), nearest.x.is_below);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const auto is = [&](unsigned mask) { return (mask >> lane & 1) != 0; };
       out.is_alone[first + lane] = is(alone);
@@ -101,8 +82,7 @@ void look_at(const SpotsAndPlanes& from, const RowPlanes& planes, SpotTouches& o
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -110,13 +90,13 @@ namespace clusterbench::assign {
 
 HWY_EXPORT(look_at);
 
-void SpotTouches::look(const SpotsAndPlanes& from, const RowPlanes& planes) {
+void SpotTouches::look(const view::LightArrays& lights, const RowPlanes& planes) {
   if (runs.count == 0) return;
   runs.pad();
   for (std::vector<double>* list : {&x, &x_error, &depth, &depth_error}) list->resize(runs.spot.size());
   is_alone.resize(runs.spot.size());
   side.resize(runs.spot.size());
-  HWY_DYNAMIC_DISPATCH(look_at)(from, planes, *this);
+  HWY_DYNAMIC_DISPATCH(look_at)(lights, planes, *this);
 }
 
 grid::IndexRange SpotTouches::only_columns(std::uint32_t index, const RowPlanes& planes) const {

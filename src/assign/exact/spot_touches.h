@@ -19,8 +19,8 @@ class SpotTouches {
   void clear() { runs.count = 0; }
   void add(const SpotCell& run) { runs.add(run); }
   std::uint32_t count() const { return runs.count; }
-  // Spots of less reach than from.least_reach, or of more than k_most_row_reach, are left uncertain.
-  void look(const SpotsAndPlanes& from, const RowPlanes& planes);
+  // Spots of less reach than planes.least_reach, or of more than k_most_row_reach, are left uncertain.
+  void look(const view::LightArrays& lights, const RowPlanes& planes);
 
   Touch touch(std::uint32_t index) const { return runs.touch[index]; }
   // Columns of a run that are touched, and no others of it are: where a point is all that is shared. Empty where that

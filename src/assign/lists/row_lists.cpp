@@ -3,23 +3,16 @@
 #include <algorithm>
 #include <array>
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/lists/row_lists.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 using MU = hn::Mask<DU>;
-
-HWY_INLINE std::uint32_t vector_size() {
-  return static_cast<std::uint32_t>(Lanes(DU()));
-}
 
 const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
@@ -27,36 +20,34 @@ const char* target_name() {
 
 bool add_batch(const BandSpans& band, int first_row, int last_row, const std::uint32_t* columns,
                const std::uint32_t* lights, std::uint8_t* is_left) {
-  const DU du;
   const BandSpans to = band;  // a copy, which stays in registers: no store can change it
-  const VU light = LoadU(du, lights), none = Set(du, ColumnSpan::k_none);
+  const VU light = LoadU(DU(), lights), none = all(ColumnSpan::k_none);
   bool some_are_left = false;
   for (int row = first_row; row <= last_row; ++row) {
     const auto r = static_cast<std::size_t>(row);
-    const VU span = LoadU(du, columns + r * Lanes(du));
-    const MU wanted = Ne(span, none), uncertain = TestBit(span, Set(du, ColumnSpan::k_uncertain));
-    is_left[r] = AllFalse(du, And(wanted, uncertain)) ? 0 : 1;
+    const VU span = LoadU(DU(), columns + r * Lanes(DU()));
+    const MU wanted = Ne(span, none), uncertain = TestBit(span, all(ColumnSpan::k_uncertain));
+    is_left[r] = AllFalse(DU(), And(wanted, uncertain)) ? 0 : 1;
     if (is_left[r] != 0) {
       some_are_left = true;
       continue;
     }
     const std::size_t end = r * to.pitch + to.sizes[r];
-    StoreU(compressed(du, light, wanted), du, to.lights + end);
-    StoreU(compressed(du, span, wanted), du, to.columns + end);
-    to.sizes[r] += static_cast<std::uint32_t>(CountTrue(du, wanted));
+    store_wanted(light, wanted, to.lights + end);
+    store_wanted(span, wanted, to.columns + end);
+    to.sizes[r] += static_cast<std::uint32_t>(CountTrue(DU(), wanted));
   }
   return some_are_left;
 }
 
 void add_rows(const BandSpans& band, int first_row, int last_row, const std::uint32_t* sizes,
               const std::uint32_t* columns, const std::uint32_t* lights) {
-  const DU du;
   const BandSpans to = band;  // as above
   std::size_t begin = static_cast<std::size_t>(first_row) * to.pitch;
   for (int row = first_row; row <= last_row; ++row, begin += to.pitch) {
     const std::uint32_t size = sizes[row], earlier = to.sizes[row];
-    StoreU(LoadU(du, columns), du, to.columns + begin + earlier);
-    StoreU(LoadU(du, lights), du, to.lights + begin + earlier);
+    StoreU(LoadU(DU(), columns), DU(), to.columns + begin + earlier);
+    StoreU(LoadU(DU(), lights), DU(), to.lights + begin + earlier);
     to.sizes[row] = earlier + size;
     columns += size;
     lights += size;
@@ -64,21 +55,20 @@ void add_rows(const BandSpans& band, int first_row, int last_row, const std::uin
 }
 
 std::uint64_t count_pairs(const BandSpans& band) {
-  const DU du;
-  const VU none = Set(du, ColumnSpan::k_none), half = Set(du, 0xffff), one = Set(du, 1);
+  const VU none = all(ColumnSpan::k_none), half = all(0xffffu), one = all(1u);
   constexpr std::uint32_t k_most_spans = 1u << 16;  // the sum of their columns is below 2^32
   std::uint64_t total = 0;
   for (std::uint32_t row = 0; row < band.rows; ++row) {
     const std::uint32_t* spans = band.columns + row * band.pitch;
     const std::uint32_t size = band.sizes[row];
     for (std::uint32_t i = 0; i < size;) {
-      VU sum = Zero(du);
-      for (const std::uint32_t end = std::min(size, i + k_most_spans); i < end; i += vector_size()) {
-        const VU span = LoadU(du, spans + i);
-        const MU wanted = And(FirstN(du, size - i), Ne(span, none));
+      VU sum = Zero(DU());
+      for (const std::uint32_t end = std::min(size, i + k_most_spans); i < end; i += lane_count()) {
+        const VU span = LoadU(DU(), spans + i);
+        const MU wanted = And(FirstN(DU(), size - i), Ne(span, none));
         sum = sum + IfThenElseZero(wanted, ShiftRight<16>(span) - And(span, half) + one);
       }
-      total += GetLane(SumOfLanes(du, sum));
+      total += GetLane(SumOfLanes(DU(), sum));
     }
   }
   return total;
@@ -87,7 +77,7 @@ std::uint64_t count_pairs(const BandSpans& band) {
 // Writes the wanted ones of a vector's numbers, and up to a vector of anything behind them. Returns their end.
 HWY_INLINE std::uint32_t* append(VU numbers, MU wanted, std::uint32_t* to) {
   // Compressing in a register and storing it whole is faster than a compressing store.
-  StoreU(compressed(DU(), numbers, wanted), DU(), to);
+  store_wanted(numbers, wanted, to);
   return to + CountTrue(DU(), wanted);
 }
 
@@ -98,29 +88,23 @@ struct Columns {
 
 // What spans, one per lane, have of at most 32 columns: a bit for each of these, the first one's lowest.
 HWY_INLINE VU bits_of(VU spans, const Columns& columns) {
-  const DU du;
-  const VI begin = all_int(static_cast<std::int32_t>(columns.begin)), most = all_int(31);
-  const VI last = all_int(static_cast<std::int32_t>(columns.end) - 1);
-  const VI from = Max(BitCast(DI(), And(spans, Set(du, 0xffff))), begin) - begin;
+  const VI begin = all(static_cast<std::int32_t>(columns.begin)), most = all(31);
+  const VI last = all(static_cast<std::int32_t>(columns.end) - 1);
+  const VI from = Max(BitCast(DI(), And(spans, all(0xffffu))), begin) - begin;
   const VI to = Min(BitCast(DI(), ShiftRight<16>(spans)), last) - begin;
   // Shifts are by less than 32, also where there is nothing.
-  const VU before = BitCast(du, And(from, most)), behind = BitCast(du, AndNot(to, most));
-  const VU ones = Set(du, 0xffffffff);
-  return IfThenZeroElse(RebindMask(du, from > to), And(Shl(ones, before), Shr(ones, behind)));
+  const VU before = BitCast(DU(), And(from, most)), behind = BitCast(DU(), AndNot(to, most));
+  const VU ones = all(0xffffffffu);
+  return IfThenZeroElse(RebindMask(DU(), from > to), And(Shl(ones, before), Shr(ones, behind)));
 }
 
 // Writes the lists of one row's cells.
-class RowLists {
- public:
-  HWY_INLINE RowLists(const BandSpans& band, std::uint32_t row, FewColumns& few, const std::uint32_t* lists,
-                      std::uint32_t* begin)
-      : lights_(band.lights + row * band.pitch),
-        columns_(band.columns + row * band.pitch),
-        count_(band.sizes[row]),
-        width_(band.width),
-        few_(few),
-        lists_(lists),
-        begin_(begin) {}
+struct RowLists {
+  const std::uint32_t *row_lights, *row_columns;  // of the row's spans
+  std::uint32_t row_size, width;
+  FewColumns& few;
+  const std::uint32_t* lists;
+  std::uint32_t* begin;  // of each column's list, in `lists`
 
   // Those of some columns. Returns their end.
   HWY_NOINLINE std::uint32_t* write(const Columns& columns, std::uint32_t* to) const {
@@ -128,8 +112,8 @@ class RowLists {
     const std::uint32_t strip = columns.end - columns.begin <= 16 ? 4 : 8, most = FewColumns::k_strips * strip;
     for (std::uint32_t column = columns.begin; column < columns.end; column += most) {
       const Columns window{column, std::min(columns.end, column + most)};
-      if (row.count_ <= Lanes(DU()))
-        to = row.write_kept<1>({LoadU(DU(), row.lights_)}, {row.bits_from(0, window)}, window, 0, to);
+      if (row.row_size <= Lanes(DU()))
+        to = row.write_kept<1>({LoadU(DU(), row.row_lights)}, {row.bits_from(0, window)}, window, 0, to);
       else
         to = row.are_narrow(window, strip) ? row.by_strips(window, strip, to) : row.at_once(window, to);
     }
@@ -142,34 +126,33 @@ class RowLists {
 
   // Do most spans hold none of most strips? To choose them costs as much as to ask them for a fifth of the columns.
   HWY_INLINE bool are_narrow(const Columns& window, std::uint32_t strip) const {
-    return 5 * (width_ + strip) < 4 * (window.end - window.begin);
+    return 5 * (width + strip) < 4 * (window.end - window.begin);
   }
 
   // From all spans.
   HWY_INLINE std::uint32_t* at_once(const Columns& window, std::uint32_t* to) const {
-    std::uint32_t* bits = few_.strips[0].bits.data();
-    for (std::uint32_t i = 0; i < count_; i += vector_size()) StoreU(bits_from(i, window), DU(), bits + i);
-    return write_some(lights_, bits, count_, window, 0, to);
+    std::uint32_t* bits = few.strips[0].bits.data();
+    for (std::uint32_t i = 0; i < row_size; i += lane_count()) StoreU(bits_from(i, window), DU(), bits + i);
+    return write_some(row_lights, bits, row_size, window, 0, to);
   }
 
   // Strip by strip, from those spans that hold some of it. All are chosen first, so that none are read while they are
   // still being written.
   HWY_INLINE std::uint32_t* by_strips(const Columns& window, std::uint32_t strip, std::uint32_t* to) const {
-    const DU du;
     std::size_t counts[FewColumns::k_strips] = {};
-    for (std::uint32_t i = 0; i < count_; i += vector_size()) {
-      const VU lights = LoadU(du, lights_ + i), bits = bits_from(i, window);
+    for (std::uint32_t i = 0; i < row_size; i += lane_count()) {
+      const VU lights = LoadU(DU(), row_lights + i), bits = bits_from(i, window);
       for (std::uint32_t s = 0; s < FewColumns::k_strips; ++s) {
-        const VU of_strip = Set(du, ((1u << strip) - 1) << s * strip);
-        const MU some = Ne(And(bits, of_strip), Zero(du));
-        append(lights, some, few_.strips[s].lights.data() + counts[s]);
-        append(bits, some, few_.strips[s].bits.data() + counts[s]);
-        counts[s] += CountTrue(du, some);
+        const VU of_strip = all(((1u << strip) - 1) << s * strip);
+        const MU some = Ne(And(bits, of_strip), Zero(DU()));
+        append(lights, some, few.strips[s].lights.data() + counts[s]);
+        append(bits, some, few.strips[s].bits.data() + counts[s]);
+        counts[s] += CountTrue(DU(), some);
       }
     }
     for (std::uint32_t s = 0; s < FewColumns::k_strips; ++s) {
-      FewColumns::Strip& chosen = few_.strips[s];
-      StoreU(Zero(du), du, chosen.bits.data() + counts[s]);
+      FewColumns::Strip& chosen = few.strips[s];
+      StoreU(Zero(DU()), DU(), chosen.bits.data() + counts[s]);
       const std::uint32_t column = window.begin + s * strip;
       const Columns columns{column, std::min(window.end, column + strip)};
       to = write_some(chosen.lights.data(), chosen.bits.data(), counts[s], columns, s * strip, to);
@@ -179,8 +162,7 @@ class RowLists {
 
   // Of a vector of spans, none behind the last.
   HWY_INLINE VU bits_from(std::uint32_t i, const Columns& columns) const {
-    const DU du;
-    return IfThenElseZero(FirstN(du, count_ - i), bits_of(LoadU(du, columns_ + i), columns));
+    return IfThenElseZero(FirstN(DU(), row_size - i), bits_of(LoadU(DU(), row_columns + i), columns));
   }
 
   // Lists of columns from some lights, which fill at least so many vectors, and the bits of these columns and
@@ -188,19 +170,18 @@ class RowLists {
   template <std::size_t vectors = 1>
   HWY_INLINE std::uint32_t* write_some(const std::uint32_t* lights, const std::uint32_t* bits, std::size_t count,
                                        const Columns& columns, std::uint32_t skipped, std::uint32_t* to) const {
-    const DU du;
     if constexpr (vectors > k_most_vectors) {
       return each_column(columns, skipped, to, [&](VU bit, std::uint32_t* at) {
-        for (std::size_t i = 0; i < count; i += Lanes(du))
-          at = append(LoadU(du, lights + i), TestBit(LoadU(du, bits + i), bit), at);
+        for (std::size_t i = 0; i < count; i += Lanes(DU()))
+          at = append(LoadU(DU(), lights + i), TestBit(LoadU(DU(), bits + i), bit), at);
         return at;
       });
     } else {
-      if (count > vectors * Lanes(du)) return write_some<vectors + 1>(lights, bits, count, columns, skipped, to);
+      if (count > vectors * Lanes(DU())) return write_some<vectors + 1>(lights, bits, count, columns, skipped, to);
       std::array<VU, vectors> kept_lights, kept_bits;
       for (std::size_t i = 0; i < vectors; ++i) {
-        kept_lights[i] = LoadU(du, lights + i * Lanes(du));
-        kept_bits[i] = LoadU(du, bits + i * Lanes(du));
+        kept_lights[i] = LoadU(DU(), lights + i * Lanes(DU()));
+        kept_bits[i] = LoadU(DU(), bits + i * Lanes(DU()));
       }
       return write_kept<vectors>(kept_lights, kept_bits, columns, skipped, to);
     }
@@ -220,26 +201,21 @@ class RowLists {
   template <class Add>
   HWY_INLINE std::uint32_t* each_column(const Columns& columns, std::uint32_t skipped, std::uint32_t* to,
                                         Add&& add) const {
-    VU bit = Set(DU(), 1u << skipped);
+    VU bit = all(1u << skipped);
     for (std::uint32_t column = columns.begin; column < columns.end; ++column) {
-      begin_[column] = static_cast<std::uint32_t>(to - lists_);
+      begin[column] = static_cast<std::uint32_t>(to - lists);
       to = add(bit, to);
       bit = ShiftLeft<1>(bit);
     }
     return to;
   }
-
-  const std::uint32_t *lights_, *columns_;
-  std::uint32_t count_, width_;
-  FewColumns& few_;
-  const std::uint32_t* lists_;
-  std::uint32_t* begin_;
 };
 
 std::uint32_t* write_lists(const BandSpans& band, const BandHole& hole, FewColumns& few, std::uint32_t* to,
                            const std::uint32_t* lists, std::uint32_t* begin) {
   for (std::uint32_t row = 0; row < band.rows; ++row, begin += band.row_columns) {
-    const RowLists row_lists(band, row, few, lists, begin);
+    const std::size_t first = std::size_t{row} * band.pitch;
+    const RowLists row_lists{band.lights + first, band.columns + first, band.sizes[row], band.width, few, lists, begin};
     if (band.sizes[row] == 0) {
       std::fill_n(begin, band.row_columns, static_cast<std::uint32_t>(to - lists));
     } else if (!hole.rows.holds(static_cast<int>(row))) {
@@ -254,8 +230,7 @@ std::uint32_t* write_lists(const BandSpans& band, const BandHole& hole, FewColum
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

@@ -1,5 +1,5 @@
 // The slopes of disks in double precision, for files that are compiled once per target: the vector form of
-// geom/projection/disk_tangents.cpp. Included after hwy/highway.h; defines its names anew for each target.
+// geom/projection/disk_tangents.cpp.
 
 #if defined(CLUSTERBENCH_DISKS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_DISKS_INL_H
@@ -13,8 +13,7 @@
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 
 constexpr double k_epsilon = std::numeric_limits<double>::epsilon();
 
@@ -193,8 +192,7 @@ class Disks {
   bool all_are_clear_;
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

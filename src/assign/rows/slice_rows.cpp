@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <limits>
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/rows/slice_rows.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 // From low to high: slopes x / depth or y / depth, in orthographic grids x or y.
@@ -59,7 +56,7 @@ struct Place {
 
   HWY_INLINE explicit Place(VU place)
       : row(BitCast(DI(), hn::ShiftRight<k_lane_bits>(place))),
-        ball(IndicesFromVec(DI(), BitCast(DI(), And(place, Set(DU(), (1 << k_lane_bits) - 1))))) {}
+        ball(IndicesFromVec(DI(), BitCast(DI(), And(place, all((1u << k_lane_bits) - 1))))) {}
   // Of all balls in a row.
   static HWY_INLINE VU all_of(int row) { return BitCast(DU(), from_on(row << k_lane_bits)); }
 };
@@ -90,7 +87,7 @@ class Batch {
   }
 
   VU lights() const { return lights_; }
-  VU all_columns() const { return Set(DU(), ColumnSpan::of(0, static_cast<std::uint32_t>(planes_->columns) - 1)); }
+  VU all_columns() const { return all(ColumnSpan::of(0, static_cast<std::uint32_t>(planes_->columns) - 1)); }
 
   HWY_INLINE BallRows find_rows() const {
     const V top = all(planes_->slope.front()), bottom = all(planes_->slope[static_cast<std::size_t>(planes_->rows)]);
@@ -100,10 +97,10 @@ class Batch {
     const V scale = all(planes_->rows_per_slope), tolerance = all(planes_->row_tolerance), zero = Zero(D());
     const V from = (top - Min(upwards_.high, top)) * scale - tolerance;
     const V to = (top - Max(upwards_.low, bottom)) * scale + tolerance;
-    const VI last_row = all_int(planes_->rows - 1);
+    const VI last_row = all(planes_->rows - 1);
     const VI first = Min(whole(Floor(Max(from, zero))), last_row);
     const VI last = Min(whole(Floor(Max(to, zero))), last_row);
-    const VI count = IfThenElseZero(RebindMask(DI(), touches), last - first + all_int(1));
+    const VI count = IfThenElseZero(RebindMask(DI(), touches), last - first + all(1));
     return {first, count, RebindMask(DI(), And(touches, least_area_ == zero))};
   }
 
@@ -165,12 +162,12 @@ class Batch {
     if (!AllTrue(D(), Or(is_certain(Min(from_first, to_last)), Not(touches)))) {
       const auto mark = [&](V inwards, std::uint32_t bit) {
         const M certain = Or(is_certain(inwards), is_certain_by_chord(place, slopes, inwards, steepness));
-        return IfThenZeroElse(RebindMask(DU(), certain), Set(DU(), bit));
+        return IfThenZeroElse(RebindMask(DU(), certain), all(bit));
       };
       columns = Or(columns, Or(mark(from_first, BatchSpans::k_first_is_uncertain),
                                mark(to_last, BatchSpans::k_last_is_uncertain)));
     }
-    return IfThenElse(RebindMask(DU(), touches), columns, Set(DU(), BatchRows::k_none));
+    return IfThenElse(RebindMask(DU(), touches), columns, all(BatchRows::k_none));
   }
 
  private:
@@ -275,7 +272,7 @@ class Batch {
     const V depth = Min(Max(ball.depth, all(near_)), all(far_)), along = ball.depth - depth;
     const V metres = metres_per_slope(depth);
     const V across = gap(all(planes_->left) * metres, ball.x, all(planes_->right) * metres);
-    const V up = gap(slopes.at(place.row + all_int(1)) * metres, ball.y, slopes.at(place.row) * metres);
+    const V up = gap(slopes.at(place.row + all(1)) * metres, ball.y, slopes.at(place.row) * metres);
     const V half_square = ball.radius * ball.radius - (across * across + up * up + along * along);
     const V least = all(5.0f) * (ball.slack * ball.radius), way = least * taken(rate_, place.ball);
     // An infinite radius has no chord.
@@ -305,9 +302,8 @@ std::uint32_t lanes() {
 
 // What is known of a batch before its columns: the rows that each ball may touch.
 HWY_INLINE void start_batch(int grid_rows, const BallRows& rows, BatchSpans& out) {
-  const DI di;
   out.count = out.uncertain_count = 0;
-  out.tests = static_cast<std::uint32_t>(GetLane(SumOfLanes(di, rows.count)));
+  out.tests = static_cast<std::uint32_t>(GetLane(SumOfLanes(DI(), rows.count)));
   // A loop over all rows is foretold by the processor, unlike one whose ends wait for the balls.
   constexpr int k_few_rows = 32;
   if (grid_rows <= k_few_rows) {
@@ -315,71 +311,66 @@ HWY_INLINE void start_batch(int grid_rows, const BallRows& rows, BatchSpans& out
     out.last_row = grid_rows - 1;
     return;
   }
-  const MI touches = rows.count > Zero(di);
+  const MI touches = rows.count > Zero(DI());
   const VI end = IfThenElseZero(touches, rows.first + rows.count);
-  out.first_row = GetLane(MinOfLanes(di, IfThenElse(touches, rows.first, all_int(grid_rows))));
-  out.last_row = GetLane(MaxOfLanes(di, end)) - 1;
+  out.first_row = GetLane(MinOfLanes(DI(), IfThenElse(touches, rows.first, all(grid_rows))));
+  out.last_row = GetLane(MaxOfLanes(DI(), end)) - 1;
 }
 
 // The balls that may touch each row, and do not hold all of it, row after row.
 HWY_INLINE void list_places(const BallRows& rows, BatchSpans& out) {
-  const DU du;
   std::uint32_t* HWY_RESTRICT places = out.places.data();
   std::uint32_t* HWY_RESTRICT sizes = out.sizes.data();
   std::uint32_t count = 0;
-  const VU others = BitCast(du, IfThenZeroElse(rows.full, rows.count));
-  VU skipped = BitCast(du, all_int(out.first_row) - rows.first);  // of each ball's rows; large before its first one
+  const VU others = BitCast(DU(), IfThenZeroElse(rows.full, rows.count));
+  VU skipped = BitCast(DU(), all(out.first_row) - rows.first);  // of each ball's rows; large before its first one
   VU place = Place::all_of(out.first_row);
   for (int row = out.first_row, last = out.last_row; row <= last; ++row) {
     const auto wanted = skipped < others;
-    StoreU(compressed(du, place, wanted), du, places + count);
-    const auto size = static_cast<std::uint32_t>(CountTrue(du, wanted));
+    store_wanted(place, wanted, places + count);
+    const auto size = static_cast<std::uint32_t>(CountTrue(DU(), wanted));
     sizes[row] = size;
     count += size;
-    skipped = skipped + Set(du, 1);
-    place = place + Set(du, 1 << Place::k_lane_bits);
+    skipped = skipped + all(1u);
+    place = place + all(1u << Place::k_lane_bits);
   }
-  StoreU(Zero(du), du, places + count);
+  StoreU(Zero(DU()), DU(), places + count);
   out.count = count;
 }
 
 // What the balls have in all rows.
 template <class Batch>
 HWY_INLINE void find_hulls(const Table& slopes, const Batch& batch, BatchSpans& out) {
-  const D d;
   const std::uint32_t *places = out.places.data(), count = out.count;
-  for (std::uint32_t begin = 0; begin < count; begin += static_cast<std::uint32_t>(Lanes(d))) {
+  for (std::uint32_t begin = 0; begin < count; begin += lane_count()) {
     const Place place(LoadU(DU(), places + begin));
-    const Hull hull = batch.hull_of(place.ball, slopes.at(place.row), slopes.at(place.row + all_int(1)));
-    StoreU(hull.low, d, out.low.data() + begin);
-    StoreU(hull.high, d, out.high.data() + begin);
+    const Hull hull = batch.hull_of(place.ball, slopes.at(place.row), slopes.at(place.row + all(1)));
+    StoreU(hull.low, D(), out.low.data() + begin);
+    StoreU(hull.high, D(), out.high.data() + begin);
   }
 }
 
 // Lists what is uncertain of `count` spans, at most a vector of them, from span `first` on.
 HWY_INLINE void list_uncertain(VU columns, std::uint32_t count, std::uint32_t first, BatchSpans& out) {
-  const DU du;
-  const VU marks = And(columns, Set(du, BatchSpans::k_first_is_uncertain | BatchSpans::k_last_is_uncertain));
-  const auto is_marked = And(Ne(marks, Zero(du)), FirstN(du, count));
-  const auto is_uncertain = And(is_marked, Ne(columns, Set(du, BatchRows::k_none)));
-  if (AllFalse(du, is_uncertain)) return;
-  const VU indices = BitCast(du, from_on(static_cast<std::int32_t>(first)));
-  StoreU(compressed(du, indices, is_uncertain), du, out.uncertain.data() + out.uncertain_count);
-  out.uncertain_count += static_cast<std::uint32_t>(CountTrue(du, is_uncertain));
+  const VU marks = And(columns, all(BatchSpans::k_first_is_uncertain | BatchSpans::k_last_is_uncertain));
+  const auto is_marked = And(Ne(marks, Zero(DU())), FirstN(DU(), count));
+  const auto is_uncertain = And(is_marked, Ne(columns, all(BatchRows::k_none)));
+  if (AllFalse(DU(), is_uncertain)) return;
+  const VU indices = BitCast(DU(), from_on(static_cast<std::int32_t>(first)));
+  store_wanted(indices, is_uncertain, out.uncertain.data() + out.uncertain_count);
+  out.uncertain_count += static_cast<std::uint32_t>(CountTrue(DU(), is_uncertain));
 }
 
 // The columns of all rows.
 template <class Batch>
 HWY_INLINE void find_columns(const Table& slopes, const Batch& batch, BatchSpans& out) {
-  const D d;
-  const DU du;
   const std::uint32_t *places = out.places.data(), count = out.count;
-  for (std::uint32_t begin = 0; begin < count; begin += static_cast<std::uint32_t>(Lanes(d))) {
+  for (std::uint32_t begin = 0; begin < count; begin += lane_count()) {
     const Place place(LoadU(DU(), places + begin));
-    const Hull hull = {LoadU(d, out.low.data() + begin), LoadU(d, out.high.data() + begin)};
-    const VU columns = batch.columns_of(place, slopes, hull, FirstN(d, count - begin));
-    StoreU(columns, du, out.columns.data() + begin);
-    StoreU(BitCast(du, taken(BitCast(DI(), batch.lights()), place.ball)), du, out.lights.data() + begin);
+    const Hull hull = {LoadU(D(), out.low.data() + begin), LoadU(D(), out.high.data() + begin)};
+    const VU columns = batch.columns_of(place, slopes, hull, FirstN(D(), count - begin));
+    StoreU(columns, DU(), out.columns.data() + begin);
+    StoreU(BitCast(DU(), taken(BitCast(DI(), batch.lights()), place.ball)), DU(), out.lights.data() + begin);
     list_uncertain(columns, count - begin, begin, out);
   }
 }
@@ -387,22 +378,21 @@ HWY_INLINE void find_columns(const Table& slopes, const Batch& batch, BatchSpans
 // Adds to each row those that hold all of it.
 template <class Batch>
 HWY_INLINE void add_full(const Batch& batch, const BallRows& rows, BatchSpans& out) {
-  const DU du;
   const VI end_of_others = IfThenZeroElse(rows.full, rows.first + rows.count);
   std::swap(out.places, out.columns);
   const std::uint32_t* others = out.places.data();  // their columns
   out.count = out.uncertain_count = 0;
   for (int row = out.first_row; row <= out.last_row; ++row) {
     std::uint32_t& size = out.sizes[static_cast<std::size_t>(row)];
-    const MI found = And(rows.first<all_int(row + 1), end_of_others> all_int(row));
-    const auto wanted = RebindMask(du, Or(found, rows.full));
-    const VU columns = IfThenElse(RebindMask(du, rows.full), batch.all_columns(),
-                                  expanded(du, LoadU(du, others), RebindMask(du, found)));
-    const VU listed = compressed(du, columns, wanted);
-    StoreU(listed, du, out.columns.data() + out.count);
-    StoreU(compressed(du, batch.lights(), wanted), du, out.lights.data() + out.count);
+    const MI found = And(rows.first < all(row + 1), all(row) < end_of_others);
+    const auto wanted = RebindMask(DU(), Or(found, rows.full));
+    const VU columns = IfThenElse(RebindMask(DU(), rows.full), batch.all_columns(),
+                                  expanded(DU(), LoadU(DU(), others), RebindMask(DU(), found)));
+    const VU listed = compressed(DU(), columns, wanted);
+    StoreU(listed, DU(), out.columns.data() + out.count);
+    store_wanted(batch.lights(), wanted, out.lights.data() + out.count);
     others += size;
-    size = static_cast<std::uint32_t>(CountTrue(du, wanted));
+    size = static_cast<std::uint32_t>(CountTrue(DU(), wanted));
     list_uncertain(listed, size, out.count, out);
     out.count += size;
   }
@@ -439,8 +429,7 @@ void rows_of(const RowPlanes& planes, const SphereSetup& shapes, std::span<const
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

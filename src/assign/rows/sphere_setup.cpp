@@ -1,15 +1,12 @@
 #include "assign/rows/sphere_setup.h"
 
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assign/rows/sphere_setup.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
 
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 // Both tangents from the eye to a circle.
@@ -41,10 +38,9 @@ HWY_INLINE V lifted(V radius, V distance_square) {
 }
 
 void setup_of(const VisibleBalls& visible, std::uint32_t count, SphereSetup& out) {
-  const D d;
-  const V zero = Zero(d);
-  for (std::size_t i = 0; i < count; i += Lanes(d)) {
-    const auto load = [&](const auto& from) { return LoadU(d, reinterpret_cast<const float*>(from.data() + i)); };
+  const V zero = Zero(D());
+  for (std::size_t i = 0; i < count; i += Lanes(D())) {
+    const auto load = [&](const auto& from) { return LoadU(D(), reinterpret_cast<const float*>(from.data() + i)); };
     // Balls that are everywhere are around the eye, where no product of theirs is infinite minus infinite.
     const V given = load(visible.radius);
     const M is_bounded = given < infinity();
@@ -74,17 +70,16 @@ void setup_of(const VisibleBalls& visible, std::uint32_t count, SphereSetup& out
     const M is_precise = Abs(upright) >= least;
     const V inverse_upright = IfThenElse(is_outside, IfThenElseZero(is_precise, all(1.0f) / upright), infinity());
     const V lean = IfThenElseZero(is_outside, x / tangent);
-    StoreInterleaved4(x, y, depth, radius, d, out.sphere.data() + 4 * i);
-    StoreInterleaved4(slack, load(visible.light), lean, inverse_upright, d, out.touch.data() + 4 * i);
+    StoreInterleaved4(x, y, depth, radius, D(), out.sphere.data() + 4 * i);
+    StoreInterleaved4(slack, load(visible.light), lean, inverse_upright, D(), out.touch.data() + 4 * i);
     const Touches sideways = touches_of(x, depth, radius, ahead_square);
     const Touches upwards = touches_of(y, depth, radius, ahead_square);
-    StoreInterleaved4(sideways.low, sideways.high, upwards.low, upwards.high, d, out.extremes.data() + 4 * i);
+    StoreInterleaved4(sideways.low, sideways.high, upwards.low, upwards.high, D(), out.extremes.data() + 4 * i);
   }
 }
 
 }  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE

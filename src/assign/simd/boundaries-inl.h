@@ -1,5 +1,5 @@
 // Where values are among the boundaries of an axis, for files that are compiled once per target: a guess that the
-// boundaries themselves settle. Included after hwy/highway.h; defines its names anew for each target.
+// boundaries themselves settle.
 
 #if defined(CLUSTERBENCH_BOUNDARIES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_BOUNDARIES_INL_H
@@ -12,28 +12,26 @@
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
 
 // passes(boundary) holds up to some boundary and for none beyond. Finds the last of boundaries `least` .. that passes,
 // or `least` (0 or -1), whether it passes or not; with -1 the last boundary is not asked. Looks first at the guess.
 template <class Passes>
 HWY_INLINE VI last_passed(const std::vector<float>& boundaries, VI guess, int least, Passes&& passes) {
-  const DI di;
   const auto count = static_cast<std::int32_t>(boundaries.size()) - 1;
-  const VI zero = Zero(di), from = Set(di, least), to = Set(di, count + least);
-  const auto at = [&](VI index) { return RebindMask(di, passes(gathered(boundaries, index))); };
+  const VI zero = Zero(DI()), from = all(least), to = all(count + least);
+  const auto at = [&](VI index) { return RebindMask(DI(), passes(gathered(boundaries, index))); };
   VI index = Min(Max(guess, from), to);
   for (;;) {
-    const VI next = index + all_int(1);
+    const VI next = index + all(1);
     const auto goes_on = And(index < to, at(Min(next, to)));
-    if (AllFalse(di, goes_on)) break;
+    if (AllFalse(DI(), goes_on)) break;
     index = IfThenElse(goes_on, next, index);
   }
   for (;;) {
     const auto goes_back = AndNot(at(Max(index, zero)), index > from);
-    if (AllFalse(di, goes_back)) return index;
-    index = IfThenElse(goes_back, index - all_int(1), index);
+    if (AllFalse(DI(), goes_back)) return index;
+    index = IfThenElse(goes_back, index - all(1), index);
   }
 }
 
@@ -61,8 +59,7 @@ HWY_INLINE Indices touched(const BoundaryAxis& axis, V low, V high) {
           last_touched(axis.boundaries, guessed(axis, high), high)};
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

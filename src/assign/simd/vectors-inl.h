@@ -1,5 +1,6 @@
-// Single-precision vectors of a whole register, for files that are compiled once per target. Included after
-// hwy/highway.h; defines its names anew for each target.
+// Single-precision vectors of a whole register. As all of these -inl.h, for files that are compiled once per target: it
+// defines its names anew for each. Such a file defines HWY_TARGET_INCLUDE and includes hwy/foreach_target.h before any
+// of these, as Highway wants it.
 
 #if defined(CLUSTERBENCH_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_VECTORS_INL_H
@@ -15,13 +16,14 @@
 #include <limits>
 #include <vector>
 
-#include "assign/simd/compress-inl.h"
+#include "assign/simd/bit_tables.h"
 #include "assign/simd/lanes.h"
 #include "core/aligned_vector.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace clusterbench::assign {
-namespace HWY_NAMESPACE {
+namespace clusterbench::assign::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::ScalableTag<float>;
 using DI = hn::ScalableTag<std::int32_t>;
@@ -33,9 +35,6 @@ using M = hn::Mask<D>;
 using MI = hn::Mask<DI>;
 static_assert(MaxLanes(D()) <= k_row_lanes);
 
-HWY_INLINE V all(float value) {
-  return Set(D(), value);
-}
 // In doubles, and as many single numbers and indices.
 using DD = hn::ScalableTag<double>;
 using DF = hn::Rebind<float, DD>;
@@ -45,9 +44,23 @@ using VF = hn::Vec<DF>;
 using VH = hn::Vec<DH>;
 using MD = hn::Mask<DD>;
 
-HWY_INLINE VD all(double value) {
-  return Set(DD(), value);
+HWY_INLINE std::uint32_t lane_count() {
+  return static_cast<std::uint32_t>(Lanes(D()));
 }
+// Vectors of a number's own type, a whole register: all of one number, and numbers looked up.
+template <class T>
+HWY_INLINE auto all(T value) {
+  return Set(hn::ScalableTag<T>(), value);
+}
+template <class T>
+HWY_INLINE auto gathered(const T* from, VI indices) {
+  return GatherIndex(hn::ScalableTag<T>(), from, indices);
+}
+template <class T, class... Allocator>
+HWY_INLINE auto gathered(const std::vector<T, Allocator...>& from, VI indices) {
+  return gathered(from.data(), indices);
+}
+
 HWY_INLINE V infinity() {
   return all(std::numeric_limits<float>::infinity());
 }
@@ -63,20 +76,6 @@ HWY_INLINE V clamped(V low, V value, V high) {
 HWY_INLINE V gap(V low, V coordinate, V high) {
   return Max(Zero(D()), Max(low - coordinate, coordinate - high));
 }
-HWY_INLINE VI all_int(std::int32_t value) {
-  return Set(DI(), value);
-}
-HWY_INLINE V gathered(const float* from, VI indices) {
-  return GatherIndex(D(), from, indices);
-}
-HWY_INLINE VI gathered(const std::int32_t* from, VI indices) {
-  return GatherIndex(DI(), from, indices);
-}
-template <class Allocated>
-HWY_INLINE auto gathered(const Allocated& from, VI indices) {
-  return gathered(from.data(), indices);
-}
-
 // Four numbers of each lane.
 struct Quads {
   V first, second, third, fourth;
@@ -112,11 +111,9 @@ HWY_INLINE Quads gathered_quads(const float* from, const std::uint32_t* indices)
 
 // Lane i of the answer is lane which[i] of the value.
 using Which = decltype(IndicesFromVec(DI(), VI()));
-HWY_INLINE VI taken(VI value, Which which) {
-  return TableLookupLanes(value, which);
-}
-HWY_INLINE V taken(V value, Which which) {
-  return BitCast(D(), taken(BitCast(DI(), value), which));
+template <class Vector>
+HWY_INLINE Vector taken(Vector value, Which which) {
+  return BitCast(hn::DFromV<Vector>(), TableLookupLanes(BitCast(DI(), value), which));
 }
 
 // As many values as two registers hold, looked up there: several times as fast as gathering.
@@ -129,7 +126,7 @@ class RegisterTable {
 #if HWY_TARGET <= HWY_AVX3
     return V{_mm512_permutex2var_ps(first_.raw, index.raw, second_.raw)};
 #else
-    const VI last = Set(DI(), static_cast<std::int32_t>(Lanes(D())) - 1);
+    const VI last = all(static_cast<std::int32_t>(Lanes(D())) - 1);
     const Which within = IndicesFromVec(DI(), And(index, last));
     return IfThenElse(RebindMask(D(), index > last), taken(second_, within), taken(first_, within));
 #endif
@@ -157,7 +154,7 @@ class Table {
 
 // first, first + 1, ... Highway's Iota of a number that is not constant goes through memory.
 HWY_INLINE VI from_on(std::int32_t first) {
-  return all_int(first) + Iota(DI(), 0);
+  return all(first) + Iota(DI(), 0);
 }
 
 // A whole number from 0 to 2^22 as an integer, with less ado than ConvertTo, which looks for ones that do not fit. From
@@ -176,7 +173,7 @@ class Carried {
  public:
   HWY_INLINE Carried() {
     const auto n = static_cast<std::int32_t>(Lanes(D()));
-    one_back_ = IndicesFromVec(DI(), And(from_on(n - 1), all_int(n - 1)));
+    one_back_ = IndicesFromVec(DI(), And(from_on(n - 1), all(n - 1)));
   }
   // `turned`: what the call for the vector before left there.
   template <class Vector>
@@ -191,29 +188,67 @@ class Carried {
   Which one_back_;
 };
 
-// Appends the wanted lanes of vectors to arrays, which have room for a whole vector from index `at` on.
-class Appender {
- public:
-  HWY_INLINE Appender(M wanted, std::uint32_t at) : wanted_(wanted), at_(at) {}
+// --- Lanes of 32 bits side by side. Instruction sets without an instruction for it look up where lanes go in one
+// table. Highway 1.0's own Compress does that, too, but built by g++ it copies its table of a kilobyte to the stack
+// each time: five times slower on AVX2. ---
 
-  template <class Vector>
-  HWY_INLINE void operator()(Vector value, AlignedVector<hn::TFromV<Vector>>& to) const {
-    const hn::DFromV<Vector> d;
-    StoreU(compressed(d, value, RebindMask(d, wanted_)), d, to.data() + at_);
-  }
+// Bit i is lane i's, of a mask of at most 8 lanes.
+template <class Tag, class Mask>
+HWY_INLINE unsigned bits_of(Tag d, Mask mask) {
+  std::uint8_t bits[8];
+  StoreMaskBits(d, mask, bits);
+  return bits[0];
+}
 
- private:
-  M wanted_;
-  std::uint32_t at_;
-};
+// What a table says of a mask of at most 8 lanes, a lane for each.
+template <class Tag, class Mask, class BitTable>
+HWY_INLINE auto lanes_of(Tag d, Mask wanted, const BitTable& table) {
+  const auto lanes = LoadU(hn::Rebind<std::uint8_t, Tag>(), table[bits_of(d, wanted)].data());
+  return IndicesFromVec(d, PromoteTo(hn::RebindToSigned<Tag>(), lanes));
+}
+
+// Lanes of 32 bits, the wanted ones first.
+template <class Tag, class Vector, class Mask>
+HWY_INLINE Vector compressed([[maybe_unused]] Tag d, Vector lanes, Mask wanted) {
+#if HWY_TARGET <= HWY_AVX3
+  // Not with zeros behind them, as Highway has it: on Zen 5 that waits for what was in the register before.
+  const hn::RebindToFloat<Tag> df;
+  const auto raw = BitCast(df, lanes).raw;
+  return BitCast(d, hn::Vec<decltype(df)>{_mm512_mask_compress_ps(raw, wanted.raw, raw)});
+#elif HWY_TARGET == HWY_SCALAR
+  return Compress(lanes, wanted);
+#else
+  return TableLookupLanes(lanes, lanes_of(d, wanted, k_bit_tables.lanes));
+#endif
+}
+
+// The other way: the wanted lanes of the answer are the first ones, in their order. Others are anything.
+template <class Tag, class Vector, class Mask>
+HWY_INLINE Vector expanded([[maybe_unused]] Tag d, Vector lanes, [[maybe_unused]] Mask wanted) {
+#if HWY_TARGET <= HWY_AVX3
+  const hn::RebindToFloat<Tag> df;
+  const auto raw = BitCast(df, lanes).raw;
+  return BitCast(d, hn::Vec<decltype(df)>{_mm512_mask_expand_ps(raw, wanted.raw, raw)});
+#elif HWY_TARGET == HWY_SCALAR
+  return lanes;
+#else
+  return TableLookupLanes(lanes, lanes_of(d, wanted, k_bit_tables.ranks));
+#endif
+}
+
+// Stores the wanted lanes side by side, where there is room for a whole vector.
+template <class Vector, class Mask>
+HWY_INLINE void store_wanted(Vector value, Mask wanted, hn::TFromV<Vector>* to) {
+  const hn::DFromV<Vector> d;
+  StoreU(compressed(d, value, RebindMask(d, wanted)), d, to);
+}
 
 // from[0] .. from[count - 1], and 0 beyond if that is less than a vector.
 HWY_INLINE V loaded(const float* from, std::uint32_t count) {
-  const D d;
-  if (count >= Lanes(d)) return LoadU(d, from);
+  if (count >= Lanes(D())) return LoadU(D(), from);
   float rest[k_most_lanes] = {};
   std::copy(from, from + count, rest);
-  return LoadU(d, rest);
+  return LoadU(D(), rest);
 }
 
 // LightArrays::padded_radius
@@ -222,8 +257,7 @@ HWY_INLINE V padded(V radius, V reach, float roundoffs) {
   return radius + all(roundoffs) * (all(0x1p-24f) * reach);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace clusterbench::assign
+}  // namespace clusterbench::assign::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif
