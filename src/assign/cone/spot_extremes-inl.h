@@ -94,7 +94,7 @@ using PlaneExtremes = ExtremesOf<orthographic, true>;
 struct SpotShapes {
   Cone cone;
   V slack;
-  Point m1, m2;           // unit vectors across the axis
+  Point m1, m2;           // unit vectors across the axis; not of spots that were looked up
   Point rim, rim1, rim2;  // its middle, and from there to two of its points
   V least_along;          // the axis, of points of the sphere that are in the cone
 
@@ -239,7 +239,7 @@ struct SpotsInSlices {
     inverse_form = inverse(square_of(cone.axis.x) - square_of(cone.cosine));
   }
 
-  // Calls take for each of its vectors, in the same order every time; but m1 and m2, which only `generators` needed.
+  // Calls take for each of its vectors, in the same order every time; m1 and m2 are needed before that only.
   template <class Take>
   HWY_INLINE void each(Take&& take) {
     const auto take_point = [&](Point& p) {
@@ -257,10 +257,10 @@ struct SpotsInSlices {
   }
   static constexpr int k_vectors = 33;
 
-  // What reaches farthest in a tile plane, y = slope * w. `tilt`: sqrt(1 + slope²).
-  HWY_INLINE PlaneExtremes<orthographic> in_tile_plane(V slope, V tilt, V inverse_tilt) const {
+  // What reaches farthest in a tile plane, y = slope * w.
+  HWY_INLINE PlaneExtremes<orthographic> in_tile_plane(V slope) const {
     PlaneExtremes<orthographic> found(slope);
-    take_tangents(slope, tilt, inverse_tilt, found);
+    take_tangents(slope, found);
     take_rim(slope, found);
     take_generators(slope, found);
     take_edge(slope, between.near, between.inverse_near, found);
@@ -269,7 +269,7 @@ struct SpotsInSlices {
   }
 
  private:
-  HWY_INLINE void take_tangents(V slope, V tilt, V inverse_tilt, PlaneExtremes<orthographic>& found) const {
+  HWY_INLINE void take_tangents(V slope, PlaneExtremes<orthographic>& found) const {
     using Projected = ProjectedPoint<orthographic>;
     const Point& a = shapes.cone.apex;
     const V range = shapes.cone.range, zero = Zero(D());
@@ -280,7 +280,8 @@ struct SpotsInSlices {
       found.take(is_in(low), low, Side::left);
       found.take(is_in(high), high, Side::right);
     };
-    const V away = orthographic ? a.y - slope : (a.y - slope * a.depth) * inverse_tilt;
+    const V tilt = orthographic ? all(1.0f) : Sqrt(all(1.0f) + square_of(slope)), inverse_tilt = inverse(tilt);
+    const V away = (a.y - slope * w_of<orthographic>(a.depth)) * inverse_tilt;
     const V rho_square = (range - away) * (range + away), rho = root(rho_square);
     if constexpr (orthographic) {
       take_both(rho_square >= zero, {a.x - rho, slope, a.depth}, {a.x + rho, slope, a.depth});

@@ -130,7 +130,7 @@ class Ends {
 
 // The rows of some spots in slices, to the end of what was found.
 template <bool orthographic>
-void rows_of(const RowPlanes& planes, const PlaneTables& tables, const Slices<orthographic>& slices, SpotRows& out) {
+void rows_of(const RowPlanes& planes, const Table& slopes, const Slices<orthographic>& slices, SpotRows& out) {
   const hn::Rebind<std::uint8_t, DU> du8;
   const auto n = static_cast<std::int32_t>(Lanes(D()));
   const std::int32_t count = slices.list_rows(out);
@@ -144,9 +144,8 @@ void rows_of(const RowPlanes& planes, const PlaneTables& tables, const Slices<or
                                                        IndicesFromVec(DI(), in_slice - all(first_slice))};
     const SpotsInSlices<orthographic> spots = lookup.spots();
     const VI above_row = Max(row, Zero(DI())), below_row = row + all(1);
-    const V top = tables.slope.at(above_row), bottom = tables.slope.at(below_row);
-    const PlaneExtremes<orthographic> below =
-        spots.in_tile_plane(bottom, tables.tilt.at(below_row), tables.inverse_tilt.at(below_row));
+    const V top = slopes.at(above_row), bottom = slopes.at(below_row);
+    const PlaneExtremes<orthographic> below = spots.in_tile_plane(bottom);
     const PlaneExtremes<orthographic> above = below.carried(carry, turned, top);
     const M has_above = RebindMask(D(), carry(in_slice, turned_slice) == in_slice);
     const V room = spots.shapes.slack * spots.between.inverse_far;
@@ -180,13 +179,13 @@ void rows_of(const RowPlanes& planes, const PlaneTables& tables, const Slices<or
 
 template <bool orthographic>
 void rows_of_all(const view::LightArrays& lights, const RowPlanes& planes, const SpotSlices& slices, SpotRows& out) {
-  const PlaneTables tables(planes);
+  const Table slopes(planes.slope, planes.rows + 1);
   constexpr std::uint32_t k_most = Slices<orthographic>::k_most;
   for (std::uint32_t begin = 0; begin < slices.count; begin += k_most) {
     const std::uint32_t end = std::min(begin + k_most, slices.count);
-    const Slices<orthographic> some(lights, planes, tables, slices, begin, end);
+    const Slices<orthographic> some(lights, planes, slopes, slices, begin, end);
     out.make_room(std::size_t{k_most} * static_cast<std::size_t>(planes.rows + 1));
-    rows_of(planes, tables, some, out);
+    rows_of(planes, slopes, some, out);
   }
 }
 

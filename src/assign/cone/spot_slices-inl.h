@@ -14,16 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 
-// The tile planes between rows, looked up.
-struct PlaneTables {
-  Table slope, tilt, inverse_tilt;
-
-  HWY_INLINE explicit PlaneTables(const RowPlanes& planes)
-      : slope(planes.slope, planes.rows + 1),
-        tilt(planes.tilt, planes.rows + 1),
-        inverse_tilt(planes.inverse_tilt, planes.rows + 1) {}
-};
-
 // Outwards, of a plane that touches spots in a point of their surface; any length. In points of the rim one that holds
 // the direction of an edge, between the sphere's tangent plane and that of the cone's side. At the apex, and where both
 // of these hold the edge, one that is given.
@@ -79,10 +69,10 @@ struct RowsReached {
 template <bool orthographic>
 class Reached {
  public:
-  HWY_INLINE Reached(const RowPlanes& planes, const PlaneTables& tables, const SpotShapes& spots,
-                     const SlicePlanes& between, V light)
+  HWY_INLINE Reached(const RowPlanes& planes, const Table& slopes, const SpotShapes& spots, const SlicePlanes& between,
+                     V light)
       : planes_(planes),
-        tables_(tables),
+        slopes_(slopes),
         spots_(exchanged(spots.cone), spots.slack),
         between_(between),
         light_(light) {}
@@ -96,8 +86,8 @@ class Reached {
     const V low = found.low.across - spots_.slack / w_of<orthographic>(found.low.depth);
     const Range guess = rows_between(low, high);
     const M exist = found.exist();
-    const M none_above = And(And(plain, exist), is_apart(found.high, tables_.slope.at(guess.first), all(1.0f)));
-    const M none_below = And(And(plain, exist), is_apart(found.low, tables_.slope.at(guess.end), all(-1.0f)));
+    const M none_above = And(And(plain, exist), is_apart(found.high, slopes_.at(guess.first), all(1.0f)));
+    const M none_below = And(And(plain, exist), is_apart(found.low, slopes_.at(guess.end), all(-1.0f)));
     const VI none = Zero(DI()), rows = all(planes_.rows);
     Range touched = {none, rows};
     if (!AllTrue(D(), Or(And(none_above, none_below), Not(plain)))) touched = rows_of_extents(plain);
@@ -170,8 +160,8 @@ class Reached {
   }
 
   const RowPlanes& planes_;
-  const PlaneTables& tables_;
-  SpotShapes spots_;  // x and y exchanged
+  const Table& slopes_;  // of the tile planes between rows
+  SpotShapes spots_;     // x and y exchanged
   const SlicePlanes& between_;
   V light_;
 };
@@ -182,7 +172,7 @@ class Slices {
  public:
   static constexpr std::uint32_t k_most = 64;
 
-  HWY_INLINE Slices(const view::LightArrays& lights, const RowPlanes& planes, const PlaneTables& tables,
+  HWY_INLINE Slices(const view::LightArrays& lights, const RowPlanes& planes, const Table& slopes,
                     const SpotSlices& slices, std::uint32_t begin, std::uint32_t end) {
     const float widest = std::max(std::abs(planes.left), std::abs(planes.right));
     const float highest =
@@ -195,7 +185,7 @@ class Slices {
                                    inverse_w(planes.inverse_depth.data()), inverse_w(planes.inverse_depth.data() + 1)};
       const V farthest = between.template farthest<orthographic>();
       const SpotShapes shapes(given.cone, tolerance_of<orthographic>(given.light, farthest, all(widest), all(highest)));
-      const Reached<orthographic> reached(planes, tables, shapes, between, given.light);
+      const Reached<orthographic> reached(planes, slopes, shapes, between, given.light);
       const RowsReached rows = reached.rows(are_plain(planes, given.light));
       SpotsInSlices<orthographic> in_slices(shapes, between, given.light);
       const MI wanted = And(rows.count > Zero(DI()), FirstN(DI(), end - i));

@@ -58,14 +58,9 @@ RowPlanes::RowPlanes(const grid::ScreenGrid& grid)
   column_tolerance = across.tolerance;
   rows_per_slope = down.tiles_per_slope;
   row_tolerance = down.tolerance;
-  for (const float s : grid.tiles.y) {
-    const double t = std::sqrt(1.0 + static_cast<double>(s) * static_cast<double>(s));
-    slope.push_back(s);
-    tilt.push_back(static_cast<float>(t));
-    inverse_tilt.push_back(static_cast<float>(1.0 / t));
-  }
+  slope = grid.tiles.y;
   side = grid.tiles.x;
-  for (std::vector<float>* list : {&slope, &tilt, &inverse_tilt, &side}) list->resize(list->size() + k_most_lanes);
+  for (std::vector<float>* list : {&slope, &side}) list->resize(list->size() + k_most_lanes);
   for (const float z : grid.slices.boundaries) {
     depth.push_back(z);
     inverse_depth.push_back(z > 0.0f ? 1.0f / z : 1e30f);  // at the eye every slope but 0 is beyond the picture

@@ -15,10 +15,10 @@ struct RowPlanes {
   static constexpr float k_least_slice_m = 1e-6f, k_most_slope = 1e4f;
 
   bool orthographic = false;
-  std::vector<float> slope, tilt, inverse_tilt;  // of the tile planes from the top; sqrt(1 + slope²); padded
-  std::vector<float> depth, inverse_depth;       // of the slice planes
-  std::vector<float> searched;                   // the slices' near depths, then +inf up to 2^n of them
-  std::vector<float> side;                       // slopes of the columns, padded by whole vectors
+  std::vector<float> slope;                 // of the tile planes from the top, padded by whole vectors
+  std::vector<float> depth, inverse_depth;  // of the slice planes
+  std::vector<float> searched;              // the slices' near depths, then +inf up to 2^n of them
+  std::vector<float> side;                  // slopes of the columns, padded likewise
   int rows = 0, columns = 0, slices = 0;
   float left = 0.0f, right = 0.0f, columns_per_slope = 0.0f, column_tolerance = 0.0f;
   float rows_per_slope = 0.0f, row_tolerance = 0.0f;
