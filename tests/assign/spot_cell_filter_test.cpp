@@ -101,6 +101,35 @@ TEST(SpotLooks, say_yes_and_no_only_where_it_is_true_on_every_target) {
   });
 }
 
+// Squares of so short ways are denormal, or nothing.
+TEST(SpotLooks, say_nothing_wrong_of_apexes_as_good_as_at_a_corner) {
+  testing::Random random(23);
+  std::vector<scene::WorldLight> spots;
+  // What is across the axis has a coordinate of 2^-75, whose square rounds to nothing, or to the least number above.
+  for (int i = 0; i < 50000; ++i) {
+    const Vec3d axis = random.direction(), across = glm::cross(axis, random.direction());
+    const double most = std::max({std::abs(across.x), std::abs(across.y), std::abs(across.z)});
+    const Vec3d off = std::ldexp(random.between(1.0 - 1e-7, 1.0 + 2e-7), -75) / most * across;
+    spots.push_back(
+        testing::spot_light(off + random.between(-5e-23, 5e-23) * axis, 5.0, axis, random.between(0.05, 1.5)));
+  }
+  const view::Frame frame = testing::frame_of({true, -8, 8, -8, 8, 0, 20}, {1280, 720}, spots);
+  const grid::Grid grid = testing::grid_of(
+      testing::settings::screen_spec(grid::Kind::frustum, {2, 2}, grid::Scheme::linear, 4, 0.0), frame);
+  const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
+  const RowPlanes planes = planes_of(grid);
+  SpotCells pairs;
+  for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot)
+    for (std::uint32_t cell = 0; cell < 4; ++cell) pairs.add(place_of(grid, spot, cell));
+  on_each_target([&](const std::string& target) {
+    look_at_cells(lights, planes, pairs);
+    std::size_t wrong = 0;
+    for (std::uint32_t i = 0; i < pairs.count; ++i)
+      if (pairs.touch[i] == Touch::no && SpotJudge(grid, lights, pairs.spot[i]).touches(i % 4)) ++wrong;
+    EXPECT_EQ(wrong, 0u) << target;
+  });
+}
+
 // Cells long in depth that a spot's ball touches and its cone misses: the plane between often touches an edge alone.
 TEST(SpotLooks, tell_nearly_all_cells_beside_cones) {
   const grid::GridSpec spec =

@@ -55,9 +55,8 @@ class SpotCone {
 std::uint64_t touched_of(const CellRun& run, const SpotCone& cone, const CellBalls& cells) {
   const auto lanes = static_cast<std::uint32_t>(Lanes(Few()));
   std::uint64_t bits = 0;
-  for (std::uint32_t i = 0; i < run.count; i += lanes) {
+  for (std::uint32_t i = 0; i < run.count; i += lanes)
     bits |= std::uint64_t{bits_of(Few(), cone.touches(cells, std::size_t{run.cell} + i))} << i;
-  }
   return run.count < 64 ? bits & ((std::uint64_t{1} << run.count) - 1) : bits;
 }
 

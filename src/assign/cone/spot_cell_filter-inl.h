@@ -49,8 +49,8 @@ class Cells {
     return apart;
   }
 
-  // The plane along the cone's side with the widest gap: towards a corner, or as far from one as from another. Which
-  // ones, those say that are lowest over other planes.
+  // A guess at the plane along the cone's side with the widest gap: towards a corner, or as far from one as from
+  // another. Which ones, those say that are lowest over other planes.
   HWY_INLINE M is_beside_corners(const Point& lowest) const {
     Point next, last;
     const M beside = is_beside(lowest, next);
@@ -58,15 +58,15 @@ class Cells {
   }
 
   // The direction across the axis, no number if there is none, in which a plane along the cone's side is as far from
-  // one point as from another: cosine * (direction · step) = sine * (axis · step).
+  // one point as from another: cosine * (direction · step) = sine * (axis · step). Of both the one on a's side.
   HWY_INLINE Point equally_far_from(const Point& a, const Point& b) const {
     const Point step = b - a;
     const V along = dot(step, cone_.axis);
     const Point part = step - along * cone_.axis;
     const V size = length(part);
     const Point forth = (all(1.0f) / size) * part, aside = cross(cone_.axis, forth);
-    const V cosine = cone_.sine * along / (cone_.cosine * size), sine = Sqrt(all(1.0f) - cosine * cosine);
-    return cosine * forth + IfThenElse(dot(aside, a) < Zero(D()), Neg(sine), sine) * aside;
+    const V ahead = cone_.sine * along / (cone_.cosine * size), beside = Sqrt(all(1.0f) - ahead * ahead);
+    return ahead * forth + IfThenElse(dot(aside, a) < Zero(D()), Neg(beside), beside) * aside;
   }
 
   // From a point of the cell to the volume and back, a little too far.
@@ -94,9 +94,9 @@ class Cells {
   // Do all corners lie beyond the plane along the cone's side in the direction of v? And which is lowest over it.
   HWY_INLINE M is_beside(const Point& v, Point& lowest) const {
     const Point part = v - dot(v, cone_.axis) * cone_.axis;
-    // Where v is nearly along the axis, what is across it has few digits. Elsewhere up to 65 u of it are still along
-    // the axis; once more leaves 6 u.
-    const M is_good = dot(part, part) > all(0.01f) * dot(v, v);
+    // Where v is nearly along the axis, what is across it has few digits, and squares of less than 1e-15 lose theirs,
+    // or are nothing. Elsewhere up to 65 u of it are still along the axis; once more leaves 6 u.
+    const M is_good = dot(part, part) > Max(all(0.01f) * dot(v, v), all(1e-30f));
     const Point across = part - dot(part, cone_.axis) * cone_.axis;
     const Point outwards = (cone_.cosine / length(across)) * across - cone_.sine * cone_.axis;
     return And(is_good, least_along(outwards, lowest) > tolerance_);

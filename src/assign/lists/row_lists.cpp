@@ -87,7 +87,7 @@ struct Columns {
 };
 
 // What spans, one per lane, have of at most 32 columns: a bit for each of these, the first one's lowest.
-HWY_INLINE VU bits_of(VU spans, const Columns& columns) {
+HWY_INLINE VU column_bits(VU spans, const Columns& columns) {
   const VI begin = all(static_cast<std::int32_t>(columns.begin)), most = all(31);
   const VI last = all(static_cast<std::int32_t>(columns.end) - 1);
   const VI from = Max(BitCast(DI(), And(spans, all(0xffffu))), begin) - begin;
@@ -162,7 +162,7 @@ struct RowLists {
 
   // Of a vector of spans, none behind the last.
   HWY_INLINE VU bits_from(std::uint32_t i, const Columns& columns) const {
-    return IfThenElseZero(FirstN(DU(), row_size - i), bits_of(LoadU(DU(), row_columns + i), columns));
+    return IfThenElseZero(FirstN(DU(), row_size - i), column_bits(LoadU(DU(), row_columns + i), columns));
   }
 
   // Lists of columns from some lights, which fill at least so many vectors, and the bits of these columns and

@@ -6,7 +6,7 @@
 
 namespace clusterbench::assign {
 
-// For every 8 bits: how many are set before each of them, and which are set, ascending.
+// For every 8 bits: how many are set before each of them, and which are set, ascending, and 0 behind them.
 struct BitTables {
   std::array<std::array<std::uint8_t, 8>, 256> ranks, lanes;
 };

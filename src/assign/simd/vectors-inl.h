@@ -76,6 +76,7 @@ HWY_INLINE V clamped(V low, V value, V high) {
 HWY_INLINE V gap(V low, V coordinate, V high) {
   return Max(Zero(D()), Max(low - coordinate, coordinate - high));
 }
+
 // Four numbers of each lane.
 struct Quads {
   V first, second, third, fourth;
@@ -195,6 +196,7 @@ class Carried {
 // Bit i is lane i's, of a mask of at most 8 lanes.
 template <class Tag, class Mask>
 HWY_INLINE unsigned bits_of(Tag d, Mask mask) {
+  static_assert(MaxLanes(Tag()) <= 8);
   std::uint8_t bits[8];
   StoreMaskBits(d, mask, bits);
   return bits[0];

@@ -54,8 +54,8 @@ class Separator {
     each_edge(corners_, [&](const Point3<Real>& start, const Point3<Real>& end) { try_between(start, end); });
   }
 
-  // Of these the one that is most often the widest: the corner that is lowest over the plane towards the cell's middle,
-  // and the one that is lowest over the plane towards that.
+  // Those that are most often the widest: towards the corner that is lowest over the plane towards the cell's middle,
+  // and equally far from this one and the one that is lowest over the plane towards it.
   void try_likely_tangents() {
     Point3<Real> sum = corners_[0];
     for (std::size_t i = 1; i < 8; ++i) sum = sum + corners_[i];
