@@ -430,7 +430,7 @@ MUTATIONS = [
              "exact-fast takes for proven what rounding decides"),
     Mutation("fast-spot-plane-leans-away", "assign/cone/spot_cell_filter-inl.h",
              "dot(aside, a) < Zero(D())", "dot(aside, a) > Zero(D())",
-             "assign.SpotLooks.tell_nearly_all_cells_beside_cones",
+             "assign.SpotLooks.tell_of_nearly_all_cells_whether_cones_touch_them",
              "exact-fast decides cells beside cones in exact arithmetic, and takes its time"),
     Mutation("fast-spot-plane-of-vanished-squares", "assign/cone/spot_cell_filter-inl.h",
              "Max(all(0.01f) * dot(v, v), all(1e-30f))", "all(0.01f) * dot(v, v)",

@@ -49,12 +49,14 @@ class Cells {
     return apart;
   }
 
-  // A guess at the plane along the cone's side with the widest gap: towards a corner, or as far from one as from
+  // Guesses at the plane along the cone's side with the widest gap: towards a corner, or as far from one as from
   // another. Which ones, those say that are lowest over other planes.
   HWY_INLINE M is_beside_corners(const Point& lowest) const {
-    Point next, last;
-    const M beside = is_beside(lowest, next);
-    return Or(beside, is_beside(equally_far_from(lowest, next), last));
+    Point next, third, last;
+    M beside = is_beside(lowest, next);
+    beside = Or(beside, is_beside(equally_far_from(lowest, next), third));
+    beside = Or(beside, is_beside(equally_far_from(lowest, third), last));
+    return Or(beside, is_beside(equally_far_from(next, third), last));
   }
 
   // The direction across the axis, no number if there is none, in which a plane along the cone's side is as far from
@@ -69,17 +71,56 @@ class Cells {
     return ahead * forth + IfThenElse(dot(aside, a) < Zero(D()), Neg(beside), beside) * aside;
   }
 
-  // From a point of the cell to the volume and back, a little too far.
-  HWY_INLINE Point closer_to_volume(const Point& v) const {
-    return near_in_cell(v + all(1.5f) * (nearest_in_volume(v) - v));
+  // For places on the edges, and from the cell to the volume and back a few times, both smaller by a little more than
+  // the tolerance. Where they share room, both soon hold the same point; where they do not, the way from one to the
+  // other crosses a plane between.
+  HWY_INLINE void approach(M& common, M& apart) const {
+    constexpr int k_ways = 8;
+    Point in_cell = all(0.125f) * sum_of_corners();
+    for (int way = 0; way < k_ways; ++way) in_cell = closer_to_volume(in_cell);
+    const Point in_volume = nearest_in_volume(in_cell), way = in_cell - in_volume;
+    common = Or(common, Or(holds_edge_point(), Or(is_common(in_cell), is_common(in_volume))));
+    const Point normal = (all(1.0f) / length(way)) * way;
+    Point lowest;
+    const M is_past = least_along(normal, lowest) - extent_of(cone_, normal, all(1.0f)) > tolerance_;
+    apart = Or(apart, And(dot(way, way) > all(1e-30f), is_past));
   }
 
-  // A point of the cell made smaller by a little more than the tolerance: not the nearest one where its sides lean, but
-  // one nearby.
-  HWY_INLINE Point near_in_cell(const Point& v) const {
+  // Places on the edges, off these by a few roundoffs: nearest to the axis as an angle, nearest to the apex, and
+  // between.
+  HWY_INLINE M holds_edge_point() const {
+    M any = Not(yes());
+    for (unsigned corner = 0; corner < 8; ++corner)
+      for (const unsigned bit : {1u, 2u, 4u}) {
+        if ((corner & bit) != 0) continue;
+        const Point start = from_apex_[corner], step = from_apex_[corner | bit] - start;
+        const V start_axis = dot(start, cone_.axis), step_axis = dot(step, cone_.axis), mixed = dot(start, step);
+        const V start_square = dot(start, start), step_square = dot(step, step);
+        const V above = step_axis * start_square - start_axis * mixed;
+        const V below = start_axis * step_square - step_axis * mixed;
+        const auto within = [](V t) { return clamped(Zero(D()), t, all(1.0f)); };
+        const V to_axis = within(above / below), to_apex = within(Neg(mixed) / step_square);
+        for (const V t : {to_axis, to_apex, all(0.5f) * (to_axis + to_apex)})
+          any = Or(any, is_inside(start + t * step));
+      }
+    return any;
+  }
+
+  // From a point of the cell to the volume and back, a little too far.
+  HWY_INLINE Point closer_to_volume(const Point& v) const {
+    const Point beyond = v + all(1.5f) * (nearest_in_volume(v) - v), back = near_in_cell(beyond);
+    if constexpr (orthographic) return back;
+    // And on along the cell's sides, where these lean.
+    const Point side = back + cone_.apex;
+    return near_in_cell(beyond, side.depth * (dot(beyond - back, side) / dot(side, side)));
+  }
+
+  // A point of the cell made smaller by a little more than the tolerance, at the depth of v or so much deeper, or as
+  // near to that as there are any: not the nearest one where its sides lean, but one nearby.
+  HWY_INLINE Point near_in_cell(const Point& v, V deeper = Zero(D())) const {
     const V within = all(k_within) * tolerance_;
     const Point point = v + cone_.apex;
-    const V depth = clamped(depth0_ + within, point.depth, depth1_ - within);
+    const V depth = clamped(depth0_ + within, point.depth + deeper, depth1_ - within);
     const V w = w_of<orthographic>(depth);
     const auto inset = [&](V slope) { return within * (all(1.0f) + w_along<orthographic>(Abs(slope))); };
     const auto between = [&](V low, V at, V high) { return clamped(low * w + inset(low), at, high * w - inset(high)); };

@@ -31,10 +31,12 @@ void look_at(const view::LightArrays& lights, const RowPlanes& planes, SpotCells
                                     gathered(planes.side, loaded_indices(cells.end_column, first)));
     const M plain = are_plain(planes, rows.light);
     Point lowest;
-    const M common = And(these.holds_corner(), plain);
-    M apart = And(these.is_apart(lowest), plain);
-    if (!AllTrue(D(), Or(Not(plain), Or(common, apart))))
-      apart = Or(apart, And(these.is_beside_corners(lowest), plain));
+    M common = these.holds_corner(), apart = these.is_apart(lowest);
+    const auto some_are_uncertain = [&] { return !AllTrue(D(), Or(Not(plain), Or(common, apart))); };
+    if (some_are_uncertain()) apart = Or(apart, these.is_beside_corners(lowest));
+    if (some_are_uncertain()) these.approach(common, apart);
+    common = And(common, plain);
+    apart = And(apart, plain);
     const auto code = [&](Touch touch) { return all(static_cast<std::uint32_t>(touch)); };
     const auto answer = IfThenElse(RebindMask(DU(), common), code(Touch::yes),
                                    IfThenElse(RebindMask(DU(), apart), code(Touch::no), code(Touch::uncertain)));
