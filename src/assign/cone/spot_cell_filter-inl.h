@@ -38,7 +38,8 @@ class Cells {
     return any;
   }
 
-  // A face between, or a plane along the cone's side towards the cell's middle, over which a corner is lowest.
+  // A face between, or a plane along the cone's side towards the cell's middle. `lowest`: the corner nearest to that
+  // plane, or farthest behind it.
   HWY_INLINE M is_apart(Point& lowest) const {
     M apart = is_beside(sum_of_corners(), lowest);
     each_face([&](const Point& normal, V offset) {
@@ -49,8 +50,8 @@ class Cells {
     return apart;
   }
 
-  // Guesses at the plane along the cone's side with the widest gap: towards a corner, or as far from one as from
-  // another. Which ones, those say that are lowest over other planes.
+  // Guesses at the plane along the cone's side with the widest gap, which leans towards one corner or is as far from
+  // one as from another: each plane's lowest corner is tried in the next. `lowest`: is_apart()'s.
   HWY_INLINE M is_beside_corners(const Point& lowest) const {
     Point next, third, last;
     M beside = is_beside(lowest, next);
@@ -71,9 +72,9 @@ class Cells {
     return ahead * forth + IfThenElse(dot(aside, a) < Zero(D()), Neg(beside), beside) * aside;
   }
 
-  // For places on the edges, and from the cell to the volume and back a few times, both smaller by a little more than
-  // the tolerance. Where they share room, both soon hold the same point; where they do not, the way from one to the
-  // other crosses a plane between.
+  // Looks at points on the edges, and goes from the cell to the volume and back a few times, both smaller by a little
+  // more than the tolerance. Where they share room, both soon hold the same point; where they do not, the way from one
+  // to the other crosses a plane between.
   HWY_INLINE void approach(M& common, M& apart) const {
     constexpr int k_ways = 8;
     Point in_cell = all(0.125f) * sum_of_corners();
@@ -86,8 +87,8 @@ class Cells {
     apart = Or(apart, And(dot(way, way) > all(1e-30f), is_past));
   }
 
-  // Places on the edges, off these by a few roundoffs: nearest to the axis as an angle, nearest to the apex, and
-  // between.
+  // Is a point of an edge in the volume? The points nearest to the axis as an angle and nearest to the apex are asked,
+  // and the one between; they are off the edge by a few roundoffs.
   HWY_INLINE M holds_edge_point() const {
     M any = Not(yes());
     for (unsigned corner = 0; corner < 8; ++corner)

@@ -18,7 +18,6 @@
 
 #include "assign/simd/bit_tables.h"
 #include "assign/simd/lanes.h"
-#include "core/aligned_vector.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
@@ -47,6 +46,7 @@ using MD = hn::Mask<DD>;
 HWY_INLINE std::uint32_t lane_count() {
   return static_cast<std::uint32_t>(Lanes(D()));
 }
+
 // Vectors of a number's own type, a whole register: all of one number, and numbers looked up.
 template <class T>
 HWY_INLINE auto all(T value) {
