@@ -11,7 +11,7 @@
 #include "assign/cone/spot_rows.h"
 #include "assign/each_target.h"
 #include "assign/exact/exact_rows.h"
-#include "assign/exact/spot_touches.h"
+#include "assign/exact/nearest_points.h"
 #include "assign/settings.h"
 #include "effort.h"
 
@@ -176,15 +176,15 @@ struct RowParts {
   std::size_t wrong = 0, settled = 0, alone = 0;
 
   void add(const SpotCell& part, const grid::IndexRange& in_row) {
-    touches.add(part);
+    touches.runs.add(part);
     asked.push_back(part);
     touched.push_back(in_row);
   }
   void look(const view::LightArrays& lights, const RowPlanes& planes) {
     touches.look(lights, planes);
     wrong = settled = alone = 0;
-    for (std::uint32_t i = 0; i < touches.count(); ++i) {
-      const Touch touch = touches.touch(i);
+    for (std::uint32_t i = 0; i < touches.runs.count; ++i) {
+      const Touch touch = touches.runs.touch[i];
       const int first = std::max(touched[i].first, static_cast<int>(asked[i].column));
       const int last = std::min(touched[i].last, static_cast<int>(asked[i].end_column) - 1);
       settled += touch != Touch::uncertain ? 1 : 0;

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assign/cone/spot_bounding_spheres.h"
+#include "assign/cone/bounding_spheres.h"
 #include "assign/contract/assigner.h"
 #include "assign/exact/exact_slices.h"
 #include "core/error.h"

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "assign/bounds/boundary_axis.h"
 #include "assign/pipeline/bounded_balls.h"
 #include "assign/rows/slice_rows.h"
-#include "assign/simd/boundary_axis.h"
 #include "grid/grid.h"
 
 namespace clusterbench::assign {

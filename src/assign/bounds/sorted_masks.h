@@ -13,7 +13,7 @@
 
 #include "assign/bounds/cell_bounds.h"
 #include "assign/bounds/frustum_bounds.h"
-#include "assign/cone/spot_bounding_spheres.h"
+#include "assign/cone/bounding_spheres.h"
 #include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
 #include "assign/lists/radix_sort.h"

@@ -2,10 +2,10 @@
 // Which boxes of a grid of axis-aligned boxes are within reach of many balls on each axis: indices_within()
 // (assign/box_grid/box_rows.h) a vector of balls at a time, because each lane compares the same differences.
 
+#include "assign/bounds/boundary_axis.h"
 #include "assign/bounds/bounds_rows.h"
 #include "assign/box_grid/box_rows.h"
 #include "assign/cull/frustum_cull.h"
-#include "assign/simd/boundary_axis.h"
 
 namespace clusterbench::assign {
 

@@ -8,10 +8,113 @@
 #define CLUSTERBENCH_SPOT_CELLS_INL_H
 #endif
 
-#include "assign/cone/spot_vectors-inl.h"
+#include "assign/cone/spot_cell_filter.h"
+#include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
+
+// The w of clip space, by which a point is divided to be projected: its depth, without perspective 1. A slope is
+// x / w or y / w. And by how much w differs between the ends of a way.
+template <bool orthographic>
+HWY_INLINE V w_of(V depth) {
+  return orthographic ? all(1.0f) : depth;
+}
+template <bool orthographic>
+HWY_INLINE V w_along(V depth) {
+  return orthographic ? Zero(D()) : depth;
+}
+
+struct Cone {
+  Point apex, axis;
+  V range, cosine, sine;
+};
+
+// Evidence: a point that is in cell and volume, or a plane between them, by more than the tolerance 2^-19 S = 32 u S;
+// u = 2^-24, S = |apex| + 2 range + the cell's largest coordinates. A point counts as apex + v, exactly; a plane's
+// normal as it came out, of length 1 to 5 u, or of another one by which all margins and the tolerance are then larger.
+// How either was found does not matter, only how well it is measured. Given numbers are off by u of themselves: range,
+// sine, cosine and each coordinate of apex and axis. Sums and products of three lose 3 u of the vectors' lengths, a
+// length 3 u. Then margins are off by at most
+//    9 u S  of a point in the sphere: 5 u range, u |apex|; in the cone: along the axis 4 u range + u |apex|, across it
+//           3 u range + u |apex|, both times sine and cosine, squared and compared 5 u range
+//    6 u S  of a point in the cell: apex + v is rounded, 2 u of a product and a sum
+//    5 u S  of corners along a normal: u of a corner, u of it from the apex, 3 u of the product
+//   10 u S  of how far the volume extends along a normal: along the axis 6 u range, across it 11 u range, 3 u for the
+//   rest
+//    7 u S  of a plane along the cone's side, whose extent is taken to be 0: its direction across the axis is at right
+//           angles to it to 6 u, of length 1 to 5 u, and 3 u for the rest, times range
+//   10 u S  of the apex from a face: 5 u for the product and the offset, 5 u for the length of the normal
+// so under 20 u S for a plane.
+constexpr float k_tolerance = 0x1p-19f;
+
+// Evidence must be larger than this. `light`: the size of the numbers that describe it; the cells reach to a depth, and
+// to slopes across and up (without perspective these are coordinates; then corners and normals are exact).
+template <bool orthographic>
+HWY_INLINE V tolerance_of(V light, V depth, V across, V up) {
+  const V sideways = across + up;
+  return all(k_tolerance) * (light + (orthographic ? depth + sideways : depth * (all(1.0f) + sideways)));
+}
+
+// How far a volume extends from its apex along a normal of this length. What is across the axis is measured as a
+// vector: a root of 1 - cosine² would lose half the digits.
+HWY_INLINE V extent_of(const Cone& cone, const Point& normal, V size) {
+  const V along = dot(normal, cone.axis), across = length(normal - along * cone.axis);
+  const M is_in_cone = cone.sine * along >= cone.cosine * across;
+  const V lean = Max(Zero(D()), along * cone.cosine + across * cone.sine);
+  return cone.range * IfThenElse(is_in_cone, size, lean);
+}
+
+// A vector of spots.
+struct GivenSpots {
+  Cone cone;
+  V light;  // size of the numbers that describe it
+
+  HWY_INLINE GivenSpots(const view::LightArrays& lights, VI spot) {
+    // Gathering takes longer than much of what follows, and where spots are few, vectors are often of one.
+    const std::int32_t first = GetLane(spot);
+    if (AllTrue(DI(), spot == all(first)))
+      take(lights, [&](const float* from) { return all(from[first]); });
+    else
+      take(lights, [&](const float* from) { return gathered(from, spot); });
+  }
+
+ private:
+  template <class Get>
+  HWY_INLINE void take(const view::LightArrays& lights, Get&& get) {
+    const std::uint32_t points = lights.spots.first;
+    cone = {{get(lights.x.data() + points), get(lights.y.data() + points), Neg(get(lights.z.data() + points))},
+            {get(lights.axis_x.data()), get(lights.axis_y.data()), Neg(get(lights.axis_z.data()))},
+            get(lights.radius.data() + points),
+            get(lights.cos_angle.data()),
+            get(lights.sin_angle.data())};
+    light = get(lights.reach.data() + points) + cone.range;
+  }
+};
+
+// Which spots of these sizes are to be judged in single precision.
+HWY_INLINE M are_plain(const RowPlanes& planes, V light) {
+  return is_between(all(planes.least_reach), light, all(k_most_row_reach));
+}
+
+// Spots, each with its own run of a row: tile planes below and above, slice planes in front and behind.
+struct SpotsInRows {
+  Cone cone;
+  V light;  // GivenSpots::light
+  V y0, y1, depth0, depth1;
+
+  // Where columns between two sides are looked at.
+  template <bool orthographic>
+  HWY_INLINE V tolerance(V left, V right) const {
+    const V depth = orthographic ? Max(Abs(depth0), Abs(depth1)) : depth1;
+    return tolerance_of<orthographic>(light, depth, Max(Abs(left), Abs(right)), Max(Abs(y0), Abs(y1)));
+  }
+};
+
+// The indices of a list from `first` on.
+HWY_INLINE VI loaded_indices(const std::vector<std::uint32_t>& list, std::uint32_t first) {
+  return BitCast(DI(), LoadU(DU(), list.data() + first));
+}
 
 // A vector of cells, each with its own cone. Sides and rows are slopes, without perspective coordinates.
 template <bool orthographic>
@@ -19,13 +122,10 @@ class Cells {
  public:
   // Those between two sides of columns.
   HWY_INLINE Cells(const SpotsInRows& rows, V left, V right)
-      : cone_(rows.cone),
+      : rows_(rows),
+        cone_(rows.cone),
         left_(left),
         right_(right),
-        y0_(rows.y0),
-        y1_(rows.y1),
-        depth0_(rows.depth0),
-        depth1_(rows.depth1),
         tolerance_(rows.tolerance<orthographic>(left, right)),
         safe_range_(cone_.range - tolerance_) {
     for (unsigned i = 0; i < 8; ++i) from_apex_[i] = corner(i) - cone_.apex;
@@ -121,11 +221,11 @@ class Cells {
   HWY_INLINE Point near_in_cell(const Point& v, V deeper = Zero(D())) const {
     const V within = all(k_within) * tolerance_;
     const Point point = v + cone_.apex;
-    const V depth = clamped(depth0_ + within, point.depth + deeper, depth1_ - within);
+    const V depth = clamped(rows_.depth0 + within, point.depth + deeper, rows_.depth1 - within);
     const V w = w_of<orthographic>(depth);
     const auto inset = [&](V slope) { return within * (all(1.0f) + w_along<orthographic>(Abs(slope))); };
     const auto between = [&](V low, V at, V high) { return clamped(low * w + inset(low), at, high * w - inset(high)); };
-    return Point{between(left_, point.x, right_), between(y0_, point.y, y1_), depth} - cone_.apex;
+    return Point{between(left_, point.x, right_), between(rows_.y0, point.y, rows_.y1), depth} - cone_.apex;
   }
 
   // Evidence.
@@ -182,8 +282,8 @@ class Cells {
   }
 
   HWY_INLINE Point corner(unsigned i) const {
-    const V depth = (i & 4) != 0 ? depth1_ : depth0_, w = w_of<orthographic>(depth);
-    return {((i & 1) != 0 ? right_ : left_) * w, ((i & 2) != 0 ? y1_ : y0_) * w, depth};
+    const V depth = (i & 4) != 0 ? rows_.depth1 : rows_.depth0, w = w_of<orthographic>(depth);
+    return {((i & 1) != 0 ? right_ : left_) * w, ((i & 2) != 0 ? rows_.y1 : rows_.y0) * w, depth};
   }
 
   // Outward normals (any length) and the faces along them.
@@ -194,10 +294,10 @@ class Cells {
     const auto offset = [&](V slope) { return orthographic ? slope : zero; };  // in perspective they hold the eye
     take(Point{minus, zero, leaning(left_)}, offset(Neg(left_)));
     take(Point{plus, zero, leaning(Neg(right_))}, offset(right_));
-    take(Point{zero, minus, leaning(y0_)}, offset(Neg(y0_)));
-    take(Point{zero, plus, leaning(Neg(y1_))}, offset(y1_));
-    take(depth_axis(-1.0f), Neg(depth0_));
-    take(depth_axis(), depth1_);
+    take(Point{zero, minus, leaning(rows_.y0)}, offset(Neg(rows_.y0)));
+    take(Point{zero, plus, leaning(Neg(rows_.y1))}, offset(rows_.y1));
+    take(depth_axis(-1.0f), Neg(rows_.depth0));
+    take(depth_axis(), rows_.depth1);
   }
 
   // Of a face's normal.
@@ -228,8 +328,9 @@ class Cells {
     return And(is_in_cone, And(safe_range_ > zero, dot(v, v) < safe_range_ * safe_range_));
   }
 
-  Cone cone_;
-  V left_, right_, y0_, y1_, depth0_, depth1_, tolerance_, safe_range_;
+  const SpotsInRows& rows_;
+  const Cone& cone_;
+  V left_, right_, tolerance_, safe_range_;
   Point from_apex_[8];
 };
 

@@ -7,7 +7,6 @@
 
 #include "assign/bounds/bounds_rows-inl.h"
 #include "assign/rows/disks-inl.h"
-#include "assign/simd/boundaries-inl.h"
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -3,8 +3,8 @@
 // slices at once, so that their questions fill vectors; then slice by slice the points' rows and the lists. Keeps its
 // memory between frames.
 
-#include "assign/exact/ball_cells.h"
 #include "assign/exact/exact_rows.h"
+#include "assign/exact/nearest_points.h"
 #include "assign/exact/spot_spans.h"
 
 namespace clusterbench::assign {

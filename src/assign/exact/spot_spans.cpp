@@ -74,7 +74,7 @@ void SpotSpans::take_uncertain_rows() {
 
 void SpotSpans::settle_touches() {
   runs_.clear();
-  touches_.clear();
+  touches_.runs.count = 0;
   for (std::uint32_t i = 0; i < spans_.size(); ++i) ask_for_touches(i);
   touches_.look(frame_->lights, frame_->planes);
   tests_ += runs_.size();
@@ -87,7 +87,7 @@ void SpotSpans::ask_for_touches(std::uint32_t i) {
   const auto ask = [&](Part part, const IndexRange& columns) {
     if (columns.empty()) return;
     runs_.push_back({i, part});
-    touches_.add(cells_of(span, columns));
+    touches_.runs.add(cells_of(span, columns));
   };
   const auto is = [&](std::uint8_t bit) { return (known & bit) != 0; };
   const int first = rows_.first[span.row], last = rows_.last[span.row];
@@ -105,7 +105,7 @@ void SpotSpans::ask_for_touches(std::uint32_t i) {
 // What is before (behind) the first (last) column was asked before that column, which is an end only where nothing
 // there is touched.
 void SpotSpans::take_touch(const Run& run, std::uint32_t index) {
-  const Touch touch = touches_.touch(index);
+  const Touch touch = touches_.runs.touch[index];
   if (touch == Touch::uncertain) return;
   Span& span = spans_[run.span];
   IndexRange& columns = span.columns;

@@ -1,16 +1,16 @@
 #pragma once
 // The columns that spots touch in each row of some slices, all slices at once so that vectors are full: rows and ends
 // that are guessed and proven (spot_rows.h), which nearly all are. Of what is left, ends that are touched in a single
-// point come first (spot_touches.h), as most are on lattices. The rest is shortened by halves, quarters and so on that
-// are as a whole not touched, and to what the spots' balls have; then its ends are looked at a few cells at a time,
-// until a cell at either end is touched.
+// point come first (nearest_points.h), as most are on lattices. The rest is shortened by halves, quarters and so on
+// that are as a whole not touched, and to what the spots' balls have; then its ends are looked at a few cells at a
+// time, until a cell at either end is touched.
 
 #include <optional>
 
 #include "assign/cone/spot_rows.h"
 #include "assign/exact/exact_frame.h"
 #include "assign/exact/exact_rows.h"
-#include "assign/exact/spot_touches.h"
+#include "assign/exact/nearest_points.h"
 
 namespace clusterbench::assign {
 

@@ -2,7 +2,7 @@
 // The driver of the vector methods: cull, bin by slice, columns of rows, lists. A kernel says which balls have cells
 // and which columns they touch in a row; the rest is the same for frustum, distance, cascade and world grids.
 
-#include "assign/cone/spot_bounding_spheres.h"
+#include "assign/cone/bounding_spheres.h"
 #include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
 #include "assign/pipeline/bounded_balls.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "assign/cone/cone_against_cell_spheres.h"
+#include "assign/cone/bounding_spheres.h"
 #include "assign/contract/light_test.h"
 #include "assign/cull/slice_bins.h"
 #include "assign/lists/list_builder.h"

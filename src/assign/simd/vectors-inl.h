@@ -77,6 +77,52 @@ HWY_INLINE V gap(V low, V coordinate, V high) {
   return Max(Zero(D()), Max(low - coordinate, coordinate - high));
 }
 
+// Points and directions as x to the right, y up, depth ahead; each coordinate a vector of numbers.
+template <class Numbers>
+struct PointOf {
+  Numbers x, y, depth;
+};
+template <class T>
+HWY_INLINE PointOf<T> operator+(const PointOf<T>& a, const PointOf<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.depth + b.depth};
+}
+template <class T>
+HWY_INLINE PointOf<T> operator-(const PointOf<T>& a, const PointOf<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.depth - b.depth};
+}
+template <class T>
+HWY_INLINE PointOf<T> operator*(T s, const PointOf<T>& a) {
+  return {s * a.x, s * a.y, s * a.depth};
+}
+template <class T>
+HWY_INLINE T dot(const PointOf<T>& a, const PointOf<T>& b) {
+  return a.x * b.x + a.y * b.y + a.depth * b.depth;
+}
+template <class T>
+HWY_INLINE T length(const PointOf<T>& a) {
+  return Sqrt(dot(a, a));
+}
+
+using Point = PointOf<V>;
+HWY_INLINE Point cross(const Point& a, const Point& b) {
+  return {a.y * b.depth - a.depth * b.y, a.depth * b.x - a.x * b.depth, a.x * b.y - a.y * b.x};
+}
+
+// Unit vectors along an axis, or (side -1) against it.
+HWY_INLINE Point x_axis(float side = 1.0f) {
+  return {all(side), Zero(D()), Zero(D())};
+}
+HWY_INLINE Point y_axis() {
+  return {Zero(D()), all(1.0f), Zero(D())};
+}
+HWY_INLINE Point depth_axis(float side = 1.0f) {
+  return {Zero(D()), Zero(D()), all(side)};
+}
+
+HWY_INLINE Point chosen(M where, const Point& a, const Point& b) {
+  return {IfThenElse(where, a.x, b.x), IfThenElse(where, a.y, b.y), IfThenElse(where, a.depth, b.depth)};
+}
+
 // Four numbers of each lane.
 struct Quads {
   V first, second, third, fourth;

@@ -4,21 +4,18 @@
 
 #define HWY_TARGET_INCLUDE "assign/storages/list_forms.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
-#include <hwy/highway.h>
+
+#include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 template <class T>
 void narrow_to(const std::uint32_t* from, std::size_t count, T* to) {
-  const hn::ScalableTag<std::uint32_t> wide;
-  const hn::Rebind<T, decltype(wide)> slim;
-  const std::size_t lanes = Lanes(wide);
+  const hn::Rebind<T, DU> slim;
   std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) StoreU(TruncateTo(slim, LoadU(wide, from + i)), slim, to + i);
+  for (; i + lane_count() <= count; i += lane_count()) StoreU(TruncateTo(slim, LoadU(DU(), from + i)), slim, to + i);
   for (; i < count; ++i) to[i] = static_cast<T>(from[i]);
 }
 
@@ -37,18 +34,17 @@ HWY_INLINE void set_bit(std::uint32_t light, std::uint32_t* words) {
 // Where lists are dense, a vector of lights fills few words: each takes the sum of its bits. Elsewhere, and where
 // lights do not ascend, light by light.
 HWY_INLINE void set_bits(const std::uint32_t* lights, std::size_t count, std::uint32_t* words) {
-  const hn::ScalableTag<std::uint32_t> d;
-  const std::size_t lanes = Lanes(d);
+  const std::size_t lanes = lane_count();
   constexpr std::size_t k_lanes_per_word = 4;  // below, a sum costs more than it saves
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {
     const std::uint32_t first = lights[i] / 32, last = lights[i + lanes - 1] / 32;
-    const auto light = LoadU(d, lights + i), word = ShiftRight<5>(light);
-    const auto between = Min(Max(word, Set(d, first)), Set(d, last));
-    if ((last - first + 1) * k_lanes_per_word <= lanes && AllTrue(d, between == word)) {
-      const auto bit = Shl(Set(d, 1), And(light, Set(d, 31)));
+    const VU light = LoadU(DU(), lights + i), word = ShiftRight<5>(light);
+    const VU between = Min(Max(word, all(first)), all(last));
+    if ((last - first + 1) * k_lanes_per_word <= lanes && AllTrue(DU(), between == word)) {
+      const VU bit = Shl(all(1u), And(light, all(31u)));
       for (std::uint32_t at = first; at <= last; ++at)
-        words[at] |= GetLane(SumOfLanes(d, IfThenElseZero(word == Set(d, at), bit)));
+        words[at] |= GetLane(SumOfLanes(DU(), IfThenElseZero(word == all(at), bit)));
     } else {
       for (std::size_t k = i; k < i + lanes; ++k) set_bit(lights[k], words);
     }

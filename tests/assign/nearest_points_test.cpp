@@ -1,6 +1,6 @@
 // What many balls and cells are told at once, against deciding each alone; and that exact touches are among it.
 
-#include "assign/exact/ball_cells.h"
+#include "assign/exact/nearest_points.h"
 
 #include <gtest/gtest.h>
 
