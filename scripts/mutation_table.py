@@ -802,7 +802,7 @@ MUTATIONS = [
              "measure.AssignersAgainstTruth.a_conservative_assigner_loses_no_true_pair_in_any_view_with_any_choice",
              "bvh loses lights that reach a cell with their outermost part"),
     Mutation("bits-of-ascending-lists-only", "assign/storages/list_forms.cpp",
-             "AllTrue(d, between == word)", "AllTrue(d, between == between)",
+             "AllTrue(DU(), between == word)", "AllTrue(DU(), between == between)",
              "assign.EveryStorage.keeps_lists_in_any_order",
              "bitfields lose lights of lists that do not ascend"),
     Mutation("structure-with-one-logarithm", "assign/contract/storage.cpp",
