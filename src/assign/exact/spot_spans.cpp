@@ -32,11 +32,7 @@ void SpotSpans::settle_uncertain_rows() {
   settle_touches();
   shorten();
   narrow();
-  while (ask_for_ends()) {
-    tests_ += cells_.count;
-    look_at_cells(frame_->lights, frame_->planes, cells_);
-    for (const Ends& ends : ends_) settle(ends);
-  }
+  while (ask_for_ends([](const Span&) { return true; })) settle_ends(true);
   for (const Span& span : spans_) {
     rows_.first[span.row] = span.columns.first;
     rows_.last[span.row] = span.columns.last;
@@ -183,50 +179,61 @@ void SpotSpans::shorten() {
 }
 
 // Cuts long spans down to the columns of the spot's balls, and takes away what the cone misses with a ball around it:
-// in scalar code, since vectors prove nothing of spots far larger or smaller than what they are for, or of cells
-// smaller than their tolerance.
+// in scalar code, where vectors do not tell that their ends are touched.
 void SpotSpans::narrow() {
-  constexpr int k_few_columns = 4;
   const grid::Tiles& tiles = frame_->grid.screen().tiles;
-  for (const std::uint32_t i : uncertain_) {
-    Span& span = spans_[i];
+  if (ask_for_ends([&](const Span& span) { return is_to_be_narrowed(span); })) settle_ends(false);
+  for (const Ends& ends : ends_) {
+    Span& span = spans_[ends.span];
     IndexRange& columns = span.columns;
-    if (!span.is_uncertain() || columns.count() <= k_few_columns) continue;
-    const std::uint32_t light = rows_.spot[span.row] + frame_->lights.spots.first;
+    const bool from_left = ends.from_left && span.left_is_uncertain;
+    const bool from_right = ends.from_right && span.right_is_uncertain;
+    if (columns.empty() || !(from_left || from_right)) continue;
     const Row row = row_at(span.row);
-    if (std::isinf(frame_->lights.radius[light]) || vectors_tell(light, piece_of(tiles, row, columns.first))) continue;
-    const SpotBalls& balls = balls_of(light);
+    const SpotBalls& balls = balls_of(light_of(span));
     const IndexRange some = balls.touched(RowColumns(tiles), row);
-    if (span.left_is_uncertain) columns.first = std::max(columns.first, some.first);
-    if (span.right_is_uncertain) columns.last = std::min(columns.last, some.last);
+    if (from_left) columns.first = std::max(columns.first, some.first);
+    if (from_right) columns.last = std::min(columns.last, some.last);
     const auto are_missed = [&](int first, int last) {
       geom::FrustumCell piece = piece_of(tiles, row, first);
       piece.x1 = tiles.x[static_cast<std::size_t>(last) + 1];
       return !geom::cone_touches_ball(balls.cone(), geom::ball_around(piece));
     };
     // From an end: all of them, half, a quarter and so on.
-    const auto drop_missed = [&](bool from_left) {
+    const auto drop_missed = [&](bool left) {
       for (int count = columns.count(); count > 0; count = std::min(count, columns.count())) {
-        if (from_left ? are_missed(columns.first, columns.first + count - 1)
-                      : are_missed(columns.last - count + 1, columns.last))
-          (from_left ? columns.first : columns.last) += from_left ? count : -count;
+        if (left ? are_missed(columns.first, columns.first + count - 1)
+                 : are_missed(columns.last - count + 1, columns.last))
+          (left ? columns.first : columns.last) += left ? count : -count;
         else
           count /= 2;
       }
     };
-    if (span.left_is_uncertain) drop_missed(true);
-    if (span.right_is_uncertain) drop_missed(false);
+    if (from_left) drop_missed(true);
+    if (from_right) drop_missed(false);
   }
 }
 
-// Puts the cells at the uncertain ends of all spans into cells_. False if there are none.
-bool SpotSpans::ask_for_ends() {
+// Of spots far larger or smaller than what vectors are for, and of cells smaller than their tolerance, these prove at
+// most that they are touched.
+bool SpotSpans::is_to_be_narrowed(const Span& span) const {
+  constexpr int k_few_columns = 4;
+  if (!span.is_uncertain() || span.columns.count() <= k_few_columns) return false;
+  const std::uint32_t light = light_of(span);
+  const geom::FrustumCell cell = piece_of(frame_->grid.screen().tiles, row_at(span.row), span.columns.first);
+  return !std::isinf(frame_->lights.radius[light]) && !vectors_tell(light, cell);
+}
+
+// Puts the cells at the uncertain ends of the wanted spans into cells_. False if there are none.
+template <class IsWanted>
+bool SpotSpans::ask_for_ends(IsWanted&& is_wanted) {
   constexpr int k_at_once = 4;
   cells_.count = 0;
   ends_.clear();
   std::erase_if(uncertain_, [&](std::uint32_t i) { return !spans_[i].is_uncertain(); });
   for (const std::uint32_t i : uncertain_) {
     const Span& span = spans_[i];
+    if (!is_wanted(span)) continue;
     const int count = span.columns.count();
     if (span.left_is_uncertain && span.right_is_uncertain && count <= 2 * k_at_once) {
       ask(i, span.columns, true, true);
@@ -249,23 +256,30 @@ SpotCell SpotSpans::cells_of(const Span& span, const IndexRange& columns) const 
           static_cast<std::uint32_t>(columns.last) + 1};
 }
 
+// Looks at the cells that were asked for; what that leaves uncertain is decided, if it is to be.
+void SpotSpans::settle_ends(bool to_be_decided) {
+  tests_ += cells_.count;
+  look_at_cells(frame_->lights, frame_->planes, cells_);
+  for (const Ends& ends : ends_) settle(ends, to_be_decided);
+}
+
 // Shortens the span by its cells that are not touched. An end is settled where one is.
-void SpotSpans::settle(const Ends& ends) {
+void SpotSpans::settle(const Ends& ends, bool to_be_decided) {
   Span& span = spans_[ends.span];
-  const auto touches = [&](int column) {
+  const auto touch_of = [&](int column) {
     Touch& touch = cells_.touch[ends.first_cell + static_cast<std::uint32_t>(column - ends.columns.first)];
-    if (touch == Touch::uncertain) touch = decide(span.row, column) ? Touch::yes : Touch::no;
-    return touch == Touch::yes;
+    if (touch == Touch::uncertain && to_be_decided) touch = decide(span.row, column) ? Touch::yes : Touch::no;
+    return touch;
   };
   IndexRange& columns = span.columns;
   if (ends.from_left) {
-    while (columns.first <= ends.columns.last && !touches(columns.first)) ++columns.first;
-    span.left_is_uncertain = columns.first > ends.columns.last;
+    while (columns.first <= ends.columns.last && touch_of(columns.first) == Touch::no) ++columns.first;
+    span.left_is_uncertain = columns.first > ends.columns.last || touch_of(columns.first) != Touch::yes;
   }
   if (ends.from_right) {
     const int end = std::max(ends.columns.first, columns.first);
-    while (columns.last >= end && !touches(columns.last)) --columns.last;
-    span.right_is_uncertain = columns.last < end;
+    while (columns.last >= end && touch_of(columns.last) == Touch::no) --columns.last;
+    span.right_is_uncertain = columns.last < end || touch_of(columns.last) != Touch::yes;
   }
 }
 
@@ -288,6 +302,10 @@ bool SpotSpans::vectors_tell(std::uint32_t light, const geom::FrustumCell& cell)
   const float size =
       2.0f * frame_->lights.reach[light] + std::abs(cell.depth1) + w * (std::abs(cell.x0) + std::abs(cell.y0));
   return is_plain(light) && w * (cell.x1 - cell.x0) > k_much * size;
+}
+
+std::uint32_t SpotSpans::light_of(const Span& span) const {
+  return rows_.spot[span.row] + frame_->lights.spots.first;
 }
 
 const SpotBalls& SpotSpans::balls_of(std::uint32_t light) {

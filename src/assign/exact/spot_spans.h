@@ -62,13 +62,17 @@ class SpotSpans {
   void take_touch(const Run& run, std::uint32_t index);
   void shorten();
   void narrow();
-  bool ask_for_ends();
+  bool is_to_be_narrowed(const Span& span) const;
+  template <class IsWanted>
+  bool ask_for_ends(IsWanted&& is_wanted);
+  void settle_ends(bool to_be_decided);
   SpotCell cells_of(const Span& span, const grid::IndexRange& columns) const;
   void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
-  void settle(const Ends& ends);
+  void settle(const Ends& ends, bool to_be_decided);
   bool decide(std::uint32_t row, int column);
   bool is_plain(std::uint32_t light) const;
   bool vectors_tell(std::uint32_t light, const geom::FrustumCell& cell) const;
+  std::uint32_t light_of(const Span& span) const;
   const SpotBalls& balls_of(std::uint32_t light);
   Row row_at(std::uint32_t row) const;
 
