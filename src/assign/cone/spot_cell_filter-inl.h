@@ -45,7 +45,8 @@ struct Cone {
 //    7 u S  of a plane along the cone's side, whose extent is taken to be 0: its direction across the axis is at right
 //           angles to it to 6 u, of length 1 to 5 u, and 3 u for the rest, times range
 //   10 u S  of the apex from a face: 5 u for the product and the offset, 5 u for the length of the normal
-// so under 20 u S for a plane.
+// so under 20 u S for a plane. A spot of 10 m, 50 m from the eye, and a cell up to 45 m deep, 35 m to the side, 10 m
+// up: S = 160 m, the tolerance 0.3 mm, and what is measured off by less than 0.2 mm.
 constexpr float k_tolerance = 0x1p-19f;
 
 // Evidence must be larger than this. `light`: the size of the numbers that describe it; the cells reach to a depth, and

@@ -143,6 +143,11 @@ class Batch {
   // q², and that from h² >= 16 d R q². Large balls near the eye are far wider than the picture, and h says little of w.
   // For them any point in the row does instead of m: it is no nearer, so its w is no larger. The columns are certain if
   // the way inwards is at least 4 d R q / w > 2 D P q / w, and the ball reaches the row if w² >= 4 d R > 2 D P.
+  //
+  // For example, a ball of 2 m whose centre is 5 m to the right and 20 m ahead, in the row and the slice that hold it:
+  // its reach is 27 m, e = 1.6e-6 m, d = 4.5e-5 m, the hull goes from 0.149 to 0.356, h = 0.207, q = 0.059 per metre,
+  // and 8 d R q² / h = 1.2e-5. With 30 columns from -1 to 1 that is 1 / 5,500 of a column: so many ends are certain for
+  // one that is left to be decided.
   HWY_INLINE VU columns_of(const Place& place, const Table& slopes, const Hull& hull, M wanted) const {
     const V left = all(planes_->left), right = all(planes_->right), scale = all(planes_->columns_per_slope);
     const V tolerance = all(planes_->column_tolerance), zero = Zero(D());

@@ -34,11 +34,12 @@ namespace {
 //  115 u S  a plane along the cone's side whose extent is taken to be 0: 60 u of the direction across the axis
 //           (unit_across loses at most a factor of 10), 11 u of the axis and 29 u for the rest, and 15 u S as above
 //   50 u S  distance of a ball's centre from a shell cell: a face's normal 5 u S, one between two faces' 10 u S, the
-//   part
-//           along it 13 u S, the part across it 22 u S; or 2^11 u S where a direction of the pyramid proves itself
+//           part along it 13 u S, the part across it 22 u S; or 2^11 u S where a direction of the pyramid proves itself
 //   95 u S  gap of a plane beside a polytope around a shell cell, whose corners are off by 12 u S: 80 u S as above and
 //           these
-// Under 2^7 u S = 2^-46 S, and 2^-41 S for balls and shells: 8 times less than the tolerance and more.
+// Under 2^7 u S = 2^-46 S, and 2^-41 S for balls and shells: 8 times less than the tolerance and more. A spot of 10 m,
+// 50 m from the eye, and a cell up to 60 m from it: S = 120 m, the tolerance 4e-10 m, and what is measured off by less
+// than 2e-12 m.
 //
 // Distances of spots from the eye: the inner interval is proven by points (pull() says how far a candidate that may lie
 // outside by the tolerance has to move to be in the set for certain), the outer one by the ball's and by planes.
