@@ -108,12 +108,12 @@ void write_in_one_step(const fs::path& file, const std::string& bytes) {
 // A method without cells has no longest list.
 pictures::LongestLists longest_lists(const nlohmann::ordered_json& result) {
   pictures::LongestLists longest;
-  for (const auto& one : result.at("cases")) {
-    pictures::LongestList& list = longest[one.at("id").get<std::string>()];
-    list.frame = one.at("buffers").at("worst_frame").get<int>();
-    if (!one.contains("occupancy") || one["occupancy"].is_null()) continue;
-    list = {one["occupancy"].at("lights_per_cell").at("max").get<std::uint64_t>(),
-            one["occupancy"].at("worst_frame").get<int>()};
+  for (const auto& result_case : result.at("cases")) {
+    pictures::LongestList& list = longest[result_case.at("id").get<std::string>()];
+    list.frame = result_case.at("buffers").at("worst_frame").get<int>();
+    if (!result_case.contains("occupancy") || result_case["occupancy"].is_null()) continue;
+    list = {result_case["occupancy"].at("lights_per_cell").at("max").get<std::uint64_t>(),
+            result_case["occupancy"].at("worst_frame").get<int>()};
   }
   return longest;
 }

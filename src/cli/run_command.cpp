@@ -90,16 +90,16 @@ void print_skipped(const std::vector<run::Skipped>& skipped) {
   };
   std::vector<Line> lines;
   std::uint64_t other_kinds = 0;
-  for (const run::Skipped& one : skipped) {
-    if (one.is_other_kind) {
+  for (const run::Skipped& skipped_case : skipped) {
+    if (skipped_case.is_other_kind) {
       ++other_kinds;
       continue;
     }
-    const auto line = std::ranges::find(lines, one.reason, &Line::reason);
+    const auto line = std::ranges::find(lines, skipped_case.reason, &Line::reason);
     if (line != lines.end())
       ++line->others;
     else
-      lines.push_back({one.reason, one.name});
+      lines.push_back({skipped_case.reason, skipped_case.name});
   }
   for (const Line& line : lines)
     std::cout << "skipped  " << printable(line.first)

@@ -79,9 +79,9 @@ struct ParetoFit::AtBend {
   double log_likelihood(double rate) const {
     double sum = 0.0;
     for (const Term& term : terms) {
-      double one = -rate * term.start;
-      if (term.width > 0.0) one += std::log(-std::expm1(-rate * term.width));
-      sum += term.count * one;
+      double log_term = -rate * term.start;
+      if (term.width > 0.0) log_term += std::log(-std::expm1(-rate * term.width));
+      sum += term.count * log_term;
     }
     return sum;
   }

@@ -96,9 +96,9 @@ class Grouping {
 
   std::optional<Union> united(std::size_t a, std::size_t b) const {
     const std::vector<std::uint32_t>&of_a = groups_[a].frustum.members, &of_b = groups_[b].frustum.members;
-    for (const std::uint32_t one : of_a)
+    for (const std::uint32_t light : of_a)
       for (const std::uint32_t other : of_b)
-        if (!may_share(lights_[one], lights_[other], limits_)) return std::nullopt;
+        if (!may_share(lights_[light], lights_[other], limits_)) return std::nullopt;
     std::vector<std::uint32_t> members;
     std::ranges::merge(of_a, of_b, std::back_inserter(members));
     std::optional<SharedFrustum> frustum = frustum_around(lights_, members);

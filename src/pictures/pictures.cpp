@@ -95,8 +95,8 @@ class Drawing {
                 {data.scene, data.paths[plan.camera], config_.viewports[plan.viewport], depths_of(plan.scene),
                  config_.threads, data.visible_sets.get()},
                 {}};
-    for (const run::CasePlan& one : plan.cases)
-      if (can_picture(group, one)) group.cases.push_back(&one);
+    for (const run::CasePlan& case_plan : plan.cases)
+      if (can_picture(group, case_plan)) group.cases.push_back(&case_plan);
     if (group.cases.empty()) return;
     for (const int frame : frames_of(group))
       if (!stop_) draw_frame(group, frame);
@@ -110,11 +110,11 @@ class Drawing {
   }
 
   // What is cut to the depths of visible surfaces has nothing to say of a plane.
-  bool can_picture(const Group& group, const run::CasePlan& one) const {
-    const bool needs_depth = assign::find_assigner(config_.assigners[one.assigner].name)->needs.depth;
+  bool can_picture(const Group& group, const run::CasePlan& case_plan) const {
+    const bool needs_depth = assign::find_assigner(config_.assigners[case_plan.assigner].name)->needs.depth;
     if (!needs_depth || !is_on_plane(group)) return true;
     if (listener_.on_skipped)
-      listener_.on_skipped(one.name, "its lists are those of visible surfaces: no picture of a plane");
+      listener_.on_skipped(case_plan.name, "its lists are those of visible surfaces: no picture of a plane");
     return false;
   }
 
@@ -131,8 +131,8 @@ class Drawing {
 
   int worst_frame(const Group& group) const {
     const LongestList* worst = nullptr;
-    for (const run::CasePlan* one : group.cases) {
-      const auto found = longest_.find(one->id);
+    for (const run::CasePlan* case_plan : group.cases) {
+      const auto found = longest_.find(case_plan->id);
       if (found != longest_.end() && (worst == nullptr || found->second.lights > worst->lights)) worst = &found->second;
     }
     return worst == nullptr ? 0 : worst->frame;
@@ -176,10 +176,10 @@ class Drawing {
     return out;
   }
 
-  void name_case(Heading& heading, const run::CasePlan& one) const {
-    const config::PrecisionRequest& precision = config_.precisions[one.precision];
-    heading.grid_line = config_.grids[one.grid].name();
-    heading.method = config_.assigners[one.assigner].label() + ", " + run::storage_label(config_, one) +
+  void name_case(Heading& heading, const run::CasePlan& case_plan) const {
+    const config::PrecisionRequest& precision = config_.precisions[case_plan.precision];
+    heading.grid_line = config_.grids[case_plan.grid].name();
+    heading.method = config_.assigners[case_plan.assigner].label() + ", " + run::storage_label(config_, case_plan) +
                      (precision.is_lossy() ? ", lights in " + precision.label() : "");
   }
 
@@ -203,7 +203,7 @@ class Drawing {
     const NeededAt needed(now.frame, surface, config_.threads);
     const Seen seen{surface, light, needed.total()};
     std::vector<Answer> answers;
-    for (const run::CasePlan* one : group.cases) answers.emplace_back(config_, *one, now, group.path);
+    for (const run::CasePlan* case_plan : group.cases) answers.emplace_back(config_, *case_plan, now, group.path);
     const auto maps_of = [&](std::size_t at) {
       return pixel_maps(surface, needed, now.frame.ranges().spots.first, answers[at].structure(), config_.threads);
     };
@@ -219,11 +219,11 @@ class Drawing {
     const std::uint32_t top = request_.top.value_or(scale_top(most_lights)), top_false = scale_top(most_false);
     for (std::size_t i = 0; i < answers.size() && !stop_; ++i) {
       const PixelMaps maps = only ? std::move(*only) : maps_of(i);
-      const run::CasePlan& one = *group.cases[i];
-      name_case(head, one);
+      const run::CasePlan& case_plan = *group.cases[i];
+      name_case(head, case_plan);
       const auto add = [&](Kind kind, const auto& make) {
         if (request_.wants(kind) && !stop_)
-          save(group, make(), {names_.of_case(one.name, kind, index), "", kind, index, {one.id}, ""});
+          save(group, make(), {names_.of_case(case_plan.name, kind, index), "", kind, index, {case_plan.id}, ""});
       };
       add(Kind::lights, [&] { return lights_figure(head, seen, maps, top); });
       add(Kind::levels, [&] { return levels_figure(head, seen, maps); });
@@ -255,7 +255,7 @@ class Drawing {
     std::vector<std::string> ids;
     for (const run::GroupPlan& other : plan_.groups)
       if (other.scene == plan.scene && other.camera == plan.camera && other.viewport == plan.viewport)
-        for (const run::CasePlan& one : other.cases) ids.push_back(one.id);
+        for (const run::CasePlan& case_plan : other.cases) ids.push_back(case_plan.id);
     return ids;
   }
 

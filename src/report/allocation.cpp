@@ -57,9 +57,9 @@ struct Weighed {
 std::uint64_t at_rank(const std::vector<Weighed>& ascending, double share, double frames) {
   const double rank = std::ceil(share * frames);
   double counted = 0.0;
-  for (const Weighed& one : ascending) {
-    counted += static_cast<double>(one.frames);
-    if (counted >= rank) return one.value;
+  for (const Weighed& weighed : ascending) {
+    counted += static_cast<double>(weighed.frames);
+    if (counted >= rank) return weighed.value;
   }
   return ascending.back().value;
 }
@@ -203,7 +203,8 @@ Names names_of(const Json& result_case) {
 }
 
 bool has_camera(const SizedStructure& structure, const Json& camera) {
-  return std::ranges::any_of(structure.cases, [&](const Json* one) { return (*one)["camera"] == camera; });
+  return std::ranges::any_of(structure.cases,
+                             [&](const Json* result_case) { return (*result_case)["camera"] == camera; });
 }
 
 }  // namespace
@@ -225,8 +226,8 @@ std::vector<SizedStructure> sized_structures(const Json& result, const std::stri
   for (const Json* result_case : matching_cases(result["cases"], filter)) {
     const Names names = names_of(*result_case);
     // The same camera again is another structure whose name is the same.
-    auto known = std::ranges::find_if(out, [&](const SizedStructure& one) {
-      return one.name == names.structure && !has_camera(one, (*result_case)["camera"]);
+    auto known = std::ranges::find_if(out, [&](const SizedStructure& sized) {
+      return sized.name == names.structure && !has_camera(sized, (*result_case)["camera"]);
     });
     if (known == out.end()) known = out.insert(known, {names.structure, names.group, {}, {}});
     known->cases.push_back(result_case);

@@ -412,7 +412,8 @@ constexpr const char* k_separate_verdicts =
 Json without_renamed(const Json& names, const Json& renamed_cases) {
   Json out = Json::array();
   for (const Json& name : names)
-    if (std::ranges::none_of(renamed_cases, [&](const Json& one) { return one["name"] == name; })) out.push_back(name);
+    if (std::ranges::none_of(renamed_cases, [&](const Json& renamed) { return renamed["name"] == name; }))
+      out.push_back(name);
   return out;
 }
 

@@ -92,24 +92,24 @@ Json light_map_json(const LightMap& map, const LightMapRequest& request) {
   return out;
 }
 
-Json light_map_scene_json(const LightMapScene& one, const LightMapRequest& request) {
-  Json out{{"name", one.scene.name},
-           {"sha256", one.scene.sha256},
-           {"geometry_sha256", one.geometry_sha256},
+Json light_map_scene_json(const LightMapScene& scene, const LightMapRequest& request) {
+  Json out{{"name", scene.scene.name},
+           {"sha256", scene.scene.sha256},
+           {"geometry_sha256", scene.geometry_sha256},
            {"range_rule",
-            {{"cutoff_lux", one.scene.range_rule.cutoff_lux}, {"max_range_m", one.scene.range_rule.max_range_m}}},
+            {{"cutoff_lux", scene.scene.range_rule.cutoff_lux}, {"max_range_m", scene.scene.range_rule.max_range_m}}},
            {"lights",
-            {{"point", one.found.points},
-             {"spot", one.found.spots},
-             {"moving", one.found.moving_lights},
-             {"directional", one.found.directional}}},
+            {{"point", scene.found.points},
+             {"spot", scene.found.spots},
+             {"moving", scene.found.moving_lights},
+             {"directional", scene.found.directional}}},
            {"maps", Json::array()},
-           {"all", map_counts_json(one.found.all, request)},
+           {"all", map_counts_json(scene.found.all, request)},
            {"left_out", Json::array()},
-           {"warnings", one.warnings},
-           {"seconds", one.found.seconds}};
-  for (const LightMap& map : one.found.maps) out["maps"].push_back(light_map_json(map, request));
-  for (const measure::LeftOut& mesh : one.found.left_out)
+           {"warnings", scene.warnings},
+           {"seconds", scene.found.seconds}};
+  for (const LightMap& map : scene.found.maps) out["maps"].push_back(light_map_json(map, request));
+  for (const measure::LeftOut& mesh : scene.found.left_out)
     out["left_out"].push_back({{"mesh", mesh.name}, {"reason", mesh.reason}});
   return out;
 }
@@ -256,22 +256,22 @@ Json light_maps_to_json(const std::vector<LightMapScene>& scenes, const LightMap
              {"lamp_radius_m", request.lamp_radius_m},
              {"tile", request.tile}}},
            {"scenes", Json::array()}};
-  for (const LightMapScene& one : scenes) out["scenes"].push_back(light_map_scene_json(one, request));
+  for (const LightMapScene& scene : scenes) out["scenes"].push_back(light_map_scene_json(scene, request));
   return out;
 }
 
 std::string light_maps_text(const std::vector<LightMapScene>& scenes, const LightMapRequest& request) {
   std::string out;
-  for (const LightMapScene& one : scenes) {
-    const LightMaps& found = one.found;
-    out += (out.empty() ? "" : "\n") + shown(one.scene.name) + ": " + number_of(found.points, "point light") + " and " +
-           number_of(found.spots, "spot light") + text(", %.2f s\n", found.seconds);
+  for (const LightMapScene& scene : scenes) {
+    const LightMaps& found = scene.found;
+    out += (out.empty() ? "" : "\n") + shown(scene.scene.name) + ": " + number_of(found.points, "point light") +
+           " and " + number_of(found.spots, "spot light") + text(", %.2f s\n", found.seconds);
     if (!found.maps.empty())
       out += light_map_tables(found) + tests_line(found.all, request) + triangles_line(found.all);
     else
       out += "  no mesh has a light map; --unwrap makes texture coordinates where the file has none\n";
     out += left_out_lines(found);
-    for (const std::string& warning : one.warnings) out += "  warning: " + shown(warning) + "\n";
+    for (const std::string& warning : scene.warnings) out += "  warning: " + shown(warning) + "\n";
   }
   return out;
 }

@@ -187,7 +187,7 @@ std::string shown_line(const Json& line, const Json& cases, const Json& best, Ce
 Json preset_facts(const Json& cases, const Json& skipped) {
   Json facts = Json::array();
   for (const config::Preset& preset : config::presets()) {
-    const auto is_of = [&](const Json& one) { return one.value("preset", "") == preset.name; };
+    const auto is_of = [&](const Json& entry) { return entry.value("preset", "") == preset.name; };
     if (std::ranges::none_of(cases, is_of) && std::ranges::none_of(skipped, is_of)) continue;
     facts.push_back({{"name", preset.name},
                      {"engine", preset.engine},

@@ -84,7 +84,7 @@ std::optional<double> figure_over(const Json& cases, const std::string& name) {
 
 Json cases_json(std::span<const run::CaseResult> cases, const Json& config) {
   Json out = Json::array();
-  for (const run::CaseResult& one : cases) out.push_back(case_to_json(one));
+  for (const run::CaseResult& case_result : cases) out.push_back(case_to_json(case_result));
   add_costs(out, config);
   return out;
 }
@@ -144,10 +144,10 @@ run::Contender pooled(const Json& cases, RankBy by) {
   std::vector<double> sum(all.rounds_ns.size(), 0.0);
   double frames = 0.0;
   for (const Json& result_case : cases) {
-    const run::Contender one = contender_of(result_case, by);
-    if (one.rounds_ns.size() != sum.size()) return {};
+    const run::Contender contender = contender_of(result_case, by);
+    if (contender.rounds_ns.size() != sum.size()) return {};
     const double weight = result_case["frames"].get<double>();
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * one.rounds_ns[i];
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * contender.rounds_ns[i];
     frames += weight;
   }
   for (double& ns : sum) ns /= frames;
@@ -202,12 +202,12 @@ Json method_json(const config::MethodRequest& request) {
 }
 
 // Whether it differs from another in cells only, which its method then does not use.
-bool is_repeated(const Json& one, const Json& other) {
-  return one["assigner"] == other["assigner"] && one["storage"] == other["storage"] &&
-         one["precision"] == other["precision"] &&
+bool is_repeated(const Json& record, const Json& other) {
+  return record["assigner"] == other["assigner"] && record["storage"] == other["storage"] &&
+         record["precision"] == other["precision"] &&
          std::ranges::all_of(objective_figures(), [&](const ObjectiveFigure& figure) {
            return figure.is_timed ||
-                  one["figures"].value(figure.name, Json()) == other["figures"].value(figure.name, Json());
+                  record["figures"].value(figure.name, Json()) == other["figures"].value(figure.name, Json());
          });
 }
 
@@ -228,18 +228,18 @@ Json parts_json(const config::Config& config, const search::View& view, const se
           {"precision", packing}};
 }
 
-Json ranked_json(const config::Config& config, const search::View& view, const Ranked& one, const Ranked& choice,
+Json ranked_json(const config::Config& config, const search::View& view, const Ranked& ranked, const Ranked& choice,
                  const Question& question) {
-  Json out = parts_json(config, view, view.candidates[one.candidate]);
-  out["objective"] = number_or_null(one.objective);
-  out["by_choice"] = number_or_null(one.objective / choice.objective);
-  if (const std::optional<measure::Ratio> ratio = ratio_of(one, choice, question, config.seed)) {
+  Json out = parts_json(config, view, view.candidates[ranked.candidate]);
+  out["objective"] = number_or_null(ranked.objective);
+  out["by_choice"] = number_or_null(ranked.objective / choice.objective);
+  if (const std::optional<measure::Ratio> ratio = ratio_of(ranked, choice, question, config.seed)) {
     out["by_choice"] = six_digits(ratio->ratio);
     out["ci95"] = {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)};
   }
   Json figures = Json::object();
   for (const ObjectiveFigure& figure : objective_figures())
-    if (const std::optional<double> value = figure_over(one.cases, figure.name))
+    if (const std::optional<double> value = figure_over(ranked.cases, figure.name))
       figures[figure.name] = figure.is_timed ? six_digits(*value) : number_or_null(*value);
   out["figures"] = figures;
   return out;
@@ -251,8 +251,9 @@ Json runners_up_json(const config::Config& config, const search::View& view, con
   Json told = Json::array({ranked_json(config, view, all[0], all[0], question)});
   for (std::size_t i = 1; i < all.size() && all[i].is_feasible(); ++i) {
     if (told.size() > static_cast<std::size_t>(question.runners_up)) break;
-    const Json one = ranked_json(config, view, all[i], all[0], question);
-    if (std::ranges::none_of(told, [&](const Json& other) { return is_repeated(one, other); })) told.push_back(one);
+    const Json record = ranked_json(config, view, all[i], all[0], question);
+    if (std::ranges::none_of(told, [&](const Json& other) { return is_repeated(record, other); }))
+      told.push_back(record);
   }
   told.erase(0);
   return told;
@@ -451,11 +452,11 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
     out["choice"] = ranked_json(config, view, all[0], all[0], question);
     double best = all[0].objective;
     const Ranked* coarsest = &all[0];
-    for (const Ranked& one : all)
-      if (one.is_feasible()) best = std::min(best, one.objective);
-    for (const Ranked& one : all)
-      if (one.is_feasible() && one.objective <= best * (1.0 + question.within) && one.cells < coarsest->cells)
-        coarsest = &one;
+    for (const Ranked& ranked : all)
+      if (ranked.is_feasible()) best = std::min(best, ranked.objective);
+    for (const Ranked& ranked : all)
+      if (ranked.is_feasible() && ranked.objective <= best * (1.0 + question.within) && ranked.cells < coarsest->cells)
+        coarsest = &ranked;
     if (coarsest != &all[0]) out["coarsest"] = ranked_json(config, view, *coarsest, all[0], question);
     out["runners_up"] = runners_up_json(config, view, all, question);
   }
@@ -492,11 +493,11 @@ Json recommended_config(const config::Config& config, const search::View& view, 
   out.erase("presets");
   for (const char* key : {"grids", "assigners", "storages", "precision"}) out[key] = Json::array();
   for (int i = 0; i <= runners_up && i <= static_cast<int>(answer["runners_up"].size()); ++i) {
-    const Json& one = i == 0 ? answer["choice"] : answer["runners_up"][static_cast<std::size_t>(i) - 1];
-    add_once(out["grids"], one["grid"]);
-    add_once(out["assigners"], one["assigner"]);
-    add_once(out["storages"], one["storage"]);
-    add_once(out["precision"], one["precision"]);
+    const Json& record = i == 0 ? answer["choice"] : answer["runners_up"][static_cast<std::size_t>(i) - 1];
+    add_once(out["grids"], record["grid"]);
+    add_once(out["assigners"], record["assigner"]);
+    add_once(out["storages"], record["storage"]);
+    add_once(out["precision"], record["precision"]);
   }
   if (out["storages"].empty()) out["storages"].push_back("packed");  // of lists, which it may have besides
   // Lists that come with a structure of the method's own are not the choice, and would break its budgets.

@@ -18,23 +18,23 @@ std::string within_text(double within) {
 }
 
 // "frustum/exact-fast/packed": one line of the table of candidates.
-Cells candidate_row(const std::string& mark, const Json& one, const std::string& objective) {
+Cells candidate_row(const std::string& mark, const Json& record, const std::string& objective) {
   std::string distance;
-  if (const Json& by = one["by_choice"]; by.is_number() && mark != "*") {
+  if (const Json& by = record["by_choice"]; by.is_number() && mark != "*") {
     distance = text("%+.1f %%", 100.0 * (by.get<double>() - 1.0));
-    if (one.contains("ci95") && one["ci95"][0].is_number())
-      distance += text(" (%+.1f", 100.0 * (one["ci95"][0].get<double>() - 1.0)) +
-                  text(" to %+.1f)", 100.0 * (one["ci95"][1].get<double>() - 1.0));
+    if (record.contains("ci95") && record["ci95"][0].is_number())
+      distance += text(" (%+.1f", 100.0 * (record["ci95"][0].get<double>() - 1.0)) +
+                  text(" to %+.1f)", 100.0 * (record["ci95"][1].get<double>() - 1.0));
   }
   const auto figure = [&](const std::string& name) {
-    const std::optional<double> value = number_at(one, "/figures/" + name);
+    const std::optional<double> value = number_at(record, "/figures/" + name);
     return value ? amount_text(*value) : std::string("-");
   };
   return {mark,
-          shown(one["name"].get<std::string>()),
+          shown(record["name"].get<std::string>()),
           figure(objective),
           distance,
-          std::to_string(one["cells"].get<std::uint64_t>()),
+          std::to_string(record["cells"].get<std::uint64_t>()),
           figure("bytes"),
           figure("longest"),
           figure("overshade")};
@@ -115,8 +115,9 @@ std::string unfinished_text(const search::View& view, const search::Found& found
                     " had been measured, none of them to the end of the search";
   if (order.empty()) return out + ", and none that satisfies the constraints\n";
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-    const search::Record &one = found.records[a], &other = found.records[b];
-    return one.frames != other.frames ? one.frames > other.frames : one.verdict.objective < other.verdict.objective;
+    const search::Record &record = found.records[a], &other = found.records[b];
+    return record.frames != other.frames ? record.frames > other.frames
+                                         : record.verdict.objective < other.verdict.objective;
   });
   order.resize(std::min(order.size(), static_cast<std::size_t>(question.runners_up) + 1));
   std::vector<Cells> rows{{" ", "best so far", question.objective.name, "on frames"}};

@@ -66,12 +66,16 @@ bool is_slower(const Json& result, const SizedStructure& structure, const SizedS
 // Of structures of one grid that lose no light the fastest; of those that may be as fast, the one with the least
 // memory.
 const SizedStructure& best_of(const Json& result, std::vector<const SizedStructure*> all) {
-  const auto least_rank = rank(**std::ranges::min_element(all, {}, [](const auto* one) { return rank(*one); }));
-  std::erase_if(all, [&](const auto* one) { return rank(*one) != least_rank; });
-  const SizedStructure& fastest = **std::ranges::min_element(all, {}, [](const auto* one) { return time_of(*one); });
-  std::erase_if(all, [&](const auto* one) { return one != &fastest && is_slower(result, *one, fastest); });
-  return **std::ranges::min_element(all, {},
-                                    [](const auto* one) { return std::tuple(one->bytes(), time_of(*one), one->name); });
+  const auto least_rank =
+      rank(**std::ranges::min_element(all, {}, [](const auto* structure) { return rank(*structure); }));
+  std::erase_if(all, [&](const auto* structure) { return rank(*structure) != least_rank; });
+  const SizedStructure& fastest =
+      **std::ranges::min_element(all, {}, [](const auto* structure) { return time_of(*structure); });
+  std::erase_if(all,
+                [&](const auto* structure) { return structure != &fastest && is_slower(result, *structure, fastest); });
+  return **std::ranges::min_element(all, {}, [](const auto* structure) {
+    return std::tuple(structure->bytes(), time_of(*structure), structure->name);
+  });
 }
 
 std::vector<SizedStructure> best_of_groups(const Json& result, const std::vector<SizedStructure>& all) {
@@ -123,8 +127,8 @@ Json structure_json(const NamedStructure& named) {
            {"grid", first["grid"]["name"]}, {"assigner", first["assigner"]["label"]},
            {"storage", first["storage"]},   {"bytes", structure.bytes()}};
   std::uint64_t dropped = 0;
-  for (const Json* one : structure.cases)
-    dropped += (*one)["buffers"]["overflow"]["dropped_pairs"].get<std::uint64_t>();
+  for (const Json* result_case : structure.cases)
+    dropped += (*result_case)["buffers"]["overflow"]["dropped_pairs"].get<std::uint64_t>();
   out["dropped_pairs"] = dropped;
   if (const std::vector<std::string> notes = grid_notes(structure); !notes.empty()) out["grid_notes"] = notes;
   out["buffers"] = Json::array();

@@ -82,8 +82,8 @@ std::string lookup_text(const NamedLookup& lookup, SizeLanguage language, bool i
   const Json& result_case = *lookup.cases.front();
   std::string out;
   if (!is_only_one)
-    for (const Json* one : lookup.cases)
-      out += comment_line("  lookup of camera " + (*one)["camera"].get<std::string>());
+    for (const Json* of_camera : lookup.cases)
+      out += comment_line("  lookup of camera " + (*of_camera)["camera"].get<std::string>());
   if (const std::string note = lookup_note(result_case); !note.empty()) out += comment_line("  lookup: " + note);
   const std::vector<LookupConstant> constants = lookup_constants(result_case);
   if (language == SizeLanguage::cpp) return out + lookup_cpp(lookup.name, constants);

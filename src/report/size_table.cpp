@@ -53,7 +53,7 @@ std::string worst_lines(const SizedStructure& structure) {
   for (const SizedBuffer& buffer : structure.buffers) {
     if (!buffer.spread || buffer.spread->min == buffer.spread->max) continue;
     const std::string worst = worst_text(buffer);
-    const auto known = std::ranges::find_if(by_frame, [&](const auto& one) { return one.first == worst; });
+    const auto known = std::ranges::find_if(by_frame, [&](const auto& entry) { return entry.first == worst; });
     (known == by_frame.end() ? by_frame.insert(known, {worst, {}}) : known)->second.push_back(buffer.name);
   }
   std::string out;

@@ -270,8 +270,8 @@ std::string skipped_text(const Json& skipped) {
   if (skipped.empty()) return "";
   std::set<std::string> reasons;
   bool takes_no_boxes = false;
-  for (const Json& one : skipped) {
-    const auto reason = one["reason"].get<std::string>();
+  for (const Json& skipped_case : skipped) {
+    const auto reason = skipped_case["reason"].get<std::string>();
     reasons.insert(reason);
     takes_no_boxes = takes_no_boxes || reason.ends_with(" takes no boxes");
   }

@@ -54,18 +54,18 @@ Json frame_json(const search::FoundFrame& frame, const WorstCaseFacts& facts, co
 }
 
 Json case_json(const WorstCaseFacts& facts) {
-  const run::CasePlan& one = facts.case_plan;
-  const run::SceneData& data = facts.plan.scenes[one.scene];
-  const Vec2i viewport = facts.config.viewports[one.viewport];
-  return {{"name", one.name},
-          {"id", one.id},
+  const run::CasePlan& case_plan = facts.case_plan;
+  const run::SceneData& data = facts.plan.scenes[case_plan.scene];
+  const Vec2i viewport = facts.config.viewports[case_plan.viewport];
+  return {{"name", case_plan.name},
+          {"id", case_plan.id},
           {"scene", data.scene.name},
           {"sha256", data.scene.sha256},
-          {"camera", data.paths[one.camera].camera},
+          {"camera", data.paths[case_plan.camera].camera},
           {"viewport", {viewport.x, viewport.y}},
-          {"grid", facts.config.grids[one.grid].name()},
-          {"assigner", facts.config.assigners[one.assigner].label()},
-          {"storage", run::storage_label(facts.config, one)}};
+          {"grid", facts.config.grids[case_plan.grid].name()},
+          {"assigner", facts.config.assigners[case_plan.assigner].label()},
+          {"storage", run::storage_label(facts.config, case_plan)}};
 }
 
 Json space_json(const WorstCase& found, const WorstCaseFacts& facts) {

@@ -37,13 +37,13 @@ double counting_ns(const config::Config& config, const SceneData& data, const Gr
 // What measure_launch() does with each method in all launches, from what one frame takes.
 double timing_ns(const config::Config& config, const GroupPlan& group, const PathFrames& path, double sweep_ns) {
   const auto frames = static_cast<double>(mean_frames(config, path).size());
-  const std::vector<TimedFrame> one = timed_frames(config, group, path, {path.count() / 2});
+  const std::vector<TimedFrame> middle_frame = timed_frames(config, group, path, {path.count() / 2});
   const double min_ns = 1e6 * config.timing.min_time_ms, launches = config.timing.launches;
   const int rounds = rounds_per_launch(config.timing, config.timing.launches);
   const int cold = config.timing.cold ? cold_rounds(rounds, static_cast<std::size_t>(frames) + 1, sweep_bytes()) : 0;
   double all = 0.0;
   for (const Method& method : methods_of(group)) {
-    TimedWork work(config, group, method, one);
+    TimedWork work(config, group, method, middle_frame);
     const double build = duration_ns([&] { work.build(); }), assign = duration_ns([&] { work.assign(); });
     double start = build + (frames + 1.0) * assign, warm = build + frames * assign + std::max(min_ns, frames * assign);
     double converts = 0.0;

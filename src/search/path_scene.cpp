@@ -90,9 +90,9 @@ void LightRig::find_changes(bool may_move) {
       const State &first = states_.front()[i], &now = states[i];
       const Changes here{now.position != first.position, now.rotation != first.rotation, now.range_m != first.range_m,
                          now.outer_cone_rad != first.outer_cone_rad};
-      changes_[i] = {changes_[i].place || here.place, changes_[i].rotation || here.rotation,
+      changes_[i] = {changes_[i].position || here.position, changes_[i].rotation || here.rotation,
                      changes_[i].range || here.range, changes_[i].cone || here.cone};
-      is_any = is_any || here.place || here.rotation || here.range || here.cone;
+      is_any = is_any || here.position || here.rotation || here.range || here.cone;
     }
   if (is_any) return;
   states_.resize(1);
@@ -102,7 +102,7 @@ void LightRig::find_changes(bool may_move) {
 void LightRig::round_changing() {
   for (std::vector<State>& states : states_)
     for (std::size_t i = 0; i < own_; ++i) {
-      if (changes_[i].place) states[i].position = rounded_to_float(states[i].position);
+      if (changes_[i].position) states[i].position = rounded_to_float(states[i].position);
       if (changes_[i].rotation) states[i].rotation = rounded_to_float(states[i].rotation);
       if (changes_[i].range) states[i].range_m = rounded_to_float(states[i].range_m);
       if (changes_[i].cone) states[i].outer_cone_rad = rounded_to_float(states[i].outer_cone_rad);
@@ -144,7 +144,7 @@ scene::Scene LightRig::scene(std::size_t frames, const scene::CameraProjection& 
     }
     light.range_given_m = light.range_m;
     out.nodes[i + 1].name = light.name;
-    if (changes.place) out.channels.push_back(node_channel(frames, ChannelPath::translation, node));
+    if (changes.position) out.channels.push_back(node_channel(frames, ChannelPath::translation, node));
     if (changes.rotation) out.channels.push_back(node_channel(frames, ChannelPath::rotation, node));
     if (changes.range) out.light_channels.push_back(light_channel(frames, ChannelPath::range, definition));
     if (changes.cone) out.light_channels.push_back(light_channel(frames, ChannelPath::outer_cone, definition));
@@ -158,18 +158,18 @@ void LightRig::set_frame(scene::Scene& scene, std::size_t frame, const FrameChoi
   const std::vector<State>& states = states_[choice.moment];
   const auto position_of = [&](std::size_t light) {
     if (light >= own_) return choice.extra_lights[light - own_];
-    const auto moved = std::ranges::lower_bound(choice.moved, light, {}, [](const auto& one) { return one.first; });
+    const auto moved = std::ranges::lower_bound(choice.moved, light, {}, [](const auto& entry) { return entry.first; });
     const bool is_moved = moved != choice.moved.end() && moved->first == light;
     return is_moved ? moved->second : states[light].position;
   };
   for (Channel& channel : scene.channels) {
-    const bool is_place = channel.path == ChannelPath::translation;
+    const bool is_position = channel.path == ChannelPath::translation;
     if (channel.node == k_camera_node) {
-      channel.values[frame] = is_place ? Vec4d(choice.eye, 0.0) : choice.rotation;
+      channel.values[frame] = is_position ? Vec4d(choice.eye, 0.0) : choice.rotation;
       continue;
     }
     const auto light = static_cast<std::size_t>(channel.node) - 1;
-    channel.values[frame] = is_place ? Vec4d(position_of(light), 0.0) : states[light].rotation;
+    channel.values[frame] = is_position ? Vec4d(position_of(light), 0.0) : states[light].rotation;
   }
   for (Channel& channel : scene.light_channels) {
     const State& state = states[static_cast<std::size_t>(channel.definition)];

@@ -54,7 +54,7 @@ class LightRig {
     double range_m = 0.0, outer_cone_rad = 0.0;
   };
   struct Changes {
-    bool place = false, rotation = false, range = false, cone = false;
+    bool position = false, rotation = false, range = false, cone = false;
   };
 
   void find_changes(bool may_move);

@@ -199,8 +199,8 @@ class ViewSearch {
       if (const Verdict& verdict = found_.records[candidate].verdict; verdict.broken.empty())
         best = std::fmin(best, verdict.objective);
     for (const std::size_t candidate : candidates) {
-      Record& one = found_.records[candidate];
-      if (best < k_infinite) one.by_best = one.verdict.objective == best ? 1.0 : one.verdict.objective / best;
+      Record& record = found_.records[candidate];
+      if (best < k_infinite) record.by_best = record.verdict.objective == best ? 1.0 : record.verdict.objective / best;
     }
   }
 
@@ -241,11 +241,11 @@ class ViewSearch {
     constexpr std::size_t k_most = 4;
     std::map<std::pair<std::uint64_t, std::size_t>, std::size_t> best;  // by cells and grid
     for (std::size_t i = 0; i < view_.candidates.size(); ++i) {
-      const Record& one = found_.records[i];
-      if (!one.verdict.broken.empty() || !(one.by_best <= 1.0 + request_.within)) continue;
+      const Record& record = found_.records[i];
+      if (!record.verdict.broken.empty() || !(record.by_best <= 1.0 + request_.within)) continue;
       const Candidate& candidate = view_.candidates[i];
       const auto [place, is_new] = best.try_emplace({candidate.cells, candidate.grid}, i);
-      if (!is_new && rank_of(one) < rank_of(found_.records[place->second])) place->second = i;
+      if (!is_new && rank_of(record) < rank_of(found_.records[place->second])) place->second = i;
     }
     std::size_t count = 0;
     for (const auto& [grid, candidate] : best) {
@@ -254,7 +254,7 @@ class ViewSearch {
     }
   }
 
-  static std::tuple<double, double> rank_of(const Record& one) { return {one.by_best, one.verdict.bytes}; }
+  static std::tuple<double, double> rank_of(const Record& record) { return {record.by_best, record.verdict.bytes}; }
 
   void add_finalists(std::vector<std::size_t> candidates) {
     std::ranges::sort(candidates);

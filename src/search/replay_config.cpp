@@ -40,8 +40,8 @@ OrderedJson replay_config(const config::Config& config, const run::CasePlan& cas
 
 const run::CasePlan& replayed_case(const run::Plan& replay, const run::CasePlan& case_plan) {
   for (const run::GroupPlan& group : replay.groups)
-    for (const run::CasePlan& one : group.cases)
-      if (one.storage.has_value() == case_plan.storage.has_value()) return one;
+    for (const run::CasePlan& other : group.cases)
+      if (other.storage.has_value() == case_plan.storage.has_value()) return other;
   throw Error("", "replay", "has no case like " + case_plan.name, ExitCode::internal);
 }
 

@@ -62,12 +62,12 @@ FrameChoice SearchSpace::at(std::span<const double> point) const {
     out.moment = std::min(static_cast<std::size_t>(point[next++] * static_cast<double>(moments_)), moments_ - 1);
   // Relative to the eye, so that lights keep their effect when it moves, and finer near it.
   for (std::size_t light = 0; light < extra_lights_; ++light) {
-    Vec3d place = eye;
+    Vec3d position = eye;
     for (int axis = 0; axis < 3; ++axis) {
       const double side = 2.0 * point[next++] - 1.0;
-      place[axis] += side * std::abs(side) * (lights_.hi[axis] - lights_.lo[axis]);
+      position[axis] += side * std::abs(side) * (lights_.hi[axis] - lights_.lo[axis]);
     }
-    out.extra_lights.push_back(rounded_to_float(glm::clamp(place, lights_.lo, lights_.hi)));
+    out.extra_lights.push_back(rounded_to_float(glm::clamp(position, lights_.lo, lights_.hi)));
   }
   return out;
 }

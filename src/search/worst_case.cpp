@@ -358,14 +358,14 @@ class WorstCaseSearch {
     for (std::size_t turn = 0; used < evaluations && !clock_.is_over(); ++turn) {
       const std::size_t light = turn % rig_.own_lights();
       const Vec3d home = rig_.position(frame.choice.moment, light);
-      Vec3d place = home + within(frame.choice.eye - home, request_.move_m);
-      if (turn >= rig_.own_lights()) place = home + in_ball(random, request_.move_m);
+      Vec3d position = home + within(frame.choice.eye - home, request_.move_m);
+      if (turn >= rig_.own_lights()) position = home + in_ball(random, request_.move_m);
       FrameChoice tried = frame.choice;
-      tried.moved[light].second = rounded_to_float(place);
+      tried.moved[light].second = rounded_to_float(position);
       keep_if_better(tried);
     }
     std::erase_if(frame.choice.moved,
-                  [&](const auto& one) { return one.second == rig_.position(frame.choice.moment, one.first); });
+                  [&](const auto& entry) { return entry.second == rig_.position(frame.choice.moment, entry.first); });
     return used;
   }
 
@@ -457,12 +457,12 @@ void check_request(const run::SceneData& data, const WorstCaseRequest& request) 
 const run::CasePlan& case_to_search(const config::Config& config, const run::Plan& plan) {
   const run::CasePlan* found = nullptr;
   for (const run::GroupPlan& group : plan.groups)
-    for (const run::CasePlan& one : group.cases) {
-      const assign::AssignerDescriptor& assigner = *assign::find_assigner(config.assigners[one.assigner].name);
-      const std::optional<grid::Fit>& fit = config.grids[one.grid].slices.fit;
+    for (const run::CasePlan& case_plan : group.cases) {
+      const assign::AssignerDescriptor& assigner = *assign::find_assigner(config.assigners[case_plan.assigner].name);
+      const std::optional<grid::Fit>& fit = config.grids[case_plan.grid].slices.fit;
       if (assigner.needs.depth || assigner.at_surfaces || (fit && fit->needs_surfaces())) continue;
-      if (!assigner.all_pairs) return one;
-      if (found == nullptr) found = &one;
+      if (!assigner.all_pairs) return case_plan;
+      if (found == nullptr) found = &case_plan;
     }
   if (found != nullptr) return *found;
   throw Error(config.file.string(), "", "all cases need depth, and a written path holds no triangles to see it from");

@@ -156,7 +156,7 @@ class DrawnLights final : public LightStructure {
   std::uint64_t drawn = 0, shaded = 0;  // pixels, of all lights
   Picture picture;
   std::vector<DrawnLight> lights;
-  Lists rows;  // of each row of pixels the lights, by their places among `lights`
+  Lists rows;  // of each row of pixels the lights, by their indices among `lights`
 
  private:
   // Calls visit(light, whether it shades the pixel) for the lights that are drawn over the sample's pixel. False where

@@ -9,7 +9,7 @@
 namespace clusterbench::assign {
 
 // A tile plane through the eye (perspective) or along the view axis (orthographic); positive to the right or above.
-// Places are given as (x or y, depth).
+// Points are given as (x or y, depth).
 struct TilePlane {
   float across, along, offset;  // unit normal (across, along)
 

@@ -90,7 +90,7 @@ using Extremes = ExtremesOf<orthographic, false>;
 template <bool orthographic>
 using PlaneExtremes = ExtremesOf<orthographic, true>;
 
-// Spots and what follows from them alone. Places count that are outside by less than the slack.
+// Spots and what follows from them alone. Points count that are outside by less than the slack.
 struct SpotShapes {
   Cone cone;
   V slack;

@@ -37,7 +37,7 @@ void check_prepared(const view::LightArrays& lights, const std::vector<geom::Bal
 }
 
 LightTest::LightTest(const Params& params, float roundoffs)
-    : spot_(SpotTest::both), inflation_(static_cast<float>(params.number("inflation"))), roundings_(roundoffs) {
+    : spot_(SpotTest::both), inflation_(static_cast<float>(params.number("inflation"))), roundoffs_(roundoffs) {
   const std::string& name = params.text("spot");
   if (name == "ball") spot_ = SpotTest::ball;
   if (name == "cone-sphere") spot_ = SpotTest::cone_sphere;
@@ -59,7 +59,7 @@ geom::Ball LightTest::ball(const view::LightArrays& lights, std::uint32_t light,
 }
 
 TestedLight LightTest::tested(const view::LightArrays& lights, std::uint32_t light) const {
-  TestedLight tested{light, ball(lights, light, roundings_), false, {}};
+  TestedLight tested{light, ball(lights, light, roundoffs_), false, {}};
   if (!lights.is_spot(light) || spot_ == SpotTest::ball) return tested;
   tested.has_cone = true;
   tested.cone = cone(lights, light);

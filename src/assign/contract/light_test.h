@@ -53,7 +53,7 @@ class LightTest {
   }
   // Roundoffs that a method with no more than these of its own pads by.
   float padding(float roundoffs) const { return inflation_ * (view::k_given_roundoffs + roundoffs); }
-  float own_padding() const { return padding(roundings_); }
+  float own_padding() const { return padding(roundoffs_); }
   // Whether a spot's ball is the one around its cone, not that of its range.
   bool balls_are_around_cones() const { return spot_ != SpotTest::cone_sphere; }
   // Whether spots are tested by their cones, too, and then the cells' balls, in the order of the cells.
@@ -73,7 +73,7 @@ class LightTest {
   enum class SpotTest { ball, cone_sphere, both };
 
   SpotTest spot_;
-  float inflation_, roundings_;
+  float inflation_, roundoffs_;
   std::vector<geom::Ball> cell_balls_;
 };
 

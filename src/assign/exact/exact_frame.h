@@ -24,7 +24,7 @@ struct ExactFrame {
   const SphereSetup& shapes;    // of the points
   const SliceBins& balls;
 
-  // Places in `visible` of a slice's points and spots, ascending.
+  // Indices in `visible` of a slice's points and spots, ascending.
   std::span<const std::uint32_t> points_of(int slice) const {
     return balls.of(slice).first(points_before_spots(slice));
   }

@@ -47,16 +47,16 @@ struct BallRows {
 };
 
 // Which row and ball a span is of, in one number.
-struct Place {
+struct RowBall {
   static constexpr int k_lane_bits = 6;
   static_assert(k_most_lanes <= 1 << k_lane_bits);
 
   VI row;
   Which ball;
 
-  HWY_INLINE explicit Place(VU place)
-      : row(BitCast(DI(), hn::ShiftRight<k_lane_bits>(place))),
-        ball(IndicesFromVec(DI(), BitCast(DI(), And(place, all((1u << k_lane_bits) - 1))))) {}
+  HWY_INLINE explicit RowBall(VU number)
+      : row(BitCast(DI(), hn::ShiftRight<k_lane_bits>(number))),
+        ball(IndicesFromVec(DI(), BitCast(DI(), And(number, all((1u << k_lane_bits) - 1))))) {}
   // Of all balls in a row.
   static HWY_INLINE VU all_of(int row) { return BitCast(DU(), from_on(row << k_lane_bits)); }
 };
@@ -148,7 +148,7 @@ class Batch {
   // its reach is 27 m, e = 1.6e-6 m, d = 4.5e-5 m, the hull goes from 0.149 to 0.356, h = 0.207, q = 0.059 per metre,
   // and 8 d R q² / h = 1.2e-5. With 30 columns from -1 to 1 that is 1 / 5,500 of a column: so many ends are certain for
   // one that is left to be decided.
-  HWY_INLINE VU columns_of(const Place& place, const Table& slopes, const Hull& hull, M wanted) const {
+  HWY_INLINE VU columns_of(const RowBall& at, const Table& slopes, const Hull& hull, M wanted) const {
     const V left = all(planes_->left), right = all(planes_->right), scale = all(planes_->columns_per_slope);
     const V tolerance = all(planes_->column_tolerance), zero = Zero(D());
     const M touches = And(wanted, And(hull.low <= Min(hull.high, right), hull.high >= left));
@@ -161,12 +161,12 @@ class Batch {
     const V width = Max(to - from - (tolerance + tolerance), zero);
     const V from_first = first + all(1.0f) - from - tolerance, to_last = to - last - tolerance;
     const V steepness = orthographic ? all(1.0f) : all(1.0f) + Max(low * low, high * high);
-    const V area = taken(least_area_, place.ball) * steepness;
+    const V area = taken(least_area_, at.ball) * steepness;
     const auto is_certain = [&](V inwards) { return And(inwards * width >= area, width * width >= area + area); };
     VU columns = BitCast(DU(), Or(whole(first), ShiftLeft<16>(whole(last))));
     if (!AllTrue(D(), Or(is_certain(Min(from_first, to_last)), Not(touches)))) {
       const auto mark = [&](V inwards, std::uint32_t bit) {
-        const M certain = Or(is_certain(inwards), is_certain_by_chord(place, slopes, inwards, steepness));
+        const M certain = Or(is_certain(inwards), is_certain_by_chord(at, slopes, inwards, steepness));
         return IfThenZeroElse(RebindMask(DU(), certain), all(bit));
       };
       columns = Or(columns, Or(mark(from_first, BatchSpans::k_first_is_uncertain),
@@ -271,15 +271,15 @@ class Batch {
   // With a point in the row's part of the picture from which the ball's surface is at least half a chord away, also
   // rows are certain where the way from an end to the next boundary inwards, in columns, times that is at least 4 slack
   // R rate (and some for rounding), and half the chord squared at least 4 slack R. `steepness` is least_area's.
-  HWY_INLINE M is_certain_by_chord(const Place& place, const Table& slopes, V inwards, V steepness) const {
-    const Balls ball = balls_.of(place.ball);
+  HWY_INLINE M is_certain_by_chord(const RowBall& at, const Table& slopes, V inwards, V steepness) const {
+    const Balls ball = balls_.of(at.ball);
     // A point that is about as near to the centre as any.
     const V depth = Min(Max(ball.depth, all(near_)), all(far_)), along = ball.depth - depth;
     const V metres = metres_per_slope(depth);
     const V across = gap(all(planes_->left) * metres, ball.x, all(planes_->right) * metres);
-    const V up = gap(slopes.at(place.row + all(1)) * metres, ball.y, slopes.at(place.row) * metres);
+    const V up = gap(slopes.at(at.row + all(1)) * metres, ball.y, slopes.at(at.row) * metres);
     const V half_square = ball.radius * ball.radius - (across * across + up * up + along * along);
-    const V least = all(5.0f) * (ball.slack * ball.radius), way = least * taken(rate_, place.ball);
+    const V least = all(5.0f) * (ball.slack * ball.radius), way = least * taken(rate_, at.ball);
     // An infinite radius has no chord.
     return And(And(is_between(least, half_square, all(1e30f)), inwards >= Zero(D())),
                inwards * inwards * half_square >= way * way * steepness);
@@ -323,33 +323,33 @@ HWY_INLINE void start_batch(int grid_rows, const BallRows& rows, BatchSpans& out
 }
 
 // The balls that may touch each row, and do not hold all of it, row after row.
-HWY_INLINE void list_places(const BallRows& rows, BatchSpans& out) {
-  std::uint32_t* HWY_RESTRICT places = out.places.data();
+HWY_INLINE void list_row_balls(const BallRows& rows, BatchSpans& out) {
+  std::uint32_t* HWY_RESTRICT row_balls = out.row_balls.data();
   std::uint32_t* HWY_RESTRICT sizes = out.sizes.data();
   std::uint32_t count = 0;
   const VU others = BitCast(DU(), IfThenZeroElse(rows.full, rows.count));
   VU skipped = BitCast(DU(), all(out.first_row) - rows.first);  // of each ball's rows; large before its first one
-  VU place = Place::all_of(out.first_row);
+  VU number = RowBall::all_of(out.first_row);
   for (int row = out.first_row, last = out.last_row; row <= last; ++row) {
     const auto wanted = skipped < others;
-    store_wanted(place, wanted, places + count);
+    store_wanted(number, wanted, row_balls + count);
     const auto size = static_cast<std::uint32_t>(CountTrue(DU(), wanted));
     sizes[row] = size;
     count += size;
     skipped = skipped + all(1u);
-    place = place + all(1u << Place::k_lane_bits);
+    number = number + all(1u << RowBall::k_lane_bits);
   }
-  StoreU(Zero(DU()), DU(), places + count);
+  StoreU(Zero(DU()), DU(), row_balls + count);
   out.count = count;
 }
 
 // What the balls have in all rows.
 template <class Batch>
 HWY_INLINE void find_hulls(const Table& slopes, const Batch& batch, BatchSpans& out) {
-  const std::uint32_t *places = out.places.data(), count = out.count;
+  const std::uint32_t *row_balls = out.row_balls.data(), count = out.count;
   for (std::uint32_t begin = 0; begin < count; begin += lane_count()) {
-    const Place place(LoadU(DU(), places + begin));
-    const Hull hull = batch.hull_of(place.ball, slopes.at(place.row), slopes.at(place.row + all(1)));
+    const RowBall at(LoadU(DU(), row_balls + begin));
+    const Hull hull = batch.hull_of(at.ball, slopes.at(at.row), slopes.at(at.row + all(1)));
     StoreU(hull.low, D(), out.low.data() + begin);
     StoreU(hull.high, D(), out.high.data() + begin);
   }
@@ -369,13 +369,13 @@ HWY_INLINE void list_uncertain(VU columns, std::uint32_t count, std::uint32_t fi
 // The columns of all rows.
 template <class Batch>
 HWY_INLINE void find_columns(const Table& slopes, const Batch& batch, BatchSpans& out) {
-  const std::uint32_t *places = out.places.data(), count = out.count;
+  const std::uint32_t *row_balls = out.row_balls.data(), count = out.count;
   for (std::uint32_t begin = 0; begin < count; begin += lane_count()) {
-    const Place place(LoadU(DU(), places + begin));
+    const RowBall at(LoadU(DU(), row_balls + begin));
     const Hull hull = {LoadU(D(), out.low.data() + begin), LoadU(D(), out.high.data() + begin)};
-    const VU columns = batch.columns_of(place, slopes, hull, FirstN(D(), count - begin));
+    const VU columns = batch.columns_of(at, slopes, hull, FirstN(D(), count - begin));
     StoreU(columns, DU(), out.columns.data() + begin);
-    StoreU(BitCast(DU(), taken(BitCast(DI(), batch.lights()), place.ball)), DU(), out.lights.data() + begin);
+    StoreU(BitCast(DU(), taken(BitCast(DI(), batch.lights()), at.ball)), DU(), out.lights.data() + begin);
     list_uncertain(columns, count - begin, begin, out);
   }
 }
@@ -384,8 +384,8 @@ HWY_INLINE void find_columns(const Table& slopes, const Batch& batch, BatchSpans
 template <class Batch>
 HWY_INLINE void add_full(const Batch& batch, const BallRows& rows, BatchSpans& out) {
   const VI end_of_others = IfThenZeroElse(rows.full, rows.first + rows.count);
-  std::swap(out.places, out.columns);
-  const std::uint32_t* others = out.places.data();  // their columns
+  std::swap(out.row_balls, out.columns);
+  const std::uint32_t* others = out.row_balls.data();  // their columns
   out.count = out.uncertain_count = 0;
   for (int row = out.first_row; row <= out.last_row; ++row) {
     std::uint32_t& size = out.sizes[static_cast<std::size_t>(row)];
@@ -417,7 +417,7 @@ HWY_INLINE void rows_of_batches(const RowPlanes& planes, const SphereSetup& shap
   }
   for (std::size_t i = 0; i < count; ++i) {
     start_batch(planes.rows, rows[i], out[i]);
-    list_places(rows[i], out[i]);
+    list_row_balls(rows[i], out[i]);
   }
   for (std::size_t i = 0; i < count; ++i) find_hulls(slopes, batches[i], out[i]);
   for (std::size_t i = 0; i < count; ++i) {

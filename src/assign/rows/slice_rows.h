@@ -60,17 +60,17 @@ struct BatchSpans {
   AlignedVector<std::uint32_t> uncertain;
   // While they are found: in which row each is, and in which lane its ball; what that has there (slopes from low to
   // high).
-  AlignedVector<std::uint32_t> places;
+  AlignedVector<std::uint32_t> row_balls;
   AlignedVector<float> low, high;
 
   // Whole vectors are written and read from each span on, and one behind them.
   void make_room(int of_rows) {
     const auto rows = static_cast<std::size_t>(of_rows), size = (rows + 2) * k_row_lanes;
-    if (places.size() >= size) return;
+    if (row_balls.size() >= size) return;
     sizes.resize(rows);
-    grow_to(size, lights, columns, uncertain, places, low, high);
+    grow_to(size, lights, columns, uncertain, row_balls, low, high);
   }
-  std::size_t capacity_bytes() const { return bytes_of(sizes, lights, columns, uncertain, places, low, high); }
+  std::size_t capacity_bytes() const { return bytes_of(sizes, lights, columns, uncertain, row_balls, low, high); }
 };
 inline constexpr int k_most_columns = 0x3fff;
 

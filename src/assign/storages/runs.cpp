@@ -130,7 +130,7 @@ extern const StorageDescriptor runs_descriptor;
 const StorageDescriptor runs_descriptor{
     .name = "runs",
     .summary = "per cell the runs of consecutive light indices, first and length each; entries are runs",
-    .source = "run-length coding; for lights that are sorted by place",
+    .source = "run-length coding; for lights that are sorted by position",
     .params = {},
     .make = make_storage<Runs>,
 };
