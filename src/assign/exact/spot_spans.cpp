@@ -64,7 +64,8 @@ void SpotSpans::take_uncertain_rows() {
         {i,
          {is(SpotRows::k_none_before) ? rows_.first[i] : 0, is(SpotRows::k_none_behind) ? rows_.last[i] : last_column},
          !is(SpotRows::k_none_before) || !is(SpotRows::k_first_is_touched),
-         !is(SpotRows::k_none_behind) || !is(SpotRows::k_last_is_touched)});
+         !is(SpotRows::k_none_behind) || !is(SpotRows::k_last_is_touched),
+         false});
   }
 }
 
@@ -178,40 +179,39 @@ void SpotSpans::shorten() {
   }
 }
 
-// Cuts long spans down to the columns of the spot's balls, and takes away what the cone misses with a ball around it:
-// in scalar code, where vectors do not tell that their ends are touched.
+// Cuts long spans down to the columns of the spot's balls, and takes away what the cone misses with a ball around it,
+// in scalar code: all at once if it can; what vectors do not tell to be touched then by halves, quarters and so on.
 void SpotSpans::narrow() {
-  const grid::Tiles& tiles = frame_->grid.screen().tiles;
-  if (ask_for_ends([&](const Span& span) { return is_to_be_narrowed(span); })) settle_ends(false);
+  const RowColumns row_columns(frame_->grid.screen().tiles);
+  for (const std::uint32_t i : uncertain_) {
+    Span& span = spans_[i];
+    IndexRange& columns = span.columns;
+    span.is_narrowed = is_to_be_narrowed(span);
+    if (!span.is_narrowed) continue;
+    const IndexRange some = balls_of(light_of(span)).touched(row_columns, row_at(span.row));
+    if (span.left_is_uncertain) columns.first = std::max(columns.first, some.first);
+    if (span.right_is_uncertain) columns.last = std::min(columns.last, some.last);
+    if (span.left_is_uncertain && span.right_is_uncertain && !columns.empty() && is_missed(span, columns)) columns = {};
+  }
+  if (ask_for_ends([](const Span& span) { return span.is_narrowed; })) settle_ends(false);
   for (const Ends& ends : ends_) {
     Span& span = spans_[ends.span];
     IndexRange& columns = span.columns;
     const bool from_left = ends.from_left && span.left_is_uncertain;
     const bool from_right = ends.from_right && span.right_is_uncertain;
-    if (columns.empty() || !(from_left || from_right)) continue;
-    const Row row = row_at(span.row);
-    const SpotBalls& balls = balls_of(light_of(span));
-    const IndexRange some = balls.touched(RowColumns(tiles), row);
-    if (from_left) columns.first = std::max(columns.first, some.first);
-    if (from_right) columns.last = std::min(columns.last, some.last);
-    const auto are_missed = [&](int first, int last) {
-      geom::FrustumCell piece = piece_of(tiles, row, first);
-      piece.x1 = tiles.x[static_cast<std::size_t>(last) + 1];
-      return !geom::cone_touches_ball(balls.cone(), geom::ball_around(piece));
-    };
-    // From an end: all of them, half, a quarter and so on.
-    const auto drop_missed = [&](bool left) {
-      for (int count = columns.count(); count > 0; count = std::min(count, columns.count())) {
-        if (left ? are_missed(columns.first, columns.first + count - 1)
-                 : are_missed(columns.last - count + 1, columns.last))
-          (left ? columns.first : columns.last) += left ? count : -count;
-        else
-          count /= 2;
-      }
-    };
-    if (from_left) drop_missed(true);
-    if (from_right) drop_missed(false);
+    for (int count = columns.count() / 2; from_left && count > 0; count = std::min(count, columns.count()))
+      is_missed(span, {columns.first, columns.first + count - 1}) ? columns.first += count : count /= 2;
+    for (int count = columns.count() / 2; from_right && count > 0; count = std::min(count, columns.count()))
+      is_missed(span, {columns.last - count + 1, columns.last}) ? columns.last -= count : count /= 2;
   }
+}
+
+// By the cone with a ball around these cells?
+bool SpotSpans::is_missed(const Span& span, const IndexRange& columns) {
+  const grid::Tiles& tiles = frame_->grid.screen().tiles;
+  geom::FrustumCell piece = piece_of(tiles, row_at(span.row), columns.first);
+  piece.x1 = tiles.x[static_cast<std::size_t>(columns.last) + 1];
+  return !geom::cone_touches_ball(balls_of(light_of(span)).cone(), geom::ball_around(piece));
 }
 
 // Of spots far larger or smaller than what vectors are for, and of cells smaller than their tolerance, these prove at

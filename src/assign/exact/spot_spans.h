@@ -31,6 +31,7 @@ class SpotSpans {
     std::uint32_t row;  // in rows_
     grid::IndexRange columns;
     bool left_is_uncertain, right_is_uncertain;  // the end may yet not be touched
+    bool is_narrowed;                            // by narrow()
 
     bool is_uncertain() const { return !columns.empty() && (left_is_uncertain || right_is_uncertain); }
   };
@@ -62,6 +63,7 @@ class SpotSpans {
   void take_touch(const Run& run, std::uint32_t index);
   void shorten();
   void narrow();
+  bool is_missed(const Span& span, const grid::IndexRange& columns);
   bool is_to_be_narrowed(const Span& span) const;
   template <class IsWanted>
   bool ask_for_ends(IsWanted&& is_wanted);
