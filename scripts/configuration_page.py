@@ -200,6 +200,8 @@ def page_text(root, page):
 
 
 def main():
+    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
+        return print(__doc__)
     schema = json.loads(subprocess.run([sys.argv[1], "schema", "config"], check=True, capture_output=True).stdout)
     old = PAGE.read_text()
     new = page_text(schema, old)

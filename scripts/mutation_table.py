@@ -475,7 +475,7 @@ MUTATIONS = [
              "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
              "exact-fast loses the upper rows of spots of which little is proven"),
     Mutation("fast-spot-widest-columns-too-few", "assign/exact/spot_spans.cpp",
-             "are_missed(columns.first, columns.first + count - 1)", "count > 1",
+             "is_missed(span, {columns.first, columns.first + count - 1}) ? ", "count > 1 ? ",
              "assign.ExactFast.gives_the_lists_of_exact_on_every_target",
              "exact-fast loses columns of spots of which little is proven"),
     Mutation("fast-spot-rows-by-neighbours", "assign/cone/spot_slices-inl.h",
@@ -865,7 +865,7 @@ MUTATIONS = [
 
     # --- sizing ---
     Mutation("spread-by-entries-not-frames", "report/allocation.cpp",
-             "counted += static_cast<double>(one.frames);", "counted += 1.0 + 0.0 * static_cast<double>(one.frames);",
+             "counted += static_cast<double>(weighed.frames);", "counted += 1.0 + 0.0 * static_cast<double>(weighed.frames);",
              "report.Allocation.entries_of_several_frames_count_for_each_and_make_the_spread_a_bound",
              "the spread of a long path is that of its summary and not of its frames"),
     Mutation("capacity-down-to-pages", "report/allocation.cpp",

@@ -9,7 +9,7 @@
 #include "cli/output.h"
 #include "config/config.h"
 #include "config/documents.h"
-#include "config/schema_check.h"
+#include "config/schema_verdict.h"
 #include "core/file_text.h"
 #include "core/text.h"
 #include "run/sweep.h"

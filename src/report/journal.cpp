@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "config/documents.h"
-#include "config/schema_check.h"
+#include "config/schema_verdict.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "report/compact_json.h"

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "config/documents.h"
-#include "config/schema_check.h"
+#include "config/schema_verdict.h"
 #include "core/error.h"
 #include "report/result_json.h"
 

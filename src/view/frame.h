@@ -84,7 +84,7 @@ struct LightArrays : LightRanges {
   bool is_empty(std::uint32_t light) const { return !(radius[light] > 0.0f); }
   // The radius grown by a number of roundoffs: units of 2^-24 of its reach. 0: as it is.
   float padded_radius(std::uint32_t light, float roundoffs) const;
-  geom::Ball ball(std::uint32_t light, float roundoffs) const;
+  geom::Ball ball(std::uint32_t light, float roundoffs) const;           // of a spot that of its range
   geom::SphericalCone cone(std::uint32_t light, float roundoffs) const;  // light must be a spot
   geom::OrientedBox box(std::uint32_t light) const;                      // light must be a box
   // A point's ball; of a spot the one around its cone, of a box the one around it.

@@ -44,7 +44,7 @@ void add_distant_points(Setting& setting, int count) {
 TEST(OnlyWhatIsNeeded, a_light_outside_of_the_view_costs_at_most_one_test_and_makes_no_pair) {
   constexpr int k_more = 500;
   for (const AssignerDescriptor* row : assigner_descriptors()) {
-    if (row->name == "brute-force" || row->naive) continue;
+    if (row->all_pairs || row->naive) continue;
     const Params params(row->params);
     for (const Setting& setting : testing::settings_for(*row, 3))
       for (const Answer answer : answers_with_cells(*row, params)) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "config/documents.h"
-#include "config/schema_check.h"
+#include "config/schema_verdict.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"
 

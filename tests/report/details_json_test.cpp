@@ -7,7 +7,7 @@
 
 #include "config/config.h"
 #include "config/documents.h"
-#include "config/schema_check.h"
+#include "config/schema_verdict.h"
 #include "report/result_json.h"
 #include "run/walk.h"
 

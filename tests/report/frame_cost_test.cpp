@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "config/documents.h"
-#include "config/schema_check.h"
+#include "config/schema_verdict.h"
 #include "report/exports/metrics.h"
 #include "report/ratios.h"
 #include "report/result_by_hand.h"

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "config/schema_check.h"
 #include "config/schema_text.h"
+#include "config/schema_verdict.h"
 #include "core/error.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"

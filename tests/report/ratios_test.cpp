@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "config/documents.h"
-#include "config/schema_check.h"
+#include "config/schema_verdict.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"
 #include "report/table.h"

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "config/documents.h"
-#include "config/schema_check.h"
+#include "config/schema_verdict.h"
 #include "core/error.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"

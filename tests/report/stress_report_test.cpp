@@ -6,7 +6,7 @@
 
 #include "config/config.h"
 #include "config/documents.h"
-#include "config/schema_check.h"
+#include "config/schema_verdict.h"
 #include "effort.h"
 #include "geom/filter/light_filter.h"
 #include "geom/light_meets_cell.h"
