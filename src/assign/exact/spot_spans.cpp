@@ -32,7 +32,8 @@ void SpotSpans::settle_uncertain_rows() {
   settle_touches();
   shorten();
   narrow();
-  while (ask_for_ends([](const Span&) { return true; })) settle_ends(true);
+  constexpr int k_at_once = 4;
+  while (ask_for_ends(k_at_once, [](const Span&) { return true; })) settle_ends(true);
   for (const Span& span : spans_) {
     rows_.first[span.row] = span.columns.first;
     rows_.last[span.row] = span.columns.last;
@@ -193,7 +194,7 @@ void SpotSpans::narrow() {
     if (span.right_is_uncertain) columns.last = std::min(columns.last, some.last);
     if (span.left_is_uncertain && span.right_is_uncertain && !columns.empty() && is_missed(span, columns)) columns = {};
   }
-  if (ask_for_ends([](const Span& span) { return span.is_narrowed; })) settle_ends(false);
+  if (ask_for_ends(1, [](const Span& span) { return span.is_narrowed; })) settle_ends(false);
   for (const Ends& ends : ends_) {
     Span& span = spans_[ends.span];
     IndexRange& columns = span.columns;
@@ -224,10 +225,9 @@ bool SpotSpans::is_to_be_narrowed(const Span& span) const {
   return !std::isinf(frame_->lights.radius[light]) && !vectors_tell(light, cell);
 }
 
-// Puts the cells at the uncertain ends of the wanted spans into cells_. False if there are none.
+// Puts so many cells at each of the uncertain ends of the wanted spans into cells_. False if there are none.
 template <class IsWanted>
-bool SpotSpans::ask_for_ends(IsWanted&& is_wanted) {
-  constexpr int k_at_once = 4;
+bool SpotSpans::ask_for_ends(int at_once, IsWanted&& is_wanted) {
   cells_.count = 0;
   ends_.clear();
   std::erase_if(uncertain_, [&](std::uint32_t i) { return !spans_[i].is_uncertain(); });
@@ -235,11 +235,11 @@ bool SpotSpans::ask_for_ends(IsWanted&& is_wanted) {
     const Span& span = spans_[i];
     if (!is_wanted(span)) continue;
     const int count = span.columns.count();
-    if (span.left_is_uncertain && span.right_is_uncertain && count <= 2 * k_at_once) {
+    if (span.left_is_uncertain && span.right_is_uncertain && count <= 2 * at_once) {
       ask(i, span.columns, true, true);
       continue;
     }
-    const int some = std::min(count, k_at_once);
+    const int some = std::min(count, at_once);
     if (span.left_is_uncertain) ask(i, {span.columns.first, span.columns.first + some - 1}, true, false);
     if (span.right_is_uncertain) ask(i, {span.columns.last - some + 1, span.columns.last}, false, true);
   }

@@ -66,7 +66,7 @@ class SpotSpans {
   bool is_missed(const Span& span, const grid::IndexRange& columns);
   bool is_to_be_narrowed(const Span& span) const;
   template <class IsWanted>
-  bool ask_for_ends(IsWanted&& is_wanted);
+  bool ask_for_ends(int at_once, IsWanted&& is_wanted);
   void settle_ends(bool to_be_decided);
   SpotCell cells_of(const Span& span, const grid::IndexRange& columns) const;
   void ask(std::uint32_t i, const grid::IndexRange& columns, bool from_left, bool from_right);
