@@ -27,7 +27,7 @@
 #include "assign/lists/list_builder.h"
 #include "assign/lists/row_lists.h"
 #include "assign/rows/slice_rows.h"
-#include "assign/storages/list_forms.h"
+#include "assign/storages/list_encodings.h"
 #include "benchmarks.h"
 #include "geom/single_precision/bounding_volumes.h"
 #include "setting.h"

@@ -19,7 +19,7 @@ FOLDERS = {
     "geom": [["numbers"], ["shapes"], ["ball", "box", "search", "certificate", "single_precision", "projection"], ["filter"],
              ["spot"]],
     "assign": [["contract", "simd"], ["lists"], ["cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
-               ["box_grid", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],
+               ["box_grid", "depth_bins", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],
 }
 
 # Library header -> the only layers that include it.

@@ -6,8 +6,6 @@ import re
 import unittest
 
 SRC = pathlib.Path(__file__).resolve().parents[2] / "src"
-# Theirs name what to read first; each of their folders has its own row.
-BY_FOLDER = {"assign", "geom"}
 
 
 def named_files(text):
@@ -18,8 +16,6 @@ class Maps(unittest.TestCase):
     def test_every_header_is_on_its_layers_map(self):
         for readme in SRC.glob("*/README.md"):
             folder = readme.parent
-            if folder.name in BY_FOLDER:
-                continue
             named = {pathlib.Path(name).name for name in named_files(readme.read_text(encoding="utf-8"))}
             left_out = {path.name for path in folder.rglob("*.h") if "generators" not in path.parts} - named
             self.assertEqual(left_out, set(), f"src/{folder.name}/README.md does not name them")

@@ -1,6 +1,6 @@
 // As `z-binning`, but every tile has the first and the last light of each slice for itself.
 
-#include "assign/bounds/sorted_masks.h"
+#include "assign/depth_bins/sorted_masks.h"
 
 namespace clusterbench::assign {
 

@@ -16,8 +16,8 @@
 #include <tuple>
 #include <vector>
 
-#include "assign/bounds/sorted_masks.h"
 #include "assign/cull/view_cull.h"
+#include "assign/depth_bins/sorted_masks.h"
 #include "assign/exact/exact_rows.h"
 #include "geom/single_precision/bounding_volumes.h"
 #include "grid/index_range.h"

@@ -1,7 +1,7 @@
 // Lights sorted by depth; per depth bin the first and the last of them that reach it; per tile of the screen a bit for
 // each. Bins are the grid's slices.
 
-#include "assign/bounds/sorted_masks.h"
+#include "assign/depth_bins/sorted_masks.h"
 
 namespace clusterbench::assign {
 

@@ -1,11 +1,11 @@
 // A vector of cells, each with its own spot, and what may settle whether they share a point. For files that are
 // compiled once per target.
 
-#if defined(CLUSTERBENCH_SPOT_CELLS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef CLUSTERBENCH_SPOT_CELLS_INL_H
-#undef CLUSTERBENCH_SPOT_CELLS_INL_H
+#if defined(CLUSTERBENCH_SPOT_CELL_FILTER_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef CLUSTERBENCH_SPOT_CELL_FILTER_INL_H
+#undef CLUSTERBENCH_SPOT_CELL_FILTER_INL_H
 #else
-#define CLUSTERBENCH_SPOT_CELLS_INL_H
+#define CLUSTERBENCH_SPOT_CELL_FILTER_INL_H
 #endif
 
 #include "assign/cone/spot_cell_filter.h"

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "assign/storages/list_forms.h"
+#include "assign/storages/list_encodings.h"
 #include "core/memory.h"
 
 namespace clusterbench::assign {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "assign/storages/list_forms.h"
+#include "assign/storages/list_encodings.h"
 
 namespace clusterbench::assign {
 

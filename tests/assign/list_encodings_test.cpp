@@ -1,6 +1,6 @@
 // What the SIMD conversions of lists and the row builders give is what plain loops give, on every instruction set.
 
-#include "assign/storages/list_forms.h"
+#include "assign/storages/list_encodings.h"
 
 #include <gtest/gtest.h>
 

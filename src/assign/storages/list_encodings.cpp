@@ -1,8 +1,8 @@
-#include "assign/storages/list_forms.h"
+#include "assign/storages/list_encodings.h"
 
 #include <algorithm>
 
-#define HWY_TARGET_INCLUDE "assign/storages/list_forms.cpp"
+#define HWY_TARGET_INCLUDE "assign/storages/list_encodings.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 
 #include "assign/simd/vectors-inl.h"
