@@ -203,7 +203,11 @@ inline std::vector<scene::WorldLight> random_lights(int points, int spots, std::
     const double beside = std::fabs(depth) + 5;
     return Vec3d{random.between(-1.2, 1.2) * beside, random.between(-0.8, 0.8) * beside, -depth};
   };
-  for (int i = 0; i < points; ++i) lights.push_back(point_light(place(), random.log_between(0.01, 60)));
+  // Draws are statements of their own: compilers evaluate arguments in different orders.
+  for (int i = 0; i < points; ++i) {
+    const double range = random.log_between(0.01, 60);
+    lights.push_back(point_light(place(), range));
+  }
   constexpr double k_angles[] = {
       0.0, 1.745e-4,          8.7e-4,  8.7e-3, 0.2, 0.5, M_PI / 4 - 1e-7, M_PI / 4, M_PI / 4 + 1e-7,
       1.2, 89.9 * M_PI / 180, M_PI / 2};
@@ -211,7 +215,8 @@ inline std::vector<scene::WorldLight> random_lights(int points, int spots, std::
     const bool along_axis = random.unit() < 0.2;
     const Vec3d direction =
         along_axis ? Vec3d{i % 3 == 0, i % 3 == 1, i % 3 == 2} * (i % 2 ? 1.0 : -1.0) : random.direction();
-    lights.push_back(spot_light(place(), random.log_between(0.1, 60), direction, k_angles[i % 12]));
+    const double range = random.log_between(0.1, 60);
+    lights.push_back(spot_light(place(), range, direction, k_angles[i % 12]));
   }
   return lights;
 }
