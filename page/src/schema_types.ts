@@ -151,6 +151,7 @@ export type PerFrame = {
   assign: number; // Instructions of assignment, with the builds that the frames need
   convert?: number; // Instructions of conversion to the storage; absent where a method leaves its own structure
   pre_cull?: number; // Instructions of the pre-cull; absent where there is none
+  frame?: number; // Instructions of pre-cull, assignment and conversion together; absent in older results, and of cycles
 };
 
 // What `clusterbench run` writes. x-unit and x-over of a number, or of what holds it: its unit, and what it is taken over. x-written: keys that this version always writes, and that older results of the same schema_version may lack. null: not a number.
@@ -197,6 +198,7 @@ export type Result = {
       directional: number; // Directional lights: they reach everything and are never assigned
       box: number; // Oriented boxes, from extras
     }; // By type [lights, over the scene]
+    light_digest?: string; // The same for the same assigned lights (kinds, positions, ranges, directions, angles), whatever their names, order and file are; absent in older results
     frames: number; // Frames of all camera paths together [frames, over the scene]
     range_rule: {
       cutoff_lux: number | null; // A light without a range ends where its illuminance falls to this [lux, over each light]
@@ -281,6 +283,18 @@ export type Result = {
     eligible: boolean; // Whether it may stand on the Pareto front, and be the best that others are measured by: it fails nothing and loses no lights (loses_lights)
     tests_done: number; // Over all frames: cells, rows of cells, lights or planes, whichever a method looks at one by one; a method that looks at many at a time counts otherwise than its scalar reference [tests, over all frames]
     fallbacks: number; // Pairs that the method could not decide in single precision and decided at greater cost [pairs, over all frames]
+    lights?: number; // Lights of the scene that methods get: points, spots, and boxes where the configuration asks for them. Absent in older results [lights, over the scene]
+    lights_in_view?: {
+      mean: number; // Over the frames [over all frames]
+      max: number; // In the frame with most [over the worst frame]
+      frames_at_max: number; // How many frames have as many [frames, over all frames]
+      worst_frame: number; // The first of them [index]
+      max_by_type: {
+        point: number; // Point lights
+        spot: number; // Spot lights
+        box: number; // Boxes
+      }; // Of each type by itself, in the frame that has most of it [over the worst frame]
+    }; // Lights of a frame whose bounding sphere (a spot's: around its cone) reaches into the half-spaces of the camera's six planes, before any pre-cull; the same for all cases of a camera and viewport. What engines' limits of lights are about. Absent in older results [lights]
     occupancy?: {
       pairs: Spread; // (cell, light) pairs of a frame [pairs, over all frames]
       lights_per_cell: {

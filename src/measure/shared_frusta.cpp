@@ -8,9 +8,8 @@
 #include <set>
 #include <tuple>
 
-#include "cull/visible_sets.h"
 #include "geom/shapes/angle_between.h"
-#include "grid/lights_in_view.h"
+#include "measure/lights_in_view.h"
 
 namespace clusterbench::measure {
 namespace {
@@ -125,18 +124,6 @@ class Grouping {
   using Offer = std::tuple<double, std::size_t, std::size_t>;  // cost, two groups
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> queue_;
 };
-
-bool is_in_view(const view::Frame& frame, const scene::WorldLight& light) {
-  if (light.range_m == 0.0) return false;
-  scene::WorldLight ball = light;
-  if (std::isfinite(light.range_m)) {
-    const cull::WorldBall around = cull::ball_around(light);
-    ball.position = around.center;
-    ball.range_m = around.radius_m;
-  }
-  const Vec3d center = grid::in_view_space(frame, ball);
-  return grid::may_be_in_view(frame.projection, center, ball.range_m + grid::slack_of(center, light.range_m));
-}
 
 void add_growth(SharingCounts& counts, std::span<const scene::WorldLight> lights, const SharedFrustum& frustum) {
   double largest_m3 = 0.0, sum_m3 = 0.0, largest_sr = 0.0, sum_sr = 0.0;

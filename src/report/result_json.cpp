@@ -60,6 +60,15 @@ Json cell_coordinates(std::uint32_t cell, const run::CaseResult& of, int frame) 
   return {cell % nx, cell / nx % ny, cell / nx / ny};
 }
 
+Json to_json(const measure::LightsInView& lights) {
+  return {{"mean", number_or_null(lights.mean())},
+          {"max", lights.most},
+          {"frames_at_max", lights.frames_with_most},
+          {"worst_frame", lights.worst_frame},
+          {"max_by_type",
+           {{"point", lights.most_of_type[0]}, {"spot", lights.most_of_type[1]}, {"box", lights.most_of_type[2]}}}};
+}
+
 Json occupancy(const run::CaseResult& case_result) {
   const measure::Occupancy& o = *case_result.occupancy;
   Json lights = to_json(o.lights_per_cell);
@@ -340,6 +349,9 @@ Json count(const run::CountResult& c) {
            {"instructions_per_frame", {{"assign", per_frame(c.assign.instructions)}}}};
   if (c.convert) out["instructions_per_frame"]["convert"] = per_frame(c.convert->instructions);
   if (c.pre_cull) out["instructions_per_frame"]["pre_cull"] = per_frame(c.pre_cull->instructions);
+  std::uint64_t all = c.assign.instructions;
+  for (const std::optional<run::Counted>& part : {c.convert, c.pre_cull}) all += part ? part->instructions : 0;
+  out["instructions_per_frame"]["frame"] = per_frame(all);
   if (!c.assign.cycles || (c.convert && !c.convert->cycles)) return out;
   out["cycles_per_frame"] = {{"assign", per_frame(*c.assign.cycles)}};
   if (c.convert) out["cycles_per_frame"]["convert"] = per_frame(*c.convert->cycles);
@@ -352,6 +364,7 @@ Json to_json(const run::SceneResult& scene) {
       {"sha256", scene.sha256},
       {"lights",
        {{"point", scene.points}, {"spot", scene.spots}, {"directional", scene.directionals}, {"box", scene.boxes}}},
+      {"light_digest", scene.light_digest},
       {"frames", scene.frames},
       {"range_rule", scene.range_rule},
       {"warnings", scene.warnings}};
@@ -451,6 +464,10 @@ Json case_to_json(const run::CaseResult& case_result) {
     out["failures"].push_back({{"kind", run::name_of(failure.kind)}, {"text", failure.text}});
   for (const run::Warning& warning : run::warnings_of(case_result))
     out["warnings"].push_back({{"kind", run::name_of(warning.kind)}, {"text", warning.text}});
+  if (case_result.lights_in_view.frames > 0) {
+    out["lights"] = case_result.lights;
+    out["lights_in_view"] = to_json(case_result.lights_in_view);
+  }
   if (case_result.occupancy) out["occupancy"] = occupancy(case_result);
   out["buffers"] = buffers(case_result);
   if (case_result.error) out["error"] = error(case_result);

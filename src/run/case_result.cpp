@@ -77,6 +77,9 @@ CaseResult case_result(const config::Config& config, const Plan& whole, const Ca
   if (structure.roomy)
     out.fallback = FallbackResult{structure.buffers.fallback_frames, structure.buffers.fallback_cells,
                                   structure_side(structure), structure_side(*structure.roomy)};
+  out.lights = static_cast<int>(std::ranges::count_if(
+      scene.lights, [](const scene::Light& light) { return light.type != scene::LightType::directional; }));
+  out.lights_in_view = counted.lights_in_view;
   out.tests_done = method.tests_done;
   out.fallbacks = method.fallbacks;
   if (method.has_cells) out.occupancy = method.occupancy;

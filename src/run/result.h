@@ -13,6 +13,7 @@
 #include "measure/buffers.h"
 #include "measure/coherence.h"
 #include "measure/depth_ranges.h"
+#include "measure/lights_in_view.h"
 #include "measure/list_errors.h"
 #include "measure/lookup.h"
 #include "measure/occupancy.h"
@@ -66,6 +67,7 @@ std::string date_now();  // UTC, ISO 8601
 struct SceneResult {
   std::string name, sha256;
   int points = 0, spots = 0, directionals = 0, boxes = 0;
+  std::string light_digest;  // scene/light_digest.h
   int frames = 0;
   nlohmann::json rig;         // {lights, spots, range, size, seed} of one that was made; else null
   nlohmann::json range_rule;  // {cutoff_lux, max_range, given, from_intensity, clamped}
@@ -222,7 +224,9 @@ struct CaseResult {
   bool conservative = true, exact = false;  // conservative: on lights that are packed, only if they are inflated;
                                             // behind a pre-cull, only if that is
   std::string storage_label;
-  std::string preset;                           // config/presets.h; "" for the configuration's own clusterings
+  std::string preset;                    // config/presets.h; "" for the configuration's own clusterings
+  int lights = 0;                        // of the scene that methods get: points, spots, and boxes where asked for
+  measure::LightsInView lights_in_view;  // the same for all cases of a camera and viewport
   std::optional<measure::Occupancy> occupancy;  // with cells
   measure::Buffers buffers;
   std::uint64_t tests_done = 0;                      // over all frames

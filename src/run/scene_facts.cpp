@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "scene/camera_path.h"
+#include "scene/light_digest.h"
 #include "view/frame.h"
 
 namespace clusterbench::run {
@@ -51,6 +52,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
   out.sha256 = scene.sha256;
   out.warnings = scene.warnings;
   out.boxes = static_cast<int>(scene.boxes.size());
+  out.light_digest = scene::light_digest(scene);
   int given = 0, from_intensity = 0, clamped = 0;
   std::vector<double> ranges;
   for (const scene::Light& light : scene.lights) {

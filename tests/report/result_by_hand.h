@@ -41,6 +41,9 @@ inline run::CaseResult case_by_hand(const std::string& id, const std::string& as
   case_result.assigner = case_result.assigner_label = assigner;
   case_result.assigner_params = nlohmann::json::object();
   case_result.storage_label = "packed";
+  case_result.lights = 10;
+  case_result.lights_in_view = {
+      .frames = 2, .sum = 15, .most = 8, .frames_with_most = 1, .worst_frame = 1, .most_of_type = {7, 1, 0}};
   case_result.occupancy.emplace();
   case_result.occupancy->pairs = {30.0, 20.0, 40.0, 40.0, 40.0};
   case_result.occupancy->lights_per_cell = {1.25, 1.0, 3.0, 7.0, 7.0};
@@ -144,6 +147,7 @@ inline run::Result result_by_hand() {
   scene.sha256 = std::string(64, 'a');
   scene.points = 9;
   scene.spots = 1;
+  scene.light_digest = std::string(16, 'b');
   scene.frames = 2;
   scene.range_rule = {{"cutoff_lux", 0.05}, {"max_range", 100.0}, {"given", 10}, {"from_intensity", 0}, {"clamped", 0}};
   result.scenes = {scene};

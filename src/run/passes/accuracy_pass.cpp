@@ -317,6 +317,7 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
     if (stop) return result;
     on_frame(index);
     const PreparedFrame now = prepare(config, group, path, samples, grids, index);
+    measure::add_frame(result.lights_in_view, now.frame);
     if (moves) moves->add(grids.grid().screen(), path.spans(spec)[static_cast<std::size_t>(index)]);
     for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));
     if (shadows) shadows->start(now.frame);

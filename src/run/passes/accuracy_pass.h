@@ -38,6 +38,7 @@ struct AccuracyResult {
   std::vector<MethodMeasures> methods;        // of the group, in order of first use
   std::vector<StructureMeasures> structures;  // one per case of the group
   std::vector<measure::PackingLoss> losses;   // one per precision of the configuration; none if it has float32 alone
+  measure::LightsInView lights_in_view;
   std::optional<measure::DepthRanges> depth_ranges;  // of visible surfaces in a frustum grid, where asked for
   std::optional<measure::SharingCounts> sharing;     // of shadow maps, where asked for
   std::optional<GridMoves> moves;                    // of a grid that follows what frames need

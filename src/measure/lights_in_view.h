@@ -1,0 +1,27 @@
+#pragma once
+// How many lights of a frame are in view: what an engine's limit of lights is held against.
+
+#include <array>
+#include <cstdint>
+
+#include "view/frame.h"
+
+namespace clusterbench::measure {
+
+// Whether the light's bounding sphere (a spot's: around its cone; a box's: around it) reaches into the half-spaces of
+// the camera's six planes, as a frustum cull of lights asks. One outside of an edge or a corner may. A light of range 0
+// never is, one without an end always.
+bool is_in_view(const view::Frame& frame, const scene::WorldLight& light);
+
+// Over the frames of a path. Before any pre-cull: it depends on camera and lights alone, and not on the grid.
+struct LightsInView {
+  std::uint64_t frames = 0, sum = 0;
+  std::uint64_t most = 0, frames_with_most = 0;
+  int worst_frame = 0;                                            // the first with most
+  std::array<std::uint64_t, view::k_light_types> most_of_type{};  // points, spots, boxes: each in a frame of its own
+
+  double mean() const { return frames == 0 ? 0.0 : static_cast<double>(sum) / static_cast<double>(frames); }
+};
+void add_frame(LightsInView& counts, const view::Frame& frame);
+
+}  // namespace clusterbench::measure

@@ -1,0 +1,16 @@
+#pragma once
+// Whether two scenes have the same lights, however their files are written.
+
+#include <string>
+
+#include "scene/scene.h"
+
+namespace clusterbench::scene {
+
+// 16 hexadecimal digits from the lights that are assigned: how many there are, and kind, position, range, direction and
+// angle of each, at the beginning, the middle and the end of the animations. Names, order, colours, surfaces and
+// cameras do not count. All numbers are rounded to single precision, so that it does not count either whether a file
+// writes them with more digits, or a node's transform as a matrix.
+std::string light_digest(const Scene& scene);
+
+}  // namespace clusterbench::scene

@@ -1,0 +1,78 @@
+// The same lights have the same digest, however they are written; others have another.
+
+#include "scene/light_digest.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "scene/rig.h"
+
+namespace clusterbench::scene {
+namespace {
+
+Scene rig_of(int lights) {
+  RigSpec spec;
+  spec.lights = lights;
+  spec.spots = 0.5;
+  Scene scene = make_rig(spec);
+  resolve_ranges(scene, {});
+  return scene;
+}
+
+Node& node_of(Scene& scene, std::size_t light) {
+  return scene.nodes[static_cast<std::size_t>(scene.lights[light].node)];
+}
+
+TEST(LightDigest, does_not_depend_on_names_order_colours_and_cameras) {
+  const Scene scene = rig_of(20);
+  Scene other = scene;
+  std::ranges::reverse(other.lights);
+  other.lights[3].name = "lamp";
+  other.lights[4].color = {0.1, 0.2, 0.3};
+  other.cameras.clear();
+  other.sha256 = "of another file";
+  EXPECT_EQ(light_digest(other), light_digest(scene));
+}
+
+TEST(LightDigest, does_not_depend_on_whether_a_file_has_single_precision_or_a_matrix) {
+  const Scene scene = rig_of(50);
+  Scene single = scene;
+  for (std::size_t i = 0; i < single.lights.size(); ++i)
+    node_of(single, i).translation = Vec3d(Vec3f(node_of(single, i).translation));
+  EXPECT_EQ(light_digest(single), light_digest(scene));
+  Scene by_matrix = scene;
+  for (std::size_t i = 0; i < by_matrix.lights.size(); ++i) {
+    Node& node = node_of(by_matrix, i);
+    node.matrix = rest_transforms(scene)[static_cast<std::size_t>(scene.lights[i].node)];
+    node.matrix[3][0] *= 1.0 + 0x1p-52;
+    node.has_matrix = true;
+  }
+  EXPECT_EQ(light_digest(by_matrix), light_digest(scene));
+}
+
+TEST(LightDigest, is_another_where_a_light_is_gone_moved_shortened_or_turned) {
+  const Scene scene = rig_of(20);
+  const std::string digest = light_digest(scene);
+  Scene fewer = scene, moved = scene, shorter = scene, narrower = scene, of_another_kind = scene;
+  fewer.lights.pop_back();
+  node_of(moved, 7).translation.x += 0.01;
+  shorter.lights[7].range_m -= 0.01;
+  const auto spot = std::ranges::find(narrower.lights, LightType::spot, &Light::type);
+  ASSERT_NE(spot, narrower.lights.end());
+  spot->outer_cone_rad *= 0.99;
+  of_another_kind.lights[0].type = scene.lights[0].type == LightType::spot ? LightType::point : LightType::spot;
+  for (const Scene* other : {&fewer, &moved, &shorter, &narrower, &of_another_kind})
+    EXPECT_NE(light_digest(*other), digest);
+}
+
+TEST(LightDigest, of_no_lights_is_not_that_of_a_light) {
+  Scene none = rig_of(1);
+  const std::string one = light_digest(none);
+  none.lights.clear();
+  EXPECT_NE(light_digest(none), one);
+  EXPECT_EQ(light_digest(none).size(), 16u);
+}
+
+}  // namespace
+}  // namespace clusterbench::scene
