@@ -735,6 +735,7 @@ export type Result = {
     approximated: string; // What is not as there; empty where nothing is known to differ
     unverified: string; // What stands on memory alone; empty where all was read
     most_lights?: number; // That it takes in a frame; absent where no such limit is known [count, over one frame]
+    assigns_on?: "cpu" | "gpu"; // Where the engine makes its lists: those of a GPU are not uploaded
   }>; // What is known of the presets that cases are of, as `clusterbench list presets` tells it; absent without any
   preset_rankings?: Array<{
     scene: string; // Name of one of scenes

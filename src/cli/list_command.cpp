@@ -70,6 +70,7 @@ Json to_json(const config::Preset& preset) {
            {"source", preset.source},
            {"approximated", preset.approximated},
            {"unverified", preset.unverified},
+           {"assigns_on", config::name_of(preset.assigns_on)},
            {"grid", parts["grid"]},
            {"assigner", parts["assigner"]}};
   if (parts.contains("storage")) out["storage"] = parts["storage"];

@@ -1,6 +1,7 @@
 #pragma once
 // Clusterings as engines, papers and articles have them: a grid, a method and a light structure each.
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -9,6 +10,11 @@
 #include "geom/shapes/vec.h"
 
 namespace clusterbench::config {
+
+// Where an engine makes its lists. Those of a GPU's shader or rasteriser are not uploaded, and the time that a method
+// takes on a CPU is not the engine's.
+enum class AssignsOn : std::uint8_t { cpu, gpu };
+const char* name_of(AssignsOn place);  // "cpu", "gpu"
 
 struct Preset {
   const char* name;
@@ -23,6 +29,7 @@ struct Preset {
   const char* parts;
   // Pixels of a tile where they depend on the viewport, in place of the grid's tiles; or null.
   Vec2i (*tile_pixels)(Vec2i viewport);
+  AssignsOn assigns_on;
 };
 
 // In the order in which they are shown; names are unique.

@@ -194,7 +194,8 @@ Json preset_facts(const Json& cases, const Json& skipped) {
                      {"summary", preset.summary},
                      {"source", preset.source},
                      {"approximated", preset.approximated},
-                     {"unverified", preset.unverified}});
+                     {"unverified", preset.unverified},
+                     {"assigns_on", config::name_of(preset.assigns_on)}});
     if (preset.most_lights > 0) facts.back()["most_lights"] = preset.most_lights;
   }
   return facts;

@@ -64,6 +64,13 @@ TEST(Presets, each_says_where_it_comes_from_and_takes_a_method_that_takes_its_gr
   }
 }
 
+TEST(Presets, those_of_engines_that_make_lists_in_a_shader_or_by_rasterisation_say_that_these_are_not_uploaded) {
+  for (const char* name : {"three-js", "wicked", "godot", "unity-hdrp", "unreal", "call-of-duty-iw", "daveh355"})
+    EXPECT_EQ(find_preset(name)->assigns_on, AssignsOn::gpu) << name;
+  for (const char* name : {"filament", "bevy", "playcanvas", "unity-urp", "just-cause-3"})
+    EXPECT_EQ(find_preset(name)->assigns_on, AssignsOn::cpu) << name;
+}
+
 struct Fact {
   const char *preset, *pointer, *value;
 };
