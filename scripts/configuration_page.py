@@ -25,7 +25,8 @@ TABLES = {
     "cascades": [("", "/definitions/cascades")],
     "world": [("", "/definitions/world"), ("bounds.", "/definitions/world/properties/bounds/anyOf/1")],
     "precision": [("", "/definitions/precision")],
-    "pre_cull": [("", "/definitions/pre_cull_step"), ("visible_set.", "/definitions/pre_cull_step/properties/visible_set")],
+    "pre_cull": [("", "/definitions/pre_cull_step"), ("visible_set.", "/definitions/pre_cull_step/properties/visible_set"),
+                 ("most.", "/definitions/pre_cull_step/properties/most")],
     "measuring": [(key + ".", f"/properties/{key}") for key in ("accuracy", "shading")]
                  + [("samples.", "/properties/samples")]
                  + [(f"samples.{name}.", f"/properties/samples/properties/{name}")

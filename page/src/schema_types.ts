@@ -276,7 +276,7 @@ export type Result = {
       text: string; // The same for people, without the case's name
     }>; // Why the case fails the run; empty: it passes
     warnings: Array<{
-      kind: "dropped_pairs" | "unlit" | "undecided" | "lost_pairs" | "unchecked"; // dropped_pairs: the storage was full. unlit: more than 0.001 of the lights that samples need are not given. undecided: pairs that exact arithmetic left open. lost_pairs: of a method that is not conservative. unchecked: no truth to hold the lists against
+      kind: "dropped_pairs" | "unlit" | "undecided" | "lost_pairs" | "unchecked" | "too_many_lights"; // dropped_pairs: the storage was full. unlit: more than 0.001 of the lights that samples need are not given. undecided: pairs that exact arithmetic left open. lost_pairs: of a method that is not conservative. unchecked: no truth to hold the lists against. too_many_lights: frames have more lights than a limit lets in
       text: string; // The same for people, without the case's name
     }>; // What to know about the case before believing its figures, beside its failures
     loses_lights: boolean; // Whether a shader lacks lights: pairs that are not listed or were dropped, lights that samples of a structure without cells miss, or more than 0.001 of those that samples need
@@ -403,7 +403,7 @@ export type Result = {
       safe_padding_ulps: number; // By so many ulps slices must reach over their boundaries to hold every depth that is looked up in them [ulps]
     }>; // A shader's lookup on samples, once per logarithm and depth [over the samples of all frames]
     fit?: {
-      to: "lights" | "surfaces" | "both"; // What is followed
+      to: "lights" | "surfaces" | "both" | "ranges"; // What is followed
       damping: number; // Share of a shrinking that is left after one frame [ratio, over the case]
       step: number; // Ends lie at powers of this factor; 1: anywhere [ratio, over the case]
       asked: {
@@ -559,20 +559,25 @@ export type Result = {
       }; // Pairs more than the same case in float32; null where there is no such case
     }; // How precisely the assigner gets its lights; where the configuration asks for more than float32
     pre_cull?: {
-      label: string; // The steps in their order: frustum, distance(m), visible-set(view_cell_m,voxel_m,rays)
-      conservative: boolean; // In no frame can it remove a light that shares a point with a cell. Where it can, losses are counted and do not fail the run. frustum: in frustum and distance grids, whose cells end with the picture. distance: where no cell reaches farther. visible-set: never
+      label: string; // The steps in their order: frustum, distance(m), visible-set(view_cell_m,voxel_m,rays), most(lights,which are kept), most(lights,which are kept,type)
+      conservative: boolean; // In no frame can it remove a light that shares a point with a cell. Where it can, losses are counted and do not fail the run. frustum: in frustum and distance grids, whose cells end with the picture. distance: where no cell reaches farther. visible-set: never. most: where no frame has more lights
       kept: MeanMax; // Lights that the assigner gets [lights, over all frames]
       removed: MeanMax; // Lights that it does not get, the distant ones among them [lights, over all frames]
       distant: MeanMax; // Lights that a distance step puts into the list of distant lights [lights, over all frames]
       steps: Array<{
         label: string; // The step
         removed: MeanMax; // Lights that it removes of those that the steps before it leave [lights, over all frames]
+        frames?: number; // In which it removes lights; absent in older results [frames, over all frames]
       }>; // In their order
       lost_pairs: number; // True pairs of lights that are removed; they are among error.false_negatives. 0 where nothing is held against the truth [pairs, over all frames]
       lost_at_samples: Record<string, {
         needed: number; // Lights that reach the samples [lights, over the samples of all frames]
         lost: number; // Of those, removed [lights, over the samples of all frames]
       }>; // By the set's name (volume: the random samples in the whole view)
+      over_limit?: {
+        lights: number[]; // Indices of those that it removes in some frame [light index, over all frames]
+        lost_pairs: number; // True pairs of lights in frames where it removes them; they are among lost_pairs [pairs, over all frames]
+      }; // What a limit (most) removes; absent without one
       view_cells: number; // View cells that have a visible set; 0 without such a step [view cells, over the path]
       bytes: number; // Of all view cells' sets: a bit per light, and voxels where lights move [bytes, over the path]
       build_ns?: number; // What building the sets took, once and beside all other times; absent where nothing is timed [ns, over one build]
@@ -730,6 +735,9 @@ export type Result = {
   presets?: Array<{
     name: string; // As a case's preset
     engine: string; // Whose scheme it is
+    version?: string; // Of its code or publication: a release, a commit, a year; absent in older results
+    evidence?: "ran" | "read" | "memory"; // ran: the engine's own code, or a transcription of it, was run and its lists compared. read: its code or publication was read. memory: neither. Absent in older results
+    mistakes?: string; // That the engine has as it is shipped, which config.as_shipped models; absent where none is modelled
     summary: string; // The scheme in a line
     source: string; // What was read
     approximated: string; // What is not as there; empty where nothing is known to differ

@@ -66,6 +66,8 @@ Json to_json(const config::Preset& preset) {
   const auto parts = config::preset_parts(preset, {1920, 1080});
   Json out{{"name", preset.name},
            {"engine", preset.engine},
+           {"version", preset.version},
+           {"evidence", config::name_of(preset.evidence)},
            {"summary", preset.summary},
            {"source", preset.source},
            {"approximated", preset.approximated},
@@ -74,7 +76,13 @@ Json to_json(const config::Preset& preset) {
            {"grid", parts["grid"]},
            {"assigner", parts["assigner"]}};
   if (parts.contains("storage")) out["storage"] = parts["storage"];
-  if (preset.most_lights > 0) out["most_lights"] = preset.most_lights;
+  if (parts.contains("pre_cull")) out["pre_cull"] = parts["pre_cull"];
+  if (const std::string limit = config::limit_text(preset); !limit.empty()) out["limit"] = limit;
+  if (const std::uint64_t most = config::most_lights(preset); most > 0) out["most_lights"] = most;
+  if (preset.has_mistakes()) {
+    out["mistakes"] = preset.mistakes;
+    out["as_shipped"] = Json::parse(preset.as_shipped);
+  }
   return out;
 }
 
@@ -133,22 +141,27 @@ void print_params(const Json& row, std::map<std::string, std::string>& explained
 // What a configuration would say, in a line.
 std::string parts_text(const Json& preset) {
   std::string text = preset["grid"].dump() + " " + preset["assigner"].dump();
-  if (preset.contains("storage")) text += " " + preset["storage"].dump();
+  for (const char* part : {"storage", "pre_cull"})
+    if (preset.contains(part)) text += " " + preset[part].dump();
   return text;
 }
 
+void print_preset(const Json& preset) {
+  const auto text = [&](const char* key) { return preset.value(key, ""); };
+  std::cout << "  " << text("name") << ": " << text("engine") << ", " << text("version") << " (" << text("evidence")
+            << "): " << text("summary") << " [" << text("source") << "]\n";
+  if (preset.contains("limit")) std::cout << "      limit: " << text("limit") << "\n";
+  for (const char* key : {"approximated", "unverified"})
+    if (!text(key).empty()) std::cout << "      " << key << ": " << text(key) << "\n";
+  if (preset.contains("mistakes")) std::cout << "      with --as-shipped: " << text("mistakes") << "\n";
+  std::cout << "      " << parts_text(preset) << "\n";
+}
+
 void print_presets(const Json& presets) {
-  std::cout << "presets (tiles that follow the viewport as for 1920 x 1080)\n";
-  for (const Json& preset : presets) {
-    std::cout << "  " << preset["name"].get<std::string>() << ": " << preset["engine"].get<std::string>() << ": "
-              << preset["summary"].get<std::string>() << " [" << preset["source"].get<std::string>() << "]\n";
-    for (const char* key : {"approximated", "unverified"})
-      if (!preset[key].get_ref<const std::string&>().empty())
-        std::cout << "      " << key << ": " << preset[key].get<std::string>() << "\n";
-    if (preset.contains("most_lights"))
-      std::cout << "      takes at most " << preset["most_lights"] << " lights in a frame\n";
-    std::cout << "      " << parts_text(preset) << "\n";
-  }
+  std::cout
+      << "presets (tiles that follow the viewport as for 1920 x 1080; ran: the engine's own code, or a transcription "
+         "of it, was run\nand its lists compared; read: its code or publication was read; memory: neither)\n";
+  for (const Json& preset : presets) print_preset(preset);
 }
 
 void print_section(const Json& all, const char* section) {

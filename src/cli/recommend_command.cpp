@@ -153,10 +153,10 @@ ExitCode recommend(const RecommendFlags& flags) {
   refuse_overwriting({flags.output, flags.written}, flags.inputs.paths);
   report::Question question{objective_of(flags), {}, share_of(flags.within), flags.runners_up};
   config::Config config = read_input(flags);
-  if (config.pre_culls.size() > 1)
+  if (config.own_pre_culls > 1)
     throw Error(config.file.string(), "pre_cull",
                 "recommend looks for a clustering of lights that are culled in one way; found " +
-                    std::to_string(config.pre_culls.size()) + " pre-culls, allowed: 1");
+                    std::to_string(config.own_pre_culls) + " pre-culls, allowed: 1");
   question.constraints = report::constraints_of(rules_of(flags, config));
   check_timing(flags, question);
   const bool is_timed = report::needs_times(question.objective, question.constraints);

@@ -14,8 +14,12 @@ void add_config_options(Command& command, RunInputs& inputs, const std::vector<s
     const config::ConfigFlag& flag = config::config_flags()[i];
     if (std::ranges::find(without, flag.name) != without.end()) continue;
     command.add_option(flag.name, inputs.settings[i], flag.summary).once_a_name();
-    if (std::string_view(flag.name) == "--preset")
-      command.add_flag("--presets", inputs.has_all_presets, "All presets: --preset '*'");
+    if (std::string_view(flag.name) != "--preset") continue;
+    command.add_flag("--presets", inputs.has_all_presets, "All presets: --preset '*'");
+    command.add_flag(
+        "--as-shipped", inputs.are_as_shipped,
+        "Presets with the mistakes of the engines whose code was run, which lose lights; else their schemes "
+        "without these");
   }
 }
 
@@ -32,6 +36,7 @@ std::vector<config::FlagValue> flag_values(const RunInputs& inputs) {
     for (const std::string& value : flag.is_repeatable ? values : std::vector<std::string>{})
       all.push_back({flag.name, value});
   }
+  if (inputs.are_as_shipped) all.push_back({"--set", "as_shipped=true"});
   return all;
 }
 

@@ -13,7 +13,7 @@ namespace clusterbench::cli {
 struct RunInputs {
   std::vector<std::string> paths;
   std::vector<std::vector<std::string>> settings{config::config_flags().size()};  // by flag
-  bool has_all_presets = false;
+  bool has_all_presets = false, are_as_shipped = false;
 };
 
 // An option for each flag of config_flags() but those named in `without`.

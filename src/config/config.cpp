@@ -12,6 +12,7 @@
 #include "config/documents.h"
 #include "config/grid_json.h"
 #include "config/json_text.h"
+#include "config/pre_cull_json.h"
 #include "config/presets.h"
 #include "config/schema_reader.h"
 #include "core/error.h"
@@ -167,21 +168,12 @@ std::vector<PrecisionRequest> precisions(const Json& list, const JsonText& text)
   return out;
 }
 
-cull::Step pre_cull_step(const Json& step) {
-  if (step.is_string()) return cull::FrustumStep{};
-  if (step.contains("distance_m")) return cull::DistanceStep{step["distance_m"].get<double>()};
-  const Json& set = step["visible_set"];
-  return cull::VisibleSetStep{set["view_cell_m"].get<double>(), set["voxel_m"].get<double>(), set["rays"].get<int>()};
-}
-
 std::vector<cull::PreCullSpec> pre_culls(const Json& document, const JsonText& text) {
   if (!document.contains("pre_cull")) return {{}};
   std::vector<cull::PreCullSpec> out;
   const Json& list = document["pre_cull"];
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const Json steps = list[i].is_array() ? list[i] : list[i] == "none" ? Json::array() : Json::array({list[i]});
-    cull::PreCullSpec spec;
-    for (const Json& step : steps) spec.steps.push_back(pre_cull_step(step));
+    cull::PreCullSpec spec = pre_cull_spec(list[i]);
     if (std::find(out.begin(), out.end(), spec) != out.end())
       throw Error(text.file, text.where(child_pointer("/pre_cull", i)), "'" + spec.label() + "' stands here twice");
     out.push_back(std::move(spec));
@@ -294,6 +286,8 @@ Json filled(const JsonText& text) {
     document["name"] = printable(fs::path(text.file).stem().string());
   document["assigners"] = without_globs(document["assigners"], text);
   document = read_by_schema(schema, long_form(document, text), text);
+  if (document.value("as_shipped", false) && !document.contains("presets"))
+    throw Error(text.file, text.where("/as_shipped"), "found true without presets; allowed beside presets only");
   if (!document.contains("presets")) return document;
   const auto entries = document["presets"].get<std::vector<std::string>>();
   document["presets"] = named_presets(entries, text.file, text.where("/presets"));
@@ -437,14 +431,27 @@ bool is_same_method(const MethodRequest& a, const MethodRequest& b) {
   return a.name == b.name && a.params.values() == b.params.values();
 }
 
-void add_preset(const Preset& preset, std::size_t viewport, const Json& schema, Config& config) {
-  Json parts = preset_parts(preset, config.viewports[viewport]);
+// Each pre-cull of the configuration with the engine's own steps behind it.
+void add_own_steps(const Json& parts, const Json& document, Config& config, PresetChoice& choice) {
+  if (!parts.contains("pre_cull")) return;
+  const std::vector<cull::Step> own = pre_cull_spec(document["pre_cull"][0]).steps;
+  for (std::size_t i = 0; i < config.own_pre_culls; ++i) {
+    cull::PreCullSpec spec = config.pre_culls[i];
+    for (const cull::Step& step : own)
+      if (std::ranges::find(spec.steps, step) == spec.steps.end()) spec.steps.push_back(step);
+    choice.pre_culls.push_back(index_in(config.pre_culls, spec, std::equal_to<>()));
+  }
+}
+
+void add_preset(const Preset& preset, std::size_t viewport, const Json& schema, bool as_shipped, Config& config) {
+  Json parts = preset_parts(preset, config.viewports[viewport], as_shipped);
   JsonText text;
   text.file = std::string("preset ") + preset.name;
   text.value["scenes"] = Json::array({{{"path", "any.glb"}}});
   text.value["grids"] = Json::array({parts["grid"]});
   text.value["assigners"] = Json::array({parts["assigner"]});
   if (parts.contains("storage")) text.value["storages"] = Json::array({parts["storage"]});
+  if (parts.contains("pre_cull")) text.value["pre_cull"] = Json::array({parts["pre_cull"]});
   const Json document = read_by_schema(schema, text.value, text);
   PresetChoice choice{preset.name, viewport, 0, 0, std::nullopt};
   choice.grid = index_in(config.grids, grid_specs(document["grids"], text).front(), is_same_grid);
@@ -453,6 +460,7 @@ void add_preset(const Preset& preset, std::size_t viewport, const Json& schema, 
   if (parts.contains("storage"))
     choice.storage = index_in(config.storages, methods(document["storages"], "storages", text, storage_params).front(),
                               is_same_method);
+  add_own_steps(parts, document, config, choice);
   config.presets.push_back(std::move(choice));
 }
 
@@ -469,7 +477,7 @@ void read_clusterings(const Json& document, const JsonText& text, Config& config
   const Json schema = config_schema();
   for (std::size_t viewport = 0; viewport < config.viewports.size(); ++viewport)
     for (const Json& name : document["presets"])
-      add_preset(*find_preset(name.get<std::string>()), viewport, schema, config);
+      add_preset(*find_preset(name.get<std::string>()), viewport, schema, document.value("as_shipped", false), config);
 }
 
 Config read_config(const JsonText& text) {
@@ -484,9 +492,10 @@ Config read_config(const JsonText& text) {
     add_scenes(document["scenes"][i], child_pointer("/scenes", i), text, config.scenes);
   for (SceneRequest& scene : config.scenes) scene.camera.jitter_px = jitter_of(document["jitter"]);
   config.viewports = viewports(document["viewports"], text);
+  config.pre_culls = pre_culls(document, text);
+  config.own_pre_culls = config.pre_culls.size();
   read_clusterings(document, text, config);
   config.precisions = precisions(document["precision"], text);
-  config.pre_culls = pre_culls(document, text);
   config.shadow_culls = shadow_culls(document, text);
   config.shared_frusta = shared_frusta(document);
   read_settings(document, config);

@@ -131,6 +131,9 @@ struct PresetChoice {
   std::string preset;  // config/presets.h
   std::size_t viewport = 0, grid = 0, assigner = 0;
   std::optional<std::size_t> storage;
+  // Beside the first own_pre_culls of the configuration: each of them and then what the engine does itself, such as its
+  // limit of lights.
+  std::vector<std::size_t> pre_culls = {};
 };
 
 struct Config {
@@ -147,6 +150,7 @@ struct Config {
   std::vector<PresetChoice> presets;  // by viewport, then in the order in which they were named
   std::vector<PrecisionRequest> precisions;
   std::vector<cull::PreCullSpec> pre_culls{{}};
+  std::size_t own_pre_culls = 1;  // the others are presets'
   int threads = 1;
   std::uint64_t seed = 1;
   bool check_accuracy = true;

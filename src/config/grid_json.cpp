@@ -18,7 +18,8 @@ constexpr std::pair<const char*, grid::Scheme> k_schemes[] = {{"linear", grid::S
                                                               {"cubical", grid::Scheme::cubical},
                                                               {"cubical-first", grid::Scheme::cubical_first}};
 
-constexpr grid::Fit::To k_fits[] = {grid::Fit::To::lights, grid::Fit::To::surfaces, grid::Fit::To::both};
+constexpr grid::Fit::To k_fits[] = {grid::Fit::To::lights, grid::Fit::To::surfaces, grid::Fit::To::both,
+                                    grid::Fit::To::ranges};
 
 bool has_first(grid::Scheme scheme) {
   return scheme == grid::Scheme::exponential_first || scheme == grid::Scheme::cubical_first;
@@ -55,6 +56,8 @@ grid::Slicing slicing_of(const Json& slices) {
                })->second;
   out.near_m = slices_metres(slices, "near");
   out.far_m = slices_metres(slices, "far");
+  out.far_at_most_m = slices_metres(slices, "far_at_most");
+  out.linear_when_orthographic = slices.contains("orthographic") && slices["orthographic"] == "linear";
   if (slices.contains("first")) out.first_m = slices_metres(slices, "first");
   if (slices.contains("lambda")) out.lambda = slices["lambda"].get<double>();
   if (slices.contains("boundaries")) out.boundaries_m = slices["boundaries"].get<std::vector<double>>();
@@ -90,6 +93,8 @@ OrderedJson slices_json(const grid::Slicing& slices) {
   if (has_first(slices.scheme)) out["first"] = slices.first_m;
   if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
   if (slices.far_m != 0.0) out["far"] = slices.far_m;
+  if (slices.far_at_most_m != 0.0) out["far_at_most"] = slices.far_at_most_m;
+  if (slices.linear_when_orthographic) out["orthographic"] = "linear";
   if (slices.fit)
     out["fit"] = {{"to", grid::name_of(slices.fit->to)}, {"damping", slices.fit->damping}, {"step", slices.fit->step}};
   return out;
@@ -145,6 +150,8 @@ void add_identity(const grid::GridSpec& spec, const std::string& key, Json& out)
     if (has_first(slices.scheme)) out["first"] = slices.first_m;
     if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
     if (slices.fit) out["fit"] = {grid::name_of(slices.fit->to), slices.fit->damping, slices.fit->step};
+    if (slices.far_at_most_m != 0.0) out["far_at_most"] = slices.far_at_most_m;
+    if (slices.linear_when_orthographic) out["orthographic"] = "linear";
   }
   if (key == "react" && spec.reaction)
     out[key] = {grid::name_of(spec.reaction->to), spec.reaction->most, spec.reaction->of, spec.reaction->most_lights};

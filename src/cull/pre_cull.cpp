@@ -1,7 +1,11 @@
 #include "cull/pre_cull.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 #include "cull/view_planes.h"
 #include "view/selected_lights.h"
@@ -15,7 +19,8 @@ struct StepOnLights {
   const grid::Grid& grid;
   const view::LightArrays& lights;
   const VisibleSets* sets;  // the step's own
-  std::vector<std::uint32_t>& kept;
+  FrameCull& out;
+  std::vector<std::uint32_t>& kept = out.kept;
 
   void operator()(const FrustumStep&) const {
     const ViewPlanes planes(frame, grid);
@@ -37,6 +42,34 @@ struct StepOnLights {
     std::erase_if(kept, [&](std::uint32_t light) { return !sets->keeps(*cell, light, lights.source[light]); });
   }
 
+  void operator()(const MostStep& step) const {
+    if (kept.size() <= static_cast<std::size_t>(step.lights)) return;
+    out.before = kept;
+    if (step.keep != MostStep::Keep::first) sort_for(step);
+    keep_first(step);
+    std::ranges::sort(kept);
+    std::ranges::set_difference(out.before, kept, std::back_inserter(out.dropped));
+  }
+
+  // The lights that a limit keeps first come first; of equal ones those of lower index.
+  void sort_for(const MostStep& step) const {
+    const Vec3d eye = lights.space.rotation * (frame.view_space.origin - lights.space.origin);
+    const Vec3d back = lights.space.rotation * (glm::transpose(frame.view_space.rotation) * Vec3d(0, 0, 1));
+    const bool by_depth = step.keep == MostStep::Keep::shallowest;
+    std::ranges::sort(kept, {}, [&](std::uint32_t light) {
+      const Vec3d way = Vec3d(lights.x[light], lights.y[light], lights.z[light]) - eye;
+      return std::pair(by_depth ? std::max(0.0, -glm::dot(way, back)) : glm::dot(way, way), light);
+    });
+  }
+
+  // Of all, or of each type.
+  void keep_first(const MostStep& step) const {
+    const auto most = static_cast<std::size_t>(step.lights);
+    if (!step.per_type) return kept.resize(most);
+    std::array<std::size_t, view::k_light_types> counts{};
+    std::erase_if(kept, [&](std::uint32_t light) { return ++counts[lights.type_of(light)] > most; });
+  }
+
   geom::Ball ball(std::uint32_t light) const { return lights.bounding_ball(light, k_cull_roundoffs); }
 };
 
@@ -46,6 +79,7 @@ struct IsConservative {
   bool operator()(const FrustumStep&) const { return grid.has_tiles(); }
   bool operator()(const DistanceStep& step) const { return farthest_of_cells(grid) <= step.distance_m; }
   bool operator()(const VisibleSetStep&) const { return false; }
+  bool operator()(const MostStep&) const { return false; }
 };
 
 }  // namespace
@@ -61,9 +95,10 @@ void PreCull::cull(const view::Frame& frame, const grid::Grid& grid, const view:
   out.kept.resize(lights.size());
   std::iota(out.kept.begin(), out.kept.end(), 0u);
   out.removed.clear();
+  out.dropped.clear();
   for (std::size_t i = 0; i < spec_.steps.size(); ++i) {
     const std::size_t before = out.kept.size();
-    std::visit(StepOnLights{frame, grid, lights, sets_[i].get(), out.kept}, spec_.steps[i]);
+    std::visit(StepOnLights{frame, grid, lights, sets_[i].get(), out}, spec_.steps[i]);
     out.removed.push_back(static_cast<std::uint32_t>(before - out.kept.size()));
   }
   view::select_lights(lights, out.kept, out.lights);
@@ -78,6 +113,14 @@ void PreCull::give_source(const view::LightArrays& lights, FrameCull& out) {
 bool PreCull::is_conservative(const grid::Grid& grid) const {
   for (const Step& step : spec_.steps)
     if (!std::visit(IsConservative{grid}, step)) return false;
+  return true;
+}
+
+bool PreCull::is_conservative(const grid::Grid& grid, const FrameCull& cull) const {
+  for (std::size_t i = 0; i < spec_.steps.size(); ++i) {
+    const bool is_idle_limit = std::holds_alternative<MostStep>(spec_.steps[i]) && cull.removed[i] == 0;
+    if (!is_idle_limit && !std::visit(IsConservative{grid}, spec_.steps[i])) return false;
+  }
   return true;
 }
 

@@ -20,6 +20,8 @@ namespace clusterbench::cull {
 struct FrameCull {
   std::vector<std::uint32_t> kept;     // indices of the frame's lights, ascending
   std::vector<std::uint32_t> removed;  // by each step: how many
+  std::vector<std::uint32_t> dropped;  // indices of those that limits have removed, ascending for each limit
+  std::vector<std::uint32_t> before;   // scratch
   view::LightArrays lights;            // those that are kept; their `source` is the one below
   std::vector<scene::WorldLight> source;
 };
@@ -39,10 +41,12 @@ class PreCull {
   // Gives what is kept the double-precision numbers that it was rounded from. No engine does that: not timed.
   static void give_source(const view::LightArrays& lights, FrameCull& out);
 
-  // Whether no light is removed that shares a point with a cell of this grid. By the view's planes: where cells end
-  // with the picture, in frustum and distance grids. By distance: where no cell reaches farther. A visible set never
-  // is.
+  // Whether no light is removed that shares a point with a cell of this grid, whatever the frame. By the view's planes:
+  // where cells end with the picture, in frustum and distance grids. By distance: where no cell reaches farther. A
+  // visible set and a limit never are.
   bool is_conservative(const grid::Grid& grid) const;
+  // The same of the frame that `cull` is of: a limit that has removed nothing loses nothing.
+  bool is_conservative(const grid::Grid& grid, const FrameCull& cull) const;
 
   std::uint64_t bytes() const;  // of its visible sets
   double build_ns() const;      // what these took

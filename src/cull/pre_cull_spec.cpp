@@ -19,6 +19,9 @@ struct Label {
     return "visible-set(" + number(step.view_cell_m) + "," + number(step.voxel_m) + "," + std::to_string(step.rays) +
            ")";
   }
+  std::string operator()(const MostStep& step) const {
+    return "most(" + std::to_string(step.lights) + "," + name_of(step.keep) + (step.per_type ? ",type)" : ")");
+  }
 };
 
 }  // namespace
@@ -38,8 +41,17 @@ std::span<const StepSummary> step_summaries() {
        "lights that reach no space seen from the eye's view cell are removed; by sampled rays, NOT conservative; needs "
        "triangles",
        "Airey, Rohlf and Brooks 1990; by rays: Wonka et al. 2006"},
+      {"most",
+       "at most so many lights are kept, the others are lost: the first ones, or those nearest to the eye; NOT "
+       "conservative in frames with more",
+       "engines with room for a number of lights (see the presets)"},
   };
   return k_rows;
+}
+
+const char* name_of(MostStep::Keep keep) {
+  constexpr const char* k_names[] = {"first", "nearest", "shallowest"};
+  return k_names[static_cast<int>(keep)];
 }
 
 std::string label_of(const Step& step) {

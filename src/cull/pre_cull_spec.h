@@ -1,6 +1,7 @@
 #pragma once
 // What a configuration asks for to happen to lights before a method gets them.
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <variant>
@@ -29,15 +30,34 @@ struct VisibleSetStep {
   friend bool operator==(const VisibleSetStep&, const VisibleSetStep&) = default;
 };
 
+// Of the lights that the steps before it leave, at most so many are kept; the others are lost. So an engine with room
+// for a number of lights does. Behind a FrustumStep the limit is one of lights in view.
+struct MostStep {
+  // Which ones are kept. first: in the order of the lists' indices, points before spots. nearest: by the distance of
+  // the eye to the light's position. shallowest: by the depth of that position, all behind the eye alike (Filament).
+  enum class Keep : std::uint8_t { first, nearest, shallowest };
+
+  int lights = 256;
+  Keep keep = Keep::first;
+  bool per_type = false;  // so many points and so many spots (Godot)
+
+  friend bool operator==(const MostStep&, const MostStep&) = default;
+};
+inline constexpr MostStep::Keep k_keeps[] = {MostStep::Keep::first, MostStep::Keep::nearest,
+                                             MostStep::Keep::shallowest};
+// "first", "nearest", "shallowest"
+const char* name_of(MostStep::Keep keep);
+
 // Each kind of step, for people.
 struct StepSummary {
   const char *name, *summary, *source;
 };
 std::span<const StepSummary> step_summaries();
 
-using Step = std::variant<FrustumStep, DistanceStep, VisibleSetStep>;
+using Step = std::variant<FrustumStep, DistanceStep, VisibleSetStep, MostStep>;
 
-// "frustum", "distance(100)", "visible-set(4,2,4096)": numbers in the order of the members.
+// "frustum", "distance(100)", "visible-set(4,2,4096)", "most(256,first)", "most(512,first,type)": numbers in the order
+// of the members.
 std::string label_of(const Step& step);
 
 // Steps in their order; none: methods get all lights.

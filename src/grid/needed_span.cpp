@@ -72,7 +72,7 @@ Span Span::within(const Span& other) const {
 }
 
 const char* name_of(Fit::To to) {
-  constexpr const char* k_names[] = {"lights", "surfaces", "both"};
+  constexpr const char* k_names[] = {"lights", "surfaces", "both", "ranges"};
   return k_names[static_cast<int>(to)];
 }
 
@@ -103,6 +103,7 @@ Span span_of_surfaces(const view::Frame& frame, const depth::DepthImage& depths,
 
 Span needed_span(const Fit& fit, const view::Frame& frame, const depth::DepthImage* depths, bool by_distance) {
   if (fit.to == Fit::To::lights) return span_of_lights(frame, by_distance);
+  if (fit.to == Fit::To::ranges) return span_of_balls(frame, by_distance);
   const Span surfaces = depths == nullptr ? Span{} : span_of_surfaces(frame, *depths, by_distance);
   return fit.to == Fit::To::surfaces ? surfaces : surfaces.within(span_of_lights(frame, by_distance));
 }

@@ -25,7 +25,9 @@ inline constexpr double k_least_step = 1.01;
 
 // Which slices are fitted, and how they follow from frame to frame.
 struct Fit {
-  enum class To { lights, surfaces, both };  // both: depths that lights and visible surfaces have in common
+  // both: depths that lights and visible surfaces have in common. ranges: the far end alone, that of the spheres of the
+  // ranges of the lights in view, spots by theirs; not held within the camera's far (Bevy).
+  enum class To { lights, surfaces, both, ranges };
   To to = To::lights;
   // Of the way by which the span could shrink, the share that is left after one frame; 0: follows at once. A span
   // always grows at once, so that nothing needed is ever left out.
@@ -34,11 +36,11 @@ struct Fit {
   // not. Only ends above 0.
   double step = 1.0;
 
-  bool needs_surfaces() const { return to != To::lights; }
+  bool needs_surfaces() const { return to == To::surfaces || to == To::both; }
   friend bool operator==(const Fit&, const Fit&) = default;
 };
 
-// "lights", "surfaces", "both"
+// "lights", "surfaces", "both", "ranges"
 const char* name_of(Fit::To to);
 
 // Holds every point in view that a light reaches. It may be larger: a light counts whole, a spot by its capped cone (in

@@ -84,7 +84,8 @@ std::string tiles_name(const Tiling& tiles) {
 // "near..far", or "near..first..far"; what the camera or the lights decide is left out.
 std::string reach_name(const Slicing& slices) {
   const std::string near = slices.near_m == 0.0 ? "" : number_name(slices.near_m);
-  const std::string far = slices.far_m == 0.0 ? "" : number_name(slices.far_m);
+  const std::string most = slices.far_at_most_m == 0.0 ? "" : "at most " + number_name(slices.far_at_most_m);
+  const std::string far = slices.far_m == 0.0 ? most : number_name(slices.far_m);
   const bool has_first = slices.scheme == Scheme::exponential_first || slices.scheme == Scheme::cubical_first;
   if (near.empty() && far.empty()) return has_first ? " first " + number_name(slices.first_m) : "";
   return " " + near + ".." + (has_first ? number_name(slices.first_m) + ".." : "") + far;
@@ -143,7 +144,7 @@ std::string plain_slices_name(const Slicing& slices) {
 }
 
 std::string slices_name(const Slicing& slices) {
-  return plain_slices_name(slices) + fit_name(slices.fit);
+  return plain_slices_name(slices) + fit_name(slices.fit) + (slices.linear_when_orthographic ? " or linear" : "");
 }
 
 }  // namespace
@@ -190,8 +191,9 @@ GridInputs screen_inputs(const GridSpec& spec, const FrameReach& from) {
     inputs.light_near_m = reach.near_m;
     inputs.light_far_m = reach.far_m;
   } else if (spec.slices.fit) {
-    inputs.needed = needed_span(*spec.slices.fit, from.frame, from.depths, by_distance)
-                        .within(asked_span(spec.slices, slice_range(inputs)));
+    inputs.needed = needed_span(*spec.slices.fit, from.frame, from.depths, by_distance);
+    if (spec.slices.fit->to != Fit::To::ranges)
+      inputs.needed = inputs.needed.within(asked_span(spec.slices, slice_range(inputs)));
   }
   return inputs;
 }

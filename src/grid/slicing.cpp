@@ -35,7 +35,9 @@ struct Reach {
 
 Reach reach_of(const Slicing& slicing, const SliceRange& range) {
   Reach reach{slicing.near_m != 0.0 ? slicing.near_m : range.camera_near_m, slicing.far_m};
-  if (reach.far == 0.0) reach.far = std::isfinite(range.camera_far_m) ? range.camera_far_m : range.light_far_m;
+  const double seen =
+      slicing.far_at_most_m > 0.0 ? std::min(range.camera_far_m, slicing.far_at_most_m) : range.camera_far_m;
+  if (reach.far == 0.0) reach.far = std::isfinite(seen) ? seen : range.light_far_m;
   if (slicing.scheme == Scheme::fit) {
     const double last = std::max(reach.near, reach.far);  // no far is named and all lights end before near
     const Reach lights{std::clamp(range.light_near_m, reach.near, last),
@@ -143,6 +145,14 @@ Span not_too_thin(const Span& span, const Reach& asked) {
   return {std::max(asked.near, std::min(span.near_m, far - least)), std::max(far, span.far_m)};
 }
 
+// Only the far end follows, beyond the camera's, too; near and the end of the first slice stay.
+void fit_to_ranges(const Span& needed, const Slicing& slicing, Reach& reach) {
+  constexpr double k_least_share = 1.01;  // slices of no depth do not exist
+  const double from = slicing.scheme == Scheme::exponential_first ? slicing.first_m : reach.near;
+  const double least = from > 0.0 ? from * k_least_share : from + 1e-3;
+  reach.far = std::max(least, needed.is_empty() ? reach.far : needed.far_m + 0x1p-20 * std::abs(needed.far_m));
+}
+
 // Moves slices to what is needed. What lies before the first boundary is in the first slice, so that only the far end
 // could leave something out: it is moved up by more than roundoffs of a sample's depth or distance.
 void fit_to(const Span& needed, Slicing& slicing, Reach& reach) {
@@ -217,6 +227,8 @@ int slices_between(double near, double far, double ratio) {
 }  // namespace
 
 Span telling_span(const Slicing& slicing, const Span& needed) {
+  if (slicing.fit && slicing.fit->to == Fit::To::ranges && !needed.is_empty())
+    return {0.0, std::max(0.0, needed.far_m)};
   if (slicing.scheme != Scheme::exponential_first || needed.is_empty()) return needed;
   return {std::max(needed.near_m, std::min(slicing.first_m, needed.far_m)), needed.far_m};
 }
@@ -308,9 +320,12 @@ int Slices::ideal_slice_of(double depth) const {
 Slices make_slices(const Slicing& asked, const SliceRange& range, bool orthographic) {
   const bool is_list = asked.scheme == Scheme::list;
   Slicing slicing = is_list ? with_list_reach(asked) : asked;
+  if (orthographic && slicing.linear_when_orthographic) slicing.scheme = Scheme::linear;
   Reach reach = is_list ? Reach{slicing.boundaries_m.front(), slicing.boundaries_m.back()} : reach_of(slicing, range);
+  const bool follows_ranges = slicing.fit && slicing.fit->to == Fit::To::ranges && !is_list;
+  if (follows_ranges) fit_to_ranges(range.needed, slicing, reach);
   check(slicing, reach, orthographic);
-  if (slicing.fit && !is_list) fit_to(range.needed, slicing, reach);
+  if (slicing.fit && !follows_ranges && !is_list) fit_to(range.needed, slicing, reach);
 
   Slices slices;
   for (int i = 0; i <= slicing.count; ++i) slices.boundaries.push_back(static_cast<float>(boundary(slicing, reach, i)));

@@ -25,6 +25,10 @@ struct Slicing {
   // and the end of the first slice of exponential-first ones, which is never nearer than first_m unless all that is
   // needed is nearer than that.
   std::optional<Fit> fit = {};
+  // Where no far is given: however far the camera sees, slices end here (Filament's 100 m). 0: they do not.
+  double far_at_most_m = 0.0;
+  // Of an orthographic camera the scheme is linear from near to far, as engines have it (Bevy, Unity URP).
+  bool linear_when_orthographic = false;
 };
 
 // Where slices can lie in this frame. light_near/far: the reach of the lights in view (fit; far when nothing else

@@ -97,6 +97,8 @@ std::string shortage(const Json& result_case) {
 // The ways in which a case loses lights.
 std::string lost_text(const Json& result_case) {
   std::vector<std::string> ways;
+  for (const Json& warning : result_case.value("warnings", Json::array()))
+    if (warning["kind"] == "too_many_lights") ways.push_back(warning["text"].get<std::string>());
   const Json& overflow = result_case["buffers"]["overflow"];
   if (overflow["dropped_pairs"] != 0)
     ways.push_back("drops " + number_of(overflow["lights"].size(), "light") + " in " +
@@ -129,7 +131,7 @@ std::string kept_text(const Json& result_case) {
          " of the lights that samples need";
 }
 
-std::string why(const Row& row, const Row& best, const Json& lights) {
+std::string why(const Row& row, const Row& best) {
   const Json& result_case = *row.result_case;
   std::string out = row.loses ? lost_text(result_case) : kept_text(result_case);
   if (!row.gpu_ns)
@@ -140,15 +142,10 @@ std::string why(const Row& row, const Row& best, const Json& lights) {
   else if (!row.loses && best.gpu_ns && *best.gpu_ns > 0.0)
     out += text(", at %.2f times the cost of ", *row.gpu_ns / *best.gpu_ns) +
            (*best.result_case)["preset"].get<std::string>() + ": " + load_text(result_case);
-  const config::Preset* preset = config::find_preset(result_case["preset"].get<std::string>());
-  const std::uint64_t count = lights["point"].get<std::uint64_t>() + lights["spot"].get<std::uint64_t>();
-  if (preset != nullptr && preset->most_lights > 0 && count > static_cast<std::uint64_t>(preset->most_lights))
-    out += "; takes " + std::to_string(preset->most_lights) + " lights in a frame, and the level has " +
-           std::to_string(count);
   return out;
 }
 
-Json ranking_of(const View& view, const std::vector<Row>& rows, const Json& lights) {
+Json ranking_of(const View& view, const std::vector<Row>& rows) {
   const bool is_any_best = !rows.front().loses && rows.front().gpu_ns;
   Json list = Json::array();
   for (const Row& row : rows)
@@ -156,7 +153,7 @@ Json ranking_of(const View& view, const std::vector<Row>& rows, const Json& ligh
                     {"preset", (*row.result_case)["preset"]},
                     {"gpu_ns", row.gpu_ns ? number_or_null(*row.gpu_ns) : Json()},
                     {"lights_per_sample", number_or_null(per_sample(*row.result_case, "evaluated").value_or(NAN))},
-                    {"why", why(row, rows.front(), lights)}});
+                    {"why", why(row, rows.front())}});
   return {{"scene", view.scene},
           {"camera", view.camera},
           {"viewport", view.viewport},
@@ -191,12 +188,15 @@ Json preset_facts(const Json& cases, const Json& skipped) {
     if (std::ranges::none_of(cases, is_of) && std::ranges::none_of(skipped, is_of)) continue;
     facts.push_back({{"name", preset.name},
                      {"engine", preset.engine},
+                     {"version", preset.version},
+                     {"evidence", config::name_of(preset.evidence)},
                      {"summary", preset.summary},
                      {"source", preset.source},
                      {"approximated", preset.approximated},
                      {"unverified", preset.unverified},
                      {"assigns_on", config::name_of(preset.assigns_on)}});
-    if (preset.most_lights > 0) facts.back()["most_lights"] = preset.most_lights;
+    if (const std::uint64_t most = config::most_lights(preset); most > 0) facts.back()["most_lights"] = most;
+    if (preset.has_mistakes()) facts.back()["mistakes"] = preset.mistakes;
   }
   return facts;
 }
@@ -213,8 +213,7 @@ Json preset_rankings(const Json& scenes, const Json& cases, const Json& origin) 
   Json rankings = Json::array();
   for (const auto& [view, members] : views)
     for (const Json& scene : scenes)
-      if (scene["name"] == view.scene)
-        rankings.push_back(ranking_of(view, ranked(members, origin.at("config")), scene["lights"]));
+      if (scene["name"] == view.scene) rankings.push_back(ranking_of(view, ranked(members, origin.at("config"))));
   return rankings;
 }
 

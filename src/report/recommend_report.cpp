@@ -490,7 +490,7 @@ Json recommended_config(const config::Config& config, const search::View& view, 
   Json out = config.resolved;
   out["scenes"] = Json::array({scene_json(config, view.scene, file)});
   out["viewports"] = Json::array({answer["viewport"]});
-  out.erase("presets");
+  for (const char* key : {"presets", "as_shipped"}) out.erase(key);
   for (const char* key : {"grids", "assigners", "storages", "precision"}) out[key] = Json::array();
   for (int i = 0; i <= runners_up && i <= static_cast<int>(answer["runners_up"].size()); ++i) {
     const Json& record = i == 0 ? answer["choice"] : answer["runners_up"][static_cast<std::size_t>(i) - 1];

@@ -277,7 +277,7 @@ Json pre_cull(const run::PreCullResult& p, bool is_timed) {
   const run::PreCullCounts& counts = p.counts;
   Json steps = Json::array(), samples = Json::object();
   for (const run::PreCullCounts::Step& step : counts.steps)
-    steps.push_back({{"label", step.label}, {"removed", to_json(step.removed)}});
+    steps.push_back({{"label", step.label}, {"removed", to_json(step.removed)}, {"frames", step.frames}});
   for (const run::LostAtSamples& set : counts.samples)
     if (set.is_asked) samples[measure::name_of(set.set)] = {{"needed", set.needed}, {"lost", set.lost}};
   Json out{{"label", p.label},
@@ -290,6 +290,8 @@ Json pre_cull(const run::PreCullResult& p, bool is_timed) {
            {"lost_at_samples", samples},
            {"view_cells", counts.view_cells},
            {"bytes", counts.bytes}};
+  const bool has_limit = std::ranges::any_of(counts.steps, [](const auto& step) { return step.limit.has_value(); });
+  if (has_limit) out["over_limit"] = {{"lights", counts.dropped}, {"lost_pairs", counts.lost_to_limits}};
   if (is_timed) out["build_ns"] = six_digits(counts.build_ns);
   return out;
 }

@@ -157,6 +157,43 @@ std::string unlit_text(const CaseResult& result) {
          std::to_string(shading.missed_outside) + " outside of the grid" + worst_text(result);
 }
 
+// A limit of lights that removed some in a frame; null if none did.
+const PreCullCounts::Step* exceeded_limit(const CaseResult& result) {
+  if (!result.pre_cull) return nullptr;
+  for (const PreCullCounts::Step& step : result.pre_cull->counts.steps)
+    if (step.limit && step.frames > 0) return &step;
+  return nullptr;
+}
+
+bool misses_dropped_lights(const PreCullCounts& counts) {
+  return counts.lost_to_limits > 0 ||
+         std::ranges::any_of(counts.samples, [](const LostAtSamples& set) { return set.lost > 0; });
+}
+
+// True pairs that are not listed. What a preset's engine culls by the view's planes is no loss: such pairs are of cells
+// beside the view, which nothing sees.
+std::uint64_t pairs_lost(const CaseResult& result) {
+  if (!result.error) return 0;
+  const std::uint64_t all = result.error->false_negatives;
+  if (result.preset.empty() || !result.pre_cull) return all;
+  const PreCullCounts& counts = result.pre_cull->counts;
+  return all - std::min(all, counts.lost_pairs - counts.lost_to_limits);
+}
+
+std::string limit_text(const CaseResult& result, const PreCullCounts::Step& step) {
+  const PreCullCounts& counts = result.pre_cull->counts;
+  std::string text = "takes " + number_of(static_cast<std::uint64_t>(*step.limit), "light") + ", and " +
+                     number_of(static_cast<std::uint64_t>(step.frames), "frame") + " of " +
+                     std::to_string(result.frames) + (step.frames == 1 ? " has" : " have") +
+                     " more: " + std::to_string(static_cast<std::uint64_t>(step.removed.max)) + " too many at most, " +
+                     number_of(counts.dropped.size(), "light") + " lost in some frame";
+  for (const LostAtSamples& set : counts.samples)
+    if (set.is_asked && set.needed > 0 && set.lost > 0)
+      text += ", " + percent(static_cast<double>(set.lost) / static_cast<double>(set.needed)) + " of those that " +
+              (set.set == measure::SampleSet::volume ? "the view's" : measure::name_of(set.set)) + " samples need";
+  return text;
+}
+
 std::string undecided_text(const char* where, std::uint64_t pairs) {
   return std::string(where) + ": " + number_of(pairs, "undecided pair") + " counted as true";
 }
@@ -169,7 +206,8 @@ const char* name_of(Failure::Kind kind) {
 }
 
 const char* name_of(Warning::Kind kind) {
-  constexpr const char* k_names[] = {"dropped_pairs", "unlit", "undecided", "lost_pairs", "unchecked"};
+  constexpr const char* k_names[] = {"dropped_pairs", "unlit",     "undecided",
+                                     "lost_pairs",    "unchecked", "too_many_lights"};
   return k_names[static_cast<std::size_t>(kind)];
 }
 
@@ -196,21 +234,23 @@ std::vector<Warning> warnings_of(const CaseResult& result) {
   std::vector<Warning> warnings;
   if (result.buffers.dropped_pairs > 0)
     warnings.push_back({Kind::dropped_pairs, dropped_text(result) + lost_light_text(result)});
+  if (const PreCullCounts::Step* limit = exceeded_limit(result))
+    warnings.push_back({Kind::too_many_lights, limit_text(result, *limit)});
   if (is_unlit(result)) warnings.push_back({Kind::unlit, unlit_text(result)});
   if (result.error && result.error->undecided > 0)
     warnings.push_back({Kind::undecided, undecided_text("error", result.error->undecided)});
   if (result.stability && result.stability->undecided > 0)
     warnings.push_back({Kind::undecided, undecided_text("stability", result.stability->undecided)});
-  if (result.error && result.error->false_negatives > 0 && !may_not_lose(result))
-    warnings.push_back({Kind::lost_pairs, lost_text(result)});
+  if (pairs_lost(result) > 0 && !may_not_lose(result)) warnings.push_back({Kind::lost_pairs, lost_text(result)});
   if (has_cells(result) && !result.error)
     warnings.push_back({Kind::unchecked, "its lists were not held against the truth"});
   return warnings;
 }
 
 bool loses_lights(const CaseResult& result) {
-  return (result.error && result.error->false_negatives > 0) || result.buffers.dropped_pairs > 0 ||
-         misses_without_cells(result) || is_unlit(result);
+  const bool loses_to_limit = exceeded_limit(result) != nullptr && misses_dropped_lights(result.pre_cull->counts);
+  return pairs_lost(result) > 0 || result.buffers.dropped_pairs > 0 || loses_to_limit || misses_without_cells(result) ||
+         is_unlit(result);
 }
 
 bool is_eligible(const CaseResult& result) {

@@ -40,8 +40,8 @@ std::string note_of_reaction(const grid::Reaction& reaction) {
 }
 
 std::string note_of_fit(const grid::Fit& fit) {
-  constexpr const char* k_followed[] = {"lights in view", "visible surfaces",
-                                        "lights in view and the visible surfaces"};
+  constexpr const char* k_followed[] = {"lights in view", "visible surfaces", "lights in view and the visible surfaces",
+                                        "ranges of the lights in view"};
   return std::string("slices follow the ") + k_followed[static_cast<int>(fit.to)] + ": these are the last frame's";
 }
 

@@ -65,7 +65,7 @@ class CulledRun {
   // Null where nothing is culled.
   const cull::FrameCull* cull() const { return pre_cull_->is_none() ? nullptr : &cull_; }
   // Of this frame: it removes no light of a cell.
-  bool cull_is_conservative() const { return pre_cull_->is_conservative(*grid_); }
+  bool cull_is_conservative() const { return pre_cull_->is_conservative(*grid_, cull_); }
 
   bool has_cells() const { return run_.has_cells(); }
   bool has_occupied_cells() const { return run_.has_occupied_cells(); }

@@ -18,8 +18,12 @@ measure::MeanMax PreCullMeter::Sum::over(int frames) const {
 
 PreCullMeter::PreCullMeter(const cull::PreCull& pre_cull, const std::vector<measure::SampleSet>& sets)
     : steps_(pre_cull.spec().steps.size()) {
-  for (const cull::Step& step : pre_cull.spec().steps)
-    counts_.steps.push_back({cull::label_of(step), std::holds_alternative<cull::DistanceStep>(step), {}});
+  for (const cull::Step& step : pre_cull.spec().steps) {
+    PreCullCounts::Step& counted = counts_.steps.emplace_back();
+    counted.label = cull::label_of(step);
+    counted.is_distance = std::holds_alternative<cull::DistanceStep>(step);
+    if (const auto* most = std::get_if<cull::MostStep>(&step)) counted.limit = most->lights;
+  }
   for (const measure::SampleSet set : sets) counts_.samples.push_back({set});
   counts_.bytes = pre_cull.bytes();
   counts_.view_cells = pre_cull.view_cells();
@@ -33,6 +37,13 @@ void PreCullMeter::add_frame(const cull::FrameCull& cull, std::uint32_t all_ligh
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     steps_[i].add(cull.removed[i]);
     if (counts_.steps[i].is_distance) distant += cull.removed[i];
+    if (cull.removed[i] > 0) ++counts_.steps[i].frames;
+  }
+  is_ever_dropped_.resize(all_lights, false);
+  is_undropped_.assign(all_lights, true);
+  for (const std::uint32_t light : cull.dropped) {
+    is_ever_dropped_[light] = true;
+    is_undropped_[light] = false;
   }
   kept_.add(cull.kept.size());
   removed_.add(all_lights - cull.kept.size());
@@ -44,12 +55,17 @@ void PreCullMeter::add_frame(const cull::FrameCull& cull, std::uint32_t all_ligh
 void PreCullMeter::add_samples(std::size_t set, const assign::Lists& needed) {
   counts_.samples[set].is_asked = true;
   counts_.samples[set].needed += needed.lights.size();
-  counts_.samples[set].lost += removed_of(needed);
+  counts_.samples[set].lost += entries_beside(needed, is_kept_);
 }
 
-std::uint64_t PreCullMeter::removed_of(const assign::Lists& lists) const {
+void PreCullMeter::add_truth(const assign::Lists& truth) {
+  counts_.lost_pairs += entries_beside(truth, is_kept_);
+  counts_.lost_to_limits += entries_beside(truth, is_undropped_);
+}
+
+std::uint64_t PreCullMeter::entries_beside(const assign::Lists& lists, const std::vector<bool>& is_in) {
   return static_cast<std::uint64_t>(
-      std::ranges::count_if(lists.lights, [&](std::uint32_t light) { return !is_kept_[light]; }));
+      std::ranges::count_if(lists.lights, [&](std::uint32_t light) { return !is_in[light]; }));
 }
 
 PreCullCounts PreCullMeter::result() const {
@@ -58,6 +74,8 @@ PreCullCounts PreCullMeter::result() const {
   out.removed = removed_.over(frames_);
   out.distant = distant_.over(frames_);
   for (std::size_t i = 0; i < steps_.size(); ++i) out.steps[i].removed = steps_[i].over(frames_);
+  for (std::uint32_t light = 0; light < is_ever_dropped_.size(); ++light)
+    if (is_ever_dropped_[light]) out.dropped.push_back(light);
   return out;
 }
 

@@ -2,6 +2,7 @@
 // What a pre-cull removes over a path's frames, and what of it was needed.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,15 @@ struct PreCullCounts {
     std::string label;
     bool is_distance = false;
     measure::MeanMax removed;  // lights per frame
+    std::optional<int> limit;  // of a MostStep: its lights
+    int frames = 0;            // in which it removed lights
   };
   bool conservative = true;                 // in every frame
   measure::MeanMax kept, removed, distant;  // lights per frame; the distant ones are among the removed
   std::vector<Step> steps;
-  std::uint64_t lost_pairs = 0;  // true pairs of lights that are removed
+  std::vector<std::uint32_t> dropped;  // the rig's indices of lights that limits removed in some frame, ascending
+  std::uint64_t lost_pairs = 0;        // true pairs of lights that are removed
+  std::uint64_t lost_to_limits = 0;    // of these, of lights that limits remove
   std::vector<LostAtSamples> samples;
   std::uint64_t bytes = 0;  // of visible sets
   std::uint64_t view_cells = 0;
@@ -41,7 +46,7 @@ class PreCullMeter {
 
   void add_frame(const cull::FrameCull& cull, std::uint32_t all_lights, bool is_conservative);
   // In the frame that was added last.
-  void add_truth(const assign::Lists& truth) { counts_.lost_pairs += removed_of(truth); }
+  void add_truth(const assign::Lists& truth);
   void add_samples(std::size_t set, const assign::Lists& needed);
 
   PreCullCounts result() const;
@@ -54,10 +59,12 @@ class PreCullMeter {
     measure::MeanMax over(int frames) const;
   };
 
-  std::uint64_t removed_of(const assign::Lists& lists) const;
+  // Entries of lists whose lights are not in it.
+  static std::uint64_t entries_beside(const assign::Lists& lists, const std::vector<bool>& is_in);
 
   PreCullCounts counts_;
-  std::vector<bool> is_kept_;  // of the last frame's lights
+  std::vector<bool> is_kept_, is_undropped_;  // of the last frame's lights; undropped: by no limit
+  std::vector<bool> is_ever_dropped_;
   int frames_ = 0;
   Sum kept_, removed_, distant_;
   std::vector<Sum> steps_;

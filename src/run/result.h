@@ -209,7 +209,7 @@ struct Failure {
 
 // What a run does not fail for, and a reader has to know.
 struct Warning {
-  enum class Kind : std::uint8_t { dropped_pairs, unlit, undecided, lost_pairs, unchecked };
+  enum class Kind : std::uint8_t { dropped_pairs, unlit, undecided, lost_pairs, unchecked, too_many_lights };
   Kind kind = Kind::dropped_pairs;
   std::string text;  // without the case's name
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "assign/contract/storage.h"
@@ -375,9 +376,17 @@ class Expansion {
       skip(plan, family, name, impossible, !takes_kind);
       return;
     }
-    for (std::size_t pre_cull = 0; pre_cull < config_.pre_culls.size(); ++pre_cull)
+    for (const std::size_t pre_cull : pre_culls_of(family))
       for (std::size_t precision = 0; precision < config_.precisions.size(); ++precision)
         expand_lights(plan, group, family, {pre_cull, precision}, first, name);
+  }
+
+  // The configuration's own, or what a preset has in place of them.
+  std::vector<std::size_t> pre_culls_of(const Family& family) const {
+    if (family.preset != nullptr && !family.preset->pre_culls.empty()) return family.preset->pre_culls;
+    std::vector<std::size_t> own(config_.own_pre_culls);
+    std::iota(own.begin(), own.end(), std::size_t{0});
+    return own;
   }
 
   // How lights come to a method.

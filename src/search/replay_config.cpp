@@ -1,6 +1,7 @@
 #include "search/replay_config.h"
 
 #include "config/grid_json.h"
+#include "config/pre_cull_json.h"
 #include "core/error.h"
 
 namespace clusterbench::search {
@@ -26,13 +27,15 @@ OrderedJson replay_config(const config::Config& config, const run::CasePlan& cas
   out["scenes"] = OrderedJson::array(
       {OrderedJson{{"path", scene}, {"frames", "keys"}, {"camera_fit", fits_height ? "vertical" : "contain"}}});
   out["viewports"] = OrderedJson::array({OrderedJson::array({viewport.x, viewport.y})});
-  out.erase("presets");
+  for (const char* key : {"presets", "as_shipped"}) out.erase(key);
   out["grids"] = OrderedJson::array({config::grid_request(config.grids[case_plan.grid])});
   out["assigners"] = OrderedJson::array({method_json(config.assigners[case_plan.assigner])});
   if (case_plan.storage) out["storages"] = OrderedJson::array({method_json(config.storages[*case_plan.storage])});
   out["precision"] = OrderedJson::array(
       {OrderedJson{{"packing", view::packing_name(precision.packing)}, {"inflate", precision.inflate}}});
-  if (out.contains("pre_cull")) out["pre_cull"] = OrderedJson::array({config.resolved["pre_cull"][case_plan.pre_cull]});
+  const cull::PreCullSpec& pre_cull = config.pre_culls[case_plan.pre_cull];
+  if (out.contains("pre_cull") || !pre_cull.is_none())
+    out["pre_cull"] = OrderedJson::array({config::pre_cull_request(pre_cull)});
   out["timing"]["measure"] = false;
   out["stability"] = nullptr;
   return out;

@@ -9,7 +9,7 @@
 namespace clusterbench::assign::testing {
 namespace {
 
-constexpr const char* k_spot_choices[] = {"ball", "cone-sphere", "both"};
+constexpr const char* k_spot_choices[] = {"ball", "range", "cone-sphere", "both"};
 
 std::vector<Setting> frustum_settings(std::uint64_t seed) {
   return settings_for(*find_assigner("bounds"), seed);

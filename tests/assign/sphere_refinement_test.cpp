@@ -45,7 +45,7 @@ TEST(SphereRefinement, stays_within_bounds_and_narrowing_within_both) {
   const auto refined = [&](const char* spot) {
     return lists_by("sphere-refinement", frame, grid, {{"spot", std::string(spot)}});
   };
-  for (const char* spot : {"ball", "cone-sphere", "both"})
+  for (const char* spot : {"ball", "range", "cone-sphere", "both"})
     EXPECT_TRUE(contained(refined(spot), lists_by("bounds", frame, grid, {{"spot", std::string(spot)}}))) << spot;
   EXPECT_TRUE(contained(refined("both"), refined("ball")));
   EXPECT_TRUE(contained(refined("narrowing"), refined("both")));
@@ -55,11 +55,38 @@ TEST(SphereRefinement, stays_within_bounds_and_narrowing_within_both) {
 TEST(SphereRefinement, holds_every_drawn_point_of_random_points_and_spots_in_every_spot_mode) {
   const view::Frame frame = full_hd_frame(random_lights(150, 150, 11));
   const grid::Grid grid = grid_of(frustum_12x12x24(), frame);
-  for (const char* spot : {"ball", "cone-sphere", "both", "narrowing"})
+  for (const char* spot : {"ball", "range", "cone-sphere", "both", "narrowing"})
     EXPECT_EQ(
         count_misses(frame, grid, lists_by("sphere-refinement", frame, grid, {{"spot", std::string(spot)}}), 2000, 12),
         0)
         << spot;
+}
+
+// By one plane a column is rejected only where the ball lies beyond it, so nothing is lost, and more is kept.
+TEST(SphereRefinement, by_the_nearest_plane_of_each_column_lists_all_that_both_planes_list_and_more) {
+  const view::Frame frame = full_hd_frame(random_lights(200, 100, 19));
+  for (const char* spot : {"ball", "cone-sphere"}) {
+    const grid::Grid grid = grid_of(frustum_12x12x24(), frame);
+    const Lists both = lists_by("sphere-refinement", frame, grid, {{"spot", std::string(spot)}});
+    const Lists nearest =
+        lists_by("sphere-refinement", frame, grid, {{"spot", std::string(spot)}, {"columns", std::string("nearest")}});
+    EXPECT_TRUE(contained(both, nearest)) << spot;
+    EXPECT_GT(nearest.pair_count(), both.pair_count()) << spot;
+    EXPECT_LT(nearest.pair_count(), both.pair_count() * 5 / 4) << spot;
+    EXPECT_EQ(count_misses(frame, grid, nearest, 2000, 20), 0) << spot;
+  }
+}
+
+// The balls of their ranges: what the method lists for points in their places.
+TEST(SphereRefinement, lists_spots_by_their_ranges_as_it_lists_points) {
+  view::Frame spots = full_hd_frame(random_lights(0, 150, 21)), points = spots;
+  for (scene::WorldLight& light : points.lights) light.type = scene::LightType::point;
+  points.count_types();
+  const grid::Grid grid = grid_of(frustum_12x12x24(), spots);
+  for (const char* name : {"sphere-refinement", "sphere-refinement-fast", "bounds", "aabb-fast"}) {
+    const Lists as_points = lists_by(name, points, grid);
+    EXPECT_EQ(lists_by(name, spots, grid, {{"spot", std::string("range")}}), as_points) << name;
+  }
 }
 
 TEST(SphereRefinement, holds_every_drawn_point_in_an_orthographic_view) {

@@ -46,6 +46,28 @@ TEST(TileSpans, have_a_quarter_of_the_excess_tiles_of_spots_that_the_boxes_of_z_
   }
 }
 
+// A bit of the tile and one of the bin, in place of a bit of the tile between the bin's first and last light.
+TEST(TileSpans, with_masks_of_bins_give_a_sample_the_lights_that_its_tile_and_its_bin_have_in_common) {
+  for (const Setting& setting : settings_for(*find_assigner("exact"), 5)) {
+    const Lists ranges = lists_by("tile-spans", setting.frame, setting.grid);
+    const Lists masks = lists_by("tile-spans", setting.frame, setting.grid, {{"bins", std::string("masks")}});
+    EXPECT_TRUE(contained(lists_by("exact", setting.frame, setting.grid), masks)) << setting.name;
+    // By hand: of each slice the lights of all its cells whose depths reach it.
+    const Vec3i cells = setting.grid.cells();
+    const view::LightArrays lights = view::lights_in(setting.frame, setting.frame.view_space);
+    const std::vector<float>& depths = setting.grid.screen().slices.boundaries;
+    for (std::uint32_t cell = 0; cell < ranges.cell_count(); ++cell) {
+      const auto z = static_cast<std::size_t>(setting.grid.cell_at(cell).z);
+      for (const std::uint32_t light : masks.of(cell)) {
+        const geom::Ball ball = lights.ball(light, 64.0f);
+        EXPECT_TRUE(-ball.center.z - ball.radius <= depths[z + 1] && -ball.center.z + ball.radius >= depths[z])
+            << setting.name << " " << cell << " of " << cells.z << " slices: light " << light;
+      }
+    }
+    EXPECT_LE(masks.pair_count(), ranges.pair_count()) << setting.name;
+  }
+}
+
 // A narrow beam across the picture: its balls cover most of the tiles, its outline few.
 TEST(TileSpans, follow_the_sides_of_a_beam) {
   const view::Projection projections[] = {perspective(1.0, 16.0 / 9.0, 0.1, 100), {true, -16, 16, -9, 9, 0.1, 100}};

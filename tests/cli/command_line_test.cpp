@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "cli/tool.h"
@@ -114,11 +115,19 @@ TEST(CommandLine, the_version_is_also_json) {
 
 TEST(CommandLine, list_tells_where_presets_come_from_and_what_of_them_is_unverified) {
   const Json presets = Json::parse(tool("list presets --json").out);
-  EXPECT_EQ(presets.size(), 19u);
-  for (const Json& preset : presets) EXPECT_NE(preset["source"], "") << preset["name"];
+  EXPECT_EQ(presets.size(), 24u);
+  const std::set<std::string> grounds{"ran", "read", "memory"};
+  for (const Json& preset : presets) {
+    EXPECT_NE(preset["source"], "") << preset["name"];
+    EXPECT_NE(preset["version"], "") << preset["name"];
+    EXPECT_TRUE(grounds.contains(preset["evidence"])) << preset["name"];
+  }
   const std::string text = tool("list presets").out;
   EXPECT_TRUE(text.starts_with("presets")) << text;
   EXPECT_NE(text.find("unverified: which test it has for cones"), std::string::npos) << text;
+  EXPECT_NE(text.find("playcanvas: PlayCanvas, 2.23 (ran): "), std::string::npos) << text;
+  EXPECT_NE(text.find("limit: 255 lights in view, the first; 255 in a cell"), std::string::npos) << text;
+  EXPECT_NE(text.find("with --as-shipped: the row of a light's centre is taken once"), std::string::npos) << text;
   EXPECT_EQ(text.find("brute-force:"), std::string::npos) << "nothing else";
 }
 
@@ -158,11 +167,15 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
                                              "deferred",
                                              "conservative-raster",
                                              "tile-spans",
+                                             "babylon-masks",
                                              "naive-bounds",
                                              "naive-refinement",
                                              "naive-planes",
                                              "naive-cone",
                                              "bevy-refinement",
+                                             "filament-refinement",
+                                             "three-js-boxes",
+                                             "babylon-as-shipped",
                                              "naive-mask",
                                              "naive-tile-size"}));
   const std::string text = tool("list").out;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 #include "assign/contract/assigner.h"
@@ -46,15 +47,19 @@ std::string refusal_of(const std::string& rest, const std::vector<FlagValue>& fl
 
 TEST(Presets, there_is_one_for_every_row_of_the_table_of_engines) {
   const std::vector<std::string> rows{
-      "just-cause-3", "just-cause-2", "humus",     "ortegren-persson", "daveh355",   "black-mesa", "wicked",
-      "filament",     "bevy",         "godot",     "three-js",         "playcanvas", "babylon",    "unity-urp",
-      "unity-hdrp",   "unreal",       "doom-2016", "call-of-duty-iw",  "olsson-2012"};
+      "just-cause-3",    "just-cause-2",    "humus",       "ortegren-persson", "daveh355",  "black-mesa",
+      "doom-2016",       "call-of-duty-iw", "olsson-2012", "filament",         "bevy",      "bevy-gpu",
+      "godot",           "three-js",        "playcanvas",  "babylon",          "unity-urp", "unity-hdrp",
+      "unity-hdrp-fptl", "wicked",          "unreal",      "ogre-next",        "stride",    "eevee"};
   EXPECT_EQ(preset_names(), rows);
 }
 
 TEST(Presets, each_says_where_it_comes_from_and_takes_a_method_that_takes_its_grid) {
   for (const Preset& preset : presets()) {
     EXPECT_FALSE(std::string(preset.source).empty() || std::string(preset.summary).empty()) << preset.name;
+    EXPECT_FALSE(std::string(preset.version).empty()) << preset.name;
+    EXPECT_EQ(preset.has_mistakes(), !std::string(preset.as_shipped).empty()) << preset.name;
+    EXPECT_TRUE(!preset.has_mistakes() || preset.evidence == Evidence::ran) << preset.name;
     const Config config = with_presets(std::string(R"(, "presets": [")") + preset.name + R"("])");
     ASSERT_EQ(config.presets.size(), 1u);
     const PresetChoice& choice = config.presets[0];
@@ -91,15 +96,18 @@ TEST(Presets, grids_are_those_of_the_engines) {
       {"daveh355", "/slices/scheme", R"("exponential")"},
       {"black-mesa", "/tiles/count", "[16, 9]"},
       {"black-mesa", "/slices/count", "128"},
-      {"wicked", "/tiles/pixels", "[16, 16]"},
+      {"wicked", "/tiles/pixels", "[32, 32]"},
       {"filament", "/tiles/pixels", "[72, 72]"},
       {"filament", "/slices/count", "16"},
       {"filament", "/slices/first", "5.0"},
-      {"filament", "/slices/far", "100.0"},
-      {"bevy", "/tiles/pixels", "[113, 120]"},
+      {"filament", "/slices/far_at_most", "100.0"},
+      {"bevy", "/tiles/count", "[17, 9]"},
+      {"bevy", "/slices/orthographic", R"("linear")"},
+      {"bevy-gpu", "/tiles/count", "[17, 9]"},
+      {"bevy-gpu", "/slices/fit/to", R"("ranges")"},
       {"bevy", "/slices/count", "24"},
       {"bevy", "/slices/first", "5.0"},
-      {"bevy", "/slices/fit/to", R"("lights")"},
+      {"bevy", "/slices/fit/to", R"("ranges")"},
       {"godot", "/slices/count", "32"},
       {"godot", "/slices/scheme", R"("linear")"},
       {"three-js", "/tiles/pixels", "[32, 32]"},
@@ -113,7 +121,12 @@ TEST(Presets, grids_are_those_of_the_engines) {
       {"unity-urp", "/react/most_lights", "256"},
       {"bevy", "/react/to", R"("entries")"},
       {"bevy", "/react/most", "16384"},
-      {"bevy", "/react/of", R"("bevy-refinement")"},
+      {"bevy", "/react/of", R"("sphere-refinement")"},
+      {"unity-urp", "/slices/orthographic", R"("linear")"},
+      {"unity-hdrp-fptl", "/tiles/pixels", "[16, 16]"},
+      {"ogre-next", "/tiles/count", "[16, 8]"},
+      {"stride", "/tiles/pixels", "[64, 64]"},
+      {"eevee", "/tiles/pixels", "[32, 32]"},
       {"unity-urp", "/slices/scheme", R"("exponential")"},
       {"unity-hdrp", "/tiles/pixels", "[32, 32]"},
       {"unity-hdrp", "/slices/count", "64"},
@@ -138,7 +151,7 @@ TEST(Presets, just_cause_2_has_tiles_of_four_metres_around_the_camera) {
 
 TEST(Presets, what_fits_into_a_cell_is_what_the_engines_have_room_for) {
   constexpr std::pair<const char*, double> k_caps[] = {
-      {"just-cause-2", 4}, {"daveh355", 100}, {"three-js", 64}, {"playcanvas", 255}};
+      {"just-cause-2", 4}, {"daveh355", 100}, {"three-js", 64}, {"playcanvas", 255}, {"ogre-next", 96}};
   for (const auto& [name, cap] : k_caps) {
     const Resolved preset = resolved(name);
     ASSERT_TRUE(preset.storage);
@@ -152,11 +165,107 @@ TEST(Presets, what_fits_into_a_cell_is_what_the_engines_have_room_for) {
   EXPECT_EQ(std::get<std::string>(resolved("just-cause-3").storage->params.values().at("index_bits")), "16");
 }
 
-// By the engines' own arithmetic, on paper: Filament has 512 tiles in a slice, of whole eights of pixels; Bevy 170.
+// By the engines' own arithmetic, on paper: Filament has 512 tiles in a slice, of whole eights of pixels; Bevy 170, of
+// which as many are asked for as whole pixels allow, spread evenly; EEVEE 8192 of 32 px at most.
 TEST(Presets, tiles_that_follow_the_viewport_are_those_of_the_engines) {
   EXPECT_EQ(resolved("filament", "[1280, 720]").grid["tiles"]["pixels"], Json::parse("[48, 48]"));
   EXPECT_EQ(resolved("filament", "[3840, 2160]").grid["tiles"]["pixels"], Json::parse("[136, 136]"));
-  EXPECT_EQ(resolved("bevy", "[1000, 1000]").grid["tiles"]["pixels"], Json::parse("[77, 77]"));
+  EXPECT_EQ(resolved("bevy", "[1000, 1000]").grid["tiles"]["count"], Json::parse("[13, 13]"));
+  EXPECT_EQ(resolved("bevy", "[1600, 900]").grid["tiles"]["count"], Json::parse("[17, 9]"));
+  EXPECT_EQ(resolved("bevy", "[4000, 16]").grid["tiles"]["count"], Json::parse("[167, 1]"))
+      << "170 asked for are of 24 px";
+  EXPECT_EQ(resolved("eevee", "[3840, 2160]").grid["tiles"]["pixels"], Json::parse("[32, 32]"));
+  EXPECT_EQ(resolved("eevee", "[7680, 4320]").grid["tiles"]["pixels"], Json::parse("[64, 64]"));
+}
+
+// OGRE-Next: 2^(k log2(500 - 5) / 24) + 5. Stride: log2(z s + b) with 1 at 2 m and 8 at 1000 m.
+TEST(Presets, slices_that_are_listed_are_those_of_the_engines_formulas) {
+  const auto boundaries = [](const char* name) {
+    return resolved(name).grid["slices"]["boundaries"].get<std::vector<double>>();
+  };
+  const std::vector<double> ogre = boundaries("ogre-next"), stride = boundaries("stride");
+  ASSERT_EQ(ogre.size(), 25u);
+  for (std::size_t k = 1; k < 24; ++k)
+    EXPECT_NEAR(ogre[k], std::exp2(static_cast<double>(k) * std::log2(495.0) / 24.0) + 5.0, 1e-3) << k;
+  ASSERT_EQ(stride.size(), 9u);
+  for (std::size_t k = 1; k < 9; ++k) {
+    const double scale = (256.0 - 2.0) / (1000.0 - 2.0), bias = 2.0 - scale * 2.0;
+    EXPECT_NEAR(std::log2(stride[k] * scale + bias), static_cast<double>(k), 1e-4) << k;
+  }
+}
+
+// Lights that the engines take, by their sources.
+TEST(Presets, limits_of_lights_are_those_of_the_engines_and_are_counted_in_view) {
+  struct Limit {
+    const char* preset;
+    std::uint64_t lights;
+    const char* label;
+  };
+  constexpr Limit k_limits[] = {{"playcanvas", 255, "frustum+most(255,first)"},
+                                {"filament", 256, "frustum+most(256,shallowest)"},
+                                {"godot", 512, "frustum+most(512,first,type)"},
+                                {"doom-2016", 256, "frustum+most(256,first)"},
+                                {"wicked", 256, "frustum+most(256,first)"},
+                                {"unity-urp", 256, "frustum+most(256,first)"},
+                                {"unity-hdrp", 512, "frustum+most(512,first)"},
+                                {"three-js", 1024, "most(1024,first)"},
+                                {"humus", 128, "most(128,first)"}};
+  for (const Limit& limit : k_limits) {
+    EXPECT_EQ(most_lights(*find_preset(limit.preset)), limit.lights) << limit.preset;
+    const Config config = with_presets(std::string(R"(, "presets": [")") + limit.preset + R"("])");
+    const std::vector<std::size_t>& pre_culls = config.presets.at(0).pre_culls;
+    ASSERT_EQ(pre_culls.size(), 1u) << limit.preset;
+    EXPECT_EQ(config.pre_culls.at(pre_culls[0]).label(), limit.label);
+  }
+  EXPECT_EQ(most_lights(*find_preset("bevy")), 0u);
+  EXPECT_EQ(limit_text(*find_preset("playcanvas")), "255 lights in view, the first; 255 in a cell");
+  EXPECT_EQ(limit_text(*find_preset("godot")), "512 of each type in view, the first");
+  EXPECT_EQ(limit_text(*find_preset("three-js")), "1024 lights in the scene, the first; 64 in a cell");
+  EXPECT_EQ(limit_text(*find_preset("stride")), "");
+}
+
+TEST(Presets, a_limit_stands_behind_the_configurations_own_pre_culls) {
+  const Config config =
+      with_presets(R"(, "presets": ["playcanvas", "bevy"], "pre_cull": ["none", {"distance_m": 90}, "frustum"])");
+  EXPECT_EQ(config.own_pre_culls, 3u);
+  std::vector<std::string> labels;
+  for (const std::size_t index : config.presets[0].pre_culls) labels.push_back(config.pre_culls[index].label());
+  EXPECT_EQ(labels, (std::vector<std::string>{"frustum+most(255,first)", "distance(90)+frustum+most(255,first)",
+                                              "frustum+most(255,first)"}))
+      << "a step that both have is done once";
+  EXPECT_TRUE(config.presets[1].pre_culls.empty()) << "those of the configuration";
+}
+
+TEST(Presets, as_shipped_have_the_mistakes_of_engines_whose_code_was_run_and_else_their_schemes) {
+  constexpr std::pair<const char*, const char*> k_shipped[] = {{"filament", "filament-refinement"},
+                                                               {"bevy", "bevy-refinement"},
+                                                               {"three-js", "three-js-boxes"},
+                                                               {"babylon", "babylon-as-shipped"}};
+  std::set<std::string> with_mistakes;
+  for (const auto& [name, method] : k_shipped) {
+    with_mistakes.insert(name);
+    const std::string rest = std::string(R"(, "presets": [")") + name + R"("])";
+    const Config scheme = with_presets(rest), shipped = with_presets(R"(, "as_shipped": true)" + rest);
+    const auto method_of = [](const Config& config) { return config.assigners.at(config.presets.at(0).assigner).name; };
+    EXPECT_EQ(method_of(shipped), method);
+    EXPECT_FALSE(assign::find_assigner(method_of(shipped))->conservative) << name;
+    EXPECT_TRUE(assign::find_assigner(method_of(scheme))->conservative) << name;
+    EXPECT_EQ(with_presets(rest, {{"--set", "as_shipped=true"}}).assigners.size(), shipped.assigners.size());
+  }
+  EXPECT_EQ(Json::parse(grid_request(with_presets(R"(, "as_shipped": true, "presets": ["bevy"])").grids.at(0)).dump())
+                .at("/react/of"_json_pointer),
+            "bevy-refinement");
+  for (const Preset& preset : presets()) {
+    EXPECT_EQ(preset.has_mistakes(), with_mistakes.contains(preset.name)) << preset.name;
+    if (!preset.has_mistakes()) {
+      EXPECT_EQ(preset_parts(preset, {1920, 1080}, true), preset_parts(preset, {1920, 1080}, false)) << preset.name;
+    }
+  }
+}
+
+TEST(Presets, as_shipped_without_presets_is_refused_with_its_place) {
+  EXPECT_NE(refusal_of(R"(, "as_shipped": true)").find("/as_shipped"), std::string::npos);
+  EXPECT_NE(refusal_of("", {{"--set", "as_shipped=true"}}).find("without presets"), std::string::npos);
 }
 
 TEST(Presets, each_viewport_has_its_own_choice) {
@@ -187,20 +296,23 @@ TEST(Presets, stand_beside_what_a_configuration_or_a_flag_names) {
 
 TEST(Presets, a_configuration_is_read_again_as_it_was_resolved) {
   for (const char* rest :
-       {R"(, "presets": ["filament", "unity-*"])", R"(, "presets": ["bevy"], "storages": ["runs"])"}) {
+       {R"(, "presets": ["filament", "unity-*"])", R"(, "presets": ["bevy"], "storages": ["runs"])",
+        R"(, "presets": ["bevy", "godot"], "as_shipped": true, "pre_cull": ["none", {"most": {"lights": 9}}])"}) {
     const Config config = with_presets(rest);
     const Config again = parse_config(config.resolved.dump(), "c.json");
     EXPECT_EQ(again.resolved, config.resolved);
     EXPECT_EQ(again.own_grids, config.own_grids);
     EXPECT_EQ(again.presets.size(), config.presets.size());
+    EXPECT_EQ(again.pre_culls, config.pre_culls);
   }
 }
 
 TEST(Presets, patterns_name_several_and_each_once) {
   const Config config = with_presets("", {{"--preset", "unity-hdrp,unity-*"}});
-  ASSERT_EQ(config.presets.size(), 2u);
+  ASSERT_EQ(config.presets.size(), 3u);
   EXPECT_EQ(config.presets[0].preset, "unity-hdrp");
   EXPECT_EQ(config.presets[1].preset, "unity-urp");
+  EXPECT_EQ(config.presets[2].preset, "unity-hdrp-fptl");
   EXPECT_EQ(with_presets("", {{"--preset", "*"}}).presets.size(), presets().size());
 }
 

@@ -146,6 +146,63 @@ TEST(PreCull, by_planes_is_conservative_where_cells_end_with_the_picture) {
   EXPECT_FALSE(PreCull({{FrustumStep{}, DistanceStep{1.0}}}, {}).is_conservative(Setting().grid())) << "all steps are";
 }
 
+PreCullSpec limit(int lights, MostStep::Keep keep = MostStep::Keep::first, bool per_type = false) {
+  return {{MostStep{lights, keep, per_type}}};
+}
+
+TEST(Limit, keeps_the_first_the_nearest_or_the_shallowest_lights) {
+  Setting setting;
+  setting.point({0, 0, -50}, 1).point({30, 0, -5}, 1).point({0, 0, -9}, 1).point({0, 2, 20}, 1).point({3, 0, 4}, 1);
+  using Keep = MostStep::Keep;
+  EXPECT_EQ(setting.kept(limit(2)), (Indices{0, 1}));
+  EXPECT_EQ(setting.kept(limit(2, Keep::nearest)), (Indices{2, 4}));
+  EXPECT_EQ(setting.kept(limit(3, Keep::shallowest)), (Indices{1, 3, 4})) << "behind the eye: depth 0";
+  EXPECT_EQ(setting.kept(limit(2, Keep::shallowest)), (Indices{3, 4}));
+  EXPECT_EQ(setting.kept(limit(5, Keep::nearest)), (Indices{0, 1, 2, 3, 4}));
+  const FrameCull culled = setting.culled(limit(3, Keep::nearest));
+  EXPECT_EQ(culled.dropped, (Indices{0, 1}));
+  EXPECT_EQ(culled.removed, (Indices{2}));
+}
+
+TEST(Limit, sees_from_the_eye_in_the_world_too) {
+  for (const grid::Kind kind : {grid::Kind::frustum, grid::Kind::world}) {
+    Setting setting(kind);
+    setting.frame.view_space.origin = {10.0, 0.0, 0.0};
+    setting.frame.view_space.rotation = Mat3d(Vec3d(0, 0, 1), Vec3d(0, 1, 0), Vec3d(-1, 0, 0));  // along -x: x is depth
+    setting.point({-10.0, 0.0, 0.0}, 1.0).point({5.0, 30.0, 0.0}, 1.0);
+    EXPECT_EQ(setting.kept(limit(1, MostStep::Keep::nearest)), (Indices{0})) << grid::kind_name(kind);
+    EXPECT_EQ(setting.kept(limit(1, MostStep::Keep::shallowest)), (Indices{1})) << grid::kind_name(kind);
+  }
+}
+
+TEST(Limit, of_each_type_counts_points_and_spots_apart) {
+  Setting setting;
+  for (int i = 0; i < 3; ++i) setting.point({0, 0, -5.0 - i}, 1);
+  for (int i = 0; i < 4; ++i) setting.spot({0, 0, -5.0 - i}, {0, 0, 1}, 1, 0.3);
+  EXPECT_EQ(setting.kept(limit(2, MostStep::Keep::first, true)), (Indices{0, 1, 3, 4}));
+  EXPECT_EQ(setting.kept(limit(3, MostStep::Keep::first, true)), (Indices{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(setting.kept(limit(4)), (Indices{0, 1, 2, 3}));
+}
+
+TEST(Limit, counts_lights_in_view_behind_a_cull_by_planes) {
+  Setting setting;
+  for (int i = 0; i < 4; ++i) setting.point({0, 0, 5.0 + i}, 1);  // behind the eye
+  for (int i = 0; i < 3; ++i) setting.point({0, 0, -5.0 - i}, 1);
+  const PreCullSpec in_view{{FrustumStep{}, MostStep{3}}}, fewer{{FrustumStep{}, MostStep{2}}};
+  EXPECT_EQ(setting.culled(in_view).removed, (Indices{4, 0}));
+  EXPECT_TRUE(setting.culled(in_view).dropped.empty());
+  EXPECT_EQ(setting.culled(fewer).dropped, (Indices{6}));
+}
+
+TEST(Limit, is_conservative_in_frames_that_it_removes_nothing_from) {
+  Setting setting;
+  setting.point({0, 0, -5}, 1).point({0, 0, -6}, 1);
+  const PreCull two({{FrustumStep{}, MostStep{2}}}, {}), one({{FrustumStep{}, MostStep{1}}}, {});
+  EXPECT_FALSE(two.is_conservative(setting.grid()));
+  EXPECT_TRUE(two.is_conservative(setting.grid(), setting.culled(two.spec())));
+  EXPECT_FALSE(one.is_conservative(setting.grid(), setting.culled(one.spec())));
+}
+
 TEST(PreCull, steps_follow_each_other_and_each_tells_what_it_removes) {
   Setting setting;
   setting.point({0, 0, -10}, 1).point({0, 0, 10}, 1).point({0, 0, -40}, 1).point({0, 0, 45}, 1).point({0, 0, -5}, 1);
@@ -185,6 +242,8 @@ TEST(PreCull, hands_over_the_lights_that_are_kept_as_they_were) {
 
 TEST(PreCull, is_named_by_its_steps) {
   EXPECT_EQ(PreCullSpec{}.label(), "none");
+  EXPECT_EQ(limit(255).label(), "most(255,first)");
+  EXPECT_EQ(limit(512, MostStep::Keep::nearest, true).label(), "most(512,nearest,type)");
   EXPECT_EQ((PreCullSpec{{FrustumStep{}, DistanceStep{62.5}, VisibleSetStep{4, 0.5, 1000}}}.label()),
             "frustum+distance(62.5)+visible-set(4,0.5,1000)");
 }

@@ -130,6 +130,7 @@ TEST(NeededSpan, of_surfaces_goes_from_the_nearest_to_the_farthest_pixel) {
   lit.lights = {ball({0, 0, -20}, 5)};
   EXPECT_EQ(needed_span({.to = Fit::To::both}, lit, &depths, false), depth.within(span_of_lights(lit, false)));
   EXPECT_TRUE(needed_span({.to = Fit::To::surfaces}, lit, nullptr, false).is_empty());
+  EXPECT_EQ(needed_span({.to = Fit::To::ranges}, lit, &depths, false), span_of_balls(lit, false));
 }
 
 TEST(SpanFollower, grows_at_once_and_shrinks_by_its_damping) {

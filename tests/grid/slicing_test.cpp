@@ -198,5 +198,43 @@ TEST(Slicing, what_cannot_be_is_refused_by_its_key) {
   EXPECT_EQ(key(list, endless, false), "slices.boundaries");
 }
 
+// Filament: 100 m, or the camera's far plane where that is nearer.
+TEST(Slicing, far_at_most_ends_slices_only_where_the_camera_sees_farther) {
+  Slicing asked = slicing(Scheme::exponential, 8, 0.0, 0.0);
+  asked.far_at_most_m = 100.0;
+  const auto far = [&](double camera_far) {
+    return make_slices(asked, {0.1, camera_far, 0.0, 700.0}, false).boundaries.back();
+  };
+  EXPECT_EQ(far(1000.0), 100.0f);
+  EXPECT_EQ(far(30.0), 30.0f);
+  EXPECT_EQ(far(k_infinity), 100.0f);
+  asked.far_m = 300.0;
+  EXPECT_EQ(far(1000.0), 300.0f) << "a far that is named is taken";
+}
+
+// Bevy, Unity URP.
+TEST(Slicing, of_an_orthographic_camera_are_linear_where_asked_for) {
+  Slicing asked = slicing(Scheme::exponential_first, 4, 0.0, 0.0);
+  asked.linear_when_orthographic = true;
+  const SliceRange range{1.0, 9.0, 0.0, 0.0};
+  EXPECT_EQ(make_slices(asked, range, true).boundaries, (std::vector<float>{1, 3, 5, 7, 9}));
+  EXPECT_EQ(make_slices(asked, range, true).lookup.form, SliceLookup::Form::linear);
+  EXPECT_EQ(make_slices(asked, range, false).boundaries[1], 5.0f);
+}
+
+// Bevy: the first slice ends at 5 m whatever the lights, the last one where the farthest range does.
+TEST(Slicing, that_follow_ranges_keep_their_first_slice_and_end_beyond_the_camera) {
+  Slicing asked = slicing(Scheme::exponential_first, 24, 0.0, 0.0);
+  asked.fit = Fit{Fit::To::ranges, 0.0, 1.0};
+  const auto made = [&](double from, double to) {
+    return make_slices(asked, {0.1, 200.0, 0.0, 0.0, {from, to}}, false).boundaries;
+  };
+  EXPECT_EQ(made(40.0, 60.0)[1], 5.0f);
+  EXPECT_NEAR(made(40.0, 60.0).back(), 60.0f, 1e-4);
+  EXPECT_NEAR(made(40.0, 500.0).back(), 500.0f, 1e-3);
+  EXPECT_EQ(made(0.5, 2.0)[1], 5.0f);
+  EXPECT_NEAR(made(0.5, 2.0).back(), 5.05f, 1e-4) << "all before the first slice's end";
+}
+
 }  // namespace
 }  // namespace clusterbench::grid

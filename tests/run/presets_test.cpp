@@ -1,11 +1,13 @@
 // Presets on scenes, against the truth.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "config/presets.h"
@@ -69,7 +71,7 @@ TEST(PresetRuns, presets_that_need_depth_are_skipped_with_a_reason_where_a_scene
   std::set<std::string> skipped;
   for (const Skipped& one : plan.skipped)
     if (one.reason.find("needs a depth buffer") != std::string::npos) skipped.insert(one.preset);
-  EXPECT_EQ(skipped, (std::set<std::string>{"wicked", "unity-hdrp"}));
+  EXPECT_EQ(skipped, (std::set<std::string>{"wicked", "unity-hdrp", "unity-hdrp-fptl"}));
   EXPECT_EQ(preset_cases(plan).size(), 1u);
 }
 
@@ -96,6 +98,100 @@ TEST(PresetRuns, conservative_presets_lose_nothing_on_a_real_map) {
   const Result result = preset_results(config, make_plan(config, ""));
   EXPECT_EQ(result.cases.size(), 8u);
   for (const CaseResult& one : result.cases) EXPECT_TRUE(one.failures.empty()) << one.name;
+}
+
+// Small lights side by side before a camera at the origin, and as many behind it as are asked for; in a file that goes
+// with the object.
+class RowOfLights {
+ public:
+  RowOfLights(int in_view, int behind) {
+    nlohmann::json nodes = nlohmann::json::array(), lights = nlohmann::json::array();
+    for (int i = 0; i < in_view + behind; ++i) {
+      const bool is_behind = i < behind;  // first in the file
+      const int k = is_behind ? i : i - behind;
+      const double x = -7.0 + 0.5 * (k % 29), y = -3.5 + 0.5 * (k / 29 % 15), z = is_behind ? 12.0 : -12.0 - k / 435;
+      lights.push_back({{"type", "point"}, {"range", 0.3}, {"intensity", 10.0}});
+      nodes.push_back({{"translation", {x, y, z}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+    }
+    nodes.push_back({{"camera", 0}});
+    nlohmann::json roots = nlohmann::json::array();
+    for (std::size_t i = 0; i < nodes.size(); ++i) roots.push_back(i);
+    const nlohmann::json gltf{
+        {"asset", {{"version", "2.0"}}},
+        {"extensionsUsed", {"KHR_lights_punctual"}},
+        {"extensions", {{"KHR_lights_punctual", {{"lights", lights}}}}},
+        {"cameras", {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}, {"zfar", 200.0}}}}}},
+        {"nodes", nodes},
+        {"scenes", {{{"nodes", roots}}}},
+        {"scene", 0}};
+    std::ofstream(path_) << gltf;
+  }
+  ~RowOfLights() { std::filesystem::remove(path_); }
+  RowOfLights(const RowOfLights&) = delete;
+  RowOfLights& operator=(const RowOfLights&) = delete;
+
+  std::string path() const { return path_; }
+
+ private:
+  std::string path_ =
+      (std::filesystem::temp_directory_path() / ("clusterbench_limit_" + std::to_string(getpid()) + ".gltf")).string();
+};
+
+// What it says of a limit; "" for nothing.
+std::string limit_warning(const CaseResult& one) {
+  for (const Warning& warning : warnings_of(one))
+    if (warning.kind == Warning::Kind::too_many_lights) return warning.text;
+  return "";
+}
+
+TEST(PresetRuns, lights_in_view_beyond_an_engines_limit_are_lost_and_fail_nothing) {
+  const RowOfLights row(300, 0);
+  const config::Config config = preset_config(row.path(), R"(, "presets": ["playcanvas", "filament", "godot"])");
+  const Result result = preset_results(config, make_plan(config, ""));
+  ASSERT_EQ(result.cases.size(), 3u);
+  for (const CaseResult& one : result.cases) {
+    const std::size_t beyond = one.preset == "playcanvas" ? 45 : one.preset == "filament" ? 44 : 0;
+    ASSERT_TRUE(one.pre_cull) << one.preset;
+    EXPECT_EQ(one.pre_cull->counts.dropped.size(), beyond) << one.preset;
+    EXPECT_EQ(one.pre_cull->counts.lost_to_limits > 0, beyond > 0) << one.preset;
+    EXPECT_EQ(loses_lights(one), beyond > 0) << one.preset;
+    EXPECT_TRUE(one.failures.empty()) << one.preset;
+    EXPECT_EQ(limit_warning(one).empty(), beyond == 0) << one.preset;
+  }
+  EXPECT_NE(limit_warning(result.cases[0]).find("takes 255 lights, and 1 frame of 1 has more: 45 too many"),
+            std::string::npos)
+      << limit_warning(result.cases[0]);
+}
+
+TEST(PresetRuns, six_hundred_lights_in_the_level_of_which_forty_are_in_view_lose_nothing) {
+  const RowOfLights row(40, 560);
+  const config::Config config =
+      preset_config(row.path(), R"(, "presets": ["playcanvas", "filament", "godot", "unity-urp", "doom-2016"])");
+  const Result result = preset_results(config, make_plan(config, ""));
+  ASSERT_EQ(result.cases.size(), 5u);
+  for (const CaseResult& one : result.cases) {
+    EXPECT_FALSE(loses_lights(one)) << one.preset;
+    EXPECT_EQ(limit_warning(one), "") << one.preset;
+    EXPECT_EQ(one.pre_cull->counts.kept.max, 40.0) << one.preset;
+    EXPECT_TRUE(one.failures.empty()) << one.preset;
+  }
+}
+
+TEST(PresetRuns, as_shipped_they_lose_lights_that_their_schemes_have_and_fail_nothing) {
+  const std::string rest = R"(, "presets": ["filament", "bevy", "three-js", "babylon"])";
+  const config::Config scheme = preset_config(own_scene("mix.glb"), rest),
+                       shipped = preset_config(own_scene("mix.glb"), R"(, "as_shipped": true)" + rest);
+  const Result careful = preset_results(scheme, make_plan(scheme, "")),
+               careless = preset_results(shipped, make_plan(shipped, ""));
+  ASSERT_EQ(careful.cases.size(), 4u);
+  ASSERT_EQ(careless.cases.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NE(careful.cases[i].id, careless.cases[i].id);
+    EXPECT_TRUE(careful.cases[i].conservative) << careful.cases[i].preset;
+    EXPECT_EQ(careful.cases[i].error->false_negatives, 0u) << careful.cases[i].preset;
+    EXPECT_FALSE(careless.cases[i].conservative) << careless.cases[i].preset;
+    EXPECT_TRUE(careless.cases[i].failures.empty()) << careless.cases[i].preset;
+  }
 }
 
 TEST(PresetRuns, what_a_preset_has_no_room_for_is_told_and_fails_nothing) {

@@ -92,7 +92,8 @@ struct ConeOutline {
 
 class TileSpans final : public AssignerOf<SortedMasks<RangesOf::slices>> {
  public:
-  explicit TileSpans(const Params& params) : inflation_(params.number("inflation")) {}
+  explicit TileSpans(const Params& params)
+      : inflation_(params.number("inflation")), form_{.has_bin_masks = params.text("bins") == "masks"} {}
 
   void build(const grid::Grid& grid, const LightKinds&) override {
     grid_ = &grid;
@@ -113,7 +114,7 @@ class TileSpans final : public AssignerOf<SortedMasks<RangesOf::slices>> {
       if (!lights.is_empty(light)) find_spans(lights, light);
     // Equal depths are told apart by slices, so that what a bin holds does not depend on the order of the lights.
     std::sort(listed_.begin(), listed_.end(), [](const Listed& a, const Listed& b) { return a.order() < b.order(); });
-    out.start(*grid_, lights.size(), static_cast<std::uint32_t>(listed_.size()));
+    out.start(*grid_, lights.size(), static_cast<std::uint32_t>(listed_.size()), form_);
     std::uint32_t rank = 0;
     for (const Listed& each : listed_)
       out.add(rank++, each.light, each.type, each.slices, each.first_row, {spans_.data() + each.first_span, each.rows});
@@ -204,6 +205,7 @@ class TileSpans final : public AssignerOf<SortedMasks<RangesOf::slices>> {
   }
 
   double inflation_;
+  MaskForm form_;
   const grid::Grid* grid_ = nullptr;
   ViewCull view_;
   std::vector<Listed> listed_;
@@ -222,7 +224,15 @@ const AssignerDescriptor tile_spans_descriptor{
     .source = "Unity's URP (Forward+): horizons of spheres and cones, a range of x for each row of tiles",
     .kinds = {grid::Kind::frustum},
     .by_name = true,
-    .params = {inflation_param()},
+    .params = {inflation_param(),
+               {.name = "bins",
+                .summary =
+                    "what a depth bin has. ranges: the first and the last of its lights; masks: a bit for each of "
+                    "them, too, so that a sample loops over none that its bin has not (Unity URP)",
+                .standard = std::string("ranges"),
+                .unit = "",
+                .choices = {"ranges", "masks"},
+                .is_late = true}},
     .make_own = make_structure_assigner<TileSpans>,
 };
 

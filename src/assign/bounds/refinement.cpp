@@ -53,11 +53,12 @@ void narrow(int& first, int& last, const geom::SphericalCone& cone, SideAt&& sid
 std::vector<ParamSpec> refinement_params() {
   return {
       {.name = "spot",
-       .summary = "how spots are tested. ball, cone-sphere, both: as for other methods; narrowing: both, after the box "
-                  "of cells is narrowed by planes from six sides",
+       .summary =
+           "how spots are tested. ball, range, cone-sphere, both: as for other methods; narrowing: both, after the box "
+           "of cells is narrowed by planes from six sides",
        .standard = std::string("narrowing"),
        .unit = "",
-       .choices = {"ball", "cone-sphere", "both", "narrowing"}},
+       .choices = {"ball", "range", "cone-sphere", "both", "narrowing"}},
       inflation_param()};
 }
 

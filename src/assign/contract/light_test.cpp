@@ -8,11 +8,12 @@ ParamSpec spot_param() {
   return {
       .name = "spot",
       .summary =
-          "how spots are tested. ball: the ball around their cone; cone-sphere: the ball of their range, and the cone "
-          "against each cell's bounding sphere; both: a cell has to pass both",
+          "how spots are tested. ball: the ball around their cone; range: the ball of their range; cone-sphere: the "
+          "ball of their range, and the cone against each cell's bounding sphere; both: a cell has to pass ball and "
+          "cone-sphere",
       .standard = std::string("both"),
       .unit = "",
-      .choices = {"ball", "cone-sphere", "both"}};
+      .choices = {"ball", "range", "cone-sphere", "both"}};
 }
 
 ParamSpec inflation_param() {
@@ -40,6 +41,7 @@ LightTest::LightTest(const Params& params, float roundoffs)
     : spot_(SpotTest::both), inflation_(static_cast<float>(params.number("inflation"))), roundoffs_(roundoffs) {
   const std::string& name = params.text("spot");
   if (name == "ball") spot_ = SpotTest::ball;
+  if (name == "range") spot_ = SpotTest::range;
   if (name == "cone-sphere") spot_ = SpotTest::cone_sphere;
 }
 
@@ -60,7 +62,7 @@ geom::Ball LightTest::ball(const view::LightArrays& lights, std::uint32_t light,
 
 TestedLight LightTest::tested(const view::LightArrays& lights, std::uint32_t light) const {
   TestedLight tested{light, ball(lights, light, roundoffs_), false, {}};
-  if (!lights.is_spot(light) || spot_ == SpotTest::ball) return tested;
+  if (!lights.is_spot(light) || !tests_cones()) return tested;
   tested.has_cone = true;
   tested.cone = cone(lights, light);
   return tested;

@@ -13,7 +13,7 @@
 
 namespace clusterbench::assign {
 
-// `spot`: "ball", "cone-sphere" or "both" (the default).
+// `spot`: "ball", "range", "cone-sphere" or "both" (the default).
 ParamSpec spot_param();
 // `inflation`: the padding in units of the derived one. Below 1 a method is no longer conservative.
 ParamSpec inflation_param();
@@ -25,7 +25,7 @@ void check_prepared(const view::LightArrays& lights, const std::vector<geom::Bal
 
 struct TestedLight {
   std::uint32_t index = 0;
-  geom::Ball ball{};           // a point's; a spot's bounding ball or, with cone-sphere, the ball of its range
+  geom::Ball ball{};           // a point's; a spot's bounding ball or, with range and cone-sphere, that of its range
   bool has_cone = false;       // test the cone, too
   geom::SphericalCone cone{};  // only if has_cone
 };
@@ -55,9 +55,9 @@ class LightTest {
   float padding(float roundoffs) const { return inflation_ * (view::k_given_roundoffs + roundoffs); }
   float own_padding() const { return padding(roundoffs_); }
   // Whether a spot's ball is the one around its cone, not that of its range.
-  bool balls_are_around_cones() const { return spot_ != SpotTest::cone_sphere; }
+  bool balls_are_around_cones() const { return spot_ == SpotTest::ball || spot_ == SpotTest::both; }
   // Whether spots are tested by their cones, too, and then the cells' balls, in the order of the cells.
-  bool tests_cones() const { return spot_ != SpotTest::ball; }
+  bool tests_cones() const { return spot_ == SpotTest::cone_sphere || spot_ == SpotTest::both; }
   const std::vector<geom::Ball>& cell_balls() const { return cell_balls_; }
   bool cone_touches(const TestedLight& light, std::uint32_t cell) const {
     return geom::cone_touches_ball(light.cone, cell_balls_[cell]);
@@ -70,7 +70,7 @@ class LightTest {
   std::size_t capacity_bytes() const { return bytes_of(cell_balls_); }
 
  private:
-  enum class SpotTest { ball, cone_sphere, both };
+  enum class SpotTest { ball, range, cone_sphere, both };
 
   SpotTest spot_;
   float inflation_, roundoffs_;

@@ -26,19 +26,28 @@ namespace clusterbench::assign {
 // as the rig allows, since there are many.
 enum class RangesOf { slices, cells };
 
+// What a structure has besides masks of tiles and ranges.
+struct MaskForm {
+  bool has_bin_masks = false;  // of each slice a bit for each of its own lights, too (Unity URP)
+  // Points and spots are sorted as one, and have one range (Babylon.js); else each type has its own.
+  bool is_one_order = false;
+};
+
 // Tiles and slices are the grid's, so that a cell is what its tile and its slice have in common.
 template <RangesOf ranges_of>
 class SortedMasks final : public LightStructure {
  public:
   // For so many lights, of which `listed` are added.
-  void start(const grid::Grid& grid, std::uint32_t lights, std::uint32_t listed) {
+  void start(const grid::Grid& grid, std::uint32_t lights, std::uint32_t listed, MaskForm form = {}) {
     grid_ = &grid;
+    form_ = form;
     lights_ = lights;
     const Vec3i cells = grid.cells();
     tiles_ = static_cast<std::uint32_t>(cells.x * cells.y);
     words_ = words_for(listed);
     check_memory("words of tile masks", std::uint64_t{tiles_} * words_, sizeof(std::uint32_t));
     masks_.assign(std::size_t{tiles_} * words_, 0);
+    bin_masks_.assign(form.has_bin_masks ? static_cast<std::size_t>(cells.z) * words_ : 0, 0);
     order_.resize(listed);
     if (ranks_are_narrow() != std::holds_alternative<Ranges<std::uint16_t>>(ranges_)) {
       if (ranks_are_narrow())
@@ -60,6 +69,20 @@ class SortedMasks final : public LightStructure {
     order_[rank] = light;
     for (int y = box.first.y; y <= box.last.y; ++y) mark(rank, y, {box.first.x, box.last.x});
     std::visit([&](auto& ranges) { take(rank, type, box, ranges); }, ranges_);
+  }
+  // A slice's range begins with the first of all lights, whatever else is in it.
+  void begin_with_first(int slice) requires(ranges_of == RangesOf::slices) {
+    std::visit(
+        [&](auto& ranges) {
+          auto& range = ranges[static_cast<std::size_t>(slice)][0];
+          range.first = 0;
+          range.end = std::max<decltype(range.end)>(range.end, 1);
+        },
+        ranges_);
+  }
+  // A slice's range is empty again.
+  void begin_anew(int slice) requires(ranges_of == RangesOf::slices) {
+    std::visit([&](auto& ranges) { ranges[static_cast<std::size_t>(slice)][0] = {}; }, ranges_);
   }
   // One with columns of its own in each row of tiles, from `first_row` on.
   void add(std::uint32_t rank, std::uint32_t light, std::size_t type, const grid::IndexRange& slices, int first_row,
@@ -84,7 +107,7 @@ class SortedMasks final : public LightStructure {
     if (cell < 0) return {};
     std::uint64_t words = 0, lights = 0;
     each_word(static_cast<std::uint32_t>(cell), [&](std::uint32_t, std::uint32_t bits) {
-      ++words;
+      words += form_.has_bin_masks ? 2 : 1;
       lights += static_cast<std::uint64_t>(std::popcount(bits));
     });
     return Reads::of(1, range_bytes()) + Reads::of(words + lights, sizeof(std::uint32_t));
@@ -106,9 +129,13 @@ class SortedMasks final : public LightStructure {
 
   std::vector<BufferNeed> buffers() const override {
     const char* const name = ranges_of == RangesOf::cells ? "ranges" : "bins";
-    return {{"masks", sizeof(std::uint32_t), masks_.size(), std::uint64_t{tiles_} * words_for(lights_), tiles_},
-            {name, range_bytes(), range_count(), range_count()},
-            {"order", sizeof(std::uint32_t), order_.size(), lights_}};
+    std::vector<BufferNeed> all{
+        {"masks", sizeof(std::uint32_t), masks_.size(), std::uint64_t{tiles_} * words_for(lights_), tiles_},
+        {name, range_bytes(), range_count(), range_count()},
+        {"order", sizeof(std::uint32_t), order_.size(), lights_}};
+    if (form_.has_bin_masks)
+      all.push_back({"bin_masks", sizeof(std::uint32_t), bin_masks_.size(), slices() * words_for(lights_), slices()});
+    return all;
   }
 
   std::uint32_t index_bits() const override { return k_bits; }
@@ -144,6 +171,7 @@ class SortedMasks final : public LightStructure {
   bool ranks_are_narrow() const {
     return ranges_of == RangesOf::cells && lights_ <= std::numeric_limits<std::uint16_t>::max();
   }
+  std::uint64_t slices() const { return static_cast<std::uint64_t>(grid_->cells().z); }
   static std::uint32_t words_for(std::uint32_t lights) { return (lights + k_bits - 1) / k_bits; }
   std::uint32_t range_bytes() const {
     return std::visit([](const auto& ranges) { return static_cast<std::uint32_t>(sizeof ranges[0]); }, ranges_);
@@ -152,7 +180,8 @@ class SortedMasks final : public LightStructure {
     return std::visit([](const auto& ranges) { return std::uint64_t{ranges.size()}; }, ranges_);
   }
   std::uint64_t header_bytes(std::uint64_t listed) const {
-    return range_count() * range_bytes() + listed * sizeof(std::uint32_t);
+    const std::uint64_t bin_words = form_.has_bin_masks ? slices() * words_for(static_cast<std::uint32_t>(listed)) : 0;
+    return range_count() * range_bytes() + (listed + bin_words) * sizeof(std::uint32_t);
   }
 
   void mark(std::uint32_t rank, int row, const grid::IndexRange& columns) {
@@ -166,7 +195,11 @@ class SortedMasks final : public LightStructure {
   template <class Rank>
   void take(std::uint32_t rank, std::size_t type, const CellBox& box, Ranges<Rank>& ranges) {
     if constexpr (ranges_of == RangesOf::slices) {
-      for (int z = box.first.z; z <= box.last.z; ++z) ranges[static_cast<std::size_t>(z)][type].take(rank);
+      for (int z = box.first.z; z <= box.last.z; ++z) {
+        const auto slice = static_cast<std::size_t>(z);
+        ranges[slice][form_.is_one_order ? 0 : type].take(rank);
+        if (form_.has_bin_masks) bin_masks_[slice * words_ + rank / k_bits] |= 1u << rank % k_bits;
+      }
     } else {
       for (int z = box.first.z; z <= box.last.z; ++z)
         for (int y = box.first.y; y <= box.last.y; ++y) {
@@ -177,10 +210,12 @@ class SortedMasks final : public LightStructure {
   }
 
   void read(std::uint32_t cell, std::vector<std::uint32_t>& out) const {
+    const auto begin = static_cast<std::ptrdiff_t>(out.size());
     each_word(cell, [&](std::uint32_t first, std::uint32_t bits) {
       for (; bits != 0; bits &= bits - 1)
         out.push_back(order_[first + static_cast<std::uint32_t>(std::countr_zero(bits))]);
     });
+    if (form_.is_one_order) std::sort(out.begin() + begin, out.end());  // a list has points before spots
   }
 
   // Calls visit(rank of the first bit, bits) for each word of the tile's mask that the cell's ranges cover, with the
@@ -191,7 +226,9 @@ class SortedMasks final : public LightStructure {
     std::visit(
         [&](const auto& ranges) {
           for (const auto& range : ranges[ranges_of == RangesOf::cells ? cell : cell / tiles_])
-            each_word_between(mask, range.first, range.end, visit);
+            each_word_between(mask, range.first, range.end, [&](std::uint32_t first, std::uint32_t bits) {
+              visit(first, form_.has_bin_masks ? bits & bin_masks_[cell / tiles_ * words_ + first / k_bits] : bits);
+            });
         },
         ranges_);
   }
@@ -207,7 +244,9 @@ class SortedMasks final : public LightStructure {
 
   const grid::Grid* grid_ = nullptr;
   std::uint32_t lights_ = 0, tiles_ = 0, words_ = 0;
-  std::vector<std::uint32_t> masks_;  // tile by tile
+  MaskForm form_;
+  std::vector<std::uint32_t> masks_;      // tile by tile
+  std::vector<std::uint32_t> bin_masks_;  // slice by slice; empty without
   std::variant<Ranges<std::uint32_t>, Ranges<std::uint16_t>> ranges_;
   std::vector<std::uint32_t> order_;  // the light of each rank
 };
