@@ -8,6 +8,7 @@
 #include "assign/contract/assigner.h"
 #include "config/config.h"
 #include "config/grid_json.h"
+#include "config/pre_cull_json.h"
 #include "core/error.h"
 
 namespace clusterbench::config {
@@ -260,6 +261,16 @@ TEST(Presets, as_shipped_have_the_mistakes_of_engines_whose_code_was_run_and_els
     if (!preset.has_mistakes()) {
       EXPECT_EQ(preset_parts(preset, {1920, 1080}, true), preset_parts(preset, {1920, 1080}, false)) << preset.name;
     }
+  }
+}
+
+// As a replay of a case has it.
+TEST(Presets, pre_culls_are_written_as_a_configuration_has_them) {
+  const std::string all = R"(["none", "frustum", {"distance_m": 90}, ["frustum", {"most": {"lights": 255}}],
+      {"visible_set": {"rays": 99}}, [{"most": {"lights": 7, "keep": "nearest", "per": "type"}}]])";
+  for (const cull::PreCullSpec& spec : with_presets(R"(, "pre_cull": )" + all).pre_culls) {
+    const Config again = with_presets(R"(, "pre_cull": [)" + pre_cull_request(spec).dump() + "]");
+    EXPECT_EQ(again.pre_culls, std::vector<cull::PreCullSpec>{spec}) << spec.label();
   }
 }
 

@@ -19,7 +19,7 @@ TailEstimate tail_of_one(const Needs& needs) {
 }
 
 // What frames need on the whole: 1000 + a generalised Pareto excess.
-struct Truth {
+struct KnownTail {
   double shape, scale;
 
   double above(std::uint64_t capacity) const {
@@ -33,7 +33,7 @@ struct Truth {
 };
 
 // Moving maxima have the extremal index that is asked for, at every level; 1: independent frames.
-Needs moving_maxima(const Truth& truth, double index, std::size_t frames, std::uint64_t seed) {
+Needs moving_maxima(const KnownTail& truth, double index, std::size_t frames, std::uint64_t seed) {
   SplitMix64 random(seed);
   const auto frechet = [&] { return 1.0 / -std::log1p(-random.unit()); };
   Needs needs;
@@ -46,7 +46,7 @@ Needs moving_maxima(const Truth& truth, double index, std::size_t frames, std::u
 }
 
 // The share of experiments whose interval holds the true chance.
-double share_of_intervals_held(const Truth& truth, double index, std::size_t frames, double chance, int experiments) {
+double share_of_intervals_held(const KnownTail& truth, double index, std::size_t frames, double chance, int experiments) {
   int held = 0, estimated = 0;
   const std::uint64_t capacity = truth.capacity_of(chance);
   for (int i = 0; i < experiments; ++i) {
@@ -74,7 +74,7 @@ TEST(Tail, intervals_hold_the_known_chance_of_frames_that_are_alike) {
 
 // The same, less known: intervals are not so wide that they say nothing.
 TEST(Tail, of_many_independent_frames_is_near_the_truth) {
-  const Truth truth{-0.25, 100.0};
+  const KnownTail truth{-0.25, 100.0};
   const TailEstimate found = tail_of_one(moving_maxima(truth, 1.0, 5000, 4));
   ASSERT_TRUE(found.tail) << found.refusal;
   EXPECT_TRUE(found.tail->fits);
