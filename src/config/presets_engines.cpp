@@ -5,7 +5,6 @@
 namespace clusterbench::config {
 namespace {
 
-// clang-format off: one member a line
 constexpr Preset k_engines[] = {
     {.name = "filament",
      .engine = "Filament",
@@ -82,9 +81,9 @@ constexpr Preset k_engines[] = {
      .summary =
          "32 px tiles with 32 linear parts of the depth from 0 to the camera's far, bits per tile, 512 points and "
          "512 spots",
-     .approximated =
-         "a ball's and a cone's extents in place of meshes that are rasterised at a quarter of the resolution and are "
-         "inflated; which 512 it takes follows its own order of the lights, here it is that of the scene",
+     .approximated = "a sphere's and a cone's extents in place of meshes that are rasterised at a quarter of the "
+                     "resolution and are "
+                     "inflated; which 512 it takes follows its own order of the lights, here it is that of the scene",
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"pixels": [32, 32]},
@@ -98,7 +97,7 @@ constexpr Preset k_engines[] = {
      .source = "mrdoob/three.js, ClusteredLightsNode",
      .summary =
          "32 px tiles, 24 exponential slices, every light against every cell's box, 64 lights in each; spots by the "
-         "smallest ball around them, which up to r186 are not clustered at all",
+         "smallest sphere around them, which up to r186 are not clustered at all",
      .approximated =
          "tiles end at whole 32 px and of more than 64 lights in a cell the first ones are kept, where it has "
          "what `--as-shipped` has; which of more than 1024 lights it keeps is not known",
@@ -131,8 +130,8 @@ constexpr Preset k_engines[] = {
      .source = "BabylonJS/Babylon.js, clusteredLightContainer and lightProxy",
      .summary =
          "64 x 64 tiles with bit masks, 16 logarithmic slices with a range of lights in one order by depth; spots as "
-         "the balls of their ranges",
-     .approximated = "tiles are those of the box around a ball's outline, padded for rounding",
+         "the spheres of their ranges",
+     .approximated = "tiles are those of the box around a sphere's outline, padded for rounding",
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"count": [64, 64]},
@@ -199,7 +198,7 @@ constexpr Preset k_engines[] = {
      .summary = "32 px tiles between the depths of their pixels with a 32-bit mask of depth (2.5D)",
      .approximated = "lists per tile where it has bit fields; 32 parts of a tile's depth where it has 31 and one at "
                      "the end; spots by "
-                     "the smallest ball around them where it has a larger one; its second list, from the near plane "
+                     "the smallest sphere around them where it has a larger one; its second list, from the near plane "
                      "on, for transparent "
                      "surfaces is left out, and so are decals and probes, which count towards its 256",
      .unverified = "",
@@ -233,9 +232,10 @@ constexpr Preset k_engines[] = {
      .summary =
          "16 x 8 x 24 cells, slices of 1.295^k + 5 m, six planes and the box of a cell against a sphere, 96 lights in "
          "each, 16-bit indices",
-     .approximated = "the box and the smallest ball or cone in place of planes, box and a pyramid around the cone; its "
-                     "boxes are along "
-                     "the world's axes; the last slice ends at 10 km, where its ends with the camera's far plane",
+     .approximated =
+         "the box and the smallest sphere or cone in place of planes, box and a pyramid around the cone; its "
+         "boxes are along "
+         "the world's axes; the last slice ends at 10 km, where its ends with the camera's far plane",
      .unverified = "",
      .assigns_on = AssignsOn::cpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"count": [16, 8]}, "slices": {"scheme": "list", "boundaries":
@@ -249,7 +249,7 @@ constexpr Preset k_engines[] = {
      .source = "stride3d/stride, LightClusteredPointSpotGroupRenderer.cs",
      .summary =
          "64 px tiles, 8 slices of which the first ends at 2 m and each next one is twice as deep; the box of cells "
-         "around a ball, spots by those of their ranges; equal lists shared",
+         "around a sphere, spots by those of their ranges; equal lists shared",
      .approximated =
          "slices are those of a camera with its default far plane of 1000 m, whatever the camera's; equal lists "
          "are shared between neighbours, where it shares them between all cells",
@@ -268,7 +268,7 @@ constexpr Preset k_engines[] = {
                 "of lights "
                 "each",
      .approximated =
-         "64 bins in place of 4096, since the tool holds each cell against the truth; extents of balls in place of "
+         "64 bins in place of 4096, since the tool holds each cell against the truth; extents of spheres in place of "
          "a tile's cone and frustum against a sphere or a pyramid",
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
@@ -276,7 +276,6 @@ constexpr Preset k_engines[] = {
                  "assigner": {"name": "z-binning"}})",
      .tiles = eevee_tiles},
 };
-// clang-format on
 
 }  // namespace
 

@@ -41,7 +41,7 @@ constexpr Preset k_published[] = {
      .source = "Persson, Practical Clustered Shading, SIGGRAPH 2015, on the demo",
      .summary = "a fixed grid of the world, a bit field per cell",
      .approximated =
-         "64 x 16 x 64 cells of the box around all lights, tests by balls and cones, and the first 128 lights "
+         "64 x 16 x 64 cells of the box around all lights, tests by spheres and cones, and the first 128 lights "
          "of the scene: how many cells, which test and which lights it has is not in our sources",
      .unverified = "",
      .assigns_on = AssignsOn::cpu,
@@ -67,9 +67,9 @@ constexpr Preset k_published[] = {
      .evidence = Evidence::read,
      .source = "DaveH355, clustered-shading (OpenGL compute)",
      .summary = "12 x 12 x 24 cells, every light against every cell's box, 100 lights in each",
-     .approximated =
-         "spots are the balls of their ranges, since its lights are points, and tiles are not cut off where the screen "
-         "is no multiple of 12",
+     .approximated = "spots are the spheres of their ranges, since its lights are points, and tiles are not cut off "
+                     "where the screen "
+                     "is no multiple of 12",
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"count": [12, 12]},
@@ -82,7 +82,7 @@ constexpr Preset k_published[] = {
      .source = "Operation Black Mesa's renderer, articles, part 4",
      .summary = "16 x 9 x 128 cells, sphere against box, an offset and a count into one list",
      .approximated =
-         "lights are not cut by potentially visible sets before, and spots are the balls around their cones",
+         "lights are not cut by potentially visible sets before, and spots are the spheres around their cones",
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"count": [16, 9]},

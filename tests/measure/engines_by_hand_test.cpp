@@ -6,7 +6,7 @@
 #include "assign/dense_check.h"
 #include "measure/truth.h"
 
-namespace clusterbench::measure {
+namespace clusterbench::measure::engines_by_hand {
 namespace {
 
 using assign::find_assigner;
@@ -429,4 +429,4 @@ TEST(BabylonAsShipped, loses_lights_where_its_scheme_loses_none) {
 }
 
 }  // namespace
-}  // namespace clusterbench::measure
+}  // namespace clusterbench::measure::engines_by_hand
