@@ -57,12 +57,16 @@ bool reaches_column(const Remainder& ball, float from_left, float from_right) {
   return gap <= 0.0f || gap * gap <= ball.squared_radius;
 }
 
+// Parameters may be those of the fast form, which has none for columns.
+bool by_nearest_plane(const Params& params) {
+  const auto found = params.values().find("columns");
+  return found != params.values().end() && found->second == ParamValue(std::string("nearest"));
+}
+
 class SphereRefinement final : public LightByLight<SphereRefinement> {
  public:
   explicit SphereRefinement(const Params& params)
-      : test_(params, k_refinement_roundoffs),
-        narrowing_(narrows(params)),
-        by_nearest_(params.text("columns") == "nearest") {}
+      : test_(params, k_refinement_roundoffs), narrowing_(narrows(params)), by_nearest_(by_nearest_plane(params)) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
     start_grid(grid);

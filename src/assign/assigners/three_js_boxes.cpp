@@ -10,6 +10,7 @@
 
 #include "assign/contract/assigner.h"
 #include "core/arrays.h"
+#include "core/memory.h"
 #include "geom/single_precision/touch_tests.h"
 
 namespace clusterbench::assign {
@@ -87,6 +88,7 @@ class ThreeJsBoxes final : public ListAssigner {
       if (geom::ball_touches_box(each.ball, box)) out.lights.push_back(each.light);
     }
     std::sort(out.lights.begin() + static_cast<std::ptrdiff_t>(begin), out.lights.end());
+    check_memory("pairs of light lists", out.lights.size(), sizeof(std::uint32_t));
     check_pair_count(out.lights.size());
     out.begin.push_back(out.pair_count());
   }
