@@ -13,6 +13,18 @@ function verdict(model: Model): HTMLElement {
   return h("a", { href: "#warnings", class: failures ? "bad" : "" }, text);
 }
 
+// What to do, in the words of the table's last lines.
+function conclusions(model: Model): HTMLElement[] {
+  const most = 6;
+  const all = model.runs.flatMap((run) =>
+    (run.result.conclusions ?? []).map(({ text }) => (model.runs.length > 1 ? `${run.label}: ${text}` : text)),
+  );
+  const more = all.length - most;
+  return [...all.slice(0, most), ...(more > 0 ? [`and ${plural(more, "more conclusion")} in the results`] : [])].map(
+    (text) => h("p", { class: "conclusion" }, text),
+  );
+}
+
 export function header(model: Model): HTMLElement {
   const machines = [
     ...new Set(model.runs.map((run) => `${run.result.machine.cpu}, ${plural(run.result.machine.cores, "core")}`)),
@@ -34,6 +46,7 @@ export function header(model: Model): HTMLElement {
       h("p", {}, "clusterbench report"),
       themeControl(),
     ),
+    ...conclusions(model),
     h(
       "p",
       { class: "summary" },

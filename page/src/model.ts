@@ -22,6 +22,8 @@ export interface Case {
   setting: string; // what cases must share to be compared pair by pair
   isOnFront: boolean;
   isEligible: boolean; // for the front, and to be what others are compared with
+  isSearched: boolean; // at each sample, which no GPU has measured: ranked apart
+  readBytes: Maybe; // of the structure, that a sample reads to know its lights
   isUnlit: boolean; // leaves more lights unlit than rounding does
   rank: Maybe; // by frame time, or cost, among all cases that see the same, whatever is filtered out
   frameNs: Maybe; // assignment and conversion
@@ -90,7 +92,9 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | 
     storage,
     setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), raw.grid.name, storage].join(" · "),
     isOnFront: front.has(raw.id),
-    isEligible: raw.eligible,
+    isEligible: raw.eligible && !raw.samples_search,
+    isSearched: raw.samples_search === true,
+    readBytes: seen?.read_bytes === undefined || !seen.samples ? null : seen.read_bytes / seen.samples,
     isUnlit: raw.warnings.some(({ kind }) => kind === "unlit"),
     rank: null,
     frameNs: raw.timing?.frame_ns.median ?? null,
@@ -127,7 +131,8 @@ export const seenBy = (aCase: Case) =>
 export const isRankedByCost = (aCase: Case) => aCase.run.result.config.rank_by === "frame_cost";
 
 function rankAll(cases: Case[]): void {
-  const ranked = (aCase: Case) => (isRankedByCost(aCase) ? aCase.costNs : aCase.frameNs);
+  const ranked = (aCase: Case) =>
+    aCase.isSearched ? null : isRankedByCost(aCase) ? aCase.costNs : aCase.frameNs;
   for (const seen of Map.groupBy(
     cases.filter((aCase) => ranked(aCase) !== null),
     seenBy,

@@ -102,7 +102,7 @@ export function standings(cases: Case[], all: Case[]): Standing[] {
   const ranked = allStandings(all, best);
   for (const some of Map.groupBy(ranked.values(), (row) => row.run).values())
     some
-      .filter((row) => row.timeByBest.value !== null)
+      .filter((row) => row.timeByBest.value !== null && !row.cases.some((aCase) => aCase.isSearched))
       .sort((a, b) => a.timeByBest.value! - b.timeByBest.value!)
       .forEach((row, at) => {
         row.rank = at + 1;

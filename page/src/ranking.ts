@@ -63,7 +63,7 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     measured((row) => row.costNs) && {
       label: "cost µs",
       about:
-        "What a frame costs with its shading, by the model and the constants of the configuration's key cost: frame time where it is measured, bytes to upload, what drawn lights read and write, lights that samples loop over. None where lights are left out that the samples need",
+        "What a frame costs with its shading, by the model and the constants of the configuration's key cost: frame time where it is measured, bytes to upload, what drawn lights read and write, and what samples read and loop over. None where lights are left out that the samples need",
       value: (row) => row.costNs,
       show: (row) => format.microseconds(row.costNs),
     },
@@ -103,6 +103,13 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
       about: "Lights evaluated by lights needed, at the samples; none where lights are unlit or few are needed",
       value: (row) => row.overshade,
       show: (row) => format.factor(row.overshade),
+    },
+    rows.some((row) => row.isSearched) && {
+      label: "read",
+      about:
+        "Bytes of the light structure that a sample reads to know its lights. Structures that samples search (a hierarchy, masks of bits) have no rank and are on no front: no GPU has measured the search",
+      value: (row) => row.readBytes,
+      show: (row) => format.short(row.readBytes),
     },
     {
       label: "bytes",

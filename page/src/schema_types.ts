@@ -75,6 +75,7 @@ export type SampleSet = {
     pixel?: [number, number]; // Its position in the picture, from the top left; absent behind the eye [px, over one sample]
     lost_lux: number | null; // Irradiance that the sample loses [lx, over one sample]
   }; // The sample that loses most light; absent where none is lost
+  ground_m?: number; // Height of the horizontal plane (the world's y) on which these samples lie, since the scene has no triangles; absent where they lie on its surfaces [m, over the whole run]
   waves?: Array<{
     lanes: number; // Pixels of a wave: 32 (8 x 4) or 64 (8 x 8) [pixels, over one wave]
     waves: number; // With a surface in one of their pixels at least; only such pixels count [waves]
@@ -270,6 +271,7 @@ export type Result = {
       exact: boolean; // Conservative, and lists nothing that is not true
     }; // The method that fills the lists
     storage: string; // What the lists are kept in; own: the assigner leaves a light structure of its own, without lists
+    samples_search?: boolean; // true: the case is a light structure that each sample searches for its lights (a hierarchy, masks of bits) in place of reading a list. What that reads is counted and priced by config.cost, and no GPU has measured it: such a case stands on no front. Absent: it is none
     preset?: string; // The preset that the case is of (`clusterbench list presets`); absent for the configuration's own clusterings
     failures: Array<{
       kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration
@@ -528,15 +530,20 @@ export type Result = {
     cost?: {
       frame_ns: number | null; // assign_ns + gpu_ns; null where nothing is timed [ns]
       assign_ns: number | null; // timing.frame_ns.median: assignment and conversion [ns]
-      gpu_ns: number | null; // upload_ns + traffic_ns + shade_ns: all but the assignment, and the same on every machine [ns]
+      gpu_ns: number | null; // upload_ns + traffic_ns + read_ns + shade_ns: all but the assignment, and the same on every machine [ns]
       upload_ns: number | null; // buffers.upload_bytes.mean / upload_gb_per_s [ns]
       traffic_ns: number | null; // buffers.traffic_bytes.mean / memory_gb_per_s [ns]
-      shade_ns: number | null; // Sum over the sets [ns]
+      read_ns?: number | null; // Sum over the sets: samples x divergence x (reads x ns_per_read + read_bytes / read_gb_per_s). Absent in older results, where reading was free [ns]
+      shade_ns: number | null; // Sum over the sets: samples x lights x divergence x ns_per_light [ns]
+      lights?: number | null; // Looped over at a sample of these sets, mean [lights]
+      overshade?: number | null; // Lights given at the samples of these sets / lights that reach them: the overshade that a rank by cost rests on. null where none reaches them [ratio]
       sets: Record<string, {
         samples: number | null; // That a frame shades: weight x samples, each of which stands for its block of pixels [samples]
         lights: number | null; // Looped over at one of them, mean [lights]
         divergence: number | null; // Of waves of config.cost.wave pixels; 1 where it is not known, and where lights are drawn [ratio]
-        ns: number | null; // samples x lights x divergence x ns_per_light [ns]
+        reads?: number | null; // Elements of the light structure (headers, indices, words of bits, nodes) that one of them fetches to know its lights, mean; 0 where lights are drawn [elements]
+        read_bytes?: number | null; // Their bytes, mean [B]
+        ns: number | null; // samples x divergence x (lights x ns_per_light + reads x ns_per_read + read_bytes / read_gb_per_s) [ns]
       }>; // By name, those that are asked for, have a weight and are there
       lit: boolean; // None of these sets lacks more than 0.001 of the lights that it needs. A case that does is on no front over cost
     }; // What a frame costs with its shading, by the model and the constants of config.cost; where samples of a set with a weight are asked for [over one frame, mean over all frames]
@@ -731,7 +738,18 @@ export type Result = {
   pareto_front: Array<{
     scene: string; // Name of one of scenes
     ids: string[]; // Ids of the cases with a star, in the order of cases
-  }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the interval of their ratio), bytes and overshade together, and better in one; where config.rank_by is frame_cost, in cost and bytes. What draws lights has no lists, so its bytes count as unknown. Only cases that are eligible
+  }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the interval of their ratio), bytes and overshade together, and better in one; where config.rank_by is frame_cost, in cost and bytes. What draws lights has no lists, so its bytes count as unknown. Only cases that are eligible, and none that samples search
+  conclusions?: Array<{
+    scene: string; // Name of one of scenes
+    camera: string; // As in cases
+    viewport: [number, number]; // [width, height] [px]
+    take: string | null; // Id of the case to take; null: no case is sound
+    against: string | null; // Id of the cheapest case that is known to cost more; null: there is none
+    ratio: number | null; // Cost of that / cost of the case to take [ratio]
+    ci95:  | null; // Its 95 % interval, of the times in it; null where times were not measured side by side [ratio]
+    alike: string[]; // Ids of cases of the front that are not known to cost more or less
+    text: string; // The same for people
+  }>; // Per scene, camera and viewport what to take by this result, and how sure that is. Of the cases on the front that which costs least: frame time and, where samples were asked for, upload, reading and shading by the model of config.cost; of those that the times cannot tell apart the one with the fewest bytes. Presets are ranked by themselves. Absent in older results
   presets?: Array<{
     name: string; // As a case's preset
     engine: string; // Whose scheme it is

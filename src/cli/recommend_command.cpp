@@ -112,6 +112,11 @@ void weigh_samples(config::Config& config, const run::Plan& plan) {
   const auto volume = std::ranges::find(config.sample_sets, measure::SampleSet::volume, &config::SampleSetRequest::set);
   if (volume == config.sample_sets.end())
     throw Error("", "--by", "a cost is that of samples, and there are none; take another figure, or shading.samples");
+  tell(
+      "warning: the scene has no triangles: each pixel is shaded at a random depth, where no surface is, and surfaces "
+      "can "
+      "make another clustering the best; export the level's meshes with its lights, or take a floor: --set "
+      "samples.opaque.ground=lowest, or =Y for one at that height");
   const Vec2i viewport = config.viewports.front();
   weights["volume"] = static_cast<double>(viewport.x) * viewport.y / volume->count;
 }
@@ -168,7 +173,7 @@ ExitCode recommend(const RecommendFlags& flags) {
     return constraint.rule.figure.ends_with("_cost_us");
   });
   if (question.objective.is_cost || asks_for_cost) weigh_samples(config, plan);
-  std::vector<search::View> views = search::views_of(plan);
+  std::vector<search::View> views = search::views_of(config, plan);
   if (!flags.written.empty() && views.size() != 1)
     throw Error(flags.written, "--write-config",
                 "takes one scene in one viewport; these are " + std::to_string(views.size()));

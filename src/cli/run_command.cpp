@@ -26,6 +26,7 @@
 #include "core/file_text.h"
 #include "core/text.h"
 #include "report/compare.h"
+#include "report/conclusion.h"
 #include "report/journal.h"
 #include "report/limits.h"
 #include "report/result_json.h"
@@ -292,6 +293,12 @@ void show_table(const RunFlags& flags, const Json& result) {
   if (for_reading) tell_of_keeping();
 }
 
+// Last of all, behind what is doubted and what failed.
+void show_conclusion(const RunFlags& flags, const Json& result) {
+  std::ostream& out = is_for_reading(flags.output) ? std::cout : std::cerr;
+  out << report::conclusions_text(result) << std::flush;
+}
+
 std::string own_command_line() {
   std::ifstream in("/proc/self/cmdline", std::ios::binary);
   std::vector<std::string> words;
@@ -357,6 +364,7 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   }
   const ExitCode gates = flags.baseline.binary.empty() ? report_gates(result) : report_baseline(flags, result);
   const ExitCode limits = report_limits(config, result);
+  if (!flags.quiet) show_conclusion(flags, result);
   return gates == ExitCode::ok ? limits : gates;
 }
 

@@ -40,8 +40,17 @@ std::string expanded(std::string path, const std::string& file, const std::strin
   return path;
 }
 
-scene::PathRequest path_request(const Json& scene) {
+scene::PathRequest path_request(const Json& scene, const std::string& pointer, const JsonText& text) {
   scene::PathRequest request;
+  if (scene.contains("fov")) {
+    const auto angle = scene["fov"].get<std::string>();
+    request.field_of_view = scene::field_of_view(angle);
+    if (!request.field_of_view)
+      throw Error(text.file, text.where(pointer + "/fov"),
+                  "'" + angle +
+                      "' is no field of view; takes degrees above 0 and below 180 with h (across the picture) or "
+                      "v (up and down), as in 90h or 60v");
+  }
   request.camera = scene["camera"].get<std::string>();
   if (scene["camera_fit"] == "vertical") request.fit = scene::CameraFit::vertical;
   const Json& frames = scene["frames"];
@@ -76,7 +85,7 @@ void add_scenes(const Json& scene, const std::string& pointer, const JsonText& t
   if (single + scene.contains("paths") + has_rig != 1)
     throw Error(text.file, text.where(pointer), "a scene takes exactly one of path, paths, rig");
   SceneRequest request;
-  request.camera = path_request(scene);
+  request.camera = path_request(scene, pointer, text);
   request.range_rule = {scene["range_rule"]["cutoff_lux"].get<double>(),
                         scene["range_rule"]["max_range"].get<double>()};
   request.boxes = scene.value("boxes", false);
@@ -368,6 +377,8 @@ std::vector<SampleSetRequest> sample_sets(const Json& document) {
     request.count = found->value("count", request.count);
     request.divisor = found->value("divisor", request.divisor);
     request.layers = found->value("layers", request.layers);
+    if (const Json ground = found->value("ground", Json()); !ground.is_null())
+      request.ground = ground.is_number() ? GroundRequest{false, ground.get<double>()} : GroundRequest{true, 0.0};
     if (found->contains("froxels"))
       for (int axis = 0; axis < 3; ++axis)
         request.froxels[axis] = (*found)["froxels"][static_cast<std::size_t>(axis)].get<int>();
@@ -402,6 +413,22 @@ void check_utf8(const JsonText& text) {
     if (value.is_string() && !is_utf8(value.get_ref<const std::string&>()))
       throw Error(text.file, text.file.empty() && !text.flags.contains(pointer) ? "" : text.where(pointer),
                   "'" + value.get<std::string>() + "' is not UTF-8, and no result could name it");
+}
+
+// A horizontal field of view would not be met in a wider picture.
+void check_fields_of_view(const Config& config, const JsonText& text) {
+  for (std::size_t i = 0; i < config.viewports.size(); ++i) {
+    const Vec2i size = config.viewports[i];
+    const bool is_too_wide = size.x > scene::k_widest_picture * size.y;
+    if (is_too_wide && std::ranges::any_of(config.scenes, [](const SceneRequest& scene) {
+          return scene.camera.field_of_view && scene.camera.field_of_view->is_horizontal;
+        }))
+      throw Error(
+          text.file, text.where(child_pointer("/viewports", i)),
+          "is " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+              ", wider than 64:9, which a horizontal field of view (scenes.*.fov) does not take; name the vertical "
+              "one, as in 40v");
+  }
 }
 
 // A cost is that of samples with a weight.
@@ -494,6 +521,7 @@ Config read_config(const JsonText& text) {
   config.viewports = viewports(document["viewports"], text);
   config.pre_culls = pre_culls(document, text);
   config.own_pre_culls = config.pre_culls.size();
+  check_fields_of_view(config, text);
   read_clusterings(document, text, config);
   config.precisions = precisions(document["precision"], text);
   config.shadow_culls = shadow_culls(document, text);

@@ -79,12 +79,19 @@ struct LookupRequest {
 };
 
 // Points where frames are shaded. What the set has no use for keeps its default.
+// A horizontal floor, for scenes without triangles.
+struct GroundRequest {
+  bool is_lowest = false;  // below all lights and eyes of the scene
+  double height_m = 0.0;   // along the world's y, else
+};
+
 struct SampleSetRequest {
   measure::SampleSet set = measure::SampleSet::volume;
-  int count = 1024;            // volume, mirror, anywhere: per frame
-  int divisor = 8;             // opaque, transparent: one ray per block of so many pixels squared
-  int layers = 4;              // transparent: most per ray
-  Vec3i froxels{160, 90, 64};  // fog
+  int count = 1024;                       // volume, mirror, anywhere: per frame
+  int divisor = 8;                        // opaque, transparent: one ray per block of so many pixels squared
+  int layers = 4;                         // transparent: most per ray
+  Vec3i froxels{160, 90, 64};             // fog
+  std::optional<GroundRequest> ground{};  // opaque
 
   bool needs_bounds() const { return set == measure::SampleSet::mirror || set == measure::SampleSet::anywhere; }
   bool needs_triangles() const { return set == measure::SampleSet::opaque || set == measure::SampleSet::transparent; }

@@ -215,6 +215,10 @@ void set_key(FlaggedConfig& document, const std::vector<std::string>& steps, con
   if (document.set(root, "", steps, flag, value) == 0) refuse(flag, "no entry has this key");
 }
 
+void set_field_of_view(FlaggedConfig& document, const FlagValue& flag) {
+  set_key(document, {"scenes", "*", "fov"}, flag, Json(flag.value));
+}
+
 void set_rounds(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"timing", "rounds"}, flag, value_of(flag.value));
 }
@@ -297,6 +301,8 @@ constexpr FlagRow k_rows[] = {
     {{"--preset",
       "NAME[,NAME]: clusterings as engines have them, alone or beside the configuration's own; see `list presets`"},
      choose_presets},
+    {{"--fov", "DEGREESh or DEGREESv: the cameras' field of view across the picture, as 90h, or up and down, as 60v"},
+     set_field_of_view},
     {{"--rounds", "N: timed rounds over all cases of a group"}, set_rounds},
     {{"--launches", "N: processes that measure one after the other; intervals hold between them"}, set_launches},
     {{"--threads", "N: threads for the truth and for rays; results do not depend on it"}, set_threads},

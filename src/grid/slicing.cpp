@@ -57,16 +57,32 @@ void check(const Slicing& slicing, const Reach& reach, bool orthographic) {
           "is " + metres(reach.near) + ", which is not below far, " + metres(reach.far));
   const bool logarithmic = slicing.scheme != Scheme::linear && slicing.scheme != Scheme::list &&
                            !(slicing.scheme == Scheme::power && slicing.lambda == 0.0);
-  require(!logarithmic || reach.near > 0.0, "slices.near",
-          std::string("is ") + metres(reach.near) + "; exponential slices need a near above 0" +
-              (orthographic ? " (this camera is orthographic: linear slices take any near)" : ""));
+  require(orthographic || !logarithmic || reach.near > 0.0, "slices.near",
+          "is " + metres(reach.near) + "; exponential slices need a near above 0");
   require(orthographic || reach.near >= 0.0, "slices.near", "must not be negative for a perspective camera");
   if (slicing.scheme == Scheme::exponential_first) {
     require(reach.near < slicing.first_m && slicing.first_m < reach.far, "slices.first",
             "is " + metres(slicing.first_m) + "; it must lie between near, " + metres(reach.near) + ", and far, " +
                 metres(reach.far));
+    require(slicing.first_m > 0.0, "slices.first",
+            "is " + metres(slicing.first_m) + "; exponential slices begin there and need a number above 0");
     require(slicing.count >= 2, "slices.count", "must be at least 2 for exponential-first");
   }
+}
+
+// The depths of an orthographic view may begin at 0, which logarithms cannot: its exponential slices then begin after a
+// first one, which is as thick as a linear one that begins at the camera would be; blends with an exponential part are
+// linear. What ends behind the camera is linear in any case.
+Slicing with_linear_start(Slicing slicing, const Reach& reach) {
+  const bool is_exponential = slicing.scheme == Scheme::exponential || slicing.scheme == Scheme::fit;
+  if (reach.near > 0.0 || !(is_exponential || slicing.scheme == Scheme::power)) return slicing;
+  if (!is_exponential || slicing.count < 2 || !(reach.far > 0.0)) {
+    slicing.scheme = Scheme::linear;
+    return slicing;
+  }
+  slicing.scheme = Scheme::exponential_first;
+  slicing.first_m = reach.far / slicing.count;
+  return slicing;
 }
 
 // A first slice from less than the domain's nearest depth on begins at the eye instead; others must not.
@@ -166,7 +182,9 @@ void fit_to(const Span& needed, Slicing& slicing, Reach& reach) {
   }
   if (far <= slicing.first_m) {  // all of it before the end of the first slice
     const Span span = not_too_thin({reach.near, far}, reach);
-    slicing.first_m = exponential_at(reach.near, span.far_m, 1.0 / slicing.count);
+    if (reach.near <= 0.0 && span.far_m <= 0.0) return;  // nothing in front of an orthographic camera
+    slicing.first_m =
+        reach.near > 0.0 ? exponential_at(reach.near, span.far_m, 1.0 / slicing.count) : span.far_m / slicing.count;
     reach.far = span.far_m;
     return;
   }
@@ -326,6 +344,7 @@ Slices make_slices(const Slicing& asked, const SliceRange& range, bool orthograp
   if (follows_ranges) fit_to_ranges(range.needed, slicing, reach);
   check(slicing, reach, orthographic);
   if (slicing.fit && !follows_ranges && !is_list) fit_to(range.needed, slicing, reach);
+  if (orthographic) slicing = with_linear_start(slicing, reach);
 
   Slices slices;
   for (int i = 0; i <= slicing.count; ++i) slices.boundaries.push_back(static_cast<float>(boundary(slicing, reach, i)));

@@ -84,8 +84,10 @@ Span telling_span(const Slicing& slicing, const Span& needed);
 // = "slices.scheme") for more than 4096 slices.
 Slicing resolved_cubical(const Slicing& slicing, const SliceRange& range, double tile_height, bool orthographic);
 
-// Throws Error (file "", where = key such as "slices.near") for what cannot be: near >= far, exponential with near <=
-// 0, an infinite far, a list that does not ascend, boundaries that coincide in single precision.
+// Of an orthographic camera near may be 0 or less: exponential slices then begin after a first one up to far / count,
+// and power ones are linear. Throws Error (file "", where = key such as "slices.near") for what cannot be: near >= far,
+// exponential with near <= 0 of a perspective camera, an infinite far, a list that does not ascend, boundaries that
+// coincide in single precision.
 Slices make_slices(const Slicing& slicing, const SliceRange& range, bool orthographic);
 
 }  // namespace clusterbench::grid

@@ -1,6 +1,6 @@
 #pragma once
-// What a frame costs with its shading, by a model: what is assigned, uploaded and looped over, each at a constant's
-// price.
+// What a frame costs with its shading, by a model: what is assigned, uploaded, read by samples and looped over, each at
+// a constant's price.
 
 #include <optional>
 #include <vector>
@@ -10,6 +10,9 @@ namespace clusterbench::measure {
 struct CostModel {
   double ns_per_light = 0.0;                            // of one light at one sample
   double upload_gb_per_s = 1.0, memory_gb_per_s = 1.0;  // a GB/s is a byte per nanosecond
+  // Of what samples read of a light structure to know their lights; 0 bytes per ns: reading is free.
+  double ns_per_read = 0.0;    // of one element: a header, an index, a word of bits, a node that is visited
+  double read_gb_per_s = 0.0;  // of their bytes
 };
 
 // Samples of one set, per frame.
@@ -17,15 +20,21 @@ struct ShadedSamples {
   double samples = 0.0;
   double lights = 0.0;      // looped over at one of them, mean
   double divergence = 1.0;  // how many times longer waves take than their lanes' mean
+  double reads = 0.0;       // elements of the light structure that one of them fetches, mean
+  double read_bytes = 0.0;  // their bytes
 
-  double ns(const CostModel& model) const { return samples * lights * divergence * model.ns_per_light; }
+  double light_ns(const CostModel& model) const { return samples * lights * divergence * model.ns_per_light; }
+  double read_ns(const CostModel& model) const;
+  double ns(const CostModel& model) const { return light_ns(model) + read_ns(model); }
 };
 
 struct FrameCost {
   std::optional<double> assign_ns;  // none where nothing is timed
-  double upload_ns = 0.0, traffic_ns = 0.0, shade_ns = 0.0;
+  double upload_ns = 0.0, traffic_ns = 0.0;
+  double read_ns = 0.0;   // of samples, to know their lights
+  double shade_ns = 0.0;  // of those lights
 
-  double gpu_ns() const { return upload_ns + traffic_ns + shade_ns; }
+  double gpu_ns() const { return upload_ns + traffic_ns + read_ns + shade_ns; }
   std::optional<double> frame_ns() const { return assign_ns ? std::optional(*assign_ns + gpu_ns()) : std::nullopt; }
 };
 

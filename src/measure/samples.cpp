@@ -114,6 +114,23 @@ std::vector<grid::Sample> opaque_samples(const view::Frame& frame, const depth::
   return samples;
 }
 
+depth::DepthImage ground_depths(const view::Frame& frame, const depth::PixelGrid& pixels, double height_m) {
+  constexpr double k_farthest_depth_m = 1e9;
+  check_memory("depths of pixels", pixels.count(), sizeof(float), k_larger_blocks);
+  depth::DepthImage image{pixels, std::vector<float>(pixels.count(), std::numeric_limits<float>::infinity())};
+  const Mat3d world_from_view = glm::transpose(frame.view_space.rotation);
+  const double far_m = std::min(frame.projection.far_m, k_farthest_depth_m);
+  for (std::size_t i = 0; i < pixels.count(); ++i) {
+    const view::PictureRay ray = view::picture_ray(frame, pixels.pixel(i));
+    const double begins_at = frame.view_space.origin.y + (world_from_view * ray.at(0.0)).y;
+    const double climbs = (world_from_view * (ray.at(1.0) - ray.at(0.0))).y;  // by metre of depth
+    const double depth_m = (height_m - begins_at) / climbs;
+    if (depth_m > 0.0 && depth_m >= frame.projection.near_m && depth_m <= far_m)
+      image.nearest[i] = static_cast<float>(depth_m);
+  }
+  return image;
+}
+
 std::vector<grid::Sample> transparent_samples(const view::Frame& frame, const depth::LayerImage& image) {
   std::vector<grid::Sample> samples = room_for(image.depths.size(), k_larger_blocks);
   for (std::size_t i = 0; i + 1 < image.begin.size(); ++i) {

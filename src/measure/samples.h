@@ -37,6 +37,9 @@ grid::Sample sample_of(const view::Frame& frame, const Vec3d& from_eye);
 // Pixels uniform, depths uniform in log from near to far_m (orthographic: uniform).
 std::vector<grid::Sample> volume_samples(const view::Frame& frame, double far_m, int count, std::uint64_t seed);
 std::vector<grid::Sample> opaque_samples(const view::Frame& frame, const depth::DepthImage& image);
+// The depths of a horizontal plane at a height of the world's y, in front of the eye, between near and far plane and up
+// to 1e9 m; +inf where a pixel does not see it.
+depth::DepthImage ground_depths(const view::Frame& frame, const depth::PixelGrid& pixels, double height_m);
 std::vector<grid::Sample> transparent_samples(const view::Frame& frame, const depth::LayerImage& image);
 // Froxels as volume_samples() spreads its points.
 std::vector<grid::Sample> fog_samples(const view::Frame& frame, double far_m, Vec3i froxels);

@@ -5,6 +5,7 @@
 #include "assign/contract/assigner.h"
 #include "report/columns.h"
 #include "report/json_values.h"
+#include "run/sweep.h"
 
 namespace clusterbench::report {
 namespace {
@@ -43,6 +44,13 @@ bool draws_lights(const Json& result_case) {
   return assigner != nullptr && assigner->draws_lights;
 }
 
+bool samples_search(const Json& result_case) {
+  if (result_case.value("storage", "") != run::k_own_structure) return false;
+  const assign::AssignerDescriptor* assigner =
+      assign::find_assigner(result_case["assigner"]["name"].get<std::string>());
+  return assigner == nullptr ? result_case.value("samples_search", false) : assigner->own_is_searched();
+}
+
 std::vector<double> frame_rounds(const Json& result_case) {
   const Json samples = result_case.value(Json::json_pointer("/timing/frame_ns/samples"), Json::array());
   if (!std::ranges::all_of(samples, [](const Json& ns) { return ns.is_number(); })) return {};
@@ -63,7 +71,7 @@ run::Contender contender_of(const Json& result_case, RankBy by) {
                      result_case["scene"],
                      view_of(result_case),
                      costs_of(result_case, by),
-                     result_case["eligible"],
+                     result_case["eligible"] == true && !samples_search(result_case),
                      block_of(result_case),
                      {},
                      {},

@@ -13,12 +13,16 @@ namespace clusterbench::report {
 enum class RankBy : std::uint8_t { frame_time, frame_cost };
 RankBy rank_by(const nlohmann::ordered_json& result);  // as its configuration says
 
-// By its cost a case takes its time and, with certainty, what the model adds; overshade is in it. Where nothing is
-// timed that is all. A case that lacks lights at samples that cost something is not eligible then.
+// A case that samples search is never eligible: what its search costs was not measured. By its cost a case takes its
+// time and, with certainty, what the model adds; overshade is in it. Where nothing is timed that is all. A case that
+// lacks lights at samples that cost something is not eligible then.
 run::Contender contender_of(const nlohmann::ordered_json& result_case, RankBy by = RankBy::frame_time);
 
 // Whether its method draws lights, and leaves no lists.
 bool draws_lights(const nlohmann::ordered_json& result_case);
+
+// Whether each sample searches its structure for lights: priced by the model only, and so ranked apart.
+bool samples_search(const nlohmann::ordered_json& result_case);
 
 // The frame times of a case's rounds; empty where it has none.
 std::vector<double> frame_rounds(const nlohmann::ordered_json& result_case);

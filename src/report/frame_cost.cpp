@@ -32,6 +32,11 @@ double divergence_of(const Json& result_case, const Json& counts, const std::str
   return 1.0;
 }
 
+double mean_per_sample(const Json& counts, const char* key) {
+  const auto samples = counts["samples"].get<double>();
+  return samples > 0.0 ? counts.value(key, 0.0) / samples : 0.0;
+}
+
 // With the set's name; those that are there and have a weight.
 struct WeightedSet {
   std::string name;
@@ -46,27 +51,29 @@ std::vector<WeightedSet> weighted_sets(const Json& result_case, const Json& conf
     const Json* counts = value_at(result_case, name == "volume" ? std::string("/shading") : "/samples/" + name);
     if (weight == 0.0 || counts == nullptr) continue;
     const auto samples = (*counts)["samples"].get<double>();
-    measure::ShadedSamples shaded;
-    shaded.samples =
+    const double per_frame =
         weight * samples / result_case["frames"].get<double>() * pixels_per_sample(result_case, name, config);
-    shaded.lights = samples > 0.0 ? (*counts)["evaluated"].get<double>() / samples : 0.0;
-    shaded.divergence = divergence_of(result_case, *counts, config["cost"]["wave"].get<std::string>());
-    sets.push_back({name, counts, shaded});
+    sets.push_back(
+        {name, counts, shaded_samples(result_case, *counts, per_frame, config["cost"]["wave"].get<std::string>())});
   }
   return sets;
 }
 
 Json cost_of(const Json& result_case, const std::vector<WeightedSet>& sets, const Json& constants) {
-  const measure::CostModel model{constants["ns_per_light"], constants["upload_gb_per_s"], constants["memory_gb_per_s"]};
+  const measure::CostModel model = cost_model_of(constants);
   std::vector<measure::ShadedSamples> shaded;
   Json sets_json = Json::object();
   bool is_lit = true;
+  double samples = 0.0, given = 0.0, needed = 0.0;
   for (const WeightedSet& set : sets) {
+    samples += set.shaded.samples;
+    given += set.shaded.samples * set.shaded.lights;
+    needed += set.shaded.samples * mean_per_sample(*set.counts, "needed");
     shaded.push_back(set.shaded);
-    sets_json[set.name] = {{"samples", number_or_null(set.shaded.samples)},
-                           {"lights", number_or_null(set.shaded.lights)},
-                           {"divergence", number_or_null(set.shaded.divergence)},
-                           {"ns", number_or_null(set.shaded.ns(model))}};
+    sets_json[set.name] = {
+        {"samples", number_or_null(set.shaded.samples)},       {"lights", number_or_null(set.shaded.lights)},
+        {"divergence", number_or_null(set.shaded.divergence)}, {"reads", number_or_null(set.shaded.reads)},
+        {"read_bytes", number_or_null(set.shaded.read_bytes)}, {"ns", number_or_null(set.shaded.ns(model))}};
     const Json& unlit = (*set.counts)["unlit"];
     is_lit = is_lit && !(unlit.is_number() && unlit.get<double>() > measure::k_most_unlit);
   }
@@ -80,12 +87,47 @@ Json cost_of(const Json& result_case, const std::vector<WeightedSet>& sets, cons
           {"gpu_ns", number_or_null(cost.gpu_ns())},
           {"upload_ns", number_or_null(cost.upload_ns)},
           {"traffic_ns", number_or_null(cost.traffic_ns)},
+          {"read_ns", number_or_null(cost.read_ns)},
           {"shade_ns", number_or_null(cost.shade_ns)},
+          {"lights", number_or_null(given / samples)},
+          {"overshade", number_or_null(given / needed)},
           {"sets", sets_json},
           {"lit", is_lit}};
 }
 
 }  // namespace
+
+measure::CostModel cost_model_of(const Json& constants) {
+  return {constants["ns_per_light"], constants["upload_gb_per_s"], constants["memory_gb_per_s"],
+          constants.value("ns_per_read", 0.0), constants.value("read_gb_per_s", 0.0)};
+}
+
+measure::ShadedSamples shaded_samples(const Json& result_case, const Json& counts, double samples,
+                                      const std::string& wave) {
+  measure::ShadedSamples shaded;
+  shaded.samples = samples;
+  shaded.lights = mean_per_sample(counts, "evaluated");
+  shaded.divergence = divergence_of(result_case, counts, wave);
+  if (draws_lights(result_case)) return shaded;
+  shaded.reads = mean_per_sample(counts, "reads");
+  shaded.read_bytes = mean_per_sample(counts, "read_bytes");
+  return shaded;
+}
+
+std::optional<WholeFrame> whole_frame(const Json& result_case, const Json& config) {
+  if (const std::optional<double> gpu_ns = number_at(result_case, "/cost/gpu_ns")) {
+    const Json& sets = result_case["cost"]["sets"];
+    return WholeFrame{*gpu_ns, sets.contains("volume") && !sets.contains("opaque")};
+  }
+  const std::optional<double> samples = number_at(result_case, "/shading/samples");
+  if (!config.contains("cost") || !samples || *samples == 0.0) return std::nullopt;
+  const double pixels = result_case["viewport"][0].get<double>() * result_case["viewport"][1].get<double>();
+  const measure::FrameCost cost = measure::frame_cost(
+      cost_model_of(config["cost"]), {}, number_at(result_case, "/buffers/upload_bytes/mean").value_or(0.0),
+      number_at(result_case, "/buffers/traffic_bytes/mean").value_or(0.0),
+      {shaded_samples(result_case, result_case["shading"], pixels, config["cost"]["wave"])});
+  return WholeFrame{cost.gpu_ns(), true};
+}
 
 void add_costs(Json& cases, const Json& config) {
   if (!config.contains("cost")) return;

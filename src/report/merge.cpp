@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "report/conclusion.h"
 #include "report/contender.h"
 #include "report/machine.h"
 #include "report/result_json.h"
@@ -116,6 +117,7 @@ Json merged(const std::vector<NamedPart>& parts) {
            {"pareto_front", fronts(scenes, cases, first)},
            {"skipped", skipped}};
   add_presets(out, first);
+  out["conclusions"] = conclusions_of(out, first);
   return out;
 }
 

@@ -214,7 +214,10 @@ Json ratio_rankings(const Json& result) {
   RatioRequest request;
   request.across_grids = true;
   Json out = Json::array();
-  for (const Block& block : timed_blocks(result, request))
+  std::vector<Block> blocks = timed_blocks(result, request);
+  for (Block& block : blocks)
+    std::erase_if(block.cases, [](const Timed& timed) { return samples_search(*timed.result_case); });
+  for (const Block& block : blocks)
     for (std::size_t i = 0; i < block.cases.size(); ++i) {
       const Timed &timed = block.cases[i], &fastest = block.cases.front(), &above = block.cases[i == 0 ? 0 : i - 1];
       const auto to_fastest = run::ratio_between(timed.contender, fastest.contender, seed_of(result)),

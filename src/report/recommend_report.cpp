@@ -54,6 +54,8 @@ FigureKind figure_kind(const std::string& name) {
   return found == std::end(k_kinds) ? FigureKind{"", OverCameras::mean} : *found;
 }
 
+// Overshade at the samples that cost something.
+constexpr const char* k_cost_overshade = "cost_overshade";
 constexpr const char *k_gpu_cost = "gpu_cost_us", *k_evaluated = "evaluated", *k_read_bytes = "read_bytes";
 
 std::optional<double> figure_of(const Json& result_case, const std::string& name) {
@@ -61,6 +63,7 @@ std::optional<double> figure_of(const Json& result_case, const std::string& name
     const std::optional<double> ns = number_at(result_case, "/cost/gpu_ns");
     return ns ? std::optional(1e-3 * *ns) : std::nullopt;
   }
+  if (name == k_cost_overshade) return number_at(result_case, "/cost/overshade");
   if (name != k_evaluated && name != k_read_bytes) return limit_figure(result_case, name);
   const std::optional<double> samples = number_at(result_case, "/shading/samples"),
                               sum = number_at(result_case, "/shading/" + name);
@@ -133,6 +136,7 @@ struct Ranked {
   double objective = 0.0, bytes = 0.0;
   std::uint64_t cells = 0;
   std::vector<std::size_t> broken;
+  bool is_apart = false;
 
   bool is_feasible() const { return broken.empty() && std::isfinite(objective); }
   std::tuple<double, std::uint64_t, std::size_t> smaller() const { return {bytes, cells, candidate}; }
@@ -164,15 +168,18 @@ std::optional<measure::Ratio> ratio_of(const Ranked& a, const Ranked& b, const Q
   return run::ratio_between(pooled(a.cases, by), pooled(b.cases, by), seed);
 }
 
+// Those that are apart come last.
 std::vector<Ranked> ranked(const config::Config& config, const search::View& view, const search::Found& found) {
   const Json resolved = config.resolved;
   std::vector<Ranked> all;
   for (const search::Finalist& finalist : found.finalists) {
     const search::Verdict& verdict = found.records[finalist.candidate].verdict;
     all.push_back({finalist.candidate, cases_json(finalist.cases, resolved), verdict.objective, verdict.bytes,
-                   view.candidates[finalist.candidate].cells, verdict.broken});
+                   view.candidates[finalist.candidate].cells, verdict.broken,
+                   view.candidates[finalist.candidate].is_apart});
   }
   std::ranges::stable_sort(all, [](const Ranked& a, const Ranked& b) {
+    if (a.is_apart != b.is_apart) return b.is_apart;
     if (a.is_feasible() != b.is_feasible()) return a.is_feasible();
     if (a.objective != b.objective && a.is_feasible()) return a.objective < b.objective;
     return a.smaller() < b.smaller();
@@ -242,7 +249,18 @@ Json ranked_json(const config::Config& config, const search::View& view, const R
     if (const std::optional<double> value = figure_over(ranked.cases, figure.name))
       figures[figure.name] = figure.is_timed ? six_digits(*value) : number_or_null(*value);
   out["figures"] = figures;
+  const std::optional<double> overshade =
+      figure_over(ranked.cases, question.objective.is_cost ? k_cost_overshade : "overshade");
+  out["overshade"] = overshade ? number_or_null(*overshade) : Json();
   return out;
+}
+
+// Whether the objective is of samples that lie anywhere in the view.
+bool rests_on_random_depths(const Json& result_case, const ObjectiveFigure& objective) {
+  if (!objective.is_cost)
+    return objective.name == "evaluated" || objective.name == "read_bytes" || objective.name == "overshade";
+  const Json* sets = value_at(result_case, "/cost/sets");
+  return sets != nullptr && sets->contains("volume") && !sets->contains("opaque");
 }
 
 // The best behind the choice. Of those that differ in cells only, which their method then does not use, the first.
@@ -430,6 +448,8 @@ search::Judge judge_of(const Question& question, const nlohmann::json& config) {
 Json answer_to_json(const config::Config& config, const run::Plan& plan, const search::View& view,
                     const search::Found& found, const Question& question) {
   std::vector<Ranked> all = ranked(config, view, found);
+  const std::vector<Ranked> apart(std::ranges::find(all, true, &Ranked::is_apart), all.end());
+  all.resize(all.size() - apart.size());
   choose(all, question, config.seed);
   const bool has_choice = !all.empty() && all.front().is_feasible();
   const run::SceneData& data = plan.scenes[view.scene];
@@ -444,8 +464,10 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
            {"lights", data.scene.lights.size()},
            {"candidates", view.candidates.size()},
            {"incomplete", view.incomplete},
+           {"random_depths", false},
            {"choice", nullptr},
            {"runners_up", Json::array()},
+           {"searched", Json::array()},
            {"within", question.within},
            {"coarsest", nullptr}};
   if (has_choice) {
@@ -459,7 +481,11 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
         coarsest = &ranked;
     if (coarsest != &all[0]) out["coarsest"] = ranked_json(config, view, *coarsest, all[0], question);
     out["runners_up"] = runners_up_json(config, view, all, question);
+    out["random_depths"] = rests_on_random_depths(all[0].cases[0], question.objective);
   }
+  for (const Ranked& ranked : apart)
+    if (ranked.is_feasible())
+      out["searched"].push_back(ranked_json(config, view, ranked, has_choice ? all[0] : ranked, question));
   out["constraints"] = excluded_json(view, found, question);
   out["rungs"] = rungs_json(found.rungs);
   out["finalists"] = found.finalists.size();

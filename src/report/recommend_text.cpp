@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "report/columns.h"
+#include "report/conclusion.h"
 #include "report/json_values.h"
 #include "report/recommend_report.h"
 
@@ -37,7 +38,8 @@ Cells candidate_row(const std::string& mark, const Json& record, const std::stri
           std::to_string(record["cells"].get<std::uint64_t>()),
           figure("bytes"),
           figure("longest"),
-          figure("overshade")};
+          figure("read_bytes"),
+          text_at(record, "/overshade", "%.2f")};
 }
 
 std::string table_of(const std::vector<Cells>& rows) {
@@ -74,6 +76,24 @@ std::string excluded_text(const Json& answer) {
   return rows.size() > 1 ? table_of(rows) : "";
 }
 
+// "read": bytes of the structure that a sample reads.
+Cells candidate_headings(const std::string& figure) {
+  const bool is_column = figure == "bytes" || figure == "longest" || figure == "overshade";
+  return {" ",    "candidate", is_column ? "objective" : figure, "worse by", "cells", "bytes", "longest",
+          "read", "overshade"};
+}
+
+// Never beside the others: what their search costs on a GPU is a model's.
+std::string searched_text(const Json& answer, const std::string& figure) {
+  const Json searched = answer.value("searched", Json::array());
+  if (searched.empty()) return "";
+  std::vector<Cells> rows{candidate_headings(figure)};
+  for (const Json& record : searched) rows.push_back(candidate_row(" ", record, figure));
+  return "structures that samples search, priced by the model (key cost: ns_per_read, read_gb_per_s), which no GPU has "
+         "confirmed:\n" +
+         table_of(rows);
+}
+
 std::string answer_text(const Json& answer, const Json& objective) {
   std::string out = shown(answer["scene"].get<std::string>()) + ", " + answer["viewport"][0].dump() + "x" +
                     answer["viewport"][1].dump() + ", " + number_of(answer["frames"].get<std::uint64_t>(), "frame") +
@@ -82,8 +102,7 @@ std::string answer_text(const Json& answer, const Json& objective) {
   if (answer["choice"].is_null()) {
     out += nearest_text(answer);
   } else {
-    std::vector<Cells> rows{{" ", "candidate", figure, "worse by", "cells", "bytes", "longest", "overshade"}};
-    if (figure == "bytes" || figure == "longest" || figure == "overshade") rows[0][2] = "objective";
+    std::vector<Cells> rows{candidate_headings(figure)};
     rows.push_back(candidate_row("*", answer["choice"], figure));
     for (const Json& runner_up : answer["runners_up"]) rows.push_back(candidate_row(" ", runner_up, figure));
     out += table_of(rows);
@@ -94,6 +113,7 @@ std::string answer_text(const Json& answer, const Json& objective) {
                                      " cells, " + figure + " " + amount_text(coarsest["objective"].get<double>())) +
            "\n";
   }
+  out += searched_text(answer, figure);
   out += excluded_text(answer);
   const Json& work = answer["work"];
   out += "measured " + work["evaluations"].dump() + " of " + work["all_evaluations"].dump() +
@@ -134,6 +154,9 @@ std::string recommendation_text(const Json& recommendation) {
   std::string out =
       "least " + objective["figure"].get<std::string>() + ": " + objective["meaning"].get<std::string>() + "\n";
   for (const Json& answer : recommendation["answers"]) out += "\n" + answer_text(answer, objective);
+  out += "\n";
+  for (const Json& answer : recommendation["answers"])
+    out += "conclusion: " + answer_conclusion(answer, objective) + "\n";
   return out;
 }
 

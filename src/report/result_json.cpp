@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "report/conclusion.h"
 #include "report/contender.h"
 #include "report/details_json.h"
 #include "report/fit_json.h"
@@ -187,6 +188,7 @@ Json samples(const std::vector<run::SampleSetResult>& sets) {
   Json out = Json::object();
   for (const run::SampleSetResult& set : sets) {
     Json& set_json = out[measure::name_of(set.set)] = shading(set.counts);
+    if (set.ground_m) set_json["ground_m"] = number_or_null(*set.ground_m);
     if (!set.coherence) continue;
     set_json["waves"] = Json::array();
     for (const measure::WaveCounts& waves : set.coherence->sizes) set_json["waves"].push_back(to_json(waves));
@@ -455,6 +457,7 @@ Json case_to_json(const run::CaseResult& case_result) {
              {"conservative", case_result.conservative},
              {"exact", case_result.exact}}},
            {"storage", case_result.storage_label}};
+  if (samples_search(out)) out["samples_search"] = true;
   if (!case_result.preset.empty()) out["preset"] = case_result.preset;
   out.update(Json{{"failures", Json::array()},
                   {"warnings", Json::array()},
@@ -509,6 +512,7 @@ Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_
     if (!skipped.preset.empty()) out["skipped"].back()["preset"] = skipped.preset;
   }
   add_presets(out, out);
+  out["conclusions"] = conclusions_of(out, out);
   return out;
 }
 

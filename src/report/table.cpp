@@ -43,7 +43,7 @@ struct Line {
 // What some cases have and others have not.
 struct Extras {
   bool storages = false, times = false, conversions = false, builds = false, instructions = false, samples = false,
-       dropped = false, cold = false, launches = false, costs = false;
+       dropped = false, cold = false, launches = false, costs = false, searched = false;
 };
 
 std::string time_text(const Json& result_case, const char* pointer) {
@@ -92,6 +92,15 @@ std::string lost_lux_text(const Json& result_case, const char* what) {
   const std::optional<double> loses = number_at(result_case, set + "/lost_lux");
   if (loses && *loses == 0.0) return "0";
   return text_at(result_case, (set + what).c_str(), "%.3g");
+}
+
+// Bytes of the structure that a sample reads to know its lights.
+std::string read_bytes_text(const Json& result_case) {
+  const std::string set = value_at(result_case, "/samples/opaque") != nullptr ? "/samples/opaque" : "/shading";
+  const auto samples = number_at(result_case, (set + "/samples").c_str()),
+             bytes = number_at(result_case, (set + "/read_bytes").c_str());
+  return samples && bytes && *samples > 0.0 ? text(*bytes < 100.0 * *samples ? "%.3g" : "%.0f", *bytes / *samples)
+                                            : "-";
 }
 
 // Where nothing is timed what the GPU does.
@@ -148,6 +157,7 @@ constexpr Column k_columns[] = {
     {"unlit", unlit_text, &Extras::samples},
     {"shade", [](const Json& result_case) { return text_at(result_case, "/shading/overshade", "%.2f"); },
      &Extras::samples},
+    {"read", read_bytes_text, &Extras::searched},
     {"bytes", [](const Json& result_case) { return short_count(result_case, "/buffers/bytes/high_water"); }},
 };
 
@@ -162,11 +172,21 @@ Cells headings(const Extras& extras) {
   return cells;
 }
 
+// Cases that samples search stand together, and so name their grids, where they use them.
+std::string table_label(const Json& result_case, const Extras& extras) {
+  std::string label = method_name(result_case);
+  if (extras.storages) label += " / " + shown(result_case["storage"]);
+  const assign::AssignerDescriptor* assigner =
+      assign::find_assigner(result_case["assigner"]["name"].get<std::string>());
+  if (samples_search(result_case) && (assigner == nullptr || !assigner->own_without_grid))
+    label += ", " + shown(result_case["grid"]["name"]);
+  return label;
+}
+
 Line line_of(const Json& result_case, bool is_on_front, const Extras& extras, RankBy by) {
   Line line;
   line.result_case = &result_case;
-  std::string label = method_name(result_case);
-  if (extras.storages) label += " / " + shown(result_case["storage"]);
+  const std::string label = table_label(result_case, extras);
   line.cells = {is_on_front ? "*" : "", label};
   for (const Column& column : k_columns)
     if (is_shown(column, extras)) line.cells.push_back(column.text(result_case));
@@ -195,6 +215,7 @@ Extras extras_of(const Json& cases) {
     extras.launches |= result_case.contains("timing") && result_case["timing"].value("launches", 1) > 1;
     extras.samples |= result_case.contains("shading");
     extras.costs |= result_case.contains("cost");
+    extras.searched |= samples_search(result_case) && result_case.contains("shading");
     extras.dropped |= result_case["buffers"]["overflow"]["dropped_pairs"] != 0;
   }
   extras.storages = storages.size() > 1;
@@ -250,7 +271,7 @@ std::string legend(const Extras& extras, RankBy by, bool has_front, bool is_comp
   if (extras.builds) out += "build: the grid changes between frames, and assign holds its builds.\n";
   if (extras.costs)
     out += std::string("cost: ") + (extras.times ? "frame, and " : "") +
-           "upload and shading of the frame's samples by the model of the key `cost`.\n";
+           "upload, and reading and shading of the frame's samples, by the model of the key `cost`.\n";
   if (!is_complete) out += "-: not measured, or not comparable.\n";
   out += std::string("pairs: (cell, light) per frame") + (extras.times ? ", of the timed frames" : "") +
          ".\nexcess: false positives in % of true pairs. missed: true pairs that are not listed.\n";
@@ -262,7 +283,36 @@ std::string legend(const Extras& extras, RankBy by, bool has_front, bool is_comp
     out +=
         "unlit: share of the lights that samples need and are not given. shade: overshade, lights given at the "
         "samples / lights needed.\n";
+  if (extras.searched)
+    out +=
+        "structures that samples search: no lists; each sample finds its lights in a hierarchy or in masks of bits, "
+        "and "
+        "the times above\nare without that. They have no star: no GPU has measured the search (the key `cost` has a "
+        "model "
+        "of it). read: bytes that a\nsample reads to know its lights.\n";
   return out + "bytes: headers and indices, largest of all frames.\n";
+}
+
+// The blocks of a scene: of each grid the cases with lists, then of each view those that samples search.
+struct TableBlock {
+  std::string heading;
+  std::vector<const Json*> cases;
+};
+std::vector<TableBlock> table_blocks(const Json& cases, const Json& scene) {
+  std::vector<TableBlock> lists, searched;
+  for (const Json& result_case : cases) {
+    if (result_case["scene"] != scene["name"]) continue;
+    const bool is_searched = samples_search(result_case);
+    std::string heading = block_of(result_case);
+    if (is_searched)
+      heading = "structures that samples search" + heading.substr(shown(result_case["grid"]["name"]).size());
+    std::vector<TableBlock>& blocks = is_searched ? searched : lists;
+    auto found = std::ranges::find(blocks, heading, &TableBlock::heading);
+    if (found == blocks.end()) found = blocks.insert(blocks.end(), {heading, {}});
+    found->cases.push_back(&result_case);
+  }
+  lists.insert(lists.end(), searched.begin(), searched.end());
+  return lists;
 }
 
 // With the reason where all have one, and with what takes boxes where that is what most methods lack.
@@ -296,14 +346,13 @@ std::string render_table(const Json& result, bool colour) {
   const Cells heads = headings(extras);
   std::string out;
   for (const Json& scene : result["scenes"]) {
-    const std::vector<std::string> blocks = blocks_of(cases, scene);
+    const std::vector<TableBlock> blocks = table_blocks(cases, scene);
     if (blocks.empty()) continue;
     out += (colour ? k_bold : "") + scene_heading(scene) + (colour ? k_plain : "") + "\n";
-    for (const std::string& block : blocks) {
+    for (const TableBlock& block : blocks) {
       std::vector<Line> lines;
-      for (const Json& result_case : cases)
-        if (result_case["scene"] == scene["name"] && block_of(result_case) == block)
-          lines.push_back(line_of(result_case, on_front.contains(result_case["id"].get<std::string>()), extras, by));
+      for (const Json* result_case : block.cases)
+        lines.push_back(line_of(*result_case, on_front.contains((*result_case)["id"].get<std::string>()), extras, by));
       std::stable_sort(lines.begin(), lines.end(),
                        [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
       has_alike |= mark_alike(result, heads, by, lines);
@@ -313,7 +362,7 @@ std::string render_table(const Json& result, bool colour) {
         is_complete = is_complete && std::find(line.cells.begin(), line.cells.end(), "-") == line.cells.end();
       }
       const std::vector<std::size_t> widths = widths_of(rows);
-      out += " " + block + "\n" + aligned(heads, widths);
+      out += " " + block.heading + "\n" + aligned(heads, widths);
       for (const Line& line : lines)
         out += line.has_failed && colour ? k_red + aligned(line.cells, widths) + k_plain : aligned(line.cells, widths);
     }

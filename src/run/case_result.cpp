@@ -26,7 +26,9 @@ void add_samples(const config::Config& config, const SceneData& data, const Stru
       if (!is_cut_to_surfaces) out.shading = set.counts;
       continue;
     }
-    if (set_obstacle(config.sample_sets[i], data).empty()) out.samples.push_back(set);
+    if (!set_obstacle(config.sample_sets[i], data).empty()) continue;
+    out.samples.push_back(set);
+    out.samples.back().ground_m = ground_height(config.sample_sets[i], data);
   }
 }
 

@@ -41,6 +41,11 @@ std::vector<grid::Sample> FrameSamples::points_of(const config::SampleSetRequest
 
 void FrameSamples::look_at_surfaces(const config::SampleSetRequest& request, const view::Frame& frame,
                                     FrameSampleSet& out) const {
+  if (const std::optional<double> height_m = ground_height(request, data_)) {
+    out.picture = measure::ground_depths(frame, depth::PixelGrid(frame.viewport, request.divisor), *height_m);
+    out.samples = measure::opaque_samples(frame, *out.picture);
+    return;
+  }
   FrameDepths& depths = *path_.depths();
   const std::shared_ptr<const depth::DepthImage> image = depths.thinned(frame, request.divisor, config_.threads);
   if (request.set == measure::SampleSet::opaque) {

@@ -185,6 +185,7 @@ struct SampleSetResult {
   measure::SampleSet set = measure::SampleSet::opaque;
   measure::ShadingCounts counts;
   std::optional<measure::Coherence> coherence;  // of visible surfaces at full resolution
+  std::optional<double> ground_m = {};          // height of the floor that stands for surfaces, where there are none
 };
 
 // How the lights were handed over, and what that loses.

@@ -74,7 +74,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
     out.warnings.push_back("not measured: " + number_of(others.size(), "camera") + " beside '" +
                            data.paths.front().camera + "': " + first_names(others) +
                            "; \"camera\": \"*\" measures all");
-  add_fit_warnings(data, viewports, out.warnings);
+  if (!request.camera.field_of_view) add_fit_warnings(data, viewports, out.warnings);
   out.range_rule = {{"cutoff_lux", request.range_rule.cutoff_lux},
                     {"max_range", request.range_rule.max_range_m},
                     {"given", given},

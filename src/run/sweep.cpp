@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -58,6 +61,7 @@ Json identity(const config::SampleSetRequest& request) {
            request.froxels.x,
            request.froxels.y,
            request.froxels.z};
+  if (request.ground) out.push_back(request.ground->is_lowest ? Json("lowest") : Json(request.ground->height_m));
   return out;
 }
 
@@ -66,6 +70,30 @@ scene::Scene loaded(const config::SceneRequest& request) {
   if (!request.named_by.empty() && !std::filesystem::exists(request.path, unknown) && !unknown)
     throw Error(request.named_by, request.named_at, "names '" + request.path.string() + "', and there is no such file");
   return scene::load_gltf(request.path);
+}
+
+double lowest_height(const SceneData& data) {
+  constexpr double k_eye_height_m = 1.7;
+  double lowest_m = std::numeric_limits<double>::infinity();
+  for (const scene::CameraPath& path : data.paths)
+    for (const scene::Shot& shot : path.shots) {
+      lowest_m = std::min(lowest_m, shot.pose.eye.y - k_eye_height_m);
+      for (const scene::WorldLight& light : scene::world_lights(data.scene, shot.time_s))
+        lowest_m = std::min(lowest_m, light.position.y);
+    }
+  return lowest_m;
+}
+
+// Finds the floor that a set of samples asks for, and says where it is.
+void lay_ground(const config::Config& config, SceneData& data) {
+  for (const config::SampleSetRequest& request : config.sample_sets) {
+    if (!request.ground || data.has_triangles()) continue;
+    if (request.ground->is_lowest) data.lowest_m = lowest_height(data);
+    char height[32];
+    std::snprintf(height, sizeof height, "%.4g", *ground_height(request, data));
+    data.scene.warnings.push_back("no triangles: its opaque samples lie on a floor at y = " + std::string(height) +
+                                  " m (samples.opaque.ground), and none above the horizon");
+  }
 }
 
 std::vector<SceneData> load_scenes(const config::Config& config) {
@@ -92,6 +120,7 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
       const std::vector<std::string>& doubts = data.geometry->warnings;
       data.scene.warnings.insert(data.scene.warnings.end(), doubts.begin(), doubts.end());
     }
+    lay_ground(config, data);
     scenes.push_back(std::move(data));
   }
   for (SceneData& data : scenes)  // where they stay from now on
@@ -122,6 +151,8 @@ Json identity(const config::SceneRequest& request, const SceneData& data) {
            {"frames", {static_cast<int>(request.camera.choice), request.camera.count, request.camera.rate_hz}},
            {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
   if (request.camera.fit != scene::CameraFit::contain) out["camera_fit"] = "vertical";
+  if (request.camera.field_of_view)
+    out["fov"] = {request.camera.field_of_view->angle_rad, request.camera.field_of_view->is_horizontal};
   if (request.boxes) out["boxes"] = true;
   for (const Vec2d& offset : request.camera.jitter_px) out["jitter"].push_back({offset.x, offset.y});
   return out;
@@ -425,7 +456,22 @@ class Expansion {
     if (!descriptor.answers(assign::Answer::structure) || !is_wanted(family, std::nullopt)) return;
     case_plan.storage.reset();
     case_plan.name = name + "/" + k_own_structure + part;
-    add_case(plan, group, case_plan);
+    if (const std::string earlier = same_without_grid(descriptor, case_plan); !earlier.empty())
+      skip(plan, family, case_plan.name,
+           descriptor.name + "'s own structure has nothing of the grid: measured once, as " + earlier);
+    else
+      add_case(plan, group, case_plan);
+  }
+
+  // The case on an earlier grid that this one would repeat, "" if there is none: a structure that has nothing of its
+  // grid is measured once in a view.
+  std::string same_without_grid(const assign::AssignerDescriptor& descriptor, const CasePlan& case_plan) {
+    if (!descriptor.own_without_grid || !filter_.is_in(case_plan.name)) return "";
+    const Json key{case_plan.scene,    case_plan.camera,    case_plan.viewport, case_plan.assigner,
+                   case_plan.pre_cull, case_plan.precision, case_plan.preset};
+    return without_grid_.try_emplace(key.dump(), case_plan.name).first->second == case_plan.name
+               ? ""
+               : without_grid_.at(key.dump());
   }
 
   bool is_wanted(const Family& family, std::optional<std::size_t> storage) const {
@@ -467,6 +513,7 @@ class Expansion {
   const config::Config& config_;
   Pattern filter_;
   std::set<std::string> names_, ids_;
+  std::map<std::string, std::string> without_grid_;  // what its structure depends on -> the case's name
   std::size_t all_cases_ = 0;
   std::string example_;
 };
@@ -478,12 +525,18 @@ std::string SceneData::contents_sha256() const {
 }
 
 std::string set_obstacle(const config::SampleSetRequest& request, const SceneData& data) {
-  if (request.needs_triangles() && (!data.geometry || data.geometry->empty())) return "the scene has no triangles";
+  if (request.needs_triangles() && !data.has_triangles() && !ground_height(request, data))
+    return "the scene has no triangles";
   const bool has_bounds = std::ranges::any_of(data.scene.lights, [](const scene::Light& light) {
     return light.type != scene::LightType::directional && std::isfinite(geom::range_in_domain(light.range_m));
   });
   if (!request.needs_bounds() || has_bounds) return "";
   return data.scene.lights.empty() ? "the scene has no lights" : "no light of the scene has an end";
+}
+
+std::optional<double> ground_height(const config::SampleSetRequest& request, const SceneData& data) {
+  if (!request.ground || data.has_triangles()) return {};
+  return request.ground->is_lowest ? data.lowest_m : request.ground->height_m;
 }
 
 std::string shadow_obstacle(const SceneData& data) {

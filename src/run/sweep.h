@@ -69,6 +69,10 @@ struct SceneData {
   // moved, never copied.
   std::shared_ptr<FrameDepths> depths = {};
   std::shared_ptr<SceneVisibleSets> visible_sets = {};  // likewise
+  // The lowest of the lights, and of what is 1.7 m below an eye, over the paths' frames; where a ground asks for it.
+  std::optional<double> lowest_m = {};
+
+  bool has_triangles() const { return geometry && !geometry->empty(); }
 
   // Of all that was read of its file.
   std::string contents_sha256() const;
@@ -76,6 +80,9 @@ struct SceneData {
 
 // Why a scene cannot have a set of samples; "" if it can.
 std::string set_obstacle(const config::SampleSetRequest& request, const SceneData& data);
+
+// The height of the floor on which a scene's opaque samples lie; none where it has triangles or no floor is asked for.
+std::optional<double> ground_height(const config::SampleSetRequest& request, const SceneData& data);
 
 // Why a scene's lights cast no shadows; "" if they do.
 std::string shadow_obstacle(const SceneData& data);

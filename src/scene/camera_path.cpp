@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <regex>
 #include <set>
 
 #include "core/error.h"
@@ -86,12 +87,25 @@ CameraMoments moments_of(const std::set<double>& keys, const PathRequest& reques
   return moments;
 }
 
+// A horizontal angle is that of a rectangle which is wider than any picture, and which each picture holds whole.
+void set_field_of_view(CameraProjection& projection, const PathRequest& request) {
+  if (!request.field_of_view || projection.orthographic || projection.sides) return;
+  const FieldOfView& view = *request.field_of_view;
+  projection.yfov_rad = view.angle_rad;
+  projection.aspect_ratio.reset();
+  if (!view.is_horizontal) return;
+  projection.yfov_rad = 2.0 * std::atan(std::tan(view.angle_rad / 2.0) / k_widest_picture);
+  projection.aspect_ratio = k_widest_picture;
+  projection.fit = CameraFit::contain;
+}
+
 CameraPath path_of(const Scene& scene, const Camera& camera, const PathRequest& request) {
   const CameraMoments moments = camera_moments(scene, camera, request);
   CameraPath path{camera.name, false, moments.how, {}};
   for (const double time : moments.times_s) {
     path.shots.push_back({time, camera_pose(scene, camera, time), projection_at(scene, camera, time)});
     path.shots.back().projection.fit = request.fit;
+    set_field_of_view(path.shots.back().projection, request);
   }
   return path;
 }
@@ -130,6 +144,7 @@ CameraPath path_around_lights(const Scene& scene, const PathRequest& request) {
   CameraProjection projection;
   projection.yfov_rad = k_half_turn / 3.0;
   projection.far_m = std::numeric_limits<double>::infinity();
+  set_field_of_view(projection, request);
   CameraPath path{"around-lights",
                   true,
                   "no camera in the file: a walk of " + std::to_string(count) + " frames around the lights",
@@ -197,6 +212,15 @@ std::vector<std::string> cameras_left_out(const Scene& scene, const PathRequest&
   for (auto camera = scene.cameras.begin(); camera != scene.cameras.end(); ++camera)
     if (camera != first) names.push_back(camera->name + (camera->animated ? "" : " (static)"));
   return names;
+}
+
+std::optional<FieldOfView> field_of_view(const std::string& text) {
+  static const std::regex form("([0-9]{1,3}(?:\\.[0-9]{1,9})?)([hv])");
+  std::smatch found;
+  if (!std::regex_match(text, found, form)) return std::nullopt;
+  const double degrees = std::stod(found[1]);
+  if (!(degrees > 0.0 && degrees < 180.0)) return std::nullopt;
+  return FieldOfView{degrees * 3.14159265358979323846 / 180.0, found[2] == "h"};
 }
 
 std::vector<Vec2d> halton_jitter(int count) {

@@ -1,6 +1,7 @@
 #pragma once
 // Which moments of which camera become frames.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,16 @@ namespace clusterbench::scene {
 
 enum class FrameChoice : std::uint8_t { count, rate, keys };
 
+// In place of the file's, for perspective cameras whose picture is not off-centre.
+struct FieldOfView {
+  double angle_rad = 0.0;
+  bool is_horizontal = false;  // across the picture, whatever its height; else up and down
+};
+// "90h" or "60v": degrees across, or up and down. Nothing for anything else, and for what is not above 0 and below 180.
+std::optional<FieldOfView> field_of_view(const std::string& text);
+// Of pictures up to so many times as wide as high a horizontal field of view is met exactly.
+inline constexpr double k_widest_picture = 64.0 / 9.0;
+
 struct PathRequest {
   // Name; "*" = every camera; "" = default: first animated, else each static one, else a path that the tool makes.
   std::string camera;
@@ -17,6 +28,7 @@ struct PathRequest {
   int count = 60;  // N equal steps from the first to the last key
   double rate_hz = 30.0;
   CameraFit fit = CameraFit::contain;
+  std::optional<FieldOfView> field_of_view{};
   std::vector<Vec2d> jitter_px{};  // a Shot's, frame by frame and then from the first again; empty: none
 };
 

@@ -119,20 +119,32 @@ HalfExtents rectangle_of(const CameraProjection& projection) {
   return {projection.aspect_ratio.value_or(0.0) * height, height};
 }
 
+double degrees_between(double low_slope, double high_slope) {
+  return (std::atan(high_slope) - std::atan(low_slope)) * 180.0 / 3.14159265358979323846;
+}
+
+// Of half an extent, as a slope.
+std::string degrees_text(double half_extent) {
+  return four_digits(degrees_between(-half_extent, half_extent));
+}
+
 std::string projection_text(const CameraProjection& projection) {
   const std::string reach = four_digits(projection.near_m) + " m to " +
                             (std::isinf(projection.far_m) ? "infinity" : four_digits(projection.far_m) + " m");
   if (projection.sides)
     return "perspective, off-centre: slopes " + four_digits(projection.sides->left) + " to " +
            four_digits(projection.sides->right) + " across, " + four_digits(projection.sides->bottom) + " to " +
-           four_digits(projection.sides->top) + " up, " + reach;
+           four_digits(projection.sides->top) + " up, " +
+           four_digits(degrees_between(projection.sides->bottom, projection.sides->top)) + " degrees high and " +
+           four_digits(degrees_between(projection.sides->left, projection.sides->right)) + " wide, " + reach;
   const HalfExtents half = rectangle_of(projection);
   const bool is_wide = half.width > 1.01 * k_usual_aspect * half.height;
   const std::string shape = is_wide ? four_digits(half.width / half.height) + " times as wide, " : "";
   if (projection.orthographic)
     return "orthographic, " + four_digits(2.0 * projection.ymag_m) + " m high, " + shape + reach;
-  return "perspective, " + four_digits(projection.yfov_rad * 180.0 / 3.14159265358979323846) + " degrees high, " +
-         shape + reach;
+  const double width = half.width > 0.0 ? half.width : k_usual_aspect * half.height;
+  return "perspective, " + degrees_text(half.height) + " degrees high and " + degrees_text(width) + " wide" +
+         (half.width > 0.0 ? "" : " in 16:9") + ", " + shape + reach;
 }
 
 // The sides of a projection's view, wider than for any picture in use (32:9) and as high as in one of 16:9 that holds

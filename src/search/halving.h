@@ -26,6 +26,10 @@ struct HalvingRequest {
   std::size_t growth = 4;        // so many times as many frames in the next rung
   std::size_t keep_one_in = 24;  // of a rung's candidates
   std::size_t least = 6;         // candidates that are always kept, if so many are not out
+  // Candidates that compete among themselves only, beside the others: true at their numbers; empty: none. So many of
+  // them are kept from the first rung on.
+  std::vector<bool> apart{};
+  std::size_t apart_kept = 3;
 };
 
 // Candidates that were scored on the same frames.

@@ -48,7 +48,19 @@ config::Config quickly_timed(config::Config config) {
 }
 
 HalvingRequest halving_of(const View& view, const Request& request) {
-  return {view.candidates.size(), view.frames, 1, request.growth, request.keep_one_in, request.least};
+  HalvingRequest halving{view.candidates.size(), view.frames, 1, request.growth, request.keep_one_in, request.least};
+  for (const Candidate& candidate : view.candidates) halving.apart.push_back(candidate.is_apart);
+  return halving;
+}
+
+// Where all of a view's candidates are of one sort there is nothing to be apart from.
+void set_apart(const config::Config& config, View& view) {
+  const auto is_searched = [&](const Candidate& candidate) {
+    const run::CasePlan& plan = *candidate.cases.front();
+    return !plan.storage && assign::find_assigner(config.assigners[plan.assigner].name)->own_is_searched();
+  };
+  if (std::ranges::all_of(view.candidates, is_searched)) return;
+  for (Candidate& candidate : view.candidates) candidate.is_apart = is_searched(candidate);
 }
 
 class ViewSearch {
@@ -194,13 +206,20 @@ class ViewSearch {
         found_.records[some[i]] = {frames, request_.judge(cases[i]), k_unknown};
       done += some.size();
     }
+    for (const bool is_apart : {false, true}) compare_with_best(candidates, is_apart);
+  }
+
+  void compare_with_best(std::span<const std::size_t> candidates, bool is_apart) {
     double best = k_infinite;
     for (const std::size_t candidate : candidates)
-      if (const Verdict& verdict = found_.records[candidate].verdict; verdict.broken.empty())
+      if (const Verdict& verdict = found_.records[candidate].verdict;
+          verdict.broken.empty() && view_.candidates[candidate].is_apart == is_apart)
         best = std::fmin(best, verdict.objective);
+    if (best == k_infinite) return;
     for (const std::size_t candidate : candidates) {
+      if (view_.candidates[candidate].is_apart != is_apart) continue;
       Record& record = found_.records[candidate];
-      if (best < k_infinite) record.by_best = record.verdict.objective == best ? 1.0 : record.verdict.objective / best;
+      record.by_best = record.verdict.objective == best ? 1.0 : record.verdict.objective / best;
     }
   }
 
@@ -215,8 +234,11 @@ class ViewSearch {
                      {verdict.broken.empty() ? k_first : k_broken, objective, verdict.bytes,
                       static_cast<double>(view_.candidates[index].cells)}});
     }
-    put_back_equals(all, [&](std::size_t i) { return static_cast<double>(view_.candidates[candidates[i]].grid); });
-    put_back_equals(all, [&](std::size_t i) { return -1.0 - all[i].rank[2]; });
+    const auto is_apart = [&](std::size_t i) { return view_.candidates[candidates[i]].is_apart; };
+    put_back_equals(all, [&](std::size_t i) {
+      return std::pair(is_apart(i), static_cast<double>(view_.candidates[candidates[i]].grid));
+    });
+    put_back_equals(all, [&](std::size_t i) { return std::pair(is_apart(i), -1.0 - all[i].rank[2]); });
     return all;
   }
 
@@ -224,7 +246,7 @@ class ViewSearch {
   // of one grid that are kept in other ways, or a structure that has nothing of its grids but their names.
   template <class KeyOf>
   static void put_back_equals(std::vector<Standing>& all, const KeyOf& key_of_standing) {
-    std::map<std::pair<double, double>, std::size_t> first;
+    std::map<std::pair<std::pair<bool, double>, double>, std::size_t> first;
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (all[i].rank[0] != k_first) continue;
       const auto [equal, is_new] = first.try_emplace({key_of_standing(i), all[i].rank[1]}, i);
@@ -242,8 +264,8 @@ class ViewSearch {
     std::map<std::pair<std::uint64_t, std::size_t>, std::size_t> best;  // by cells and grid
     for (std::size_t i = 0; i < view_.candidates.size(); ++i) {
       const Record& record = found_.records[i];
-      if (!record.verdict.broken.empty() || !(record.by_best <= 1.0 + request_.within)) continue;
       const Candidate& candidate = view_.candidates[i];
+      if (!record.verdict.broken.empty() || !(record.by_best <= 1.0 + request_.within) || candidate.is_apart) continue;
       const auto [place, is_new] = best.try_emplace({candidate.cells, candidate.grid}, i);
       if (!is_new && rank_of(record) < rank_of(found_.records[place->second])) place->second = i;
     }
@@ -308,7 +330,8 @@ class ViewSearch {
   double best_objective() const {
     double best = k_infinite;
     for (const Finalist& finalist : found_.finalists)
-      if (const Verdict& verdict = found_.records[finalist.candidate].verdict; verdict.broken.empty())
+      if (const Verdict& verdict = found_.records[finalist.candidate].verdict;
+          verdict.broken.empty() && !view_.candidates[finalist.candidate].is_apart)
         best = std::fmin(best, verdict.objective);
     return best;
   }
@@ -320,7 +343,7 @@ class ViewSearch {
     const double best = best_objective();
     const auto may_win = [&](std::size_t candidate) {
       const Verdict& verdict = found_.records[candidate].verdict;
-      return !verdict.is_final && verdict.objective < best;
+      return !verdict.is_final && verdict.objective < best && !view_.candidates[candidate].is_apart;
     };
     for (std::size_t i = 0; i < view_.candidates.size(); ++i)
       if (found_.records[i].frames < view_.frames && may_win(i)) challengers.push_back(i);
@@ -383,7 +406,7 @@ class ViewSearch {
 
 }  // namespace
 
-std::vector<View> views_of(const run::Plan& plan) {
+std::vector<View> views_of(const config::Config& config, const run::Plan& plan) {
   std::map<std::pair<std::size_t, std::size_t>, View> views;
   std::map<std::pair<std::size_t, std::size_t>, std::map<Key, Candidate>> candidates;
   for (const run::GroupPlan& group : plan.groups) {
@@ -408,6 +431,7 @@ std::vector<View> views_of(const run::Plan& plan) {
       else
         ++view.incomplete;
     }
+    set_apart(config, view);
     out.push_back(std::move(view));
   }
   return out;

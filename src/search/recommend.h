@@ -22,6 +22,9 @@ struct Candidate {
   std::size_t grid = 0;
   std::uint64_t cells = 0;                  // of the grid, once it was looked at
   std::vector<const run::CasePlan*> cases;  // in the order of the cameras
+  // Samples search its structure, which is priced by a model only: it competes with its like, and is never the choice
+  // while there are others.
+  bool is_apart = false;
 };
 
 // One question: a scene in a viewport, with all its cameras.
@@ -33,7 +36,7 @@ struct View {
   std::size_t incomplete = 0;  // left out, since not every camera can have their grid
 };
 // Refers to the plan.
-std::vector<View> views_of(const run::Plan& plan);
+std::vector<View> views_of(const config::Config& config, const run::Plan& plan);
 
 // What a candidate's cases say, one for each camera with a frame among those that were measured.
 struct Verdict {
@@ -57,7 +60,9 @@ struct Request {
 struct Record {
   std::size_t frames = 0;
   Verdict verdict;
-  double by_best = 0.0;  // objective / that of the best that breaks nothing on the same frames; NaN: there is none
+  // Objective / that of the best on the same frames that breaks nothing and is apart as this one is, or is not; NaN:
+  // there is none.
+  double by_best = 0.0;
 };
 
 // Work, beside that of measuring every candidate on every frame.

@@ -21,7 +21,9 @@ OrderedJson method_json(const config::MethodRequest& method) {
 OrderedJson replay_config(const config::Config& config, const run::CasePlan& case_plan, const std::string& scene) {
   const Vec2i viewport = config.viewports[case_plan.viewport];
   const config::PrecisionRequest& precision = config.precisions[case_plan.precision];
-  const bool fits_height = config.scenes[case_plan.scene].camera.fit == scene::CameraFit::vertical;
+  const scene::PathRequest& camera = config.scenes[case_plan.scene].camera;
+  const bool fits_height = camera.fit == scene::CameraFit::vertical &&
+                           !(camera.field_of_view && camera.field_of_view->is_horizontal);  // which fits the width
   OrderedJson out = config.resolved;
   out["name"] = "worst-case";
   out["scenes"] = OrderedJson::array(

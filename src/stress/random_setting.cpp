@@ -153,13 +153,15 @@ void random_slices(grid::Slicing& slices, Draw& draw, const Extent& extent, cons
   const Scheme schemes[] = {Scheme::linear, Scheme::exponential, Scheme::exponential_first, Scheme::power, Scheme::list,
                             Scheme::list,   Scheme::fit};
   slices.scheme = draw.one_of(schemes);
-  if (projection.near_m == 0.0 && !draw.percent(10) && slices.scheme != Scheme::list) slices.scheme = Scheme::linear;
+  if (projection.near_m == 0.0 && !draw.percent(60) && slices.scheme != Scheme::list) slices.scheme = Scheme::linear;
   slices.count = draw.percent(85) ? draw.whole(2, 16) : draw.whole(1, 60);
   slices.far_m = extent.far_m;
   if (slices.scheme == Scheme::list) slices.boundaries_m = random_boundaries(draw, extent);
   if (draw.percent(30)) slices.near_m = projection.near_m * draw.log_between(0.5, 4.0);
   const double near = slices.near_m != 0.0 ? slices.near_m : projection.near_m;
-  slices.first_m = draw.percent(50) ? std::sqrt(near * extent.far_m) : draw.between(near, extent.far_m);
+  constexpr double k_least_share = 1e-3;  // of far: orthographic views begin at 0
+  slices.first_m = draw.percent(50) ? std::sqrt(std::max(near, k_least_share * extent.far_m) * extent.far_m)
+                                    : draw.between(near, extent.far_m);
   slices.lambda = draw.percent(20) ? 0.0 : draw.between(0.0, 1.0);
 }
 

@@ -78,8 +78,11 @@ inline std::vector<Plan> plans_for(const AssignerDescriptor& row, grid::Kind kin
   std::vector<Plan> plans{
       {"usual view", screen_spec(kind, {16, 9}, Scheme::exponential, 24, 0.1), usual, far_and_turned()},
       {"off-centre view", screen_spec(kind, {7, 11}, Scheme::exponential_first, 12, 0.1), off_centre, {}}};
-  if (row.orthographic && kind == grid::Kind::frustum)
+  if (row.orthographic && kind == grid::Kind::frustum) {
     plans.push_back({"orthographic view", screen_spec(kind, {16, 9}, Scheme::linear, 20, 0.0), boxy, far_and_turned()});
+    plans.push_back({"orthographic view, exponential from 0", screen_spec(kind, {16, 9}, Scheme::exponential, 12, 0.0),
+                     boxy, far_and_turned()});
+  }
   return plans;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/tool.h"
 
@@ -72,6 +73,49 @@ TEST(Recommend, names_what_a_configuration_asks_for_in_vain) {
                 .find("recommend compares costs and leaves out details, shadow_cull; run reports them"),
             std::string::npos);
   EXPECT_EQ(notes("").find("leaves out"), std::string::npos);
+}
+
+TEST(Recommend, ranks_what_samples_search_apart_and_never_takes_it_while_there_are_lists) {
+  std::string config = space();
+  config.replace(config.find(R"("aabb-fast", "exact-fast")"), 25, R"("aabb-fast", "bvh", "z-binning")");
+  for (const std::string by : {"bytes", "gpu_cost_us"}) {
+    const Recommended found = recommended(config, "--no-timing --by " + by);
+    ASSERT_EQ(found.outcome.code, 0) << found.outcome.err;
+    EXPECT_FALSE(found.answer["choice"]["storage"].is_null()) << by;
+    for (const Json& runner_up : found.answer["runners_up"]) EXPECT_FALSE(runner_up["storage"].is_null()) << by;
+    ASSERT_FALSE(found.answer["searched"].empty()) << by;
+    std::set<std::string> names;
+    for (const Json& record : found.answer["searched"]) {
+      EXPECT_TRUE(record["storage"].is_null());
+      EXPECT_GT(record["figures"]["read_bytes"], found.answer["choice"]["figures"]["read_bytes"]);
+      names.insert(record["assigner"]["name"]);
+    }
+    const std::string& text = found.outcome.out;
+    EXPECT_NE(text.find("structures that samples search, priced by the model"), std::string::npos) << text;
+    const std::string last = text.substr(text.rfind("conclusion: "));
+    EXPECT_EQ(last.find('\n'), last.size() - 1) << last;
+    EXPECT_NE(last.find("take " + found.answer["choice"]["name"].get<std::string>()), std::string::npos) << last;
+  }
+}
+
+TEST(Recommend, says_that_depths_are_random_and_what_to_do_and_a_ground_changes_that) {
+  const std::string config = space(R"(, "samples": {"opaque": {}})");
+  const std::string flags = "--no-timing --tiles 64 --slices 4,8 --assigner exact-fast";
+  const Folder folder;
+  const std::string input = folder.write("space.json", config).string();
+  const Outcome random = tool("recommend " + input + " " + flags);
+  EXPECT_EQ(random.code, 0) << random.err;
+  EXPECT_NE(random.err.find("has no triangles: each pixel is shaded at a random depth"), std::string::npos)
+      << random.err;
+  EXPECT_NE(random.out.find("Samples are at random depths"), std::string::npos) << random.out;
+  const Outcome ground = tool("recommend " + input + " " + flags + " --set samples.opaque.ground=lowest");
+  EXPECT_EQ(ground.code, 0) << ground.err;
+  EXPECT_EQ(ground.err.find("random depth"), std::string::npos) << ground.err;
+  EXPECT_EQ(ground.out.find("random depths"), std::string::npos) << ground.out;
+  const Recommended on_ground = recommended(config, flags + " --set samples.opaque.ground=0.5");
+  EXPECT_EQ(on_ground.answer["random_depths"], false);
+  EXPECT_TRUE(on_ground.answer["choice"]["overshade"].is_number());
+  EXPECT_EQ(recommended(config, flags).answer["random_depths"], true);
 }
 
 TEST(Recommend, finds_what_a_sweep_over_all_candidates_and_frames_finds) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/tool.h"
 #include "places.h"
@@ -190,6 +191,79 @@ TEST(Run, flags_change_what_is_measured_and_stand_in_the_result_and_in_the_journ
   EXPECT_EQ(result["cases"].size(), 8u);
   std::string dry = tool("run --dry-run -o x " + config + flags.substr(0, flags.find(" --no-timing"))).out;
   EXPECT_NE(dry.find("frustum 128px x 4 exponential-first ..5..200/exact-fast/packed"), std::string::npos) << dry;
+}
+
+// three.js writes orthographic cameras whose near plane is at 0.
+TEST(Run, an_orthographic_camera_from_0_has_every_frustum_grid_and_loses_nothing) {
+  const Folder folder;
+  const std::string scene =
+      folder
+          .write("ortho.gltf", R"({"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_lights_punctual"],
+      "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "range": 5},
+        {"type": "spot", "range": 9, "spot": {"outerConeAngle": 0.5}}]}},
+      "cameras": [{"type": "orthographic", "orthographic": {"xmag": 16, "ymag": 9, "znear": 0, "zfar": 60}}],
+      "nodes": [{"name": "eye", "camera": 0},
+        {"translation": [0, 0, -2], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+        {"translation": [6, 3, -30], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+        {"translation": [-4, 0, 3], "extensions": {"KHR_lights_punctual": {"light": 1}}}],
+      "scenes": [{"nodes": [0, 1, 2, 3]}], "scene": 0})")
+          .string();
+  const std::string output = (folder / "result.json").string();
+  const Outcome done = tool("run " + scene + " --grid frustum --no-timing -o " + output +
+                            " --set 'grids.*.slices.scheme=linear,exponential,exponential-first,power,fit'");
+  EXPECT_EQ(done.code, 0) << done.err;
+  const Json result = Json::parse(file_text(output));
+  std::set<std::string> schemes;
+  for (const Json& one : result["cases"]) {
+    EXPECT_EQ(one["error"]["false_negatives"], 0) << one["name"];
+    schemes.insert(one["grid"]["name"]);
+  }
+  EXPECT_GE(schemes.size(), 5u);
+  for (const Json& skipped : result["skipped"])
+    EXPECT_EQ(skipped["reason"].get<std::string>().find("slices.near"), std::string::npos) << skipped;
+}
+
+TEST(Run, the_last_line_is_a_conclusion_in_the_words_of_the_result_and_of_the_page) {
+  const Folder folder;
+  const std::string output = (folder / "result.json").string(), page = (folder / "page.html").string();
+  const Outcome done = tool("run " + source_file("scenes/street.glb") +
+                            " --no-timing --grid frustum --tiles 64 --slices 4 --assigner aabb-fast,exact-fast,bvh"
+                            " --set 'scenes.*.frames=2' --fail-if 'longest > 1' -o " +
+                            output);
+  EXPECT_EQ(done.code, 1) << "a budget is exceeded, which is said before";
+  const std::size_t begin = done.err.rfind("conclusion: ");
+  ASSERT_NE(begin, std::string::npos) << done.err;
+  const std::string last = done.err.substr(begin);
+  EXPECT_EQ(last.find('\n'), last.size() - 1) << last;
+  const Json result = Json::parse(file_text(output));
+  ASSERT_EQ(result["conclusions"].size(), 1u);
+  const auto text = result["conclusions"][0]["text"].get<std::string>();
+  EXPECT_EQ(last, "conclusion: " + text + "\n");
+  EXPECT_NE(text.find("take frustum"), std::string::npos) << text;
+  const Json front = result["pareto_front"][0]["ids"];
+  EXPECT_NE(std::find(front.begin(), front.end(), result["conclusions"][0]["take"]), front.end());
+  EXPECT_EQ(tool("report " + output + " -o " + page).code, 0);
+  EXPECT_NE(file_text(page).find(text), std::string::npos);
+}
+
+TEST(Run, a_field_of_view_is_a_flag) {
+  const Folder folder;
+  const std::string output = (folder / "result.json").string();
+  const auto entries = [&](const std::string& flags) {
+    const Outcome done = tool("run " + source_file("scenes/street.glb") +
+                              " -q --no-timing --grid frustum --tiles 64 --slices 4 --assigner aabb-fast"
+                              " --set 'scenes.*.frames=2' -o " +
+                              output + " " + flags);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return Json::parse(file_text(output))["cases"][0]["buffers"]["index_entries"]["high_water"].get<int>();
+  };
+  EXPECT_EQ(entries("--fov 60v"), entries("")) << "as the file has it";
+  EXPECT_NE(entries("--fov 90h"), entries(""));
+  EXPECT_NE(tool("run " + source_file("scenes/street.glb") + " --fov 90").err.find("takes degrees above 0"),
+            std::string::npos);
+  EXPECT_EQ(tool("run " + source_file("scenes/street.glb") + " --fov 90h --viewport 9000x100").code, 2);
+  const Outcome info = tool("scene info " + source_file("scenes/street.glb"));
+  EXPECT_NE(info.out.find("60 degrees high and 91.49 wide in 16:9"), std::string::npos) << info.out;
 }
 
 TEST(Run, a_dry_run_lists_cases_and_measures_nothing) {

@@ -177,6 +177,45 @@ std::string refused_key(Call&& call) {
   return "not refused";
 }
 
+// three.js writes orthographic cameras with znear 0.
+TEST(Slicing, an_orthographic_view_from_0_has_slices_of_every_scheme) {
+  const SliceRange from_0{0.0, 80.0, -5.0, 60.0};
+  const auto boundaries = [&](Scheme scheme, int count, double near_m = 0.0) {
+    Slicing asked = slicing(scheme, count, near_m, 80.0);
+    return make_slices(asked, from_0, true).boundaries;
+  };
+  EXPECT_EQ(boundaries(Scheme::linear, 4), (std::vector<float>{0.0f, 20.0f, 40.0f, 60.0f, 80.0f}));
+  EXPECT_EQ(boundaries(Scheme::power, 4), boundaries(Scheme::linear, 4));
+  // A first slice up to far / count, then exponential ones.
+  EXPECT_EQ(boundaries(Scheme::exponential, 4)[0], 0.0f);
+  EXPECT_EQ(boundaries(Scheme::exponential, 4)[1], 20.0f);
+  EXPECT_NEAR(boundaries(Scheme::exponential, 4)[2], 20.0 * std::pow(4.0, 1.0 / 3.0), 1e-5);
+  EXPECT_EQ(boundaries(Scheme::exponential, 1), (std::vector<float>{0.0f, 80.0f}));
+  EXPECT_EQ(boundaries(Scheme::exponential_first, 2), (std::vector<float>{0.0f, 5.0f, 80.0f}));
+  EXPECT_EQ(boundaries(Scheme::exponential, 4, -8.0)[0], -8.0f);
+  EXPECT_EQ(boundaries(Scheme::exponential, 4, -8.0)[1], 20.0f);
+  EXPECT_EQ(boundaries(Scheme::fit, 3).size(), 4u);
+  for (const Scheme scheme :
+       {Scheme::linear, Scheme::power, Scheme::exponential, Scheme::exponential_first, Scheme::fit}) {
+    for (const int count : {2, 3, 16}) {
+      const Slices slices = make_slices(slicing(scheme, count, 0.0, 80.0), from_0, true);
+      EXPECT_EQ(slices.slice_of(-1.0f), 0);
+      EXPECT_EQ(slices.slice_of(0.0f), 0);
+      for (int k = 0; k < slices.count(); ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        EXPECT_EQ(slices.slice_of(0.5f * (slices.boundaries[at] + slices.boundaries[at + 1])), k);
+      }
+    }
+  }
+  Slicing following = slicing(Scheme::exponential, 4, 0.0, 80.0);
+  following.fit = Fit{};
+  SliceRange near_needed = from_0;
+  near_needed.needed = {0.0, 3.0};
+  const Slices follows = make_slices(following, near_needed, true);
+  EXPECT_EQ(follows.boundaries.front(), 0.0f);
+  EXPECT_NEAR(follows.boundaries.back(), 3.0f, 1e-4);
+}
+
 TEST(Slicing, what_cannot_be_is_refused_by_its_key) {
   const SliceRange endless{0.1, k_infinity, 0.0, k_infinity};
   const auto key = [](const Slicing& asked, const SliceRange& range, bool orthographic) {
@@ -185,8 +224,8 @@ TEST(Slicing, what_cannot_be_is_refused_by_its_key) {
   EXPECT_EQ(key(slicing(Scheme::exponential, 0, 0.1, 10.0), endless, false), "slices.count");
   EXPECT_EQ(key(slicing(Scheme::exponential, 8, 10.0, 10.0), endless, false), "slices.near");
   EXPECT_EQ(key(slicing(Scheme::exponential, 8, 0.1, 0.0), endless, false), "slices.far");
-  EXPECT_EQ(key(slicing(Scheme::exponential, 8, -1.0, 10.0), endless, true), "slices.near");
-  EXPECT_EQ(key(slicing(Scheme::exponential, 8, 0.0, 10.0), {0.0, 10.0, 0.0, 0.0}, true), "slices.near");
+  EXPECT_EQ(key(slicing(Scheme::exponential, 8, -1.0, 10.0), endless, false), "slices.near");
+  EXPECT_EQ(key(slicing(Scheme::exponential, 8, 0.0, 10.0), {0.0, 10.0, 0.0, 0.0}, false), "slices.near");
   EXPECT_EQ(key(slicing(Scheme::linear, 8, -1.0, 10.0), endless, false), "slices.near");
   EXPECT_EQ(key(slicing(Scheme::linear, 8, -1.0, 10.0), endless, true), "not refused");
   EXPECT_EQ(key(slicing(Scheme::exponential, 1 << 20, 1.0, 1.0001), endless, false), "slices");

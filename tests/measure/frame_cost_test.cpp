@@ -17,6 +17,18 @@ TEST(FrameCost, is_assignment_upload_traffic_and_each_light_that_a_sample_loops_
   EXPECT_DOUBLE_EQ(cost.frame_ns().value(), 5000.0 + 4712.0);
 }
 
+TEST(FrameCost, charges_what_samples_read_by_elements_and_by_bytes) {
+  CostModel model{.ns_per_light = 0.02, .ns_per_read = 0.005, .read_gb_per_s = 2000.0};
+  const ShadedSamples walk{.samples = 1000.0, .lights = 4.0, .divergence = 2.0, .reads = 60.0, .read_bytes = 1700.0};
+  EXPECT_DOUBLE_EQ(walk.read_ns(model), 1000.0 * 2.0 * (60.0 * 0.005 + 1700.0 / 2000.0));
+  EXPECT_DOUBLE_EQ(walk.ns(model), walk.read_ns(model) + 1000.0 * 2.0 * 4.0 * 0.02);
+  const FrameCost cost = frame_cost(model, {}, 0.0, 0.0, {walk});
+  EXPECT_DOUBLE_EQ(cost.gpu_ns(), walk.ns(model));
+  EXPECT_DOUBLE_EQ(cost.read_ns, walk.read_ns(model));
+  model.read_gb_per_s = model.ns_per_read = 0.0;
+  EXPECT_EQ(walk.read_ns(model), 0.0) << "older results have no price for it";
+}
+
 TEST(FrameCost, without_times_is_what_the_gpu_does) {
   const FrameCost cost = frame_cost({1.0, 1.0, 1.0}, {}, 3.0, 0.0, {});
   EXPECT_FALSE(cost.frame_ns());

@@ -53,6 +53,54 @@ TEST(Samples, a_point_is_the_sample_of_the_pixel_that_shows_it) {
   EXPECT_LT(sample_of(frame_of(), {1, 0, -5}).pixel_x, 0.0f) << "beside the picture";
 }
 
+// Held against the plane's equation along each pixel's ray in the world, which is followed in small steps.
+TEST(Samples, on_a_ground_they_are_where_rays_meet_the_plane_and_none_is_above_the_horizon) {
+  for (const bool orthographic : {false, true}) {
+    view::Frame frame = frame_of(orthographic);
+    const double tilt = 0.35;  // downward
+    frame.view_space.rotation = Mat3d(1, 0, 0, 0, std::cos(tilt), std::sin(tilt), 0, -std::sin(tilt), std::cos(tilt)) *
+                                frame.view_space.rotation;
+    if (orthographic) frame.projection.left = -6.0;
+    for (const double height : {-1.5, 3.2, 4.0, 9.0}) {
+      const depth::DepthImage image = ground_depths(frame, depth::PixelGrid(frame.viewport, 10), height);
+      std::size_t seen = 0;
+      for (std::size_t i = 0; i < image.pixels.count(); ++i) {
+        const Vec2d pixel = image.pixels.pixel(i);
+        const auto height_at = [&](double depth) {
+          const grid::Sample sample = sample_at(frame, pixel.x, pixel.y, depth);
+          return sample.eye.y + sample.from_eye.y - height;
+        };
+        const double near_m = frame.projection.near_m, far_m = frame.projection.far_m;
+        const bool crosses = (height_at(near_m) > 0.0) != (height_at(far_m) > 0.0);
+        EXPECT_EQ(std::isfinite(image.nearest[i]), crosses)
+            << "pixel " << pixel.x << ", " << pixel.y << " at " << height;
+        if (!crosses) continue;
+        ++seen;
+        double before = near_m, behind = far_m;
+        for (int step = 0; step < 80; ++step) {
+          const double middle = 0.5 * (before + behind);
+          ((height_at(middle) > 0.0) == (height_at(near_m) > 0.0) ? before : behind) = middle;
+        }
+        EXPECT_FLOAT_EQ(image.nearest[i], static_cast<float>(before));
+      }
+      EXPECT_EQ(opaque_samples(frame, image).size(), seen);
+      EXPECT_EQ(seen > 0, orthographic ? height < 4.5 : height != 4.0) << height;
+    }
+  }
+}
+
+TEST(Samples, a_plane_through_the_eye_or_along_all_rays_is_not_seen) {
+  const view::Frame level = frame_of();
+  const auto seen = [&](const view::Frame& frame, double height) {
+    return opaque_samples(frame, ground_depths(frame, depth::PixelGrid(frame.viewport, 10), height)).size();
+  };
+  EXPECT_EQ(seen(level, 4.0), 0u);
+  EXPECT_EQ(seen(frame_of(true), 4.25), 0u) << "looks along it";
+  view::Frame endless = level;
+  endless.projection.far_m = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(seen(endless, 0.0), static_cast<std::size_t>(16 * 4)) << "the half below the horizon";
+}
+
 TEST(Samples, visible_ones_lie_on_their_pixels_rays_and_none_is_in_the_sky) {
   const view::Frame frame = frame_of();
   depth::DepthImage image{depth::PixelGrid(frame.viewport, 80), {4.0f, k_sky, 9.0f, 2.0f}};

@@ -91,6 +91,54 @@ TEST(FrameCosts, what_drawn_lights_read_and_write_is_paid_at_the_memorys_bandwid
   EXPECT_NEAR(of(result)["cases"][0]["cost"]["gpu_ns"].get<double>() - before, 1000.0, 1e-3);
 }
 
+// A hierarchy that each sample walks takes next to no time to build and few bytes, and gives few lights.
+TEST(FrameCosts, reading_is_charged_and_what_samples_search_is_on_no_front) {
+  run::Result result = costly("frame_cost");
+  result.config["cost"]["ns_per_read"] = 0.005;
+  result.config["cost"]["read_gb_per_s"] = 2283.0;
+  for (run::CaseResult& one : result.cases) {
+    measure::ShadingCounts& opaque = one.samples[0].counts;
+    opaque.reads = assign::Reads::of(5 * opaque.samples, 2);
+  }
+  run::CaseResult walked = result.cases[0];
+  walked.id = "walked";
+  walked.assigner = walked.assigner_label = "bvh";
+  walked.storage_label = "own";
+  walked.buffers.bytes.high_water = 1;
+  walked.timing->frame_ns = {1.0, 0.0, 1.0, 1.0, {1.0, 1.0}, std::vector<double>(6, 1.0)};
+  measure::ShadingCounts& opaque = walked.samples[0].counts;
+  opaque.reads = assign::Reads::of(54 * opaque.samples, 32);
+  result.cases.push_back(walked);
+  result.planned_ids.emplace_back("walked");
+  const Json json = of(result);
+  const Json& lists = json["cases"][0]["cost"];
+  const Json& walk = json["cases"][2]["cost"];
+  EXPECT_EQ(walk["sets"]["opaque"]["reads"], 54);
+  EXPECT_EQ(walk["sets"]["opaque"]["read_bytes"], 1728);
+  EXPECT_NEAR(walk["read_ns"].get<double>(), 1920.0 * 1080.0 * (54 * 0.005 + 1728.0 / 2283.0), 1e-1);
+  EXPECT_NEAR(walk["gpu_ns"].get<double>(), walk["read_ns"].get<double>() + lists["shade_ns"].get<double>() + 100.0,
+              1e-1);
+  EXPECT_GT(walk["gpu_ns"].get<double>(), 5.0 * lists["gpu_ns"].get<double>());
+  EXPECT_EQ(json["cases"][2]["samples_search"], true);
+  EXPECT_FALSE(json["cases"][0].contains("samples_search"));
+  for (const char* by : {"frame_cost", "frame_time"}) {
+    result.config["rank_by"] = by;
+    const Json ranked = of(result);
+    EXPECT_EQ(ranked["pareto_front"][0]["ids"].dump().find("walked"), std::string::npos) << by;
+    const std::string table = render_table(ranked, false);
+    EXPECT_NE(table.find(" structures that samples search, camera walk, 1920x1080"), std::string::npos) << table;
+    EXPECT_GT(table.find("bvh / own"), table.find(" structures that samples search,")) << table;
+  }
+  EXPECT_EQ(config::schema_violations(config::result_schema(), nlohmann::json::parse(json.dump())),
+            std::vector<std::string>{});
+}
+
+TEST(FrameCosts, say_the_overshade_of_the_samples_that_they_rest_on) {
+  const Json result = of(costly());
+  EXPECT_EQ(result["cases"][1]["cost"]["lights"], 4);
+  EXPECT_NEAR(result["cases"][1]["cost"]["overshade"].get<double>(), 4.0 * 2 * 240 * 135 / 1000, 1e-3);
+}
+
 TEST(FrameCosts, rank_rows_and_decide_the_front_where_the_configuration_says_so) {
   const auto ids = [](const Json& result) { return result["pareto_front"][0]["ids"]; };
   const Json by_time = of(costly()), by_cost = of(costly("frame_cost"));

@@ -136,6 +136,31 @@ TEST(FrameSamples, triangles_are_read_only_where_a_set_asks_for_them) {
   EXPECT_EQ(run.plan.scenes[0].geometry->triangle_count(), 4u);
 }
 
+// Lights at y 0, an eye at y 0: the floor is below the eye. Cells that no triangle decides have the lists they had.
+TEST(FrameSamples, a_ground_stands_for_the_surfaces_of_a_scene_without_triangles_and_is_declared) {
+  for (const auto& [ground, height] : {std::pair(R"("lowest")", -1.7), std::pair("-2", -2.0)}) {
+    const RoomRun run =
+        run_of(room(false), std::string(R"(, "samples": {"opaque": {"divisor": 1, "ground": )") + ground + "}}");
+    const CaseResult& exact = case_named(run, "exact-fast/packed");
+    ASSERT_EQ(exact.samples.size(), 1u);
+    EXPECT_EQ(exact.samples[0].ground_m, height);
+    const measure::ShadingCounts& counts = exact.samples[0].counts;
+    // The picture's lower half, but for what is farther than the far plane, at 100 m: a slope of less than 0.02.
+    EXPECT_EQ(counts.samples, 64u * 23u);
+    EXPECT_GT(counts.needed, 0u);
+    EXPECT_EQ(counts.missed, 0u);
+    EXPECT_TRUE(exact.samples[0].coherence.has_value());
+    const std::vector<std::string>& told = run.plan.scenes[0].scene.warnings;
+    EXPECT_TRUE(std::ranges::any_of(told, [](const std::string& text) {
+      return text.find("its opaque samples lie on a floor at y = -") != std::string::npos;
+    }));
+  }
+  const RoomRun with_walls = run_of(room(), R"(, "samples": {"opaque": {"divisor": 1, "ground": "lowest"}})");
+  const CaseResult& walls = case_named(with_walls, "exact-fast/packed");
+  EXPECT_FALSE(walls.samples[0].ground_m) << "a scene with triangles has surfaces of its own";
+  EXPECT_EQ(walls.samples[0].counts.samples, 64u * 48u);
+}
+
 TEST(FrameSamples, a_scene_without_triangles_skips_the_sets_of_surfaces_with_the_reason) {
   const RoomRun run = run_of(room(false), R"(, "samples": {"opaque": {}, "fog": {"froxels": [2, 2, 2]}})");
   ASSERT_FALSE(run.plan.skipped.empty());

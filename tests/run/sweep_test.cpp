@@ -50,6 +50,26 @@ class Sweep : public ::testing::Test {
 constexpr const char* k_two_grids =
     R"(, "grids": [{"slices": {"count": [8, 16]}}, {"kind": "world"}], "assigners": ["brute-force", "aabb", "world-grid"])";
 
+TEST_F(Sweep, a_structure_that_has_nothing_of_its_grid_is_measured_once) {
+  write_scene("hall.gltf");
+  const std::string grids = R"(, "grids": [{"kind": "frustum", "tiles": {"pixels": [64, 32]}}, {"kind": "world"}],
+      "assigners": ["bvh"])";
+  const auto own = [&](const std::string& filter) {
+    std::vector<std::string> names;
+    for (const CasePlan& one : cases(plan(R"(["hall.gltf"])", grids, filter)))
+      if (!one.storage) names.push_back(one.name);
+    return names;
+  };
+  ASSERT_EQ(own("").size(), 1u);
+  EXPECT_NE(own("")[0].find("64px"), std::string::npos);
+  ASSERT_EQ(own("world").size(), 1u) << "the first that is wanted";
+  const Plan all = plan(R"(["hall.gltf"])", grids);
+  EXPECT_EQ(cases(all).size(), 4u) << "lists on each grid, and itself";
+  const auto skipped = std::ranges::find_if(
+      all.skipped, [](const Skipped& one) { return one.reason.find("measured once, as hall/") != std::string::npos; });
+  EXPECT_NE(skipped, all.skipped.end());
+}
+
 TEST_F(Sweep, every_combination_that_can_be_is_a_case) {
   write_scene("a.gltf");
   const Plan two = plan(R"(["a.gltf"])", std::string(k_two_grids) + R"(, "viewports": [[640, 480], [320, 240]])");

@@ -79,6 +79,16 @@ TEST(CameraPaths, cameras_that_the_default_leaves_out_are_known_by_name) {
   EXPECT_TRUE(cameras_left_out(scene, named).empty()) << "somebody has chosen";
 }
 
+TEST(CameraPaths, a_field_of_view_is_degrees_across_or_up_and_down) {
+  ASSERT_TRUE(field_of_view("90h"));
+  EXPECT_NEAR(field_of_view("90h")->angle_rad, 1.5707963267948966, 1e-15);
+  EXPECT_TRUE(field_of_view("90h")->is_horizontal);
+  ASSERT_TRUE(field_of_view("59.5v"));
+  EXPECT_FALSE(field_of_view("59.5v")->is_horizontal);
+  for (const char* text : {"", "90", "h", "0h", "180v", "-5h", "90 h", "90hv", "1e2h", "90.h"})
+    EXPECT_FALSE(field_of_view(text)) << text;
+}
+
 TEST(CameraPaths, jitter_is_gone_through_frame_by_frame_and_again_from_its_first) {
   PathRequest request;
   request.count = 5;

@@ -92,6 +92,26 @@ TEST(Halving, keeps_a_share_of_the_candidates_of_a_single_frame) {
   EXPECT_EQ(found.finalists.size(), 8u);
 }
 
+TEST(Halving, candidates_that_are_apart_take_no_room_from_the_others) {
+  HalvingRequest request{.candidates = 100, .frames = 64, .keep_one_in = 8, .least = 4, .apart = {}, .apart_kept = 2};
+  Counted counted;
+  const std::vector<std::size_t> together = halve(request, mean_cost(counted)).finalists;
+  // 50 more, which are all better.
+  request.candidates = 150;
+  request.apart.assign(150, false);
+  std::fill(request.apart.begin() + 100, request.apart.end(), true);
+  const Score with_better = [&](std::span<const std::size_t> candidates, std::size_t frames) {
+    std::vector<Standing> standings = mean_cost(counted)(candidates, frames);
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (candidates[i] >= 100) standings[i].rank[0] -= 1000.0;
+    return standings;
+  };
+  const Halving found = halve(request, with_better);
+  ASSERT_EQ(found.finalists.size(), together.size() + 2);
+  EXPECT_TRUE(std::equal(together.begin(), together.end(), found.finalists.begin()));
+  EXPECT_EQ(found.finalists[together.size()], 100u);
+}
+
 TEST(Halving, needs_no_candidates) {
   Counted counted;
   EXPECT_TRUE(halve({.candidates = 0, .frames = 4}, mean_cost(counted)).rungs.empty());

@@ -43,7 +43,7 @@ double least_of_all(const Walk& walk, const Judge& judge) {
 }
 
 Found searched(Walk& walk, const Request& request, bool is_stopped = false) {
-  std::vector<View> views = views_of(walk.plan);
+  std::vector<View> views = views_of(walk.config, walk.plan);
   EXPECT_EQ(views.size(), 1u);
   const std::atomic<bool> stop{is_stopped};
   return search_view(walk.config, walk.plan, views[0], request, {}, {{}, stop});
@@ -71,7 +71,7 @@ TEST(SearchView, has_measured_what_it_planned_when_it_is_stopped_before_the_last
   Walk walk = small_walk(20);
   const Judge judge = [](std::span<const run::CaseResult> cases) { return Verdict{entries(cases), 0.0, {}, false}; };
   const Request request{.judge = judge, .keep_one_in = 24, .least = 2};
-  std::vector<View> views = views_of(walk.plan);
+  std::vector<View> views = views_of(walk.config, walk.plan);
   const Halving planned = planned_halving(views[0], request);
   ASSERT_EQ(planned.rungs.size(), 2u);
   EXPECT_EQ(planned.rungs[0].candidates, 72u);
@@ -172,7 +172,7 @@ TEST(SearchView, measures_candidates_on_all_cameras_and_leaves_out_what_one_of_t
     }
   }
   walk.plan.groups.insert(walk.plan.groups.end(), second.begin(), second.end());
-  std::vector<View> views = views_of(walk.plan);
+  std::vector<View> views = views_of(walk.config, walk.plan);
   ASSERT_EQ(views.size(), 1u);
   EXPECT_EQ(views[0].frames, 9u);
   EXPECT_EQ(views[0].incomplete, 6u);

@@ -57,6 +57,35 @@ TEST(Projection, of_a_camera_wider_than_the_viewport_holds_its_whole_rectangle) 
   EXPECT_DOUBLE_EQ(make_projection(projection, {200, 100}).top, 10.0);
 }
 
+TEST(Projection, of_a_field_of_view_that_is_asked_for_has_it_in_every_viewport) {
+  scene::Scene scene;
+  scene.nodes.resize(1);
+  scene::Camera camera;
+  camera.node = 0;
+  camera.projection.yfov_rad = 0.7;
+  camera.projection.aspect_ratio = 2.5;
+  camera.projection.far_m = 100.0;
+  scene.cameras = {camera};
+  scene::PathRequest request;
+  for (const Vec2i viewport : {Vec2i(1920, 1080), Vec2i(1024, 1024), Vec2i(400, 900), Vec2i(3440, 1440)}) {
+    for (const scene::CameraFit fit : {scene::CameraFit::contain, scene::CameraFit::vertical}) {
+      request.fit = fit;
+      request.field_of_view = scene::field_of_view("90h");
+      const auto shown = [&] {
+        return make_projection(scene::camera_paths(scene, request)[0].shots[0].projection, viewport);
+      };
+      EXPECT_NEAR(shown().right, 1.0, 1e-12);
+      EXPECT_NEAR(shown().top, static_cast<double>(viewport.y) / viewport.x, 1e-12);
+      request.field_of_view = scene::field_of_view("60v");
+      EXPECT_NEAR(shown().top, std::tan(0.5235987755982988), 1e-12);
+      EXPECT_NEAR(shown().right, shown().top * viewport.x / viewport.y, 1e-12);
+    }
+  }
+  scene.cameras[0].projection.orthographic = true;
+  scene.cameras[0].projection.xmag_m = scene.cameras[0].projection.ymag_m = 8.0;
+  EXPECT_EQ(make_projection(scene::camera_paths(scene, request)[0].shots[0].projection, {100, 100}).top, 8.0);
+}
+
 TEST(Projection, of_a_wide_camera_is_cropped_where_the_height_is_asked_for) {
   scene::CameraProjection projection;
   projection.yfov_rad = 2.0 * std::atan(0.5);

@@ -411,6 +411,7 @@ const AssignerDescriptor bvh_descriptor{
         "left for samples to ask",
     .source = "Olsson, Billeter and Assarsson 2012, Clustered Deferred and Forward Shading; van Oosten 2015",
     .kinds = {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world},
+    .own_without_grid = true,
     .params = light_params(),
     .make = make_list_assigner<BvhLists>,
     .make_own = make_structure_assigner<BvhQueries>,

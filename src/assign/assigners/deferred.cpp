@@ -307,6 +307,7 @@ const AssignerDescriptor deferred_descriptor{
     .needs = {.depth = true},
     .at_surfaces = true,
     .draws_lights = true,
+    .own_without_grid = true,
     .params = deferred_params(),
     .make_own = make_structure_assigner<Deferred>,
 };

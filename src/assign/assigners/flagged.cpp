@@ -14,6 +14,7 @@ const AssignerDescriptor flagged_descriptor{
     .kinds = {grid::Kind::frustum},
     .needs = {.depth = true},
     .at_surfaces = true,
+    .own_lists = true,
     .params = light_params(),
     .make_own = make_occupied<CellBounds::cell>,
 };

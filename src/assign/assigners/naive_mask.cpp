@@ -23,6 +23,7 @@ const AssignerDescriptor naive_mask_descriptor{
     .needs = {.depth = true},
     .conservative = false,
     .at_surfaces = true,
+    .own_lists = true,
     .naive = true,
     .params = tiled_params(),
     .make_own = make_with_part_32,

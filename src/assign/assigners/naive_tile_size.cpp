@@ -128,6 +128,7 @@ const AssignerDescriptor naive_tile_size_descriptor{
     .source = "DaveH355's tutorial, where the division is one of whole numbers",
     .kinds = {grid::Kind::frustum},
     .conservative = false,
+    .own_lists = true,
     .naive = true,
     .params = {},
     .make_own = make_structure_assigner<NaiveTileSize>,

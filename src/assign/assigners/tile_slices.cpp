@@ -298,6 +298,7 @@ const AssignerDescriptor tile_slices_descriptor{
     .source = "Unity HDRP's clustered lights with a log base per tile",
     .kinds = {grid::Kind::frustum},
     .needs = {.depth = true},
+    .own_lists = true,
     .params = tile_slices_params(),
     .make_own = make_structure_assigner<TileSlices>,
 };

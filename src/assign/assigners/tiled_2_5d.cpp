@@ -15,6 +15,7 @@ const AssignerDescriptor tiled_2_5d_descriptor{
     .kinds = {grid::Kind::frustum},
     .needs = {.depth = true},
     .at_surfaces = true,
+    .own_lists = true,
     .params = tiled_params(),
     .make_own = make_occupied<CellBounds::masked_tile>,
 };

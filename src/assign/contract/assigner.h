@@ -152,6 +152,10 @@ struct AssignerDescriptor {
   bool at_surfaces = false;
   // Each light is drawn over its pixels, so that no lane of a wave waits for the list of another one.
   bool draws_lights = false;
+  // Its own structure holds a list per cell or tile, which a sample reads as it is. Others are searched at each sample.
+  bool own_lists = false;
+  // Its own structure is the same on every grid: it is measured once, on the first.
+  bool own_without_grid = false;
   // A known mistake on purpose, to show what it does: left out where nothing names it.
   bool naive = false;
   // Left out where nothing names it: one of many ways of engines, that default runs need not pay for.
@@ -167,6 +171,9 @@ struct AssignerDescriptor {
   bool answers(Answer answer) const;
   // Whether it runs where nothing is named. Those that need depth do not: their rays take long.
   bool is_standard() const { return !naive && !by_name && !needs.depth; }
+  // Whether samples search its own structure for their lights (a hierarchy, masks of bits): what they read and visit is
+  // counted, and no GPU has measured what that costs.
+  bool own_is_searched() const { return make_own != nullptr && !own_lists && !draws_lights; }
 };
 
 // For descriptors: what makes a method of its parameters.

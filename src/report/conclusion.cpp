@@ -1,0 +1,289 @@
+#include "report/conclusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "core/text.h"
+#include "measure/side_by_side.h"
+#include "report/columns.h"
+#include "report/contender.h"
+#include "report/frame_cost.h"
+#include "report/json_values.h"
+#include "report/result_json.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* k_remedy =
+    "--set samples.opaque={} (levels with triangles) or samples.opaque.ground=lowest shades surfaces, and can change "
+    "the "
+    "choice";
+
+// A case with what it is ranked by.
+struct WeighedCase {
+  const Json* result_case = nullptr;
+  run::Contender contender;  // whose times hold what is modelled
+  std::optional<double> frame_ns;
+  std::optional<WholeFrame> modelled;
+  double cost_ns = 0.0;  // of both
+
+  double bytes() const { return number_at(*result_case, "/buffers/bytes/high_water").value_or(0.0); }
+};
+
+// What is compared with each other: cases that see the same.
+struct SceneView {
+  std::string scene, camera;
+  Json viewport;
+  std::vector<WeighedCase> front{}, others{}, searched{};
+  std::size_t cases = 0;
+};
+
+std::string case_title(const Json& result_case) {
+  const auto name = result_case["name"].get<std::string>();
+  return shown(name.substr(name.find('/', name.find('/') + 1) + 1));
+}
+
+std::string first_titles(const std::vector<const WeighedCase*>& standings) {
+  constexpr std::size_t k_most = 3;
+  std::vector<std::string> names;
+  for (const WeighedCase* standing : standings)
+    if (names.size() < k_most) names.push_back(case_title(*standing->result_case));
+  const std::string more =
+      standings.size() > k_most ? " and " + std::to_string(standings.size() - k_most) + " more" : "";
+  return joined(names) + more;
+}
+
+std::string ns_text(double ns) {
+  const double us = 1e-3 * ns;
+  return text(us < 10.0 ? "%.2f us" : us < 1000.0 ? "%.3g us" : "%.0f us", us);
+}
+
+WeighedCase standing_of(const Json& result_case, const Json& config) {
+  WeighedCase out{&result_case, contender_of(result_case), number_at(result_case, "/timing/frame_ns/median"),
+                  whole_frame(result_case, config)};
+  const double gpu_ns = out.modelled ? out.modelled->gpu_ns : 0.0;
+  for (double& ns : out.contender.rounds_ns) ns += gpu_ns;
+  out.contender.costs.time_ns.low += gpu_ns;
+  out.contender.costs.time_ns.high += gpu_ns;
+  out.cost_ns = out.frame_ns.value_or(0.0) + gpu_ns;
+  if (!out.frame_ns && !out.modelled) out.cost_ns = out.bytes();
+  return out;
+}
+
+std::vector<SceneView> scene_views(const Json& result, const Json& config) {
+  std::set<std::string> front;
+  for (const Json& of_scene : result["pareto_front"])
+    for (const Json& id : of_scene["ids"]) front.insert(id.get<std::string>());
+  std::vector<SceneView> views;
+  for (const Json& result_case : result["cases"]) {
+    if (result_case.contains("preset")) continue;
+    const auto is_its = [&](const SceneView& view) {
+      return result_case["scene"] == view.scene && result_case["camera"] == view.camera &&
+             result_case["viewport"] == view.viewport;
+    };
+    auto view = std::ranges::find_if(views, is_its);
+    if (view == views.end())
+      view = views.insert(views.end(), SceneView{result_case["scene"], result_case["camera"], result_case["viewport"]});
+    ++view->cases;
+    const bool is_sound = result_case["eligible"] == true;
+    if (front.contains(result_case["id"].get<std::string>()))
+      view->front.push_back(standing_of(result_case, config));
+    else if (is_sound)
+      (samples_search(result_case) ? view->searched : view->others).push_back(standing_of(result_case, config));
+  }
+  return views;
+}
+
+std::optional<measure::Ratio> weighed_ratio(const WeighedCase& a, const WeighedCase& b, std::uint64_t seed) {
+  if (!a.frame_ns || !b.frame_ns) return std::nullopt;
+  return run::ratio_between(a.contender, b.contender, seed);
+}
+
+// Known to be dearer: by the ratio of the rounds, else by intervals of times, or by what is counted.
+bool is_known_dearer(const WeighedCase& a, const WeighedCase& b, std::uint64_t seed) {
+  if (!a.frame_ns || !b.frame_ns) return a.cost_ns > b.cost_ns;
+  if (const std::optional<measure::Ratio> ratio = weighed_ratio(a, b, seed)) return measure::takes_longer(ratio);
+  return a.contender.costs.time_ns.low > b.contender.costs.time_ns.high;
+}
+
+// The choice of a view, and what it is held against.
+struct Choice {
+  const WeighedCase* take = nullptr;
+  const WeighedCase* against = nullptr;
+  const WeighedCase* fastest = nullptr;  // to make, where that is another one
+  const WeighedCase* searched = nullptr;
+  std::optional<measure::Ratio> ratio;
+  std::vector<const WeighedCase*> alike;
+};
+
+std::vector<const WeighedCase*> cheapest_first(const std::vector<WeighedCase>& all) {
+  std::vector<const WeighedCase*> order;
+  for (const WeighedCase& standing : all) order.push_back(&standing);
+  std::ranges::stable_sort(order, {}, &WeighedCase::cost_ns);
+  return order;
+}
+
+// Of the cases on the front the cheapest, or of those that are not known to be dearer the smallest.
+Choice choose_of(const SceneView& view, std::uint64_t seed) {
+  Choice choice;
+  std::vector<const WeighedCase*> order = cheapest_first(view.front);
+  if (order.empty()) return choice;
+  const WeighedCase* best = order.front();
+  choice.take = best;
+  for (const WeighedCase* standing : order) {
+    if (standing == best || is_known_dearer(*standing, *best, seed)) continue;
+    choice.alike.push_back(standing);
+    if (standing->bytes() < choice.take->bytes()) choice.take = standing;
+  }
+  if (choice.take != best) std::ranges::replace(choice.alike, choice.take, best);
+  for (const WeighedCase* standing : cheapest_first(view.others)) order.push_back(standing);
+  for (const WeighedCase* standing : order)
+    if (choice.against == nullptr && standing != choice.take &&
+        std::ranges::find(choice.alike, standing) == choice.alike.end() &&
+        is_known_dearer(*standing, *choice.take, seed))
+      choice.against = standing;
+  if (choice.against != nullptr) choice.ratio = weighed_ratio(*choice.against, *choice.take, seed);
+  for (const WeighedCase& standing : view.front)
+    if (standing.frame_ns && (choice.fastest == nullptr || *standing.frame_ns < *choice.fastest->frame_ns))
+      choice.fastest = &standing;
+  const std::vector<const WeighedCase*> searched = cheapest_first(view.searched);
+  if (!searched.empty() && searched.front()->modelled && searched.front()->cost_ns < choice.take->cost_ns)
+    choice.searched = searched.front();
+  return choice;
+}
+
+std::string whole_cost_text(const WeighedCase& take) {
+  if (!take.modelled && !take.frame_ns) return text("; %.0f bytes, and no times or samples to rank by", take.bytes());
+  if (!take.modelled) return "; " + ns_text(*take.frame_ns) + " a frame to make on this machine";
+  const std::string model = "upload, reading and shading by the model of the key cost";
+  if (!take.frame_ns) return "; " + ns_text(take.modelled->gpu_ns) + " a frame of " + model + ", and nothing was timed";
+  return "; a frame costs " + ns_text(take.cost_ns) + ": " + ns_text(*take.frame_ns) + " to make it on this machine, " +
+         ns_text(take.modelled->gpu_ns) + " of " + model;
+}
+
+std::string against_text(const Choice& choice) {
+  if (choice.against == nullptr) return choice.alike.empty() ? "; there is nothing sound to hold it against" : "";
+  const double ratio = choice.ratio ? choice.ratio->ratio : choice.against->cost_ns / choice.take->cost_ns;
+  std::string out = "; " + case_title(*choice.against->result_case) + text(" costs %.3g times as much", ratio);
+  if (choice.ratio && std::isfinite(choice.ratio->ci95.low) && std::isfinite(choice.ratio->ci95.high))
+    return out + text(" (95 %%: %.3g", choice.ratio->ci95.low) + text(" to %.3g)", choice.ratio->ci95.high);
+  return choice.take->frame_ns ? out + " (not measured often enough side by side for an interval)" : out;
+}
+
+// What limits how far the choice can be trusted.
+std::string doubts_text(const Choice& choice) {
+  std::string out;
+  if (!choice.alike.empty())
+    out += std::string(". No difference that these ") + (choice.take->frame_ns ? "times" : "figures") +
+           " can show to " + first_titles(choice.alike);
+  if (choice.fastest != nullptr && choice.fastest != choice.take && choice.take->modelled)
+    out += ". Fastest to make: " + case_title(*choice.fastest->result_case) + ", " + ns_text(*choice.fastest->frame_ns);
+  if (choice.searched != nullptr)
+    out += ". " + case_title(*choice.searched->result_case) + ", which samples search, would cost " +
+           ns_text(choice.searched->cost_ns) + " by the model; no GPU has measured such a search";
+  if (choice.take->modelled && choice.take->modelled->has_random_depths)
+    out += std::string(". Its samples are at random depths, where no surface is; ") + k_remedy;
+  return out;
+}
+
+Json conclusion_of(const SceneView& view, std::uint64_t seed) {
+  const Choice choice = choose_of(view, seed);
+  const std::string where = shown(view.scene) + ", camera " + shown(view.camera) + ", " + view.viewport[0].dump() +
+                            "x" + view.viewport[1].dump() + ": ";
+  Json out{{"scene", view.scene}, {"camera", view.camera}, {"viewport", view.viewport}, {"take", nullptr},
+           {"against", nullptr},  {"ratio", nullptr},      {"ci95", nullptr},           {"alike", Json::array()}};
+  if (choice.take == nullptr) {
+    out["text"] =
+        where +
+        (view.searched.empty() ? "take none of " + number_of(view.cases, "case") + ": each fails or loses lights"
+                               : "nothing to take: only structures that samples search are sound here, and no GPU has "
+                                 "measured such a search") +
+        ".";
+    return out;
+  }
+  out["take"] = (*choice.take->result_case)["id"];
+  if (choice.against != nullptr) {
+    out["against"] = (*choice.against->result_case)["id"];
+    out["ratio"] = six_digits(choice.ratio ? choice.ratio->ratio : choice.against->cost_ns / choice.take->cost_ns);
+    if (choice.ratio) out["ci95"] = {six_digits(choice.ratio->ci95.low), six_digits(choice.ratio->ci95.high)};
+  }
+  for (const WeighedCase* standing : choice.alike) out["alike"].push_back((*standing->result_case)["id"]);
+  out["text"] = where + "take " + case_title(*choice.take->result_case) + whole_cost_text(*choice.take) +
+                against_text(choice) + doubts_text(choice) + ".";
+  return out;
+}
+
+std::string objective_text(const Json& record, const Json& objective) {
+  return objective["figure"].get<std::string>() + " " + amount_text(number_at(record, "/objective").value_or(0.0));
+}
+
+// Times that differ by less than their interval, and figures that are equal.
+bool is_like_choice(const Json& record) {
+  if (record.contains("ci95") && record["ci95"][0].is_number()) return record["ci95"][0].get<double>() <= 1.0;
+  return number_at(record, "/by_choice").value_or(0.0) <= 1.0;
+}
+
+std::string beside_choice_text(const Json& record) {
+  std::string out =
+      shown(record["name"].get<std::string>()) + text(" is %.3g times that", record["by_choice"].get<double>());
+  if (!record.contains("ci95") || !record["ci95"][0].is_number() || !record["ci95"][1].is_number()) return out;
+  return out + text(" (95 %%: %.3g", record["ci95"][0].get<double>()) +
+         text(" to %.3g)", record["ci95"][1].get<double>());
+}
+
+}  // namespace
+
+std::string answer_conclusion(const Json& answer, const Json& objective) {
+  std::string out = shown(answer["scene"].get<std::string>()) + ", " + answer["viewport"][0].dump() + "x" +
+                    answer["viewport"][1].dump() + ": ";
+  const Json& choice = answer["choice"];
+  if (choice.is_null())
+    return out + "take none: no candidate satisfies all constraints; see what each of them excludes.";
+  out += "take " + shown(choice["name"].get<std::string>()) + "; " + objective_text(choice, objective);
+  std::vector<std::string> alike;
+  const Json* against = nullptr;
+  for (const Json& record : answer["runners_up"]) {
+    if (is_like_choice(record))
+      alike.push_back(shown(record["name"].get<std::string>()));
+    else if (against == nullptr && record["by_choice"].is_number())
+      against = &record;
+  }
+  if (against != nullptr) out += "; " + beside_choice_text(*against);
+  if (!alike.empty())
+    out += std::string(". No difference that these ") + (objective["timed"] == true ? "times" : "figures") +
+           " can show to " + joined(alike);
+  const Json searched = answer.value("searched", Json::array());
+  if (!searched.empty() && number_at(searched[0], "/by_choice").value_or(1.0) < 1.0)
+    out += ". " + shown(searched[0]["name"].get<std::string>()) + ", which samples search, would have " +
+           objective_text(searched[0], objective) + "; no GPU has measured such a search";
+  if (answer.value("random_depths", false))
+    out += std::string(". Samples are at random depths, where no surface is; ") + k_remedy;
+  return out + ".";
+}
+
+Json conclusions_of(const Json& result, const Json& origin) {
+  Json out = Json::array();
+  for (const SceneView& view : scene_views(result, origin["config"]))
+    out.push_back(conclusion_of(view, seed_of(origin)));
+  return out;
+}
+
+std::string conclusions_text(const Json& result) {
+  constexpr std::size_t k_most = 12;
+  if (!result.contains("conclusions")) return "";
+  const Json& all = result["conclusions"];
+  std::string out;
+  if (all.size() > k_most)
+    out = "(" + std::to_string(all.size() - k_most) + " more conclusions stand in the result and on the page)\n";
+  for (std::size_t i = 0; i < std::min(all.size(), k_most); ++i)
+    out += "conclusion: " + all[i]["text"].get<std::string>() + "\n";
+  return out;
+}
+
+}  // namespace clusterbench::report

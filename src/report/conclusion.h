@@ -1,0 +1,24 @@
+#pragma once
+// What to do by a result: which clustering to take, against which other, by how much, and how sure that is. The same
+// words end the table, begin the page and stand in the result (`conclusions`).
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace clusterbench::report {
+
+// One for each scene, camera and viewport: {"scene", "camera", "viewport", "take": id or null, "against": id or null,
+// "ratio": how many times as long that takes or null, "ci95": of it or null, "alike": ids, "text"}. Taken is a case of
+// the front `pareto_front` that costs least: its frame time with upload, reading and shading by the model of
+// config.cost; the frame time where no sample was asked for; without times what is modelled. Of those that the times
+// cannot tell apart it is the one with the fewest bytes. Presets are ranked by themselves and are not among them.
+// `result`: scenes, cases and pareto_front; `origin`: config.
+nlohmann::ordered_json conclusions_of(const nlohmann::ordered_json& result, const nlohmann::ordered_json& origin);
+
+// Lines that begin with "conclusion: ", the last ones of a run; "" where the result has none.
+std::string conclusions_text(const nlohmann::ordered_json& result);
+
+// Of one answer of `recommend`, in the same form; `objective`: the recommendation's.
+std::string answer_conclusion(const nlohmann::ordered_json& answer, const nlohmann::ordered_json& objective);
+
+}  // namespace clusterbench::report
