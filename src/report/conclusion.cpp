@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* k_remedy =
-    "--set samples.opaque={} (levels with triangles) or samples.opaque.ground=lowest shades surfaces, and can change "
+    "--set 'samples.opaque={}' (levels with triangles) or samples.opaque.ground=lowest shades surfaces, and can change "
     "the "
     "choice";
 
@@ -167,12 +167,22 @@ std::string whole_cost_text(const WeighedCase& take) {
          ns_text(take.modelled->gpu_ns) + " of " + model;
 }
 
+// "10 % more", "2.71 times as much"; with the interval where it is known.
+std::string more_text(double ratio, std::optional<double> low, std::optional<double> high) {
+  const bool is_share = ratio < 2.0;
+  const auto amount = [&](double of) { return is_share ? text("%.2g %%", 100.0 * (of - 1.0)) : text("%.3g", of); };
+  std::string out = amount(ratio) + (is_share ? " more" : " times as much");
+  if (low && high) out += " (95 %: " + amount(*low) + " to " + amount(*high) + ")";
+  return out;
+}
+
 std::string against_text(const Choice& choice) {
   if (choice.against == nullptr) return choice.alike.empty() ? "; there is nothing sound to hold it against" : "";
-  const double ratio = choice.ratio ? choice.ratio->ratio : choice.against->cost_ns / choice.take->cost_ns;
-  std::string out = "; " + case_title(*choice.against->result_case) + text(" costs %.3g times as much", ratio);
-  if (choice.ratio && std::isfinite(choice.ratio->ci95.low) && std::isfinite(choice.ratio->ci95.high))
-    return out + text(" (95 %%: %.3g", choice.ratio->ci95.low) + text(" to %.3g)", choice.ratio->ci95.high);
+  std::string out = "; " + case_title(*choice.against->result_case) + " costs ";
+  const auto& ratio = choice.ratio;
+  if (ratio && std::isfinite(ratio->ci95.low) && std::isfinite(ratio->ci95.high))
+    return out + more_text(ratio->ratio, ratio->ci95.low, ratio->ci95.high);
+  out += more_text(ratio ? ratio->ratio : choice.against->cost_ns / choice.take->cost_ns, {}, {});
   return choice.take->frame_ns ? out + " (not measured often enough side by side for an interval)" : out;
 }
 
@@ -230,11 +240,12 @@ bool is_like_choice(const Json& record) {
 }
 
 std::string beside_choice_text(const Json& record) {
-  std::string out =
-      shown(record["name"].get<std::string>()) + text(" is %.3g times that", record["by_choice"].get<double>());
-  if (!record.contains("ci95") || !record["ci95"][0].is_number() || !record["ci95"][1].is_number()) return out;
-  return out + text(" (95 %%: %.3g", record["ci95"][0].get<double>()) +
-         text(" to %.3g)", record["ci95"][1].get<double>());
+  const Json interval = record.value("ci95", Json::array({nullptr, nullptr}));
+  const auto end = [&](std::size_t at) {
+    return interval[at].is_number() ? std::optional(interval[at].get<double>()) : std::nullopt;
+  };
+  return shown(record["name"].get<std::string>()) + " has " +
+         more_text(record["by_choice"].get<double>(), end(0), end(1));
 }
 
 }  // namespace

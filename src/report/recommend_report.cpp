@@ -396,7 +396,7 @@ std::vector<ObjectiveFigure> objective_figures() {
     all.push_back(
         {figure.name, figure.meaning, kind.is_timed, std::string(figure.name) == "frame_cost_us", kind.only_grows});
   }
-  all.push_back({k_gpu_cost, "modelled time of a frame's upload and shading, in microseconds", false, true, false});
+  all.push_back({k_gpu_cost, "modelled time of a frame's upload, reading and shading, in microseconds", false, true, false});
   all.push_back({k_evaluated, "lights that a sample is given, mean", false, false, false});
   all.push_back(
       {k_read_bytes, "bytes that a sample reads of the structure to know its lights, mean", false, false, false});

@@ -1,6 +1,7 @@
 #include "report/shadows_table.h"
 
 #include "report/columns.h"
+#include "report/json_values.h"
 
 namespace clusterbench::report {
 namespace {

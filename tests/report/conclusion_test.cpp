@@ -43,7 +43,8 @@ TEST(Conclusion, takes_the_fastest_and_says_against_what_by_how_much_and_how_sur
   EXPECT_EQ(conclusion["take"], "fast");
   EXPECT_EQ(conclusion["against"], "slow");
   EXPECT_NEAR(conclusion["ratio"].get<double>(), 9.5 / 3.5, 1e-3);
-  EXPECT_TRUE(has_words(conclusion, "hall, camera walk, 1920x1080: take frustum 64px/aabb/packed; 3.50 us a frame to make"))
+  EXPECT_TRUE(
+      has_words(conclusion, "hall, camera walk, 1920x1080: take frustum 64px/aabb/packed; 3.50 us a frame to make"))
       << conclusion["text"];
   EXPECT_TRUE(has_words(conclusion, "frustum 64px/brute-force/packed costs 2.71 times as much (95 %: 2.71 to 2.71)"))
       << conclusion["text"];
@@ -143,8 +144,8 @@ Json answer_by_hand(double by_choice, const Json& ci95) {
 TEST(Conclusion, of_a_recommendation_names_the_choice_and_the_next_one) {
   const Json objective{{"figure", "frame_cost_us"}, {"meaning", ""}, {"timed", true}};
   EXPECT_EQ(answer_conclusion(answer_by_hand(1.25, {1.2, 1.3}), objective),
-            "hall, 640x360: take frustum 64px/exact-fast/packed; frame_cost_us 100; frustum 32px/aabb/packed is 1.25 "
-            "times that (95 %: 1.2 to 1.3).");
+            "hall, 640x360: take frustum 64px/exact-fast/packed; frame_cost_us 100; frustum 32px/aabb/packed has 25 % "
+            "more (95 %: 20 % to 30 %).");
   EXPECT_EQ(answer_conclusion(answer_by_hand(1.02, {0.98, 1.06}), objective),
             "hall, 640x360: take frustum 64px/exact-fast/packed; frame_cost_us 100. No difference that these times can "
             "show to frustum 32px/aabb/packed.");
