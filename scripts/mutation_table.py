@@ -922,7 +922,7 @@ MUTATIONS = [
              "run.FrameSamples.of_surfaces_cast_rays_through_their_own_pixels_alone",
              "methods that need depth read the image of fewer pixels that samples asked for"),
     Mutation("halving-forgets-who-is-out", "search/halving.cpp",
-             "if (!standings[i].is_out) order.push_back(i);", "order.push_back(i);",
+             "if (!standings[i].is_out && is_apart", "if (is_apart",
              "search.Halving.what_is_out_comes_never_again_however_good_it_is",
              "a clustering that loses lights is recommended"),
     Mutation("halving-keeps-the-worse", "search/halving.cpp",

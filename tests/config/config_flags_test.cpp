@@ -110,6 +110,18 @@ TEST(ConfigFlags, a_whole_slices_object_may_not_have_keys_that_its_scheme_does_n
       std::string::npos);
 }
 
+TEST(ConfigFlags, a_field_of_view_is_that_of_all_scenes_and_refused_where_it_cannot_be) {
+  const Config config = default_config({"a.glb", "b.glb"}, Flags{{"--fov", "90h"}});
+  for (const SceneRequest& scene : config.scenes) {
+    ASSERT_TRUE(scene.camera.field_of_view);
+    EXPECT_TRUE(scene.camera.field_of_view->is_horizontal);
+  }
+  EXPECT_EQ(config.resolved["scenes"][0]["fov"], "90h");
+  EXPECT_NE(refusal_of({{"--fov", "200v"}}).find("'200v' is no field of view; takes degrees above 0"),
+            std::string::npos);
+  EXPECT_NE(refusal_of({{"--fov", "90h"}, {"--viewport", "800x100"}}).find("wider than 64:9"), std::string::npos);
+}
+
 TEST(ConfigFlags, tiles_or_slices_of_the_default_sweep_give_one_grid_of_each_kind) {
   const auto names = [](const Flags& flags) {
     Names all;
@@ -120,7 +132,7 @@ TEST(ConfigFlags, tiles_or_slices_of_the_default_sweep_give_one_grid_of_each_kin
             (Names{"frustum 16x9 x 16 exponential-first first 5"}));
   EXPECT_EQ(names({{"--tiles", "16,32"}, {"--slices", "8,24"}, {"--grid", "frustum"}}).size(), 4u);
   EXPECT_EQ(names({{"--slices", "8"}}).size(), 4u) << "of frustum, distance, cascades and world one each";
-  EXPECT_EQ(names({{"--grid", "frustum"}}).size(), 2u) << "whose tiles and slices are the default's";
+  EXPECT_EQ(names({{"--grid", "frustum"}}).size(), 4u) << "whose tiles and slices are the default's";
   EXPECT_EQ(parse_config(R"({"scenes": ["a.glb"]})", "c.json", Flags{{"--slices", "8"}}).grids.size(), 4u);
 }
 

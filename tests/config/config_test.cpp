@@ -203,7 +203,7 @@ TEST(Config, a_scene_alone_is_enough) {
   EXPECT_EQ(config.viewports, (std::vector<Vec2i>{{1920, 1080}}));
   EXPECT_EQ(config.assigners.size(), assign::standard_assigner_names().size());
   EXPECT_EQ(config.storages.size(), 1U);
-  EXPECT_EQ(config.grids.size(), 5U);
+  EXPECT_EQ(config.grids.size(), 7U);
 }
 
 TEST(Config, sets_of_samples_are_measured_where_they_are_named) {
@@ -491,7 +491,7 @@ TEST(Config, scenes_of_the_command_line_get_the_default_sweep) {
   EXPECT_EQ(config.timing.rounds, 15);
   EXPECT_EQ(config.timing.frames, 4);
   EXPECT_EQ(config.timing.min_time_ms, 2.0);
-  EXPECT_EQ(config.grids.size(), 5U);
+  EXPECT_EQ(config.grids.size(), 7U);
   std::ifstream in(test::source_dir() + "/docs/configuration.md");
   const std::string page(std::istreambuf_iterator<char>(in), {});
   EXPECT_NE(page.find("`frames` 30, `timing.frames` 4,\n  `timing.rounds` 15, `timing.min_time_ms` 2"),

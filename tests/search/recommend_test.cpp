@@ -250,7 +250,7 @@ TEST(RecommendSpace, has_conservative_methods_of_all_kinds_of_grids_and_fast_for
   for (const char* name : {"exact", "aabb", "brute-force", "naive-planes", "tiled"}) EXPECT_FALSE(has(name)) << name;
   const config::Config config =
       config::parse_config(R"({"scenes": ["a.glb"], "storages": ["packed"]})", "c.json", {}, space);
-  EXPECT_EQ(config.grids.size(), 93u);
+  EXPECT_EQ(config.grids.size(), 113u);
   EXPECT_EQ(config.storages.size(), 1u) << "what a file names stays";
 }
 
