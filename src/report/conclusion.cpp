@@ -135,23 +135,22 @@ Choice choose_of(const SceneView& view, std::uint64_t seed) {
   std::vector<const WeighedCase*> order = cheapest_first(view.front);
   if (order.empty()) return choice;
   const WeighedCase* best = order.front();
-  choice.take = best;
-  for (const WeighedCase* standing : order) {
-    if (standing == best || is_known_dearer(*standing, *best, seed)) continue;
-    choice.alike.push_back(standing);
-    if (standing->bytes() < choice.take->bytes()) choice.take = standing;
+  for (const WeighedCase* weighed : order)
+    if (!is_known_dearer(*weighed, *best, seed) && (choice.take == nullptr || weighed->bytes() < choice.take->bytes()))
+      choice.take = weighed;
+  for (const WeighedCase* weighed : cheapest_first(view.others)) order.push_back(weighed);
+  for (const WeighedCase* weighed : order) {
+    if (weighed == choice.take) continue;
+    if (is_known_dearer(*weighed, *choice.take, seed)) {
+      if (choice.against == nullptr) choice.against = weighed;
+    } else if (!is_known_dearer(*choice.take, *weighed, seed)) {
+      choice.alike.push_back(weighed);
+    }
   }
-  if (choice.take != best) std::ranges::replace(choice.alike, choice.take, best);
-  for (const WeighedCase* standing : cheapest_first(view.others)) order.push_back(standing);
-  for (const WeighedCase* standing : order)
-    if (choice.against == nullptr && standing != choice.take &&
-        std::ranges::find(choice.alike, standing) == choice.alike.end() &&
-        is_known_dearer(*standing, *choice.take, seed))
-      choice.against = standing;
   if (choice.against != nullptr) choice.ratio = weighed_ratio(*choice.against, *choice.take, seed);
-  for (const WeighedCase& standing : view.front)
-    if (standing.frame_ns && (choice.fastest == nullptr || *standing.frame_ns < *choice.fastest->frame_ns))
-      choice.fastest = &standing;
+  for (const WeighedCase& weighed : view.front)
+    if (weighed.frame_ns && (choice.fastest == nullptr || *weighed.frame_ns < *choice.fastest->frame_ns))
+      choice.fastest = &weighed;
   const std::vector<const WeighedCase*> searched = cheapest_first(view.searched);
   if (!searched.empty() && searched.front()->modelled && searched.front()->cost_ns < choice.take->cost_ns)
     choice.searched = searched.front();

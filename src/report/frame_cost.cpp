@@ -98,8 +98,9 @@ Json cost_of(const Json& result_case, const std::vector<WeightedSet>& sets, cons
 }  // namespace
 
 measure::CostModel cost_model_of(const Json& constants) {
-  return {constants["ns_per_light"], constants["upload_gb_per_s"], constants["memory_gb_per_s"],
-          constants.value("ns_per_read", 0.0), constants.value("read_gb_per_s", 0.0)};
+  return {constants.value("ns_per_light", 0.0), constants.value("upload_gb_per_s", 1.0),
+          constants.value("memory_gb_per_s", 1.0), constants.value("ns_per_read", 0.0),
+          constants.value("read_gb_per_s", 0.0)};
 }
 
 measure::ShadedSamples shaded_samples(const Json& result_case, const Json& counts, double samples,
@@ -125,7 +126,7 @@ std::optional<WholeFrame> whole_frame(const Json& result_case, const Json& confi
   const measure::FrameCost cost = measure::frame_cost(
       cost_model_of(config["cost"]), {}, number_at(result_case, "/buffers/upload_bytes/mean").value_or(0.0),
       number_at(result_case, "/buffers/traffic_bytes/mean").value_or(0.0),
-      {shaded_samples(result_case, result_case["shading"], pixels, config["cost"]["wave"])});
+      {shaded_samples(result_case, result_case["shading"], pixels, config["cost"].value("wave", "8x8"))});
   return WholeFrame{cost.gpu_ns(), true};
 }
 

@@ -84,9 +84,11 @@ std::vector<Trial> orthographic(std::uint64_t seed) {
     grid::GridSpec linear = frustum_grid({16, 9}, Scheme::linear, 16, 0.0, 200.0);
     linear.slices.near_m = near;
     trials.push_back(rig.on(linear, "near " + std::to_string(near)));
-    Trial refused = rig.on(frustum_grid({16, 9}, Scheme::exponential, 16, 0.0, 200.0), "exponential from near <= 0");
-    refused.is_refused = near <= 0.0;
-    if (refused.is_refused) trials.push_back(refused);
+    for (const Scheme scheme : {Scheme::exponential, Scheme::exponential_first, Scheme::power}) {
+      grid::GridSpec curved = frustum_grid({16, 9}, scheme, 16, 0.0, 200.0);
+      curved.slices.near_m = near;
+      trials.push_back(rig.on(curved, "not linear, near " + std::to_string(near)));
+    }
   }
   return trials;
 }

@@ -79,6 +79,7 @@ TEST(Scaling, tests_per_cell_and_pair_stay_bounded_from_grid_to_grid) {
   const std::vector<double> brute = curves.at("brute-force on frustum");
   EXPECT_GT(brute[2], 1.5 * brute[1] + 0.5) << "this measure would not see a product of lights and cells";
   curves.erase("brute-force on frustum");
+  EXPECT_EQ(curves.erase("bvh asked by samples on frustum"), 1u) << "is measured on one grid";
   expect_bounded(curves, 3);
 }
 
