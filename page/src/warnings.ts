@@ -40,6 +40,7 @@ const doubts: Record<WarningKind, string> = {
   undecided: "had pairs that stayed undecided, counted as true",
   unchecked: "went without a check against the truth",
   lost_pairs: "lost lights, as methods that are not conservative may",
+  too_many_lights: "had frames with more lights than their limit lets in",
 };
 
 function doubtsOf(cases: Case[]): Warning[] {
