@@ -63,7 +63,8 @@ const Broken k_broken[] = {
      "1:46 /scenes/0/range_rule/cutof_lux: unknown key 'cutof_lux' (did you mean 'cutoff_lux'?), allowed: cutoff_lux, "
      "max_range"},
     {"{\"scenes\": [\"a.glb\"],\n  // comment\n  \"thread\": 1}",
-     "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, assigners, "
+     "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, as_shipped, "
+     "assigners, "
      "cost, "
      "details, grids, jitter, limits, lookup, name, pre_cull, precision, presets, rank_by, samples, scenes, seed, "
      "shading, "
