@@ -26,6 +26,7 @@ interface Series {
 interface HistoryData {
   entries: number;
   count: number; // of series, those that never changed included
+  lights: string[]; // sentences: where a scene's lights have changed
   series: Series[];
 }
 
@@ -94,7 +95,7 @@ function figure(series: Series): HTMLElement {
   );
 }
 
-function show({ entries, count, series }: HistoryData): void {
+function show({ entries, count, lights, series }: HistoryData): void {
   const changes = series.reduce((sum, { changes }) => sum + changes.length, 0);
   const figures = h("div", { class: "series" });
   const more = h("button", { class: "more", onclick: () => add() });
@@ -117,6 +118,12 @@ function show({ entries, count, series }: HistoryData): void {
         { class: "summary" },
         `${plural(entries, "result")}, ${plural(count, "series", "series")}, ${plural(changes, "change")} (dashed lines). Axes begin at the lowest value, not at 0. ${count - series.length} series never changed and are not drawn.`,
       ),
+      lights.length > 0 &&
+        h(
+          "ul",
+          { class: "changes" },
+          ...lights.map((change) => h("li", {}, `${change}; figures from there on are of other lights`)),
+        ),
       figures,
       more,
     ),

@@ -164,6 +164,7 @@ export type Result = {
   tool: Tool; // The program that measured
   baseline?: {
     tool: Tool; // As `tool` of this result's own program
+    is_same_program?: boolean; // true: it is this program's own file, byte for byte; else absent
   }; // The other program of run --baseline-binary
   machine: {
     cpu: string; // The processor's name

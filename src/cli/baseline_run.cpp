@@ -6,6 +6,7 @@
 
 #include "cli/rounds_protocol.h"
 #include "core/error.h"
+#include "core/file_text.h"
 #include "report/baseline_rounds.h"
 #include "run/passes/timing_pass.h"
 
@@ -32,6 +33,12 @@ std::vector<std::string> server_command(const std::string& binary, const std::ve
   return command;
 }
 
+bool are_same_bytes(const fs::path& a, const fs::path& b) {
+  std::error_code unknown;
+  if (!fs::is_regular_file(a, unknown) || fs::file_size(a, unknown) != fs::file_size(b, unknown)) return false;
+  return file_text(a) == file_text(b);
+}
+
 }  // namespace
 
 void probe_baseline(const BaselineRequest& request, const std::vector<std::string>& arguments,
@@ -55,6 +62,7 @@ void measure_beside(const BaselineRequest& request, const std::vector<std::strin
                               [&] { return start(k_this_program); }};
   try {
     report::add_baseline(result, tool, run::measure_paired(plan, paired_request(request, config), both, on_round));
+    if (are_same_bytes(other, k_this_program)) result["baseline"]["is_same_program"] = true;
   } catch (const nlohmann::json::exception& error) {
     throw Error(request.binary, "--baseline-binary", std::string("answered what cannot be read: ") + error.what());
   }

@@ -79,6 +79,8 @@ constexpr WordsRow k_words[] = {
     {"run", "--fail-if", anything},
     {"run", "--set", anything},
     {"export", "--format", formats},
+    {"export", "--filter", anything},
+    {"compare", "--filter", anything},
     {"stress", "--cases", hard_cases},
     {"stress", "--methods", assigners},
     {"worst-case", "--filter", anything},

@@ -7,14 +7,16 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "core/text.h"
+#include "report/case_filter.h"
 #include "report/compare.h"
+#include "report/compare_advice.h"
 #include "report/result_file.h"
 
 namespace clusterbench::cli {
 namespace {
 
 struct CompareFlags {
-  std::string base, next, markdown, json;
+  std::string base, next, markdown, json, filter;
   double threshold_percent = 2.0;
   bool gates_separate = false, is_strict = false, is_forced = false;
 };
@@ -31,8 +33,9 @@ void check_gate(const CompareFlags& flags, const nlohmann::ordered_json& compari
 
 ExitCode compare(const CompareFlags& flags) {
   refuse_overwriting({flags.markdown, flags.json}, {flags.base, flags.next});
-  const nlohmann::ordered_json base = report::read_result(flags.base);
-  const nlohmann::ordered_json next = report::read_result(flags.next);
+  nlohmann::ordered_json base = report::read_result(flags.base), next = report::read_result(flags.next);
+  report::keep_cases(base, flags.filter, flags.base);
+  report::keep_cases(next, flags.filter, flags.next);
   const nlohmann::ordered_json comparison =
       report::compare_results(base, next, flags.threshold_percent / 100.0, {flags.gates_separate, flags.is_forced});
   check_gate(flags, comparison);
@@ -40,7 +43,7 @@ ExitCode compare(const CompareFlags& flags) {
   if (!flags.markdown.empty()) write_text(flags.markdown, report::comparison_markdown(comparison));
   if (!flags.json.empty()) write_output(flags.json, comparison);
   const ExitCode code = report::outcome(comparison, flags.is_strict);
-  if (code == ExitCode::nothing_comparable) tell("the results have no case in common");
+  if (code == ExitCode::nothing_comparable) tell(report::advice_on_nothing(base, next, flags.base, flags.next));
   return code;
 }
 
@@ -56,6 +59,7 @@ void add_compare(Command& program, Action& action) {
   command.add_option("--threshold", flags->threshold_percent, "Smallest change of time that matters, in percent")
       .range(0.01, 1000.0)
       .shows_standard();
+  command.add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
   command.add_option("--markdown", flags->markdown, "Write the comparison for a pull request to this file");
   command.add_option("--json", flags->json, "Write the comparison as JSON to this file");
   command.add_flag(

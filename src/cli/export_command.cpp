@@ -5,20 +5,23 @@
 #include "cli/commands.h"
 #include "cli/export_files.h"
 #include "cli/output.h"
+#include "report/case_filter.h"
 #include "report/result_file.h"
 
 namespace clusterbench::cli {
 namespace {
 
 struct ExportFlags {
-  std::string result, format, output;
+  std::string result, format, output, filter;
   bool all = false;
 };
 
 ExitCode export_result(const ExportFlags& flags) {
   refuse_overwriting({flags.output}, {flags.result});
   const report::ExportFormat& format = report::export_format(flags.format);
-  write_text(flags.output, report::exported(report::read_result(flags.result), format, flags.all));
+  nlohmann::ordered_json result = report::read_result(flags.result);
+  report::keep_cases(result, flags.filter, flags.result);
+  write_text(flags.output, report::exported(result, format, flags.all));
   return ExitCode::ok;
 }
 
@@ -30,6 +33,7 @@ void add_export(Command& program, Action& action) {
   command.add_option("RESULT", flags->result, "A result file of `clusterbench run`").required();
   command.add_option("--format", flags->format, "One of those below").required();
   command.add_option("-o,--output", flags->output, "File to write; without it standard output");
+  command.add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
   command.add_flag("--all", flags->all, "Every figure, not only the headline");
   command.footer("Formats:\n" + export_formats_text());
   command.when_named([flags, &action] { action = [flags] { return export_result(*flags); }; });

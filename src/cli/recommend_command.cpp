@@ -60,6 +60,10 @@ double share_of(const std::string& text) {
 
 std::vector<config::LimitRule> rules_of(const RecommendFlags& flags, const config::Config& config) {
   std::vector<config::LimitRule> rules = config.limits.fail_if;
+  for (const config::LimitRule& rule : rules)
+    if (rule.side != config::LimitRule::Side::above || rule.is_relative || !rule.cases.empty())
+      throw Error("", "limits.fail_if",
+                  "'" + rule.text() + "': recommend takes budgets with > or >= and a number alone");
   for (std::size_t i = 0; i < flags.most.size(); ++i)
     if (flags.most[i] != k_no_limit) rules.push_back({config::limit_figures()[i].name, false, flags.most[i]});
   return rules;
@@ -222,6 +226,7 @@ void add_recommend(Command& program, Action& action) {
       .one_of(objectives);
   for (std::size_t i = 0; i < flags->most.size(); ++i) {
     const config::LimitFigure& figure = config::limit_figures()[i];
+    if (!figure.is_choosable) continue;
     command.add_option(flag_of(figure.name), flags->most[i], std::string("At most: ") + figure.meaning).non_negative();
   }
   command.add_option("--within", flags->within, "How much worse than the best a coarser grid may be").shows_standard();

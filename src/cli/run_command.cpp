@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/count_instructions.h"
 #include "cli/export_files.h"
+#include "cli/gates.h"
 #include "cli/handover.h"
 #include "cli/launches.h"
 #include "cli/output.h"
@@ -28,7 +29,6 @@
 #include "report/compare.h"
 #include "report/conclusion.h"
 #include "report/journal.h"
-#include "report/limits.h"
 #include "report/result_json.h"
 #include "report/table.h"
 #include "report/timing_warnings.h"
@@ -51,6 +51,7 @@ struct RunFlags {
   bool resume = false, dry_run = false, no_timing = false, quiet = false;
 
   BaselineRequest baseline;
+  GateFlags gates;
   ImageFlags images;
 
   // Only where this program is measured beside another one.
@@ -74,6 +75,7 @@ config::Config overridden(config::Config config, const RunFlags& flags) {
     config.timing.measure = false;
     config.resolved["timing"]["measure"] = false;
   }
+  set_gates(config, flags.gates);
   return config;
 }
 
@@ -141,7 +143,7 @@ ExitCode print_plan(const config::Config& config, const run::Plan& plan) {
 Json what_is_measured(const config::Config& config) {
   Json out = config.resolved;
   out.erase("threads");
-  out["limits"].erase("fail_if");
+  for (const char* gate : {"fail_if", "baseline", "allow_no_lights", "allow_changed_lights"}) out["limits"].erase(gate);
   return out;
 }
 
@@ -195,14 +197,6 @@ ExitCode report_gates(const Json& result) {
   const std::vector<std::string> failures = report::gate_failures(result);
   for (const std::string& failure : failures) tell("FAILED " + failure);
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
-}
-
-ExitCode report_limits(const config::Config& config, const Json& result) {
-  const report::LimitFindings findings = report::limit_findings(result, config.limits.fail_if);
-  for (const std::string& line : findings.unchecked) tell("warning: " + line);
-  for (const std::string& line : findings.near) tell("warning: " + line);
-  for (const std::string& line : findings.broken) tell("FAILED " + line);
-  return findings.broken.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 
 // What makes the same plan in another program, which can be older and know neither budgets nor launches.
@@ -312,14 +306,16 @@ void refuse_losses(const RunFlags& flags, const config::Config& config) {
   std::vector<std::string> outputs{flags.output}, inputs = flags.inputs.paths;
   for (const std::string& text : flags.exports) outputs.push_back(text.substr(text.find('=') + 1));
   for (const config::SceneRequest& scene : config.scenes) inputs.push_back(scene.path.string());
+  inputs.push_back(config.limits.baseline.string());
   refuse_overwriting(outputs, inputs);
 }
 
 ExitCode measure(const RunFlags& flags, const config::Config& config, const run::Plan& plan, CountWay way,
                  const std::vector<ExportTarget>& exports) {
+  const Gates own_gates(config, flags.filter);
   refuse_losses(flags, config);
   if (is_stream(flags.output)) probe_output(flags.output);
-  probe_exports(exports);
+  probe_exports(exports, config.timing.measure);
   std::optional<PictureFiles> images;
   if (!flags.images.folder.empty()) images.emplace(flags.images, config, plan);
   const std::atomic<bool>& stop = stop_on_signals();  // before there is anything to keep
@@ -363,7 +359,7 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
     return stopped_exit_code();
   }
   const ExitCode gates = flags.baseline.binary.empty() ? report_gates(result) : report_baseline(flags, result);
-  const ExitCode limits = report_limits(config, result);
+  const ExitCode limits = own_gates.report(result);
   if (!flags.quiet) show_conclusion(flags, result);
   return gates == ExitCode::ok ? limits : gates;
 }
@@ -445,6 +441,7 @@ void add_run(Command& program, Action& action) {
                   "Smallest change against the baseline that matters, in percent")
       .range(0.01, 1000.0)
       .shows_standard();
+  add_gate_options(command, flags->gates);
   command.add_option("--rounds-server", flags->rounds_server, "").hidden();
   command.add_flag(k_serve_launch, flags->serves_launch, "").hidden();
   command.add_flag("--resume", flags->resume, "Continue the interrupted run of the same -o FILE");

@@ -398,6 +398,8 @@ void read_settings(const Json& document, Config& config) {
   const Json& all_pairs = document["limits"]["all_pairs"];
   if (all_pairs.is_number()) config.limits.all_pairs = all_pairs.get<std::uint64_t>();
   config.limits.memory_mib = document["limits"]["memory_mib"].get<std::uint64_t>();
+  config.limits.allows_no_lights = document["limits"]["allow_no_lights"].get<bool>();
+  config.limits.allows_changed_lights = document["limits"]["allow_changed_lights"].get<bool>();
   const Json& dropped = document["limits"]["dropped_pairs"];
   config.limits.dropped_pairs = dropped.is_null() ? std::nullopt : std::optional(dropped.get<std::uint64_t>());
   const Json& timing = document["timing"];
@@ -529,6 +531,10 @@ Config read_config(const JsonText& text) {
   read_settings(document, config);
   check_ranking(document, config.sample_sets, text);
   config.limits.fail_if = limit_rules(document["limits"]["fail_if"], text);
+  if (const Json& baseline = document["limits"]["baseline"]; baseline.is_string())
+    config.limits.baseline =
+        (folder_of(text.file) / expanded(baseline.get<std::string>(), text.file, text.where("/limits/baseline")))
+            .lexically_normal();
   return config;
 }
 

@@ -128,6 +128,9 @@ struct LimitsRequest {
   std::optional<std::uint64_t> all_pairs;  // lights x cells of methods that test every light against every cell
   std::uint64_t memory_mib = k_default_memory_limit >> 20;  // of one list, buffer or table: core/memory.h
   std::vector<LimitRule> fail_if;                           // what fails the run
+  std::filesystem::path baseline;                           // a result that relative budgets are held against; ""
+  bool allows_no_lights = false;                            // budgets hold where there is nothing to measure
+  bool allows_changed_lights = false;                       // than the baseline has
   // What a case's storage may drop over all frames before it fails the run; without: all that it likes.
   std::optional<std::uint64_t> dropped_pairs = 0;
 };

@@ -3,21 +3,26 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <optional>
 #include <string_view>
 
 #include "core/error.h"
+#include "core/pattern.h"
 #include "core/text.h"
 
 namespace clusterbench::config {
 namespace {
 
+constexpr bool k_choosable = true, k_given = false, k_timed = true;
+
 constexpr LimitFigure k_figures[] = {
-    {"frame_us", "median time of a frame in microseconds: assign and convert"},
-    {"frame_us.max", "time of the slowest frame that is timed, in microseconds"},
-    {"frame_cost_us", "modelled time of a frame with its shading, in microseconds"},
-    {"assign_us", "median time to assign a frame's lights, in microseconds"},
-    {"convert_us", "median time to convert a frame's lists, in microseconds"},
-    {"build_us", "median time to prepare for a grid, in microseconds"},
+    {"frame_us", "median time of a frame in microseconds: assign and convert", k_choosable, k_timed},
+    {"frame_us.max", "time of the slowest frame that is timed, in microseconds", k_choosable, k_timed},
+    {"frame_cost_us", "modelled time of a frame with its shading, in microseconds", k_choosable, k_timed},
+    {"assign_us", "median time to assign a frame's lights, in microseconds", k_choosable, k_timed},
+    {"convert_us", "median time to convert a frame's lists, in microseconds", k_choosable, k_timed},
+    {"build_us", "median time to prepare for a grid, in microseconds", k_choosable, k_timed},
     {"index_entries", "entries in the fullest frame: light indices, or words, nodes, boxes (docs/sizing.md)"},
     {"bytes", "bytes of indices and headers in the fullest frame"},
     {"upload_bytes", "bytes to copy in the largest frame"},
@@ -31,7 +36,17 @@ constexpr LimitFigure k_figures[] = {
     {"unlit", "share of the lights that samples need and are not given"},
     {"lost_irradiance", "share of the irradiance that such lights carry"},
     {"overshade", "lights that samples are given, by those they need"},
+    {"instructions", "instructions of a frame: cull, assign and convert (--count)", k_given},
+    {"assign_instructions", "instructions to assign a frame's lights (--count)", k_given},
+    {"convert_instructions", "instructions to convert a frame's lists (--count)", k_given},
+    {"lights", "lights of the scene that methods get", k_given},
+    {"lights_in_view", "lights whose bounding sphere is in view, in the frame with most", k_given},
 };
+
+constexpr const char* k_form =
+    "is no budget; takes a figure, then >, >=, <, <= or == and a number or a range (A..B, which fails outside of it), "
+    "as in 'frame_us > 200', 'lights < 1', 'lights_in_view 200..300'; percent are against a baseline, as in "
+    "'longest > +5 %'; before a colon a part of cases' names, as in 'exact-fast: longest > 64'";
 
 std::string_view without_blanks(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
@@ -45,27 +60,175 @@ std::vector<std::string> figure_names() {
   return names;
 }
 
+struct Number {
+  double value = 0.0;
+  bool is_percent = false;
+};
+
+// "64", "1e6", "+5 %", "-5%".
+std::optional<Number> number_in(std::string_view text) {
+  Number out;
+  text = without_blanks(text);
+  if (text.ends_with('%')) {
+    out.is_percent = true;
+    text = without_blanks(text.substr(0, text.size() - 1));
+  }
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), out.value);
+  if (failed != std::errc() || end != text.data() + text.size() || !std::isfinite(out.value)) return std::nullopt;
+  return out;
+}
+
+// A budget in the pieces that its text has.
+class RuleParser {
+ public:
+  RuleParser(const std::string& text, const std::string& file, const std::string& where)
+      : text_(text), file_(file), where_(where) {}
+
+  LimitRule rule() {
+    std::string_view rest = after_cases();
+    const std::size_t sign = rest.find_first_of("<>=");
+    if (sign == std::string_view::npos)
+      read_range(rest);
+    else
+      read_comparison(rest, sign);
+    check_figure();
+    return rule_;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const { throw Error(file_, where_, "'" + text_ + "' " + what); }
+
+  std::string_view after_cases() {
+    const std::string_view all = text_;
+    const std::size_t colon = all.rfind(':');
+    if (colon == std::string_view::npos) return all;
+    rule_.cases = without_blanks(all.substr(0, colon));
+    if (rule_.cases.empty()) refuse("has no part of cases' names before its colon");
+    try {
+      const Pattern checked(rule_.cases, "");
+    } catch (const Error& error) {
+      refuse("selects cases by a pattern that is wrong: " + error.message());
+    }
+    return all.substr(colon + 1);
+  }
+
+  void read_comparison(std::string_view rest, std::size_t sign) {
+    rule_.figure = without_blanks(rest.substr(0, sign));
+    const std::string_view from_sign = rest.substr(sign);
+    struct Sign {
+      std::string_view text;
+      LimitRule::Side side;
+      bool is_inclusive;
+    };
+    using enum LimitRule::Side;
+    constexpr Sign k_signs[] = {
+        {">=", above, true}, {"<=", below, true}, {"==", equal, false}, {">", above, false}, {"<", below, false}};
+    const Sign* found = std::ranges::find_if(k_signs, [&](const Sign& s) { return from_sign.starts_with(s.text); });
+    if (found == std::end(k_signs)) refuse(k_form);
+    rule_.side = found->side;
+    rule_.is_inclusive = found->is_inclusive;
+    const Number number = needed_number(from_sign.substr(found->text.size()));
+    rule_.limit = number.value;
+    rule_.is_relative = number.is_percent;
+  }
+
+  // "lights 200..300", "lights outside 200..300".
+  void read_range(std::string_view rest) {
+    const std::size_t dots = rest.find("..");
+    rest = without_blanks(rest);
+    const std::size_t blank = rest.find(' ');
+    if (dots == std::string_view::npos || blank == std::string_view::npos) refuse(k_form);
+    rule_.figure = rest.substr(0, blank);
+    std::string_view range = without_blanks(rest.substr(blank));
+    if (range.starts_with("outside ")) range = without_blanks(range.substr(8));
+    const std::size_t middle = range.find("..");
+    const Number low = needed_number(range.substr(0, middle)), high = needed_number(range.substr(middle + 2));
+    if (low.is_percent && !high.is_percent) refuse("has percent at one end of its range alone");
+    if (low.value > high.value) refuse("has a range that ends before it begins");
+    rule_.side = LimitRule::Side::outside;
+    rule_.limit = low.value;
+    rule_.upper = high.value;
+    rule_.is_relative = high.is_percent;
+  }
+
+  Number needed_number(std::string_view text) const {
+    if (const std::optional<Number> number = number_in(text)) return *number;
+    refuse("ends with '" + std::string(without_blanks(text)) + "', which is no number");
+  }
+
+  void check_figure() const {
+    const std::vector<std::string> names = figure_names();
+    const LimitFigure* figure =
+        std::ranges::find_if(k_figures, [&](const LimitFigure& known) { return rule_.figure == known.name; });
+    if (figure == std::end(k_figures))
+      refuse("names no figure of a case" + did_you_mean(rule_.figure, names) + "; there are: " + joined(names));
+    if (rule_.is_relative && figure->is_timed)
+      refuse(
+          "holds times of two runs against each other, which differ by themselves; hold instructions against the "
+          "baseline (--count), or measure both programs side by side (--baseline-binary)");
+  }
+
+  std::string text_, file_, where_;
+  LimitRule rule_;
+};
+
+std::string number_text(double value, bool is_relative) {
+  return is_relative ? (value < 0.0 ? "" : "+") + budget_number(value) + " %" : budget_number(value);
+}
+
 }  // namespace
 
 std::span<const LimitFigure> limit_figures() {
   return k_figures;
 }
 
+bool LimitRule::is_broken_by(double value) const {
+  switch (side) {
+    case Side::above:
+      return is_inclusive ? value >= limit : value > limit;
+    case Side::below:
+      return is_inclusive ? value <= limit : value < limit;
+    case Side::equal:
+      return value == limit;
+    case Side::outside:
+      break;
+  }
+  return value < limit || value > upper;
+}
+
+bool LimitRule::is_near(double value) const {
+  constexpr double k_nearly = 0.1;
+  if (is_broken_by(value) || !(limit > 0.0)) return false;
+  if (side == Side::above) return value > (1.0 - k_nearly) * limit;
+  return side == Side::below && value < (1.0 + k_nearly) * limit;
+}
+
+std::string LimitRule::text() const {
+  const std::string begin = (cases.empty() ? "" : cases + ": ") + figure + " ";
+  const std::string number = number_text(limit, is_relative);
+  switch (side) {
+    case Side::above:
+      return begin + (is_inclusive ? ">= " : "> ") + number;
+    case Side::below:
+      return begin + (is_inclusive ? "<= " : "< ") + number;
+    case Side::equal:
+      return begin + "== " + number;
+    case Side::outside:
+      break;
+  }
+  return begin + "outside " + number + ".." + number_text(upper, is_relative);
+}
+
 LimitRule limit_rule(const std::string& text, const std::string& file, const std::string& where) {
-  const auto refuse = [&](const std::string& what) { throw Error(file, where, "'" + text + "' " + what); };
-  const std::size_t sign = text.find('>');
-  if (sign == std::string::npos) refuse("is no budget; takes a figure, > or >=, and a number, as in 'frame_us > 200'");
-  LimitRule rule;
-  rule.figure = without_blanks(std::string_view(text).substr(0, sign));
-  rule.is_inclusive = text.substr(sign).starts_with(">=");
-  const std::string_view number = without_blanks(std::string_view(text).substr(sign + (rule.is_inclusive ? 2 : 1)));
-  const std::vector<std::string> names = figure_names();
-  if (std::find(names.begin(), names.end(), rule.figure) == names.end())
-    refuse("names no figure of a case" + did_you_mean(rule.figure, names) + "; there are: " + joined(names));
-  const auto [end, failed] = std::from_chars(number.data(), number.data() + number.size(), rule.limit);
-  if (failed != std::errc() || end != number.data() + number.size() || !std::isfinite(rule.limit))
-    refuse("ends with '" + std::string(number) + "', which is no number");
-  return rule;
+  return RuleParser(text, file, where).rule();
+}
+
+std::string budget_number(double value) {
+  char text[48];
+  const bool is_count = std::abs(value) < 1e15 && value == std::floor(value);
+  std::snprintf(text, sizeof text, is_count ? "%.0f" : "%.7g", value);
+  return text;
 }
 
 }  // namespace clusterbench::config

@@ -1,5 +1,6 @@
 #pragma once
-// Budgets that fail a run: "frame_us.max > 200". report/limits.h holds results against them.
+// Budgets that fail a run: "frame_us.max > 200", "lights_in_view 200..300", "exact-fast: longest > +5 %".
+// report/limits.h holds results against them.
 
 #include <span>
 #include <string>
@@ -11,20 +12,39 @@ namespace clusterbench::config {
 struct LimitFigure {
   const char* name;
   const char* meaning;
+  bool is_choosable = true;  // `recommend` can choose grids, methods and structures by it
+  bool is_timed = false;     // rests on times, so that two runs of one program differ in it
 };
 std::span<const LimitFigure> limit_figures();
 
+// A budget says what fails.
 struct LimitRule {
-  std::string figure;         // one of limit_figures()
-  bool is_inclusive = false;  // ">="
-  double limit = 0.0;
+  enum class Side {
+    above,   // > or >=
+    below,   // < or <=
+    equal,   // ==
+    outside  // of limit..upper
+  };
 
-  bool is_broken_by(double value) const { return is_inclusive ? value >= limit : value > limit; }
-  // Not broken, and less than a tenth below.
-  bool is_near(double value) const { return !is_broken_by(value) && limit > 0.0 && value > 0.9 * limit; }
+  std::string figure;         // one of limit_figures()
+  bool is_inclusive = false;  // ">=" and "<="
+  double limit = 0.0;
+  Side side = Side::above;
+  double upper = 0.0;        // of Side::outside
+  bool is_relative = false;  // numbers are changes against a baseline in percent
+  std::string cases = {};    // a regular expression that a part of a case's name has to match; "": all cases
+
+  bool is_broken_by(double value) const;
+  // Not broken, and less than a tenth of the limit away from it. Never said of == and of ranges.
+  bool is_near(double value) const;
+  // As it was written: "exact-fast: longest > +5 %".
+  std::string text() const;
 };
 
 // Throws Error with file and location; an unknown figure is answered with the list of all.
 LimitRule limit_rule(const std::string& text, const std::string& file, const std::string& where);
+
+// A count without digits behind the point, else up to seven digits.
+std::string budget_number(double value);
 
 }  // namespace clusterbench::config

@@ -8,7 +8,9 @@
 
 #include "core/text.h"
 #include "measure/time_change.h"
+#include "report/case_settings.h"
 #include "report/columns.h"
+#include "report/compare_advice.h"
 #include "report/exact_differences.h"
 #include "report/json_values.h"
 #include "report/result_json.h"
@@ -51,45 +53,6 @@ Json names_of(const std::vector<const Json*>& cases) {
   return names;
 }
 
-Json scene_of(const Json& result, const Json& result_case) {
-  for (const Json& scene : result["scenes"])
-    if (scene["name"] == result_case["scene"]) return scene;
-  return {};
-}
-
-// What the scenes' requests say of a key, each answer once.
-Json answers_of(const Json& result, const char* key) {
-  Json answers = Json::array();
-  for (const Json& scene : result["config"].value("scenes", Json::array()))
-    if (scene.contains(key) && std::ranges::find(answers, scene[key]) == answers.end()) answers.push_back(scene[key]);
-  return answers;
-}
-
-// Why a case that both results name alike is another one: the settings in which it differs.
-std::vector<std::string> other_settings(const Json& base, const Json& base_case, const Json& next,
-                                        const Json& next_case) {
-  std::vector<std::string> out;
-  const auto tell = [&](const Json& left, const Json& right, const std::string& what, const char* pointer) {
-    if (left.value(Pointer(pointer), Json()) != right.value(Pointer(pointer), Json())) out.push_back(what);
-  };
-  const Json base_scene = scene_of(base, base_case), next_scene = scene_of(next, next_case);
-  tell(base_scene, next_scene, "the scene itself (sha256)", "/sha256");
-  tell(base_scene, next_scene, "range_rule", "/range_rule/cutoff_lux");
-  tell(base_scene, next_scene, "range_rule", "/range_rule/max_range");
-  for (const char* key : {"camera", "viewport", "frames", "grid", "storage"})
-    tell(base_case, next_case, key, (std::string("/") + key).c_str());
-  tell(base_case, next_case, "the assigner's parameters", "/assigner/params");
-  tell(base_case, next_case, "precision", "/precision/label");
-  tell(base_case, next_case, "pre_cull", "/pre_cull/label");
-  for (const char* key :
-       {"seed", "shading", "samples", "lookup", "stability", "jitter", "shadow_cull", "shadow_frusta"})
-    tell(base["config"], next["config"], key, (std::string("/") + key).c_str());
-  for (const char* key : {"camera_fit", "boxes", "fov"})
-    if (answers_of(base, key) != answers_of(next, key)) out.emplace_back(key);
-  if (out.empty()) out.emplace_back("something that results do not tell");
-  return out;
-}
-
 // The same name on both sides, and not the same case.
 Json renamed(const Json& base, const std::vector<const Json*>& only_in_base, const Json& next,
              const std::vector<const Json*>& only_in_new) {
@@ -98,7 +61,7 @@ Json renamed(const Json& base, const std::vector<const Json*>& only_in_base, con
     for (const Json* next_case : only_in_new)
       if ((*base_case)["name"] == (*next_case)["name"])
         out.push_back(
-            {{"name", (*base_case)["name"]}, {"differs_in", other_settings(base, *base_case, next, *next_case)}});
+            {{"name", (*base_case)["name"]}, {"differs_in", differing_settings(base, *base_case, next, *next_case)}});
   return out;
 }
 
@@ -320,9 +283,17 @@ const char* hint_of(measure::Verdict verdict) {
   return verdict == measure::Verdict::slower ? "longer" : verdict == measure::Verdict::faster ? "shorter" : "none";
 }
 
-void add_time(Json& out, const TimeChange& time, double corrected_p, double threshold, bool gates_separate) {
-  const measure::Verdict verdict = measure::verdict_on(time.change, corrected_p, threshold);
-  if (time.launches.empty() && !gates_separate) {
+struct Settings {
+  double threshold = 0.0;
+  bool gates_separate = false, is_margin_same = true, is_same_program = false;
+};
+
+// A program beside itself is the same, whatever the times of this hour say.
+void add_time(Json& out, const TimeChange& time, double corrected_p, const Settings& settings) {
+  const measure::Verdict verdict = settings.is_same_program
+                                       ? measure::Verdict::same
+                                       : measure::verdict_on(time.change, corrected_p, settings.threshold);
+  if (time.launches.empty() && !settings.gates_separate) {
     out["hint"] = hint_of(verdict);
   } else {
     out["verdict"] = measure::name_of(verdict);
@@ -334,19 +305,13 @@ void add_time(Json& out, const TimeChange& time, double corrected_p, double thre
   out["launches"] = time.launches.size();
 }
 
-struct Settings {
-  double threshold = 0.0;
-  bool gates_separate = false, is_margin_same = true;
-};
-
 Json margin_of(const Json& result) {
   return result["config"].value(Pointer("/allocation/margin"), Json());
 }
 
 Json compared(const Match& match, const Times& times, const Scope& scope, const Settings& settings) {
   Json out{{"id", match.next["id"]}, {"name", match.next["name"]}};
-  if (const auto index = times.index_of(match))
-    add_time(out, times.at(*index), times.corrected_p(*index), settings.threshold, settings.gates_separate);
+  if (const auto index = times.index_of(match)) add_time(out, times.at(*index), times.corrected_p(*index), settings);
   out.update(exact_differences(match.base, match.next, settings.is_margin_same));
   add_list_difference(match, out);
   if (!scope.leaves_out("instructions") && are_counts_comparable(match))
@@ -517,7 +482,9 @@ Json compare_results(const Json& base, const Json& next, double threshold, const
            {"new", {{"tool", next["tool"]}}},
            {"left_out", scope.left_out},
            {"cases", Json::array()}};
-  const Settings settings{threshold, options.gates_separate, margin_of(base) == margin_of(next)};
+  const bool is_same_program = by_pairs && next["baseline"].value("is_same_program", false);
+  if (is_same_program) out["is_same_program"] = true;
+  const Settings settings{threshold, options.gates_separate, margin_of(base) == margin_of(next), is_same_program};
   for (const Match& match : matches) out["cases"].push_back(compared(match, times, scope, settings));
   out["summary"] = summary_of(out["cases"], times);
   out["only_in_base"] = names_of(only_in_base);
@@ -526,6 +493,7 @@ Json compare_results(const Json& base, const Json& next, double threshold, const
   out["not_compared"] = parts_of_one(matches);
   out["failures"] = failures_of(next, out["cases"]);
   out["warnings"] = warnings_of(base, next, out, scope.forced, options.gates_separate);
+  if (const std::vector<std::string> advice = advice_on(out); !advice.empty()) out["advice"] = advice;
   return out;
 }
 

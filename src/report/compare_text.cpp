@@ -209,7 +209,9 @@ std::string comparison_text(const Json& comparison) {
   for (const Json& line : details_of_all(comparison["cases"])) out += "counted: " + line.get<std::string>() + "\n";
   for (const Json& warning : comparison["warnings"]) out += "warning: " + warning.get<std::string>() + "\n";
   for (const Json& failure : comparison["failures"]) out += "FAILED " + failure.get<std::string>() + "\n";
-  return out + summary_text(comparison) + "\n";
+  out += summary_text(comparison) + "\n";
+  for (const Json& advice : comparison.value("advice", Json::array())) out += advice.get<std::string>() + "\n";
+  return out;
 }
 
 std::string comparison_markdown(const Json& comparison) {
@@ -222,6 +224,7 @@ std::string comparison_markdown(const Json& comparison) {
   out += markdown_list("Failed", comparison["failures"]);
   out += markdown_list("What is counted", details_of_all(comparison["cases"]));
   out += markdown_list("Warnings", comparison["warnings"]);
+  out += markdown_list("What to do", comparison.value("advice", Json::array()));
   if (!rest.empty())
     out += "\n<details><summary>" + number_of(rest.size(), "case") +
            " without a verdict or a change of counts</summary>\n\n" + markdown_table(rest) + "\n</details>\n";

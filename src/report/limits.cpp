@@ -1,11 +1,16 @@
 #include "report/limits.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <string_view>
 
+#include "core/pattern.h"
 #include "core/text.h"
+#include "report/baseline_cases.h"
 #include "report/json_values.h"
 
 namespace clusterbench::report {
@@ -21,6 +26,8 @@ struct FigureRow {
   const char* frame = "";
   const char* cell = "";
   const char* divisor = "";
+  // Where older results lack `value`: the sum of what is at these.
+  std::array<const char*, 3> parts = {};
 };
 constexpr double k_ns_to_us = 1e-3;
 constexpr FigureRow k_figure_rows[] = {
@@ -43,6 +50,18 @@ constexpr FigureRow k_figure_rows[] = {
     {"unlit", "/shading/missed", 1.0, "/shading/worst_frame/frame", "", "/shading/needed"},
     {"lost_irradiance", "/shading/lost_irradiance"},
     {"overshade", "/shading/overshade"},
+    {"instructions",
+     "/count/instructions_per_frame/frame",
+     1.0,
+     "",
+     "",
+     "",
+     {"/count/instructions_per_frame/pre_cull", "/count/instructions_per_frame/assign",
+      "/count/instructions_per_frame/convert"}},
+    {"assign_instructions", "/count/instructions_per_frame/assign"},
+    {"convert_instructions", "/count/instructions_per_frame/convert"},
+    {"lights", "/lights"},
+    {"lights_in_view", "/lights_in_view/max", 1.0, "/lights_in_view/worst_frame"},
 };
 
 // With the row that has it.
@@ -50,10 +69,19 @@ struct Found {
   const FigureRow* row = nullptr;
   double value = 0.0;
 };
+std::optional<double> sum_of_parts(const Json& result_case, const FigureRow& row) {
+  std::optional<double> sum;
+  for (const char* part : row.parts)
+    if (const std::optional<double> value = part != nullptr ? number_at(result_case, part) : std::nullopt)
+      sum = sum.value_or(0.0) + *value;
+  return sum;
+}
+
 std::optional<Found> found_in(const Json& result_case, const std::string& name) {
   for (const FigureRow& row : k_figure_rows) {
     if (row.name != name) continue;
     std::optional<double> value = number_at(result_case, row.value);
+    if (!value) value = sum_of_parts(result_case, row);
     if (!value) continue;
     if (*row.divisor != '\0') {
       const double whole = number_at(result_case, row.divisor).value_or(0.0);
@@ -65,23 +93,12 @@ std::optional<Found> found_in(const Json& result_case, const std::string& name) 
   return {};
 }
 
-std::string budget_number(double value) {
-  char text[48];
-  const bool is_count = value == static_cast<double>(static_cast<long long>(value)) && value < 1e15;
-  std::snprintf(text, sizeof text, is_count ? "%.0f" : "%.7g", value);
-  return text;
-}
-
 std::string worst_location(const Json& result_case, const FigureRow& row) {
   std::string text;
   for (const auto& [word, pointer] : {std::pair("frame ", row.frame), std::pair("cell ", row.cell)})
     if (const Json* found = *pointer != '\0' ? value_at(result_case, pointer) : nullptr; found != nullptr)
       text += (text.empty() ? "" : ", ") + std::string(word) + found->dump();
   return text.empty() ? "" : " (" + text + ")";
-}
-
-std::string rule_text(const config::LimitRule& rule) {
-  return rule.figure + (rule.is_inclusive ? " >= " : " > ") + budget_number(rule.limit);
 }
 
 // Why a case may lack a figure.
@@ -96,8 +113,163 @@ std::string reason_for_none(const std::string& figure) {
   if (pointer.starts_with("/shading/")) return " (no light reaches the samples, or shading.samples: 0 leaves them out)";
   if (pointer.starts_with("/error/"))
     return " (accuracy.check: false leaves errors out; structures without cells have none)";
+  if (pointer.starts_with("/count/")) return " (--count counts instructions)";
+  if (pointer.starts_with("/lights")) return " (a result of an older version tells none)";
   if (pointer.starts_with("/occupancy/")) return " (structures without cells have none)";
   return "";
+}
+
+std::string listed_names(const std::vector<std::string>& names) {
+  constexpr std::size_t k_most = 3;
+  const std::size_t shown_names = std::min(names.size(), k_most);
+  return joined(std::span(names).first(shown_names)) + (names.size() > k_most ? " ..." : "");
+}
+
+std::string is_text(const Json& result_case, const config::LimitRule& rule, const Found& found) {
+  return result_case["name"].get<std::string>() + ": " + rule.figure + " is " + config::budget_number(found.value) +
+         worst_location(result_case, *found.row);
+}
+
+// One budget held against the cases that it names.
+class RuleCheck {
+ public:
+  RuleCheck(const Json& result, const config::LimitRule& rule, const BaselineCases* baseline, LimitFindings& findings)
+      : rule_(rule), quoted_("'" + rule.text() + "'"), baseline_(baseline), findings_(findings) {
+    const Pattern pattern(rule.cases, "");
+    for (const Json& result_case : result["cases"])
+      if (pattern.is_in(result_case["name"].get<std::string>())) cases_.push_back(&result_case);
+  }
+
+  void check(const Json& result) {
+    if (cases_.empty())
+      add_none(result);
+    else if (rule_.is_relative)
+      check_changes();
+    else
+      check_values();
+  }
+
+ private:
+  void add_none(const Json& result) {
+    std::vector<std::string> names;
+    for (const Json& result_case : result["cases"]) names.push_back(result_case["name"].get<std::string>());
+    findings_.broken.push_back(
+        quoted_ + " could not be checked: " +
+        (names.empty() ? "there is no case"
+                       : "its '" + rule_.cases + "' matches no case's name; there are: " + listed_names(names)));
+  }
+
+  void check_values() {
+    std::vector<std::string> without;
+    for (const Json* result_case : cases_) {
+      const std::optional<Found> found = found_in(*result_case, rule_.figure);
+      if (!found)
+        without.push_back((*result_case)["name"].get<std::string>());
+      else
+        judge(found->value, is_text(*result_case, rule_, *found));
+    }
+    add_without(without);
+  }
+
+  // Whoever names cases means them; a budget of all is held against those that can have the figure.
+  void add_without(const std::vector<std::string>& without) {
+    const std::string hint = reason_for_none(rule_.figure);
+    if (without.size() == cases_.size())
+      findings_.broken.push_back(quoted_ + " could not be checked: no case has " + rule_.figure + hint);
+    else if (!without.empty())
+      (rule_.cases.empty() ? findings_.unchecked : findings_.broken)
+          .push_back(quoted_ + " was not checked for " + number_of(without.size(), "case") + " without " +
+                     rule_.figure + hint + ": " + without.front() + (without.size() > 1 ? " ..." : ""));
+  }
+
+  void check_changes() {
+    if (baseline_ == nullptr) {
+      findings_.broken.push_back(quoted_ + " could not be checked: there is no baseline (--baseline FILE)");
+      return;
+    }
+    std::vector<std::string> not_in_base, without;
+    std::string obstacle;
+    for (const Json* result_case : cases_) {
+      const std::string name = (*result_case)["name"].get<std::string>();
+      const Json* before = baseline_->case_of(*result_case);
+      const std::optional<Found> now = found_in(*result_case, rule_.figure);
+      const std::optional<double> then = before == nullptr ? std::nullopt : limit_figure(*before, rule_.figure);
+      const std::string why = is_instructions() ? baseline_->obstacle_to_instructions(*result_case) : "";
+      if (before == nullptr)
+        not_in_base.push_back(name);
+      else if (!now || !then)
+        without.push_back(name);
+      else if (!why.empty())
+        obstacle = why;
+      else
+        judge_change(*result_case, *now, *then);
+    }
+    add_unmatched(not_in_base, without, obstacle);
+  }
+
+  void judge_change(const Json& result_case, const Found& now, double then) {
+    const double percent = now.value == then ? 0.0 : 100.0 * (now.value / then - 1.0);  // infinite from 0
+    char amount[48];
+    std::snprintf(amount, sizeof amount, "%+.3g %%", percent);
+    const std::string change = std::isfinite(percent) ? std::string(amount) + " against " : "was ";
+    judge(percent,
+          is_text(result_case, rule_, now) + ", " + change + config::budget_number(then) + " in " + baseline_->name());
+  }
+
+  void add_unmatched(const std::vector<std::string>& not_in_base, const std::vector<std::string>& without,
+                     const std::string& obstacle) {
+    const std::string begin = quoted_ + " could not be checked";
+    if (!not_in_base.empty())
+      findings_.broken.push_back(
+          begin + " for " + number_of(not_in_base.size(), "case") + " that " + baseline_->name() +
+          " does not have (of that camera, viewport, grid, method and structure): " + listed_names(not_in_base) +
+          "; measure the baseline again, or name cases before a colon");
+    const std::string hint = reason_for_none(rule_.figure);
+    if (!without.empty() && without.size() == cases_.size())
+      findings_.broken.push_back(begin + ": no case has " + rule_.figure + " here and in " + baseline_->name() + hint);
+    else if (!without.empty())
+      (rule_.cases.empty() ? findings_.unchecked : findings_.broken)
+          .push_back(quoted_ + " was not checked for " + number_of(without.size(), "case") + " without " +
+                     rule_.figure + " here or in " + baseline_->name() + hint + ": " + listed_names(without));
+    if (!obstacle.empty())
+      findings_.broken.push_back(begin + ": instructions do not compare, " + obstacle +
+                                 "; measure the baseline in the same job");
+    const Pattern pattern(rule_.cases, "");
+    std::vector<std::string> gone;
+    for (const std::string& name : baseline_->gone())
+      if (pattern.is_in(name)) gone.push_back(name);
+    if (!gone.empty())
+      findings_.broken.push_back(begin + " for " + number_of(gone.size(), "case") + " of " + baseline_->name() +
+                                 " that this result does not have: " + listed_names(gone) +
+                                 "; measure the baseline again, or name cases before a colon");
+  }
+
+  bool is_instructions() const { return rule_.figure.ends_with("instructions"); }
+
+  void judge(double value, const std::string& text) {
+    ++findings_.checked;
+    if (rule_.is_broken_by(value)) findings_.broken.push_back(text + ", and fails with " + rule_.text());
+    if (rule_.is_near(value))
+      findings_.near.push_back(text + ", less than 10 % " +
+                               (rule_.side == config::LimitRule::Side::above ? "below " : "above ") + rule_.text());
+  }
+
+  const config::LimitRule& rule_;
+  std::string quoted_;
+  const BaselineCases* baseline_;
+  LimitFindings& findings_;
+  std::vector<const Json*> cases_;
+};
+
+// What stands between a relative budget and its baseline beside the figure itself, each answer once.
+void add_changes_since(const Json& result, const BaselineCases& baseline, LimitFindings& findings) {
+  std::map<std::string, std::vector<std::string>> names;
+  for (const Json& result_case : result["cases"])
+    if (const std::string changes = baseline.what_changed(result_case); !changes.empty())
+      names[changes].push_back(result_case["name"].get<std::string>());
+  for (const auto& [changes, changed_cases] : names)
+    findings.warnings.push_back("since " + baseline.name() + " has changed: " + changes + ", of " +
+                                number_of(changed_cases.size(), "case") + ": " + listed_names(changed_cases));
 }
 
 }  // namespace
@@ -107,28 +279,12 @@ std::optional<double> limit_figure(const Json& result_case, const std::string& n
   return found ? std::optional(found->value) : std::nullopt;
 }
 
-LimitFindings limit_findings(const Json& result, std::span<const config::LimitRule> rules) {
+LimitFindings limit_findings(const Json& result, std::span<const config::LimitRule> rules,
+                             const BaselineCases* baseline) {
   LimitFindings findings;
-  for (const config::LimitRule& rule : rules) {
-    std::vector<std::string> without;
-    for (const Json& result_case : result["cases"]) {
-      const std::optional<Found> found = found_in(result_case, rule.figure);
-      if (!found) {
-        without.push_back(result_case["name"].get<std::string>());
-        continue;
-      }
-      const std::string text = result_case["name"].get<std::string>() + ": " + rule.figure + " is " +
-                               budget_number(found->value) + worst_location(result_case, *found->row);
-      if (rule.is_broken_by(found->value)) findings.broken.push_back(text + ", and fails with " + rule_text(rule));
-      if (rule.is_near(found->value)) findings.near.push_back(text + ", less than 10 % below " + rule_text(rule));
-    }
-    const std::string quoted = "'" + rule_text(rule) + "'", hint = reason_for_none(rule.figure);
-    if (without.size() == result["cases"].size())
-      findings.broken.push_back(quoted + " could not be checked: no case has " + rule.figure + hint);
-    else if (!without.empty())
-      findings.unchecked.push_back(quoted + " was not checked for " + number_of(without.size(), "case") + " without " +
-                                   rule.figure + hint + ": " + without.front() + (without.size() > 1 ? " ..." : ""));
-  }
+  for (const config::LimitRule& rule : rules) RuleCheck(result, rule, baseline, findings).check(result);
+  const bool is_relative = std::ranges::any_of(rules, [](const config::LimitRule& rule) { return rule.is_relative; });
+  if (is_relative && baseline != nullptr) add_changes_since(result, *baseline, findings);
   return findings;
 }
 

@@ -11,16 +11,21 @@
 
 namespace clusterbench::report {
 
+class BaselineCases;
+
 // A figure of a case by its name in budgets (config/limit_rules.h); nothing where the case has none.
 std::optional<double> limit_figure(const nlohmann::ordered_json& result_case, const std::string& name);
 
 // Lines with case, figure and, where they are known, frame and cell.
 struct LimitFindings {
-  std::vector<std::string> broken;  // also a budget about what no case has: it could not be checked
-  std::vector<std::string> near;    // less than 10 % below
-  // Budgets about what some cases do not have.
-  std::vector<std::string> unchecked;
+  std::vector<std::string> broken;     // also a budget that could not be checked: about what no case has
+  std::vector<std::string> near;       // less than 10 % away
+  std::vector<std::string> unchecked;  // budgets of all cases, about what some do not have
+  std::vector<std::string> warnings;   // what else has to be known before a budget that holds is believed
+  std::size_t checked = 0;             // how often a budget was held against a case
 };
-LimitFindings limit_findings(const nlohmann::ordered_json& result, std::span<const config::LimitRule> rules);
+// `baseline`: what relative budgets are held against; null: there is none, and they fail.
+LimitFindings limit_findings(const nlohmann::ordered_json& result, std::span<const config::LimitRule> rules,
+                             const BaselineCases* baseline = nullptr);
 
 }  // namespace clusterbench::report

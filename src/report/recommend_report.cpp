@@ -392,6 +392,7 @@ void add_once(Json& list, const Json& entry) {
 std::vector<ObjectiveFigure> objective_figures() {
   std::vector<ObjectiveFigure> all;
   for (const config::LimitFigure& figure : config::limit_figures()) {
+    if (!figure.is_choosable) continue;
     const FigureKind kind = figure_kind(figure.name);
     all.push_back(
         {figure.name, figure.meaning, kind.is_timed, std::string(figure.name) == "frame_cost_us", kind.only_grows});

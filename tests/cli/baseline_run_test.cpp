@@ -66,6 +66,22 @@ TEST(Baseline, both_programs_are_measured_and_the_result_carries_the_pairs) {
   EXPECT_NE(compared.out.find("times of assignment side by side"), std::string::npos) << compared.out;
 }
 
+TEST(Baseline, the_same_program_is_no_difference_and_says_what_would_show) {
+  const Place place;
+  const Outcome done = place.run(test::program());
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(
+      done.err.find("no difference: both are the same program, byte for byte, and beside itself its times differ by "
+                    "at most "),
+      std::string::npos)
+      << done.err;
+  EXPECT_EQ(done.err.find("inconclusive"), std::string::npos) << done.err;
+  const Outcome wrapped = place.run(place.script("exec " + test::program() + " \"$@\""), "--threshold 0.01");
+  EXPECT_EQ(wrapped.err.find("the same program"), std::string::npos) << "a script may do anything";
+  if (wrapped.err.find("inconclusive") != std::string::npos)
+    EXPECT_NE(wrapped.err.find("and the threshold is 0.01 %. "), std::string::npos) << wrapped.err;
+}
+
 TEST(Baseline, flags_that_change_the_configuration_reach_both_programs) {
   const Place place;
   const Outcome done = place.run(test::program(), k_any_time + " --tiles 128 --set 'grids.*.slices.count=3'");

@@ -60,7 +60,43 @@ TEST(CompareCommand, without_a_common_case_the_code_is_3) {
   const Files files;
   Json next = counted_result();
   for (Json& entry : next["cases"]) entry["id"] = "other " + entry["id"].get<std::string>();
-  EXPECT_EQ(files.compare_with(next).code, 3);
+  const Outcome done = files.compare_with(next);
+  EXPECT_EQ(done.code, 3);
+  EXPECT_NE(done.err.find("the results have no case in common: the level or a setting has changed"), std::string::npos)
+      << done.err;
+}
+
+TEST(CompareCommand, of_other_grids_points_to_ratio_across_grids) {
+  const Files files;
+  Json next = counted_result();
+  for (Json& entry : next["cases"]) {
+    entry["id"] = "other " + entry["id"].get<std::string>();
+    entry["grid"]["name"] = "frustum 32px x 4 linear";
+    entry["name"] = "street/walk/frustum 32px x 4 linear";
+  }
+  const Outcome done = files.compare_with(next);
+  EXPECT_EQ(done.code, 3);
+  EXPECT_NE(done.err.find("their grids differ. To hold grids against each other, measure them in one run"),
+            std::string::npos)
+      << done.err;
+  EXPECT_NE(done.err.find("--across-grids"), std::string::npos) << done.err;
+}
+
+TEST(CompareCommand, a_filter_compares_some_cases) {
+  const Files files;
+  Json next = counted_result();
+  for (Json& entry : next["cases"])
+    if (entry["assigner"]["name"] == "aabb")
+      entry["error"]["reported_pairs"] = 1 + entry["error"]["reported_pairs"].get<int>();
+  EXPECT_EQ(files.compare_with(next).code, 1);
+  const Outcome done = files.compare_with(next, "--filter sphere-ref --strict");
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("1 case in common"), std::string::npos) << done.out;
+  const Outcome none = files.compare_with(next, "--filter spheres-ref");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("--filter: 'spheres-ref' matches none of 2 cases; one of them is 'street/"),
+            std::string::npos)
+      << none.err;
 }
 
 TEST(CompareCommand, instructions_of_another_machine_are_left_out_unless_forced) {

@@ -54,5 +54,42 @@ TEST(RunExport, what_cannot_be_exported_is_known_before_anything_is_measured) {
   EXPECT_FALSE(std::filesystem::exists(folder / "result.json.partial"));
 }
 
+TEST(RunExport, a_run_that_is_refused_leaves_no_file_behind) {
+  const Folder folder;
+  const std::string csv = (folder / "a.csv").string(), google = (folder / "g.json").string();
+  const std::string run = "run " + source_file("scenes/mirror.glb") + " --no-timing -q --filter aabb/packed -o " +
+                          (folder / "result.json").string();
+  for (const std::string& others :
+       {" --export google-benchmark=" + google, " --export github-bigger=" + google,
+        " --export bencher=" + (folder / "no/such.json").string(), " --export xml=" + google}) {
+    const Outcome refused = tool(run + " --export csv=" + csv + others);
+    EXPECT_EQ(refused.code, 2) << others << refused.err;
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << others;
+  }
+  const Outcome times = tool(run + " --export google-benchmark=" + google);
+  EXPECT_NE(
+      times.err.find("--export: google-benchmark takes times, which --no-timing (timing.measure: false) leaves out"),
+      std::string::npos)
+      << times.err;
+}
+
+TEST(RunExport, a_file_that_is_there_stays_until_there_is_a_better_one) {
+  const Folder folder;
+  const std::string csv = folder.write("a.csv", "before").string();
+  EXPECT_EQ(tool("run " + source_file("scenes/mirror.glb") + " --no-timing -q --export csv=" + csv +
+                 " --export google-benchmark=" + (folder / "g.json").string())
+                .code,
+            2);
+  EXPECT_EQ(file_text(csv), "before");
+}
+
+TEST(ExportCommand, a_filter_exports_some_cases) {
+  const Outcome done = tool("export " + k_result + " --format csv --filter street/.*/exact-fast");
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("exact-fast"), std::string::npos);
+  EXPECT_EQ(done.out.find("sphere-refinement"), std::string::npos) << done.out;
+  EXPECT_EQ(tool("export " + k_result + " --format csv --filter no-such-case").code, 2);
+}
+
 }  // namespace
 }  // namespace clusterbench::test

@@ -314,10 +314,19 @@ TEST(Config, budgets_are_checked_with_their_place) {
                   .starts_with(place + "'frme_us > 1' names no figure of a case (did you mean 'frame_us'?); there are: "
                                        "frame_us, frame_us.max, "))
       << refusal("frme_us > 1");
-  EXPECT_EQ(refusal("unlit"),
-            place + "'unlit' is no budget; takes a figure, > or >=, and a number, as in 'frame_us > 200'");
+  EXPECT_TRUE(refusal("unlit").starts_with(place + "'unlit' is no budget; takes a figure, then >, >=, <, <= or == "));
   for (const char* number : {"", "x", "nan", "inf", "1e999", "1 2", "= 3"})
     EXPECT_NE(refusal("unlit > " + std::string(number)).find("which is no number"), std::string::npos) << number;
+}
+
+TEST(Config, a_baseline_is_beside_the_configuration_and_lights_may_be_allowed_to_be_gone) {
+  const Config config = parsed(R"(, "limits": {"baseline": "base.json", "allow_no_lights": true,
+                                               "allow_changed_lights": true})");
+  EXPECT_EQ(config.limits.baseline, "configs/base.json");
+  EXPECT_TRUE(config.limits.allows_no_lights);
+  EXPECT_TRUE(config.limits.allows_changed_lights);
+  EXPECT_EQ(parsed("").limits.baseline, "");
+  EXPECT_FALSE(parsed("").limits.allows_no_lights);
 }
 
 TEST(Config, lights_are_in_float32_unless_another_precision_is_named) {

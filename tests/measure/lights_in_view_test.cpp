@@ -10,7 +10,7 @@ namespace clusterbench::measure {
 namespace {
 
 // Looks along -z from the origin: a right angle in both directions, from 1 m to 100 m.
-view::Frame frame_with(std::vector<scene::WorldLight> lights, int index = 0) {
+view::Frame view_with(std::vector<scene::WorldLight> lights, int index = 0) {
   view::Frame frame;
   frame.index = index;
   frame.projection = {.near_m = 1.0, .far_m = 100.0};
@@ -35,7 +35,7 @@ scene::WorldLight spot_at(const Vec3d& position, const Vec3d& direction, double 
 }
 
 bool is_seen(const scene::WorldLight& light) {
-  return is_in_view(frame_with({light}), light);
+  return is_in_view(view_with({light}), light);
 }
 
 TEST(LightsInView, reach_into_all_six_half_spaces) {
@@ -66,10 +66,10 @@ TEST(LightsInView, are_counted_over_the_frames_of_a_path) {
   const scene::WorldLight seen = point_at({0, 0, -10}, 1), other = point_at({3, 0, -10}, 1),
                           unseen = point_at({0, 0, 9}, 1), spot = spot_at({0, 0, -5}, {0, 0, -1}, 0.3, 5);
   LightsInView counts;
-  add_frame(counts, frame_with({seen, unseen}, 0));
-  add_frame(counts, frame_with({seen, other}, 1));
-  add_frame(counts, frame_with({seen, unseen, spot}, 2));
-  add_frame(counts, frame_with({unseen}, 3));
+  add_frame(counts, view_with({seen, unseen}, 0));
+  add_frame(counts, view_with({seen, other}, 1));
+  add_frame(counts, view_with({seen, unseen, spot}, 2));
+  add_frame(counts, view_with({unseen}, 3));
   EXPECT_EQ(counts.mean(), 1.25);
   EXPECT_EQ(counts.most, 2u);
   EXPECT_EQ(counts.frames_with_most, 2u);

@@ -6,6 +6,7 @@
 
 #include "config/documents.h"
 #include "config/schema_verdict.h"
+#include "report/compare_advice.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"
 
@@ -490,6 +491,53 @@ TEST(Compare, beside_another_program_only_what_both_did_is_compared) {
   EXPECT_TRUE(holds(comparison["warnings"], "bytes, samples and whatever else is counted were not"));
   EXPECT_NE(comparison_text(comparison).find("1 case of the new not compared"), std::string::npos);
   EXPECT_FALSE(holds(compared(base, next, 0.02)["warnings"], "the other program")) << "its own result is at hand";
+}
+
+TEST(Compare, a_program_beside_itself_has_no_difference_and_says_how_small_a_one_shows) {
+  const Json base = json_of(result_by_hand());
+  Json next = measured_beside(base, 3.0);  // which would be slower
+  EXPECT_EQ(outcome(compared(next, next, 0.02), false), ExitCode::gate_failed);
+  next["baseline"]["is_same_program"] = true;
+  const Json comparison = compared(next, next, 0.02);
+  EXPECT_EQ(verdict_of(comparison, 0), "same");
+  EXPECT_EQ(outcome(comparison, true), ExitCode::ok);
+  const std::string text = comparison_text(comparison);
+  EXPECT_NE(
+      text.find("\nno difference: both are the same program, byte for byte, and beside itself its times differ by "
+                "at most 3.3 % (95 % intervals)"),
+      std::string::npos)
+      << text;
+}
+
+TEST(Compare, what_is_inconclusive_says_what_to_do) {
+  const Json base = json_of(result_by_hand());
+  Json next = measured_beside(base, 1.0);
+  double noise = 0.9;
+  for (Json& launch : next["cases"][0]["timing"]["baseline"]["launches"]) {
+    for (Json& ns : launch["new_ns"]) ns = ns.get<double>() * noise;
+    noise += 0.1;
+  }
+  const Json comparison = compared(next, next, 0.02);
+  ASSERT_EQ(verdict_of(comparison, 0), "inconclusive");
+  EXPECT_EQ(comparison["advice"].size(), 1u);
+  const std::string text = comparison_text(comparison);
+  for (const char* part :
+       {"1 case is inconclusive: its interval reaches ", "and the threshold is 2 %", "--threshold ", "run --count"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  EXPECT_NE(comparison_markdown(comparison).find("**What to do**"), std::string::npos);
+  EXPECT_FALSE(compared(base, base, 0.02).contains("advice"));
+}
+
+TEST(Compare, nothing_in_common_points_to_the_command_that_answers) {
+  const Json base = json_of(result_by_hand());
+  Json grids = base, level = base;
+  for (Json& result_case : grids["cases"]) result_case["grid"]["name"] = "frustum 32px";
+  EXPECT_NE(advice_on_nothing(base, grids, "a.json", "b.json").find("`clusterbench ratio RESULT --across-grids`"),
+            std::string::npos);
+  EXPECT_NE(advice_on_nothing(base, grids, "a.json", "b.json").find("`clusterbench report a.json b.json"),
+            std::string::npos);
+  for (Json& result_case : level["cases"]) result_case["id"] = "another";
+  EXPECT_NE(advice_on_nothing(base, level, "a.json", "b.json").find("--baseline a.json --fail-if"), std::string::npos);
 }
 
 TEST(Compare, names_in_markdown_are_no_markup) {

@@ -17,6 +17,7 @@ namespace clusterbench::report {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 class History : public ::testing::Test {
  protected:
@@ -63,6 +64,58 @@ const Series& bytes_of_fast(const std::vector<Series>& all) {
   for (const Series& series : all)
     if (series.metric->name == "list_bytes" && series.case_name.find("/aabb/") != std::string::npos) return series;
   throw std::runtime_error("no such series");
+}
+
+// The hall with that many points; its fast case takes that many bytes.
+run::Result hall_with(int points, std::uint64_t bytes) {
+  run::Result result = testing::result_by_hand();
+  result.scenes[0].points = points;
+  result.scenes[0].light_digest = "of " + std::to_string(points);
+  result.cases[1].buffers.bytes.high_water = bytes;
+  return result;
+}
+
+TEST_F(History, fewer_lights_are_told_first_and_are_not_better) {
+  add_to_history(file_, result_to_json(hall_with(9, 232), {}), "a");
+  const Addition addition = add_to_history(file_, result_to_json(hall_with(0, 16), {}), "b");
+  EXPECT_EQ(addition.light_changes,
+            std::vector<std::string>{"the lights of hall have changed: 9 points, 1 spot, now 1 spot"});
+  const std::vector<HistoryEntry> history = read_history(file_);
+  const std::vector<std::string> lights = light_changes_in(history);
+  EXPECT_EQ(lights, std::vector<std::string>{"at b: " + addition.light_changes[0]});
+  const std::string text = history_text(series_of(history, {}), 2, false, {}, lights);
+  EXPECT_TRUE(text.starts_with("at b: the lights of hall have changed")) << text;
+  EXPECT_NE(text.find("232 to 16, -93.1 %, of other lights"), std::string::npos) << text;
+  EXPECT_EQ(text.find("better"), std::string::npos) << text;
+}
+
+TEST_F(History, of_the_same_lights_fewer_bytes_are_better) {
+  add_to_history(file_, result_to_json(hall_with(9, 232), {}), "a");
+  EXPECT_EQ(add_to_history(file_, result_to_json(hall_with(9, 200), {}), "b").light_changes,
+            std::vector<std::string>{});
+  const std::vector<HistoryEntry> history = read_history(file_);
+  EXPECT_EQ(light_changes_in(history), std::vector<std::string>{});
+  EXPECT_NE(history_text(series_of(history, {}), 2, false).find("232 to 200, -13.8 %, better"), std::string::npos);
+}
+
+TEST_F(History, a_job_that_runs_again_is_held_against_the_commit_before) {
+  add_to_history(file_, result_to_json(hall_with(9, 232), {}), "a");
+  const Json gone = result_to_json(hall_with(0, 16), {});
+  add_to_history(file_, gone, "b");
+  EXPECT_EQ(add_to_history(file_, gone, "b").light_changes.size(), 1u);
+  EXPECT_EQ(add_to_history(file_, gone, "c").light_changes.size(), 0u);
+}
+
+TEST_F(History, lines_of_older_versions_leave_the_lights_open) {
+  Json older = Json::parse(R"({"history_version": 1, "commit": "a", "name": "by hand", "cpu": "a processor",
+    "simd_target": "scalar", "cases": [{"id": "fast", "name": "hall/walk/frustum 64px/aabb/packed",
+    "settings": "settings of aabb", "figures": {"list_bytes": 300}}]})");
+  write(older.dump() + "\n");
+  EXPECT_EQ(add_to_history(file_, result_to_json(hall_with(9, 232), {}), "b").light_changes,
+            std::vector<std::string>{});
+  const std::string text = history_text(series_of(read_history(file_), {}), 2, false);
+  EXPECT_NE(text.find("300 to 232, -22.7 %, perhaps of other lights, which older lines do not tell"), std::string::npos)
+      << text;
 }
 
 TEST_F(History, a_slower_commit_is_named_with_its_change_and_direction) {

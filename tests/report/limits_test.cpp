@@ -24,7 +24,8 @@ Json case_with_budget_figures() {
                 "scratch_bytes": 8, "overflow": {"dropped_pairs": 3}, "worst_frame": 9, "worst_cell": [1, 2, 3]},
     "occupancy": {"lights_per_cell": {"max": 64}, "pairs": {"max": 4000}, "worst_frame": 8, "worst_cell": [4, 5, 6]},
     "error": {"false_negatives": 2, "excess_ratio": 0.5, "undecided": 0, "deepest": {"frame": 7, "cell": [0, 0, 1]}},
-    "cost": {"frame_ns": 900000},
+    "cost": {"frame_ns": 900000}, "lights": 300, "lights_in_view": {"max": 250, "worst_frame": 4},
+    "count": {"instructions_per_frame": {"assign": 40000, "convert": 2000, "frame": 42000}},
     "shading": {"missed": 1, "needed": 1000, "lost_irradiance": 0.25, "overshade": 1.5, "worst_frame": {"frame": 3}}})");
 }
 
@@ -51,6 +52,14 @@ TEST(Limits, what_breaks_one_is_told_with_case_frame_and_cell) {
       {"longest >= 64", "longest is 64 (frame 8, cell [4,5,6]), and fails with longest >= 64"},
       {"bytes > 1e6", "kept"},
       {"frame_us > 195", "frame_us is 195.0005, and fails with frame_us > 195"},
+      {"lights < 301", "lights is 300, and fails with lights < 301"},
+      {"lights < 300", "kept"},
+      {"lights == 300", "lights is 300, and fails with lights == 300"},
+      {"lights_in_view 200..240", "lights_in_view is 250 (frame 4), and fails with lights_in_view outside 200..240"},
+      {"lights_in_view 200..300", "kept"},
+      {"instructions > 41999", "instructions is 42000, and fails with instructions > 41999"},
+      {"assign_instructions > 40000", "kept"},
+      {"convert_instructions <= 2000", "convert_instructions is 2000, and fails with convert_instructions <= 2000"},
   };
   for (const auto& [rule, line] : rows) EXPECT_EQ(broken_by(rule), line);
   EXPECT_TRUE(findings_of("longest > 63").broken.front().starts_with("hall/walk/frustum/bounds/packed: "));
@@ -96,6 +105,36 @@ TEST(Limits, a_frames_time_is_never_made_of_its_parts) {
   ASSERT_EQ(findings_of("frame_us > 1", entry).broken.size(), 1u);
   EXPECT_NE(findings_of("frame_us > 1", entry).broken[0].find("could not be checked"), std::string::npos)
       << "medians of parts do not add up to the median of the frame";
+}
+
+TEST(Limits, before_a_colon_name_cases_and_what_they_match_has_to_have_the_figure) {
+  const Json cases = Json::array({Json{{"name", "a/own"}}, case_with_budget_figures()});
+  const auto of = [&](const std::string& rule) {
+    const config::LimitRule rules[] = {config::limit_rule(rule, "", "--fail-if")};
+    return limit_findings(Json{{"cases", cases}}, rules);
+  };
+  EXPECT_EQ(of("bounds: longest > 63").broken.size(), 1u);
+  EXPECT_EQ(of("bounds: longest > 64").broken, Lines{});
+  EXPECT_EQ(of("bounds: longest > 64").unchecked, Lines{});
+  EXPECT_EQ(
+      of("own: longest > 64").broken,
+      (Lines{"'own: longest > 64' could not be checked: no case has longest (structures without cells have none)"}));
+  EXPECT_EQ(of("own|bounds: longest > 64").broken.size(), 1u) << "one of them has none";
+  EXPECT_EQ(of("bonds: longest > 64").broken,
+            (Lines{"'bonds: longest > 64' could not be checked: its 'bonds' matches no case's name; there are: a/own, "
+                   "hall/walk/frustum/bounds/packed"}));
+}
+
+TEST(Limits, of_a_result_without_cases_fail) {
+  const config::LimitRule rules[] = {config::limit_rule("longest > 64", "", "--fail-if")};
+  EXPECT_EQ(limit_findings(Json{{"cases", Json::array()}}, rules).broken,
+            (Lines{"'longest > 64' could not be checked: there is no case"}));
+}
+
+TEST(Limits, older_results_without_a_frames_instructions_have_their_sum) {
+  Json entry = case_with_budget_figures();
+  entry["count"]["instructions_per_frame"].erase("frame");
+  EXPECT_EQ(limit_figure(entry, "instructions"), 42000.0);
 }
 
 // The rows of docs/results.md on the names of a figure: its cells without marks.

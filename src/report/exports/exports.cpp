@@ -14,22 +14,22 @@ using Json = nlohmann::ordered_json;
 
 constexpr ExportFormat k_formats[] = {
     {"google-benchmark", "Google Benchmark's JSON, a repetition per round, for its compare.py", "json",
-     google_benchmark},
+     google_benchmark, true},
     {"github-smaller", "github-action-benchmark, tool customSmallerIsBetter", "json", github_smaller_is_better},
-    {"github-bigger", "github-action-benchmark, tool customBiggerIsBetter", "json", github_bigger_is_better},
+    {"github-bigger", "github-action-benchmark, tool customBiggerIsBetter", "json", github_bigger_is_better, true},
     {"bencher", "Bencher Metric Format", "json", bencher},
     {"lnt", "LLVM's LNT, report format 2, test suite nts", "json", lnt},
     {"csv", "A row per case, comma-separated (RFC 4180)", "csv", csv},
     {"markdown", "A table for comments and pages", "md", markdown},
 };
 
-std::string text_at(const Json& from, const char* pointer) {
+std::string string_at(const Json& from, const char* pointer) {
   const Json* found = value_at(from, pointer);
   return found != nullptr && found->is_string() ? found->get<std::string>() : "";
 }
 
 std::string needed_text(const Json& result_case, std::size_t index, const char* key) {
-  std::string text = text_at(result_case, (std::string("/") + key).c_str());
+  std::string text = string_at(result_case, (std::string("/") + key).c_str());
   if (text.empty()) throw Error("", "/cases/" + std::to_string(index) + "/" + key, "is missing");
   return text;
 }
@@ -38,15 +38,15 @@ std::string needed_text(const Json& result_case, std::size_t index, const char* 
 std::vector<std::pair<std::string, std::string>> parts_of(const Json& result_case) {
   const Json *width = value_at(result_case, "/viewport/0"), *height = value_at(result_case, "/viewport/1");
   const std::string viewport = width != nullptr && height != nullptr ? width->dump() + "x" + height->dump() : "";
-  const std::string precision = text_at(result_case, "/precision/label"),
-                    pre_cull = text_at(result_case, "/pre_cull/label");
-  return {{"scene", text_at(result_case, "/scene")},
-          {"camera", text_at(result_case, "/camera")},
+  const std::string precision = string_at(result_case, "/precision/label"),
+                    pre_cull = string_at(result_case, "/pre_cull/label");
+  return {{"scene", string_at(result_case, "/scene")},
+          {"camera", string_at(result_case, "/camera")},
           {"viewport", viewport},
-          {"grid", text_at(result_case, "/grid/name")},
-          {"assigner", text_at(result_case, "/assigner/label") + (pre_cull.empty() ? "" : " after " + pre_cull)},
+          {"grid", string_at(result_case, "/grid/name")},
+          {"assigner", string_at(result_case, "/assigner/label") + (pre_cull.empty() ? "" : " after " + pre_cull)},
           {"precision", precision.empty() ? "float32" : precision},
-          {"storage", text_at(result_case, "/storage")}};
+          {"storage", string_at(result_case, "/storage")}};
 }
 
 ExportCase read_case(const Json& result_case, std::size_t index, bool all) {
@@ -71,15 +71,15 @@ ExportCase read_case(const Json& result_case, std::size_t index, bool all) {
 ExportResult read(const Json& result, bool all) {
   ExportResult out;
   out.all = all;
-  out.name = text_at(result, "/name");
-  out.version = text_at(result, "/tool/version");
-  out.git_sha = text_at(result, "/tool/git_sha");
-  out.compiler = text_at(result, "/tool/compiler");
-  out.flags = text_at(result, "/tool/flags");
-  out.build_type = text_at(result, "/tool/build_type");
-  out.simd_target = text_at(result, "/tool/simd_target");
+  out.name = string_at(result, "/name");
+  out.version = string_at(result, "/tool/version");
+  out.git_sha = string_at(result, "/tool/git_sha");
+  out.compiler = string_at(result, "/tool/compiler");
+  out.flags = string_at(result, "/tool/flags");
+  out.build_type = string_at(result, "/tool/build_type");
+  out.simd_target = string_at(result, "/tool/simd_target");
   out.machine = machine_name(result["machine"]);
-  out.os = text_at(result, "/machine/os");
+  out.os = string_at(result, "/machine/os");
   if (const Json* cores = value_at(result, "/machine/cores"); cores != nullptr && cores->is_number_integer())
     out.cores = cores->get<int>();
   for (std::size_t index = 0; index < result["cases"].size(); ++index)

@@ -34,6 +34,7 @@ struct ExportFormat {
   std::string_view name, summary;
   std::string_view extension;  // without the dot
   std::string (*write)(const ExportResult& result);
+  bool needs_times = false;  // it has no other figure to write
 };
 
 std::span<const ExportFormat> export_formats();

@@ -1,0 +1,67 @@
+#include "cli/gates.h"
+
+#include "cli/output.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "report/baseline_cases.h"
+#include "report/light_changes.h"
+#include "report/limits.h"
+#include "report/result_file.h"
+
+namespace clusterbench::cli {
+namespace {
+
+void print_findings(const report::LimitFindings& findings) {
+  for (const std::string& line : findings.warnings) tell("warning: " + line);
+  for (const std::string& line : findings.unchecked) tell("warning: " + line);
+  for (const std::string& line : findings.near) tell("warning: " + line);
+  for (const std::string& line : findings.broken) tell("FAILED " + line);
+}
+
+}  // namespace
+
+void add_gate_options(Command& command, GateFlags& flags) {
+  command.add_option(
+      "--baseline", flags.baseline,
+      "A result that budgets in percent are held against ('longest > +5 %'), and whose lights it has to have");
+  command.add_flag("--allow-no-lights", flags.allows_no_lights,
+                   "Budgets hold also where a scene has no lights, or none is ever in view");
+  command.add_flag("--allow-changed-lights", flags.allows_changed_lights,
+                   "Lights may be others than those of the --baseline; what has changed is told");
+}
+
+void set_gates(config::Config& config, const GateFlags& flags) {
+  nlohmann::json& limits = config.resolved["limits"];
+  if (!flags.baseline.empty()) {
+    config.limits.baseline = flags.baseline;
+    limits["baseline"] = flags.baseline;
+  }
+  if (flags.allows_no_lights) limits["allow_no_lights"] = config.limits.allows_no_lights = true;
+  if (flags.allows_changed_lights) limits["allow_changed_lights"] = config.limits.allows_changed_lights = true;
+}
+
+Gates::Gates(const config::Config& config, const std::string& filter) : limits_(config.limits), filter_(filter) {
+  if (!limits_.baseline.empty()) base_ = report::read_result(limits_.baseline.string());
+  for (const config::LimitRule& rule : limits_.fail_if)
+    if (rule.is_relative && !base_)
+      throw Error("", "limits.fail_if",
+                  "'" + rule.text() +
+                      "' is against a baseline, and there is none: add --baseline FILE (limits.baseline), " +
+                      "a result of `clusterbench run`; a share is written without percent, 0.05");
+}
+
+ExitCode Gates::report(const nlohmann::ordered_json& result) const {
+  if (limits_.fail_if.empty() && !base_) return ExitCode::ok;
+  const std::string name = limits_.baseline.string();
+  const nlohmann::ordered_json* base = base_ ? &*base_ : nullptr;
+  std::optional<report::BaselineCases> cases;
+  if (base != nullptr) cases.emplace(*base, result, filter_, name);
+  const report::LimitFindings lights =
+      report::light_findings(result, {limits_.allows_no_lights, limits_.allows_changed_lights, base, name});
+  const report::LimitFindings budgets = report::limit_findings(result, limits_.fail_if, cases ? &*cases : nullptr);
+  print_findings(lights);
+  print_findings(budgets);
+  return lights.broken.empty() && budgets.broken.empty() ? ExitCode::ok : ExitCode::gate_failed;
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,37 @@
+#pragma once
+// What a run is held against when it is done: budgets, an earlier result, and the lights that it should have.
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "cli/command.h"
+#include "config/config.h"
+
+namespace clusterbench::cli {
+
+struct GateFlags {
+  std::string baseline;  // a result file; "": none, or that of the configuration
+  bool allows_no_lights = false, allows_changed_lights = false;
+};
+void add_gate_options(Command& command, GateFlags& flags);
+
+// The configuration with what the flags say.
+void set_gates(config::Config& config, const GateFlags& flags);
+
+class Gates {
+ public:
+  // Reads the baseline, so that what is wrong with it is known before minutes go into measuring. Throws Error for a
+  // budget in percent without one.
+  Gates(const config::Config& config, const std::string& filter);
+
+  // Tells what holds and what does not.
+  ExitCode report(const nlohmann::ordered_json& result) const;
+
+ private:
+  const config::LimitsRequest& limits_;
+  std::string filter_;
+  std::optional<nlohmann::ordered_json> base_;
+};
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,18 @@
+#pragma once
+// What to do about a comparison that does not answer: nothing in common, verdicts that are inconclusive, a program
+// beside itself.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace clusterbench::report {
+
+// Of what compare_results() gives, but for its "advice"; none where every verdict stands.
+std::vector<std::string> advice_on(const nlohmann::ordered_json& comparison);
+
+// Why two results have no case in common, and which command answers the question behind it. `base_name`: its file.
+std::string advice_on_nothing(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next,
+                              const std::string& base_name, const std::string& next_name);
+
+}  // namespace clusterbench::report

@@ -1,0 +1,36 @@
+#pragma once
+// A level that loses its lights must not look like one that became cheaper: which lights two results are of.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "report/limits.h"
+
+namespace clusterbench::report {
+
+// Of a result's scene: "248 points, 52 spots"; "no lights".
+std::string lights_text(const nlohmann::ordered_json& scene);
+
+enum class LightChange {
+  none,
+  changed,
+  unknown  // as many of each kind, and one of the results is older than the digest of lights
+};
+LightChange light_change(const nlohmann::ordered_json& base_scene, const nlohmann::ordered_json& next_scene);
+
+// The base's scene of this name; where each result has one scene alone, that one. Null: none.
+const nlohmann::ordered_json* scene_before(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next,
+                                           const nlohmann::ordered_json& next_scene);
+
+struct LightGate {
+  bool allows_no_lights = false, allows_changed_lights = false;
+  const nlohmann::ordered_json* base = nullptr;  // null: no baseline
+  std::string base_name;                         // as messages call it
+};
+
+// Scenes without lights, cases that never have one in view, and scenes with other lights than the baseline's: broken,
+// or a warning where that is allowed.
+LimitFindings light_findings(const nlohmann::ordered_json& result, const LightGate& gate);
+
+}  // namespace clusterbench::report

@@ -1,0 +1,144 @@
+// A level that loses its lights, budgets against a baseline, budgets of some cases: as a job in CI runs them.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.h"
+
+namespace clusterbench::test {
+namespace {
+
+using Json = nlohmann::json;
+
+// A corridor of so many point lights in front of a camera, or behind it.
+std::string corridor(int lights, double towards = -1.0) {
+  Json nodes = Json::array({Json{{"name", "camera"}, {"camera", 0}}});
+  Json all = Json::array({0});
+  for (int i = 0; i < lights; ++i) {
+    nodes.push_back({{"translation", {0.5 * (i % 3 - 1), 0.0, towards * (2.0 + i)}},
+                     {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    all.push_back(i + 1);
+  }
+  Json gltf{
+      {"asset", {{"version", "2.0"}}},
+      {"scene", 0},
+      {"scenes", {{{"nodes", all}}}},
+      {"nodes", nodes},
+      {"cameras", {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}, {"zfar", 100.0}}}}}}};
+  if (lights > 0) {
+    gltf["extensionsUsed"] = {"KHR_lights_punctual"};
+    gltf["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"range", 3.0}, {"intensity", 10.0}}};
+  }
+  return gltf.dump();
+}
+
+struct Level {
+  Folder folder;
+  std::string result = (folder / "result.json").string(), base = (folder / "base.json").string();
+
+  Outcome run(const std::string& gltf, const std::string& flags, const std::string& output = "") const {
+    const std::string level = folder.write("level.gltf", gltf).string();
+    return tool("run " + level + " -q --no-timing --grid frustum --tiles 16x9t --assigner aabb,exact-fast -o " +
+                (output.empty() ? result : output) + " " + flags);
+  }
+  void measure_base(int lights, const std::string& flags = "") const {
+    const Outcome done = run(corridor(lights), flags, base);
+    ASSERT_EQ(done.code, 0) << done.err;
+  }
+};
+
+bool says(const Outcome& outcome, const std::string& part) {
+  return outcome.err.find(part) != std::string::npos;
+}
+
+TEST(Gates, a_level_without_lights_fails_where_there_is_a_budget) {
+  const Level level;
+  EXPECT_EQ(level.run(corridor(0), "").code, 0) << "nobody asks for anything";
+  const Outcome gated = level.run(corridor(0), "--fail-if 'longest > 64'");
+  EXPECT_EQ(gated.code, 1);
+  EXPECT_TRUE(says(gated, "FAILED level: has no lights, so budgets say nothing of it")) << gated.err;
+  EXPECT_EQ(level.run(corridor(0), "--fail-if 'longest > 64' --allow-no-lights").code, 0);
+  EXPECT_EQ(level.run(corridor(0), "--fail-if 'longest > 64' --set limits.allow_no_lights=true").code, 0);
+  const Outcome behind = level.run(corridor(8, 4.0), "--fail-if 'longest > 64'");
+  EXPECT_EQ(behind.code, 1);
+  EXPECT_TRUE(says(behind, "none of 8 lights is ever in view")) << behind.err;
+}
+
+TEST(Gates, numbers_of_lights_are_budgets) {
+  const Level level;
+  EXPECT_EQ(level.run(corridor(8), "--fail-if 'lights < 8' --fail-if 'lights_in_view 6..10'").code, 0);
+  const Outcome fewer = level.run(corridor(5), "--fail-if 'lights < 8' --fail-if 'lights_in_view 6..10'");
+  EXPECT_EQ(fewer.code, 1);
+  EXPECT_TRUE(says(fewer, "lights is 5, and fails with lights < 8")) << fewer.err;
+  EXPECT_TRUE(says(fewer, "lights_in_view is 5 (frame 0), and fails with lights_in_view outside 6..10")) << fewer.err;
+}
+
+TEST(Gates, a_level_that_lost_its_lights_fails_against_its_baseline_unless_that_is_allowed) {
+  const Level level;
+  level.measure_base(8);
+  EXPECT_EQ(level.run(corridor(8), "--baseline " + level.base).code, 0);
+  const Outcome fewer = level.run(corridor(5), "--baseline " + level.base + " --fail-if 'index_entries > +5 %'");
+  EXPECT_EQ(fewer.code, 1);
+  EXPECT_TRUE(says(fewer, "its lights are not those of " + level.base + ": 8 points then, 5 points now")) << fewer.err;
+  EXPECT_TRUE(says(fewer, "since " + level.base +
+                              " has changed: the scene itself (sha256), its lights (8 points, now 5 "
+                              "points)"))
+      << fewer.err;
+  EXPECT_EQ(level.run(corridor(5), "--allow-changed-lights --baseline " + level.base).code, 0);
+}
+
+TEST(Gates, a_budget_in_percent_holds_across_a_change_of_the_level) {
+  const Level level;
+  level.measure_base(8);
+  const std::string gate = "--allow-changed-lights --baseline " + level.base + " --fail-if ";
+  const Outcome more = level.run(corridor(16), gate + "'exact-fast: index_entries > +5 %'");
+  EXPECT_EQ(more.code, 1);
+  EXPECT_TRUE(says(more, "/exact-fast/packed: index_entries is ")) << more.err;
+  EXPECT_TRUE(says(more, " in " + level.base + ", and fails with exact-fast: index_entries > +5 %")) << more.err;
+  EXPECT_FALSE(says(more, "FAILED level/camera/frustum 16x9 x 16 exponential-first first 5/aabb")) << more.err;
+  EXPECT_EQ(level.run(corridor(16), gate + "'index_entries > +900 %'").code, 0);
+}
+
+TEST(Gates, what_cannot_be_held_against_a_baseline_is_said_before_anything_is_measured) {
+  const Level level;
+  const Outcome none = level.run(corridor(8), "--fail-if 'longest > +5 %'");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_TRUE(says(none, "'longest > +5 %' is against a baseline, and there is none: add --baseline FILE")) << none.err;
+  EXPECT_EQ(level.run(corridor(8), "--baseline " + (level.folder / "no.json").string()).code, 2);
+  const Outcome times = level.run(corridor(8), "--fail-if 'frame_us > +5 %'");
+  EXPECT_EQ(times.code, 2);
+  EXPECT_TRUE(says(times, "--baseline-binary")) << times.err;
+  EXPECT_FALSE(std::filesystem::exists(level.result));
+}
+
+TEST(Gates, what_matches_nothing_fails) {
+  const Level level;
+  level.measure_base(8, "--filter aabb");
+  const Outcome other = level.run(corridor(8), "--baseline " + level.base + " --fail-if 'longest > +5 %'");
+  EXPECT_EQ(other.code, 1);
+  EXPECT_TRUE(says(other, "could not be checked for 1 case that " + level.base + " does not have")) << other.err;
+  EXPECT_EQ(level.run(corridor(8), "--filter aabb --baseline " + level.base + " --fail-if 'longest > +5 %'").code, 0);
+  const Outcome named = level.run(corridor(8), "--fail-if 'exact-fst: longest > 99'");
+  EXPECT_EQ(named.code, 1);
+  EXPECT_TRUE(says(named, "its 'exact-fst' matches no case's name")) << named.err;
+}
+
+TEST(Gates, a_history_tells_and_fails_with_lights_that_changed) {
+  const Level level;
+  const std::string history = (level.folder / "history.jsonl").string();
+  level.measure_base(8);
+  ASSERT_EQ(tool("history add " + level.base + " " + history + " --commit a").code, 0);
+  ASSERT_EQ(level.run(corridor(5), "").code, 0);
+  const std::string add = "history add " + level.result + " " + history + " --commit b";
+  const Outcome changed = tool(add);
+  EXPECT_EQ(changed.code, 1);
+  EXPECT_TRUE(says(changed, "FAILED the lights of level have changed: 8 points, now 5 points")) << changed.err;
+  EXPECT_EQ(tool(add + " --allow-changed-lights").code, 0);
+  const Outcome shown = tool("history show " + history);
+  EXPECT_TRUE(shown.out.starts_with("at b: the lights of level have changed: 8 points, now 5 points")) << shown.out;
+  EXPECT_EQ(shown.out.find("better"), std::string::npos) << shown.out;
+}
+
+}  // namespace
+}  // namespace clusterbench::test

@@ -1,0 +1,155 @@
+// Budgets in percent against an earlier result, also of a level that has changed, and the lights of both.
+
+#include <gtest/gtest.h>
+
+#include "report/baseline_cases.h"
+#include "report/light_changes.h"
+#include "report/limits.h"
+#include "report/result_by_hand.h"
+#include "report/result_json.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Lines = std::vector<std::string>;
+
+Json baseline_json(const run::Result& result = testing::result_by_hand()) {
+  return result_to_json(result, {});
+}
+
+// Of a level that has another file and other lights, with so many more in the longest list of `aabb`.
+Json changed_level(std::uint64_t longest) {
+  run::Result result = testing::result_by_hand();
+  result.scenes[0].sha256 = std::string(64, 'c');
+  result.scenes[0].points = 12;
+  result.scenes[0].light_digest = std::string(16, 'd');
+  for (run::CaseResult& changed : result.cases) changed.id += " changed";
+  result.planned_ids = {"slow changed", "fast changed"};
+  result.cases[1].occupancy->lights_per_cell.max = static_cast<double>(longest);
+  return result_to_json(result, {});
+}
+
+LimitFindings against(const Json& base, const Json& result, const std::string& rule, const std::string& filter = "") {
+  const config::LimitRule rules[] = {config::limit_rule(rule, "", "--fail-if")};
+  const BaselineCases cases(base, result, filter, "base.json");
+  return limit_findings(result, rules, &cases);
+}
+
+TEST(BaselineLimits, fail_by_the_change_in_percent_and_say_both_numbers) {
+  const Json base = baseline_json(), next = changed_level(8);
+  EXPECT_EQ(against(base, next, "longest > +5 %").broken,
+            (Lines{"hall/walk/frustum 64px/aabb/packed: longest is 8 (frame 1, cell [1,1,1]), +14.3 % against 7 in "
+                   "base.json, and fails with longest > +5 %"}));
+  EXPECT_EQ(against(base, next, "longest > +15 %").broken, Lines{});
+  EXPECT_EQ(against(base, next, "longest > +15 %").checked, 2u);
+  EXPECT_EQ(against(base, changed_level(6), "longest < -10 %").broken.size(), 1u);
+  EXPECT_EQ(against(base, changed_level(6), "longest -10..+10 %").broken.size(), 1u);
+}
+
+TEST(BaselineLimits, of_a_changed_level_say_what_has_changed) {
+  const Lines warnings = against(baseline_json(), changed_level(7), "longest > +5 %").warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "since base.json has changed: the scene itself (sha256), its lights (9 points, 1 spot, now 12 "
+            "points, 1 spot), of 2 cases: hall/walk/frustum 64px/brute-force/packed, hall/walk/frustum "
+            "64px/aabb/packed");
+  EXPECT_EQ(against(baseline_json(), baseline_json(), "longest > +5 %").warnings, Lines{});
+}
+
+TEST(BaselineLimits, match_a_renamed_scene_where_each_result_has_one) {
+  Json next = changed_level(8);
+  next["scenes"][0]["name"] = "hall-v2";
+  for (Json& result_case : next["cases"]) result_case["scene"] = "hall-v2";
+  EXPECT_EQ(against(baseline_json(), next, "longest > +5 %").broken.size(), 1u);
+}
+
+TEST(BaselineLimits, from_nothing_are_exceeded_by_anything) {
+  run::Result base = testing::result_by_hand();
+  base.cases[1].occupancy->lights_per_cell.max = 0.0;
+  const Lines broken = against(baseline_json(base), baseline_json(), "aabb: longest > +5 %").broken;
+  ASSERT_EQ(broken.size(), 1u);
+  EXPECT_NE(broken[0].find("longest is 7 (frame 1, cell [1,1,1]), was 0 in base.json"), std::string::npos) << broken[0];
+}
+
+TEST(BaselineLimits, that_match_nothing_fail_on_either_side) {
+  Json fewer = baseline_json();
+  fewer["cases"].erase(1);
+  EXPECT_EQ(against(fewer, baseline_json(), "longest > +5 %").broken,
+            (Lines{"'longest > +5 %' could not be checked for 1 case that base.json does not have (of that camera, "
+                   "viewport, grid, method and structure): hall/walk/frustum 64px/aabb/packed; measure the baseline "
+                   "again, or name cases before a colon"}));
+  EXPECT_EQ(against(baseline_json(), fewer, "longest > +5 %").broken,
+            (Lines{"'longest > +5 %' could not be checked for 1 case of base.json that this result does not have: "
+                   "hall/walk/frustum 64px/aabb/packed; measure the baseline again, or name cases before a colon"}));
+  EXPECT_EQ(against(baseline_json(), fewer, "longest > +5 %", "brute").broken, Lines{}) << "--filter leaves it out";
+  EXPECT_EQ(against(baseline_json(), fewer, "brute: longest > +5 %").broken, Lines{});
+  const config::LimitRule rules[] = {config::limit_rule("longest > +5 %", "", "--fail-if")};
+  EXPECT_EQ(limit_findings(fewer, rules).broken,
+            (Lines{"'longest > +5 %' could not be checked: there is no baseline (--baseline FILE)"}));
+}
+
+TEST(BaselineLimits, of_instructions_hold_only_what_was_counted_alike) {
+  run::Result base = testing::result_by_hand(), next = base;
+  for (run::Result* result : {&base, &next})
+    for (run::CaseResult& counted : result->cases) testing::add_count(counted);
+  next.cases[1].count->assign.instructions = 44000;  // of 40,000; 3,001 of conversion beside them
+  const Json before = baseline_json(base), now = baseline_json(next);
+  EXPECT_EQ(against(before, now, "instructions > +9 %").broken.size(), 1u);
+  EXPECT_EQ(against(before, now, "instructions > +9.5 %").broken, Lines{}) << "of both together it is 9.3 %";
+  EXPECT_EQ(against(before, now, "assign_instructions > +9.5 %").broken.size(), 1u);
+  EXPECT_EQ(against(before, now, "convert_instructions > +0.1 %").broken, Lines{});
+  next.machine.cpu = "another processor";
+  const Lines broken = against(before, baseline_json(next), "instructions > +50 %").broken;
+  ASSERT_EQ(broken.size(), 1u);
+  EXPECT_NE(broken[0].find("instructions do not compare, /machine/cpu is \"a processor\" and \"another processor\""),
+            std::string::npos)
+      << broken[0];
+  EXPECT_EQ(against(before, baseline_json(next), "longest > +5 %").broken, Lines{}) << "counts are the same everywhere";
+  EXPECT_EQ(against(baseline_json(), now, "instructions > +5 %").broken.size(), 1u) << "the base has none";
+}
+
+TEST(LightGate, fails_where_the_lights_are_not_those_of_the_baseline) {
+  const Json base = baseline_json(), next = changed_level(7);
+  const LightGate gate{.base = &base, .base_name = "base.json"};
+  EXPECT_EQ(light_findings(next, gate).broken,
+            (Lines{"hall: its lights are not those of base.json: 9 points, 1 spot then, 12 points, 1 spot now "
+                   "(--allow-changed-lights, limits.allow_changed_lights, if that is meant)"}));
+  EXPECT_EQ(light_findings(base, gate).broken, Lines{});
+  const LightGate allowing{.allows_changed_lights = true, .base = &base, .base_name = "base.json"};
+  EXPECT_EQ(light_findings(next, allowing).broken, Lines{});
+  EXPECT_EQ(light_findings(next, allowing).warnings.size(), 1u) << "it is told all the same";
+}
+
+TEST(LightGate, tells_moved_lights_by_their_digest_and_older_results_by_their_number) {
+  const Json next = baseline_json();
+  Json base = next;
+  const auto gate = [&] { return LightGate{.base = &base, .base_name = "base.json"}; };
+  base["scenes"][0]["light_digest"] = "another";
+  ASSERT_EQ(light_findings(next, gate()).broken.size(), 1u);
+  EXPECT_NE(light_findings(next, gate()).broken[0].find("as many, 9 points, 1 spot, moved or changed"),
+            std::string::npos);
+  base["scenes"][0].erase("light_digest");
+  EXPECT_EQ(light_findings(next, gate()).broken, Lines{});
+  EXPECT_EQ(light_findings(next, gate()).warnings.size(), 1u) << "not sure";
+  base["scenes"][0]["lights"]["point"] = 8;
+  EXPECT_EQ(light_findings(next, gate()).broken.size(), 1u);
+}
+
+TEST(LightGate, fails_where_there_are_no_lights_or_none_is_ever_in_view) {
+  Json result = baseline_json();
+  EXPECT_EQ(light_findings(result, {}).broken, Lines{});
+  result["cases"][0]["lights_in_view"]["max"] = result["cases"][1]["lights_in_view"]["max"] = 0;
+  EXPECT_EQ(light_findings(result, {}).broken,
+            (Lines{"hall, camera walk: none of 10 lights is ever in view, so budgets say nothing of it "
+                   "(--allow-no-lights, limits.allow_no_lights, if that is meant)"}));
+  result["cases"][0]["lights"] = result["cases"][1]["lights"] = 0;
+  EXPECT_EQ(light_findings(result, {}).broken,
+            (Lines{"hall: has no lights, so budgets say nothing of it (--allow-no-lights, limits.allow_no_lights, if "
+                   "that is meant)"}));
+  EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).broken, Lines{});
+  EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).warnings.size(), 1u);
+}
+
+}  // namespace
+}  // namespace clusterbench::report
