@@ -14,6 +14,7 @@ namespace {
 
 struct AddFlags {
   std::string result, file, commit;
+  bool allows_changed_lights = false;
 };
 
 struct ShowFlags {
@@ -31,7 +32,10 @@ ExitCode add(const AddFlags& flags) {
     tell(flags.file + " has this result of " + commit + " already; nothing was added");
   else if (addition.earlier > 0)
     tell(flags.file + " had " + before + " already; added behind it as one more");
-  return ExitCode::ok;
+  for (const std::string& change : addition.light_changes)
+    tell((flags.allows_changed_lights ? "warning: " : "FAILED ") + change +
+         (flags.allows_changed_lights ? "" : " (it was added; --allow-changed-lights if that is meant)"));
+  return addition.light_changes.empty() || flags.allows_changed_lights ? ExitCode::ok : ExitCode::gate_failed;
 }
 
 ExitCode show(const ShowFlags& flags) {
@@ -39,8 +43,9 @@ ExitCode show(const ShowFlags& flags) {
   const std::vector<report::HistoryEntry> history = report::read_history(flags.file);
   const measure::ChangeRule rule{flags.max_p, flags.min_change_percent / 100.0};
   const std::vector<report::Series> series = report::series_of(history, rule);
-  if (!flags.page.empty()) write_text(flags.page, report::history_page(series, history.size()));
-  if (flags.page != "-") write_text("-", report::history_text(series, history.size(), flags.all, rule));
+  const std::vector<std::string> lights = report::light_changes_in(history);
+  if (!flags.page.empty()) write_text(flags.page, report::history_page(series, history.size(), lights));
+  if (flags.page != "-") write_text("-", report::history_text(series, history.size(), flags.all, rule, lights));
   return ExitCode::ok;
 }
 
@@ -50,6 +55,8 @@ void add_add(Command& parent, Action& action) {
   command.add_option("RESULT", flags->result, "A result file of `clusterbench run`").required();
   command.add_option("FILE", flags->file, "The history, JSON lines; made if there is none").required();
   command.add_option("--commit", flags->commit, "What was measured; without it the commit of clusterbench");
+  command.add_flag("--allow-changed-lights", flags->allows_changed_lights,
+                   "Lights may be others than those of the result before; else exit code 1");
   command.when_named([flags, &action] { action = [flags] { return add(*flags); }; });
 }
 

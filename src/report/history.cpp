@@ -9,13 +9,16 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/text.h"
+#include "report/light_changes.h"
 #include "report/machine.h"
 
 namespace clusterbench::report {
@@ -48,6 +51,12 @@ Json history_line(const Json& result, const std::string& commit) {
             {"simd_target", result.at("tool").at("simd_target")}};
   if (const std::string counter = counter_of(result); !counter.empty()) line["counter"] = counter;
   if (has_cold_times(result)) line["caches"] = "cold";
+  line["scenes"] = Json::array();
+  for (const Json& scene : result.at("scenes")) {
+    Json stored{{"name", scene.at("name")}, {"lights", lights_text(scene)}};
+    if (scene.contains("light_digest")) stored["light_digest"] = scene["light_digest"];
+    line["scenes"].push_back(std::move(stored));
+  }
   line["cases"] = Json::array();
   for (const Json& result_case : result["cases"]) {
     Json figures = Json::object();
@@ -56,13 +65,15 @@ Json history_line(const Json& result, const std::string& commit) {
     line["cases"].push_back({{"id", result_case.at("id")},
                              {"settings", result_case.value("settings", "")},
                              {"name", result_case.at("name")},
+                             {"scene", result_case.at("scene")},
                              {"figures", figures}});
   }
   return line;
 }
 
 HistoryEntry::Case parsed_case(const Json& stored) {
-  HistoryEntry::Case out{stored.value("settings", ""), stored.at("name").get<std::string>(), {}};
+  HistoryEntry::Case out{
+      stored.value("settings", ""), stored.at("name").get<std::string>(), {}, stored.value("scene", std::string())};
   for (const auto& [name, value] : stored.at("figures").items()) out.figures.emplace_back(name, value.get<double>());
   return out;
 }
@@ -77,6 +88,9 @@ HistoryEntry parsed(const std::string& line) {
                      json.value("caches", std::string()),
                      {}};
   for (const Json& stored : json.at("cases")) entry.cases.push_back(parsed_case(stored));
+  for (const Json& stored : json.value("scenes", Json::array()))
+    entry.scenes.push_back({stored.at("name").get<std::string>(), stored.value("light_digest", std::string()),
+                            stored.at("lights").get<std::string>()});
   return entry;
 }
 
@@ -157,6 +171,51 @@ std::vector<measure::ChangePoint> changes_of(const Series& series, const measure
   return measure::counted_changes(series.values, std::max(rule.min_change, counting_noise(series)));
 }
 
+const SceneLights* lights_of_scene(const HistoryEntry& entry, const std::string& scene) {
+  const auto found = std::ranges::find(entry.scenes, scene, &SceneLights::scene);
+  return found == entry.scenes.end() ? nullptr : &*found;
+}
+
+bool are_other_lights(const SceneLights& before, const SceneLights& now) {
+  return before.digest.empty() || now.digest.empty() ? before.counts != now.counts : before.digest != now.digest;
+}
+
+// "the lights of level have changed: 300 points, now 250 points"
+std::string changed_lights_text(const SceneLights& before, const SceneLights& now) {
+  return "the lights of " + now.scene + " have changed: " +
+         (before.counts == now.counts ? "as many, " + now.counts + ", moved or changed"
+                                      : before.counts + ", now " + now.counts);
+}
+
+// What `entry` has changed against the last results of each of its scenes before it.
+std::vector<std::string> changed_lights(std::span<const HistoryEntry> before, const HistoryEntry& entry) {
+  std::vector<std::string> lines;
+  for (const SceneLights& now : entry.scenes)
+    for (auto earlier = before.rbegin(); earlier != before.rend(); ++earlier) {
+      const SceneLights* then = lights_of_scene(*earlier, now.scene);
+      if (then == nullptr) continue;
+      if (are_other_lights(*then, now)) lines.push_back(changed_lights_text(*then, now));
+      break;
+    }
+  return lines;
+}
+
+// Whether what a change lies between has the same lights, as far as is known: of what is counted the two results beside
+// it, of times, whose changes are found by many results, all up to the neighbouring changes.
+enum class LightsAround { same, others, unknown };
+LightsAround lights_around(const Series& series, const measure::ChangePoint& change) {
+  const bool is_counted = change.p == 0.0;
+  std::size_t begin = is_counted ? change.index - 1 : 0, end = is_counted ? change.index + 1 : series.lights.size();
+  for (const measure::ChangePoint& other : series.changes) {
+    if (other.index < change.index) begin = std::max(begin, other.index);
+    if (other.index > change.index) end = std::min(end, other.index);
+  }
+  const std::set<std::string> digests(series.lights.begin() + static_cast<std::ptrdiff_t>(begin),
+                                      series.lights.begin() + static_cast<std::ptrdiff_t>(end));
+  if (digests.size() <= 1) return LightsAround::same;  // or none is known: lines of an older version
+  return digests.contains("") ? LightsAround::unknown : LightsAround::others;
+}
+
 std::string series_text(const Series& series) {
   std::string text =
       series.case_name + "  " + std::string(series.metric->name) + " (" + std::string(series.metric->unit) + ")" +
@@ -169,7 +228,7 @@ std::string series_text(const Series& series) {
   for (const measure::ChangePoint& change : series.changes) {
     char p[48];
     std::snprintf(p, sizeof p, " (p %.1g)", change.p);
-    const std::string way = direction(*series.metric, change);
+    const std::string way = direction_text(series, change);
     text += "  at " + series.commits[change.index] + ": " + figure_text(change.before) + " to " +
             figure_text(change.after) + ", " + change_text(change) + (way.empty() ? "" : ", " + way) +
             (change.p > 0.0 ? p : "") + "\n";
@@ -196,6 +255,11 @@ Addition add_to_history(const std::string& path, const Json& result, const std::
   const std::string line = history_line(result, commit).dump() + "\n";
   Addition addition;
   std::size_t begin = 0, insert_at = text.size();
+  const HistoryEntry fresh = parsed(line);
+  std::vector<HistoryEntry> others;
+  std::ranges::copy_if(history, std::back_inserter(others),
+                       [&](const HistoryEntry& entry) { return entry.commit != commit; });
+  addition.light_changes = changed_lights(others, fresh);
   for (const HistoryEntry& entry : history) {  // a line each
     const std::size_t end = text.find('\n', begin) + 1;
     if (entry.commit == commit) {
@@ -231,8 +295,18 @@ std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const me
         const std::string from = origin(entry, *metric);
         const auto [found, is_new] = index_of.try_emplace({history_case.name, version, metric, from}, all.size());
         if (is_new)
-          all.push_back(
-              {history_case.name, *at, version > 0 ? entry.commit : std::string(), from, metric, {}, {}, false, {}});
+          all.push_back({history_case.name,
+                         *at,
+                         version > 0 ? entry.commit : std::string(),
+                         from,
+                         metric,
+                         {},
+                         {},
+                         {},
+                         false,
+                         {}});
+        const SceneLights* lights = lights_of_scene(entry, history_case.scene);
+        all[found->second].lights.push_back(lights == nullptr ? "" : lights->digest);
         all[found->second].commits.push_back(entry.commit);
         all[found->second].values.push_back(value);
       }
@@ -245,9 +319,30 @@ std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const me
   return all;
 }
 
-std::string direction(const Metric& metric, const measure::ChangePoint& change) {
-  if (metric.better == Better::neither) return "";
+std::vector<std::string> light_changes_in(const std::vector<HistoryEntry>& history) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 1; i < history.size(); ++i)
+    for (const std::string& change : changed_lights(std::span(history).first(i), history[i]))
+      lines.push_back("at " + history[i].commit + ": " + change);
+  return lines;
+}
+
+std::string direction(const Series& series, const measure::ChangePoint& change) {
+  const Metric& metric = *series.metric;
+  if (metric.better == Better::neither || lights_around(series, change) != LightsAround::same) return "";
   return (change.after < change.before) == (metric.better == Better::smaller) ? "better" : "worse";
+}
+
+std::string direction_text(const Series& series, const measure::ChangePoint& change) {
+  switch (lights_around(series, change)) {
+    case LightsAround::others:
+      return "of other lights";
+    case LightsAround::unknown:
+      return series.metric->better == Better::neither ? "" : "perhaps of other lights, which older lines do not tell";
+    case LightsAround::same:
+      break;
+  }
+  return direction(series, change);
 }
 
 std::string change_text(const measure::ChangePoint& change) {
@@ -258,8 +353,9 @@ std::string change_text(const measure::ChangePoint& change) {
 }
 
 std::string history_text(const std::vector<Series>& series, std::size_t entries, bool all,
-                         const measure::ChangeRule& rule) {
+                         const measure::ChangeRule& rule, const std::vector<std::string>& light_changes) {
   std::string text;
+  for (const std::string& change : light_changes) text += change + "; figures from there on are of other lights\n";
   std::size_t changes = 0, too_short = 0;
   for (const Series& case_series : series) {
     changes += case_series.changes.size();
@@ -273,7 +369,8 @@ std::string history_text(const std::vector<Series>& series, std::size_t entries,
   for (const auto& [settings, what] : renewed)
     text += "warning: other settings (" + settings + "), not joined with what was before: " + what + "\n";
   text += number_of(entries, "result") + ", " + std::to_string(series.size()) + " series, " +
-          number_of(changes, "change") + least_text(rule) + "\n";
+          number_of(changes, "change") + least_text(rule) +
+          (light_changes.empty() ? "" : ", " + number_of(light_changes.size(), "change") + " of lights") + "\n";
   return too_short == 0
              ? text
              : text + std::to_string(too_short) + " series of times are too short to tell changes from noise\n";

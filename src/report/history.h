@@ -10,6 +10,13 @@
 
 namespace clusterbench::report {
 
+// Which lights a result's scene has: light_changes.h.
+struct SceneLights {
+  std::string scene;
+  std::string digest;  // "" in results of older versions
+  std::string counts;  // "248 points, 52 spots"
+};
+
 struct HistoryEntry {
   std::string commit;   // as it was given
   std::string machine;  // processor and instruction set
@@ -18,9 +25,15 @@ struct HistoryEntry {
   struct Case {
     std::string settings, name;                           // the first is "" in lines of older versions
     std::vector<std::pair<std::string, double>> figures;  // by the metric's name
+    std::string scene = {};                               // "" in lines of older versions
   };
   std::vector<Case> cases;
+  std::vector<SceneLights> scenes = {};  // none in lines of older versions
 };
+
+// "at 3f2a: the lights of level have changed: 248 points, 52 spots, now 200 points" for each result whose lights are
+// not those of the one before it that has the scene.
+std::vector<std::string> light_changes_in(const std::vector<HistoryEntry>& history);
 
 // One figure of one case, in the order of the file.
 struct Series {
@@ -31,7 +44,8 @@ struct Series {
   const Metric* metric;
   std::vector<std::string> commits;
   std::vector<double> values;
-  bool is_too_short = false;  // for any change to be told from noise
+  std::vector<std::string> lights;  // the digest of the scene's lights, for each value; "" where it is not known
+  bool is_too_short = false;        // for any change to be told from noise
   std::vector<measure::ChangePoint> changes;
 };
 
@@ -41,6 +55,8 @@ std::vector<HistoryEntry> read_history(const std::string& path);
 struct Addition {
   bool is_added = true;     // false: the same line is there already, and nothing was written
   std::size_t earlier = 0;  // lines of this commit that were there
+  // Like light_changes_in(): against the last lines of other commits.
+  std::vector<std::string> light_changes = {};
 };
 // Adds the result as the file's last line, or behind those of its commit where a job runs again; makes the file if
 // there is none. The file is replaced at once by one that has all lines, so that no crash can leave half of one. Throws
@@ -51,12 +67,14 @@ Addition add_to_history(const std::string& path, const nlohmann::ordered_json& r
 // found by `rule`.
 std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const measure::ChangeRule& rule);
 
-// Series with changes, or all of them, and a line of totals.
+// What has happened to lights, series with changes, or all of them, and a line of totals.
 std::string history_text(const std::vector<Series>& series, std::size_t entries, bool all,
-                         const measure::ChangeRule& rule = {});
+                         const measure::ChangeRule& rule = {}, const std::vector<std::string>& light_changes = {});
 
-// "better", "worse", or "" where the metric has no direction.
-std::string direction(const Metric& metric, const measure::ChangePoint& change);
+// "better", "worse", or "" where the metric has no direction. A figure of other lights is neither.
+std::string direction(const Series& series, const measure::ChangePoint& change);
+// That direction in words, "of other lights" where this is why there is none.
+std::string direction_text(const Series& series, const measure::ChangePoint& change);
 
 // "+3.3 %"; from nothing: "from 0".
 std::string change_text(const measure::ChangePoint& change);

@@ -15,7 +15,7 @@ bool varies(const Series& series) {
 }
 
 std::string sentence(const Series& series, const measure::ChangePoint& change) {
-  const std::string way = direction(*series.metric, change);
+  const std::string way = direction_text(series, change);
   return series.commits[change.index] + ": " + figure_text(change.before) + " to " + figure_text(change.after) + ", " +
          change_text(change) + (way.empty() ? "" : ", " + way);
 }
@@ -23,9 +23,8 @@ std::string sentence(const Series& series, const measure::ChangePoint& change) {
 Json to_json(const Series& series) {
   Json changes = Json::array();
   for (const measure::ChangePoint& change : series.changes)
-    changes.push_back({{"index", change.index},
-                       {"text", sentence(series, change)},
-                       {"direction", direction(*series.metric, change)}});
+    changes.push_back(
+        {{"index", change.index}, {"text", sentence(series, change)}, {"direction", direction(series, change)}});
   return {{"metric", series.metric->name},  {"unit", series.metric->unit},
           {"case", series.case_name},       {"machine", series.machine},
           {"since", series.settings_since}, {"commits", series.commits},
@@ -34,8 +33,9 @@ Json to_json(const Series& series) {
 
 }  // namespace
 
-std::string history_page(const std::vector<Series>& series, std::size_t entries) {
-  Json data{{"entries", entries}, {"count", series.size()}, {"series", Json::array()}};
+std::string history_page(const std::vector<Series>& series, std::size_t entries,
+                         const std::vector<std::string>& light_changes) {
+  Json data{{"entries", entries}, {"count", series.size()}, {"lights", light_changes}, {"series", Json::array()}};
   for (const Series& case_series : series)
     if (varies(case_series)) data["series"].push_back(to_json(case_series));
   return filled_page(history_template(), data, "history show");

@@ -9,6 +9,7 @@
 namespace clusterbench::report {
 
 // Charts for the series that vary; the others are counted. Throws Error if this build has no pages.
-std::string history_page(const std::vector<Series>& series, std::size_t entries);
+std::string history_page(const std::vector<Series>& series, std::size_t entries,
+                         const std::vector<std::string>& light_changes = {});
 
 }  // namespace clusterbench::report
