@@ -334,11 +334,12 @@ std::string direction(const Series& series, const measure::ChangePoint& change) 
 }
 
 std::string direction_text(const Series& series, const measure::ChangePoint& change) {
+  if (series.metric->better == Better::neither) return "";
   switch (lights_around(series, change)) {
     case LightsAround::others:
       return "of other lights";
     case LightsAround::unknown:
-      return series.metric->better == Better::neither ? "" : "perhaps of other lights, which older lines do not tell";
+      return "perhaps of other lights, which older lines do not tell";
     case LightsAround::same:
       break;
   }

@@ -26,7 +26,7 @@ const nlohmann::ordered_json* scene_before(const nlohmann::ordered_json& base, c
 struct LightGate {
   bool allows_no_lights = false, allows_changed_lights = false;
   const nlohmann::ordered_json* base = nullptr;  // null: no baseline
-  std::string base_name;                         // as messages call it
+  std::string base_name = {};                    // as messages call it
 };
 
 // Scenes without lights, cases that never have one in view, and scenes with other lights than the baseline's: broken,
