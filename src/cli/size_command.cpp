@@ -1,7 +1,5 @@
 // `clusterbench size INPUT...`: what to allocate, and the code that watches it. From a result, or from what makes one.
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -10,15 +8,17 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/run_inputs.h"
+#include "cli/search_options.h"
+#include "cli/size_counting.h"
+#include "cli/size_search.h"
 #include "cli/stop.h"
-#include "cli/terminal.h"
 #include "config/documents.h"
+#include "core/error.h"
 #include "core/text.h"
+#include "report/engine_settings.h"
+#include "report/found_frames.h"
 #include "report/result_file.h"
-#include "report/result_json.h"
 #include "report/size.h"
-#include "run/runner.h"
-#include "run/sweep.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -29,6 +29,10 @@ struct SizeFlags {
   RunInputs inputs;
   report::SizeRequest request;
   double margin = 0.0, warn_at = 0.0;  // 0: as the configuration says
+  bool worst_case = false;
+  SearchFlags search;
+  std::vector<std::string> found;  // files of `worst-case`
+  std::string engine;              // "": what is printed is of buffers
   bool quiet = false;
 };
 
@@ -45,66 +49,59 @@ bool is_result(const RunInputs& inputs) {
   return inputs.paths.size() == 1 && !is_scene(inputs.paths.front()) && !is_config(inputs.paths.front());
 }
 
-// One allocation serves all cameras; where a scene names none, all are meant.
-config::Config config_of_all_cameras(const RunInputs& inputs) {
-  const config::Config given = read_inputs(inputs);
-  std::vector<config::FlagValue> first;
-  const nlohmann::json& scenes = given.resolved["scenes"];
-  for (std::size_t i = 0; i < scenes.size(); ++i)
-    if (scenes[i].is_object() && scenes[i].value("camera", "").empty())
-      first.push_back({"--set", "scenes." + std::to_string(i) + ".camera=*"});
-  return first.empty() ? given : read_inputs(inputs, first);
+// The engine's own clustering, where the command line names no other.
+void choose_engine(SizeFlags& flags) {
+  report::check_engine(flags.engine);
+  if (flags.request.format != "table" && flags.request.format != "json")
+    throw Error("", "--engine", "prints settings, as a table or JSON, not " + flags.request.format);
+  flags.request.engine = flags.engine;
+  flags.request.all = true;
+  if (is_result(flags.inputs)) return;
+  for (std::size_t i = 0; i < flags.inputs.settings.size(); ++i)
+    if (std::string_view(config::config_flags()[i].name) == "--preset" && flags.inputs.settings[i].empty())
+      flags.inputs.settings[i] = {flags.engine};
 }
 
-// Nothing that only times or pictures need; lists are not compared with the truth.
-config::Config counting_only(config::Config config) {
-  config.timing.measure = false;
-  config.check_accuracy = false;
-  config.stability.reset();
-  config.lookup.reset();
-  config.details.reset();
-  config.resolved["timing"]["measure"] = false;
-  config.resolved["accuracy"]["check"] = false;
-  for (const char* key : {"stability", "lookup", "details"}) config.resolved[key] = nullptr;
-  config.shadow_culls.clear();
-  config.shared_frusta.reset();
-  for (const char* key : {"shadow_cull", "shadow_frusta"}) config.resolved.erase(key);
-  return config;
+// A result has been measured: nothing of that can change, and it holds no scene to search in.
+void check_for_result(const SizeFlags& flags) {
+  if (flags.worst_case)
+    throw Error("", "--worst-case",
+                "searches in the scene, and a result does not hold it; give the scene or the configuration, or what "
+                "`clusterbench worst-case -o FILE` wrote with --found FILE");
+  if (!flags.request.scope.grid_of.empty())
+    throw Error("", "--grid-of", "asks the scene's cameras, and a result does not hold them; give the scene");
+  if (const std::vector<config::FlagValue> given = flag_values(flags.inputs); !given.empty())
+    throw Error("", given.front().name,
+                "changes what is measured, and a result has been; give a configuration or scenes");
 }
 
-// Nothing once it is to stop.
-std::optional<Json> counted(const SizeFlags& flags) {
-  const config::Config config = counting_only(config_of_all_cameras(flags.inputs));
-  const run::Plan plan = run::make_plan(config, flags.request.filter);
-  const std::atomic<bool>& stop = stop_on_signals();
-  ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
-  run::Listener listener;
-  listener.on_progress = [&](const run::Progress& now) { progress.show(now); };
-  const run::Result result = run::run_plan(config, plan, {}, listener, stop);
-  progress.clear();
-  if (stop) return {};
-  for (const run::SceneResult& scene : result.scenes)
-    for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
-  if (result.cases.empty())
-    for (const run::Skipped& skipped : result.skipped) tell("skipped " + skipped.name + ": " + skipped.reason);
-  return report::result_to_json(result, {});
-}
-
-ExitCode size(const SizeFlags& flags) {
+ExitCode size(SizeFlags flags) {
+  if (!flags.engine.empty()) choose_engine(flags);
   report::SizeRequest request = flags.request;
   if (flags.margin > 0.0) request.margin = flags.margin;
   if (flags.warn_at > 0.0) request.warn_at = flags.warn_at;
-  std::optional<Json> result;
+  std::optional<SizeCounts> counts;
+  Json result;
   if (!is_result(flags.inputs)) {
-    result = counted(flags);
-  } else if (const std::vector<config::FlagValue> given = flag_values(flags.inputs); given.empty()) {
-    result = report::read_result(flags.inputs.paths.front());
+    counts = counted_for_size(flags.inputs, flags.request.filter, flags.quiet);
+    if (!counts) return stopped_exit_code();
+    result = counts->result;
   } else {
-    throw Error("", given.front().name,
-                "changes what is measured, and a result has been; give a configuration or scenes");
+    check_for_result(flags);
+    result = report::read_result(flags.inputs.paths.front());
   }
-  if (!result) return stopped_exit_code();
-  const std::string text = report::size_report(*result, request);
+  for (const std::string& file : flags.found) request.scope.found.push_back(report::read_found(file, result));
+  if (flags.worst_case) {
+    const auto found = search_sized(*counts, report::sized_cases(result, request), flags.search, flags.quiet);
+    if (!found) return stopped_exit_code();
+    request.scope.found.insert(request.scope.found.end(), found->begin(), found->end());
+  }
+  if (!request.scope.grid_of.empty()) {
+    const auto guests = samples_of_guests(*counts, report::sized_cases(result, request), flags.quiet);
+    if (!guests) return stopped_exit_code();
+    request.scope.guests = *guests;
+  }
+  const std::string text = report::size_report(result, request);
   std::cout << (request.format == "json" ? text : printable_lines(text));
   return ExitCode::ok;
 }
@@ -137,7 +134,29 @@ void add_size(Command& program, Action& action) {
                   "What names in code begin with, in place of scene and grid: light_lists_indices ...; where one "
                   "structure is printed")
       .not_empty();
+  command.add_option(
+      "--engine", flags->engine,
+      "NAME: in the settings of this engine, of the preset of that name: " + joined(report::engines_with_settings()));
   command.add_flag("--all", flags->request.all, "Every structure, not the best one of each scene and grid");
+  command
+      .add_option("--views", flags->request.scope.views,
+                  "NAME,NAME, repeatable: cameras that are drawn in the same frame into one buffer, whose needs are "
+                  "added frame by frame; * stands for any letters")
+      .once_a_name();
+  command.add_option(
+      "--grid-of", flags->request.scope.grid_of,
+      "NAME: of the cameras of --views only this one has a grid, in which the others' samples are looked "
+      "up; says what these lack");
+  command.add_flag("--one-for-viewports", flags->request.scope.over_viewports,
+                   "One allocation for all viewports, as for dynamic resolution; not one for each");
+  command.add_flag("--worst-case", flags->worst_case,
+                   "First search for frames that need more than those of the paths, and size by the larger one");
+  command
+      .add_option("--found", flags->found,
+                  "FILE, repeatable: what `clusterbench worst-case -o FILE` found for the same scene and case")
+      .once_a_name();
+  add_effort_options(command, flags->search);
+  add_space_options(command, flags->search);
   add_config_options(command, flags->inputs);
   command.add_flag("-q,--quiet", flags->quiet, "No progress; warnings stay");
   command.when_named([flags, &action] { action = [flags] { return size(*flags); }; });

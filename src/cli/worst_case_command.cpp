@@ -2,8 +2,6 @@
 
 #include <unistd.h>
 
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -11,10 +9,10 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/run_inputs.h"
+#include "cli/search_options.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
 #include "core/text.h"
-#include "geom/shapes/domain.h"
 #include "report/worst_case_report.h"
 #include "scene/write_gltf.h"
 #include "search/replay_config.h"
@@ -27,9 +25,8 @@ namespace fs = std::filesystem;
 
 struct WorstCaseFlags {
   RunInputs inputs;
-  std::string output, path, filter, measure = "entries", within;
-  std::vector<std::string> added;
-  search::WorstCaseRequest request;
+  std::string output, path, filter, measure = "entries";
+  SearchFlags search;
   bool quiet = false;
 };
 
@@ -39,47 +36,10 @@ std::vector<std::string> measure_names() {
   return names;
 }
 
-// All of the text, or not a number.
-double number_in(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return text.empty() || *end != '\0' ? std::nan("") : value;
-}
-
-// "4x10": four lights with a range of 10 m; "10": one.
-void add_lights(const std::string& text, std::vector<double>& ranges_m) {
-  constexpr double k_most = 64;
-  const std::size_t cross = text.find('x');
-  const double count = cross == std::string::npos ? 1.0 : number_in(text.substr(0, cross));
-  const double range_m = number_in(cross == std::string::npos ? text : text.substr(cross + 1));
-  if (!(count >= 1.0 && count <= k_most) || count != std::floor(count) ||
-      !(range_m > 0.0 && range_m <= geom::k_farthest_m))
-    throw Error("", "--add-lights",
-                "'" + text + "' is not COUNTxRANGE, as in 4x10: 1 to 64 lights, and metres above 0 and up to 1e15");
-  ranges_m.insert(ranges_m.end(), static_cast<std::size_t>(count), range_m);
-  if (static_cast<double>(ranges_m.size()) > k_most) throw Error("", "--add-lights", "adds more than 64 lights");
-}
-
-std::optional<search::Box> box_in(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    numbers.push_back(number_in(text.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  if (numbers.size() != 6 || std::ranges::any_of(numbers, [](double number) { return !std::isfinite(number); }))
-    throw Error("", "--within", "'" + text + "' is no box: takes six numbers in metres, X0,Y0,Z0,X1,Y1,Z1");
-  return search::Box{{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
-}
-
 search::WorstCaseRequest request_of(const WorstCaseFlags& flags, const config::Config& config) {
-  search::WorstCaseRequest request = flags.request;
+  search::WorstCaseRequest request = search_request(flags.search, config);
   for (const search::MeasureRow& row : search::measure_rows())
     if (flags.measure == row.name) request.measure = row.measure;
-  for (const std::string& text : flags.added) add_lights(text, request.extra_ranges_m);
-  request.within = box_in(flags.within);
-  request.threads = config.threads;
   return request;
 }
 
@@ -130,12 +90,8 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   check_outputs(flags, config);
   const std::atomic<bool>& stop = stop_on_signals();
   ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
-  search::WorstCaseListener listener;
-  listener.on_progress = [&](const std::string& doing, int done, int whole) {
-    progress.show({static_cast<std::size_t>(done), static_cast<std::size_t>(whole), static_cast<double>(done),
-                   static_cast<double>(whole), doing});
-  };
-  const search::WorstCase found = search::find_worst_case(config, plan, case_plan, request, listener, stop);
+  const search::WorstCase found =
+      search::find_worst_case(config, plan, case_plan, request, search_listener(progress), stop);
   progress.clear();
   const bool has_frames = !found.frames.empty();
   const report::WorstCaseFacts facts{
@@ -150,26 +106,6 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   if (!stop) return ExitCode::ok;
   tell("interrupted: the worst frames by then are told");
   return stopped_exit_code();
-}
-
-void add_space_options(Command& command, WorstCaseFlags& flags) {
-  command.add_option("--within", flags.within,
-                     "X0,Y0,Z0,X1,Y1,Z1: where the camera may stand, metres; without: the box of the scene's lights "
-                     "and recorded eyes");
-  command.add_flag("--walkable", flags.request.walkable,
-                   "The camera stands above triangles of the scene that look upward (at most 45 degrees from it)");
-  command.add_option("--eye-height", flags.request.eye_height_m, "With --walkable: so high above them, metres")
-      .range(0.0, 1e6)
-      .shows_standard();
-  command
-      .add_option("--add-lights", flags.added,
-                  "COUNTxRANGE, repeatable: so many point lights of that range, in metres, stand where they are worst")
-      .once_a_name();
-  command
-      .add_option("--move-lights", flags.request.move_m,
-                  "Move each light of the scene by up to so many metres; 0: none")
-      .range(0.0, 1e15)
-      .shows_standard();
 }
 
 }  // namespace
@@ -189,22 +125,14 @@ void add_worst_case(Command& program, Action& action) {
       .shows_standard();
   command.add_option("--filter", flags->filter,
                      "Of the cases whose name matches this regular expression the first is searched");
-  command.add_option("--evaluations", flags->request.evaluations, "Frames that the search may measure")
-      .range(1, 10'000'000)
-      .shows_standard();
-  command
-      .add_option("--seconds", flags->request.seconds,
-                  "End the search after so many, too; the result then depends on the machine; 0 = never")
-      .non_negative()
-      .shows_standard();
-  command.add_option("--random", flags->request.random, "Random frames to compare with; 0: none")
+  add_effort_options(command, flags->search);
+  command.add_option("--random", flags->search.request.random, "Random frames to compare with; 0: none")
       .range(0, 10'000'000)
       .shows_standard();
-  command.add_option("--best", flags->request.frames, "How many frames to find that are not nearly the same")
+  command.add_option("--best", flags->search.request.frames, "How many frames to find that are not nearly the same")
       .range(1, 1000)
       .shows_standard();
-  command.add_option("--seed", flags->request.seed, "Seed of everything random").shows_standard();
-  add_space_options(command, *flags);
+  add_space_options(command, flags->search);
   add_config_options(command, flags->inputs, {"--rounds", "--launches", "--fail-if"});
   command.add_flag("-q,--quiet", flags->quiet, "No progress and no text");
   command.when_named([flags, &action] { action = [flags] { return worst_case(*flags); }; });

@@ -1,9 +1,13 @@
 #include "report/allocation.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
+#include "assign/contract/assigner.h"
 #include "core/error.h"
 #include "core/pattern.h"
 #include "core/text.h"
@@ -39,12 +43,13 @@ std::uint64_t rounded_bytes(std::uint64_t bytes, Rounding rounding) {
 }
 
 void allocate(SizedBuffer& buffer, std::uint64_t step, const AllocationRules& rules) {
-  const double wanted = std::ceil(static_cast<double>(buffer.high_water) * rules.margin);
-  const std::uint64_t whole = up_to_multiple(std::max(buffer.high_water, as_count(wanted)), step);
-  const std::uint64_t capacity = std::min(whole, std::max(buffer.theoretical_max, buffer.high_water));
+  const double wanted = std::ceil(static_cast<double>(buffer.mark()) * rules.margin);
+  const std::uint64_t whole = up_to_multiple(std::max(buffer.mark(), as_count(wanted)), step);
+  const std::uint64_t most = buffer.is_bounded ? std::max(buffer.theoretical_max, buffer.mark()) : k_largest_count;
+  const std::uint64_t capacity = std::min(whole, most);
   buffer.bytes = rounded_bytes(times(capacity, buffer.element_bytes), rules.rounding);
   const std::uint64_t fitting = buffer.bytes / buffer.element_bytes / step * step;
-  buffer.capacity = std::max(capacity, std::min(fitting, buffer.theoretical_max));
+  buffer.capacity = std::max(capacity, std::min(fitting, most));
   buffer.warn_above =
       buffer.is_all() ? buffer.capacity : as_count(std::floor(static_cast<double>(buffer.capacity) * rules.warn_at));
 }
@@ -85,64 +90,6 @@ std::optional<FrameSpread> spread_of(const std::vector<PathNeed>& paths) {
   return spread;
 }
 
-std::uint64_t count_at(const Json& from, const char* key) {
-  return from[key].get<std::uint64_t>();
-}
-
-// A buffer of one camera's case, as the result has it.
-struct CaseBuffer {
-  std::string name;
-  std::uint64_t element_bytes = 1, step = 1, high_water = 0, theoretical_max = 0, worst_frame = 0;
-  Json worst_cell;
-  PathNeed path;
-};
-
-PathNeed path_need(const Json& result_case, const Json& buffer) {
-  PathNeed path{result_case["camera"].get<std::string>(), 1, {}};
-  if (const Json* along = value_at(buffer, "/along_path")) {
-    path.frames_per_entry = std::max<std::uint64_t>(1, count_at(*along, "frames_per_entry"));
-    path.elements = (*along)["elements"].get<std::vector<std::uint64_t>>();
-  } else if (const std::uint64_t frames = count_at(result_case, "frames"); frames > 0) {
-    path.frames_per_entry = frames;
-    path.elements = {count_at(buffer, "high_water")};
-  }
-  return path;
-}
-
-Json cell_of(const Json& from) {
-  const Json* cell = value_at(from, "/worst_cell");
-  return cell == nullptr ? Json() : *cell;
-}
-
-std::vector<CaseBuffer> buffers_of_earlier_version(const Json& result_case) {
-  const Json &buffers = result_case["buffers"], &entries = buffers["index_entries"];
-  CaseBuffer indices;
-  indices.name = "entries";
-  indices.element_bytes = std::max<std::uint64_t>(1, count_at(buffers, "index_bits") / 8);
-  indices.high_water = count_at(entries, "high_water");
-  indices.theoretical_max = count_at(entries, "theoretical_max");
-  indices.worst_frame = count_at(buffers, "worst_frame");
-  indices.worst_cell = cell_of(buffers);
-  indices.path.camera = result_case["camera"].get<std::string>();
-  CaseBuffer headers = indices;
-  headers.name = "header_bytes";
-  headers.element_bytes = 1;
-  headers.high_water = headers.theoretical_max = count_at(buffers, "header_bytes");
-  return {indices, headers};
-}
-
-std::vector<CaseBuffer> buffers_of(const Json& result_case) {
-  const Json* each = value_at(result_case, "/buffers/each");
-  if (each == nullptr) return buffers_of_earlier_version(result_case);
-  std::vector<CaseBuffer> out;
-  for (const Json& buffer : *each)
-    out.push_back({buffer["name"].get<std::string>(), std::max<std::uint64_t>(1, count_at(buffer, "element_bytes")),
-                   std::max<std::uint64_t>(1, count_at(buffer, "step")), count_at(buffer, "high_water"),
-                   count_at(buffer, "theoretical_max"), count_at(buffer, "worst_frame"), cell_of(buffer),
-                   path_need(result_case, buffer)});
-  return out;
-}
-
 // Into what the earlier cameras need.
 void add(SizedBuffer& buffer, std::uint64_t& step, const CaseBuffer& next) {
   if (buffer.paths.empty() || next.high_water > buffer.high_water) {
@@ -150,17 +97,106 @@ void add(SizedBuffer& buffer, std::uint64_t& step, const CaseBuffer& next) {
     buffer.worst_camera = next.path.camera;
     buffer.worst_frame = next.worst_frame;
     buffer.worst_cell = next.worst_cell;
+    buffer.is_sum_of_marks = next.is_sum_of_marks;
     step = next.step;
   }
+  buffer.apart = std::max(buffer.apart, next.apart);
   buffer.theoretical_max = std::max(buffer.theoretical_max, next.theoretical_max);
   buffer.element_bytes = std::max(buffer.element_bytes, next.element_bytes);
   buffer.paths.push_back(next.path);
 }
 
-void size_buffers(SizedStructure& structure, const AllocationRules& rules) {
-  std::vector<std::uint64_t> steps;
+// Cameras of one frame, each with its cases in all viewports; a camera that shares no buffer is alone.
+using FrameCameras = std::vector<std::vector<const Json*>>;
+
+std::vector<FrameCameras> frames_of(const SizedStructure& structure) {
+  std::vector<FrameCameras> out;
+  const auto cases_of = [&](const std::string& camera) {
+    std::vector<const Json*> cases;
+    for (const Json* result_case : structure.cases)
+      if ((*result_case)["camera"] == camera) cases.push_back(result_case);
+    return cases;
+  };
+  std::set<std::string> taken(structure.guests.begin(), structure.guests.end());
+  for (const std::vector<std::string>& view : structure.views) {
+    out.emplace_back();
+    for (const std::string& camera : view) {
+      out.back().push_back(cases_of(camera));
+      taken.insert(camera);
+    }
+  }
   for (const Json* result_case : structure.cases)
-    for (const CaseBuffer& next : buffers_of(*result_case)) {
+    if (const auto camera = (*result_case)["camera"].get<std::string>(); taken.insert(camera).second)
+      out.push_back({cases_of(camera)});
+  return out;
+}
+
+// Of one viewport after the other the cameras together, and then the largest of them.
+std::vector<CaseBuffer> buffers_of_frame(const FrameCameras& cameras) {
+  const std::size_t viewports = cameras.front().size();
+  std::vector<std::vector<CaseBuffer>> by_buffer;
+  for (std::size_t viewport = 0; viewport < viewports; ++viewport) {
+    std::vector<std::vector<CaseBuffer>> of_cameras;
+    for (const std::vector<const Json*>& cases : cameras)
+      of_cameras.push_back(buffers_of(*cases[std::min(viewport, cases.size() - 1)]));
+    by_buffer.resize(std::max(by_buffer.size(), of_cameras.front().size()));
+    for (std::size_t i = 0; i < of_cameras.front().size(); ++i) {
+      std::vector<CaseBuffer> same;
+      for (const std::vector<CaseBuffer>& all : of_cameras)
+        if (i < all.size()) same.push_back(all[i]);
+      by_buffer[i].push_back(in_one_frame(same));
+    }
+  }
+  std::vector<CaseBuffer> out;
+  for (const std::vector<CaseBuffer>& same : by_buffer) out.push_back(over_viewports(same));
+  return out;
+}
+
+std::vector<Growth> growth_of(const std::vector<PathNeed>& paths) {
+  std::size_t longest = 0;
+  for (const PathNeed& path : paths) {
+    if (path.elements.empty() || (path.frames_per_entry > 1 && path.elements.size() > 1)) return {};
+    longest = std::max(longest, path.elements.size());
+  }
+  std::vector<Growth> out;
+  if (longest <= 8) return out;
+  for (const int every : {8, 4, 2, 1}) {
+    std::uint64_t most = 0;
+    for (const PathNeed& path : paths)
+      for (std::size_t i = 0; i < path.elements.size(); i += static_cast<std::size_t>(every))
+        most = std::max(most, path.elements[i]);
+    out.push_back({every, most});
+  }
+  return out;
+}
+
+bool follows_surfaces(const Json& result_case) {
+  const assign::AssignerDescriptor* method = assign::find_assigner(result_case["assigner"]["name"].get<std::string>());
+  return method != nullptr && (method->needs.depth || method->at_surfaces);
+}
+
+// Where other frames can have more lights or cells than those that were counted, what is possible follows from these.
+bool has_bound(const Json& result_case) {
+  return !result_case.contains("pre_cull") && !result_case.contains("react") && !follows_surfaces(result_case);
+}
+
+// A search looks at one camera; where several share the buffer, each can be in such a place.
+void add_found(SizedStructure& structure, const FoundFrame& found) {
+  structure.found = found;
+  std::size_t views = 1;
+  for (const std::vector<std::string>& view : structure.views) views = std::max(views, view.size());
+  for (const FoundFrame::Need& need : found.needs) {
+    const auto buffer = std::ranges::find(structure.buffers, need.name, &SizedBuffer::name);
+    if (buffer == structure.buffers.end()) continue;
+    buffer->found = times(need.elements, views);
+    buffer->theoretical_max = std::max(buffer->theoretical_max, times(need.most, views));
+  }
+}
+
+void size_buffers(SizedStructure& structure, const AllocationRules& rules, const FoundFrame* found) {
+  std::vector<std::uint64_t> steps;
+  for (const FrameCameras& cameras : frames_of(structure))
+    for (const CaseBuffer& next : buffers_of_frame(cameras)) {
       auto known = std::ranges::find(structure.buffers, next.name, &SizedBuffer::name);
       if (known == structure.buffers.end()) {
         known = structure.buffers.insert(known, SizedBuffer{});
@@ -170,9 +206,15 @@ void size_buffers(SizedStructure& structure, const AllocationRules& rules) {
       }
       add(*known, steps[static_cast<std::size_t>(known - structure.buffers.begin())], next);
     }
+  if (found != nullptr) add_found(structure, *found);
   for (std::size_t i = 0; i < structure.buffers.size(); ++i) {
-    allocate(structure.buffers[i], steps[i], rules);
-    structure.buffers[i].spread = spread_of(structure.buffers[i].paths);
+    SizedBuffer& buffer = structure.buffers[i];
+    buffer.is_bounded = std::ranges::all_of(structure.cases, [](const Json* one) { return has_bound(*one); });
+    buffer.spread = spread_of(buffer.paths);
+    // What is the same in all frames is as large as it is, whatever other frames hold.
+    if (buffer.spread && buffer.spread->min == buffer.theoretical_max) buffer.is_bounded = true;
+    buffer.growth = growth_of(buffer.paths);
+    allocate(buffer, steps[i], rules);
   }
 }
 
@@ -188,26 +230,107 @@ std::vector<const Json*> matching_cases(const Json& cases, const std::string& fi
   return out;
 }
 
-// A case's name without its camera, and of that the scene and the grid. Names that are not made like that are taken as
-// they are.
+// A case's name without its camera (and its viewport, where one allocation serves all), and of that the scene and the
+// grid. Names that are not made like that are taken as they are.
 struct Names {
   std::string structure, group;
 };
 
-Names names_of(const Json& result_case) {
+Names names_of(const Json& result_case, bool over_viewports) {
   const auto name = result_case["name"].get<std::string>(), scene = result_case["scene"].get<std::string>();
   const std::string prefix = scene + "/" + result_case["camera"].get<std::string>() + "/";
   if (!name.starts_with(prefix)) return {name, name};
-  const std::string rest = name.substr(prefix.size());
+  std::string rest = name.substr(prefix.size());
+  const Json& viewport = result_case["viewport"];
+  const std::string size = viewport[0].dump() + "x" + viewport[1].dump() + " ";
+  if (over_viewports && rest.starts_with(size)) rest.erase(0, size.size());
   return {scene + "/" + rest, scene + "/" + rest.substr(0, rest.find('/'))};
 }
 
-bool has_camera(const SizedStructure& structure, const Json& camera) {
-  return std::ranges::any_of(structure.cases,
-                             [&](const Json* result_case) { return (*result_case)["camera"] == camera; });
+bool has_camera(const SizedStructure& structure, const Json& result_case) {
+  return std::ranges::any_of(structure.cases, [&](const Json* other) {
+    return (*other)["camera"] == result_case["camera"] && (*other)["viewport"] == result_case["viewport"];
+  });
+}
+
+std::vector<std::string> between_commas(const std::string& list) {
+  std::vector<std::string> parts(1);
+  for (const char c : list)
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+// The cameras of a structure that a group names, in the order of the cases.
+std::vector<std::string> cameras_in(const SizedStructure& structure, const std::string& group) {
+  std::vector<std::string> out;
+  const std::vector<std::string> patterns = between_commas(group);
+  for (const Json* result_case : structure.cases) {
+    const auto camera = (*result_case)["camera"].get<std::string>();
+    const bool is_named = std::ranges::any_of(patterns, [&](const std::string& pattern) {
+      return camera == pattern || fnmatch(pattern.c_str(), camera.c_str(), 0) == 0;
+    });
+    if (is_named && std::ranges::find(out, camera) == out.end()) out.push_back(camera);
+  }
+  return out;
+}
+
+// All but one of these cameras get their lights from that one's grid.
+void share_grid(SizedStructure& structure, const std::vector<std::string>& cameras, const std::string& owner) {
+  for (const std::string& camera : cameras)
+    if (camera != owner) structure.guests.push_back(camera);
+}
+
+void set_views(std::vector<SizedStructure>& structures, const AllocationScope& scope) {
+  if (!scope.grid_of.empty() && scope.views.empty())
+    throw Error("", "--grid-of", "needs --views, which says whose samples are looked up in that camera's grid");
+  bool is_owner_known = scope.grid_of.empty();
+  for (const std::string& group : scope.views) {
+    bool is_known = false;
+    for (SizedStructure& structure : structures) {
+      const std::vector<std::string> cameras = cameras_in(structure, group);
+      if (cameras.size() < 2) continue;
+      is_known = true;
+      if (std::ranges::find(cameras, scope.grid_of) == cameras.end()) {
+        structure.views.push_back(cameras);
+        continue;
+      }
+      is_owner_known = true;
+      share_grid(structure, cameras, scope.grid_of);
+    }
+    if (is_known || structures.empty()) continue;
+    std::vector<std::string> known;
+    for (const Json* result_case : structures.front().cases)
+      known.push_back((*result_case)["camera"].get<std::string>());
+    throw Error("", "--views",
+                "'" + group + "' names no two cameras of a scene; " + structures.front().name + " has " +
+                    joined(known) + "; takes names, as in left,right, and * for any letters");
+  }
+  if (!is_owner_known && !structures.empty())
+    throw Error("", "--grid-of", "'" + scope.grid_of + "' is none of the cameras of --views");
+}
+
+const FoundFrame* found_for(const SizedStructure& structure, const std::vector<FoundFrame>& all) {
+  for (const FoundFrame& found : all)
+    for (const Json* result_case : structure.cases)
+      if ((*result_case)["name"] == found.case_name) return &found;
+  return nullptr;
 }
 
 }  // namespace
+
+std::uint64_t SizedStructure::frames() const {
+  std::uint64_t all = 0;
+  for (const FrameCameras& cameras : frames_of(*this)) {
+    std::uint64_t most = 0;
+    for (const std::vector<const Json*>& of_camera : cameras)
+      most = std::max(most, of_camera.front()->at("frames").get<std::uint64_t>());
+    all += most;
+  }
+  return all;
+}
 
 std::uint64_t SizedBuffer::double_buffered_bytes() const {
   return times(2, bytes);
@@ -221,18 +344,33 @@ std::uint64_t SizedStructure::bytes() const {
 }
 
 std::vector<SizedStructure> sized_structures(const Json& result, const std::string& filter,
-                                             const AllocationRules& rules) {
+                                             const AllocationRules& rules, const AllocationScope& scope) {
   std::vector<SizedStructure> out;
   for (const Json* result_case : matching_cases(result["cases"], filter)) {
-    const Names names = names_of(*result_case);
+    const Names names = names_of(*result_case, scope.over_viewports);
     // The same camera again is another structure whose name is the same.
     auto known = std::ranges::find_if(out, [&](const SizedStructure& sized) {
-      return sized.name == names.structure && !has_camera(sized, (*result_case)["camera"]);
+      return sized.name == names.structure && !has_camera(sized, *result_case);
     });
-    if (known == out.end()) known = out.insert(known, {names.structure, names.group, {}, {}});
+    if (known == out.end()) {
+      known = out.insert(known, SizedStructure{});
+      known->name = names.structure;
+      known->group = names.group;
+    }
     known->cases.push_back(result_case);
   }
-  for (SizedStructure& structure : out) size_buffers(structure, rules);
+  for (SizedStructure& structure : out) {
+    structure.has_grid_cells = !follows_surfaces(*structure.cases.front());
+    for (const Json& scene : result["scenes"])
+      if (scene["name"] == (*structure.cases.front())["scene"])
+        structure.has_boxes = number_at(scene, "/lights/box").value_or(0.0) > 0.0;
+  }
+  set_views(out, scope);
+  for (SizedStructure& structure : out)
+    for (const GuestSamples& guest : scope.guests)
+      if (std::ranges::any_of(structure.cases, [&](const Json* one) { return (*one)["name"] == guest.case_name; }))
+        structure.guest_samples.push_back(guest);
+  for (SizedStructure& structure : out) size_buffers(structure, rules, found_for(structure, scope.found));
   return out;
 }
 

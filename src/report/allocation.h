@@ -3,11 +3,14 @@
 // An engine allocates a buffer once, so all cameras of a scene count together, and the worst frame of any of them
 // decides.
 
+#include <algorithm>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "report/case_buffers.h"
 
 namespace clusterbench::report {
 
@@ -20,11 +23,35 @@ struct AllocationRules {
   Rounding rounding = Rounding::page;
 };
 
-// What one camera path needs of a buffer, in elements and in the order of its frames.
-struct PathNeed {
-  std::string camera;
-  std::uint64_t frames_per_entry = 1;   // above 1 each entry is the largest of so many successive frames
-  std::vector<std::uint64_t> elements;  // one entry where all frames need the same; empty where the result has none
+// What a search for worse frames (`worst-case`) found for a structure.
+struct FoundFrame {
+  std::string case_name;  // whose camera and grid were searched
+  std::string refusal;    // why that case cannot be searched; then nothing else is here
+  int evaluations = 0;
+  std::uint64_t seed = 1;
+  std::vector<double> eye_m;  // of the worst frame
+  struct Need {
+    std::string name;  // of a buffer
+    std::uint64_t elements = 0, most = 0;
+  };
+  std::vector<Need> needs;  // of that frame
+};
+
+// What samples of a camera lack that has no grid of its own and looks them up in another's.
+struct GuestSamples {
+  std::string case_name, camera;  // whose grid, and whose samples
+  std::uint64_t samples = 0, outside = 0, needed = 0, missed = 0, missed_outside = 0;
+  int worst_frame = 0;
+};
+
+// Which cases one allocation serves, and what is known besides them.
+struct AllocationScope {
+  // Each the cameras that are drawn in one frame into one buffer: "left,right"; a name may have a * in it.
+  std::vector<std::string> views;
+  std::string grid_of;          // of cameras in one frame the only one that has a grid; "": each has its own
+  bool over_viewports = false;  // one allocation for all viewports
+  std::vector<FoundFrame> found;
+  std::vector<GuestSamples> guests;
 };
 
 // Of the frames of all cameras, each counted once. At most: where an entry stands for several frames it is counted for
@@ -34,38 +61,59 @@ struct FrameSpread {
   bool is_exact = true;                                       // every entry is one frame
 };
 
+// The most that every 8th (4th, 2nd, each) frame needs: as long as it grows, frames between those counted need more.
+struct Growth {
+  int every = 1;
+  std::uint64_t high_water = 0;
+};
+
 struct SizedBuffer {
   std::string name;  // as the structure names it: "indices"
   std::uint64_t element_bytes = 1;
-  std::uint64_t high_water = 0, theoretical_max = 0;  // elements
-  std::string worst_camera;                           // that made the high-water mark
-  std::uint64_t worst_frame = 0;                      // of its path
-  nlohmann::ordered_json worst_cell;                  // [x, y, z], its longest list in that frame; null without cells
-  std::vector<PathNeed> paths;                        // one per camera, in the order of the cases
-  std::optional<FrameSpread> spread;                  // none where the result has no frames
+  std::uint64_t high_water = 0, theoretical_max = 0;  // elements; the most seen, and the most that can be
+  bool is_bounded = true;  // theoretical_max holds for other frames, too: not behind a pre-cull, or with fewer cells
+  std::optional<std::uint64_t> found;  // elements of the worst frame that a search found
+  std::uint64_t apart = 0;             // of cameras in one frame: if each were at its own most at the same time; else 0
+  bool is_sum_of_marks = false;        // their paths have different frames, and high_water is `apart`
+  std::string worst_camera;            // that made the high-water mark
+  std::uint64_t worst_frame = 0;       // of its path
+  nlohmann::ordered_json worst_cell;   // [x, y, z], its longest list in that frame; null without cells
+  std::vector<PathNeed> paths;         // one per camera (or cameras in one frame), in the cases' order
+  std::vector<Growth> growth;          // every 8th frame first; none where the result has merged frames
+  std::optional<FrameSpread> spread;   // none where the result has no frames
 
-  // Capacity: high water x margin, at most the theoretical maximum; and then what else fits into the rounded bytes.
+  // Capacity: mark() x margin, at most the theoretical maximum; and then what else fits into the rounded bytes.
   std::uint64_t capacity = 0, bytes = 0;
   std::uint64_t warn_above = 0;  // elements; the capacity itself where it is all that there can be
 
-  bool is_all() const { return capacity == theoretical_max; }
+  // What the capacity is made of: the larger one of the most seen and the most that a search found.
+  std::uint64_t mark() const { return std::max(high_water, found.value_or(0)); }
+  // Nothing can overflow.
+  bool is_all() const { return is_bounded && capacity == theoretical_max; }
   std::uint64_t double_buffered_bytes() const;
 };
 
-// One structure of one scene, viewport and grid, over all cameras.
+// One structure of one scene, viewport (or all) and grid, over all cameras.
 struct SizedStructure {
   std::string name;                                  // "scene/grid/assigner/storage": a case's name without its camera
   std::string group;                                 // "scene/grid"
   std::vector<const nlohmann::ordered_json*> cases;  // one per camera, in the result's order
   std::vector<SizedBuffer> buffers;
+  std::vector<std::vector<std::string>> views;  // cameras in one frame, as far as they are in it
+  std::vector<std::string> guests;              // cameras without a grid of their own
+  std::vector<GuestSamples> guest_samples;
+  std::optional<FoundFrame> found;
+  bool has_boxes = false;      // the scene has oriented boxes among its lights
+  bool has_grid_cells = true;  // lists are of the grid's cells, the same in all frames
 
   std::uint64_t bytes() const;
+  std::uint64_t frames() const;  // of all cameras, or of cameras in one frame, each frame once
 };
 
 // Of all cases whose name matches the regular expression `filter` ("" = all). Results of earlier versions have no
 // single buffers: theirs are called "entries" and "header_bytes". `result` outlives them. Throws Error if the filter is
-// no regex or matches no case.
+// no regex or matches no case, and for views that name no two cameras of any scene.
 std::vector<SizedStructure> sized_structures(const nlohmann::ordered_json& result, const std::string& filter,
-                                             const AllocationRules& rules);
+                                             const AllocationRules& rules, const AllocationScope& scope = {});
 
 }  // namespace clusterbench::report

@@ -58,6 +58,37 @@ int P_cell_of(vec3 from_origin) {
 }
 )";
 
+// For a viewport that changes from frame to frame: tiles of pixels are more or fewer then, tiles by number larger or
+// smaller.
+constexpr const char* k_screen_start_of_viewport = R"(int P_cell_of(vec2 pixel, float along, vec2 viewport) {
+  if (!(pixel.x >= 0.0 && pixel.x <= viewport.x && pixel.y >= 0.0 && pixel.y <= viewport.y)) return -1;
+  if (along > P_slice_far) return -1;
+)";
+constexpr const char* k_screen_end_of_viewport =
+    R"(  ivec2 tiles = P_tiles_of(viewport), tile = clamp(ivec2(pixel * #), ivec2(0, 0), tiles - 1);
+  return (slice * tiles.y + tile.y) * tiles.x + tile.x;
+}
+)";
+
+std::string ivec2_of(const Json& pair) {
+  return "ivec2(" + pair[0].dump() + ", " + pair[1].dump() + ")";
+}
+
+// Tiles across and down in a viewport, and the cell in it.
+std::string code_of_viewport(const Json& grid, const std::string& slice) {
+  const Json& tiles = grid["tiles"];
+  const bool by_pixels = tiles.contains("pixels");
+  const std::string count =
+      by_pixels ? "(ivec2(viewport) + " + ivec2_of(tiles["pixels"]) + " - 1) / " + ivec2_of(tiles["pixels"])
+                : "ivec2(P_cells.x, P_cells.y)";
+  std::string end = k_screen_end_of_viewport;
+  const std::string scale = by_pixels ? "P_tile_scale" : "(vec2(ivec2(P_cells.x, P_cells.y)) / viewport)";
+  end.replace(end.find('#'), 1, scale);
+  return "// the same for any viewport, in whole pixels: for dynamic resolution\nivec2 P_tiles_of(vec2 viewport) {\n  "
+         "return " +
+         count + ";\n}\n" + k_screen_start_of_viewport + slice + end;
+}
+
 std::string screen_code(const Json& grid) {
   const std::string form = grid["slices"]["lookup"]["form"].get<std::string>();
   const bool by_distance = grid["kind"] == "distance";
@@ -66,7 +97,8 @@ std::string screen_code(const Json& grid) {
     slice.replace(at, 1, form == "log2" ? "log2(along)" : "along");
   return std::string("// pixel: from the top left, centres at .5; along: ") +
          (by_distance ? "length(view)" : "depth, -view.z") +
-         ", in metres. -1: beside the picture, beyond the last slice\n" + k_screen_start + slice + k_screen_end;
+         ", in metres. -1: beside the picture, beyond the last slice\n" + k_screen_start + slice + k_screen_end +
+         code_of_viewport(grid, slice);
 }
 
 bool has(const std::vector<LookupConstant>& constants, const char* name) {

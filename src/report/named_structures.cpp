@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "report/list_code.h"
 #include "report/lookup_constants.h"
 
 namespace clusterbench::report {
@@ -74,10 +75,12 @@ std::vector<std::string> declared_names(const NamedStructure& named) {
   for (const NamedLookup& lookup : named.lookups) {
     out.push_back(lookup.name);
     out.push_back(lookup.name + "_cell_of");
+    out.push_back(lookup.name + "_tiles_of");
     for (const LookupConstant& constant : lookup_constants(*lookup.cases.front()))
       out.push_back(lookup.name + "_" + constant.name);
   }
-  if (out.empty()) out.push_back(named.name);
+  const std::vector<std::string> of_lists = list_code_names(named);
+  out.insert(out.end(), of_lists.begin(), of_lists.end());
   return out;
 }
 

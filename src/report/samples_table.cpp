@@ -7,7 +7,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double per_sample(const Json& set, const char* key) {
+double set_per_sample(const Json& set, const char* key) {
   return set[key].get<double>() / set["samples"].get<double>();
 }
 
@@ -16,7 +16,7 @@ std::string given_text(const Json& set) {
   if (set["samples"] == 0) return "none";
   if (set["unanswered"] == set["samples"]) return "no answer";
   const double unlit = set["unlit"].is_number() ? set["unlit"].get<double>() : 0.0;
-  return text("%.2f", per_sample(set, "evaluated")) + (unlit > 0.0 ? text(", %.3g %% unlit", 100.0 * unlit) : "");
+  return text("%.2f", set_per_sample(set, "evaluated")) + (unlit > 0.0 ? text(", %.3g %% unlit", 100.0 * unlit) : "");
 }
 
 // Methods as lines, sets as columns. All cases of a block have the same sets.
@@ -24,7 +24,7 @@ std::string samples_block(const std::string& block, const std::vector<NamedCase>
   Cells headings{"", "assigner"}, needed{"", "(needed)"};
   for (const auto& [name, set] : (*cases.front().result_case)["samples"].items()) {
     headings.push_back(name);
-    needed.push_back(set["samples"] == 0 ? "-" : text("%.2f", per_sample(set, "needed")));
+    needed.push_back(set["samples"] == 0 ? "-" : text("%.2f", set_per_sample(set, "needed")));
   }
   std::vector<Cells> rows{headings, needed};
   for (const NamedCase& named : cases) {

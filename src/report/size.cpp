@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "measure/side_by_side.h"
 #include "report/buffer_tail.h"
+#include "report/engine_settings.h"
 #include "report/json_values.h"
 #include "report/lookup_constants.h"
 #include "report/named_structures.h"
@@ -104,7 +105,15 @@ Json buffer_json(const SizedBuffer& buffer, const std::string& name) {
            {"high_water", buffer.high_water},
            {"theoretical_max", buffer.theoretical_max},
            {"worst", worst}};
+  if (buffer.apart > 0) out["views_apart"] = buffer.apart;
   if (buffer.spread) out["frames"] = spread_json(*buffer.spread);
+  for (const Growth& growth : buffer.growth)
+    out["high_water_of_every"].push_back({{"every", growth.every}, {"high_water", growth.high_water}});
+  if (buffer.found) out["found"] = *buffer.found;
+  out["is_bounded"] = buffer.is_bounded;
+  if (buffer.is_bounded)
+    out["never_overflows"] = {{"elements", buffer.theoretical_max},
+                              {"bytes", buffer.theoretical_max * buffer.element_bytes}};
   out["capacity"] = buffer.capacity;
   out["warn_above"] = buffer.warn_above;
   out["bytes"] = buffer.bytes;
@@ -115,8 +124,14 @@ Json buffer_json(const SizedBuffer& buffer, const std::string& name) {
 
 Json cameras_of(const std::vector<const Json*>& cases) {
   Json out = Json::array();
-  for (const Json* result_case : cases) out.push_back((*result_case)["camera"]);
+  for (const Json* result_case : cases)
+    if (std::ranges::find(out, (*result_case)["camera"]) == out.end()) out.push_back((*result_case)["camera"]);
   return out;
+}
+
+Json search_json(const FoundFrame& found) {
+  if (!found.refusal.empty()) return {{"case", found.case_name}, {"refusal", found.refusal}};
+  return {{"case", found.case_name}, {"evaluations", found.evaluations}, {"seed", found.seed}, {"eye_m", found.eye_m}};
 }
 
 Json structure_json(const NamedStructure& named) {
@@ -125,7 +140,18 @@ Json structure_json(const NamedStructure& named) {
   Json out{{"name", structure.name},        {"identifier", named.name},
            {"scene", first["scene"]},       {"cameras", cameras_of(structure.cases)},
            {"grid", first["grid"]["name"]}, {"assigner", first["assigner"]["label"]},
-           {"storage", first["storage"]},   {"bytes", structure.bytes()}};
+           {"storage", first["storage"]},   {"bytes", structure.bytes()},
+           {"frames", structure.frames()}};
+  for (const std::vector<std::string>& view : structure.views) out["views"].push_back(view);
+  for (const GuestSamples& guest : structure.guest_samples)
+    out["guests"].push_back({{"camera", guest.camera},
+                             {"samples", guest.samples},
+                             {"outside", guest.outside},
+                             {"needed", guest.needed},
+                             {"missed", guest.missed},
+                             {"missed_outside", guest.missed_outside},
+                             {"worst_frame", guest.worst_frame}});
+  if (structure.found) out["search"] = search_json(*structure.found);
   std::uint64_t dropped = 0;
   for (const Json* result_case : structure.cases)
     dropped += (*result_case)["buffers"]["overflow"]["dropped_pairs"].get<std::uint64_t>();
@@ -159,6 +185,34 @@ std::string remark(const Json& result, std::size_t shown, std::size_t all) {
   return "Of each grid " + best + ". --all has all " + std::to_string(all) + ".";
 }
 
+std::vector<SizedStructure> chosen_structures(const Json& result, const SizeRequest& request, std::size_t& count) {
+  std::vector<SizedStructure> all = sized_structures(result, request.filter, rules_of(result, request), request.scope);
+  count = all.size();
+  return request.all ? std::move(all) : best_of_groups(result, all);
+}
+
+// Its first buffer whose need is not the same in all frames says it.
+const Json& case_of_mark(const SizedStructure& structure) {
+  for (const SizedBuffer& buffer : structure.buffers)
+    for (const Json* result_case : structure.cases)
+      if (!buffer.is_all() && buffer.worst_camera == (*result_case)["camera"]) return *result_case;
+  return *structure.cases.front();
+}
+
+std::string engine_report(std::vector<SizedStructure> structures, const SizeRequest& request,
+                          const AllocationRules& rules) {
+  std::erase_if(structures, [&](const SizedStructure& structure) {
+    const Json& first = *structure.cases.front();
+    return !first.contains("preset") || first["preset"] != request.engine;
+  });
+  if (structures.empty())
+    throw Error("", "--engine",
+                "no case is of the preset '" + request.engine + "'; measure it: clusterbench size LEVEL --engine " +
+                    request.engine);
+  return request.format == "json" ? engine_settings_json(request.engine, structures, rules).dump(1) + "\n"
+                                  : engine_settings_text(request.engine, structures, rules);
+}
+
 }  // namespace
 
 std::vector<std::string> size_formats() {
@@ -169,13 +223,27 @@ std::vector<std::string> size_roundings() {
   return {"page", "power-of-two", "none"};
 }
 
+std::vector<SizedCase> sized_cases(const Json& result, const SizeRequest& request) {
+  std::size_t count = 0;
+  std::vector<SizedCase> out;
+  for (const SizedStructure& structure : chosen_structures(result, request, count)) {
+    const Json& of_mark = case_of_mark(structure);
+    out.push_back({structure.name, of_mark["name"].get<std::string>(), of_mark["storage"].get<std::string>(), "",
+                   structure.guests});
+    for (const Json* result_case : structure.cases)
+      if ((*result_case)["camera"] == request.scope.grid_of && out.back().grid_case.empty())
+        out.back().grid_case = (*result_case)["name"].get<std::string>();
+  }
+  return out;
+}
+
 std::string size_report(const Json& result, const SizeRequest& request) {
   const AllocationRules rules = rules_of(result, request);
-  std::vector<SizedStructure> all = sized_structures(result, request.filter, rules);
-  const std::size_t count = all.size();
   if (!request.name.empty() && request.format == "table")
     throw Error("", "--name", "names what is printed as code, and a table has no names; give --format, too");
-  std::vector<SizedStructure> chosen = request.all ? std::move(all) : best_of_groups(result, all);
+  std::size_t count = 0;
+  std::vector<SizedStructure> chosen = chosen_structures(result, request, count);
+  if (!request.engine.empty()) return engine_report(std::move(chosen), request, rules);
   const std::vector<NamedStructure> named = request.name.empty() ? named_structures(std::move(chosen), request.all)
                                                                  : named_structures(std::move(chosen), request.name);
   if (request.format == "json") return size_json(named, count, request, rules);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "report/allocation.h"
+
 namespace clusterbench::report {
 
 inline constexpr int k_size_version = 1;
@@ -22,12 +24,25 @@ struct SizeRequest {
   std::optional<double> margin = {}, warn_at = {};
   // What names in code begin with in place of scene and grid; only for one structure. "": those.
   std::string name = {};
+  AllocationScope scope = {};
+  // Of engines_with_settings(): settings are printed, of the cases of the preset of that name. "": buffers.
+  std::string engine = {};
 };
 
 // A table, C++, the languages of shaders, and for other programs JSON.
 std::vector<std::string> size_formats();
 // Of an allocation's bytes: whole pages, a power of two, none.
 std::vector<std::string> size_roundings();
+
+// Of each structure that is printed, the case whose camera made the high-water mark: where a search for worse frames is
+// to begin.
+struct SizedCase {
+  std::string structure, name;
+  std::string storage;
+  std::string grid_case;            // where one camera's grid serves others: the case of that camera
+  std::vector<std::string> guests;  // those others
+};
+std::vector<SizedCase> sized_cases(const nlohmann::ordered_json& result, const SizeRequest& request);
 
 // Throws Error if the filter is no regex or matches no case, and for a name that no language takes, that a table would
 // not show, or that more than one structure would have.

@@ -1,10 +1,11 @@
 #include "report/size_code.h"
 
+#include <algorithm>
 #include <cctype>
 #include <limits>
 
 #include "core/text.h"
-#include "report/buffer_tail.h"
+#include "report/list_code.h"
 #include "report/lookup_code.h"
 #include "report/lookup_constants.h"
 #include "report/size_words.h"
@@ -32,7 +33,7 @@ std::string frames_text(const FrameSpread& spread) {
          (spread.is_exact ? "" : " (at most: of long paths several frames are one number)");
 }
 
-std::string buffer_comment(const SizedBuffer& buffer, const AllocationRules& rules) {
+std::string buffer_comment(const SizedBuffer& buffer, const SizedStructure& structure, const AllocationRules& rules) {
   const std::string capacity = std::to_string(buffer.capacity);
   std::string out = comment_line("  " + buffer.name + ": high water " + std::to_string(buffer.high_water) + " in " +
                                  worst_text(buffer) + "; " + share_text(buffer.high_water, buffer.theoretical_max) +
@@ -40,23 +41,30 @@ std::string buffer_comment(const SizedBuffer& buffer, const AllocationRules& rul
   if (buffer.spread && buffer.spread->min != buffer.spread->max)
     out += comment_line("    frames    " + frames_text(*buffer.spread));
   out += comment_line("    allocate  " + capacity + " elements of " + number_of(buffer.element_bytes, "byte") + " (" +
-                      (buffer.is_all() ? "all that there can be" : rule_text(rules)) +
+                      (buffer.is_all() ? "all that there can be" : rule_text(buffer, rules)) +
                       "): " + std::to_string(buffer.bytes) + " bytes, " +
                       std::to_string(buffer.double_buffered_bytes()) + " double-buffered");
-  if (const std::string tail = tail_text(buffer); !tail.empty()) out += comment_line("    beyond the path  " + tail);
+  for (const MarkLine& line : mark_lines(buffer, structure))
+    out += comment_line("    " + line.label + "  " + line.text);
   return out;
 }
 
 std::string cameras_text(const SizedStructure& structure) {
-  std::string out;
+  std::vector<std::string> cameras;
   for (const Json* result_case : structure.cases)
-    out += (out.empty() ? "" : ", ") + (*result_case)["camera"].get<std::string>();
-  return (structure.cases.size() == 1 ? "camera " : "cameras ") + out;
+    if (const auto camera = (*result_case)["camera"].get<std::string>();
+        std::ranges::find(cameras, camera) == cameras.end())
+      cameras.push_back(camera);
+  std::string out = (cameras.size() == 1 ? "camera " : "cameras ") + joined(cameras);
+  for (const std::vector<std::string>& view : structure.views)
+    out += "; in one buffer in one frame: " + joined(view, " + ");
+  return out;
 }
 
 std::string structure_comment(const SizedStructure& structure) {
   std::string out = comment_line(structure.name) + comment_line("  " + cameras_text(structure));
   for (const std::string& note : grid_notes(structure)) out += comment_line("  grid: " + note);
+  for (const std::string& line : guest_lines(structure)) out += comment_line("  " + line);
   if (const std::string dropped = dropped_text(structure); !dropped.empty())
     out += comment_line("  OVERFLOW: " + dropped + ", for which there is room below");
   return out;
@@ -83,7 +91,8 @@ std::string lookup_text(const NamedLookup& lookup, SizeLanguage language, bool i
   std::string out;
   if (!is_only_one)
     for (const Json* of_camera : lookup.cases)
-      out += comment_line("  lookup of camera " + (*of_camera)["camera"].get<std::string>());
+      out += comment_line("  lookup of camera " + (*of_camera)["camera"].get<std::string>() + " at " +
+                          (*of_camera)["viewport"][0].dump() + "x" + (*of_camera)["viewport"][1].dump());
   if (const std::string note = lookup_note(result_case); !note.empty()) out += comment_line("  lookup: " + note);
   const std::vector<LookupConstant> constants = lookup_constants(result_case);
   if (language == SizeLanguage::cpp) return out + lookup_cpp(lookup.name, constants);
@@ -92,18 +101,21 @@ std::string lookup_text(const NamedLookup& lookup, SizeLanguage language, bool i
   return out + lookup_glsl(lookup.name, constants) + lookup_function_glsl(lookup.name, result_case);
 }
 
-std::string structure_code(const NamedStructure& named, SizeLanguage language, const AllocationRules& rules) {
+std::string structure_code(const NamedStructure& named, SizeLanguage language, const AllocationRules& rules,
+                           int& slot) {
   const SizedStructure& structure = named.structure;
   std::string out = structure_comment(structure);
   for (std::size_t i = 0; i < structure.buffers.size(); ++i) {
     const SizedBuffer& buffer = structure.buffers[i];
-    out += buffer_comment(buffer, rules);
+    out += buffer_comment(buffer, structure, rules);
     out += language == SizeLanguage::cpp
                ? cpp_buffer(buffer, named.buffers[i])
                : shader_buffer(buffer, named.buffers[i],
                                language == SizeLanguage::hlsl ? "static const uint" : "const uint");
   }
   for (const NamedLookup& lookup : named.lookups) out += lookup_text(lookup, language, named.lookups.size() == 1);
+  if (language != SizeLanguage::cpp)
+    out += list_code(named, language == SizeLanguage::hlsl ? ShaderLanguage::hlsl : ShaderLanguage::glsl, slot);
   return out + "\n";
 }
 
@@ -143,6 +155,13 @@ inline void check(const LightBuffer& buffer, std::uint64_t needed, std::uint64_t
 }  // namespace light_lists
 )";
 
+// Of a shader's file, which is included.
+std::string guard_text(SizeLanguage language, const std::vector<NamedStructure>& structures) {
+  const std::string guard = (structures.empty() ? std::string("light_lists") : structures.front().name) + "_included";
+  return (language == SizeLanguage::glsl ? "// For shaders of #version 430 or later, or 310 es.\n" : "") +
+         ("#ifndef " + guard + "\n#define " + guard + "\n\n");
+}
+
 }  // namespace
 
 std::string size_code(SizeLanguage language, const std::vector<NamedStructure>& structures, const std::string& remark,
@@ -151,10 +170,10 @@ std::string size_code(SizeLanguage language, const std::vector<NamedStructure>& 
   std::string out = (is_cpp ? std::string("#pragma once\n") : std::string()) + k_title;
   if (!remark.empty()) out += comment_line(remark);
   out += is_cpp ? k_header_start : "\n";
-  for (const NamedStructure& named : structures) out += structure_code(named, language, rules);
-  if (is_cpp) return out + k_header_end;
-  out.pop_back();
-  return out;
+  if (!is_cpp) out += guard_text(language, structures);
+  int slot = 0;
+  for (const NamedStructure& named : structures) out += structure_code(named, language, rules, slot);
+  return out + (is_cpp ? k_header_end : "#endif\n");
 }
 
 }  // namespace clusterbench::report

@@ -1,9 +1,9 @@
 #include "report/size_table.h"
 
 #include <algorithm>
+#include <set>
 
 #include "core/text.h"
-#include "report/buffer_tail.h"
 #include "report/columns.h"
 #include "report/size_words.h"
 
@@ -62,10 +62,15 @@ std::string worst_lines(const SizedStructure& structure) {
   return out;
 }
 
-std::string tail_lines(const SizedStructure& structure) {
+std::string marks_text(const SizedStructure& structure, const AllocationRules& rules) {
   std::string out;
-  for (const SizedBuffer& buffer : structure.buffers)
-    if (const std::string tail = tail_text(buffer); !tail.empty()) out += "  beyond the path: " + shown(tail) + "\n";
+  for (const SizedBuffer& buffer : structure.buffers) {
+    for (const MarkLine& line : mark_lines(buffer, structure))
+      out += "  " + line.label + ": " + shown(line.text) + "\n";
+    if (buffer.found)
+      out += "  capacity: " + shown(buffer.name) + ": " + std::to_string(buffer.capacity) + " = " +
+             rule_text(buffer, rules) + "\n";
+  }
   return out;
 }
 
@@ -75,22 +80,30 @@ std::string note_lines(const SizedStructure& structure) {
   return out;
 }
 
-std::uint64_t frames_of(const SizedStructure& structure) {
-  std::uint64_t frames = 0;
-  for (const Json* result_case : structure.cases) frames += (*result_case)["frames"].get<std::uint64_t>();
-  return frames;
+// "2 cameras, 602 frames", and which of them are in one frame.
+std::string counted_text(const SizedStructure& structure) {
+  std::set<std::string> cameras, viewports;
+  for (const Json* result_case : structure.cases) {
+    cameras.insert((*result_case)["camera"].get<std::string>());
+    viewports.insert((*result_case)["viewport"].dump());
+  }
+  std::string out = number_of(cameras.size(), "camera") + ", " + number_of(structure.frames(), "frame");
+  if (viewports.size() > 1) out += ", " + number_of(viewports.size(), "viewport");
+  for (const std::vector<std::string>& view : structure.views)
+    out += "; in one buffer in one frame: " + shown(joined(view, " + "));
+  return out;
 }
 
-std::string structure_text(const SizedStructure& structure) {
-  std::string out = shown(structure.name) + "  (" + number_of(structure.cases.size(), "camera") + ", " +
-                    number_of(frames_of(structure), "frame") + ")\n";
+std::string structure_text(const SizedStructure& structure, const AllocationRules& rules) {
+  std::string out = shown(structure.name) + "  (" + counted_text(structure) + ")\n";
   if (structure.buffers.empty()) return out + "  has no buffers\n";
   const std::vector<Cells> rows = table_rows(structure);
   const std::vector<std::size_t> widths = widths_of(rows);
   for (const Cells& row : rows) out += aligned(row, widths);
   out += worst_lines(structure);
   out += note_lines(structure);
-  out += tail_lines(structure);
+  out += marks_text(structure, rules);
+  for (const std::string& line : guest_lines(structure)) out += "  " + shown(line) + "\n";
   if (const std::string dropped = dropped_text(structure); !dropped.empty())
     out += "  OVERFLOW: " + dropped + "; the capacities have room for them\n";
   return out;
@@ -108,7 +121,7 @@ bool is_bounded(const std::vector<NamedStructure>& structures) {
 std::string size_table(const std::vector<NamedStructure>& structures, const std::string& remark,
                        const AllocationRules& rules) {
   std::string out;
-  for (const NamedStructure& named : structures) out += structure_text(named.structure) + "\n";
+  for (const NamedStructure& named : structures) out += structure_text(named.structure, rules) + "\n";
   if (structures.empty()) out += "The result has no cases.\n\n";
   out += "Elements over all frames of all cameras. Capacity: " + rule_text(rules) +
          ", at most what is possible. Warn above " + text("%g %%", 100.0 * rules.warn_at) +

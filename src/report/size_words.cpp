@@ -3,15 +3,92 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "report/buffer_tail.h"
 #include "report/columns.h"
 
 namespace clusterbench::report {
 
-std::string rule_text(const AllocationRules& rules) {
+namespace {
+
+std::string rounding_text(const AllocationRules& rules) {
   const char* rounding = rules.rounding == Rounding::page           ? ", rounded up to whole pages of 4 KiB"
                          : rules.rounding == Rounding::power_of_two ? ", rounded up to a power of two bytes"
                                                                     : "";
-  return "high water x " + text("%g", rules.margin) + rounding;
+  return text("%g", rules.margin) + rounding;
+}
+
+std::string growth_text(const SizedBuffer& buffer) {
+  std::string out;
+  for (const Growth& growth : buffer.growth)
+    if (growth.every > 1)
+      out += (out.empty() ? "; of every " : ", ") + std::to_string(growth.every) +
+             (growth.every == 8   ? "th frame "
+              : growth.every == 4 ? "th "
+                                  : "nd ") +
+             std::to_string(growth.high_water);
+  // Of twice as many frames the most may be that much larger again.
+  constexpr double k_still = 1.01;
+  if (!buffer.growth.empty() &&
+      static_cast<double>(buffer.high_water) > k_still * static_cast<double>(buffer.growth[2].high_water))
+    out += ": STILL GROWING, count more frames";
+  return out;
+}
+
+std::string seen_text(const SizedBuffer& buffer, const SizedStructure& structure) {
+  const std::string frames = number_of(structure.frames(), "frame");
+  if (buffer.is_sum_of_marks)
+    return std::to_string(buffer.high_water) + " in " + frames +
+           " if each view needs its most at the same time (their paths have different numbers of frames)";
+  std::string out = std::to_string(buffer.high_water) + " in " + frames + growth_text(buffer);
+  if (buffer.apart > buffer.high_water)
+    out += "; " + std::to_string(buffer.apart) + " if each view needed its most at the same time";
+  return out;
+}
+
+std::string found_text(const SizedBuffer& buffer, const SizedStructure& structure) {
+  if (!structure.found) return "not searched: --worst-case looks where no camera was recorded";
+  const FoundFrame& found = *structure.found;
+  if (!found.refusal.empty()) return "not searched: " + found.refusal;
+  if (!buffer.found) return "nothing for this buffer";
+  std::string out = std::to_string(*buffer.found) + " in " +
+                    number_of(static_cast<std::uint64_t>(found.evaluations), "frame") + " tried (seed " +
+                    std::to_string(found.seed) + ")";
+  std::size_t views = 1;
+  for (const std::vector<std::string>& view : structure.views) views = std::max(views, view.size());
+  if (views > 1) out += ", all " + std::to_string(views) + " views in such a place";
+  if (buffer.high_water > 0)
+    out +=
+        text(", %.2f times the most seen", static_cast<double>(*buffer.found) / static_cast<double>(buffer.high_water));
+  if (*buffer.found > buffer.capacity) out += ": MORE THAN THE CAPACITY";
+  return out;
+}
+
+std::string possible_text(const SizedBuffer& buffer) {
+  if (!buffer.is_bounded)
+    return "not known: other frames can have more lights or cells in these lists than those that were counted";
+  return std::to_string(buffer.theoretical_max) + " elements, " +
+         std::to_string(buffer.theoretical_max * buffer.element_bytes) +
+         " bytes (every light in every cell): with these lights needs no check";
+}
+
+}  // namespace
+
+std::string rule_text(const AllocationRules& rules) {
+  return "high water x " + rounding_text(rules);
+}
+
+std::string rule_text(const SizedBuffer& buffer, const AllocationRules& rules) {
+  return (buffer.mark() > buffer.high_water ? "found by the search x " : "high water x ") + rounding_text(rules);
+}
+
+std::vector<MarkLine> mark_lines(const SizedBuffer& buffer, const SizedStructure& structure) {
+  if (buffer.is_all()) return {};
+  const std::string name = buffer.name + ": ";
+  std::vector<MarkLine> lines{{"most seen", name + seen_text(buffer, structure)},
+                              {"most found by a search", name + found_text(buffer, structure)}};
+  if (const std::string tail = tail_text(buffer); !tail.empty()) lines.push_back({"beyond the path", tail});
+  lines.push_back({"can never overflow", name + possible_text(buffer)});
+  return lines;
 }
 
 std::string worst_text(const SizedBuffer& buffer) {
@@ -32,6 +109,16 @@ std::vector<std::string> grid_notes(const SizedStructure& structure) {
     if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
   }
   return notes;
+}
+
+std::vector<std::string> guest_lines(const SizedStructure& structure) {
+  std::vector<std::string> lines;
+  for (const GuestSamples& guest : structure.guest_samples)
+    lines.push_back("samples of " + guest.camera + " in this grid: " + share_text(guest.outside, guest.samples) +
+                    " lie outside of it; " + share_text(guest.missed, guest.needed) +
+                    " of the lights that they need are missing (" + share_text(guest.missed_outside, guest.needed) +
+                    " outside), most in frame " + std::to_string(guest.worst_frame));
+  return lines;
 }
 
 std::string dropped_text(const SizedStructure& structure) {

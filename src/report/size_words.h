@@ -10,12 +10,26 @@ namespace clusterbench::report {
 
 // "high water x 2, rounded up to whole pages of 4 KiB".
 std::string rule_text(const AllocationRules& rules);
+// The same of one buffer, which may be sized by what a search found: "found by the search x 2, rounded up ...".
+std::string rule_text(const SizedBuffer& buffer, const AllocationRules& rules);
 // "camera walk, frame 11, cell [8,4,21]"; the cell's list is the longest of that frame.
 std::string worst_text(const SizedBuffer& buffer);
 // "2.48 %"; "-" of nothing.
 std::string share_text(std::uint64_t part, std::uint64_t whole);
 // What its grid's capacities rest on, such as a far end that the camera does not have: each note of its cases once.
 std::vector<std::string> grid_notes(const SizedStructure& structure);
+
+// What a capacity rests on: a line each with its label.
+struct MarkLine {
+  std::string label, text;
+};
+// The most seen, the most that a search found, what is beyond the path, and the most that can be; each in its own
+// words. None of a buffer of which nothing can overflow.
+std::vector<MarkLine> mark_lines(const SizedBuffer& buffer, const SizedStructure& structure);
+
+// What samples of cameras without a grid of their own lack: a line each.
+std::vector<std::string> guest_lines(const SizedStructure& structure);
+
 // "7 pairs dropped in 3 cells of 1 frame"; "" if none was. Of all cameras.
 std::string dropped_text(const SizedStructure& structure);
 

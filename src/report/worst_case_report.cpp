@@ -148,6 +148,7 @@ Json worst_case_to_json(const WorstCase& found, const WorstCaseFacts& facts) {
              {"frame", found.recorded.frame}}},
            {"random", nullptr},
            {"theoretical_max", nullptr},
+           {"buffers", Json::array()},
            {"written", nullptr},
            {"warnings", found.warnings}};
   for (const search::Stage& stage : found.stages)
@@ -158,6 +159,8 @@ Json worst_case_to_json(const WorstCase& found, const WorstCaseFacts& facts) {
     out["random"] = {
         {"frames", found.random.frames}, {"max", figure_json(found.random.max, measure)}, {"mean", found.random.mean}};
   if (found.theoretical_max) out["theoretical_max"] = figure_json(*found.theoretical_max, measure);
+  for (const assign::BufferNeed& need : found.buffers)
+    out["buffers"].push_back({{"name", need.name}, {"elements", need.elements}, {"theoretical_max", need.most}});
   if (!facts.scene_file.empty()) out["written"] = {{"scene", facts.scene_file}, {"config", facts.config_file}};
   return out;
 }

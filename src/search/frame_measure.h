@@ -39,12 +39,15 @@ class FrameMeter {
   double value(const run::PathFrames& path, int frame);
   // The most that there can be in the grid and with the lights of the last frame; none for tests.
   std::optional<double> theoretical_max() const;
+  // What the last frame needs of each buffer.
+  std::vector<assign::BufferNeed> buffers() const { return structure().buffers(); }
+  // What the last frame left; behind a pre-cull it answers by the lights that this leaves.
+  const assign::LightStructure& structure() const { return storage_ ? *storage_ : *run_.own_structure(); }
 
  private:
   // True if the grid is a new one.
   bool update_grid(const run::PathFrames& path, const view::Frame& frame);
   double evaluated_at_samples(const run::PathFrames& path, const view::Frame& frame);
-  const assign::LightStructure& structure() const { return storage_ ? *storage_ : *run_.own_structure(); }
 
   const config::Config& config_;
   Measure measure_;

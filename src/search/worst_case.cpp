@@ -82,6 +82,7 @@ class FrameRater {
     return meter_.value({scene_, path, viewport_}, 0);
   }
   std::optional<double> theoretical_max() const { return meter_.theoretical_max(); }
+  std::vector<assign::BufferNeed> buffers() const { return meter_.buffers(); }
 
  private:
   const LightRig& rig_;
@@ -391,6 +392,7 @@ class WorstCaseSearch {
     FrameRater meter = rater();
     meter.rate(out_.frames.front().choice);
     out_.theoretical_max = meter.theoretical_max();
+    out_.buffers = meter.buffers();
   }
 
   void compare_with_random() {

@@ -67,7 +67,8 @@ struct WorstCase {
   std::vector<FoundFrame> frames;  // best first
   RecordedFrames recorded;
   RandomFrames random;
-  std::optional<double> theoretical_max;  // in the grid of the worst frame
+  std::optional<double> theoretical_max;    // in the grid of the worst frame
+  std::vector<assign::BufferNeed> buffers;  // of the worst frame
   Box eyes, lights;
   std::size_t own_lights = 0, moments = 1;
   std::size_t floor_triangles = 0;

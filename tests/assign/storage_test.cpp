@@ -138,32 +138,41 @@ TEST(Packed, a_forced_width_that_cannot_hold_the_rig_is_refused) {
   }
 }
 
-TEST(Packed, headers_widen_when_a_count_does_not_fit_16_bits) {
-  const auto header_bytes = [](std::uint32_t in_cell, std::uint32_t points) {
-    Ids cell(in_cell);
-    for (std::uint32_t i = 0; i < in_cell; ++i) cell[i] = i;
-    const Lists lists = lists_from({cell, {}});
-    const auto packed = storage("packed");
-    packed->start(2, {points, 80000 - points});
-    packed->store(lists);
-    EXPECT_EQ(packed->expanded(), lists);
-    return packed->use().header_bytes;
+// A shader reads one format. So from 65,536 lights of a type on, which 16 bits do not count, all figures say 12 bytes.
+TEST(EveryStorage, of_lists_has_headers_of_one_size_in_use_limit_buffers_and_reads) {
+  const auto check = [](const char* name, const view::LightRanges& lights, std::uint32_t header_bytes) {
+    const auto kept = storage(name);
+    kept->start(2, lights);
+    Ids all(lights.size());
+    for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+    for (const Ids& first : {Ids{1, 5}, all, Ids{69999}}) {
+      const Lists lists = lists_from({first, {7}});
+      kept->store(lists);
+      EXPECT_EQ(kept->expanded(), lists);
+      const auto buffers = kept->buffers();
+      EXPECT_EQ(buffers[1].element_bytes, header_bytes) << name;
+      EXPECT_EQ(kept->use().header_bytes, 2u * header_bytes) << name;
+      EXPECT_EQ(kept->limit().bytes, buffers[0].most * buffers[0].element_bytes + 2u * header_bytes) << name;
+      EXPECT_EQ(kept->reads_of_cell(1).bytes, buffers[0].element_bytes + header_bytes) << name;
+    }
   };
-  EXPECT_EQ(header_bytes(65535, 80000), 16u);
-  EXPECT_EQ(header_bytes(65536, 80000), 24u);
-  EXPECT_EQ(header_bytes(65536, 65535), 16u) << "points and spots are counted apart";
+  check("packed", {65535, 10000}, 8);
+  check("packed", {65536, 10000}, 12);
+  check("packed", {10000, 65536}, 12);
+  check("runs", {131070, 0}, 8);
+  check("runs", {131071, 0}, 12);
 }
 
-TEST(Packed, headers_are_as_wide_as_this_frame_needs_them) {
+TEST(Packed, headers_widen_once_where_a_cull_leaves_more_lights_of_one_type_than_they_count) {
   const auto packed = storage("packed");
-  packed->start(2, {70000, 0});
-  Ids all(70000);
-  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-  for (const Ids& first : {Ids{1, 5}, all, Ids{69999}}) {
-    const Lists lists = lists_from({first, {7}});
-    packed->store(lists);
-    EXPECT_EQ(packed->expanded(), lists);
-    EXPECT_EQ(packed->use().header_bytes, first.size() > 65535 ? 24u : 16u);
+  packed->start(1, {40000, 40000});
+  packed->store(lists_from({{1, 50000}}));
+  EXPECT_EQ(packed->use().header_bytes, 8u);
+  for (const std::uint32_t points : {70000u, 40000u}) {
+    packed->set_types({points, 80000 - points});
+    packed->store(lists_from({{1, 50000}}));
+    EXPECT_EQ(packed->use().header_bytes, 12u);
+    EXPECT_EQ(packed->expanded(), lists_from({{1, 50000}}));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -174,7 +175,7 @@ constexpr const char* k_interface = R"(#pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
 struct spirv_cross_shader {
-  static inline void* buffers[2];
+  static inline void* buffers[64];
   template <class R> void register_resource(R& resource, unsigned, unsigned binding) { resource.set(buffers[binding]); }
 };
 using spirv_cross_shader_t = spirv_cross_shader;
@@ -208,8 +209,8 @@ template <class S, class R, int, int, int> struct ComputeShader : spirv_cross_sh
 constexpr const char* k_driver = R"(
 #include <cstdio>
 int main(int, char** files) {
-  static float numbers[SAMPLES * 3];
-  static int32_t answers[SAMPLES];
+  static uint32_t numbers[INPUTS];
+  static int32_t answers[OUTPUTS];
   std::FILE* in = std::fopen(files[1], "rb");
   if (in == nullptr || std::fread(numbers, sizeof numbers, 1, in) != 1) return 2;
   spirv_cross_shader::buffers[0] = numbers;
@@ -244,26 +245,32 @@ class SizeShaders : public ::testing::Test {
     return does(is_hlsl ? "glslangValidator -V -D -S comp -e main " + path("x.hlsl") + " -o " + path("x.spv")
                         : "glslangValidator -V -S comp " + path("x.comp") + " -o " + path("x.spv"));
   }
-  // The cells that the shader of `compiles` finds.
-  std::vector<std::int32_t> answers(const std::vector<Probe>& probes) const {
-    const std::string samples = std::to_string(probes.size());
+  // What the shader of `compiles` answers to these words.
+  std::vector<std::int32_t> answers(const std::vector<std::uint32_t>& words, std::size_t outputs) const {
     fs::create_directories(folder_ / "spirv_cross");
     write("spirv_cross/internal_interface.hpp", k_interface);
     write("spirv_cross/external_interface.h", "");
     write("driver.inc", k_driver);
     std::ofstream in(path("in"), std::ios::binary);
-    for (const Probe& probe : probes) in.write(reinterpret_cast<const char*>(probe.shader), sizeof probe.shader);
+    in.write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(4 * words.size()));
     in.close();
     if (!does("spirv-cross --cpp " + path("x.spv") + " --output " + path("x.inc"))) return {};
     write("x.cpp", "#include \"x.inc\"\n#include \"driver.inc\"\n");
-    if (!does("c++ -std=c++17 -w -O1 -ffp-contract=off -DSAMPLES=" + samples + " -I" + path("") + " " + path("x.cpp") +
-              " -o " + path("x")) ||
+    if (!does("c++ -std=c++17 -w -O1 -ffp-contract=off -DINPUTS=" + std::to_string(words.size()) +
+              " -DOUTPUTS=" + std::to_string(outputs) + " -I" + path("") + " " + path("x.cpp") + " -o " + path("x")) ||
         !does(path("x") + " " + path("in") + " " + path("out")))
       return {};
-    std::vector<std::int32_t> cells(probes.size());
-    std::ifstream out(path("out"), std::ios::binary);
-    out.read(reinterpret_cast<char*>(cells.data()), static_cast<std::streamsize>(4 * cells.size()));
-    return cells;
+    std::vector<std::int32_t> out(outputs);
+    std::ifstream file(path("out"), std::ios::binary);
+    file.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(4 * outputs));
+    return out;
+  }
+  // The cells that it finds.
+  std::vector<std::int32_t> cells_of(const std::vector<Probe>& probes) const {
+    std::vector<std::uint32_t> words;
+    for (const Probe& probe : probes)
+      for (const float number : probe.shader) words.push_back(std::bit_cast<std::uint32_t>(number));
+    return answers(words, probes.size());
   }
 
   const fs::path folder_ = fs::temp_directory_path() / ("clusterbench_shaders_" + std::to_string(getpid()));
@@ -272,7 +279,8 @@ class SizeShaders : public ::testing::Test {
 constexpr std::size_t k_per_grid = 3000;
 
 // Reads so many samples for each lookup, one lookup after the other.
-std::string shader_that_looks_up(const run::Result& result, const std::vector<LookedUp>& all, bool is_hlsl) {
+std::string shader_that_looks_up(const run::Result& result, const std::vector<LookedUp>& all, bool is_hlsl,
+                                 bool names_viewport = false) {
   const nlohmann::ordered_json json = result_to_json(result, {});
   const auto structures = nlohmann::json::parse(size_report(json, {"", false, "json"}))["structures"];
   std::string out = is_hlsl ? "RWStructuredBuffer<float> samples : register(u0);\nRWStructuredBuffer<int> cells : "
@@ -289,12 +297,41 @@ std::string shader_that_looks_up(const run::Result& result, const std::vector<Lo
                       n = "n" + std::to_string(i);
     const std::string x = "samples[3 * " + n + "], samples[3 * " + n + " + 1]", z = "samples[3 * " + n + " + 2]";
     out += "  for (int " + n + " = " + from + "; " + n + " < " + to + "; ++" + n + ") cells[" + n + "] = " + lookup +
-           "(" + (all[i].grid.has_tiles() ? real2 + "(" + x + "), " + z : real3 + "(" + x + ", " + z + ")") + ");\n";
+           "(" +
+           (all[i].grid.has_tiles()
+                ? real2 + "(" + x + "), " + z + (names_viewport ? ", " + real2 + "(1920.0, 1080.0)" : "")
+                : real3 + "(" + x + ", " + z + ")") +
+           ");\n";
   }
   return out + "}\n";
 }
 
 class SizeLookups : public SizeShaders, public ::testing::WithParamInterface<bool> {};
+
+// Dynamic resolution: cells of half the picture, by the constants of the whole one.
+TEST_P(SizeLookups, find_the_cells_of_a_viewport_that_is_given_with_the_sample) {
+  std::vector<LookedUp> all = all_lookups();
+  std::erase_if(all, [](const LookedUp& one) { return !one.grid.has_tiles(); });
+  const run::Result result = result_of_lookups(all);
+  ASSERT_TRUE(compiles(shader_that_looks_up(result, all, GetParam(), true), GetParam()));
+  SplitMix64 random(11);
+  std::vector<Probe> probes;
+  for (const LookedUp& one : all)
+    for (std::size_t i = 0; i < k_per_grid; ++i) probes.push_back(random_probe(one, random));
+  const std::vector<std::int32_t> cells = cells_of(probes);
+  ASSERT_EQ(cells.size(), probes.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::size_t wrong = 0;
+    for (std::size_t k = i * k_per_grid; k < (i + 1) * k_per_grid; ++k) {
+      // An edge of the 16 x 9 tiles, divided anew, may be the neighbour's.
+      const auto is_near_edge = [](float pixel) { return std::fabs(std::remainder(pixel, 120.0f)) < 1e-2f; };
+      if (is_near_edge(probes[k].shader[0]) || is_near_edge(probes[k].shader[1])) continue;
+      if (!is_away_from_boundaries(all[i], probes[k])) continue;
+      wrong += cells[k] != grid::lookup(all[i].grid, probes[k].sample) ? 1 : 0;
+    }
+    EXPECT_EQ(wrong, 0u) << all[i].name;
+  }
+}
 
 // On a boundary a logarithm's last digit decides: there the neighbouring slice is allowed, and nothing else.
 TEST_P(SizeLookups, find_the_cells_that_the_tool_finds) {
@@ -305,7 +342,7 @@ TEST_P(SizeLookups, find_the_cells_that_the_tool_finds) {
   std::vector<Probe> probes;
   for (const LookedUp& one : all)
     for (std::size_t i = 0; i < k_per_grid; ++i) probes.push_back(random_probe(one, random));
-  const std::vector<std::int32_t> cells = answers(probes);
+  const std::vector<std::int32_t> cells = cells_of(probes);
   ASSERT_EQ(cells.size(), probes.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::size_t exact = 0, inside = 0, wrong = 0;
@@ -357,6 +394,183 @@ TEST_F(SizeShaders, compile_whatever_cases_are_called) {
       "#version 450\nlayout(local_size_x = 1) in;\n" + size_report(json, {"", true, "glsl"}) + "void main() {}\n",
       false));
   EXPECT_TRUE(compiles(size_report(json, {"", true, "hlsl"}) + "[numthreads(1, 1, 1)] void main() {}\n", true));
+}
+
+// Lists of some cells in one of the forms that buffers have, in words of 32 bits.
+struct Encoded {
+  std::string name, storage;
+  std::vector<std::pair<std::string, std::vector<std::uint32_t>>> buffers;  // in the structure's order
+  std::vector<std::uint32_t> element_bytes, elements;
+};
+
+using CellLists = std::vector<std::vector<std::uint32_t>>;
+
+std::vector<std::uint32_t> packed_indices(const CellLists& lists, std::uint32_t bytes) {
+  std::vector<std::uint32_t> words(64, 0);
+  std::uint32_t entry = 0;
+  for (const auto& list : lists)
+    for (const std::uint32_t light : list) {
+      words[entry * bytes / 4] |= light << (8 * (entry * bytes % 4));
+      ++entry;
+    }
+  return words;
+}
+
+// Points are the lights below 20, boxes those from 30 on.
+std::vector<std::uint32_t> header_of(const std::vector<std::uint32_t>& list, std::uint32_t offset, bool is_wide,
+                                     bool has_boxes) {
+  std::uint32_t points = 0, spots = 0, boxes = 0;
+  for (const std::uint32_t light : list) ++(light < 20 ? points : has_boxes && light >= 30 ? boxes : spots);
+  std::vector<std::uint32_t> words{offset};
+  if (is_wide)
+    words.insert(words.end(), {points, spots});
+  else
+    words.push_back(points | spots << 16);
+  if (has_boxes) words.push_back(boxes);
+  return words;
+}
+
+Encoded packed(const CellLists& lists, std::uint32_t bytes, bool is_wide, bool has_boxes, bool is_sparse) {
+  std::vector<std::uint32_t> headers, blocks{0, 0};
+  std::uint32_t offset = 0;
+  for (std::uint32_t cell = 0; cell < lists.size(); ++cell) {
+    if (!is_sparse || !lists[cell].empty()) {
+      const std::vector<std::uint32_t> header = header_of(lists[cell], offset, is_wide, has_boxes);
+      headers.insert(headers.end(), header.begin(), header.end());
+      blocks[0] |= 1u << cell;
+    }
+    offset += static_cast<std::uint32_t>(lists[cell].size());
+  }
+  const std::uint32_t header_bytes = (is_wide ? 12u : 8u) + (has_boxes ? 4u : 0u);
+  Encoded out{"packed " + std::to_string(bytes) + (is_wide ? " wide" : "") + (is_sparse ? " sparse" : "") +
+                  (has_boxes ? " boxes" : ""),
+              is_sparse ? "packed(headers=sparse)" : "packed",
+              {{"indices", packed_indices(lists, bytes)}, {"headers", headers}},
+              {bytes, header_bytes},
+              {offset, static_cast<std::uint32_t>(headers.size() * 4 / header_bytes)}};
+  if (is_sparse) {
+    out.buffers.emplace_back("header_blocks", blocks);
+    out.element_bytes.push_back(8);
+    out.elements.push_back(1);
+  }
+  return out;
+}
+
+std::vector<Encoded> encodings(const CellLists& lists, bool has_boxes) {
+  std::vector<Encoded> all;
+  for (const std::uint32_t bytes : {1u, 2u, 4u})
+    for (const bool is_wide : {false, true})
+      for (const bool is_sparse : {false, true}) all.push_back(packed(lists, bytes, is_wide, has_boxes, is_sparse));
+  const auto cells = static_cast<std::uint32_t>(lists.size());
+  Encoded fixed{"fixed", "fixed(cap=8)", {}, {1, 4}, {cells * 8, cells}},
+      bits{"bits", "bitfield", {}, {4}, {cells * 2}}, linked{"linked", "linked", {}, {8, 4}, {0, cells}};
+  std::vector<std::uint32_t> room(2 * cells, 0), counts, words(2 * cells, 0), nodes, heads;
+  for (std::uint32_t cell = 0; cell < cells; ++cell) {
+    counts.push_back(static_cast<std::uint32_t>(lists[cell].size()));
+    heads.push_back(lists[cell].empty() ? 0xffffffffu : static_cast<std::uint32_t>(nodes.size() / 2));
+    for (std::uint32_t i = 0; i < lists[cell].size(); ++i) {
+      const std::uint32_t light = lists[cell][i], next = static_cast<std::uint32_t>(nodes.size() / 2 + 1);
+      room[2 * cell + i / 4] |= light << (8 * (i % 4));
+      words[2 * cell + light / 32] |= 1u << light % 32;
+      nodes.insert(nodes.end(), {light, i + 1 < lists[cell].size() ? next : 0xffffffffu});
+    }
+  }
+  linked.elements[0] = static_cast<std::uint32_t>(nodes.size() / 2);
+  fixed.buffers = {{"indices", room}, {"counts", counts}};
+  bits.buffers = {{"words", words}};
+  linked.buffers = {{"nodes", nodes}, {"heads", heads}};
+  if (!has_boxes) all.insert(all.end(), {fixed, bits, linked});
+  return all;
+}
+
+run::Result result_of_encodings(const std::vector<Encoded>& all, int cells, bool has_boxes) {
+  run::Result result = testing::result_by_hand();
+  result.cases.clear();
+  result.planned_ids.clear();
+  result.scenes[0].boxes = has_boxes ? 5 : 0;
+  for (const Encoded& one : all) {
+    run::CaseResult entry = case_by_hand(one.name, "aabb", 1.0);
+    entry.name = "hall/walk/" + one.name + "/aabb/packed";
+    entry.grid["cells"] = {cells, 1, 1};
+    entry.storage_label = one.storage;
+    entry.buffers.each.clear();
+    for (std::size_t i = 0; i < one.buffers.size(); ++i) {
+      measure::BufferHighWater buffer;
+      buffer.name = one.buffers[i].first;
+      buffer.element_bytes = one.element_bytes[i];
+      buffer.high_water = buffer.theoretical_max = one.elements[i];
+      buffer.along_path.add_frame(one.elements[i]);
+      entry.buffers.each.push_back(buffer);
+    }
+    result.cases.push_back(entry);
+    result.planned_ids.push_back(one.name);
+  }
+  return result;
+}
+
+// Number of lights and then each light of each cell, from words that are elsewhere than the include would have them.
+TEST_P(SizeLookups, read_the_nth_light_of_a_cell_out_of_each_form_of_buffers) {
+  const CellLists lists{{}, {3}, {0, 1, 19, 20, 29}, {}, {30, 34}, {5, 6, 7, 8, 21, 22, 31}, {33}};
+  constexpr std::size_t k_most = 8;
+  for (const bool has_boxes : {false, true}) {
+    const std::vector<Encoded> all = encodings(lists, has_boxes);
+    const run::Result result = result_of_encodings(all, static_cast<int>(lists.size()), has_boxes);
+    SizeRequest request{"", false, "json"};
+    request.margin = 1.0;
+    request.rounding = "none";
+    const nlohmann::ordered_json json = result_to_json(result, {});
+    const auto structures = nlohmann::json::parse(size_report(json, request))["structures"];
+    request.format = GetParam() ? "hlsl" : "glsl";
+    std::vector<std::uint32_t> words;
+    std::string defines, body;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto name = structures[i]["identifier"].get<std::string>(), n = std::to_string(i);
+      for (const auto& [buffer, content] : all[i].buffers) {
+        defines += "#define " + name + "_" + buffer + "_word(i) samples[(i) + " + std::to_string(words.size()) + "u]\n";
+        words.insert(words.end(), content.begin(), content.end());
+      }
+      const std::string at = std::to_string(i * lists.size() * k_most);
+      body += "  for (int c" + n + " = 0; c" + n + " < " + std::to_string(lists.size()) + "; ++c" + n + ") {\n    " +
+              name + "_list list" + n + " = " + name + "_list_of(c" + n + ");\n    cells[" + at + " + 8 * c" + n +
+              "] = int(list" + n + ".lights);\n    for (uint k" + n + " = 0u; k" + n + " < list" + n + ".lights; ++k" +
+              n + ") cells[" + at + " + 8 * c" + n + " + 1 + int(k" + n + ")] = int(" + name + "_index_at(c" + n +
+              ", k" + n + "));\n  }\n";
+    }
+    const std::string start = GetParam() ? "RWStructuredBuffer<uint> samples : register(u0);\n"
+                                           "RWStructuredBuffer<int> cells : register(u1);\n"
+                                         : "#version 450\nlayout(local_size_x = 1) in;\n"
+                                           "layout(std430, binding = 0) buffer In { uint samples[]; };\n"
+                                           "layout(std430, binding = 1) buffer Out { int cells[]; };\n";
+    ASSERT_TRUE(compiles(start + defines + size_report(json, request) +
+                             (GetParam() ? "[numthreads(1, 1, 1)] void main() {\n" : "void main() {\n") + body + "}\n",
+                         GetParam()));
+    const std::vector<std::int32_t> read = answers(words, all.size() * lists.size() * k_most);
+    ASSERT_EQ(read.size(), all.size() * lists.size() * k_most);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t cell = 0; cell < lists.size(); ++cell) {
+        const std::int32_t* at = &read[(i * lists.size() + cell) * k_most];
+        const std::vector<std::uint32_t> found(at + 1, at + 1 + at[0]);
+        EXPECT_EQ(found, lists[cell]) << all[i].name << ", cell " << cell;
+      }
+  }
+}
+
+// Buffers that nothing is said of are declared, and each has its own binding.
+TEST_P(SizeLookups, compile_with_the_buffers_that_the_include_declares) {
+  const CellLists lists{{1, 2}, {}, {3}};
+  const std::vector<Encoded> all = encodings(lists, false);
+  const nlohmann::ordered_json json = result_to_json(result_of_encodings(all, 3, false), {});
+  const std::string text = size_report(json, {"", false, GetParam() ? "hlsl" : "glsl"});
+  EXPECT_TRUE(compiles((GetParam() ? "" : "#version 450\nlayout(local_size_x = 1) in;\n") + text + text +
+                           (GetParam() ? "[numthreads(1, 1, 1)] void main() {}\n" : "void main() {}\n"),
+                       GetParam()))
+      << "included twice";
+  for (int slot = 0; slot < 4; ++slot) {
+    const std::string place =
+        GetParam() ? "register(t" + std::to_string(slot) + ")" : "binding = " + std::to_string(slot) + ")";
+    EXPECT_EQ(text.find(place), text.rfind(place)) << place;
+    EXPECT_NE(text.find(place), std::string::npos) << place;
+  }
 }
 
 }  // namespace

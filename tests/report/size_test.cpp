@@ -210,6 +210,7 @@ TEST(Size, json_has_every_number_and_is_as_its_schema_says) {
     "identifier": "hall_frustum_64px_indices", "element_bytes": 1, "high_water": 40, "theoretical_max": 480,
     "worst": {"camera": "walk", "frame": 1, "cell": [3, 2, 1]},
     "frames": {"min": 20, "p50": 20, "p90": 40, "p99": 40, "max": 40, "is_exact": true},
+    "is_bounded": true, "never_overflows": {"elements": 480, "bytes": 480},
     "capacity": 80, "warn_above": 72, "bytes": 80, "double_buffered_bytes": 160,
     "beyond_the_path": {"refusal": "only 2 frames recorded"}})");
   const nlohmann::json& structure = report["structures"][0];

@@ -71,8 +71,8 @@ class LightStructure {
   virtual StructureUse use() const = 0;
   virtual StructureLimit limit() const = 0;
   // All of its buffers; in every frame the same, in the same order and of elements of the same size. Their bytes are
-  // those of use() and limit(), but where a storage drops pairs, has room that its parameters reserve, or chooses the
-  // format of its headers frame by frame.
+  // those of use() and limit(), but where a storage drops pairs
+  // or has room that its parameters reserve.
   virtual std::vector<BufferNeed> buffers() const = 0;
   virtual std::uint32_t index_bits() const = 0;  // of an entry
 

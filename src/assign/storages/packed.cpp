@@ -16,8 +16,9 @@ extern const StorageDescriptor packed_descriptor;
 
 namespace {
 
-// offset u32 + point count u16 + spot count u16 per cell; 12 bytes with u32 counts where a count needs it. Where the
-// rig has boxes one more u32 follows, their count: 12 or 16 bytes. Sparse: only for cells with lights; a shader finds
+// offset u32 + point count u16 + spot count u16 per cell; 12 bytes with u32 counts where the rig has lights of one type
+// that 16 bits cannot count: a shader reads one format, so it follows from the lights and not from a frame's lists.
+// Where the rig has boxes one more u32 follows, their count: 12 or 16 bytes. Sparse: only for cells with lights; a shader finds
 // them through one block per 32 cells, {mask u32, rank u32}: header rank + the number of mask bits below the cell's.
 // Shared: a list that equals that of the cell before it or of the cell a row before it is not written again. With
 // max_entries the index list begins with all lights that are in any list of the frame, and when a list has no room any
@@ -49,17 +50,20 @@ class Packed final : public Storage {
     cell_count_ = cell_count;
     is_in_a_list_.assign(has_limit() ? lights_ : 0, false);
     check_memory("headers of packed lists", cell_count, sizeof(Header));
-    headers_.resize(cell_count);
-    wide_headers_.resize(can_be_wide() ? cell_count : 0);
+    is_wide_ = has_wide_counts();
+    headers_.resize(is_wide_ ? 0 : cell_count);
+    wide_headers_.resize(is_wide_ ? cell_count : 0);
     box_counts_.resize(has_boxes() ? cell_count : 0);
     if (is_sparse_) blocks_.resize((cell_count + k_block - 1) / k_block);
   }
 
-  // A header has room for the counts that any such lights can have.
+  // Headers stay as wide as they are, unless these lights would not fit.
   void set_types(const view::LightRanges& lights) override {
     points_ = lights.points.count;
     spots_ = lights_ - points_;
-    if (can_be_wide()) wide_headers_.resize(cell_count_);
+    if (is_wide_ || !has_wide_counts()) return;
+    is_wide_ = true;
+    wide_headers_.resize(cell_count_);
   }
 
   void store(const Lists& lists) override {
@@ -68,7 +72,6 @@ class Packed final : public Storage {
     indices_.make_room(written.size(), bits_);
     indices_.write(0, written.data(), written.size());
     entries_ = written.size();
-    is_wide_ = can_be_wide() && has_wide_count(lists);
     if (is_wide_)
       write_headers(lists, wide_headers_);
     else
@@ -79,7 +82,7 @@ class Packed final : public Storage {
     StructureUse use;
     use.index_entries = entries_;
     use.index_bytes = entries_ * (bits_ / 8);
-    use.header_bytes = std::uint64_t{header_count_} * header_size(is_wide_) + blocks_.size() * sizeof(Block);
+    use.header_bytes = std::uint64_t{header_count_} * header_size() + blocks_.size() * sizeof(Block);
     use.upload_bytes = use.index_bytes + use.header_bytes;
     use.fallback_cells = fallback_cells_;
     return use;
@@ -87,14 +90,13 @@ class Packed final : public Storage {
 
   StructureLimit limit() const override {
     const std::uint64_t entries = most_entries();
-    return {entries, entries * (bits_ / 8) + std::uint64_t{cell_count_} * header_size(can_be_wide()) +
+    return {entries, entries * (bits_ / 8) + std::uint64_t{cell_count_} * header_size() +
                          blocks_.size() * sizeof(Block)};
   }
 
-  // A shader has one format of headers for all frames: the wide one where any frame can need it.
   std::vector<BufferNeed> buffers() const override {
     std::vector<BufferNeed> all{{"indices", bits_ / 8, entries_, most_entries()},
-                                {"headers", header_size(can_be_wide()), header_count_, cell_count_}};
+                                {"headers", header_size(), header_count_, cell_count_}};
     if (is_sparse_) all.push_back({"header_blocks", sizeof(Block), blocks_.size(), blocks_.size()});
     return all;
   }
@@ -108,7 +110,7 @@ class Packed final : public Storage {
     const std::uint64_t lights = found_header(cell).all();
     const Reads block = Reads::of(is_sparse_ ? 1 : 0, sizeof(Block));
     if (is_sparse_ && lights == 0) return block;  // its bit says that it has no header
-    return block + Reads::of(1, header_size(is_wide_)) + Reads::of(lights, bits_ / 8);
+    return block + Reads::of(1, header_size()) + Reads::of(lights, bits_ / 8);
   }
 
   std::uint32_t cell_count() const override { return cell_count_; }
@@ -136,10 +138,11 @@ class Packed final : public Storage {
     std::uint32_t mask = 0, rank = 0;
   };
 
-  bool can_be_wide() const { return std::max(points_, spots_) > k_narrow_count; }
+  bool has_wide_counts() const { return std::max(points_, spots_) > k_narrow_count; }
   bool has_boxes() const { return lights_ > points_ + spots_; }
-  std::uint32_t header_size(bool is_wide) const {
-    return static_cast<std::uint32_t>((is_wide ? sizeof(WideHeader) : sizeof(Header)) +
+  // The one source of how wide headers are: of use(), limit(), buffers() and what samples read.
+  std::uint32_t header_size() const {
+    return static_cast<std::uint32_t>((is_wide_ ? sizeof(WideHeader) : sizeof(Header)) +
                                       (has_boxes() ? sizeof(std::uint32_t) : 0));
   }
 
@@ -155,15 +158,6 @@ class Packed final : public Storage {
   std::span<const std::uint32_t> list_of(const Lists& lists, std::uint32_t cell) const {
     const auto list = lists.of(cell);
     return cell < full_from_ || list.empty() ? list : std::span(kept_).first(all_lights_);
-  }
-
-  bool has_wide_count(const Lists& lists) const {
-    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
-      if (list_of(lists, cell).size() <= k_narrow_count) continue;
-      const Counts header = counts_of(lists, cell);
-      if (std::max(header.points, header.spots) > k_narrow_count) return true;
-    }
-    return false;
   }
 
   // The first list of the index list: of all lights that any cell lists, points before spots.
@@ -263,7 +257,7 @@ class Packed final : public Storage {
   std::uint32_t cell_count_ = 0, header_count_ = 0;
   std::uint64_t entries_ = 0;
   std::vector<Header> headers_;
-  std::vector<WideHeader> wide_headers_;   // in place of them, where the rig can need them
+  std::vector<WideHeader> wide_headers_;   // in place of them, where the rig has that many lights
   std::vector<std::uint32_t> box_counts_;  // the last word of either, where the rig has boxes
   std::vector<Block> blocks_;
   IndexArray indices_;

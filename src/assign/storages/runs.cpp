@@ -8,14 +8,15 @@ namespace clusterbench::assign {
 namespace {
 
 // Runs of lights with consecutive indices: {first, length - 1} each, in the narrowest indices that hold all lights. Per
-// cell an offset (u32) and the numbers of runs of points and of spots (u16 each; u32 where a rig can need it), and
-// where the rig has boxes that of their runs (u32).
+// cell an offset (u32) and the numbers of runs of points and of spots (u16 each; u32 where the rig has lights enough for
+// more runs), and where the rig has boxes that of their runs (u32).
 class Runs final : public Storage {
  public:
   explicit Runs(const Params&) {}
 
   void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
     lights_ = lights;
+    is_wide_ = has_wide_counts();
     bits_ = narrowest_bits(lights.size());
     check_memory("headers of runs", cell_count, sizeof(Header));
     headers_.assign(cell_count, {});
@@ -24,6 +25,7 @@ class Runs final : public Storage {
 
   void set_types(const view::LightRanges& lights) override {
     lights_ = view::LightRanges(lights.points.count, lights_.size() - lights.points.count);
+    is_wide_ = is_wide_ || has_wide_counts();
   }
 
   void store(const Lists& lists) override {
@@ -93,9 +95,9 @@ class Runs final : public Storage {
     return headers_.size() * most;
   }
   std::uint32_t run_bytes() const { return 2 * (bits_ / 8); }
+  bool has_wide_counts() const { return most_runs(std::max(lights_.points.count, lights_.spots.count)) > 0xffff; }
   std::uint32_t header_size() const {
-    const bool is_wide = most_runs(std::max(lights_.points.count, lights_.spots.count)) > 0xffff;
-    return (is_wide ? 12 : 8) + (lights_.boxes.empty() ? 0 : 4);
+    return (is_wide_ ? 12 : 8) + (lights_.boxes.empty() ? 0 : 4);
   }
   std::uint64_t header_bytes() const { return headers_.size() * std::uint64_t{header_size()}; }
   std::uint32_t run_count() const { return static_cast<std::uint32_t>(runs_.size() / 2); }
@@ -118,6 +120,7 @@ class Runs final : public Storage {
 
   view::LightRanges lights_;
   std::uint32_t bits_ = 8;
+  bool is_wide_ = false;
   std::uint64_t count_ = 0;
   std::vector<Header> headers_;
   std::vector<std::uint32_t> runs_, sorted_;  // two numbers a run

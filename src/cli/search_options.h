@@ -1,0 +1,31 @@
+#pragma once
+// The flags of a search for the worst frame, which `worst-case` and `size` share.
+
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/terminal.h"
+#include "config/config.h"
+#include "search/worst_case.h"
+
+namespace clusterbench::cli {
+
+struct SearchFlags {
+  search::WorstCaseRequest request;
+  std::string within;              // "X0,Y0,Z0,X1,Y1,Z1"
+  std::vector<std::string> added;  // "4x10"
+};
+
+// How long it searches, and its seed.
+void add_effort_options(Command& command, SearchFlags& flags);
+// What it may choose: where the camera stands, and lights that are added or moved.
+void add_space_options(Command& command, SearchFlags& flags);
+
+// Throws Error that names the flag.
+search::WorstCaseRequest search_request(const SearchFlags& flags, const config::Config& config);
+
+// Tells how far a search is. `progress` outlives it.
+search::WorstCaseListener search_listener(ProgressLine& progress);
+
+}  // namespace clusterbench::cli

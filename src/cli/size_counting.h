@@ -1,0 +1,25 @@
+#pragma once
+// What `size` counts of scenes or a configuration: their frames, as finely as high-water marks need them.
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "cli/run_inputs.h"
+#include "config/config.h"
+#include "run/sweep.h"
+
+namespace clusterbench::cli {
+
+struct SizeCounts {
+  config::Config config;
+  run::Plan plan;
+  nlohmann::ordered_json result;
+};
+
+// Counts all cameras of scenes that name none, without truth and times. Where no frames are asked for, a path is
+// sampled 30 times a second, or as often as it has keys if that is more, and less where that would be too much work;
+// which it is follows from counts and not from times. Says what it counts, unless `quiet`. Nothing once it is to stop.
+std::optional<SizeCounts> counted_for_size(const RunInputs& inputs, const std::string& filter, bool quiet);
+
+}  // namespace clusterbench::cli

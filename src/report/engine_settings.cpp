@@ -1,0 +1,252 @@
+#include "report/engine_settings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "report/columns.h"
+#include "report/json_values.h"
+#include "report/size_words.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What a setting has to have room for.
+enum class Needed : std::uint8_t { lights_in_view, longest_list, entries };
+
+struct LimitSetting {
+  const char* name;  // as it stands in the engine
+  Needed needed;
+  std::uint64_t standard, least, most;  // as the engine comes, and what it takes
+  std::uint64_t multiple = 1;
+};
+
+struct EngineRow {
+  const char *preset, *version;
+  const char* grid;  // the call or member that the grid is set with: X, Y, Z stand for the cells, P for a tile's pixels
+  std::vector<LimitSetting> limits;
+  const char* beyond;  // what happens beyond the limit
+};
+
+constexpr std::uint64_t k_any = 0xffffffff;
+
+// From public code and documentation of the versions named.
+const std::vector<EngineRow>& engine_rows() {
+  static const std::vector<EngineRow> rows{
+      {"godot",
+       "Godot 4, Project Settings",
+       "",
+       {{"rendering/limits/cluster_builder/max_clustered_elements", Needed::lights_in_view, 512, 32, 8192, 32}},
+       "of each type (omni lights, spot lights, decals, reflection probes) elements beyond it are not drawn"},
+      {"playcanvas",
+       "PlayCanvas engine 2, scene.lighting (LightingParams)",
+       "scene.lighting.cells = new pc.Vec3(X, Y, Z)",
+       {{"scene.lighting.maxLightsPerCell", Needed::longest_list, 255, 1, 255}},
+       "a full cell takes no more lights; and a frame no more than 255, which 8-bit indices number"},
+      {"three-js",
+       "three.js r187, examples/jsm/lighting/ClusteredLighting.js",
+       "new ClusteredLighting(maxLights, tileSize = P, zSlices = Z, maxLightsPerCluster)",
+       {{"maxLights", Needed::lights_in_view, 1024, 1, k_any},
+        {"maxLightsPerCluster", Needed::longest_list, 64, 1, k_any}},
+       "a full cluster keeps the farthest lights"},
+      {"bevy",
+       "Bevy 0.19, GlobalClusterSettings and ClusterConfig of a camera",
+       "ClusterConfig::XYZ { dimensions: UVec3::new(X, Y, Z), .. }",
+       {{"GlobalClusterSettings::view_cluster_bindings_max_indices", Needed::entries, 16384, 1, k_any}},
+       "with storage buffers lists grow; without, tiles grow in the next frames until lists fit (dynamic_resizing)"},
+      {"bevy-gpu",
+       "Bevy 0.19, GlobalClusterGpuSettings",
+       "ClusterConfig::XYZ { dimensions: UVec3::new(X, Y, Z), .. }",
+       {{"GlobalClusterSettings::gpu_clustering.initial_index_list_capacity", Needed::entries, 0, 1, k_any}},
+       "the list grows after a few frames that lack lights"},
+      {"ogre-next",
+       "OGRE-Next 2.3 and later, SceneManager",
+       "setForwardClustered(true, X, Y, Z, lightsPerCell, decalsPerCell, cubemapProbesPerCell, minDistance, "
+       "maxDistance)",
+       {{"lightsPerCell", Needed::longest_list, 96, 1, k_any}},
+       "a full cell takes no more lights"},
+      {"unity-urp",
+       "Unity URP 14 and later, package com.unity.render-pipelines.universal-config",
+       "",
+       {{"MAX_VISIBLE_LIGHT_COUNT_DESKTOP (ShaderConfig.cs.hlsl) and k_MaxVisibleLightCountDesktop (ShaderConfig.cs)",
+         Needed::lights_in_view, 256, 1, 256}},
+       "lights beyond it are not drawn; on mobile platforms the limits are 32 and 16"},
+  };
+  return rows;
+}
+
+struct Constant {
+  const char *name, *what;
+};
+constexpr Constant k_constants[] = {
+    {"filament", "CONFIG_MAX_LIGHT_COUNT (256 lights in view) is compiled in"},
+    {"babylon", "its lists are bit masks of all lights"},
+    {"unity-hdrp", "its counts are packed into bits"},
+    {"wicked", "its 256 entities are compiled in"},
+    {"stride", "its lists grow"},
+};
+
+const EngineRow* row_of_engine(const std::string& name) {
+  const auto found =
+      std::ranges::find(engine_rows(), name, [](const EngineRow& row) { return std::string(row.preset); });
+  return found == engine_rows().end() ? nullptr : &*found;
+}
+
+// The most that was seen of it, over all cameras; none where the result does not say.
+std::optional<std::uint64_t> most_seen(const SizedStructure& structure, Needed needed) {
+  std::uint64_t most = 0;
+  for (const Json* result_case : structure.cases) {
+    const std::optional<double> value =
+        needed == Needed::lights_in_view ? number_at(*result_case, "/lights_in_view/max")
+        : needed == Needed::longest_list ? number_at(*result_case, "/occupancy/lights_per_cell/max")
+                                         : number_at(*result_case, "/buffers/index_entries/high_water");
+    if (!value) return {};
+    most = std::max(most, static_cast<std::uint64_t>(*value));
+  }
+  return most;
+}
+
+// The most that a search found, where it looked for that.
+std::optional<std::uint64_t> most_found(const SizedStructure& structure, Needed needed) {
+  if (!structure.found || needed == Needed::lights_in_view || structure.buffers.empty()) return {};
+  const SizedBuffer& lists = structure.buffers.front();
+  const bool has_room_per_cell = (*structure.cases.front())["storage"].get<std::string>().starts_with("fixed");
+  if (!lists.found || has_room_per_cell != (needed == Needed::longest_list)) return {};
+  if (!has_room_per_cell) return lists.found;
+  std::uint64_t cells = 1;
+  for (const Json& axis : (*structure.cases.front())["grid"]["cells"]) cells *= axis.get<std::uint64_t>();
+  return *lists.found / std::max<std::uint64_t>(1, cells);
+}
+
+struct SettingValue {
+  const LimitSetting* setting;
+  std::optional<std::uint64_t> seen, found;
+  std::uint64_t value = 0;   // to set
+  std::uint64_t wanted = 0;  // before the engine's largest value
+
+  std::uint64_t needed() const { return std::max(seen.value_or(0), found.value_or(0)); }
+  bool is_too_much() const { return needed() > setting->most; }
+};
+
+SettingValue value_of(const LimitSetting& setting, const SizedStructure& structure, const AllocationRules& rules) {
+  SettingValue out{&setting, most_seen(structure, setting.needed), most_found(structure, setting.needed)};
+  const auto with_margin = static_cast<std::uint64_t>(std::ceil(static_cast<double>(out.needed()) * rules.margin));
+  out.wanted = (std::max(with_margin, setting.least) + setting.multiple - 1) / setting.multiple * setting.multiple;
+  out.value = std::min(out.wanted, setting.most);
+  return out;
+}
+
+const char* unit_of(Needed needed) {
+  return needed == Needed::lights_in_view ? "lights in view"
+         : needed == Needed::longest_list ? "lights in the longest list"
+                                          : "entries in all lists";
+}
+
+std::string grid_text(const EngineRow& row, const Json& grid) {
+  std::string out = row.grid;
+  const auto put = [&](const std::string& letter, const std::string& value) {
+    for (std::size_t at = 0; (at = out.find(letter, at)) != std::string::npos; at += value.size()) {
+      const bool is_alone = (at == 0 || std::isalnum(static_cast<unsigned char>(out[at - 1])) == 0) &&
+                            (at + 1 == out.size() || std::isalnum(static_cast<unsigned char>(out[at + 1])) == 0);
+      if (is_alone) out.replace(at, 1, value);
+    }
+  };
+  const char* letters[] = {"X", "Y", "Z"};
+  for (std::size_t axis = 0; axis < 3; ++axis) put(letters[axis], grid["cells"][axis].dump());
+  if (const Json* pixels = value_at(grid, "/tiles/pixels")) put("P", (*pixels)[0].dump());
+  return out;
+}
+
+std::string setting_lines(const SettingValue& value, const SizedStructure& structure, const AllocationRules& rules) {
+  const LimitSetting& setting = *value.setting;
+  std::string out = std::string("  ") + setting.name + ": ";
+  if (!value.seen)
+    return out + "unknown, the result does not say how many " + unit_of(setting.needed) + "; count anew\n";
+  out += std::to_string(value.value);
+  if (setting.standard > 0)
+    out += value.value <= setting.standard ? " (the engine's own " + std::to_string(setting.standard) + " is enough)"
+                                           : " (the engine comes with " + std::to_string(setting.standard) + ")";
+  out += "\n    the most seen: " + std::to_string(*value.seen) + " " + unit_of(setting.needed) + " in " +
+         number_of(structure.frames(), "frame") + "\n";
+  out += "    the most found by a search: " +
+         (value.found ? std::to_string(*value.found) + " " + unit_of(setting.needed)
+          : structure.found && setting.needed == Needed::lights_in_view
+              ? std::string("not looked for: the search makes lists long")
+          : structure.found && !structure.found->refusal.empty() ? "not searched: " + structure.found->refusal
+                                                                 : "not searched (--worst-case)") +
+         "\n";
+  out += "    x " + text("%g", rules.margin) +
+         (setting.multiple > 1 ? ", up to a multiple of " + std::to_string(setting.multiple) : std::string());
+  if (value.is_too_much())
+    out += "; TOO MUCH: the engine takes at most " + std::to_string(setting.most) + ", and such frames lose lights";
+  else if (value.wanted > setting.most)
+    out += "; the engine takes at most " + std::to_string(setting.most) + ", less room than asked for";
+  return out + "\n";
+}
+
+}  // namespace
+
+std::vector<std::string> engines_with_settings() {
+  std::vector<std::string> names;
+  for (const EngineRow& row : engine_rows()) names.emplace_back(row.preset);
+  return names;
+}
+
+void check_engine(const std::string& name) {
+  if (row_of_engine(name) != nullptr) return;
+  for (const Constant& constant : k_constants)
+    if (name == constant.name)
+      throw Error("", "--engine",
+                  name + " has no setting for it: " + constant.what + "; `clusterbench run --preset " + name +
+                      "` says what frames lose");
+  const std::vector<std::string> names = engines_with_settings();
+  throw Error("", "--engine",
+              "'" + name + "' is no engine whose limits can be set" + did_you_mean(name, names) + "; there are " +
+                  joined(names));
+}
+
+std::string engine_settings_text(const std::string& engine, const std::vector<SizedStructure>& structures,
+                                 const AllocationRules& rules) {
+  const EngineRow& row = *row_of_engine(engine);
+  std::string out;
+  for (const SizedStructure& structure : structures) {
+    out += shown(structure.name) + "\n  " + row.version + "\n";
+    if (const std::string grid = grid_text(row, (*structure.cases.front())["grid"]); !grid.empty())
+      out += "  " + grid + "\n";
+    for (const LimitSetting& setting : row.limits)
+      out += setting_lines(value_of(setting, structure, rules), structure, rules);
+    out += std::string("  beyond the limit: ") + row.beyond + "\n";
+    for (const std::string& note : grid_notes(structure)) out += "  grid: " + shown(note) + "\n";
+    out += "\n";
+  }
+  return out + "Set these values; measure again when levels or lights change.\n";
+}
+
+Json engine_settings_json(const std::string& engine, const std::vector<SizedStructure>& structures,
+                          const AllocationRules& rules) {
+  const EngineRow& row = *row_of_engine(engine);
+  Json out{{"engine", engine}, {"version", row.version}, {"margin", rules.margin}, {"structures", Json::array()}};
+  for (const SizedStructure& structure : structures) {
+    Json settings = Json::array();
+    for (const LimitSetting& setting : row.limits) {
+      const SettingValue value = value_of(setting, structure, rules);
+      Json entry{{"name", setting.name}, {"needed", unit_of(setting.needed)}};
+      entry["seen"] = value.seen ? Json(*value.seen) : Json();
+      entry["found"] = value.found ? Json(*value.found) : Json();
+      entry["value"] = value.seen ? Json(value.value) : Json();
+      entry["most"] = setting.most == k_any ? Json() : Json(setting.most);
+      entry["is_too_much"] = value.is_too_much();
+      settings.push_back(entry);
+    }
+    out["structures"].push_back({{"name", structure.name},
+                                 {"grid", grid_text(row, (*structure.cases.front())["grid"])},
+                                 {"frames", structure.frames()},
+                                 {"settings", settings}});
+  }
+  return out;
+}
+
+}  // namespace clusterbench::report

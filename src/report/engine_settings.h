@@ -1,0 +1,25 @@
+#pragma once
+// What `size --engine NAME` prints: an allocation in an engine's own settings, for engines whose limits can be set.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "report/allocation.h"
+
+namespace clusterbench::report {
+
+// Names that --engine takes: those of the presets that are measured for it.
+std::vector<std::string> engines_with_settings();
+// Throws Error (where = "--engine") for a name that is none of them, with those that there are and with what is known
+// of an engine whose limits are constants.
+void check_engine(const std::string& name);
+
+// Of each structure the settings: their names as the engine has them, its version, the value to set, what it comes of,
+// and what the engine drops beyond it.
+std::string engine_settings_text(const std::string& engine, const std::vector<SizedStructure>& structures,
+                                 const AllocationRules& rules);
+nlohmann::ordered_json engine_settings_json(const std::string& engine, const std::vector<SizedStructure>& structures,
+                                            const AllocationRules& rules);
+
+}  // namespace clusterbench::report

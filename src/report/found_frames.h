@@ -1,0 +1,15 @@
+#pragma once
+// What `clusterbench worst-case -o FILE` found, for `size`.
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "report/allocation.h"
+
+namespace clusterbench::report {
+
+// Throws Error for a file that is none of `worst-case`, of a case that the result does not have, or of another version
+// of its scene.
+FoundFrame read_found(const std::string& path, const nlohmann::ordered_json& result);
+
+}  // namespace clusterbench::report

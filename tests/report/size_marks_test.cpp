@@ -1,0 +1,231 @@
+// What `size` says a capacity rests on: the most seen, the most that a search found, and the most that can be; and of
+// several views and viewports.
+
+#include <gtest/gtest.h>
+
+#include "config/documents.h"
+#include "config/schema_verdict.h"
+#include "core/error.h"
+#include "report/result_by_hand.h"
+#include "report/result_json.h"
+#include "report/size.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::json;
+
+// Of aabb alone, to the byte.
+SizeRequest marks_request(const std::string& format) {
+  return {"/aabb/", false, format, "none"};
+}
+
+std::string marks_of(const run::Result& result, const SizeRequest& request) {
+  return size_report(result_to_json(result, {}), request);
+}
+
+Json sized_json(const run::Result& result, SizeRequest request) {
+  request.format = "json";
+  const Json json = Json::parse(marks_of(result, request));
+  EXPECT_EQ(config::schema_violations(config::row_of(config::Document::size).schema(), json),
+            std::vector<std::string>{});
+  return json["structures"][0];
+}
+
+FoundFrame found_frame(std::uint64_t indices) {
+  FoundFrame found;
+  found.case_name = "hall/walk/frustum 64px/aabb/packed";
+  found.evaluations = 5000;
+  found.eye_m = {1.0, 2.0, 3.0};
+  found.needs = {{"indices", indices, 480}, {"headers", 24, 24}};
+  return found;
+}
+
+constexpr const char* k_formats[] = {"table", "cpp", "hlsl", "glsl"};
+
+TEST(SizeMarks, every_format_says_the_most_seen_what_was_searched_and_the_most_that_can_be) {
+  for (const char* format : k_formats) {
+    const std::string text = marks_of(testing::result_by_hand(), marks_request(format));
+    for (const char* part : {"most seen", "indices: 40 in 2 frames", "most found by a search",
+                             "not searched: --worst-case", "can never overflow", "indices: 480 elements, 480 bytes"})
+      EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+  }
+  const Json buffer = sized_json(testing::result_by_hand(), marks_request("json"))["buffers"][0];
+  EXPECT_EQ(buffer["never_overflows"], Json({{"elements", 480}, {"bytes", 480}}));
+  EXPECT_FALSE(buffer.contains("found"));
+}
+
+TEST(SizeMarks, a_capacity_is_made_of_what_a_search_found_where_that_is_more_and_says_so) {
+  for (const char* format : k_formats) {
+    SizeRequest request = marks_request(format);
+    request.scope.found = {found_frame(100)};
+    const std::string text = marks_of(testing::result_by_hand(), request);
+    for (const char* part :
+         {"indices: 40 in 2 frames", "indices: 100 in 5000 frames tried (seed 1), 2.50 times the most seen",
+          "found by the search x 2"})
+      EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+    EXPECT_EQ(text.find("not searched"), std::string::npos) << text;
+    request.scope.found = {found_frame(30)};
+    EXPECT_NE(marks_of(testing::result_by_hand(), request).find("high water x 2"), std::string::npos);
+  }
+  SizeRequest request = marks_request("json");
+  request.margin = 1.0;
+  for (const std::uint64_t found : {30u, 100u, 480u}) {
+    request.scope.found = {found_frame(found)};
+    const Json structure = sized_json(testing::result_by_hand(), request);
+    EXPECT_EQ(structure["buffers"][0]["capacity"], std::max<std::uint64_t>(40, found));
+    EXPECT_EQ(structure["buffers"][0]["found"], found);
+    EXPECT_EQ(structure["search"]["evaluations"], 5000);
+  }
+}
+
+TEST(SizeMarks, a_case_that_cannot_be_searched_says_why) {
+  SizeRequest request = marks_request("table");
+  request.scope.found = {found_frame(100)};
+  request.scope.found[0].refusal = "its lists follow visible surfaces";
+  request.scope.found[0].needs.clear();
+  const std::string text = marks_of(testing::result_by_hand(), request);
+  EXPECT_NE(text.find("not searched: its lists follow visible surfaces"), std::string::npos) << text;
+  EXPECT_EQ(sized_json(testing::result_by_hand(), request)["search"]["refusal"], "its lists follow visible surfaces");
+}
+
+// Lights that a cull leaves in other frames, and cells of other depths, can be more.
+TEST(SizeMarks, behind_a_pre_cull_and_with_cells_of_surfaces_nothing_is_said_to_never_overflow) {
+  const auto table_of = [](auto change) {
+    run::Result result = testing::result_by_hand();
+    for (run::CaseResult& one : result.cases) change(one);
+    return marks_of(result, {"/" + result.cases[1].assigner + "/", false, "table", "none"});
+  };
+  const std::string culled = table_of([](run::CaseResult&one) { one.pre_cull.emplace(); }),
+                    tiled = table_of([](run::CaseResult&one) { one.assigner = "tiled"; });
+  for (const std::string& text : {culled, tiled}) {
+    EXPECT_NE(text.find("can never overflow: indices: not known"), std::string::npos) << text;
+    EXPECT_EQ(text.find("480 elements"), std::string::npos) << text;
+  }
+}
+
+measure::BufferHighWater series(const std::vector<std::uint64_t>& elements, std::uint64_t most,
+                                std::uint64_t step = 1) {
+  measure::BufferHighWater buffer;
+  buffer.name = "indices";
+  buffer.element_bytes = 2;
+  buffer.theoretical_max = most;
+  buffer.step = step;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    buffer.along_path.add_frame(elements[i]);
+    if (elements[i] <= buffer.high_water) continue;
+    buffer.high_water = elements[i];
+    buffer.worst_frame = static_cast<int>(i);
+  }
+  return buffer;
+}
+
+run::CaseResult camera(const std::string& name, const std::vector<std::uint64_t>& elements, std::uint64_t step = 1,
+                       const std::string& viewport = "") {
+  run::CaseResult out = testing::case_by_hand(name + viewport, "aabb", 1.0);
+  out.camera = name;
+  out.name = "hall/" + name + "/" + viewport + "frustum 64px/aabb/packed";
+  out.frames = static_cast<int>(elements.size());
+  out.buffers.each = {series(elements, 1000, step)};
+  return out;
+}
+
+run::Result result_of_cameras(const std::vector<run::CaseResult>& cases) {
+  run::Result result = testing::result_by_hand();
+  result.cases = cases;
+  result.planned_ids.clear();
+  for (const run::CaseResult& one : cases) result.planned_ids.push_back(one.id);
+  return result;
+}
+
+TEST(SizeMarks, high_water_of_fewer_frames_shows_whether_more_would_find_more) {
+  std::vector<std::uint64_t> calm(33, 50), wild(33, 50);
+  wild[8] = 60, wild[4] = 70, wild[2] = 80, wild[1] = 90;
+  const Json growth =
+      sized_json(result_of_cameras({camera("walk", wild)}), marks_request("json"))["buffers"][0]["high_water_of_every"];
+  EXPECT_EQ(growth, Json::parse(R"([{"every": 8, "high_water": 60}, {"every": 4, "high_water": 70},
+                                    {"every": 2, "high_water": 80}, {"every": 1, "high_water": 90}])"));
+  const std::string grows = marks_of(result_of_cameras({camera("walk", wild)}), marks_request("table")),
+                    stays = marks_of(result_of_cameras({camera("walk", calm)}), marks_request("table"));
+  EXPECT_NE(grows.find("90 in 33 frames; of every 8th frame 60, 4th 70, 2nd 80: STILL GROWING"), std::string::npos)
+      << grows;
+  EXPECT_NE(stays.find("of every 8th frame 50, 4th 50, 2nd 50\n"), std::string::npos) << stays;
+}
+
+SizeRequest with_views(const std::vector<std::string>& views) {
+  SizeRequest request = marks_request("json");
+  request.scope.views = views;
+  return request;
+}
+
+TEST(SizeMarks, views_of_one_buffer_are_added_frame_by_frame) {
+  const run::Result result = result_of_cameras(
+      {camera("left", {10, 40, 20}), camera("right", {30, 5, 21}), camera("map", {33}), camera("other", {60, 1, 1})});
+  const Json eyes = sized_json(result, with_views({"left,right"}));
+  EXPECT_EQ(eyes["views"], Json::parse(R"([["left", "right"]])"));
+  EXPECT_EQ(eyes["buffers"][0]["high_water"], 60) << "the other camera alone; the eyes need 45";
+  EXPECT_EQ(eyes["frames"], 3 + 1 + 3);
+  const Json all = sized_json(result, with_views({"*"}))["buffers"][0];
+  EXPECT_EQ(all["high_water"], 10 + 30 + 33 + 60) << "a camera that stands still is in every frame";
+  EXPECT_EQ(all["views_apart"], 40 + 30 + 33 + 60);
+  EXPECT_EQ(all["worst"], Json::parse(R"({"camera": "left+right+map+other", "frame": 0})"));
+  EXPECT_EQ(all["theoretical_max"], 4000);
+  EXPECT_EQ(all["frames"]["min"], 20 + 21 + 33 + 1);
+}
+
+TEST(SizeMarks, views_whose_paths_differ_need_the_sum_of_their_marks) {
+  const run::Result result = result_of_cameras({camera("one", {10, 40, 20}), camera("two", {30, 5})});
+  SizeRequest request = with_views({"one,two"});
+  EXPECT_EQ(sized_json(result, request)["buffers"][0]["high_water"], 70);
+  request.format = "table";
+  const std::string table = marks_of(result, request);
+  EXPECT_NE(table.find("70 in 3 frames if each view needs its most at the same time"), std::string::npos) << table;
+}
+
+// Room for the longest list in every cell: 10 cells each, of which the longest lists have 4 and 3 lights.
+TEST(SizeMarks, views_with_room_per_cell_have_room_for_the_longest_list_of_any) {
+  const run::Result result = result_of_cameras({camera("left", {40, 20}, 10), camera("right", {30, 30}, 10)});
+  EXPECT_EQ(sized_json(result, with_views({"left,right"}))["buffers"][0]["high_water"], 20 * 4);
+}
+
+TEST(SizeMarks, a_search_counts_for_each_view) {
+  SizeRequest request = with_views({"left,right"});
+  FoundFrame found = found_frame(50);
+  found.case_name = "hall/left/frustum 64px/aabb/packed";
+  request.scope.found = {found};
+  const run::Result result = result_of_cameras({camera("left", {10, 40}), camera("right", {10, 30})});
+  EXPECT_EQ(sized_json(result, request)["buffers"][0]["found"], 100);
+}
+
+TEST(SizeMarks, views_that_name_no_two_cameras_are_refused_with_those_that_there_are) {
+  const run::Result result = result_of_cameras({camera("left", {10}), camera("right", {30})});
+  try {
+    sized_json(result, with_views({"left,rihgt"}));
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), "--views");
+    EXPECT_NE(std::string(error.what()).find("has left, right"), std::string::npos) << error.what();
+  }
+}
+
+TEST(SizeMarks, one_allocation_serves_all_viewports_where_it_is_asked_for) {
+  run::CaseResult small = camera("walk", {10, 40, 20}, 1, "960x540 "),
+                  large = camera("walk", {70, 30, 20}, 1, "1920x1080 ");
+  small.viewport = {960, 540};
+  large.viewport = {1920, 1080};
+  const run::Result result = result_of_cameras({small, large});
+  SizeRequest request = marks_request("json");
+  request.all = true;
+  EXPECT_EQ(Json::parse(marks_of(result, request))["structures"].size(), 2u);
+  request.scope.over_viewports = true;
+  const Json structure = sized_json(result, request);
+  EXPECT_EQ(structure["name"], "hall/frustum 64px/aabb/packed");
+  EXPECT_EQ(structure["buffers"][0]["high_water"], 70);
+  EXPECT_EQ(structure["buffers"][0]["frames"]["min"], 20);
+  EXPECT_EQ(structure["buffers"][0]["frames"]["p50"], 40) << "each frame in its largest viewport";
+  EXPECT_EQ(structure["cameras"], Json({"walk"}));
+  EXPECT_EQ(structure["frames"], 3) << "the same frames, larger or smaller";
+}
+
+}  // namespace
+}  // namespace clusterbench::report
