@@ -1,11 +1,17 @@
-// `clusterbench scene info FILE` and `clusterbench scene generate NAME`.
+// `clusterbench scene info FILE`, `clusterbench scene generate NAME` and `clusterbench scene views FILE`.
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/commands.h"
+#include "cli/output.h"
+#include "core/error.h"
 #include "core/text.h"
+#include "scene/add_views.h"
 #include "scene/generate.h"
 #include "scene/scene.h"
 #include "scene/summary.h"
@@ -136,6 +142,72 @@ void add_generate(Command& parent, Action& action) {
   });
 }
 
+struct ViewsFlags {
+  std::string file, out, faces;
+  std::vector<std::string> added;
+  double eyes_m = 0.0;
+  scene::ViewsRequest request;
+};
+
+std::vector<double> view_numbers(const std::string& text, const std::string& flag, std::size_t least,
+                                 std::size_t most) {
+  std::vector<double> numbers;
+  std::stringstream in(text);
+  for (std::string part; std::getline(in, part, ',');) {
+    char* end = nullptr;
+    numbers.push_back(std::strtod(part.c_str(), &end));
+    if (part.empty() || *end != '\0' || !std::isfinite(numbers.back())) numbers.clear();
+    if (numbers.empty()) break;
+  }
+  if (numbers.size() < least || numbers.size() > most)
+    throw Error("", flag,
+                "'" + text + "' is not what it takes: " +
+                    (least == most ? "three numbers in metres, X,Y,Z" : "NAME=X,Y,Z in metres, or NAME=X,Y,Z,DEGREES"));
+  return numbers;
+}
+
+ExitCode views(ViewsFlags flags) {
+  scene::ViewsRequest& request = flags.request;
+  if (flags.eyes_m > 0.0)
+    request.views = {{"left", {-0.5 * flags.eyes_m, 0.0, 0.0}}, {"right", {0.5 * flags.eyes_m, 0.0, 0.0}}};
+  for (const std::string& text : flags.added) {
+    const std::size_t equals = text.find('=');
+    const std::vector<double> at =
+        view_numbers(equals == std::string::npos ? "" : text.substr(equals + 1), "--add", 3, 4);
+    request.views.push_back({text.substr(0, equals), {at[0], at[1], at[2]}, at.size() > 3 ? at[3] : 0.0});
+  }
+  if (!flags.faces.empty()) {
+    const std::vector<double> at = view_numbers(flags.faces, "--faces", 3, 3);
+    request.faces_at_m = Vec3d{at[0], at[1], at[2]};
+  }
+  if (request.views.empty() && !request.faces_at_m)
+    throw Error("", "scene views", "adds nothing: give --eyes, --add or --faces");
+  refuse_overwriting({flags.out}, {flags.file});
+  scene::write_with_views(flags.file, request, flags.out);
+  std::cerr << "wrote " << flags.out << "\n";
+  return ExitCode::ok;
+}
+
+void add_views(Command& parent, Action& action) {
+  auto flags = std::make_shared<ViewsFlags>();
+  Command command =
+      parent.add_command("views", "Copy a scene with more cameras: two eyes, other players, a probe's faces");
+  command.add_option("FILE", flags->file, "A .gltf or .glb file").required();
+  command.add_option("--camera", flags->request.camera,
+                     "The camera that --eyes and --add follow; without: the first animated one, or the first");
+  command.add_option("--eyes", flags->eyes_m, "METRES: cameras `left` and `right`, so far apart, as 0.064").positive();
+  command
+      .add_option(
+          "--add", flags->added,
+          "NAME=X,Y,Z[,DEGREES], repeatable: a camera so many metres to the right, up and back, turned to the left "
+          "by degrees; mirror=0,0,0,180 looks back")
+      .once_a_name();
+  command.add_option("--faces", flags->faces,
+                     "X,Y,Z: six cameras face-px to face-nz around a point of the world, metres");
+  command.add_option("-o,--output", flags->out, "File to write").required();
+  command.when_named([flags, &action] { action = [flags] { return views(*flags); }; });
+}
+
 }  // namespace
 
 void add_scene(Command& program, Action& action) {
@@ -143,6 +215,7 @@ void add_scene(Command& program, Action& action) {
   command.needs_command();
   add_info(command, action);
   add_generate(command, action);
+  add_views(command, action);
 }
 
 }  // namespace clusterbench::cli

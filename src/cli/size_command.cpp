@@ -49,7 +49,7 @@ bool is_result(const RunInputs& inputs) {
   return inputs.paths.size() == 1 && !is_scene(inputs.paths.front()) && !is_config(inputs.paths.front());
 }
 
-// The engine's own clustering, where the command line names no other.
+// Measures the engine's own clustering, where the command line names no other.
 void choose_engine(SizeFlags& flags) {
   report::check_engine(flags.engine);
   if (flags.request.format != "table" && flags.request.format != "json")
@@ -57,6 +57,8 @@ void choose_engine(SizeFlags& flags) {
   flags.request.engine = flags.engine;
   flags.request.all = true;
   if (is_result(flags.inputs)) return;
+  flags.request.has_own_grid = config::name_clusterings(flag_values(flags.inputs));
+  if (flags.request.has_own_grid) return;
   for (std::size_t i = 0; i < flags.inputs.settings.size(); ++i)
     if (std::string_view(config::config_flags()[i].name) == "--preset" && flags.inputs.settings[i].empty())
       flags.inputs.settings[i] = {flags.engine};
@@ -83,7 +85,7 @@ ExitCode size(SizeFlags flags) {
   std::optional<SizeCounts> counts;
   Json result;
   if (!is_result(flags.inputs)) {
-    counts = counted_for_size(flags.inputs, flags.request.filter, flags.quiet);
+    counts = counted_for_size(flags.inputs, flags.request.filter, flags.request.all, flags.quiet);
     if (!counts) return stopped_exit_code();
     result = counts->result;
   } else {

@@ -20,6 +20,8 @@ struct SizeCounts {
 // Counts all cameras of scenes that name none, without truth and times. Where no frames are asked for, a path is
 // sampled 30 times a second, or as often as it has keys if that is more, and less where that would be too much work;
 // which it is follows from counts and not from times. Says what it counts, unless `quiet`. Nothing once it is to stop.
-std::optional<SizeCounts> counted_for_size(const RunInputs& inputs, const std::string& filter, bool quiet);
+// `all_methods`: also those with longer lists than others on the same grid, where nothing names methods.
+std::optional<SizeCounts> counted_for_size(const RunInputs& inputs, const std::string& filter, bool all_methods,
+                                           bool quiet);
 
 }  // namespace clusterbench::cli

@@ -171,7 +171,9 @@ std::vector<Growth> growth_of(const std::vector<PathNeed>& paths) {
 }
 
 bool follows_surfaces(const Json& result_case) {
-  const assign::AssignerDescriptor* method = assign::find_assigner(result_case["assigner"]["name"].get<std::string>());
+  const Json* name = value_at(result_case, "/assigner/name");
+  const assign::AssignerDescriptor* method =
+      name != nullptr && name->is_string() ? assign::find_assigner(name->get<std::string>()) : nullptr;
   return method != nullptr && (method->needs.depth || method->at_surfaces);
 }
 
@@ -241,15 +243,18 @@ Names names_of(const Json& result_case, bool over_viewports) {
   const std::string prefix = scene + "/" + result_case["camera"].get<std::string>() + "/";
   if (!name.starts_with(prefix)) return {name, name};
   std::string rest = name.substr(prefix.size());
-  const Json& viewport = result_case["viewport"];
-  const std::string size = viewport[0].dump() + "x" + viewport[1].dump() + " ";
-  if (over_viewports && rest.starts_with(size)) rest.erase(0, size.size());
+  if (over_viewports) {
+    const Json& viewport = result_case["viewport"];
+    const std::string size = viewport[0].dump() + "x" + viewport[1].dump() + " ";
+    if (rest.starts_with(size)) rest.erase(0, size.size());
+  }
   return {scene + "/" + rest, scene + "/" + rest.substr(0, rest.find('/'))};
 }
 
 bool has_camera(const SizedStructure& structure, const Json& result_case) {
   return std::ranges::any_of(structure.cases, [&](const Json* other) {
-    return (*other)["camera"] == result_case["camera"] && (*other)["viewport"] == result_case["viewport"];
+    return (*other)["camera"] == result_case["camera"] &&
+           other->value("viewport", Json()) == result_case.value("viewport", Json());
   });
 }
 
@@ -361,7 +366,7 @@ std::vector<SizedStructure> sized_structures(const Json& result, const std::stri
   }
   for (SizedStructure& structure : out) {
     structure.has_grid_cells = !follows_surfaces(*structure.cases.front());
-    for (const Json& scene : result["scenes"])
+    for (const Json& scene : result.value("scenes", Json::array()))
       if (scene["name"] == (*structure.cases.front())["scene"])
         structure.has_boxes = number_at(scene, "/lights/box").value_or(0.0) > 0.0;
   }

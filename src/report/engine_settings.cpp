@@ -225,26 +225,21 @@ std::string engine_settings_text(const std::string& engine, const std::vector<Si
   return out + "Set these values; measure again when levels or lights change.\n";
 }
 
-Json engine_settings_json(const std::string& engine, const std::vector<SizedStructure>& structures,
-                          const AllocationRules& rules) {
+Json engine_settings_json(const std::string& engine, const SizedStructure& structure, const AllocationRules& rules) {
   const EngineRow& row = *row_of_engine(engine);
-  Json out{{"engine", engine}, {"version", row.version}, {"margin", rules.margin}, {"structures", Json::array()}};
-  for (const SizedStructure& structure : structures) {
-    Json settings = Json::array();
-    for (const LimitSetting& setting : row.limits) {
-      const SettingValue value = value_of(setting, structure, rules);
-      Json entry{{"name", setting.name}, {"needed", unit_of(setting.needed)}};
-      entry["seen"] = value.seen ? Json(*value.seen) : Json();
-      entry["found"] = value.found ? Json(*value.found) : Json();
-      entry["value"] = value.seen ? Json(value.value) : Json();
-      entry["most"] = setting.most == k_any ? Json() : Json(setting.most);
-      entry["is_too_much"] = value.is_too_much();
-      settings.push_back(entry);
-    }
-    out["structures"].push_back({{"name", structure.name},
-                                 {"grid", grid_text(row, (*structure.cases.front())["grid"])},
-                                 {"frames", structure.frames()},
-                                 {"settings", settings}});
+  Json out{{"engine", engine},
+           {"version", row.version},
+           {"grid", grid_text(row, (*structure.cases.front())["grid"])},
+           {"limits", Json::array()}};
+  for (const LimitSetting& setting : row.limits) {
+    const SettingValue value = value_of(setting, structure, rules);
+    Json entry{{"name", setting.name}, {"needed", unit_of(setting.needed)}};
+    entry["seen"] = value.seen ? Json(*value.seen) : Json();
+    entry["found"] = value.found ? Json(*value.found) : Json();
+    entry["value"] = value.seen ? Json(value.value) : Json();
+    entry["most"] = setting.most == k_any ? Json() : Json(setting.most);
+    entry["is_too_much"] = value.is_too_much();
+    out["limits"].push_back(entry);
   }
   return out;
 }

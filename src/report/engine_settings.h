@@ -19,7 +19,8 @@ void check_engine(const std::string& name);
 // and what the engine drops beyond it.
 std::string engine_settings_text(const std::string& engine, const std::vector<SizedStructure>& structures,
                                  const AllocationRules& rules);
-nlohmann::ordered_json engine_settings_json(const std::string& engine, const std::vector<SizedStructure>& structures,
+// Of one structure, for the JSON of `size`: {"engine", "version", "grid", "limits": [...]}.
+nlohmann::ordered_json engine_settings_json(const std::string& engine, const SizedStructure& structure,
                                             const AllocationRules& rules);
 
 }  // namespace clusterbench::report

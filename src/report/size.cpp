@@ -134,7 +134,7 @@ Json search_json(const FoundFrame& found) {
   return {{"case", found.case_name}, {"evaluations", found.evaluations}, {"seed", found.seed}, {"eye_m", found.eye_m}};
 }
 
-Json structure_json(const NamedStructure& named) {
+Json structure_json(const NamedStructure& named, const std::string& engine, const AllocationRules& rules) {
   const SizedStructure& structure = named.structure;
   const Json& first = *structure.cases.front();
   Json out{{"name", structure.name},        {"identifier", named.name},
@@ -160,6 +160,7 @@ Json structure_json(const NamedStructure& named) {
   out["buffers"] = Json::array();
   for (std::size_t i = 0; i < structure.buffers.size(); ++i)
     out["buffers"].push_back(buffer_json(structure.buffers[i], named.buffers[i]));
+  if (!engine.empty()) out["settings"] = engine_settings_json(engine, structure, rules);
   out["lookups"] = Json::array();
   for (const NamedLookup& lookup : named.lookups)
     out["lookups"].push_back({{"identifier", lookup.name},
@@ -172,7 +173,8 @@ std::string size_json(const std::vector<NamedStructure>& structures, std::size_t
                       const AllocationRules& rules) {
   Json out{{"size_version", k_size_version}, {"margin", rules.margin},   {"warn_at", rules.warn_at},
            {"rounding", request.rounding},   {"structures_in_all", all}, {"structures", Json::array()}};
-  for (const NamedStructure& named : structures) out["structures"].push_back(structure_json(named));
+  for (const NamedStructure& named : structures)
+    out["structures"].push_back(structure_json(named, request.engine, rules));
   return out.dump(1) + "\n";
 }
 
@@ -199,18 +201,15 @@ const Json& case_of_mark(const SizedStructure& structure) {
   return *structure.cases.front();
 }
 
-std::string engine_report(std::vector<SizedStructure> structures, const SizeRequest& request,
-                          const AllocationRules& rules) {
+// Those of the engine's preset.
+void keep_engine(std::vector<SizedStructure>& structures, const std::string& engine) {
   std::erase_if(structures, [&](const SizedStructure& structure) {
     const Json& first = *structure.cases.front();
-    return !first.contains("preset") || first["preset"] != request.engine;
+    return !first.contains("preset") || first["preset"] != engine;
   });
   if (structures.empty())
     throw Error("", "--engine",
-                "no case is of the preset '" + request.engine + "'; measure it: clusterbench size LEVEL --engine " +
-                    request.engine);
-  return request.format == "json" ? engine_settings_json(request.engine, structures, rules).dump(1) + "\n"
-                                  : engine_settings_text(request.engine, structures, rules);
+                "no case is of the preset '" + engine + "'; measure it: clusterbench size LEVEL --engine " + engine);
 }
 
 }  // namespace
@@ -243,7 +242,8 @@ std::string size_report(const Json& result, const SizeRequest& request) {
     throw Error("", "--name", "names what is printed as code, and a table has no names; give --format, too");
   std::size_t count = 0;
   std::vector<SizedStructure> chosen = chosen_structures(result, request, count);
-  if (!request.engine.empty()) return engine_report(std::move(chosen), request, rules);
+  if (!request.engine.empty() && !request.has_own_grid) keep_engine(chosen, request.engine);
+  if (!request.engine.empty() && request.format == "table") return engine_settings_text(request.engine, chosen, rules);
   const std::vector<NamedStructure> named = request.name.empty() ? named_structures(std::move(chosen), request.all)
                                                                  : named_structures(std::move(chosen), request.name);
   if (request.format == "json") return size_json(named, count, request, rules);

@@ -133,6 +133,124 @@ TEST(SizeCommand, refuses_what_it_cannot_size_and_says_why) {
   refuses(result + " --format cpp --name ''", "--name: takes a text that is not empty");
 }
 
+// A camera that passes a lamp within a tenth of a second: 30 frames of the path miss it.
+TEST(SizeCommand, samples_paths_as_finely_as_they_have_keys_and_says_so) {
+  const Folder folder;
+  const std::string street = test::source_file("scenes/street.glb"), flags = " --grid frustum --assigner exact-fast ";
+  const Outcome done = tool("size --format json" + flags + street),
+                few = tool("size -q --format json --set 'scenes.*.frames=30'" + flags + street);
+  ASSERT_EQ(done.code, 0) << done.err;
+  const Json all = Json::parse(done.out)["structures"][0], thirty = Json::parse(few.out)["structures"][0];
+  EXPECT_EQ(thirty["frames"], 30) << "what is asked for is kept";
+  EXPECT_GT(all["frames"], 100);
+  EXPECT_GE(all["buffers"][0]["high_water"], thirty["buffers"][0]["high_water"]);
+  EXPECT_EQ(all["buffers"][0]["high_water_of_every"].size(), 4u);
+  EXPECT_NE(done.err.find("counts " + all["frames"].dump() + " frames of 1 camera path"), std::string::npos)
+      << done.err;
+  EXPECT_NE(done.err.find("scenes.*.frames=N"), std::string::npos) << done.err;
+  EXPECT_EQ(few.err, "");
+}
+
+TEST(SizeCommand, frames_of_a_configuration_are_kept_and_others_are_sampled_finely) {
+  const Folder folder;
+  std::filesystem::copy_file(test::source_file("scenes/street.glb"), folder / "level.glb");
+  const auto frames = [&](const std::string& scene) {
+    const std::string config = folder
+                                   .write("c.json", R"({"scenes": [)" + scene + R"(], "assigners": ["aabb"],
+      "grids": [{"tiles": {"count": [4, 4]}, "slices": {"count": 4}}]})")
+                                   .string();
+    return Json::parse(tool("size -q --format json " + config).out)["structures"][0]["frames"].get<int>();
+  };
+  EXPECT_EQ(frames(R"({"path": "level.glb", "frames": 7})"), 7);
+  EXPECT_GT(frames(R"("level.glb")"), 100);
+}
+
+TEST(SizeCommand, worst_case_is_searched_first_and_the_capacity_has_room_for_what_it_finds) {
+  const Folder folder;
+  const std::string scene = folder.write("level.gltf", three_cameras()).string();
+  const std::string flags = " --grid frustum --tiles 120 --slices 8 --assigner exact-fast --set storages=packed,fixed ";
+  for (const std::string margin : {"1", "2"}) {
+    const Outcome done = tool("size -q --all --worst-case --evaluations 300 --margin " + margin + " --format json" +
+                              flags + "--set scenes.0.camera=before " + scene);
+    ASSERT_EQ(done.code, 0) << done.err;
+    for (const Json& structure : Json::parse(done.out)["structures"]) {
+      const Json& buffer = structure["buffers"][0];
+      EXPECT_EQ(structure["search"]["evaluations"], 300);
+      EXPECT_GT(buffer["found"], buffer["high_water"]) << "the camera stands before the lights";
+      EXPECT_GE(buffer["capacity"], buffer["found"]);
+    }
+  }
+  const std::string found = (folder / "found.json").string(), result = (folder / "result.json").string();
+  const std::string one = " --grid frustum --tiles 120 --slices 8 --assigner exact-fast --set scenes.*.camera=before ";
+  ASSERT_EQ(tool("worst-case -q --evaluations 300 --random 0 -o " + found + one + scene).code, 0);
+  ASSERT_EQ(tool("run -q --no-timing -o " + result + one + scene).code, 0);
+  const Outcome by_file = tool("size --found " + found + " " + result);
+  EXPECT_NE(by_file.out.find("found by the search x 2"), std::string::npos) << by_file.out << by_file.err;
+  EXPECT_EQ(tool("size --worst-case " + result).code, 2) << "a result holds no scene";
+}
+
+TEST(SizeCommand, two_eyes_need_the_sum_of_both_and_one_grid_for_both_lacks_lights_at_its_sides) {
+  const Folder folder;
+  const std::string eyes = (folder / "eyes.glb").string(), street = test::source_file("scenes/street.glb");
+  ASSERT_EQ(tool("scene views " + street + " --eyes 0.5 -o " + eyes).code, 0);
+  const std::string flags =
+      " --grid frustum --tiles 64 --slices 16 --assigner exact-fast --set scenes.*.frames=20 " + eyes;
+  const auto mark = [&](const std::string& more) {
+    const Outcome done = tool("size -q --format json " + more + flags);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return Json::parse(done.out)["structures"][0];
+  };
+  const Json left = mark("--set scenes.*.camera=left"), both = mark("--views left,right"),
+             shared = mark("--views left,right --grid-of left"), wide = mark("--views 'l*,r*' --grid-of left");
+  const auto entries = [](const Json& structure) { return structure["buffers"][0]["high_water"].get<double>(); };
+  EXPECT_GT(entries(both), 1.8 * entries(left));
+  EXPECT_LT(entries(shared), entries(both));
+  ASSERT_EQ(shared["guests"].size(), 1u);
+  EXPECT_EQ(shared["guests"], wide["guests"]);
+  EXPECT_EQ(shared["guests"][0]["camera"], "right");
+  EXPECT_GT(shared["guests"][0]["outside"], 0);
+  EXPECT_GT(shared["guests"][0]["missed"], 0);
+  EXPECT_LT(shared["guests"][0]["missed"].get<double>(), 0.2 * shared["guests"][0]["needed"].get<double>());
+  EXPECT_EQ(tool("size -q --views left,rihgt" + flags).code, 2);
+  EXPECT_EQ(tool("size -q --views left,right --grid-of walk" + flags).code, 2);
+}
+
+TEST(SizeCommand, of_65536_lights_result_gate_and_size_have_headers_of_one_size) {
+  const Folder folder;
+  const std::string config = folder
+                                 .write("c.json", R"({"scenes": [{"rig": {"lights": 65536, "range": 0.5}, "frames": 1}],
+      "grids": [{"tiles": {"count": [4, 4]}, "slices": {"count": 4}}], "assigners": ["exact-fast"],
+      "accuracy": {"check": false}})")
+                                 .string(),
+                    result = (folder / "result.json").string();
+  ASSERT_EQ(tool("run -q --no-timing -o " + result + " " + config).code, 0);
+  const Json buffers = Json::parse(file_text(result))["cases"][0]["buffers"];
+  EXPECT_EQ(buffers["each"][1]["element_bytes"], 12);
+  EXPECT_EQ(buffers["header_bytes"], 12 * 64);
+  const auto index_bytes =
+      buffers["each"][0]["element_bytes"].get<std::uint64_t>() * buffers["each"][0]["high_water"].get<std::uint64_t>();
+  EXPECT_EQ(buffers["bytes"]["high_water"], index_bytes + 12 * 64);
+  const Json sized = Json::parse(tool("size --format json --margin 1 --round none " + result).out)["structures"][0];
+  EXPECT_EQ(sized["bytes"], buffers["bytes"]["high_water"]);
+}
+
+TEST(SizeCommand, speaks_in_an_engines_own_settings) {
+  const std::string street = test::source_file("scenes/street.glb");
+  const Outcome godot = tool("size -q --engine godot --set scenes.*.frames=10 " + street);
+  ASSERT_EQ(godot.code, 0) << godot.err;
+  EXPECT_NE(godot.out.find("rendering/limits/cluster_builder/max_clustered_elements: "), std::string::npos)
+      << godot.out;
+  EXPECT_NE(godot.out.find("lights in view in 10 frames"), std::string::npos) << godot.out;
+  const Outcome cells = tool("size -q --engine playcanvas --format json --set scenes.*.frames=10 " + street);
+  const Json settings = Json::parse(cells.out)["structures"][0]["settings"];
+  EXPECT_EQ(settings["grid"], "scene.lighting.cells = new pc.Vec3(10, 3, 10)");
+  EXPECT_EQ(settings["limits"][0]["name"], "scene.lighting.maxLightsPerCell");
+  const Outcome none = tool("size -q --engine filament " + street), unknown = tool("size -q --engine godto " + street);
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("CONFIG_MAX_LIGHT_COUNT"), std::string::npos) << none.err;
+  EXPECT_NE(unknown.err.find("did you mean 'godot'"), std::string::npos) << unknown.err;
+}
+
 TEST(SizeCommand, takes_paths_as_long_as_systems_have_them) {
   const Folder folder;
   const std::string scene = folder.write(std::string(240, 's') + ".gltf", three_cameras()).string();

@@ -1,0 +1,31 @@
+#pragma once
+// A glTF file with more cameras: the other eye, a second player, the faces of a probe.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/shapes/vec.h"
+
+namespace clusterbench::scene {
+
+// A camera like another one and moved with it.
+struct AddedView {
+  std::string name;
+  Vec3d offset_m{0.0};    // in the other camera's own space: x to its right, y up, -z ahead
+  double turned_deg = 0;  // to its left, around its y
+};
+
+struct ViewsRequest {
+  std::string camera;  // that views are added to; "": the first animated one, else the first
+  std::vector<AddedView> views;
+  std::optional<Vec3d>
+      faces_at_m;  // six square cameras of 90 degrees that look along the world's axes: face-px ... face-nz
+};
+
+// Copies the file with these cameras added; nothing else is changed. `out` is of the same kind as `path` (.gltf, .glb).
+// Throws Error for a camera or a name that cannot be, and where a .gltf would lose files that it refers to.
+void write_with_views(const std::filesystem::path& path, const ViewsRequest& request, const std::filesystem::path& out);
+
+}  // namespace clusterbench::scene
