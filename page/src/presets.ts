@@ -21,18 +21,42 @@ interface Row {
   facts: Facts | null;
 }
 
+function placeText(line: Line, place: number): string {
+  if (line.place === undefined) return String(place); // an older result
+  if (line.standing === "lists") return String(line.place);
+  return line.standing === "searched" ? `s${line.place}` : "–";
+}
+
 const columns: Column<Row>[] = [
   {
     label: "preset",
     value: ({ line }) => line.preset,
     show: ({ line, isBest, facts }) => h("span", { title: facts?.summary }, isBest ? `★ ${line.preset}` : line.preset),
   },
-  { label: "place", value: ({ place }) => place },
+  {
+    label: "place",
+    about:
+      "The same where the model cannot tell costs apart. s: samples search the structure, ranked apart. –: samples lack lights",
+    value: ({ place }) => place,
+    show: ({ line, place }) => placeText(line, place),
+  },
   {
     label: "GPU µs",
-    about: "Upload and shading of a frame by the configuration's model (cost)",
+    about: "Upload, reading and shading of a frame by the configuration's model (cost)",
     value: ({ line }) => line.gpu_ns,
     show: ({ line }) => format.microseconds(line.gpu_ns),
+  },
+  {
+    label: "upload µs",
+    about: "Of the lists, where the engine makes them on the CPU",
+    value: ({ line }) => line.upload_ns ?? null,
+    show: ({ line }) => format.microseconds(line.upload_ns ?? null),
+  },
+  {
+    label: "read µs",
+    about: "What samples read to know their lights",
+    value: ({ line }) => line.read_ns ?? null,
+    show: ({ line }) => format.microseconds(line.read_ns ?? null),
   },
   {
     label: "lights / sample",
@@ -54,27 +78,27 @@ const columns: Column<Row>[] = [
   },
   {
     label: "dropped",
-    about: "Pairs that its storage has no room for",
+    about: "Pairs that its storage has no room for, seen or not",
     value: ({ aCase }) => aCase.dropped,
     show: ({ aCase }) => format.short(aCase.dropped),
   },
   {
     label: "missed",
-    about: "True pairs that its method does not list",
+    about: "True pairs that its method does not list, seen or not",
     value: ({ aCase }) => aCase.missed,
     show: ({ aCase }) => format.whole(aCase.missed),
   },
   {
     label: "unlit",
-    about: "Share of the lights that samples need and are not given",
+    about: "Share of the lights that samples need and are not given: it decides",
     value: ({ aCase }) => aCase.unlit,
     show: ({ aCase }) => format.share(aCase.unlit),
   },
   {
     label: "assign µs",
-    about: "On one core of this machine, whatever the engine runs it on",
-    value: ({ aCase }) => aCase.assignNs,
-    show: ({ aCase }) => format.microseconds(aCase.assignNs),
+    about: "On one core of this machine, of engines that assign on the CPU: of others a time here would not be theirs",
+    value: ({ aCase, facts }) => (facts?.assigns_on === "gpu" ? null : aCase.assignNs),
+    show: ({ aCase, facts }) => (facts?.assigns_on === "gpu" ? "GPU" : format.microseconds(aCase.assignNs)),
   },
   { label: "why", value: ({ line }) => line.why },
 ];
@@ -98,6 +122,16 @@ function rowsOf(ranking: Ranking, cases: Case[], facts: Facts[]): Row[] {
 
 const shownColumns = (rows: Row[]) => columns.filter(({ value }) => rows.some((row) => value(row) !== null));
 
+// The conclusion first; then how lines come to their places.
+function leadOf(ranking: Ranking): string {
+  const rule = "★ costs the GPU least of the lists that leave no sample without lights. Those that do come last.";
+  if (ranking.text === undefined) return rule;
+  const seen = ranking.lights_in_view;
+  const inView =
+    seen?.max == null ? "" : ` Lights in view: ${format.decimal(seen.mean)} on average, ${seen.max} at most.`;
+  return `${ranking.text.charAt(0).toUpperCase()}${ranking.text.slice(1)}.${inView} ${rule}`;
+}
+
 function rankingFigures(view: View): HTMLElement[] {
   return view.model.runs.flatMap((run, at) => {
     const cases = view.cases().filter((aCase) => aCase.run === run);
@@ -108,7 +142,7 @@ function rankingFigures(view: View): HTMLElement[] {
       return figureView({
         id: `presets-${at}-${index}`,
         title,
-        lead: "★ costs the GPU least of those that lose no light. Those that lose some come last.",
+        lead: leadOf(ranking),
         table: () => ({ caption: `Presets: ${title}`, columns: ofRuns(view, shownColumns(rows)), rows }),
         cases: rows.map(({ aCase }) => aCase),
       });

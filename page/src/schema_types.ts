@@ -361,6 +361,7 @@ export type Result = {
         }; // Frame by frame; absent where every frame needs high_water [over each frame]
       }>; // Each buffer of the structure as an engine allocates it: what it needs so that nothing is dropped
     }; // What to allocate
+    cells_not_compared?: number; // Cells of a frame's grid that were not compared with the truth, since there are too many (config.accuracy.most_pairs): there is no error, a structure of its own has no occupancy, and what samples lack decides. Absent: they were compared, or it was not asked for [count, over one frame]
     error?: {
       true_pairs: number; // (cell, light) pairs that touch, decided exactly [pairs]
       reported_pairs: number; // In the method's lists [pairs]
@@ -382,7 +383,7 @@ export type Result = {
         rig_light: number; // Its place among all lights of the scene [light index, over one miss]
         light_name: string; // In the scene
       }; // The deepest miss; absent without misses
-    }; // Lists against the truth; absent without cells, and where it is not asked for [over all frames]
+    }; // Lists against the truth; absent without cells, where it is not asked for, and with cells_not_compared [over all frames]
     depth_ranges?: {
       slopes: DepthLengths; // In tiles where 1 / depth (orthographic: depth) changes from each pixel to the next by at most a quarter of what it changes by in the tile
       discontinuities: DepthLengths; // In the other tiles

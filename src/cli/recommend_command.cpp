@@ -84,7 +84,7 @@ std::string asked_in_vain(const config::Config& config) {
 
 config::Config read_input(const RecommendFlags& flags) {
   nlohmann::json standard = search::recommend_space();
-  standard["samples"] = {{"opaque", nlohmann::json::object()}};
+  standard["samples"] = {{"opaque", {{"divisor", 16}}}};
   config::Config config = read_inputs(flags.inputs, {}, standard);
   const std::string in_vain = asked_in_vain(config);
   if (!in_vain.empty() && !flags.quiet)

@@ -125,6 +125,24 @@ std::string duration_text(double seconds) {
                                         : rounded(seconds / 3600.0, "hour"));
 }
 
+// Before a run that somebody waits for: how long, and what makes it shorter.
+void tell_duration(const config::Config& config, const run::Plan& plan, std::span<const run::GroupCost> costs) {
+  constexpr double k_soon_s = 5.0, k_patience_s = 120.0;
+  double timing_s = 0.0;
+  for (const run::GroupCost& cost : costs) timing_s += 1e-9 * cost.timing_ns;
+  const double all_s = run::sum_s(costs);
+  if (all_s < k_soon_s) return;
+  std::string text = number_of(case_count(plan), "case") + ": takes " + duration_text(all_s);
+  if (all_s > k_patience_s) {
+    text += "; shorter: ";
+    if (timing_s > 0.2 * all_s) text += "--no-timing (" + duration_text(all_s - timing_s) + "), ";
+    if (config.timing.measure && config.timing.rounds > 5 && timing_s > 0.2 * all_s) text += "--rounds 5, ";
+    text += "--filter TEXT, --set 'scenes.*.frames=10'";
+    if (config.check_accuracy && !config.most_pairs) text += ", --set accuracy.most_pairs=1000000";
+  }
+  tell(text);
+}
+
 ExitCode print_plan(const config::Config& config, const run::Plan& plan) {
   for (const run::GroupPlan& group : plan.groups)
     for (const run::CasePlan& case_plan : group.cases)
@@ -334,9 +352,14 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   const run::Launcher launcher =
       config.timing.launches > 1 ? make_launcher(config, plan, journal.get(), stop) : run::Launcher{};
   const run::Listener listener = make_listener(progress, journal.get(), earlier.size(), case_count(plan));
+  std::vector<run::GroupCost> costs;
+  if (!flags.quiet) {
+    costs = run::estimated_costs(config, plan);
+    tell_duration(config, plan, costs);
+  }
   run::Result fresh;
   try {
-    fresh = run::run_plan(config, plan, earlier_ids, listener, stop, counts, launcher);
+    fresh = run::run_plan(config, plan, earlier_ids, listener, stop, counts, launcher, costs);
   } catch (const Error& error) {
     progress.clear();
     throw with_what_is_kept(error, journal.get());

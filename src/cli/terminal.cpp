@@ -16,6 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds k_redraw_every{100};
+constexpr std::chrono::seconds k_tell_every{10};  // where no line can be redrawn
 
 std::string minutes_and_seconds(double seconds) {
   const auto whole = static_cast<long>(std::lround(seconds));
@@ -39,16 +40,21 @@ Terminal terminal(int stream) {
 }
 
 void ProgressLine::show(const run::Progress& progress) {
-  if (quiet_ || !terminal_.interactive) return;
+  if (quiet_) return;
   const auto now = Clock::now();
+  if (!terminal_.interactive && now - told_at_ < k_tell_every) return;
   if (drawn_ && now - drawn_at_ < k_redraw_every) return;
-  drawn_at_ = now;
+  drawn_at_ = told_at_ = now;
   const double share = progress.cost_total > 0 ? progress.cost_done / progress.cost_total : 0.0;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
   std::string line = "[" + std::to_string(progress.cases_done) + "/" + std::to_string(progress.cases_total) + "] ";
   line += std::to_string(static_cast<int>(100.0 * share)) + " %";
   if (share > 0.01) line += ", " + minutes_and_seconds(elapsed_s * (1.0 - share) / share) + " left";
   line += "  " + printable(progress.doing);
+  if (!terminal_.interactive) {
+    std::cerr << line << std::endl;
+    return;
+  }
   if (line.size() >= static_cast<std::size_t>(terminal_.columns))
     line.resize(static_cast<std::size_t>(terminal_.columns) - 1);
   std::cerr << "\r\033[K" << line << std::flush;
@@ -61,6 +67,7 @@ void ProgressLine::stage(const std::string& what) {
 
 void ProgressLine::case_done(const run::CaseResult& done, std::size_t number, std::size_t total) {
   if (quiet_ || terminal_.interactive) return;
+  told_at_ = Clock::now();
   std::cerr << "[" << number << "/" << total << "] " << printable(done.name);
   if (done.error) {
     char excess[32];

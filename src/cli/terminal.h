@@ -16,7 +16,8 @@ struct Terminal {
 };
 Terminal terminal(int stream);  // STDERR_FILENO, STDOUT_FILENO
 
-// A line with an estimate of the time left (by cost, not by count) on a terminal, else one line per finished case.
+// A line with an estimate of the time left (by cost, not by count) on a terminal, else a line per finished case, and
+// one with the estimate where nothing else was told for ten seconds.
 class ProgressLine {
  public:
   ProgressLine(Terminal terminal, bool quiet) : terminal_(terminal), quiet_(quiet) {}
@@ -36,6 +37,7 @@ class ProgressLine {
   bool drawn_ = false;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point drawn_at_{};
+  std::chrono::steady_clock::time_point told_at_ = std::chrono::steady_clock::now();  // a line that stays
 };
 
 }  // namespace clusterbench::cli

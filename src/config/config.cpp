@@ -54,10 +54,17 @@ scene::PathRequest path_request(const Json& scene, const std::string& pointer, c
   request.camera = scene["camera"].get<std::string>();
   if (scene["camera_fit"] == "vertical") request.fit = scene::CameraFit::vertical;
   const Json& frames = scene["frames"];
+  if (frames.is_object() &&
+      (frames.contains("rate") == frames.contains("most") || (frames.contains("lights") && !frames.contains("most"))))
+    throw Error(text.file, text.where(pointer + "/frames"),
+                "takes either rate, or most and with it lights; found " + frames.dump());
   if (frames.is_number()) {
     request.count = frames.get<int>();
   } else if (frames.is_string()) {
     request.choice = scene::FrameChoice::keys;
+  } else if (frames.contains("most")) {
+    request.count = frames["most"].get<int>();
+    request.most_lights = frames.value("lights", 0.0);
   } else {
     request.choice = scene::FrameChoice::rate;
     request.rate_hz = frames["rate"].get<double>();
@@ -391,6 +398,8 @@ void read_settings(const Json& document, Config& config) {
   config.threads = document["threads"].get<int>();
   config.seed = document["seed"].get<std::uint64_t>();
   config.check_accuracy = document["accuracy"]["check"].get<bool>();
+  const Json& most_pairs = document["accuracy"]["most_pairs"];
+  if (most_pairs.is_number()) config.most_pairs = most_pairs.get<std::uint64_t>();
   config.sample_sets = sample_sets(document);
   config.stability = stability_request(document["stability"]);
   config.lookup = lookup_request(document["lookup"]);
@@ -538,20 +547,48 @@ Config read_config(const JsonText& text) {
   return config;
 }
 
-// Presets are ranked by what they cost at visible surfaces, where nobody says otherwise.
-void ask_for_surfaces(Json& document) {
-  if (document.contains("presets")) document["samples"] = {{"opaque", Json::object()}};
+// Runs that somebody waits for, and did not set up, are to end within two minutes on two cores: scenes on the command
+// line, and presets.
+constexpr std::uint64_t k_usual_most_pairs = 6'000'000;
+constexpr int k_usual_frames = 30;
+constexpr double k_usual_lights = 3600.0, k_usual_lights_of_presets = 1200.0;
+
+Json usual_frames(double lights) {
+  return {{"most", k_usual_frames}, {"lights", lights}};
 }
+
+// What nobody says otherwise. Presets are ranked by what they cost at visible surfaces: a ray per 16 x 16 pixels.
+class Usual {
+ public:
+  Usual(const JsonText& text, std::span<const FlagValue> flags)
+      : has_scenes_only_(text.file.empty()),
+        names_samples_(text.value.contains("samples") || names_key(flags, "samples")),
+        names_accuracy_(text.value.contains("accuracy") || names_key(flags, "accuracy")) {}
+
+  void add_to(Json& document) const {
+    const bool has_presets = document.contains("presets");
+    if (!names_accuracy_ && (has_scenes_only_ || has_presets)) document["accuracy"]["most_pairs"] = k_usual_most_pairs;
+    if (!has_presets) return;
+    if (!names_samples_) document["samples"] = {{"opaque", {{"divisor", 16}}}};
+    for (Json& scene : document["scenes"])
+      if (scene.is_object() && scene.value("frames", Json()) == usual_frames(k_usual_lights))
+        scene["frames"] = usual_frames(k_usual_lights_of_presets);
+  }
+
+ private:
+  bool has_scenes_only_, names_samples_, names_accuracy_;
+};
 
 // The configuration as flags change it. Presets stand alone where neither the file nor a flag names a clustering.
 Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json& standard) {
   const GridsFrom grids = text.value.contains("grids") ? GridsFrom::file : GridsFrom::defaults;
-  const bool names_own = names_own_clusterings(text.value), names_samples = text.value.contains("samples");
+  const bool names_own = names_own_clusterings(text.value);
+  const Usual usual(text, flags);
   for (const auto& [key, value] : standard.items())
     if (text.value.is_object() && !text.value.contains(key)) text.value[key] = value;
   JsonText as_written = text;
   if (text.value.contains("presets") && !names_own) drop_own_clusterings(as_written.value);
-  if (!names_samples) ask_for_surfaces(as_written.value);
+  usual.add_to(as_written.value);
   Config config = read_config(as_written);
   if (flags.empty()) return config;
   Json document = config.resolved;
@@ -562,7 +599,7 @@ Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json&
   }
   JsonText changed = changed_by_flags(document, grids, text.file, flags);
   if (changed.value.contains("presets") && !names_own && !name_clusterings(flags)) drop_own_clusterings(changed.value);
-  if (!names_samples && !names_key(flags, "samples")) ask_for_surfaces(changed.value);
+  usual.add_to(changed.value);
   return read_config(changed);
 }
 
@@ -605,7 +642,8 @@ Config load_config(const fs::path& path, std::span<const FlagValue> flags, const
 
 Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagValue> flags, const Json& standard) {
   Json list = Json::array();
-  for (const fs::path& path : scenes) list.push_back({{"path", path.string()}, {"frames", 30}});
+  for (const fs::path& path : scenes)
+    list.push_back({{"path", path.string()}, {"frames", usual_frames(k_usual_lights)}});
   const Json document{{"name", scenes.size() == 1 ? printable(scenes.front().stem().string()) : "scenes"},
                       {"scenes", list},
                       {"timing", {{"rounds", 15}, {"min_time_ms", 2}, {"frames", 4}}}};

@@ -164,6 +164,7 @@ struct Config {
   int threads = 1;
   std::uint64_t seed = 1;
   bool check_accuracy = true;
+  std::optional<std::uint64_t> most_pairs;  // of a frame's grid, about, that are compared with the truth; without: all
   std::vector<SampleSetRequest> sample_sets;         // each set once; the whole view's first
   std::optional<StabilityRequest> stability;         // without: not measured
   std::optional<LookupRequest> lookup;               // without: not measured

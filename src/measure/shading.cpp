@@ -121,10 +121,12 @@ void add_samples(ShadingCounts& counts, int frame, std::span<const grid::Sample>
     counts.reads += structure.reads_at(samples[i], grid::Log2::rounded);
     counts.unanswered += is_answered ? 0 : 1;
     double lost_lux = 0.0;
+    auto from = given.cbegin();  // both lists ascend
     for (std::uint32_t k = needed.lists.begin[i]; k < needed.lists.begin[i + 1]; ++k) {
       ++counts.needed;
       counts.total_lux += needed.lux[k];
-      if (std::binary_search(given.begin(), given.end(), needed.lists.lights[k])) continue;
+      while (from != given.cend() && *from < needed.lists.lights[k]) ++from;
+      if (from != given.cend() && *from == needed.lists.lights[k]) continue;
       ++counts.missed;
       if (!is_answered) ++counts.missed_outside;
       lost_lux += needed.lux[k];

@@ -476,6 +476,7 @@ Json case_to_json(const run::CaseResult& case_result) {
   if (case_result.occupancy) out["occupancy"] = occupancy(case_result);
   out["buffers"] = buffers(case_result);
   if (case_result.error) out["error"] = error(case_result);
+  if (case_result.cells_not_compared > 0) out["cells_not_compared"] = case_result.cells_not_compared;
   if (case_result.shading) out["shading"] = shading(*case_result.shading);
   if (!case_result.samples.empty()) out["samples"] = samples(case_result.samples);
   if (case_result.depth_ranges) out["depth_ranges"] = depth_ranges(*case_result.depth_ranges);

@@ -12,7 +12,7 @@
 namespace clusterbench::run {
 namespace {
 
-constexpr double k_looks_ns = 2e9;  // no further group is looked at after this time
+constexpr double k_looks_ns = 3e9;  // no further group is looked at after this time
 
 template <class Once>
 double duration_ns(const Once& once) {
@@ -21,16 +21,14 @@ double duration_ns(const Once& once) {
   return wall_ns() - start;
 }
 
-// Truth, lists, samples and buffers of one frame: the second, as the first one's memory grows.
+// Truth, lists, samples and buffers of one frame: the second of two, as the first one's memory grows.
 double counting_ns(const config::Config& config, const SceneData& data, const GroupPlan& group,
                    const PathFrames& path) {
-  std::atomic<bool> stop{false};
+  const std::atomic<bool> stop{false};
   double start = 0.0;
-  const auto on_frame = [&](int index) {
-    start = wall_ns();
-    stop = index > 0;
-  };
-  accuracy_pass(config, data, group, path, on_frame, stop);
+  const PathFrames two = path.only({path.count() / 3, 2 * path.count() / 3});
+  accuracy_pass(
+      config, data, group, two, [&](int) { start = wall_ns(); }, stop);
   return wall_ns() - start;
 }
 
@@ -67,24 +65,44 @@ double sweep_duration_ns() {
   return duration_ns([&] { sweep(); });
 }
 
+GroupCost cost_of_group(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns) {
+  const PathFrames path = path_of(config, plan, group);
+  const int steps = config.stability ? config.stability->steps : 0;
+  GroupCost cost{counting_ns(config, plan.scenes[group.scene], group, path) * (path.count() + steps), 0.0};
+  const GroupPlan timed = timed_cases(group);
+  if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns);
+  return cost;
+}
+
 }  // namespace
 
-double estimated_s(const config::Config& config, const Plan& plan) {
+std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan& plan) {
   const double sweep_ns = config.timing.measure && config.timing.cold ? sweep_duration_ns() : 0.0;
   // Some groups of all scenes and grids: each step goes on by about the golden section of the list.
   const std::size_t groups = plan.groups.size();
   std::size_t stride = std::max<std::size_t>(1, groups * 618 / 1000), looked = 0;
   while (std::gcd(stride, groups) != 1) ++stride;
-  double sum_ns = 0.0;
+  std::vector<GroupCost> costs(groups);
+  GroupCost sum;
   for (const double start = wall_ns(); looked < groups && (looked == 0 || wall_ns() - start < k_looks_ns); ++looked) {
-    const GroupPlan& group = plan.groups[looked * stride % groups];
-    const PathFrames path = path_of(config, plan, group);
-    const double counting = counting_ns(config, plan.scenes[group.scene], group, path);
-    const int steps = config.stability ? config.stability->steps : 0;
-    sum_ns += counting * (path.count() + steps);
-    if (config.timing.measure) sum_ns += timing_ns(config, group, path, sweep_ns);
+    const std::size_t index = looked * stride % groups;
+    costs[index] = cost_of_group(config, plan, plan.groups[index], sweep_ns);
+    sum.counting_ns += costs[index].counting_ns;
+    sum.timing_ns += costs[index].timing_ns;
   }
-  return 1e-9 * sum_ns * static_cast<double>(groups) / static_cast<double>(looked);
+  const auto of = static_cast<double>(looked);
+  for (std::size_t i = looked; i < groups; ++i) costs[i * stride % groups] = {sum.counting_ns / of, sum.timing_ns / of};
+  return costs;
+}
+
+double sum_s(std::span<const GroupCost> costs) {
+  double ns = 0.0;
+  for (const GroupCost& cost : costs) ns += cost.counting_ns + cost.timing_ns;
+  return 1e-9 * ns;
+}
+
+double estimated_s(const config::Config& config, const Plan& plan) {
+  return sum_s(estimated_costs(config, plan));
 }
 
 }  // namespace clusterbench::run

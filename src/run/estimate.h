@@ -1,12 +1,19 @@
 #pragma once
-// About how long a plan takes, for who decides whether to begin: one frame of some groups is made, counted and timed.
+// About how long a plan takes, by a look at some frames of its groups.
 
+#include <span>
+#include <vector>
+
+#include "run/runner.h"
 #include "run/sweep.h"
 
 namespace clusterbench::run {
 
-// In seconds, of this machine as busy as it is now; instructions (`--count`) and a baseline are not in it. Takes some
-// seconds itself if the plan takes minutes.
+// Of each of the plan's groups. Looks at them for a few seconds at most; what it did not come to takes the mean of the
+// others.
+std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan& plan);
+
+double sum_s(std::span<const GroupCost> costs);
 double estimated_s(const config::Config& config, const Plan& plan);
 
 }  // namespace clusterbench::run

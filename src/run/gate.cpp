@@ -18,7 +18,7 @@ std::string percent(double share) {
 
 // Without cells there are no pairs to hold against the truth, and no cell boundary where a lookup may round.
 bool has_cells(const CaseResult& result) {
-  return result.occupancy.has_value();
+  return result.occupancy.has_value() || result.cells_not_compared > 0;
 }
 
 // A conservative method may not lose a light, nor an exact one: but for what a pre-cull keeps from it.
@@ -68,6 +68,20 @@ const SampleSetResult* missing_set(const CaseResult& result, bool at_surfaces = 
 bool is_at_surfaces(const CaseResult& result) {
   const assign::AssignerDescriptor* assigner = assign::find_assigner(result.assigner);
   return assigner != nullptr && assigner->at_surfaces;
+}
+
+// Where cells were not compared with the truth: the samples that lack more lights than lookups round away; null if none
+// do, or if cells were compared. What slices that follow surfaces promise ends there.
+const measure::ShadingCounts* lacking_samples(const CaseResult& result) {
+  const auto lacks = [](const measure::ShadingCounts& counts) {
+    return counts.needed > 0 && counts.unlit_inside() > measure::k_most_unlit;
+  };
+  if (result.cells_not_compared == 0) return nullptr;
+  if (result.shading && lacks(*result.shading)) return &*result.shading;
+  const auto found = std::ranges::find_if(result.samples, [&](const SampleSetResult& set) {
+    return lacks(set.counts) && (!is_at_surfaces(result) || set.set == measure::SampleSet::opaque);
+  });
+  return found == result.samples.end() ? nullptr : &found->counts;
 }
 
 // A method that promises the lights of visible surfaces answers for them, but for what lookups round and for surfaces
@@ -222,6 +236,10 @@ std::vector<Failure> failures_of(const CaseResult& result, const config::LimitsR
   if (may_not_lose(result) && (misses_without_cells(result) || misses_at_surfaces(result)) &&
       !is_lost_by_pre_cull(result))
     failures.push_back({Kind::lost_at_samples, missed_without_cells_text(result)});
+  else if (const measure::ShadingCounts* lacking = lacking_samples(result); lacking != nullptr && may_not_lose(result))
+    failures.push_back({Kind::lost_at_samples, "lost " + std::to_string(lacking->missed - lacking->missed_outside) +
+                                                   " of " + number_of(lacking->needed, "light") +
+                                                   " that its samples need"});
   const measure::Buffers& buffers = result.buffers;
   if (limits.dropped_pairs && buffers.dropped_pairs > *limits.dropped_pairs)
     failures.push_back({Kind::dropped_pairs, dropped_text(result) + ", more than limits.dropped_pairs allows (" +
@@ -242,7 +260,10 @@ std::vector<Warning> warnings_of(const CaseResult& result) {
   if (result.stability && result.stability->undecided > 0)
     warnings.push_back({Kind::undecided, undecided_text("stability", result.stability->undecided)});
   if (pairs_lost(result) > 0 && !may_not_lose(result)) warnings.push_back({Kind::lost_pairs, lost_text(result)});
-  if (has_cells(result) && !result.error)
+  if (result.cells_not_compared > 0)
+    warnings.push_back({Kind::unchecked, "its " + number_of(result.cells_not_compared, "cell") +
+                                             " were not compared with the truth; its samples were"});
+  else if (has_cells(result) && !result.error)
     warnings.push_back({Kind::unchecked, "its lists were not held against the truth"});
   return warnings;
 }
@@ -250,7 +271,7 @@ std::vector<Warning> warnings_of(const CaseResult& result) {
 bool loses_lights(const CaseResult& result) {
   const bool loses_to_limit = exceeded_limit(result) != nullptr && misses_dropped_lights(result.pre_cull->counts);
   return pairs_lost(result) > 0 || result.buffers.dropped_pairs > 0 || loses_to_limit || misses_without_cells(result) ||
-         is_unlit(result);
+         lacking_samples(result) != nullptr || is_unlit(result);
 }
 
 bool is_eligible(const CaseResult& result) {

@@ -233,6 +233,7 @@ struct CaseResult {
   std::uint64_t tests_done = 0;                      // over all frames
   std::uint64_t fallbacks = 0;                       // over all frames
   std::optional<measure::ErrorCounts> error;         // with cells, where asked for
+  std::uint64_t cells_not_compared = 0;              // of its grid, too many to be; 0: they were, or were not asked for
   std::string deepest_miss_light;                    // name in the rig
   std::optional<measure::ShadingCounts> shading;     // in the whole view
   std::vector<SampleSetResult> samples;              // of the other sets, where asked for and the scene has them

@@ -4,6 +4,7 @@
 #include <random>
 #include <set>
 
+#include "config/presets.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "run/case_result.h"
@@ -50,9 +51,16 @@ std::vector<int> fullest_frames(const GroupPlan& group, const AccuracyResult& co
   return frames;
 }
 
+// What stands in for an engine's shader or rasteriser takes a time here that says nothing of that engine.
+bool is_timed(const CasePlan& case_plan) {
+  const config::Preset* preset = config::find_preset(case_plan.preset);
+  return preset == nullptr || preset->assigns_on == config::AssignsOn::cpu;
+}
+
 // A group that has all but its times.
 struct CountedGroup {
   GroupPlan group;
+  GroupPlan timed;  // its cases that are timed
   int frames = 0;
   AccuracyResult counted;
   std::optional<AccuracyResult> unfitted;  // of a grid that follows what frames need: the same in one that does not
@@ -66,21 +74,22 @@ struct CountedGroup {
 class Run {
  public:
   Run(const config::Config& config, const Plan& plan, const std::vector<std::string>& done, const Listener& listener,
-      const std::atomic<bool>& stop, const Counts& counts, const Launcher& launcher)
+      const std::atomic<bool>& stop, const Counts& counts, const Launcher& launcher, std::span<const GroupCost> costs)
       : config_(config),
         plan_(plan),
         done_(done.begin(), done.end()),
         listener_(listener),
         stop_(stop),
         counts_(counts),
-        launcher_(launcher) {
+        launcher_(launcher),
+        costs_(costs) {
     for (const GroupPlan& group : plan.groups) {
       const GroupPlan left = what_is_left(group);
       progress_.cases_total += group.cases.size();
       progress_.cases_done += group.cases.size() - left.cases.size();
       if (left.cases.empty()) continue;
       progress_.cost_total +=
-          accuracy_cost_of(left) + stability_cost_of(left) + details_cost_of(left) + timing_cost(config, left);
+          accuracy_cost_of(left) + stability_cost_of(left) + details_cost_of(left) + timing_cost_of(left);
     }
   }
 
@@ -118,6 +127,16 @@ class Run {
     return group;
   }
 
+  const GroupCost* cost_of(const GroupPlan& group) const {
+    for (std::size_t i = 0; i < costs_.size(); ++i) {
+      const GroupPlan& other = plan_.groups[i];
+      if (other.scene == group.scene && other.camera == group.camera && other.viewport == group.viewport &&
+          other.grid == group.grid)
+        return &costs_[i];
+    }
+    return nullptr;
+  }
+
   const scene::CameraPath& path_of(const GroupPlan& group) const {
     return plan_.scenes[group.scene].paths[group.camera];
   }
@@ -138,8 +157,16 @@ class Run {
   }
 
   double accuracy_cost_of(const GroupPlan& group) const {
+    if (const GroupCost* cost = cost_of(group)) return cost->counting_ns;
     return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(),
                      static_cast<int>(path_of(group).shots.size()), samples_per_frame(group));
+  }
+
+  double timing_cost_of(const GroupPlan& group) const {
+    const GroupPlan timed = timed_cases(group);
+    if (timed.cases.empty()) return 0.0;
+    const GroupCost* cost = cost_of(group);
+    return cost != nullptr ? cost->timing_ns : timing_cost(config_, timed);
   }
 
   double stability_cost_of(const GroupPlan& group) const {
@@ -178,7 +205,7 @@ class Run {
 
   double waiting_cost() const {
     double cost = 0.0;
-    for (const CountedGroup& counted_group : waiting_) cost += timing_cost(config_, counted_group.group);
+    for (const CountedGroup& counted_group : waiting_) cost += timing_cost_of(counted_group.group);
     return cost;
   }
 
@@ -223,40 +250,41 @@ class Run {
       counted_group.details = details_pass(config_, group, path, data.scene, counted_group.counted, stop_);
       if (counted_group.details.empty()) return;
     }
+    counted_group.timed = timed_cases(group);
     counted_group.group = std::move(group);
-    if (!config_.timing.measure) return add_cases(counted_group, {}, out);
+    if (!config_.timing.measure || counted_group.timed.cases.empty()) return add_cases(counted_group, {}, out);
     if (launcher_) return waiting_.push_back(std::move(counted_group));
     time_here(counted_group, path, out);
   }
 
   void time_here(CountedGroup& counted_group, const PathFrames& path, Result& out) {
-    const LaunchRequest request{0, config_.timing.rounds, fullest_frames(counted_group.group, counted_group.counted)};
-    const double per_round = timing_cost(config_, counted_group.group) / request.rounds;
+    const LaunchRequest request{0, config_.timing.rounds, fullest_frames(counted_group.timed, counted_group.counted)};
+    const double per_round = timing_cost_of(counted_group.group) / request.rounds;
     const GroupSamples samples = measure_launch(
-        config_, counted_group.group, path, request, [&](int) { tell(counted_group.group, "time", per_round); }, stop_);
+        config_, counted_group.timed, path, request, [&](int) { tell(counted_group.group, "time", per_round); }, stop_);
     begin_session();
     if (!samples.methods.empty())
-      add_cases(counted_group, timing_results(config_, counted_group.group, std::span(&samples, 1)), out);
+      add_cases(counted_group, timing_results(config_, counted_group.timed, std::span(&samples, 1)), out);
   }
 
   void time_waiting(Result& out) {
     if (waiting_.empty()) return;
     std::vector<GroupToTime> groups;
     for (const CountedGroup& counted_group : waiting_)
-      groups.push_back({&counted_group.group, fullest_frames(counted_group.group, counted_group.counted)});
+      groups.push_back({&counted_group.timed, fullest_frames(counted_group.timed, counted_group.counted)});
     const int launches = config_.timing.launches, rounds = rounds_per_launch(config_.timing, launches);
     std::vector<std::vector<GroupSamples>> samples(groups.size());
     for (int launch = 0; launch < launches; ++launch) {
       const std::string stage = "time, launch " + std::to_string(launch + 1) + " of " + std::to_string(launches);
       std::vector<GroupSamples> measured = launcher_(groups, launch, rounds, [&](std::size_t group) {
-        tell(*groups[group].group, stage.c_str(), timing_cost(config_, *groups[group].group) / launches);
+        tell(*groups[group].group, stage.c_str(), timing_cost_of(*groups[group].group) / launches);
       });
       if (stop_ || measured.size() != groups.size()) return;
       for (std::size_t i = 0; i < groups.size(); ++i) samples[i].push_back(std::move(measured[i]));
     }
     begin_session();
     for (std::size_t i = 0; i < waiting_.size(); ++i)
-      add_cases(waiting_[i], timing_results(config_, waiting_[i].group, samples[i]), out);
+      add_cases(waiting_[i], timing_results(config_, waiting_[i].timed, samples[i]), out);
     waiting_.clear();
   }
 
@@ -267,15 +295,17 @@ class Run {
     session_ = sha256_hex(date_now() + std::to_string(random()) + std::to_string(random())).substr(0, k_digits);
   }
 
+  // `timings`: of those cases that are timed.
   void add_cases(CountedGroup& counted, const std::vector<TimingResult>& timings, Result& out) {
+    std::size_t next_timed = 0;
     for (std::size_t i = 0; i < counted.group.cases.size(); ++i) {
       CaseResult finished = case_result(config_, plan_, counted.group.cases[i], counted.frames, counted.counted, i);
       if (counted.unfitted) finished.fit = fit_result(counted, i);
       if (counted.tile_moves) finished.reaction = reaction_result(counted, i);
       if (!counted.stabilities.empty()) finished.stability = counted.stabilities[i];
       if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
-      if (!timings.empty()) {
-        finished.timing = timings[i];
+      if (!timings.empty() && is_timed(counted.group.cases[i])) {
+        finished.timing = timings[next_timed++];
         finished.timing->session = session_;
         finished.timing->shadow_culls = finished.shadow_culls;
       }
@@ -291,11 +321,11 @@ class Run {
     return spec.has_tiles() && spec.slices.fit;
   }
 
-  CaseSide method_side(const AccuracyResult& counted, const Method& of, std::size_t index) const {
+  CaseSide method_side(const AccuracyResult& counted, const Method& of, std::size_t index, bool compares_cells) const {
     const MethodMeasures& method = *std::ranges::find(counted.methods, of, &MethodMeasures::method);
     CaseSide side = structure_side(counted.structures[index]);
     if (method.has_cells) side.pairs_mean = method.occupancy.pairs.mean;
-    if (method.has_cells && config_.check_accuracy) {
+    if (method.has_cells && compares_cells) {
       side.true_pairs = method.error.true_pairs;
       side.false_positives = method.error.false_positives;
     }
@@ -305,21 +335,23 @@ class Run {
 
   FitResult fit_result(const CountedGroup& counted, std::size_t index) const {
     const CasePlan& plan = counted.group.cases[index];
+    const bool compares = compares_cells(config_, counted.group);
     FitResult out;
     out.fit = *config_.grids[plan.grid].slices.fit;
     const std::vector<float>& asked = counted.unfitted->last_grid.screen().slices.boundaries;
     out.asked = {static_cast<double>(asked.front()), static_cast<double>(asked.back())};
     out.moves = *counted.counted.moves;
-    out.fitted = method_side(counted.counted, plan.method(), index);
-    out.unfitted = method_side(*counted.unfitted, plan.method(), index);
+    out.fitted = method_side(counted.counted, plan.method(), index, compares);
+    out.unfitted = method_side(*counted.unfitted, plan.method(), index, compares);
     return out;
   }
 
   ReactionResult reaction_result(const CountedGroup& counted, std::size_t index) const {
     const CasePlan& plan = counted.group.cases[index];
+    const bool compares = compares_cells(config_, counted.group);
     ReactionResult out{*config_.grids[plan.grid].reaction, *counted.tile_moves, counted.cells,
-                       method_side(counted.counted, plan.method(), index), std::nullopt};
-    if (counted.fixed) out.fixed = method_side(*counted.fixed, plan.method(), index);
+                       method_side(counted.counted, plan.method(), index, compares), std::nullopt};
+    if (counted.fixed) out.fixed = method_side(*counted.fixed, plan.method(), index, compares);
     return out;
   }
 
@@ -330,6 +362,7 @@ class Run {
   const std::atomic<bool>& stop_;
   const Counts& counts_;
   const Launcher& launcher_;
+  std::span<const GroupCost> costs_;  // beside the plan's groups, or none
   static constexpr double k_most_waiting_ns = 2e10;
   std::vector<CountedGroup> waiting_;
   std::string name_of_group_;
@@ -339,10 +372,15 @@ class Run {
 
 }  // namespace
 
+GroupPlan timed_cases(GroupPlan group) {
+  std::erase_if(group.cases, [](const CasePlan& case_plan) { return !is_timed(case_plan); });
+  return group;
+}
+
 Result run_plan(const config::Config& config, const Plan& plan, const std::vector<std::string>& done,
-                const Listener& listener, const std::atomic<bool>& stop, const Counts& counts,
-                const Launcher& launcher) {
-  return Run(config, plan, done, listener, stop, counts, launcher).result();
+                const Listener& listener, const std::atomic<bool>& stop, const Counts& counts, const Launcher& launcher,
+                std::span<const GroupCost> costs) {
+  return Run(config, plan, done, listener, stop, counts, launcher, costs).result();
 }
 
 }  // namespace clusterbench::run

@@ -17,6 +17,14 @@ struct Progress {
   std::string doing;                         // case name and stage
 };
 
+// About how long a group takes, in nanoseconds: what is counted, and what is timed.
+struct GroupCost {
+  double counting_ns = 0.0, timing_ns = 0.0;
+};
+
+// A group's cases that are timed: of presets those of engines that assign on the CPU.
+GroupPlan timed_cases(GroupPlan group);
+
 // Everything that the runner tells while it works. All optional.
 struct Listener {
   std::function<void(const Progress&)> on_progress;
@@ -37,9 +45,10 @@ using Launcher = std::function<std::vector<GroupSamples>(std::span<const GroupTo
 
 // `done`: ids of cases that an earlier, interrupted run has finished; they are passed over. `counts`: what was
 // counted of cases before, for their results. `launcher`: without one this process times all rounds itself, in one
-// launch. `stop` is looked at between steps; when it becomes true the runner returns what is complete.
+// launch. `stop` is looked at between steps; when it becomes true the runner returns what is complete. `costs`: of the
+// plan's groups (run/estimate.h), for the progress that is told; without them it goes by rough constants.
 Result run_plan(const config::Config& config, const Plan& plan, const std::vector<std::string>& done,
                 const Listener& listener, const std::atomic<bool>& stop, const Counts& counts = {},
-                const Launcher& launcher = {});
+                const Launcher& launcher = {}, std::span<const GroupCost> costs = {});
 
 }  // namespace clusterbench::run

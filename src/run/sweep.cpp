@@ -16,6 +16,7 @@
 #include "core/pattern.h"
 #include "core/text.h"
 #include "geom/shapes/domain.h"
+#include "run/frame_work.h"
 #include "scene/domain.h"
 #include "view/frame.h"
 
@@ -65,6 +66,26 @@ Json identity(const config::SampleSetRequest& request) {
   return out;
 }
 
+// Where frames are fewer, and which grids are compared cell by cell, depends on how many lights reach a point.
+void weigh_frames(const config::Config& config, const config::SceneRequest& request, SceneData& data) {
+  if (request.camera.most_lights == 0.0 && !config.most_pairs) return;
+  for (const scene::CameraPath& path : data.paths)
+    data.lights_at_points.push_back(lights_at_a_point(data.scene, path, config.viewports.front(), config.seed));
+  if (request.camera.most_lights == 0.0) return;
+  scene::PathRequest fewer = request.camera;
+  fewer.count = frames_within(fewer.count, fewer.most_lights, data.paths, data.lights_at_points);
+  if (fewer.count == request.camera.count) return;
+  data.frames_asked = request.camera.count;
+  data.equal_steps = fewer.count;
+  data.paths = scene::camera_paths(data.scene, fewer);
+  const auto most = std::ranges::max_element(data.lights_at_points);
+  data.scene.warnings.push_back("measured in " + number_of(static_cast<std::uint64_t>(fewer.count), "frame") +
+                                " and not in " + std::to_string(data.frames_asked) +
+                                ", since much is to be counted in each: " + std::to_string(std::lround(*most)) +
+                                " lights reach a point of the view, on average; --set 'scenes.*.frames=" +
+                                std::to_string(data.frames_asked) + "' takes all");
+}
+
 scene::Scene loaded(const config::SceneRequest& request) {
   std::error_code unknown;
   if (!request.named_by.empty() && !std::filesystem::exists(request.path, unknown) && !unknown)
@@ -110,6 +131,7 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
                                     ") are counted and not assigned; --set 'scenes.*.boxes=true' assigns them");
     data.scene.name = unique_name(name_part(data.scene.name), names);
     data.paths = scene::camera_paths(data.scene, request.camera);
+    weigh_frames(config, request, data);
     std::set<std::string> cameras;
     for (scene::CameraPath& path : data.paths) {
       scene::check_domain(data.scene, path);
@@ -147,8 +169,10 @@ Json identity(const config::MethodRequest& method, std::span<const assign::Param
 }
 
 Json identity(const config::SceneRequest& request, const SceneData& data) {
+  // By the frames that there are, as if so many had been asked for.
+  const int count = data.frames_asked == 0 ? request.camera.count : data.equal_steps;
   Json out{{"sha256", data.contents_sha256()},
-           {"frames", {static_cast<int>(request.camera.choice), request.camera.count, request.camera.rate_hz}},
+           {"frames", {static_cast<int>(request.camera.choice), count, request.camera.rate_hz}},
            {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
   if (request.camera.fit != scene::CameraFit::contain) out["camera_fit"] = "vertical";
   if (request.camera.field_of_view)
@@ -441,6 +465,7 @@ class Expansion {
     CasePlan case_plan{
         "", "", group.scene, group.camera, group.viewport, group.grid, family.assigner, {}, lights.precision};
     case_plan.pre_cull = lights.pre_cull;
+    case_plan.cells_not_compared = cells_not_compared(plan.scenes[group.scene], group.camera, first.cells);
     if (family.preset != nullptr) case_plan.preset = family.preset->preset;
     for (std::size_t storage = 0; descriptor.answers(assign::Answer::lists) && storage < config_.storages.size();
          ++storage) {
@@ -472,6 +497,11 @@ class Expansion {
     return without_grid_.try_emplace(key.dump(), case_plan.name).first->second == case_plan.name
                ? ""
                : without_grid_.at(key.dump());
+  }
+
+  std::uint64_t cells_not_compared(const SceneData& data, std::size_t camera, std::uint64_t cells) const {
+    if (!config_.most_pairs) return 0;
+    return true_pairs_about(cells, data.lights_at_points[camera]) > *config_.most_pairs ? cells : 0;
   }
 
   bool is_wanted(const Family& family, std::optional<std::size_t> storage) const {
@@ -542,6 +572,11 @@ std::optional<double> ground_height(const config::SampleSetRequest& request, con
 std::string shadow_obstacle(const SceneData& data) {
   if (has_lights(data.scene, scene::LightType::box)) return "shadow maps are of points and spots; run boxes without";
   return !data.geometry || data.geometry->empty() ? "the scene has no triangles" : "";
+}
+
+bool compares_cells(const config::Config& config, const GroupPlan& group) {
+  return config.check_accuracy &&
+         std::ranges::all_of(group.cases, [](const CasePlan& case_plan) { return case_plan.cells_not_compared == 0; });
 }
 
 std::vector<Method> methods_of(const GroupPlan& group) {

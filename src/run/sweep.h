@@ -37,6 +37,9 @@ struct CasePlan {
   std::string settings = {};
   std::string preset = {};  // that the case is of; "" for the configuration's own clusterings
   std::size_t pre_cull = 0;
+  // Cells of its grid, which are too many to be compared with the truth (Config::most_pairs): samples decide. 0: they
+  // are compared. The same for all cases of a group.
+  std::uint64_t cells_not_compared = 0;
 
   Method method() const {
     return {assigner, precision, storage ? assign::Answer::lists : assign::Answer::structure, pre_cull};
@@ -52,6 +55,8 @@ struct GroupPlan {
   std::vector<CasePlan> cases;
 };
 
+// Whether the cases' lists are compared with the truth, cell by cell.
+bool compares_cells(const config::Config& config, const GroupPlan& group);
 // The distinct methods of a group's cases, in order of first use.
 std::vector<Method> methods_of(const GroupPlan& group);
 // The assigner's label, the precision's where it is not float32, and the pre-cull's where there is one.
@@ -64,6 +69,8 @@ assign::AssignerRun start_method(const config::Config& config, const Method& met
 struct SceneData {
   scene::Scene scene;
   std::vector<scene::CameraPath> paths;
+  std::vector<double> lights_at_points = {};     // run/frame_work.h, of each path; empty where nothing depends on it
+  int frames_asked = 0, equal_steps = 0;         // where its paths have fewer equal steps than asked for: these two
   std::optional<scene::Geometry> geometry = {};  // read only where something needs triangles
   // Of these triangles, for all cameras, viewports and grids; null without. Refers to this plan's scene: a plan is
   // moved, never copied.

@@ -26,6 +26,9 @@ struct PathRequest {
   std::string camera;
   FrameChoice choice = FrameChoice::count;
   int count = 60;  // N equal steps from the first to the last key
+  // Of a count: fewer, so that frames times the lights that reach a point of their view are at most so many; 0: as many
+  // as asked for.
+  double most_lights = 0.0;
   double rate_hz = 30.0;
   CameraFit fit = CameraFit::contain;
   std::optional<FieldOfView> field_of_view{};

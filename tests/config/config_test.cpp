@@ -509,6 +509,42 @@ TEST(Config, scenes_of_the_command_line_get_the_default_sweep) {
       << "where the page says what differs from its tables";
 }
 
+TEST(Config, runs_that_nobody_set_up_compare_what_can_be_compared_soon_and_take_fewer_frames_where_these_are_dear) {
+  const Config plain = default_config({"a.glb"});
+  EXPECT_EQ(plain.most_pairs, 6'000'000u);
+  EXPECT_EQ(plain.scenes[0].camera.count, 30);
+  EXPECT_EQ(plain.scenes[0].camera.most_lights, 3600.0);
+  const std::vector<FlagValue> presets{{"--preset", "*"}};
+  EXPECT_EQ(default_config({"a.glb"}, presets).scenes[0].camera.most_lights, 1200.0);
+  EXPECT_EQ(default_config({"a.glb"}, presets).most_pairs, 6'000'000u);
+  const std::vector<FlagValue> all_frames{{"--preset", "*"}, {"--set", "scenes.*.frames=30"}};
+  EXPECT_EQ(default_config({"a.glb"}, all_frames).scenes[0].camera.most_lights, 0.0);
+  const std::vector<FlagValue> asked{{"--set", "accuracy.check=true"}};
+  EXPECT_EQ(default_config({"a.glb"}, asked).most_pairs, std::nullopt);
+  const Config again = parse_config(plain.resolved.dump(), "");
+  EXPECT_EQ(again.resolved, plain.resolved);
+}
+
+TEST(Config, of_a_file_only_presets_are_compared_in_part_and_only_where_it_says_nothing_of_accuracy) {
+  EXPECT_EQ(parse_config(R"({"scenes": ["a.glb"]})", "c.json").most_pairs, std::nullopt);
+  EXPECT_EQ(parse_config(R"({"scenes": ["a.glb"], "presets": ["godot"]})", "c.json").most_pairs, 6'000'000u);
+  EXPECT_EQ(
+      parse_config(R"({"scenes": ["a.glb"], "presets": ["godot"], "accuracy": {"check": true}})", "c.json").most_pairs,
+      std::nullopt);
+  EXPECT_EQ(parse_config(R"({"scenes": ["a.glb"], "accuracy": {"most_pairs": 5}})", "c.json").most_pairs, 5u);
+}
+
+TEST(Config, frames_are_of_a_rate_or_at_most_so_many) {
+  for (const char* frames : {R"({"rate": 30, "most": 5})", R"({"lights": 5})", "{}"}) {
+    try {
+      parse_config(std::string(R"({"scenes": [{"path": "a.glb", "frames": )") + frames + "}]}", "c.json");
+      FAIL() << frames;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("takes either rate, or most"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(Config, a_label_names_only_parameters_that_differ_from_the_default) {
   EXPECT_EQ(parsed(R"(, "storages": ["packed"])").storages[0].label(), "packed");
   const assign::StorageDescriptor& fixed = *assign::find_storage("fixed");

@@ -27,24 +27,31 @@ struct PreparedFrame {
   bool is_new_grid = false;
   FrameLights lights;
   std::shared_ptr<const depth::DepthImage> depth;  // where a method needs it
-  measure::Truth truth;                            // of the grid's cells
-  std::vector<FrameSampleSet> samples;             // one per set of the configuration
+  bool has_truth = false;
+  measure::Truth truth;                 // of the grid's cells, where something is compared with it
+  std::vector<FrameSampleSet> samples;  // one per set of the configuration
   std::optional<measure::LookupFrame> lookup;
 };
 
 class MethodMeter {
  public:
   // `shadows`: null where nothing is asked of them.
+  // `compares`: cells with the truth. Of too many cells a structure of its own is not expanded to lists either.
   MethodMeter(const config::Config& config, const Method& method, const cull::PreCull& pre_cull,
-              std::uint32_t most_lights, ListsOverFrames over_frames, LightShadows* shadows)
-      : config_(config), most_lights_(most_lights), shadows_(shadows), run_(config, method, pre_cull) {
+              std::uint32_t most_lights, ListsOverFrames over_frames, LightShadows* shadows, bool compares,
+              bool has_too_many_cells)
+      : compares_(compares),
+        threads_(config.threads),
+        most_lights_(most_lights),
+        shadows_(shadows),
+        run_(config, method, pre_cull) {
     measures_.method = method;
     if (shadows != nullptr && method.answer == assign::Answer::lists)
       for (const config::ShadowCullRequest& request : config.shadow_culls)
         shadow_culls_.emplace_back(request, shadow_culls_.size());
-    measures_.has_cells = run_.has_cells();
+    measures_.has_cells = run_.has_cells() && (method.answer == assign::Answer::lists || !has_too_many_cells);
     if (!pre_cull.is_none()) cull_meter_.emplace(pre_cull, sets_of(config));
-    if (over_frames == ListsOverFrames::compared && run_.has_cells()) list_changes_.emplace();
+    if (over_frames == ListsOverFrames::compared && measures_.has_cells) list_changes_.emplace();
   }
 
   void add(const PreparedFrame& now, const grid::Grid& grid) {
@@ -61,9 +68,9 @@ class MethodMeter {
       occupancy_->set_real_cells(run_.has_occupied_cells() ? lists_->cell_count() : real_cells(grid));
     occupancy_->add_frame(now.frame.index, *lists_);
     if (list_changes_) list_changes_->add(*lists_);
-    if (config_.check_accuracy) compare(now, grid);
+    if (compares_) compare(now, grid);
     for (ShadowCullMeter& cull : shadow_culls_)
-      cull.add(*shadows_, now.frame, grid, *lists_, config_.check_accuracy ? &now.truth.lists : nullptr);
+      cull.add(*shadows_, now.frame, grid, *lists_, now.has_truth ? &now.truth.lists : nullptr);
   }
   // Some samples of visible surfaces; `is_lit`: for each way to take out what lies in shadow.
   void ask_lit_at(const grid::Grid& grid, std::span<const grid::Sample> samples, const measure::NeededLights& needed,
@@ -71,6 +78,9 @@ class MethodMeter {
     for (std::size_t i = 0; i < shadow_culls_.size(); ++i)
       shadow_culls_[i].add_samples(grid, samples, needed, is_lit[i]);
   }
+
+  // Whether the truth of the grid's cells is what its lists are compared with: not that of cells of its own.
+  bool needs_grid_truth() const { return compares_ && measures_.has_cells && !run_.has_occupied_cells(); }
 
   const CulledRun& run() const { return run_; }
   // What a storage of its lists has room for.
@@ -99,7 +109,7 @@ class MethodMeter {
       return measure::add_frame(measures_.error, now.frame, grid, now.truth, *lists_);
     }
     const grid::OccupiedCells cells = run_.own_structure()->occupied_cells();
-    const measure::Truth truth = measure::find_truth(now.frame, grid, cells, config_.threads);
+    const measure::Truth truth = measure::find_truth(now.frame, grid, cells, threads_);
     if (cull_meter_) cull_meter_->add_truth(truth.lists);
     measure::add_frame(measures_.error, now.frame, cells, truth, *lists_);
   }
@@ -110,7 +120,8 @@ class MethodMeter {
     return sets;
   }
 
-  const config::Config& config_;
+  bool compares_;
+  int threads_;
   std::uint32_t most_lights_;  // that it gets in a frame
   LightShadows* shadows_;
   CulledRun run_;
@@ -264,14 +275,15 @@ measure::SharingLimits sharing_limits(const config::SharedFrustaRequest& request
 }
 
 PreparedFrame prepare(const config::Config& config, const GroupPlan& group, const PathFrames& path,
-                      FrameSamples& samples, GridOfFrames& grids, int index) {
+                      FrameSamples& samples, GridOfFrames& grids, int index, bool needs_truth) {
   PreparedFrame now;
   now.frame = path.frame(index);
   now.is_new_grid = grids.update(path, now.frame);
   const grid::Grid& grid = grids.grid();
   now.lights = FrameLights(config.precisions, view::lights_in(now.frame, grid::space_of(grid, now.frame)));
   now.depth = depths_for(config, group, path, now.frame);
-  if (config.check_accuracy) now.truth = measure::find_truth(now.frame, grid, config.threads);
+  now.has_truth = needs_truth;
+  if (needs_truth) now.truth = measure::find_truth(now.frame, grid, config.threads);
   const double far = sample_far(now.frame, path.far_m());
   if (config.lookup) now.lookup.emplace(now.frame, grid, config.lookup->ways, far, config.lookup->samples, config.seed);
   now.samples = samples.of(now.frame);
@@ -296,10 +308,13 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
   std::optional<LightShadows> shadows;
   if (!config.shadow_culls.empty() && shadow_obstacle(data).empty()) shadows.emplace(config, data, path);
   const GroupCulls culls(config, group, path);
+  const bool compares = compares_cells(config, group),
+             has_too_many_cells = !group.cases.empty() && group.cases.front().cells_not_compared > 0;
   std::vector<MethodMeter> methods;
   for (const Method& method : culls.methods)
     methods.emplace_back(config, method, culls.path.of(method), culls.most_lights_of(method), over_frames,
-                         shadows ? &*shadows : nullptr);
+                         shadows ? &*shadows : nullptr, compares, has_too_many_cells);
+  const bool needs_truth = std::ranges::any_of(methods, &MethodMeter::needs_grid_truth);
   std::vector<CaseMeter> cases;
   for (const CasePlan& case_plan : group.cases) cases.emplace_back(config, case_plan);
 
@@ -316,7 +331,7 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
   for (int index = 0; index < path.count(); ++index) {
     if (stop) return result;
     on_frame(index);
-    const PreparedFrame now = prepare(config, group, path, samples, grids, index);
+    const PreparedFrame now = prepare(config, group, path, samples, grids, index, needs_truth);
     measure::add_frame(result.lights_in_view, now.frame);
     if (moves) moves->add(grids.grid().screen(), path.spans(spec)[static_cast<std::size_t>(index)]);
     for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));

@@ -29,7 +29,9 @@ class TimingTrack {
  public:
   TimingTrack(const config::Config& config, const GroupPlan& group, const Method& method,
               std::span<const TimedFrame> frames, const TimedFrame* fullest)
-      : min_ns_(config.timing.min_time_ms * 1e6), work_(config, group, method, frames, fullest) {
+      : min_ns_(config.timing.min_time_ms * 1e6),
+        has_too_many_cells_(group.cases.front().cells_not_compared > 0),
+        work_(config, group, method, frames, fullest) {
     samples_.mean_frames = work_.frame_count();
     for (std::size_t i = 0; i < work_.frame_count() + (work_.has_extra() ? 1 : 0); ++i)
       samples_.frames.push_back(work_.path_frame(i));
@@ -110,12 +112,12 @@ class TimingTrack {
   const MethodSamples& samples() const { return samples_; }
 
  private:
-  // In lists, or in the cells of a structure; none without cells.
+  // In lists, or in the cells of a structure; none without cells, or with more than can be expanded.
   std::vector<std::uint64_t> pairs_of_frames() const {
     std::vector<std::uint64_t> pairs;
     for (const assign::Lists& lists : work_.lists()) pairs.push_back(lists.pair_count());
     for (const auto& structure : work_.structures())
-      if (structure->has_cells()) pairs.push_back(structure->expanded().pair_count());
+      if (structure->has_cells() && !has_too_many_cells_) pairs.push_back(structure->expanded().pair_count());
     return pairs;
   }
 
@@ -135,6 +137,7 @@ class TimingTrack {
   }
 
   double min_ns_;
+  bool has_too_many_cells_;
   TimedWork work_;
   MethodSamples samples_;
   std::deque<Repeated> converts_;  // of each storage
