@@ -7,8 +7,11 @@
 
 #include "config/presets.h"
 #include "core/text.h"
+#include "measure/shading.h"
 #include "report/columns.h"
 #include "report/json_values.h"
+#include "report/preset_cost.h"
+#include "report/preset_words.h"
 #include "report/result_json.h"
 
 namespace clusterbench::report {
@@ -28,140 +31,103 @@ View view_of(const Json& result_case) {
   return {result_case["scene"].get<std::string>(), result_case["camera"].get<std::string>(), result_case["viewport"]};
 }
 
-// On visible surfaces if they are asked for, else at points of the whole view.
-const Json* samples_of(const Json& result_case) {
-  const Json* opaque = value_at(result_case, "/samples/opaque");
-  return opaque != nullptr ? opaque : value_at(result_case, "/shading");
+// One threshold for whatever lights are lost by: samples that lack more are not the same picture.
+PresetStanding standing_of(const RankedPreset& row) {
+  if (!row.unlit || !row.cost) return PresetStanding::unknown;
+  if (*row.unlit > measure::k_most_unlit) return PresetStanding::lacks_lights;
+  return row.cost->is_searched ? PresetStanding::searched : PresetStanding::lists;
 }
 
-// Of one sample; `what`: "evaluated" or "needed".
-std::optional<double> per_sample(const Json& result_case, const char* what) {
-  const Json* samples = samples_of(result_case);
-  if (samples == nullptr || (*samples)["samples"] == 0) return std::nullopt;
-  return (*samples)[what].get<double>() / (*samples)["samples"].get<double>();
+// Of all sets of samples that cost something, the one that lacks most.
+std::optional<double> unlit_share(const Json& result_case) {
+  const Json* samples = ranking_samples(result_case);
+  if (samples == nullptr || number_at(*samples, "/needed").value_or(0.0) == 0.0) return std::nullopt;
+  double most = (*samples)["missed"].get<double>() / (*samples)["needed"].get<double>();
+  if (const Json* sets = value_at(result_case, "/cost/sets"))
+    for (const auto& [set, paid] : sets->items())
+      most = std::max(
+          most, number_at(result_case, (set == "volume" ? "/shading" : "/samples/" + set) + "/unlit").value_or(0.0));
+  return most;
 }
 
-std::optional<double> gpu_ns(const Json& result_case, const Json& config) {
-  if (const auto modelled = number_at(result_case, "/cost/gpu_ns")) return modelled;
-  const std::optional<double> lights = per_sample(result_case, "evaluated");
-  if (!lights || !config.contains("cost")) return std::nullopt;
-  const double pixels = result_case["viewport"][0].get<double>() * result_case["viewport"][1].get<double>();
-  return number_at(result_case, "/buffers/upload_bytes/mean").value_or(0.0) /
-             config["cost"]["upload_gb_per_s"].get<double>() +
-         pixels * *lights * config["cost"]["ns_per_light"].get<double>();
+bool is_better(const RankedPreset& a, const RankedPreset& b) {
+  if (a.standing != b.standing) return a.standing < b.standing;
+  if (a.standing == PresetStanding::unknown) return false;
+  if (a.standing == PresetStanding::lacks_lights) return *a.unlit < *b.unlit;
+  return a.cost->sum_ns() < b.cost->sum_ns();
 }
 
-struct Row {
-  const Json* result_case;
-  bool loses;
-  std::optional<double> gpu_ns;
-};
-
-// Nothing known comes last.
-bool is_better(const Row& a, const Row& b) {
-  if (a.loses != b.loses) return b.loses;
-  if (a.gpu_ns.has_value() != b.gpu_ns.has_value()) return a.gpu_ns.has_value();
-  return a.gpu_ns && *a.gpu_ns < *b.gpu_ns;
+// In the order of costs: a row that cannot be told apart from the first one of a place shares that place.
+void give_places(std::vector<RankedPreset>& rows) {
+  std::size_t part = 0, leader = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].standing != rows[part].standing) part = leader = i;
+    const bool is_priced = rows[i].standing == PresetStanding::lists || rows[i].standing == PresetStanding::searched;
+    if (!is_priced || !are_alike(*rows[leader].cost, *rows[i].cost)) leader = i;
+    rows[i].place = static_cast<int>(leader - part) + 1;
+  }
 }
 
-std::vector<Row> ranked(const std::vector<const Json*>& cases, const Json& config) {
-  std::vector<Row> rows;
-  for (const Json* result_case : cases)
-    rows.push_back({result_case,
-                    (*result_case)["loses_lights"].get<bool>() || !result_case->value("/cost/lit"_json_pointer, true),
-                    gpu_ns(*result_case, config)});
+std::vector<RankedPreset> ranked(const std::vector<const Json*>& cases, const Json& config) {
+  std::vector<RankedPreset> rows;
+  for (const Json* result_case : cases) {
+    RankedPreset row{result_case, {}, preset_cost(*result_case, config), unlit_share(*result_case), 0};
+    row.standing = standing_of(row);
+    rows.push_back(row);
+  }
   std::ranges::stable_sort(rows, is_better);
+  give_places(rows);
   return rows;
 }
 
-std::string percent(double share) {
-  return share < 1e-4 ? "less than 0.01 %" : text(share < 0.1 ? "%.2f %%" : "%.0f %%", 100.0 * share);
+Json line_json(const RankedPreset& row, const RankedPreset& first) {
+  const auto part = [&](double PresetCost::*ns) { return row.cost ? number_or_null((*row.cost).*ns) : Json(); };
+  return {{"id", (*row.result_case)["id"]},
+          {"preset", (*row.result_case)["preset"]},
+          {"standing", name_of(row.standing)},
+          {"place", row.place},
+          {"gpu_ns", row.cost ? number_or_null(row.cost->sum_ns()) : Json()},
+          {"upload_ns", part(&PresetCost::upload_ns)},
+          {"read_ns", part(&PresetCost::read_ns)},
+          {"shade_ns", part(&PresetCost::shade_ns)},
+          {"lights_per_sample", number_or_null(per_sample(*row.result_case, "evaluated").value_or(NAN))},
+          {"why", preset_reason(row, first)}};
 }
 
-std::string bytes_text(double bytes) {
-  if (bytes < 1e3) return text("%.0f B", bytes);
-  return bytes < 1e6 ? text("%.3g kB", bytes / 1e3) : text("%.3g MB", bytes / 1e6);
-}
-
-// What a full storage of the preset has too little of.
-std::string shortage(const Json& result_case) {
-  const config::Preset* preset = config::find_preset(result_case["preset"].get<std::string>());
-  if (preset == nullptr) return "";
-  const auto parts = nlohmann::json::parse(preset->parts);
-  if (parts.contains("storage") && parts["storage"].contains("cap"))
-    return ": room for " + number_of(parts["storage"]["cap"].get<std::uint64_t>(), "light") +
-           " per cell is too little here";
-  return ": its pool of entries is too small here";
-}
-
-// The ways in which a case loses lights.
-std::string lost_text(const Json& result_case) {
-  std::vector<std::string> ways;
-  for (const Json& warning : result_case.value("warnings", Json::array()))
-    if (warning["kind"] == "too_many_lights") ways.push_back(warning["text"].get<std::string>());
-  const Json& overflow = result_case["buffers"]["overflow"];
-  if (overflow["dropped_pairs"] != 0)
-    ways.push_back("drops " + number_of(overflow["lights"].size(), "light") + " in " +
-                   number_of(overflow["frames"].get<std::uint64_t>(), "frame") + shortage(result_case));
-  // What was removed before the method got it is no fault of the method's.
-  const double not_found = number_at(result_case, "/error/false_negatives").value_or(0.0) -
-                           number_at(result_case, "/pre_cull/lost_pairs").value_or(0.0);
-  if (not_found > 0.0)
-    ways.push_back("loses " + number_of(static_cast<std::uint64_t>(not_found), "pair") + " of " +
-                   std::to_string(result_case["error"]["true_pairs"].get<std::uint64_t>()) +
-                   ", which its method does not find");
-  const Json* samples = samples_of(result_case);
-  if (samples != nullptr && (*samples)["missed_outside"] != 0)
-    ways.push_back(percent((*samples)["missed_outside"].get<double>() / (*samples)["needed"].get<double>()) +
-                   " of the lights that samples need lie beyond its grid");
-  return ways.empty() ? "loses lights at samples" : joined(ways, "; ");
-}
-
-// Without what it costs beside others.
-std::string load_text(const Json& result_case) {
-  std::string out;
-  if (const auto lights = per_sample(result_case, "evaluated"))
-    out = text("%.3g", *lights) + text(" lights per sample (%.3g needed)", *per_sample(result_case, "needed"));
-  const auto upload = number_at(result_case, "/buffers/upload_bytes/mean");
-  return out + (out.empty() || !upload ? "" : ", ") + (upload ? bytes_text(*upload) + " a frame" : "");
-}
-
-// What is too little to be a loss is told.
-std::string kept_text(const Json& result_case) {
-  const Json* samples = samples_of(result_case);
-  if (samples == nullptr || (*samples)["missed"] == 0) return "loses nothing";
-  return "loses " + percent((*samples)["missed"].get<double>() / (*samples)["needed"].get<double>()) +
-         " of the lights that samples need";
-}
-
-std::string why(const Row& row, const Row& best) {
-  const Json& result_case = *row.result_case;
-  std::string out = row.loses ? lost_text(result_case) : kept_text(result_case);
-  if (!row.gpu_ns)
-    out += "; its cost is not known without samples of surfaces";
-  else if (&row == &best)
-    out += row.loses ? "; no preset that was measured does without losses here"
-                     : " and costs least: " + load_text(result_case);
-  else if (!row.loses && best.gpu_ns && *best.gpu_ns > 0.0)
-    out += text(", at %.2f times the cost of ", *row.gpu_ns / *best.gpu_ns) +
-           (*best.result_case)["preset"].get<std::string>() + ": " + load_text(result_case);
+Json ranking_of(const View& view, const std::vector<RankedPreset>& rows) {
+  Json list = Json::array(), alike = Json::array();
+  const RankedPreset* first = &rows.front();
+  for (const RankedPreset& row : rows) {
+    if (row.standing != first->standing) first = &row;
+    list.push_back(line_json(row, *first));
+    if (row.standing == PresetStanding::lists && row.place == 1) alike.push_back((*row.result_case)["id"]);
+  }
+  Json out{{"scene", view.scene},
+           {"camera", view.camera},
+           {"viewport", view.viewport},
+           {"frames", (*rows.front().result_case)["frames"]},
+           {"best", alike.empty() ? Json() : alike.front()},
+           {"alike", alike},
+           {"cases", list},
+           {"text", preset_conclusion(rows)}};
+  if (const Json* lights = value_at(*rows.front().result_case, "/lights_in_view"))
+    out["lights_in_view"] = {{"mean", (*lights)["mean"]}, {"max", (*lights)["max"]}};
   return out;
 }
 
-Json ranking_of(const View& view, const std::vector<Row>& rows) {
-  const bool is_any_best = !rows.front().loses && rows.front().gpu_ns;
-  Json list = Json::array();
-  for (const Row& row : rows)
-    list.push_back({{"id", (*row.result_case)["id"]},
-                    {"preset", (*row.result_case)["preset"]},
-                    {"gpu_ns", row.gpu_ns ? number_or_null(*row.gpu_ns) : Json()},
-                    {"lights_per_sample", number_or_null(per_sample(*row.result_case, "evaluated").value_or(NAN))},
-                    {"why", why(row, rows.front())}});
-  return {{"scene", view.scene},
-          {"camera", view.camera},
-          {"viewport", view.viewport},
-          {"best", is_any_best ? (*rows.front().result_case)["id"] : Json()},
-          {"cases", list}};
+// Of older results: none had places.
+std::string place_text(const Json& line) {
+  if (!line.contains("place")) return "";
+  const std::string standing = line["standing"].get<std::string>();
+  if (standing == name_of(PresetStanding::lists)) return std::to_string(line["place"].get<int>());
+  return standing == name_of(PresetStanding::searched) ? "s" + std::to_string(line["place"].get<int>()) : "-";
+}
+
+// Of an engine that assigns on a GPU the time here is none of its own; older results have it.
+std::string assign_text(const Json& result_case) {
+  const config::Preset* preset = config::find_preset(result_case["preset"].get<std::string>());
+  if (preset != nullptr && preset->assigns_on == config::AssignsOn::gpu) return "gpu";
+  return text_at(result_case, "/timing/assign_ns/median", "%.1f", 1e-3);
 }
 
 std::string shown_line(const Json& line, const Json& cases, const Json& best, Cells& cells) {
@@ -171,16 +137,38 @@ std::string shown_line(const Json& line, const Json& cases, const Json& best, Ce
   const std::string set = value_at(*found, "/samples/opaque") != nullptr ? "/samples/opaque" : "/shading";
   cells = {line["id"] == best ? "*" : "",
            line["preset"].get<std::string>(),
+           place_text(line),
            text_at(line, "/gpu_ns", "%.0f", 1e-3),
+           text_at(line, "/upload_ns", "%.1f", 1e-3),
+           text_at(line, "/read_ns", "%.1f", 1e-3),
            text_at(line, "/lights_per_sample", "%.2f"),
            text_at(*found, "/occupancy/lights_per_cell/max", "%.0f"),
            short_count(*found, "/buffers/bytes/high_water"),
            short_count(*found, "/buffers/overflow/dropped_pairs"),
            short_count(*found, "/error/false_negatives"),
            text_at(*found, (set + "/unlit").c_str(), "%.2f %%", 100.0),
-           text_at(*found, "/timing/assign_ns/median", "%.1f", 1e-3)};
+           assign_text(*found)};
   return "  " + shown(line["preset"]) + " " + shown(line["why"]) + ".\n";
 }
+
+std::string heading(const Json& ranking) {
+  std::string out = "\npresets: " + shown(ranking["scene"]) + "/" + shown(ranking["camera"]) + ", " +
+                    ranking["viewport"][0].dump() + "x" + ranking["viewport"][1].dump();
+  if (ranking.contains("frames")) out += ", " + number_of(ranking["frames"].get<std::uint64_t>(), "frame");
+  if (ranking.contains("lights_in_view"))
+    out += "; lights in view: " + text_at(ranking, "/lights_in_view/mean", "%.3g") + " on average, " +
+           text_at(ranking, "/lights_in_view/max", "%.0f") + " at most";
+  return out + "\n";
+}
+
+constexpr const char* k_legend =
+    "* costs the GPU least of the lists that leave no sample without lights, by the key `cost`: upload, reading and "
+    "shading.\nplace: the same where the model cannot tell: within 5 %, or the order turns as prices are half or "
+    "twice those of `cost`;\ns: samples search the structure, ranked apart, since no GPU has measured what that "
+    "costs; -: samples lack lights.\ngpu, upload, read: us of a frame by the model. Lists that a GPU makes are not "
+    "uploaded. lights: looped over at a sample, on\naverage. dropped, missed: pairs that cells lack, seen or not; "
+    "unlit: what samples lack decides. assign: us of one core here,\nof engines that assign on the CPU; gpu: a time "
+    "here would not be the engine's.\n";
 
 }  // namespace
 
@@ -222,10 +210,10 @@ Json preset_rankings(const Json& scenes, const Json& cases, const Json& origin) 
 
 std::string preset_table(const Json& result) {
   if (!result.contains("preset_rankings")) return "";
-  std::string out;
+  std::string out, conclusions;
   for (const Json& ranking : result["preset_rankings"]) {
-    std::vector<Cells> rows{
-        {"", "preset", "gpu us", "lights", "longest", "bytes", "dropped", "missed", "unlit", "assign"}};
+    std::vector<Cells> rows{{"", "preset", "place", "gpu us", "upload", "read", "lights", "longest", "bytes", "dropped",
+                             "missed", "unlit", "assign"}};
     std::string reasons;
     for (const Json& line : ranking["cases"]) {
       Cells cells;
@@ -235,18 +223,16 @@ std::string preset_table(const Json& result) {
       reasons += reason;
     }
     const std::vector<std::size_t> widths = widths_of(rows);
-    out += "\npresets: " + shown(ranking["scene"]) + "/" + shown(ranking["camera"]) + ", " +
-           ranking["viewport"][0].dump() + "x" + ranking["viewport"][1].dump() + "\n";
+    out += heading(ranking);
     for (const Cells& row : rows) out += aligned(row, widths);
     out += reasons;
+    if (ranking.contains("text"))
+      conclusions += shown(ranking["scene"]) + "/" + shown(ranking["camera"]) + ": " + shown(ranking["text"]) + ".\n";
   }
   for (const Json& skipped : result["skipped"])
     if (skipped.contains("preset"))
       out += "  " + shown(skipped["preset"]) + " is not measured: " + shown(skipped["reason"]) + ".\n";
-  return out +
-         "* the preset that loses nothing and costs the GPU least, by the key `cost` (upload and shading); lights: "
-         "given "
-         "at a\nsample, on average. assign: us of one core here, whatever the engine runs it on.\n";
+  return out + k_legend + conclusions;
 }
 
 }  // namespace clusterbench::report

@@ -10,14 +10,14 @@ namespace clusterbench::report {
 // without any.
 nlohmann::ordered_json preset_facts(const nlohmann::ordered_json& cases, const nlohmann::ordered_json& skipped);
 
-// Per scene, camera and viewport the cases of presets, best first: those that lose no light before others, then by
-// what a frame costs the GPU by the configuration's model (`cost`), which is the same on every machine. Where no set of
-// samples has a cost each pixel is shaded once, at a random depth of its view. `origin`: the result whose configuration
-// they have. Empty without presets.
+// Per scene, camera and viewport the cases of presets: those whose samples lack no light, by what a frame costs the GPU
+// (report/preset_cost.h); then those of them that samples search, among themselves; then those that lack lights, by how
+// many. Cases whose costs the model cannot tell apart share a place. `origin`: the result whose configuration they
+// have. Empty without presets.
 nlohmann::ordered_json preset_rankings(const nlohmann::ordered_json& scenes, const nlohmann::ordered_json& cases,
                                        const nlohmann::ordered_json& origin);
 
-// The rankings as tables with a sentence for each preset; "" without any.
+// The rankings as tables with a sentence for each preset, and what to take; "" without any.
 std::string preset_table(const nlohmann::ordered_json& result);
 
 }  // namespace clusterbench::report

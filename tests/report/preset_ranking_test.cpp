@@ -1,0 +1,177 @@
+// Presets beside each other: by what carries over to the engines, and by what samples see.
+
+#include "report/preset_ranking.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "report/preset_cost.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A case of a preset whose parts of the cost are these, in ns.
+Json preset_case(const std::string& preset, double upload_ns, double read_ns, double shade_ns) {
+  return {{"id", "id-" + preset},
+          {"preset", preset},
+          {"scene", "level"},
+          {"camera", "walk"},
+          {"viewport", {1920, 1080}},
+          {"frames", 30},
+          {"warnings", Json::array()},
+          {"lights_in_view", {{"mean", 120.5}, {"max", 300}}},
+          {"assigner", {{"name", "aabb"}}},
+          {"storage", "packed"},
+          {"samples",
+           {{"opaque",
+             {{"samples", 1000},
+              {"evaluated", 12000},
+              {"needed", 8000},
+              {"missed", 0},
+              {"missed_outside", 0},
+              {"unlit", 0.0},
+              {"read_bytes", 56000}}}}},
+          {"buffers",
+           {{"upload_bytes", {{"mean", 16000}}},
+            {"bytes", {{"high_water", 16000}}},
+            {"overflow", {{"dropped_pairs", 0}, {"lights", Json::array()}, {"frames", 0}}}}},
+          {"cost",
+           {{"upload_ns", upload_ns},
+            {"read_ns", read_ns},
+            {"shade_ns", shade_ns},
+            {"sets", {{"opaque", {{"samples", 2e6}}}}}}},
+          {"timing", {{"assign_ns", {{"median", 50000.0}}}}}};
+}
+
+Json searched(Json result_case) {
+  result_case["samples_search"] = true;
+  return result_case;
+}
+
+Json lacking(Json result_case, std::uint64_t missed) {
+  Json& opaque = result_case["samples"]["opaque"];
+  opaque["missed"] = missed;
+  opaque["unlit"] = static_cast<double>(missed) / opaque["needed"].get<double>();
+  return result_case;
+}
+
+Json ranking_of_cases(const Json& cases) {
+  const Json scenes = Json::array({{{"name", "level"}}});
+  return preset_rankings(scenes, cases, {{"config", {{"cost", Json::object()}}}})[0];
+}
+
+std::vector<std::string> order(const Json& ranking) {
+  std::vector<std::string> names;
+  for (const Json& line : ranking["cases"]) names.push_back(line["preset"].get<std::string>());
+  return names;
+}
+
+const Json& line_of(const Json& ranking, const std::string& preset) {
+  return *std::ranges::find_if(ranking["cases"], [&](const Json& line) { return line["preset"] == preset; });
+}
+
+using Names = std::vector<std::string>;
+
+TEST(PresetRanking, lists_that_a_gpu_makes_are_not_uploaded) {
+  const Json ranking =
+      ranking_of_cases({preset_case("three-js", 9e6, 1e4, 2e5), preset_case("filament", 1e3, 1e4, 4e5)});
+  EXPECT_EQ(order(ranking), (Names{"three-js", "filament"}));
+  EXPECT_EQ(line_of(ranking, "three-js")["upload_ns"], 0.0);
+  EXPECT_EQ(line_of(ranking, "three-js")["gpu_ns"], 2.1e5);
+  EXPECT_EQ(line_of(ranking, "filament")["upload_ns"], 1e3);
+  const std::string why = line_of(ranking, "three-js")["why"];
+  EXPECT_NE(why.find("nothing to upload, the GPU makes its lists"), std::string::npos) << why;
+}
+
+TEST(PresetRanking, a_time_on_the_cpu_is_shown_only_of_engines_that_assign_there) {
+  const Json cases{preset_case("three-js", 0, 1e4, 2e5), preset_case("filament", 1e3, 1e4, 4e5)};
+  const Json result{
+      {"preset_rankings", Json::array({ranking_of_cases(cases)})}, {"cases", cases}, {"skipped", Json::array()}};
+  const std::string table = preset_table(result);
+  const auto line = [&](const std::string& preset) {
+    const std::size_t at = table.find(" " + preset + " ");
+    return table.substr(at, table.find('\n', at) - at);
+  };
+  EXPECT_TRUE(line("three-js").ends_with("gpu")) << table;
+  EXPECT_TRUE(line("filament").ends_with("50.0")) << table;
+  EXPECT_NE(table.find("of engines that assign on the CPU"), std::string::npos) << table;
+  EXPECT_NE(table.find("30 frames; lights in view: 120 on average, 300 at most"), std::string::npos) << table;
+  EXPECT_TRUE(table.ends_with(ranking_of_cases(cases)["text"].get<std::string>() + ".\n")) << "the last line";
+}
+
+TEST(PresetRanking, lost_pairs_that_no_sample_needs_are_told_and_are_no_loss) {
+  Json drops = preset_case("filament", 1e3, 1e4, 1e5);
+  drops["buffers"]["overflow"] = {{"dropped_pairs", 12}, {"lights", {3, 4}}, {"frames", 2}};
+  drops["error"] = {{"false_negatives", 5}, {"true_pairs", 1000}};
+  const Json ranking = ranking_of_cases({preset_case("bevy", 1e3, 1e4, 4e5), drops});
+  EXPECT_EQ(order(ranking), (Names{"filament", "bevy"}));
+  EXPECT_EQ(ranking["best"], "id-filament");
+  const std::string why = line_of(ranking, "filament")["why"];
+  EXPECT_NE(why.find("loses nothing that a sample needs: drops 2 lights"), std::string::npos) << why;
+  EXPECT_NE(why.find("does not find 5 pairs of 1000"), std::string::npos) << why;
+}
+
+TEST(PresetRanking, what_samples_lack_decides_by_one_threshold_whatever_the_cause) {
+  const Json cheap = preset_case("filament", 1e3, 1e4, 1e5), dear = preset_case("bevy", 1e3, 1e4, 4e5);
+  EXPECT_EQ(order(ranking_of_cases({lacking(cheap, 8), dear})), (Names{"filament", "bevy"})) << "a thousandth";
+  const Json ranking = ranking_of_cases({lacking(cheap, 9), dear, lacking(preset_case("unreal", 0, 1, 1), 800)});
+  EXPECT_EQ(order(ranking), (Names{"bevy", "filament", "unreal"})) << "by how much they lack, not by cost";
+  EXPECT_EQ(line_of(ranking, "filament")["standing"], "lacks_lights");
+  const std::string all = ranking_of_cases({lacking(cheap, 9)})["text"];
+  EXPECT_NE(all.find("every preset that was measured leaves samples without lights"), std::string::npos) << all;
+}
+
+TEST(PresetRanking, structures_that_samples_search_are_ranked_apart_and_are_never_the_best) {
+  const Json ranking =
+      ranking_of_cases({searched(preset_case("godot", 0, 1e4, 1e5)), preset_case("filament", 1e3, 1e4, 4e5),
+                        searched(preset_case("babylon", 0, 1e4, 3e5))});
+  EXPECT_EQ(order(ranking), (Names{"filament", "godot", "babylon"}));
+  EXPECT_EQ(ranking["best"], "id-filament");
+  EXPECT_EQ(line_of(ranking, "godot")["standing"], "searched");
+  EXPECT_EQ(line_of(ranking, "godot")["place"], 1);
+  const std::string text = ranking["text"];
+  EXPECT_NE(text.find("no GPU has measured what samples search: godot, babylon"), std::string::npos) << text;
+}
+
+TEST(PresetRanking, costs_that_the_model_cannot_tell_apart_share_a_place) {
+  const Json ranking =
+      ranking_of_cases({preset_case("filament", 1e3, 1e4, 1.00e5), preset_case("bevy", 1e3, 1e4, 1.04e5),
+                        preset_case("doom-2016", 1e3, 1e4, 2e5)});
+  EXPECT_EQ(line_of(ranking, "filament")["place"], 1);
+  EXPECT_EQ(line_of(ranking, "bevy")["place"], 1);
+  EXPECT_EQ(line_of(ranking, "doom-2016")["place"], 3);
+  EXPECT_EQ(ranking["alike"], Json({"id-filament", "id-bevy"}));
+  const std::string text = ranking["text"];
+  EXPECT_NE(text.find("filament, bevy, between which there is no difference that this can show"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("doom-2016, the next, costs 1.90 times as much"), std::string::npos) << text;
+}
+
+TEST(PresetRanking, an_order_that_turns_with_the_prices_is_none) {
+  const PresetCost loops{0.0, 0.0, 100.0, false, false}, reads{0.0, 130.0, 0.0, false, false};
+  EXPECT_TRUE(are_alike(loops, reads));
+  const PresetCost both{0.0, 30.0, 100.0, false, false}, twice{0.0, 60.0, 200.0, false, false};
+  EXPECT_FALSE(are_alike(both, twice)) << "twice as much at any price";
+}
+
+TEST(PresetRanking, older_results_have_no_places_and_are_shown) {
+  Json cases{preset_case("filament", 1e3, 1e4, 1e5)};
+  Json ranking{{"scene", "level"},
+               {"camera", "walk"},
+               {"viewport", {1920, 1080}},
+               {"best", "id-filament"},
+               {"cases", Json::array({{{"id", "id-filament"},
+                                       {"preset", "filament"},
+                                       {"gpu_ns", 1.0},
+                                       {"lights_per_sample", 12.0},
+                                       {"why", "loses nothing"}}})}};
+  const std::string table =
+      preset_table({{"preset_rankings", Json::array({ranking})}, {"cases", cases}, {"skipped", Json::array()}});
+  EXPECT_NE(table.find("filament loses nothing."), std::string::npos) << table;
+}
+
+}  // namespace
+}  // namespace clusterbench::report
