@@ -769,14 +769,26 @@ export type Result = {
     scene: string; // Name of one of scenes
     camera: string; // As the cases'
     viewport: [number, number]; // As the cases': width, height [pixels, over the cases]
-    best: string | null; // Id of the case that costs least of those that lose no light; null where all do
+    frames?: number; // Of each case; absent in older results [count]
+    lights_in_view?: {
+      mean: number | null; // Mean
+      max: number | null; // Of the frame with most
+    }; // As the cases'; absent in older results [lights, over the frames]
+    best: string | null; // Id of the case with lists that costs the GPU least of those that leave no sample without lights; null where there is none
+    alike?: string[]; // Ids of best and of the cases that the model cannot tell from it; absent in older results
+    text?: string; // What to take, against what, by how much, and how sure that is, as text; absent in older results
     cases: Array<{
       id: string; // Of the case
       preset: string; // Of the case
-      gpu_ns: number | null; // Its cost.gpu_ns; where it has no cost, upload and each pixel shaded once at a random depth by config.cost; null without samples [ns, over one frame]
+      standing?: "lists" | "searched" | "lacks_lights" | "unknown"; // lists: samples lack at most a thousandth of the lights that they need. searched: likewise, and samples search the structure, whose price no GPU has measured. lacks_lights: samples lack more. unknown: there are no samples that need lights. Absent in older results
+      place?: number; // Among the cases of the same standing, from 1; the same where the model cannot tell costs apart: they differ by 5 % at most, or their order turns as each price of config.cost is half or twice what it is. Absent in older results [count]
+      gpu_ns: number | null; // upload_ns + read_ns + shade_ns; null without samples. In older results the case's cost.gpu_ns [ns, over one frame]
+      upload_ns?: number | null; // Of the lists, by config.cost: 0 where the engine makes them on a GPU. Absent in older results [ns, over one frame]
+      read_ns?: number | null; // What samples read to know their lights, by config.cost. Absent in older results [ns, over one frame]
+      shade_ns?: number | null; // Lights that samples loop over, by config.cost; where the scene has no surfaces, each pixel shaded once at a random depth. Absent in older results [ns, over one frame]
       lights_per_sample: number | null; // Lights looped over at a sample, on visible surfaces if they are asked for, else in the whole view [count, over all samples]
       why: string; // What speaks for and against it here, as text
-    }>; // Best first: those that lose no light, then by gpu_ns
+    }>; // Best first: by standing, then by gpu_ns, or by the share of lights that samples lack
   }>; // Per scene, camera and viewport the cases of presets beside each other; absent without any
   skipped: Array<{
     name: string; // As of a case, as far as all of the skipped combinations share it
