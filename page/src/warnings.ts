@@ -39,6 +39,7 @@ const doubts: Record<WarningKind, string> = {
   unlit: "left more of the lights that samples need unlit than rounding does, in cells or outside of the grid",
   undecided: "had pairs that stayed undecided, counted as true",
   unchecked: "went without a check against the truth",
+  too_many_lights: "had more lights in view than their engines take, and lost some",
   lost_pairs: "lost lights, as methods that are not conservative may",
   too_many_lights: "had frames with more lights than their limit lets in",
 };
