@@ -109,6 +109,17 @@ std::optional<std::uint64_t> most_seen(const SizedStructure& structure, Needed n
   return most;
 }
 
+// Of the level: no list and no view has more.
+std::optional<std::uint64_t> most_lights(const SizedStructure& structure) {
+  std::uint64_t most = 0;
+  for (const Json* result_case : structure.cases) {
+    const std::optional<double> lights = number_at(*result_case, "/lights");
+    if (!lights) return {};
+    most = std::max(most, static_cast<std::uint64_t>(*lights));
+  }
+  return most;
+}
+
 // The most that a search found, where it looked for that.
 std::optional<std::uint64_t> most_found(const SizedStructure& structure, Needed needed) {
   if (!structure.found || needed == Needed::lights_in_view || structure.buffers.empty()) return {};
@@ -126,6 +137,7 @@ struct SettingValue {
   std::optional<std::uint64_t> seen, found;
   std::uint64_t value = 0;   // to set
   std::uint64_t wanted = 0;  // before the engine's largest value
+  bool is_all = false;       // as many as the level has
 
   std::uint64_t needed() const { return std::max(seen.value_or(0), found.value_or(0)); }
   bool is_too_much() const { return needed() > setting->most; }
@@ -133,7 +145,12 @@ struct SettingValue {
 
 SettingValue value_of(const LimitSetting& setting, const SizedStructure& structure, const AllocationRules& rules) {
   SettingValue out{&setting, most_seen(structure, setting.needed), most_found(structure, setting.needed)};
-  const auto with_margin = static_cast<std::uint64_t>(std::ceil(static_cast<double>(out.needed()) * rules.margin));
+  auto with_margin = static_cast<std::uint64_t>(std::ceil(static_cast<double>(out.needed()) * rules.margin));
+  if (const auto lights = most_lights(structure);
+      lights && setting.needed != Needed::entries && with_margin >= *lights) {
+    with_margin = *lights;
+    out.is_all = true;
+  }
   out.wanted = (std::max(with_margin, setting.least) + setting.multiple - 1) / setting.multiple * setting.multiple;
   out.value = std::min(out.wanted, setting.most);
   return out;
@@ -166,7 +183,7 @@ std::string setting_lines(const SettingValue& value, const SizedStructure& struc
   if (!value.seen)
     return out + "unknown, the result does not say how many " + unit_of(setting.needed) + "; count anew\n";
   out += std::to_string(value.value);
-  if (setting.standard > 0)
+  if (setting.standard > 0 && value.wanted <= setting.most)
     out += value.value <= setting.standard ? " (the engine's own " + std::to_string(setting.standard) + " is enough)"
                                            : " (the engine comes with " + std::to_string(setting.standard) + ")";
   out += "\n    the most seen: " + std::to_string(*value.seen) + " " + unit_of(setting.needed) + " in " +
@@ -178,7 +195,7 @@ std::string setting_lines(const SettingValue& value, const SizedStructure& struc
           : structure.found && !structure.found->refusal.empty() ? "not searched: " + structure.found->refusal
                                                                  : "not searched (--worst-case)") +
          "\n";
-  out += "    x " + text("%g", rules.margin) +
+  out += (value.is_all ? std::string("    all lights of the level") : "    x " + text("%g", rules.margin)) +
          (setting.multiple > 1 ? ", up to a multiple of " + std::to_string(setting.multiple) : std::string());
   if (value.is_too_much())
     out += "; TOO MUCH: the engine takes at most " + std::to_string(setting.most) + ", and such frames lose lights";

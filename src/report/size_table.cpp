@@ -67,7 +67,7 @@ std::string marks_text(const SizedStructure& structure, const AllocationRules& r
   for (const SizedBuffer& buffer : structure.buffers) {
     for (const MarkLine& line : mark_lines(buffer, structure))
       out += "  " + line.label + ": " + shown(line.text) + "\n";
-    if (buffer.found)
+    if (buffer.found && !buffer.is_all())
       out += "  capacity: " + shown(buffer.name) + ": " + std::to_string(buffer.capacity) + " = " +
              rule_text(buffer, rules) + "\n";
   }
@@ -128,7 +128,12 @@ std::string size_table(const std::vector<NamedStructure>& structures, const std:
          " of it; \"-\": nothing can overflow. Double: double-buffered.\n";
   if (is_bounded(structures)) out += "Of long paths several frames are one number, and percentiles upper bounds.\n";
   if (!remark.empty()) out += remark + "\n";
-  return out;
+  const bool is_searched =
+      std::ranges::any_of(structures, [](const NamedStructure& named) { return named.structure.found.has_value(); });
+  return out + (is_searched
+                    ? "Allocate these capacities; --format cpp, hlsl or glsl has them as code.\n"
+                    : "Next: --worst-case looks for frames that need more than these; --format cpp, hlsl or glsl "
+                      "has the capacities as code.\n");
 }
 
 }  // namespace clusterbench::report

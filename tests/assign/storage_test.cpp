@@ -443,8 +443,8 @@ std::vector<Reads> reads_of_cells(const std::string& name, const std::map<std::s
 TEST(EveryStorage, reads_what_its_layout_makes_a_shader_fetch) {
   using All = std::vector<Reads>;
   EXPECT_EQ(reads_of_cells("packed"), (All{{1, 8}, {2, 8 + 2}, {4, 8 + 6}, {5, 8 + 8}}));
-  EXPECT_EQ(reads_of_cells("packed", {}, {100000, 0}), (All{{1, 8}, {2, 8 + 4}, {4, 8 + 12}, {5, 8 + 16}}))
-      << "counts that fit into 16 bits";
+  EXPECT_EQ(reads_of_cells("packed", {}, {100000, 0}), (All{{1, 12}, {2, 12 + 4}, {4, 12 + 12}, {5, 12 + 16}}))
+      << "as wide as the lights can need";
   EXPECT_EQ(reads_of_cells("packed", {{"headers", std::string("sparse")}}),
             (All{{1, 8}, {3, 16 + 2}, {5, 16 + 6}, {6, 16 + 8}}))
       << "a block, and a header where the block has the cell's bit";
