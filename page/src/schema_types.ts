@@ -291,7 +291,7 @@ export type Result = {
       mean: number; // Over the frames [over all frames]
       max: number; // In the frame with most [over the worst frame]
       frames_at_max: number; // How many frames have as many [frames, over all frames]
-      worst_frame: number; // The first of them [index]
+      worst_frame: number; // The first of them [index, over the path]
       max_by_type: {
         point: number; // Point lights
         spot: number; // Spot lights
@@ -744,11 +744,11 @@ export type Result = {
   conclusions?: Array<{
     scene: string; // Name of one of scenes
     camera: string; // As in cases
-    viewport: [number, number]; // [width, height] [px]
+    viewport: [number, number]; // [width, height] [px, over the cases]
     take: string | null; // Id of the case to take; null: no case is sound
     against: string | null; // Id of the cheapest case that is known to cost more; null: there is none
-    ratio: number | null; // Cost of that / cost of the case to take [ratio]
-    ci95:  | null; // Its 95 % interval, of the times in it; null where times were not measured side by side [ratio]
+    ratio: number | null; // Cost of that / cost of the case to take [ratio, over the frame times]
+    ci95:  | null; // Its 95 % interval, of the times in it; null where times were not measured side by side [ratio, over the frame times]
     alike: string[]; // Ids of cases that are not known to cost more or less
     text: string; // The same for people
   }>; // Per scene, camera and viewport what to take by this result, and how sure that is. Of the cases on the front that which costs least: frame time and, where samples were asked for, upload, reading and shading by the model of config.cost; of those that the times cannot tell apart the one with the fewest bytes. Presets are ranked by themselves. Absent in older results
@@ -769,7 +769,7 @@ export type Result = {
     scene: string; // Name of one of scenes
     camera: string; // As the cases'
     viewport: [number, number]; // As the cases': width, height [pixels, over the cases]
-    frames?: number; // Of each case; absent in older results [count]
+    frames?: number; // Of each case; absent in older results [count, over each case]
     lights_in_view?: {
       mean: number | null; // Mean
       max: number | null; // Of the frame with most
@@ -781,7 +781,7 @@ export type Result = {
       id: string; // Of the case
       preset: string; // Of the case
       standing?: "lists" | "searched" | "lacks_lights" | "unknown"; // lists: samples lack at most a thousandth of the lights that they need. searched: likewise, and samples search the structure, whose price no GPU has measured. lacks_lights: samples lack more. unknown: there are no samples that need lights. Absent in older results
-      place?: number; // Among the cases of the same standing, from 1; the same where the model cannot tell costs apart: they differ by 5 % at most, or their order turns as each price of config.cost is half or twice what it is. Absent in older results [count]
+      place?: number; // Among the cases of the same standing, from 1; the same where the model cannot tell costs apart: they differ by 5 % at most, or their order turns as each price of config.cost is half or twice what it is. Absent in older results [count, over the cases]
       gpu_ns: number | null; // upload_ns + read_ns + shade_ns; null without samples. In older results the case's cost.gpu_ns [ns, over one frame]
       upload_ns?: number | null; // Of the lists, by config.cost: 0 where the engine makes them on a GPU. Absent in older results [ns, over one frame]
       read_ns?: number | null; // What samples read to know their lights, by config.cost. Absent in older results [ns, over one frame]
