@@ -272,6 +272,8 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
   if (!searched.empty() && number_at(searched[0], "/by_choice").value_or(1.0) < 1.0)
     out += ". " + shown(searched[0]["name"].get<std::string>()) + ", which samples search, would have " +
            objective_text(searched[0], objective) + "; no GPU has measured such a search";
+  if (const std::optional<double> height = number_at(answer, "/ground_m"))
+    out += text(". Samples lie on a floor at y = %.4g m, since the scene has no triangles", *height);
   if (answer.value("random_depths", false))
     out += std::string(". Samples are at random depths, where no surface is; ") + k_remedy;
   return out + ".";

@@ -397,7 +397,8 @@ std::vector<ObjectiveFigure> objective_figures() {
     all.push_back(
         {figure.name, figure.meaning, kind.is_timed, std::string(figure.name) == "frame_cost_us", kind.only_grows});
   }
-  all.push_back({k_gpu_cost, "modelled time of a frame's upload, reading and shading, in microseconds", false, true, false});
+  all.push_back(
+      {k_gpu_cost, "modelled time of a frame's upload, reading and shading, in microseconds", false, true, false});
   all.push_back({k_evaluated, "lights that a sample is given, mean", false, false, false});
   all.push_back(
       {k_read_bytes, "bytes that a sample reads of the structure to know its lights, mean", false, false, false});
@@ -466,6 +467,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
            {"candidates", view.candidates.size()},
            {"incomplete", view.incomplete},
            {"random_depths", false},
+           {"ground_m", nullptr},
            {"choice", nullptr},
            {"runners_up", Json::array()},
            {"searched", Json::array()},
@@ -482,6 +484,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
         coarsest = &ranked;
     if (coarsest != &all[0]) out["coarsest"] = ranked_json(config, view, *coarsest, all[0], question);
     out["runners_up"] = runners_up_json(config, view, all, question);
+    if (const Json* height = value_at(all[0].cases[0], "/samples/opaque/ground_m")) out["ground_m"] = *height;
     out["random_depths"] = rests_on_random_depths(all[0].cases[0], question.objective);
   }
   for (const Ranked& ranked : apart)

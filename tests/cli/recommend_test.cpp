@@ -113,6 +113,8 @@ TEST(Recommend, says_that_depths_are_random_and_what_to_do_and_a_ground_changes_
   EXPECT_EQ(ground.err.find("random depth"), std::string::npos) << ground.err;
   EXPECT_EQ(ground.out.find("random depths"), std::string::npos) << ground.out;
   const Recommended on_ground = recommended(config, flags + " --set samples.opaque.ground=0.5");
+  EXPECT_EQ(on_ground.answer["ground_m"], 0.5);
+  EXPECT_NE(on_ground.outcome.out.find("Samples lie on a floor at y = 0.5 m"), std::string::npos);
   EXPECT_EQ(on_ground.answer["random_depths"], false);
   EXPECT_TRUE(on_ground.answer["choice"]["overshade"].is_number());
   EXPECT_EQ(recommended(config, flags).answer["random_depths"], true);
