@@ -41,7 +41,6 @@ const doubts: Record<WarningKind, string> = {
   unchecked: "went without a check against the truth",
   too_many_lights: "had more lights in view than their engines take, and lost some",
   lost_pairs: "lost lights, as methods that are not conservative may",
-  too_many_lights: "had frames with more lights than their limit lets in",
 };
 
 function doubtsOf(cases: Case[]): Warning[] {

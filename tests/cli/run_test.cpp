@@ -215,7 +215,9 @@ TEST(Run, an_orthographic_camera_from_0_has_every_frustum_grid_and_loses_nothing
   const Json result = Json::parse(file_text(output));
   std::set<std::string> schemes;
   for (const Json& one : result["cases"]) {
-    if (one.contains("error")) EXPECT_EQ(one["error"]["false_negatives"], 0) << one["name"];
+    if (one.contains("error")) {
+      EXPECT_EQ(one["error"]["false_negatives"], 0) << one["name"];
+    }
     EXPECT_EQ(one["shading"]["missed"], 0) << one["name"];
     schemes.insert(one["grid"]["name"]);
   }
