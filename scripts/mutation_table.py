@@ -633,7 +633,7 @@ MUTATIONS = [
              "assign.ZBinning.lists_do_not_depend_on_the_order_of_lights_of_equal_depth",
              "the same lights in another order give longer lists"),
     Mutation("empty-words-cost-nothing", "assign/depth_bins/sorted_masks.h",
-             "++words;", "words += bits != 0 ? 1 : 0;",
+             "words += form_.has_bin_masks ? 2 : 1;", "words += bits == 0 ? 0 : form_.has_bin_masks ? 2 : 1;",
              "assign.ZBinning.a_sample_reads_its_bin_the_words_of_its_range_and_a_number_for_each_light",
              "z-binning seems to read no words but those with lights"),
     Mutation("end-mark-is-free", "assign/storages/fixed.cpp",

@@ -34,8 +34,8 @@ struct RatioRequest {
 // docs/results.md, `clusterbench schema ratios`. "blocks" is empty where nothing is timed.
 nlohmann::ordered_json ratios_of(const nlohmann::ordered_json& result, const RatioRequest& request);
 
-// Of each timed case with lists the pairs of a ranking over all grids of its scene, camera and viewport, for the page: {"id",
-// "fastest": {"id", "ratio", "ci95"} or null, "above": the same of the next faster one, "is_like_above"}.
+// Of each timed case with lists the pairs of a ranking over all grids of its scene, camera and viewport, for the page:
+// {"id", "fastest": {"id", "ratio", "ci95"} or null, "above": the same of the next faster one, "is_like_above"}.
 nlohmann::ordered_json ratio_rankings(const nlohmann::ordered_json& result);
 
 // Of what ratios_of() gives: a ranking, with each case beside the fastest one and beside the one before it, or with

@@ -9,7 +9,7 @@ namespace clusterbench::search {
 namespace {
 
 void check_cameras(const config::Config& config, const run::CasePlan& case_plan, const scene::CameraPath& owner,
-           const scene::CameraPath& guest) {
+                   const scene::CameraPath& guest) {
   const assign::AssignerDescriptor& method = *assign::find_assigner(config.assigners[case_plan.assigner].name);
   if (method.needs.depth || method.at_surfaces)
     throw Error("", "--grid-of", case_plan.name + " follows the surfaces that its own camera sees");

@@ -46,7 +46,8 @@ Needs moving_maxima(const KnownTail& truth, double index, std::size_t frames, st
 }
 
 // The share of experiments whose interval holds the true chance.
-double share_of_intervals_held(const KnownTail& truth, double index, std::size_t frames, double chance, int experiments) {
+double share_of_intervals_held(const KnownTail& truth, double index, std::size_t frames, double chance,
+                               int experiments) {
   int held = 0, estimated = 0;
   const std::uint64_t capacity = truth.capacity_of(chance);
   for (int i = 0; i < experiments; ++i) {

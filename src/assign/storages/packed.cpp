@@ -18,11 +18,11 @@ namespace {
 
 // offset u32 + point count u16 + spot count u16 per cell; 12 bytes with u32 counts where the rig has lights of one type
 // that 16 bits cannot count: a shader reads one format, so it follows from the lights and not from a frame's lists.
-// Where the rig has boxes one more u32 follows, their count: 12 or 16 bytes. Sparse: only for cells with lights; a shader finds
-// them through one block per 32 cells, {mask u32, rank u32}: header rank + the number of mask bits below the cell's.
-// Shared: a list that equals that of the cell before it or of the cell a row before it is not written again. With
-// max_entries the index list begins with all lights that are in any list of the frame, and when a list has no room any
-// more, its cell and all cells after it that have lights read that first one (Filament's Froxelizer).
+// Where the rig has boxes one more u32 follows, their count: 12 or 16 bytes. Sparse: only for cells with lights; a
+// shader finds them through one block per 32 cells, {mask u32, rank u32}: header rank + the number of mask bits below
+// the cell's. Shared: a list that equals that of the cell before it or of the cell a row before it is not written
+// again. With max_entries the index list begins with all lights that are in any list of the frame, and when a list has
+// no room any more, its cell and all cells after it that have lights read that first one (Filament's Froxelizer).
 class Packed final : public Storage {
  public:
   explicit Packed(const Params& params)
@@ -90,8 +90,8 @@ class Packed final : public Storage {
 
   StructureLimit limit() const override {
     const std::uint64_t entries = most_entries();
-    return {entries, entries * (bits_ / 8) + std::uint64_t{cell_count_} * header_size() +
-                         blocks_.size() * sizeof(Block)};
+    return {entries,
+            entries * (bits_ / 8) + std::uint64_t{cell_count_} * header_size() + blocks_.size() * sizeof(Block)};
   }
 
   std::vector<BufferNeed> buffers() const override {

@@ -8,8 +8,8 @@ namespace clusterbench::assign {
 namespace {
 
 // Runs of lights with consecutive indices: {first, length - 1} each, in the narrowest indices that hold all lights. Per
-// cell an offset (u32) and the numbers of runs of points and of spots (u16 each; u32 where the rig has lights enough for
-// more runs), and where the rig has boxes that of their runs (u32).
+// cell an offset (u32) and the numbers of runs of points and of spots (u16 each; u32 where the rig has lights enough
+// for more runs), and where the rig has boxes that of their runs (u32).
 class Runs final : public Storage {
  public:
   explicit Runs(const Params&) {}
@@ -96,9 +96,7 @@ class Runs final : public Storage {
   }
   std::uint32_t run_bytes() const { return 2 * (bits_ / 8); }
   bool has_wide_counts() const { return most_runs(std::max(lights_.points.count, lights_.spots.count)) > 0xffff; }
-  std::uint32_t header_size() const {
-    return (is_wide_ ? 12 : 8) + (lights_.boxes.empty() ? 0 : 4);
-  }
+  std::uint32_t header_size() const { return (is_wide_ ? 12 : 8) + (lights_.boxes.empty() ? 0 : 4); }
   std::uint64_t header_bytes() const { return headers_.size() * std::uint64_t{header_size()}; }
   std::uint32_t run_count() const { return static_cast<std::uint32_t>(runs_.size() / 2); }
 
