@@ -235,6 +235,8 @@ std::string engine_settings_text(const std::string& engine, const std::vector<Si
       out += "  " + grid + "\n";
     for (const LimitSetting& setting : row.limits)
       out += setting_lines(value_of(setting, structure, rules), structure, rules);
+    if ((*structure.cases.front()).contains("pre_cull"))
+      out += "  lists are of the lights that the engine takes in a frame; lights in view are all\n";
     out += std::string("  beyond the limit: ") + row.beyond + "\n";
     for (const std::string& note : grid_notes(structure)) out += "  grid: " + shown(note) + "\n";
     out += "\n";
