@@ -14,8 +14,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // In percent, upward to one digit behind the point.
-std::string percent_up(double log_ratio) {
-  return text("%g %%", std::ceil(1000.0 * std::expm1(log_ratio) - 1e-9) / 10.0);
+std::string percent_up(double share) {
+  return text("%g %%", std::ceil(1000.0 * share - 1e-9) / 10.0);
 }
 
 struct OpenVerdict {
@@ -55,7 +55,7 @@ std::string advice_on_open(const Json& comparison, const std::vector<OpenVerdict
   const std::string begin =
       number_of(open.size(), "case") +
       (open.size() == 1 ? " is inconclusive: its interval reaches " : " are inconclusive: their intervals reach ") +
-      percent_up(widest) + " to either side, and the threshold is " +
+      percent_up(std::expm1(widest)) + " to either side, and the threshold is " +
       text("%g %%", 100.0 * comparison["threshold"].get<double>()) + ". ";
   const std::string less = "count instructions, which hardly vary (`run --count` with both programs, then `compare`)";
   if (comparison["data"] != "paired")
@@ -68,7 +68,7 @@ std::string advice_on_open(const Json& comparison, const std::vector<OpenVerdict
                                      " --baseline-most-launches " + text("%.0f", round_launches) + "), "
                                : "Free the machine of other work, ";
   return begin + more + "ask for what these times show (--threshold " +
-         percent_up(shows).substr(0, percent_up(shows).find(' ')) + "), or " + less;
+         percent_up(std::expm1(shows)).substr(0, percent_up(std::expm1(shows)).find(' ')) + "), or " + less;
 }
 
 std::string advice_on_same_program(const Json& comparison) {
@@ -77,7 +77,7 @@ std::string advice_on_same_program(const Json& comparison) {
   for (const Json& compared_case : comparison["cases"])
     for (const char* end : {"/ci95/0", "/ci95/1"})
       if (const auto bound = number_at(compared_case, end); bound && *bound > 0.0) {
-        most = std::max(most, std::abs(std::log(*bound)));
+        most = std::max(most, std::abs(*bound - 1.0));
         is_known = true;
       }
   return std::string("no difference: both are the same program, byte for byte") +
