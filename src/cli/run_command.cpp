@@ -29,6 +29,7 @@
 #include "report/compare.h"
 #include "report/conclusion.h"
 #include "report/journal.h"
+#include "report/preset_ranking.h"
 #include "report/result_json.h"
 #include "report/table.h"
 #include "report/timing_warnings.h"
@@ -308,7 +309,7 @@ void show_table(const RunFlags& flags, const Json& result) {
 // Last of all, behind what is doubted and what failed.
 void show_conclusion(const RunFlags& flags, const Json& result) {
   std::ostream& out = is_for_reading(flags.output) ? std::cout : std::cerr;
-  out << report::conclusions_text(result) << std::flush;
+  out << report::conclusions_text(result) << report::preset_conclusions(result) << std::flush;
 }
 
 std::string own_command_line() {

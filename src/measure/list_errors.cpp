@@ -14,7 +14,12 @@ void add_miss(ErrorCounts& counts, const view::Frame& frame, double distance, st
   counts.deepest_miss = depth;
 }
 
-// distance(cell, light): how far from a light a cell is, in its ranges.
+// Where lights are lost by the thousand, few of them lie deeper than all before: only of those the depth is found.
+double least_distance(const ErrorCounts& counts) {
+  return counts.deepest ? 1.0 - counts.deepest->depth : 1.0;
+}
+
+// distance(cell, light, below): how far from a light a cell is, in its ranges; 1 where that is not below a number.
 template <class Distance>
 void add_pairs(ErrorCounts& counts, const view::Frame& frame, const Truth& truth, const assign::Lists& reported,
                Distance&& distance) {
@@ -26,7 +31,7 @@ void add_pairs(ErrorCounts& counts, const view::Frame& frame, const Truth& truth
       if (next < listed.size() && listed[next] == light)
         ++found;
       else
-        add_miss(counts, frame, distance(cell, light), cell, light);
+        add_miss(counts, frame, distance(cell, light, least_distance(counts)), cell, light);
     }
     counts.false_positives += listed.size() - found;
   }
@@ -55,16 +60,18 @@ double ErrorCounts::miss_ratio() const {
 
 void add_frame(ErrorCounts& counts, const view::Frame& frame, const grid::Grid& grid, const Truth& truth,
                const assign::Lists& reported) {
-  add_pairs(counts, frame, truth, reported,
-            [&](std::uint32_t cell, std::uint32_t light) { return relative_distance(frame, grid, cell, light); });
+  add_pairs(counts, frame, truth, reported, [&](std::uint32_t cell, std::uint32_t light, double below) {
+    return relative_distance(frame, grid, cell, light, below);
+  });
 }
 
 void add_frame(ErrorCounts& counts, const view::Frame& frame, const grid::OccupiedCells& cells, const Truth& truth,
                const assign::Lists& reported) {
-  add_pairs(counts, frame, truth, reported, [&](std::uint32_t cell, std::uint32_t light) {
+  add_pairs(counts, frame, truth, reported, [&](std::uint32_t cell, std::uint32_t light, double below) {
     double least = 1.0;
     for (const geom::FrustumCell& part : cells.of(cell))
-      least = std::min(least, relative_distance(view::volume_of(frame.lights[light], frame.view_space), part));
+      least = std::min(least, relative_distance(view::volume_of(frame.lights[light], frame.view_space), part,
+                                                std::min(least, below)));
     return least;
   });
 }

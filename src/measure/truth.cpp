@@ -76,13 +76,17 @@ Truth find_truth(const view::Frame& frame, const grid::Grid& grid, const grid::O
   return find_truth(frame, *truth_cells(frame, grid, cells), threads);
 }
 
-double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light) {
-  return relative_distance(view::volume_of(frame.lights[light], grid::space_of(grid, frame)), grid.cell(cell));
+double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light,
+                         double below) {
+  return relative_distance(view::volume_of(frame.lights[light], grid::space_of(grid, frame)), grid.cell(cell), below);
 }
 
-double relative_distance(const geom::LightVolume& light, const geom::Cell& cell) {
+double relative_distance(const geom::LightVolume& light, const geom::Cell& cell, double below) {
   const double range = geom::range_of(light);
   if (std::isinf(range)) return 0.0;
+  constexpr double k_nothing = 0x1p-39;  // the halvings end before that
+  if (below <= k_nothing) return 1.0;
+  if (below < 1.0 && geom::filter_meets(geom::with_range(light, range * below), cell) == geom::Verdict::no) return 1.0;
   double misses = 0.0, meets = 1.0;
   constexpr int k_halvings = 40;
   for (int i = 0; i < k_halvings; ++i) {

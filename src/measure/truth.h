@@ -32,7 +32,9 @@ Truth find_truth(const view::Frame& frame, const grid::Grid& grid, const grid::O
 // Distance from the light's centre (apex) to the nearest point of cell ∩ volume's cone, divided by the range; of a box
 // the scale about its middle at which it begins to touch the cell. How deep a missed pair lies is 1 - this. `light` is
 // an index into frame.lights.
-double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light);
-double relative_distance(const geom::LightVolume& light, const geom::Cell& cell);
+// Asked only whether it is below a number: 1 where it is not.
+double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light,
+                         double below = 1.0);
+double relative_distance(const geom::LightVolume& light, const geom::Cell& cell, double below = 1.0);
 
 }  // namespace clusterbench::measure

@@ -210,7 +210,7 @@ Json preset_rankings(const Json& scenes, const Json& cases, const Json& origin) 
 
 std::string preset_table(const Json& result) {
   if (!result.contains("preset_rankings")) return "";
-  std::string out, conclusions;
+  std::string out;
   for (const Json& ranking : result["preset_rankings"]) {
     std::vector<Cells> rows{{"", "preset", "place", "gpu us", "upload", "read", "lights", "longest", "bytes", "dropped",
                              "missed", "unlit", "assign"}};
@@ -226,13 +226,20 @@ std::string preset_table(const Json& result) {
     out += heading(ranking);
     for (const Cells& row : rows) out += aligned(row, widths);
     out += reasons;
-    if (ranking.contains("text"))
-      conclusions += shown(ranking["scene"]) + "/" + shown(ranking["camera"]) + ": " + shown(ranking["text"]) + ".\n";
   }
   for (const Json& skipped : result["skipped"])
     if (skipped.contains("preset"))
       out += "  " + shown(skipped["preset"]) + " is not measured: " + shown(skipped["reason"]) + ".\n";
-  return out + k_legend + conclusions;
+  return out + k_legend;
+}
+
+std::string preset_conclusions(const Json& result) {
+  std::string out;
+  for (const Json& ranking : result.value("preset_rankings", Json::array()))
+    if (ranking.contains("text"))
+      out += "conclusion: presets for " + shown(ranking["scene"]) + "/" + shown(ranking["camera"]) + ": " +
+             shown(ranking["text"]) + ".\n";
+  return out;
 }
 
 }  // namespace clusterbench::report

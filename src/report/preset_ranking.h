@@ -17,7 +17,9 @@ nlohmann::ordered_json preset_facts(const nlohmann::ordered_json& cases, const n
 nlohmann::ordered_json preset_rankings(const nlohmann::ordered_json& scenes, const nlohmann::ordered_json& cases,
                                        const nlohmann::ordered_json& origin);
 
-// The rankings as tables with a sentence for each preset, and what to take; "" without any.
+// The rankings as tables with a sentence for each preset; "" without any.
 std::string preset_table(const nlohmann::ordered_json& result);
+// What to take by each, a line each: what a reader sees last. "" without any.
+std::string preset_conclusions(const nlohmann::ordered_json& result);
 
 }  // namespace clusterbench::report

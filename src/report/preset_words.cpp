@@ -30,8 +30,8 @@ std::string bytes_text(double bytes) {
   return bytes < 1e6 ? text("%.3g kB", bytes / 1e3) : text("%.3g MB", bytes / 1e6);
 }
 
-std::string microseconds(double ns) {
-  return text("%.3g us", ns / 1e3);
+std::string milliseconds(double ns) {
+  return text(ns < 1e4 ? "%.4f ms" : "%.2f ms", ns / 1e6);
 }
 
 // What a full storage of the preset has too little of.
@@ -127,10 +127,10 @@ std::string choice_text(const std::vector<const RankedPreset*>& rows) {
   std::string out = "take " + name(first);
   if (alike.size() > 1)
     out += " or another of " + names_text(alike) + ", between which there is no difference that this can show (" +
-           microseconds(first.cost->sum_ns()) + " to " + microseconds(alike.back()->cost->sum_ns()) +
+           milliseconds(first.cost->sum_ns()) + " to " + milliseconds(alike.back()->cost->sum_ns()) +
            " of the GPU a frame)";
   else
-    out += ", which costs the GPU least: " + microseconds(first.cost->sum_ns()) + " a frame";
+    out += ", which costs the GPU least: " + milliseconds(first.cost->sum_ns()) + " a frame";
   if (!others.empty())
     out += "; " + name(*others.front()) + ", the next, costs " +
            text("%.2f", others.front()->cost->sum_ns() / first.cost->sum_ns()) + " times as much";
@@ -191,7 +191,7 @@ std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
   const RankedPreset& first = lists.empty() ? *searched.front() : *lists.front();
   if (!lists.empty() && !searched.empty())
     out += "; apart, since no GPU has measured what samples search: " + names_text(searched) + ", from " +
-           microseconds(searched.front()->cost->sum_ns()) + " by the model";
+           milliseconds(searched.front()->cost->sum_ns()) + " by the model";
   out += ". Sure by as much as the model of `cost` is; " + name(first) + " is " + evidence_text(first);
   if (first.cost->has_random_depths)
     out += "; depths are random, since there are no surfaces: --set samples.opaque.ground=lowest takes a floor";

@@ -12,7 +12,7 @@
 namespace clusterbench::run {
 namespace {
 
-constexpr double k_looks_ns = 3e9;  // no further group is looked at after this time
+constexpr double k_looks_ns = 6e9;  // no further group is looked at after this time
 
 template <class Once>
 double duration_ns(const Once& once) {

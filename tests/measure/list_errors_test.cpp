@@ -54,6 +54,21 @@ TEST(Error, a_miss_is_named_with_its_depth) {
   EXPECT_NEAR(counts.deepest_miss, 0.75, 1e-9);
 }
 
+// Where a limit of lights drops some, thousands are missed: the depth of each would take a minute a frame.
+TEST(Error, a_miss_is_asked_for_its_depth_only_if_it_can_be_deeper_than_all_before) {
+  const TwoCells s;
+  const geom::LightVolume light = view::volume_of(s.frame.lights[0], grid::space_of(s.grid, s.frame));
+  const double distance = relative_distance(light, s.grid.cell(1));
+  EXPECT_NEAR(distance, 0.25, 1e-9);
+  EXPECT_EQ(relative_distance(light, s.grid.cell(1), 0.26), distance);
+  EXPECT_EQ(relative_distance(light, s.grid.cell(1), 0.24), 1.0);
+  ErrorCounts counts;
+  add_frame(counts, s.frame, s.grid, s.truth, assign::Lists{{0, 0, 0}, {}});
+  EXPECT_EQ(counts.false_negatives, 2u);
+  EXPECT_EQ(counts.deepest->cell, 0u) << "which holds the light's centre";
+  EXPECT_NEAR(counts.deepest_miss, 1.0, 1e-9);
+}
+
 TEST(Error, reported_pairs_without_a_true_one_have_no_ratio) {
   TwoCells s;
   s.truth.lists = {{0, 0, 0}, {}};
