@@ -25,9 +25,9 @@ TEST(CommandLine, what_is_unknown_or_missing_is_told_in_one_line_with_the_neares
       {"run --colour x.json", "run: no option '--colour'; see `clusterbench run --help`"},
       {"run --rounds-servr", "run: no option '--rounds-servr'; see `clusterbench run --help`"},
       {"--vresion", "no option '--vresion' (did you mean '--version'?); see `clusterbench --help`"},
-      {"scene inf x.glb", "scene: no command 'inf' (did you mean 'info'?); there are: info, generate"},
-      {"scene inf --help", "scene: no command 'inf' (did you mean 'info'?); there are: info, generate"},
-      {"scene", "scene: names no command; there are: info, generate"},
+      {"scene inf x.glb", "scene: no command 'inf' (did you mean 'info'?); there are: info, generate, views"},
+      {"scene inf --help", "scene: no command 'inf' (did you mean 'info'?); there are: info, generate, views"},
+      {"scene", "scene: names no command; there are: info, generate, views"},
       {"man all", "man: 'all' is one argument too many; see `clusterbench man --help`"},
       {"list preset",
        "list: SECTION: no 'preset' (did you mean 'presets'?); there are: assigners, storages, grids, pre_culls, "
