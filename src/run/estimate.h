@@ -9,8 +9,8 @@
 
 namespace clusterbench::run {
 
-// Of each of the plan's groups. Looks at them for a few seconds at most; what it did not come to takes the mean of the
-// others.
+// Of each of the plan's groups. Looks at them for a few seconds at most; what it did not come to takes the median of
+// the others.
 std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan& plan);
 
 double sum_s(std::span<const GroupCost> costs);
