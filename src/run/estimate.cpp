@@ -35,8 +35,9 @@ double counting_ns(const config::Config& config, const SceneData& data, const Gr
   return (wall_ns() - start + cast_ns) * frames;
 }
 
+// Of an even number the lower of the two in the middle.
 double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
 }
