@@ -5,14 +5,17 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <vector>
 
+#include "assign/contract/assigner.h"
 #include "core/text.h"
 #include "measure/side_by_side.h"
 #include "report/columns.h"
 #include "report/contender.h"
 #include "report/frame_cost.h"
 #include "report/json_values.h"
+#include "report/preset_cost.h"
 #include "report/result_json.h"
 
 namespace clusterbench::report {
@@ -34,6 +37,17 @@ struct WeighedCase {
   double cost_ns = 0.0;  // of both
 
   double bytes() const { return number_at(*result_case, "/buffers/bytes/high_water").value_or(0.0); }
+  // Share of the lights that its samples need and lack: at visible surfaces where these were asked for.
+  double unlit() const {
+    const bool has_surfaces = value_at(*result_case, "/samples/opaque") != nullptr;
+    return number_at(*result_case, has_surfaces ? "/samples/opaque/unlit" : "/shading/unlit").value_or(0.0);
+  }
+  // Whether its method is the plain form of one that makes the same lists with SIMD.
+  bool is_plain() const {
+    return assign::find_assigner((*result_case)["assigner"]["name"].get<std::string>() + "-fast") != nullptr;
+  }
+  // Of cases that cost alike the least is taken.
+  auto rank() const { return std::tuple(unlit() > 0.0, bytes(), is_plain()); }
 };
 
 // What is compared with each other: cases that see the same.
@@ -105,8 +119,14 @@ std::optional<measure::Ratio> weighed_ratio(const WeighedCase& a, const WeighedC
   return run::ratio_between(a.contender, b.contender, seed);
 }
 
+// Whether what is modelled in them leaves open which costs more, as for presets (report/preset_cost.h).
+bool are_modelled_alike(const WeighedCase& a, const WeighedCase& b) {
+  return (a.modelled || b.modelled) && std::max(a.cost_ns, b.cost_ns) <= k_alike_ratio * std::min(a.cost_ns, b.cost_ns);
+}
+
 // Known to be dearer: by the ratio of the rounds, else by intervals of times, or by what is counted.
 bool is_known_dearer(const WeighedCase& a, const WeighedCase& b, std::uint64_t seed) {
+  if (are_modelled_alike(a, b)) return false;
   if (!a.frame_ns || !b.frame_ns) return a.cost_ns > b.cost_ns;
   if (const std::optional<measure::Ratio> ratio = weighed_ratio(a, b, seed)) return measure::takes_longer(ratio);
   return a.contender.costs.time_ns.low > b.contender.costs.time_ns.high;
@@ -129,14 +149,15 @@ std::vector<const WeighedCase*> cheapest_first(const std::vector<WeighedCase>& a
   return order;
 }
 
-// Of the cases on the front the cheapest, or of those that are not known to be dearer the smallest.
+// Of the cases on the front the cheapest; of those that are not known to be dearer one whose samples lack no light
+// before others, then the smallest.
 Choice choose_of(const SceneView& view, std::uint64_t seed) {
   Choice choice;
   std::vector<const WeighedCase*> order = cheapest_first(view.front);
   if (order.empty()) return choice;
   const WeighedCase* best = order.front();
   for (const WeighedCase* weighed : order)
-    if (!is_known_dearer(*weighed, *best, seed) && (choice.take == nullptr || weighed->bytes() < choice.take->bytes()))
+    if (!is_known_dearer(*weighed, *best, seed) && (choice.take == nullptr || weighed->rank() < choice.take->rank()))
       choice.take = weighed;
   for (const WeighedCase* weighed : cheapest_first(view.others)) order.push_back(weighed);
   for (const WeighedCase* weighed : order) {
@@ -155,6 +176,12 @@ Choice choose_of(const SceneView& view, std::uint64_t seed) {
   if (!searched.empty() && searched.front()->modelled && searched.front()->cost_ns < choice.take->cost_ns)
     choice.searched = searched.front();
   return choice;
+}
+
+std::string bytes_text(double bytes) {
+  return bytes < 1e3   ? text("%.0f B", bytes)
+         : bytes < 1e6 ? text("%.3g kB", 1e-3 * bytes)
+                       : text("%.3g MB", 1e-6 * bytes);
 }
 
 std::string whole_cost_text(const WeighedCase& take) {
@@ -188,9 +215,13 @@ std::string against_text(const Choice& choice) {
 // What limits how far the choice can be trusted.
 std::string doubts_text(const Choice& choice) {
   std::string out;
+  if (const double unlit = choice.take->unlit(); unlit > 0.0)
+    out += ". Its samples lack " + (unlit < 1e-4 ? "less than 0.01 %" : text("%.2g %%", 100.0 * unlit)) +
+           " of the lights that they need";
   if (!choice.alike.empty())
-    out += std::string(". No difference that these ") + (choice.take->frame_ns ? "times" : "figures") +
-           " can show to " + first_titles(choice.alike);
+    out += std::string(". No difference that these ") + (choice.take->frame_ns ? "times" : "figures") + " can show" +
+           (choice.take->modelled ? " (costs within 5 % are alike: part of them is modelled)" : "") + " to " +
+           first_titles(choice.alike);
   if (choice.fastest != nullptr && choice.fastest != choice.take && choice.take->modelled)
     out += ". Fastest to make: " + case_title(*choice.fastest->result_case) + ", " + ns_text(*choice.fastest->frame_ns);
   if (choice.searched != nullptr)
@@ -223,8 +254,8 @@ Json conclusion_of(const SceneView& view, std::uint64_t seed) {
     if (choice.ratio) out["ci95"] = {six_digits(choice.ratio->ci95.low), six_digits(choice.ratio->ci95.high)};
   }
   for (const WeighedCase* standing : choice.alike) out["alike"].push_back((*standing->result_case)["id"]);
-  out["text"] = where + "take " + case_title(*choice.take->result_case) + whole_cost_text(*choice.take) +
-                against_text(choice) + doubts_text(choice) + ".";
+  out["text"] = where + "take " + case_title(*choice.take->result_case) + " (" + bytes_text(choice.take->bytes()) +
+                ")" + whole_cost_text(*choice.take) + against_text(choice) + doubts_text(choice) + ".";
   return out;
 }
 
@@ -232,8 +263,11 @@ std::string objective_text(const Json& record, const Json& objective) {
   return objective["figure"].get<std::string>() + " " + amount_text(number_at(record, "/objective").value_or(0.0));
 }
 
-// Times that differ by less than their interval, and figures that are equal.
-bool is_like_choice(const Json& record) {
+// Modelled costs within what the model can tell, times that differ by less than their interval, and equal figures.
+bool is_like_choice(const Json& record, const Json& objective) {
+  if (objective["figure"].get<std::string>().ends_with("_cost_us") &&
+      number_at(record, "/by_choice").value_or(0.0) <= k_alike_ratio)
+    return true;
   if (record.contains("ci95") && record["ci95"][0].is_number()) return record["ci95"][0].get<double>() <= 1.0;
   return number_at(record, "/by_choice").value_or(0.0) <= 1.0;
 }
@@ -259,7 +293,7 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
   std::vector<std::string> alike;
   const Json* against = nullptr;
   for (const Json& record : answer["runners_up"]) {
-    if (is_like_choice(record))
+    if (is_like_choice(record, objective))
       alike.push_back(shown(record["name"].get<std::string>()));
     else if (against == nullptr && record["by_choice"].is_number())
       against = &record;

@@ -17,6 +17,7 @@
 #include "report/json_values.h"
 #include "report/limits.h"
 #include "report/machine.h"
+#include "report/preset_cost.h"
 #include "report/result_json.h"
 
 namespace clusterbench::report {
@@ -187,14 +188,15 @@ std::vector<Ranked> ranked(const config::Config& config, const search::View& vie
   return all;
 }
 
-// The smallest of those that are not known to be worse than the best one, which is brought to the front: so noise
-// seldom decides.
+// The smallest of those that are not known to be worse than the best one, which is brought to the front: so neither
+// noise nor what a model cannot tell apart (report/preset_cost.h) decides.
 void choose(std::vector<Ranked>& all, const Question& question, std::uint64_t seed) {
   if (all.empty() || !all.front().is_feasible()) return;
   std::size_t choice = 0;
   for (std::size_t i = 1; i < all.size() && all[i].is_feasible(); ++i) {
     const std::optional<measure::Ratio> ratio = ratio_of(all[i], all[0], question, seed);
-    const bool is_no_worse = ratio ? !measure::takes_longer(ratio) : all[i].objective == all[0].objective;
+    const bool is_alike = question.objective.is_cost && all[i].objective <= k_alike_ratio * all[0].objective;
+    const bool is_no_worse = is_alike || (ratio ? !measure::takes_longer(ratio) : all[i].objective == all[0].objective);
     if (is_no_worse && all[i].smaller() < all[choice].smaller()) choice = i;
   }
   std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(choice),

@@ -43,8 +43,8 @@ TEST(Conclusion, takes_the_fastest_and_says_against_what_by_how_much_and_how_sur
   EXPECT_EQ(conclusion["take"], "fast");
   EXPECT_EQ(conclusion["against"], "slow");
   EXPECT_NEAR(conclusion["ratio"].get<double>(), 9.5 / 3.5, 1e-3);
-  EXPECT_TRUE(
-      has_words(conclusion, "hall, camera walk, 1920x1080: take frustum 64px/aabb/packed; 3.50 us a frame to make"))
+  EXPECT_TRUE(has_words(conclusion,
+                        "hall, camera walk, 1920x1080: take frustum 64px/aabb/packed (232 B); 3.50 us a frame to make"))
       << conclusion["text"];
   EXPECT_TRUE(has_words(conclusion, "frustum 64px/brute-force/packed costs 2.71 times as much (95 %: 2.71 to 2.71)"))
       << conclusion["text"];
@@ -81,6 +81,26 @@ TEST(Conclusion, times_whose_intervals_overlap_show_no_difference_and_the_smalle
   EXPECT_TRUE(conclusion["against"].is_null());
   EXPECT_TRUE(has_words(conclusion, "No difference that these times can show to frustum 64px/aabb/packed"))
       << conclusion["text"];
+}
+
+TEST(Conclusion, modelled_costs_within_5_percent_are_alike_and_what_leaves_nothing_unlit_is_taken) {
+  run::Result result = result_by_hand();
+  result.config["cost"] = k_usual_model;
+  for (run::CaseResult& one : result.cases) one.timing.reset();
+  measure::ShadingCounts &first = *result.cases[0].shading, &second = *result.cases[1].shading;
+  first.needed = second.needed = 100000;
+  first.evaluated = 120000;
+  second.evaluated = 118000;  // cheaper by less than 5 %
+  second.missed = 20;         // less than a thousandth
+  Json conclusion = only_conclusion(result);
+  EXPECT_EQ(conclusion["take"], "slow") << conclusion["text"];
+  EXPECT_EQ(conclusion["alike"], Json({"fast"})) << conclusion["text"];
+  EXPECT_TRUE(has_words(conclusion, "costs within 5 % are alike")) << conclusion["text"];
+  EXPECT_FALSE(has_words(conclusion, "lack")) << conclusion["text"];
+  first.evaluated = 200000;
+  conclusion = only_conclusion(result);
+  EXPECT_EQ(conclusion["take"], "fast") << conclusion["text"];
+  EXPECT_TRUE(has_words(conclusion, "Its samples lack 0.02 % of the lights that they need")) << conclusion["text"];
 }
 
 TEST(Conclusion, takes_only_what_has_a_star) {
