@@ -63,19 +63,35 @@ void add_slices(std::vector<LookupConstant>& out, const Json& slices) {
     out.push_back({"slice_far", Type::real, {slices["boundaries"].back().get<double>()}});
 }
 
+// Those that a grid does not keep over a path.
+void mark_changing(std::vector<LookupConstant>& constants, const Json& result_case) {
+  const Json& grid = result_case["grid"];
+  const auto mark = [&](std::string_view beginning) {
+    for (LookupConstant& constant : constants) constant.changes |= constant.name.starts_with(beginning);
+  };
+  if (grid.contains("follow")) mark("origin");
+  if (grid.contains("follow") && grid["follow"] == "lights") mark("box_");
+  if (grid.contains("slices") && (grid["slices"]["scheme"] == "fit" || result_case.contains("fit"))) mark("slice_");
+  if (result_case.contains("react")) {
+    mark("cells");
+    mark("tile_scale");
+  }
+}
+
 struct Language {
-  const char *constant, *integer, *real;
+  const char *constant, *variable, *integer, *real;
   const char* integers[2];  // of two, of three
   const char* reals[2];
   bool has_array_constructors;  // of arrays: float[2](1.0, 2.0), else {1.0, 2.0}
 };
-constexpr Language k_hlsl{"static const ", "int", "float", {"int2", "int3"}, {"float2", "float3"}, false};
-constexpr Language k_glsl{"const ", "int", "float", {"ivec2", "ivec3"}, {"vec2", "vec3"}, true};
+constexpr Language k_hlsl{"static const ", "static ", "int", "float", {"int2", "int3"}, {"float2", "float3"}, false};
+constexpr Language k_glsl{"const ", "", "int", "float", {"ivec2", "ivec3"}, {"vec2", "vec3"}, true};
 
 std::string declared_array(const std::string& name, const LookupConstant& constant, const Language& language) {
   const std::string size = "[" + std::to_string(constant.values.size()) + "]", values = values_text(constant);
-  return language.constant + std::string(language.real) + " " + name + size + " = " +
-         (language.has_array_constructors ? language.real + size + "(" + values + ")" : "{" + values + "}") + ";\n";
+  return (constant.changes ? language.variable : language.constant) + std::string(language.real) + " " + name + size +
+         " = " + (language.has_array_constructors ? language.real + size + "(" + values + ")" : "{" + values + "}") +
+         ";\n";
 }
 
 std::string declared(const std::string& prefix, const std::vector<LookupConstant>& constants,
@@ -89,8 +105,8 @@ std::string declared(const std::string& prefix, const std::vector<LookupConstant
     const std::size_t count = constant.values.size();
     const std::string type = count == 1 ? (is_integer(constant) ? language.integer : language.real)
                                         : (is_integer(constant) ? language.integers : language.reals)[count - 2];
-    out += language.constant + type + " " + prefix + "_" + constant.name + " = " +
-           (count == 1 ? values_text(constant) : type + "(" + values_text(constant) + ")") + ";\n";
+    out += (constant.changes ? language.variable : language.constant) + type + " " + prefix + "_" + constant.name +
+           " = " + (count == 1 ? values_text(constant) : type + "(" + values_text(constant) + ")") + ";\n";
   }
   return out;
 }
@@ -109,6 +125,7 @@ std::vector<LookupConstant> lookup_constants(const Json& result_case) {
     out.push_back({"box_min", Type::real, numbers_of(grid["bounds"]["min"])});
     out.push_back({"box_max", Type::real, numbers_of(grid["bounds"]["max"])});
   }
+  mark_changing(out, result_case);
   return out;
 }
 
@@ -117,14 +134,16 @@ std::string lookup_note(const Json& result_case) {
   if (grid.contains("follow"))
     return std::string("the grid follows the ") +
            (grid["follow"] == "camera" ? "camera: origin is" : "lights in view: origin, box_min and box_max are") +
-           " the last frame's, and uniforms in a shader";
+           " the last frame's: set this frame's before a lookup";
   if (!grid.contains("slices")) return "";
-  if (grid["slices"]["scheme"] == "fit") return "slices follow the lights: scale, bias and far are the last frame's";
+  if (grid["slices"]["scheme"] == "fit")
+    return "slices follow the lights: scale, bias and far are the last frame's: set this frame's before a lookup";
   if (result_case.contains("react"))
-    return "tiles react: cells and tile_scale are the last frame's, and uniforms in a shader" +
+    return "tiles react: cells and tile_scale are the last frame's: set this frame's before a lookup" +
            std::string(result_case.contains("fit") ? ", as are scale, bias, first and far" : "");
   if (result_case.contains("fit"))
-    return "slices follow what frames need: scale, bias, first and far are the last frame's, and uniforms in a shader";
+    return "slices follow what frames need: scale, bias, first and far are the last frame's: set this frame's before a "
+           "lookup";
   const Json& form = grid["slices"]["lookup"]["form"];
   const std::string along = grid["kind"] == "distance" ? "length(view)" : "depth";
   if (form == "search") return "slice = the last one whose boundary, slice_boundaries[slice], is not beyond " + along;
@@ -144,7 +163,7 @@ std::string lookup_cpp(const std::string& name, const std::vector<LookupConstant
   for (const LookupConstant& constant : constants) {
     const bool is_single = constant.values.size() == 1;
     const char* type = is_integer(constant) ? "int " : constant.type == Type::precise ? "double " : "float ";
-    out += std::string("inline constexpr ") + type + constant.name +
+    out += std::string(constant.changes ? "inline " : "inline constexpr ") + type + constant.name +
            (is_single ? " = " + values_text(constant, "f") : "[] = {" + values_text(constant, "f") + "}") + ";\n";
   }
   return out + "}\n";

@@ -14,6 +14,8 @@ struct LookupConstant {
   Type type = Type::real;
   std::vector<double> values;  // one, or a vector's two or three; of an array any number
   bool is_array = false;
+  // From frame to frame: declared as a variable, which has the last frame's value and is set before a lookup.
+  bool changes = false;
 };
 
 // Of a case with lists. Slices that have no formula (form "search") have their boundaries, and no scale and bias.

@@ -119,6 +119,14 @@ std::string structure_code(const NamedStructure& named, SizeLanguage language, c
   return out + "\n";
 }
 
+// Fragment shaders of OpenGL ES have no default.
+constexpr const char* k_es_precision = R"(#ifdef GL_ES
+precision highp float;
+precision highp int;
+#endif
+
+)";
+
 constexpr const char* k_title =
     "// Light-list allocation, measured by clusterbench. Measure again when levels, lights or the clustering change.\n";
 
@@ -171,6 +179,7 @@ std::string size_code(SizeLanguage language, const std::vector<NamedStructure>& 
   if (!remark.empty()) out += comment_line(remark);
   out += is_cpp ? k_header_start : "\n";
   if (!is_cpp) out += guard_text(language, structures);
+  if (language == SizeLanguage::glsl) out += k_es_precision;
   int slot = 0;
   for (const NamedStructure& named : structures) out += structure_code(named, language, rules, slot);
   return out + (is_cpp ? k_header_end : "#endif\n");

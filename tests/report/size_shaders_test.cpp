@@ -396,6 +396,13 @@ TEST_F(SizeShaders, compile_whatever_cases_are_called) {
   EXPECT_TRUE(compiles(size_report(json, {"", true, "hlsl"}) + "[numthreads(1, 1, 1)] void main() {}\n", true));
 }
 
+TEST_F(SizeShaders, compile_in_a_fragment_shader_of_opengl_es) {
+  const nlohmann::ordered_json json = result_to_json(testing::result_by_hand(), {});
+  write("x.frag", "#version 310 es\n" + size_report(json, {"", false, "glsl"}) +
+                      "out vec4 colour;\nvoid main() { colour = vec4(1.0); }\n");
+  EXPECT_TRUE(does("glslangValidator -S frag " + path("x.frag")));
+}
+
 // Lists of some cells in one of the forms that buffers have, in words of 32 bits.
 struct Encoded {
   std::string name, storage;
