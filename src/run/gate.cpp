@@ -196,7 +196,8 @@ std::uint64_t pairs_lost(const CaseResult& result) {
 
 std::string limit_text(const CaseResult& result, const PreCullCounts::Step& step) {
   const PreCullCounts& counts = result.pre_cull->counts;
-  std::string text = "takes " + number_of(static_cast<std::uint64_t>(*step.limit), "light") + ", and " +
+  std::string text = "takes " + number_of(static_cast<std::uint64_t>(*step.limit), "light") +
+                     (step.label.ends_with(",type)") ? " of each type, and " : ", and ") +
                      number_of(static_cast<std::uint64_t>(step.frames), "frame") + " of " +
                      std::to_string(result.frames) + (step.frames == 1 ? " has" : " have") +
                      " more: " + std::to_string(static_cast<std::uint64_t>(step.removed.max)) + " too many at most, " +

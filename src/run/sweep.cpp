@@ -370,6 +370,7 @@ class Expansion {
 
   std::size_t all_cases() const { return all_cases_; }
   const std::string& example() const { return example_; }
+  const std::vector<Skipped>& impossible() const { return impossible_; }  // also those that the filter leaves out
 
  private:
   void expand_scene(Plan& plan, std::size_t scene) {
@@ -535,8 +536,9 @@ class Expansion {
 
   // What the filter leaves out is not listed as skipped either.
   void skip(Plan& plan, const Family& family, const std::string& name, const std::string& reason,
-            bool is_other_kind = false) const {
+            bool is_other_kind = false) {
     const std::string preset = family.preset == nullptr ? "" : family.preset->preset;
+    impossible_.push_back({name, reason, is_other_kind, preset});
     if (filter_.is_in(name)) plan.skipped.push_back({name, reason, is_other_kind, preset});
   }
 
@@ -546,6 +548,7 @@ class Expansion {
   std::map<std::string, std::string> without_grid_;  // what its structure depends on -> the case's name
   std::size_t all_cases_ = 0;
   std::string example_;
+  std::vector<Skipped> impossible_;
 };
 
 }  // namespace
@@ -606,6 +609,27 @@ assign::AssignerRun start_method(const config::Config& config, const Method& met
   return {*assign::find_assigner(request.name), request.params, method.answer};
 }
 
+namespace {
+
+// Where nothing matches, the case that was meant can be one that cannot be.
+std::string impossible_text(const std::vector<Skipped>& skipped, const std::string& filter) {
+  if (skipped.empty()) return "";
+  const Pattern whole(filter, "--filter");
+  std::optional<Pattern> grid;
+  try {
+    grid.emplace(filter.substr(0, filter.find('/')), "--filter");
+  } catch (const Error&) {  // half a pattern need not be one
+  }
+  auto meant = std::ranges::find_if(skipped, [&](const Skipped& one) { return whole.is_in(one.name); });
+  if (meant == skipped.end() && grid)
+    meant = std::ranges::find_if(skipped, [&](const Skipped& one) { return grid->is_in(one.name); });
+  if (meant == skipped.end()) meant = skipped.begin();
+  return "; " + number_of(skipped.size(), "combination") + " cannot be measured, among them " + meant->name + ": " +
+         meant->reason;
+}
+
+}  // namespace
+
 Plan make_plan(const config::Config& config, const std::string& filter) {
   set_memory_limit(config.limits.memory_mib << 20);
   Expansion expansion(config, filter);
@@ -616,7 +640,7 @@ Plan make_plan(const config::Config& config, const std::string& filter) {
   if (expansion.all_cases() > 0)
     throw Error("", "--filter",
                 "'" + filter + "' matches none of " + number_of(expansion.all_cases(), "case") + "; one of them is '" +
-                    expansion.example() + "'");
+                    expansion.example() + "'" + impossible_text(expansion.impossible(), filter));
   throw Error(config.file.string(), "",
               "no case is left: " + number_of(plan.skipped.size(), "combination") + " cannot be measured" +
                   (plan.skipped.empty() ? "" : "; the first, " + plan.skipped[0].name + ": " + plan.skipped[0].reason));

@@ -163,6 +163,16 @@ TEST(PresetRuns, lights_in_view_beyond_an_engines_limit_are_lost_and_fail_nothin
       << limit_warning(result.cases[0]);
 }
 
+TEST(PresetRuns, a_limit_of_each_type_is_said_to_be_one) {
+  const RowOfLights row(520, 0);
+  const config::Config config = preset_config(row.path(), R"(, "presets": ["godot"])");
+  const Result result = preset_results(config, make_plan(config, ""));
+  ASSERT_EQ(result.cases.size(), 1u);
+  EXPECT_NE(limit_warning(result.cases[0]).find("takes 512 lights of each type, and 1 frame of 1 has more: 8 too many"),
+            std::string::npos)
+      << limit_warning(result.cases[0]);
+}
+
 TEST(PresetRuns, six_hundred_lights_in_the_level_of_which_forty_are_in_view_lose_nothing) {
   const RowOfLights row(40, 560);
   const config::Config config =
