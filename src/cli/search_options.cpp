@@ -45,36 +45,43 @@ std::optional<search::Box> box_in(const std::string& text) {
 
 }  // namespace
 
-void add_effort_options(Command& command, SearchFlags& flags) {
-  command.add_option("--evaluations", flags.request.evaluations, "Frames that the search may measure")
-      .range(1, 10'000'000)
-      .shows_standard();
-  command
-      .add_option("--seconds", flags.request.seconds,
-                  "End the search after so many, too; the result then depends on the machine; 0 = never")
-      .non_negative()
-      .shows_standard();
-  command.add_option("--seed", flags.request.seed, "Seed of everything random").shows_standard();
+void add_effort_options(Command& command, SearchFlags& flags, const Option* only_with) {
+  std::vector<Option> options{
+      command.add_option("--evaluations", flags.request.evaluations, "Frames that the search may measure")
+          .range(1, 10'000'000)
+          .shows_standard(),
+      command
+          .add_option("--seconds", flags.request.seconds,
+                      "End the search after so many, too; the result then depends on the machine; 0 = never")
+          .non_negative()
+          .shows_standard(),
+      command.add_option("--seed", flags.request.seed, "Seed of everything random").shows_standard()};
+  if (only_with != nullptr)
+    for (Option& option : options) option.needs(*only_with);
 }
 
-void add_space_options(Command& command, SearchFlags& flags) {
-  command.add_option("--within", flags.within,
-                     "X0,Y0,Z0,X1,Y1,Z1: where the camera may stand, metres; without: the box of the scene's lights "
-                     "and recorded eyes");
-  command.add_flag("--walkable", flags.request.walkable,
-                   "The camera stands above triangles of the scene that look upward (at most 45 degrees from it)");
-  command.add_option("--eye-height", flags.request.eye_height_m, "With --walkable: so high above them, metres")
-      .range(0.0, 1e6)
-      .shows_standard();
-  command
-      .add_option("--add-lights", flags.added,
-                  "COUNTxRANGE, repeatable: so many point lights of that range, in metres, stand where they are worst")
-      .once_a_name();
-  command
-      .add_option("--move-lights", flags.request.move_m,
-                  "Move each light of the scene by up to so many metres; 0: none")
-      .range(0.0, 1e15)
-      .shows_standard();
+void add_space_options(Command& command, SearchFlags& flags, const Option* only_with) {
+  std::vector<Option> options{
+      command.add_option("--within", flags.within,
+                         "X0,Y0,Z0,X1,Y1,Z1: where the camera may stand, metres; without: the box of the scene's "
+                         "lights and recorded eyes"),
+      command.add_flag("--walkable", flags.request.walkable,
+                       "The camera stands above triangles of the scene that look upward (at most 45 degrees from it)"),
+      command.add_option("--eye-height", flags.request.eye_height_m, "With --walkable: so high above them, metres")
+          .range(0.0, 1e6)
+          .shows_standard(),
+      command
+          .add_option("--add-lights", flags.added,
+                      "COUNTxRANGE, repeatable: so many point lights of that range, in metres, stand where they are "
+                      "worst")
+          .once_a_name(),
+      command
+          .add_option("--move-lights", flags.request.move_m,
+                      "Move each light of the scene by up to so many metres; 0: none")
+          .range(0.0, 1e15)
+          .shows_standard()};
+  if (only_with != nullptr)
+    for (Option& option : options) option.needs(*only_with);
 }
 
 search::WorstCaseRequest search_request(const SearchFlags& flags, const config::Config& config) {

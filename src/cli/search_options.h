@@ -18,9 +18,10 @@ struct SearchFlags {
 };
 
 // How long it searches, and its seed.
-void add_effort_options(Command& command, SearchFlags& flags);
+// `only_with`: a flag that they are refused without.
+void add_effort_options(Command& command, SearchFlags& flags, const Option* only_with = nullptr);
 // What it may choose: where the camera stands, and lights that are added or moved.
-void add_space_options(Command& command, SearchFlags& flags);
+void add_space_options(Command& command, SearchFlags& flags, const Option* only_with = nullptr);
 
 // Throws Error that names the flag.
 search::WorstCaseRequest search_request(const SearchFlags& flags, const config::Config& config);

@@ -85,7 +85,7 @@ ExitCode size(SizeFlags flags) {
   std::optional<SizeCounts> counts;
   Json result;
   if (!is_result(flags.inputs)) {
-    counts = counted_for_size(flags.inputs, flags.request.filter, flags.request.all, flags.quiet);
+    counts = counted_for_size(flags.inputs, flags.request.filter, flags.request.all, flags.engine, flags.quiet);
     if (!counts) return stopped_exit_code();
     result = counts->result;
   } else {
@@ -151,15 +151,16 @@ void add_size(Command& program, Action& action) {
       "up; says what these lack");
   command.add_flag("--one-for-viewports", flags->request.scope.over_viewports,
                    "One allocation for all viewports, as for dynamic resolution; not one for each");
-  command.add_flag("--worst-case", flags->worst_case,
-                   "First search for frames that need more than those of the paths, and size by the larger one");
+  const Option worst_case =
+      command.add_flag("--worst-case", flags->worst_case,
+                       "First search for frames that need more than those of the paths, and size by the larger one");
   command
       .add_option("--found", flags->found,
                   "FILE, repeatable: what `clusterbench worst-case -o FILE` found for the same scene and case")
       .once_a_name();
-  add_effort_options(command, flags->search);
-  add_space_options(command, flags->search);
-  add_config_options(command, flags->inputs);
+  add_effort_options(command, flags->search, &worst_case);
+  add_space_options(command, flags->search, &worst_case);
+  add_config_options(command, flags->inputs, {"--rounds", "--launches", "--fail-if"});
   command.add_flag("-q,--quiet", flags->quiet, "No progress; warnings stay");
   command.when_named([flags, &action] { action = [flags] { return size(*flags); }; });
 }

@@ -88,6 +88,12 @@ config::Config counting_only(config::Config config) {
   return config;
 }
 
+config::Config without_light_limits(config::Config config) {
+  for (cull::PreCullSpec& spec : config.pre_culls)
+    std::erase_if(spec.steps, [](const cull::Step& step) { return std::holds_alternative<cull::MostStep>(step); });
+  return config;
+}
+
 // Samples say whether a structure loses lights. Many frames have as many together as 30 frames would.
 void share_samples(config::Config& config, const run::Plan& plan) {
   constexpr int k_fewest = 32;
@@ -205,7 +211,7 @@ void tell_of(const Sampling& sampling, const run::Plan& plan, bool exact_methods
 }  // namespace
 
 std::optional<SizeCounts> counted_for_size(const RunInputs& inputs, const std::string& filter, bool all_methods,
-                                           bool quiet) {
+                                           const std::string& engine, bool quiet) {
   std::vector<config::FlagValue> flags = all_cameras(inputs);
   const bool exact_methods = takes_exact_methods(inputs, filter, all_methods);
   if (exact_methods) flags.push_back({"--assigner", k_exact_methods});
@@ -216,6 +222,7 @@ std::optional<SizeCounts> counted_for_size(const RunInputs& inputs, const std::s
   if (samples) sampling = sampling_of(inputs, std::move(sampling.flags), asked, filter);
   if (stop) return {};
   SizeCounts out{counting_only(read_inputs(inputs, sampling.flags)), {}, {}};
+  if (!engine.empty()) out.config = without_light_limits(std::move(out.config));
   out.plan = run::make_plan(out.config, filter);
   if (samples) share_samples(out.config, out.plan);
   if (!quiet) tell_of(sampling, out.plan, exact_methods);

@@ -49,9 +49,11 @@ report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& s
     if (found.frames.empty()) return out.refusal = "the search was interrupted", out;
     out.evaluations = found.evaluations;
     out.seed = request.seed;
+    out.lights = found.own_lights + request.extra_ranges_m.size();
     const Vec3d& eye = found.frames.front().choice.eye;
     out.eye_m = {eye.x, eye.y, eye.z};
-    for (const assign::BufferNeed& need : found.buffers) out.needs.push_back({need.name, need.elements, need.most});
+    for (const assign::BufferNeed& need : found.buffers)
+      out.needs.push_back({need.name, need.elements, need.most, need.element_bytes});
   } catch (const Error& error) {
     if (error.where().starts_with("--")) throw;  // a flag that is wrong for all
     out.refusal = error.what();

@@ -192,6 +192,7 @@ void add_found(SizedStructure& structure, const FoundFrame& found) {
     if (buffer == structure.buffers.end()) continue;
     buffer->found = times(need.elements, views);
     buffer->theoretical_max = std::max(buffer->theoretical_max, times(need.most, views));
+    buffer->element_bytes = std::max(buffer->element_bytes, need.element_bytes);
   }
 }
 

@@ -30,9 +30,11 @@ struct FoundFrame {
   int evaluations = 0;
   std::uint64_t seed = 1;
   std::vector<double> eye_m;  // of the worst frame
+  std::uint64_t lights = 0;   // of the level and those added; 0: not known
   struct Need {
     std::string name;  // of a buffer
     std::uint64_t elements = 0, most = 0;
+    std::uint64_t element_bytes = 0;  // which more lights can widen; 0: not known
   };
   std::vector<Need> needs;  // of that frame
 };

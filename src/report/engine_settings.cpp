@@ -15,13 +15,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // What a setting has to have room for.
-enum class Needed : std::uint8_t { lights_in_view, longest_list, entries };
+enum class Needed : std::uint8_t { lights_in_view, lights_of_type, lights_in_scene, longest_list, entries };
 
 struct LimitSetting {
   const char* name;  // as it stands in the engine
   Needed needed;
   std::uint64_t standard, least, most;  // as the engine comes, and what it takes
   std::uint64_t multiple = 1;
+  bool is_constant = false;  // compiled in: nothing to set, and frames can still have more
 };
 
 struct EngineRow {
@@ -39,19 +40,20 @@ const std::vector<EngineRow>& engine_rows() {
       {"godot",
        "Godot 4, Project Settings",
        "",
-       {{"rendering/limits/cluster_builder/max_clustered_elements", Needed::lights_in_view, 512, 32, 8192, 32}},
+       {{"rendering/limits/cluster_builder/max_clustered_elements", Needed::lights_of_type, 512, 32, 8192, 32}},
        "of each type (omni lights, spot lights, decals, reflection probes) elements beyond it are not drawn"},
       {"playcanvas",
        "PlayCanvas engine 2, scene.lighting (LightingParams)",
        "scene.lighting.cells = new pc.Vec3(X, Y, Z)",
-       {{"scene.lighting.maxLightsPerCell", Needed::longest_list, 255, 1, 255}},
-       "a full cell takes no more lights; and a frame no more than 255, which 8-bit indices number"},
+       {{"scene.lighting.maxLightsPerCell", Needed::longest_list, 255, 1, 255},
+        {"lights of a frame, which 8 bits number", Needed::lights_in_view, 255, 1, 255, 1, true}},
+       "a full cell takes no more lights, and a frame no more than 255"},
       {"three-js",
        "three.js r187, examples/jsm/lighting/ClusteredLighting.js",
        "new ClusteredLighting(maxLights, tileSize = P, zSlices = Z, maxLightsPerCluster)",
-       {{"maxLights", Needed::lights_in_view, 1024, 1, k_any},
+       {{"maxLights", Needed::lights_in_scene, 1024, 1, k_any},
         {"maxLightsPerCluster", Needed::longest_list, 64, 1, k_any}},
-       "a full cluster keeps the farthest lights"},
+       "lights of the scene beyond maxLights are not drawn, in view or not; a full cluster keeps the farthest lights"},
       {"bevy",
        "Bevy 0.19, GlobalClusterSettings and ClusterConfig of a camera",
        "ClusterConfig::XYZ { dimensions: UVec3::new(X, Y, Z), .. }",
@@ -95,14 +97,49 @@ const EngineRow* row_of_engine(const std::string& name) {
   return found == engine_rows().end() ? nullptr : &*found;
 }
 
+bool is_of_lists(Needed needed) {
+  return needed == Needed::longest_list || needed == Needed::entries;
+}
+
+// Lists of frames in which a limit took lights away are shorter than those that the lights need.
+bool has_lists_behind_limit(const Json& result_case) {
+  const Json* steps = value_at(result_case, "/pre_cull/steps");
+  return steps != nullptr && std::ranges::any_of(*steps, [](const Json& step) {
+           return step["label"].get_ref<const std::string&>().starts_with("most(") &&
+                  number_at(step, "/removed/max").value_or(1.0) > 0.0;
+         });
+}
+
+std::optional<double> most_of_any_type(const Json& result_case) {
+  const Json* by_type = value_at(result_case, "/lights_in_view/max_by_type");
+  if (by_type == nullptr) return number_at(result_case, "/lights_in_view/max");
+  double most = 0.0;
+  for (const Json& lights : *by_type) most = std::max(most, lights.get<double>());
+  return most;
+}
+
+std::optional<double> seen_in_case(const Json& result_case, Needed needed) {
+  if (is_of_lists(needed) && has_lists_behind_limit(result_case)) return {};
+  switch (needed) {
+    case Needed::lights_in_view:
+      return number_at(result_case, "/lights_in_view/max");
+    case Needed::lights_of_type:
+      return most_of_any_type(result_case);
+    case Needed::lights_in_scene:
+      return number_at(result_case, "/lights");
+    case Needed::longest_list:
+      return number_at(result_case, "/occupancy/lights_per_cell/max");
+    case Needed::entries:
+      break;
+  }
+  return number_at(result_case, "/buffers/index_entries/high_water");
+}
+
 // The most that was seen of it, over all cameras; none where the result does not say.
 std::optional<std::uint64_t> most_seen(const SizedStructure& structure, Needed needed) {
   std::uint64_t most = 0;
   for (const Json* result_case : structure.cases) {
-    const std::optional<double> value =
-        needed == Needed::lights_in_view ? number_at(*result_case, "/lights_in_view/max")
-        : needed == Needed::longest_list ? number_at(*result_case, "/occupancy/lights_per_cell/max")
-                                         : number_at(*result_case, "/buffers/index_entries/high_water");
+    const std::optional<double> value = seen_in_case(*result_case, needed);
     if (!value) return {};
     most = std::max(most, static_cast<std::uint64_t>(*value));
   }
@@ -117,12 +154,12 @@ std::optional<std::uint64_t> most_lights(const SizedStructure& structure) {
     if (!lights) return {};
     most = std::max(most, static_cast<std::uint64_t>(*lights));
   }
-  return most;
+  return structure.found ? std::max(most, structure.found->lights) : most;
 }
 
 // The most that a search found, where it looked for that.
 std::optional<std::uint64_t> most_found(const SizedStructure& structure, Needed needed) {
-  if (!structure.found || needed == Needed::lights_in_view || structure.buffers.empty()) return {};
+  if (!structure.found || !is_of_lists(needed) || structure.buffers.empty()) return {};
   const SizedBuffer& lists = structure.buffers.front();
   const bool has_room_per_cell = (*structure.cases.front())["storage"].get<std::string>().starts_with("fixed");
   if (!lists.found || has_room_per_cell != (needed == Needed::longest_list)) return {};
@@ -146,6 +183,8 @@ struct SettingValue {
 SettingValue value_of(const LimitSetting& setting, const SizedStructure& structure, const AllocationRules& rules) {
   SettingValue out{&setting, most_seen(structure, setting.needed), most_found(structure, setting.needed)};
   auto with_margin = static_cast<std::uint64_t>(std::ceil(static_cast<double>(out.needed()) * rules.margin));
+  if (setting.needed == Needed::lights_in_scene)
+    with_margin = std::max(with_margin, most_lights(structure).value_or(0));
   if (const auto lights = most_lights(structure);
       lights && setting.needed != Needed::entries && with_margin >= *lights) {
     with_margin = *lights;
@@ -157,9 +196,19 @@ SettingValue value_of(const LimitSetting& setting, const SizedStructure& structu
 }
 
 const char* unit_of(Needed needed) {
-  return needed == Needed::lights_in_view ? "lights in view"
-         : needed == Needed::longest_list ? "lights in the longest list"
-                                          : "entries in all lists";
+  switch (needed) {
+    case Needed::lights_in_view:
+      return "lights in view";
+    case Needed::lights_of_type:
+      return "lights of one type in view";
+    case Needed::lights_in_scene:
+      return "lights in the scene";
+    case Needed::longest_list:
+      return "lights in the longest list";
+    case Needed::entries:
+      break;
+  }
+  return "entries in all lists";
 }
 
 std::string grid_text(const EngineRow& row, const Json& grid) {
@@ -177,31 +226,77 @@ std::string grid_text(const EngineRow& row, const Json& grid) {
   return out;
 }
 
+// What the setting is set to, and what the engine comes with.
+std::string value_text(const SettingValue& value) {
+  const LimitSetting& setting = *value.setting;
+  if (setting.is_constant) return "at most " + std::to_string(setting.most) + ", compiled in";
+  const std::string standard = std::to_string(setting.standard);
+  std::string out = std::to_string(value.value);
+  if (value.is_too_much()) return out + ", and that is NOT ENOUGH";
+  if (setting.standard > 0 && value.needed() > 0)
+    out += value.value <= setting.standard ? " (the engine's own " + standard + " is enough)"
+                                           : " (the engine comes with " + standard + ")";
+  return out;
+}
+
+std::string search_text(const SettingValue& value, const SizedStructure& structure) {
+  const Needed needed = value.setting->needed;
+  if (value.found) return std::to_string(*value.found) + " " + unit_of(needed);
+  if (structure.found && !structure.found->refusal.empty()) return "not searched: " + structure.found->refusal;
+  if (structure.found && !is_of_lists(needed)) return "not looked for: the search makes lists long";
+  return "not searched (--worst-case)";
+}
+
+// Beyond what the engine takes.
+std::string lost_text(const SettingValue& value) {
+  const std::uint64_t over = value.needed() - value.setting->most;
+  const std::string most = "TOO MUCH: the engine takes at most " + std::to_string(value.setting->most);
+  if (value.setting->needed == Needed::longest_list)
+    return most + "; the longest list loses " + number_of(over, "light");
+  if (value.setting->needed == Needed::entries)
+    return most + "; such a frame loses " + std::to_string(over) + " entries";
+  return most + "; such a frame loses " + number_of(over, "light") +
+         (value.setting->needed == Needed::lights_of_type ? " of that type" : "");
+}
+
 std::string setting_lines(const SettingValue& value, const SizedStructure& structure, const AllocationRules& rules) {
   const LimitSetting& setting = *value.setting;
   std::string out = std::string("  ") + setting.name + ": ";
   if (!value.seen)
-    return out + "unknown, the result does not say how many " + unit_of(setting.needed) + "; count anew\n";
-  out += std::to_string(value.value);
-  if (setting.standard > 0 && value.wanted <= setting.most)
-    out += value.value <= setting.standard ? " (the engine's own " + std::to_string(setting.standard) + " is enough)"
-                                           : " (the engine comes with " + std::to_string(setting.standard) + ")";
-  out += "\n    the most seen: " + std::to_string(*value.seen) + " " + unit_of(setting.needed) + " in " +
-         number_of(structure.frames(), "frame") + "\n";
-  out += "    the most found by a search: " +
-         (value.found ? std::to_string(*value.found) + " " + unit_of(setting.needed)
-          : structure.found && setting.needed == Needed::lights_in_view
-              ? std::string("not looked for: the search makes lists long")
-          : structure.found && !structure.found->refusal.empty() ? "not searched: " + structure.found->refusal
-                                                                 : "not searched (--worst-case)") +
-         "\n";
-  out += (value.is_all ? std::string("    all lights of the level") : "    x " + text("%g", rules.margin)) +
-         (setting.multiple > 1 ? ", up to a multiple of " + std::to_string(setting.multiple) : std::string());
-  if (value.is_too_much())
-    out += "; TOO MUCH: the engine takes at most " + std::to_string(setting.most) + ", and such frames lose lights";
-  else if (value.wanted > setting.most)
-    out += "; the engine takes at most " + std::to_string(setting.most) + ", less room than asked for";
-  return out + "\n";
+    return out + "unknown: the result does not say how many " + unit_of(setting.needed) +
+           (is_of_lists(setting.needed) ? " there are without the engine's own limit on lights" : "") +
+           "; count anew: clusterbench size LEVEL --engine NAME\n";
+  out += value_text(value) + "\n    the most seen: " + std::to_string(*value.seen) + " " + unit_of(setting.needed) +
+         " in " + number_of(structure.frames(), "frame") + "\n";
+  if (setting.needed != Needed::lights_in_scene)
+    out += "    the most found by a search: " + search_text(value, structure) + "\n";
+  if (!setting.is_constant)
+    out += (value.is_all ? std::string("    all lights of the level") : "    x " + text("%g", rules.margin)) +
+           (setting.multiple > 1 ? ", up to a multiple of " + std::to_string(setting.multiple) : std::string()) +
+           (!value.is_too_much() && value.wanted > setting.most
+                ? "; the engine takes at most " + std::to_string(setting.most) + ", less room than asked for"
+                : "") +
+           "\n";
+  return out + (value.is_too_much() ? "    " + lost_text(value) + "\n" : "");
+}
+
+// What to do with the settings: where frames need more than the engine takes, setting them does not help.
+std::string advice_text(const EngineRow& row, const std::vector<SizedStructure>& structures,
+                        const AllocationRules& rules) {
+  bool is_too_much = false, is_known = true;
+  for (const SizedStructure& structure : structures)
+    for (const LimitSetting& setting : row.limits) {
+      const SettingValue value = value_of(setting, structure, rules);
+      is_too_much |= value.is_too_much();
+      is_known &= value.seen.has_value();
+    }
+  if (std::ranges::any_of(structures, saw_no_light))
+    return "Do not set these values: they hold for frames without lights. Give cameras that see some.\n";
+  if (is_too_much)
+    return "With these values the engine still loses lights, where it says TOO MUCH: fewer or smaller lights, or "
+           "another clustering; `clusterbench run` with the preset says what pixels lose.\n";
+  if (!is_known) return "Set the values that are known; measure again when levels or lights change.\n";
+  return "Set these values; measure again when levels or lights change.\n";
 }
 
 }  // namespace
@@ -235,13 +330,12 @@ std::string engine_settings_text(const std::string& engine, const std::vector<Si
       out += "  " + grid + "\n";
     for (const LimitSetting& setting : row.limits)
       out += setting_lines(value_of(setting, structure, rules), structure, rules);
-    if ((*structure.cases.front()).contains("pre_cull"))
-      out += "  lists are of the lights that the engine takes in a frame; lights in view are all\n";
+    if (saw_no_light(structure)) out += "  " + no_light_text() + "\n";
     out += std::string("  beyond the limit: ") + row.beyond + "\n";
     for (const std::string& note : grid_notes(structure)) out += "  grid: " + shown(note) + "\n";
     out += "\n";
   }
-  return out + "Set these values; measure again when levels or lights change.\n";
+  return out + advice_text(row, structures, rules);
 }
 
 Json engine_settings_json(const std::string& engine, const SizedStructure& structure, const AllocationRules& rules) {
@@ -255,9 +349,10 @@ Json engine_settings_json(const std::string& engine, const SizedStructure& struc
     Json entry{{"name", setting.name}, {"needed", unit_of(setting.needed)}};
     entry["seen"] = value.seen ? Json(*value.seen) : Json();
     entry["found"] = value.found ? Json(*value.found) : Json();
-    entry["value"] = value.seen ? Json(value.value) : Json();
+    entry["value"] = value.seen && !setting.is_constant ? Json(value.value) : Json();
     entry["most"] = setting.most == k_any ? Json() : Json(setting.most);
     entry["is_too_much"] = value.is_too_much();
+    if (value.is_too_much()) entry["lost"] = value.needed() - setting.most;
     out["limits"].push_back(entry);
   }
   return out;

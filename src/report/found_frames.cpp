@@ -48,11 +48,12 @@ FoundFrame read_found(const std::string& path, const Json& result) {
   out.evaluations = json["evaluations"].get<int>();
   out.seed = json["seed"].get<std::uint64_t>();
   out.eye_m = json["frames"][0]["eye_m"].get<std::vector<double>>();
+  out.lights = json["space"]["lights"].get<std::uint64_t>() + json["space"]["added_ranges_m"].size();
   if (!json.contains("buffers"))
     throw Error(path, "/buffers", "is missing: an earlier version wrote the file, without what each buffer needs");
   for (const Json& need : json["buffers"])
     out.needs.push_back({need["name"].get<std::string>(), need["elements"].get<std::uint64_t>(),
-                         need["theoretical_max"].get<std::uint64_t>()});
+                         need["theoretical_max"].get<std::uint64_t>(), need.value("element_bytes", std::uint64_t{0})});
   return out;
 }
 

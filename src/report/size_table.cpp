@@ -67,7 +67,9 @@ std::string marks_text(const SizedStructure& structure, const AllocationRules& r
   for (const SizedBuffer& buffer : structure.buffers) {
     for (const MarkLine& line : mark_lines(buffer, structure))
       out += "  " + line.label + ": " + shown(line.text) + "\n";
-    if (buffer.found && !buffer.is_all())
+    // Of what is the same in all frames, nothing was to be found.
+    const bool is_constant = buffer.spread && buffer.spread->min == buffer.spread->max;
+    if (buffer.found && !buffer.is_all() && !(is_constant && *buffer.found == buffer.high_water))
       out += "  capacity: " + shown(buffer.name) + ": " + std::to_string(buffer.capacity) + " = " +
              rule_text(buffer, rules) + "\n";
   }
@@ -100,6 +102,7 @@ std::string structure_text(const SizedStructure& structure, const AllocationRule
   const std::vector<Cells> rows = table_rows(structure);
   const std::vector<std::size_t> widths = widths_of(rows);
   for (const Cells& row : rows) out += aligned(row, widths);
+  if (saw_no_light(structure)) out += "  " + no_light_text() + "\n";
   out += worst_lines(structure);
   out += note_lines(structure);
   out += marks_text(structure, rules);
@@ -130,6 +133,11 @@ std::string size_table(const std::vector<NamedStructure>& structures, const std:
   if (!remark.empty()) out += remark + "\n";
   const bool is_searched =
       std::ranges::any_of(structures, [](const NamedStructure& named) { return named.structure.found.has_value(); });
+  const bool is_of_nothing = std::ranges::any_of(structures, [](const NamedStructure& named) {
+    const bool is_found = named.structure.found && named.structure.found->refusal.empty();
+    return saw_no_light(named.structure) && !is_found;
+  });
+  if (is_of_nothing) return out + "Do not allocate these: give cameras that see lights, or --worst-case.\n";
   return out + (is_searched
                     ? "Allocate these capacities; --format cpp, hlsl or glsl has them as code.\n"
                     : "Next: --worst-case looks for frames that need more than these; --format cpp, hlsl or glsl "

@@ -5,6 +5,7 @@
 #include "core/text.h"
 #include "report/buffer_tail.h"
 #include "report/columns.h"
+#include "report/json_values.h"
 
 namespace clusterbench::report {
 
@@ -78,6 +79,8 @@ std::string rule_text(const AllocationRules& rules) {
 }
 
 std::string rule_text(const SizedBuffer& buffer, const AllocationRules& rules) {
+  if (buffer.is_bounded && buffer.capacity == std::max(buffer.theoretical_max, buffer.mark()))
+    return "all that there can be";
   return (buffer.mark() > buffer.high_water ? "found by the search x " : "high water x ") + rounding_text(rules);
 }
 
@@ -119,6 +122,17 @@ std::vector<std::string> guest_lines(const SizedStructure& structure) {
                     " of the lights that they need are missing (" + share_text(guest.missed_outside, guest.needed) +
                     " outside), most in frame " + std::to_string(guest.worst_frame));
   return lines;
+}
+
+bool saw_no_light(const SizedStructure& structure) {
+  return std::ranges::all_of(structure.cases, [](const nlohmann::ordered_json* result_case) {
+    const std::optional<double> in_view = number_at(*result_case, "/lights_in_view/max");
+    return in_view ? *in_view == 0.0 : number_at(*result_case, "/occupancy/lights_per_cell/max").value_or(1.0) == 0.0;
+  });
+}
+
+std::string no_light_text() {
+  return "NO LIGHT was ever in view: the frames that were counted say nothing of what frames with lights need";
 }
 
 std::string dropped_text(const SizedStructure& structure) {

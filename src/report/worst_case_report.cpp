@@ -160,7 +160,10 @@ Json worst_case_to_json(const WorstCase& found, const WorstCaseFacts& facts) {
         {"frames", found.random.frames}, {"max", figure_json(found.random.max, measure)}, {"mean", found.random.mean}};
   if (found.theoretical_max) out["theoretical_max"] = figure_json(*found.theoretical_max, measure);
   for (const assign::BufferNeed& need : found.buffers)
-    out["buffers"].push_back({{"name", need.name}, {"elements", need.elements}, {"theoretical_max", need.most}});
+    out["buffers"].push_back({{"name", need.name},
+                              {"elements", need.elements},
+                              {"theoretical_max", need.most},
+                              {"element_bytes", need.element_bytes}});
   if (!facts.scene_file.empty()) out["written"] = {{"scene", facts.scene_file}, {"config", facts.config_file}};
   return out;
 }

@@ -240,7 +240,7 @@ TEST(SizeCommand, speaks_in_an_engines_own_settings) {
   ASSERT_EQ(godot.code, 0) << godot.err;
   EXPECT_NE(godot.out.find("rendering/limits/cluster_builder/max_clustered_elements: "), std::string::npos)
       << godot.out;
-  EXPECT_NE(godot.out.find("lights in view in 10 frames"), std::string::npos) << godot.out;
+  EXPECT_NE(godot.out.find("lights of one type in view in 10 frames"), std::string::npos) << godot.out;
   const Outcome cells = tool("size -q --engine playcanvas --format json --set scenes.*.frames=10 " + street);
   const Json settings = Json::parse(cells.out)["structures"][0]["settings"];
   EXPECT_EQ(settings["grid"], "scene.lighting.cells = new pc.Vec3(10, 3, 10)");
@@ -249,6 +249,138 @@ TEST(SizeCommand, speaks_in_an_engines_own_settings) {
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("CONFIG_MAX_LIGHT_COUNT"), std::string::npos) << none.err;
   EXPECT_NE(unknown.err.find("did you mean 'godot'"), std::string::npos) << unknown.err;
+}
+
+// So many points around the view's axis, a pixel apart or so, and others behind the camera; all reach each other.
+std::string lights_in_view_and_behind(int in_view, int behind) {
+  Json lights = Json::array(), nodes = Json::array();
+  for (int i = 0; i < in_view + behind; ++i) {
+    lights.push_back({{"type", "point"}, {"intensity", 100.0}, {"range", 0.5}});
+    nodes.push_back({{"translation", {0.0, 0.001 * i, i < in_view ? -10.0 : 10.0}},
+                     {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+  }
+  nodes.push_back({{"name", "eye"}, {"camera", 0}});
+  Json scene{
+      {"asset", {{"version", "2.0"}}},
+      {"extensionsUsed", {"KHR_lights_punctual"}},
+      {"extensions", {{"KHR_lights_punctual", {{"lights", lights}}}}},
+      {"cameras", {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}, {"zfar", 100.0}}}}}},
+      {"nodes", nodes},
+      {"scene", 0},
+      {"scenes", Json::array({{{"nodes", Json::array()}}})}};
+  for (std::size_t i = 0; i < nodes.size(); ++i) scene["scenes"][0]["nodes"].push_back(i);
+  return scene.dump();
+}
+
+Json limits_of(const std::string& engine, const std::string& scene) {
+  const Outcome done = tool("size -q --format json --viewport 640x360 --engine " + engine + " " + scene);
+  EXPECT_EQ(done.code, 0) << done.err;
+  return Json::parse(done.out)["structures"][0]["settings"]["limits"];
+}
+
+TEST(SizeCommand, judges_an_engines_settings_by_lists_and_lights_without_the_engines_own_limit) {
+  const Folder folder;
+  const std::string scene = folder.write("many.gltf", lights_in_view_and_behind(300, 0)).string();
+  const Json limits = limits_of("playcanvas", scene);
+  EXPECT_EQ(limits[0]["seen"], 300);
+  EXPECT_EQ(limits[0]["is_too_much"], true);
+  EXPECT_EQ(limits[1]["seen"], 300);
+  EXPECT_EQ(limits[1]["lost"], 45);
+  EXPECT_EQ(limits[1]["value"], Json());
+  const Outcome told = tool("size -q --viewport 640x360 --engine playcanvas " + scene);
+  EXPECT_NE(told.out.find("such a frame loses 45 lights"), std::string::npos) << told.out;
+  EXPECT_EQ(told.out.find("is enough"), std::string::npos) << told.out;
+  EXPECT_EQ(told.out.find("Set these values"), std::string::npos) << told.out;
+  const Outcome urp = tool("size -q --viewport 640x360 --engine unity-urp " + scene);
+  EXPECT_EQ(urp.out.find("is enough"), std::string::npos) << urp.out;
+  EXPECT_NE(urp.out.find("such a frame loses 44 lights"), std::string::npos) << urp.out;
+}
+
+TEST(SizeCommand, a_result_behind_an_engines_limit_does_not_say_how_long_its_lists_would_be) {
+  const Folder folder;
+  const std::string scene = folder.write("many.gltf", lights_in_view_and_behind(300, 0)).string(),
+                    result = (folder / "result.json").string();
+  ASSERT_EQ(tool("run -q --no-timing --preset playcanvas --viewport 640x360 -o " + result + " " + scene).code, 0);
+  const Outcome told = tool("size --engine playcanvas " + result);
+  EXPECT_NE(told.out.find("maxLightsPerCell: unknown"), std::string::npos) << told.out;
+  EXPECT_NE(told.out.find("such a frame loses 45 lights"), std::string::npos) << told.out;
+}
+
+TEST(SizeCommand, an_engines_limit_of_the_scene_or_of_a_type_is_held_against_those) {
+  const Folder folder;
+  const std::string far = folder.write("far.gltf", lights_in_view_and_behind(10, 1200)).string();
+  const Json limits = limits_of("three-js", far);
+  EXPECT_EQ(limits[0]["name"], "maxLights");
+  EXPECT_EQ(limits[0]["seen"], 1210);
+  EXPECT_EQ(limits[0]["value"], 1210);
+  Json mixed = Json::parse(lights_in_view_and_behind(120, 0));
+  Json& lights = mixed["extensions"]["KHR_lights_punctual"]["lights"];
+  for (std::size_t i = 0; i < 50; ++i) lights[i]["type"] = "spot";
+  const Json of_type = limits_of("godot", folder.write("mixed.gltf", mixed.dump()).string());
+  EXPECT_EQ(of_type[0]["seen"], 70);
+}
+
+TEST(SizeCommand, says_of_frames_without_a_light_in_view_that_they_size_nothing) {
+  const Folder folder;
+  const std::string scene = folder.write("behind.gltf", lights_in_view_and_behind(0, 5)).string();
+  for (const std::string flags : {"--format table", "--format hlsl", "--engine playcanvas", "--engine godot"}) {
+    const Outcome told = tool("size -q --viewport 640x360 " + flags + " " + scene);
+    EXPECT_NE(told.out.find("NO LIGHT was ever in view"), std::string::npos) << told.out;
+    EXPECT_EQ(told.out.find("Set these values"), std::string::npos) << told.out;
+    EXPECT_EQ(told.out.find("Allocate these"), std::string::npos) << told.out;
+  }
+}
+
+TEST(SizeCommand, refuses_flags_that_it_would_not_heed) {
+  const std::string street = test::source_file("scenes/street.glb");
+  for (const std::string flag : {"--add-lights 4x10", "--move-lights 2", "--within 0,0,0,1,1,1", "--walkable",
+                                 "--evaluations 50", "--seed 1", "--seconds 1", "--eye-height 2"}) {
+    const Outcome done = tool("size -q " + flag + " " + street);
+    EXPECT_EQ(done.code, 2) << flag;
+    EXPECT_NE(done.err.find("--worst-case"), std::string::npos) << done.err;
+  }
+  EXPECT_EQ(tool("size -q --fail-if 'longest > 1' " + street).code, 2);
+}
+
+TEST(SizeCommand, indices_are_as_wide_as_the_lights_that_the_capacity_holds_for_ask) {
+  const Folder folder;
+  const std::string scene = folder.write("s.gltf", lights_in_view_and_behind(255, 0)).string(),
+                    found = (folder / "found.json").string(),
+                    flags = " -q --viewport 640x360 --grid frustum --tiles 16x9t --slices 8 --assigner exact-fast ",
+                    search = "--evaluations 20 --add-lights 4x10 ";
+  const auto index_bytes = [&](const std::string& more) {
+    const Outcome done = tool("size" + flags + "--format json " + more + scene);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return Json::parse(done.out)["structures"][0]["buffers"][0]["element_bytes"];
+  };
+  EXPECT_EQ(index_bytes(""), 1);
+  EXPECT_EQ(index_bytes("--worst-case " + search), 2);
+  ASSERT_EQ(tool("worst-case" + flags + search + "-o " + found + " " + scene).code, 0);
+  EXPECT_EQ(index_bytes("--found " + found + " "), 2);
+  const Outcome code = tool("size" + flags + "--format glsl --worst-case " + search + scene);
+  EXPECT_EQ(code.out.find("& 0xffu"), std::string::npos) << code.out;
+}
+
+TEST(SizeCommand, a_capacity_that_is_all_that_there_can_be_is_not_called_a_multiple) {
+  const Folder folder;
+  const std::string scene = folder.write("s.gltf", lights_in_view_and_behind(1, 0)).string();
+  const Outcome done = tool(
+      "size -q --viewport 640x360 --grid frustum --tiles 16x9t --slices 24 --assigner exact-fast --worst-case "
+      "--evaluations 20 " +
+      scene);
+  EXPECT_EQ(done.out.find("headers: 3456 = high water x"), std::string::npos) << done.out;
+  EXPECT_EQ(done.out.find("indices: 3456 = found by the search x"), std::string::npos) << done.out;
+}
+
+TEST(SizeCommand, names_the_case_that_a_filter_meant_and_that_cannot_be) {
+  const Folder folder;
+  Json endless = Json::parse(lights_in_view_and_behind(0, 0));
+  endless["cameras"][0]["perspective"].erase("zfar");
+  const std::string scene = folder.write("in0.gltf", endless.dump()).string();
+  const Outcome done = tool("size -q --filter '16x9 x 24 exponential/exact-fast' " + scene);
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("cannot be measured, among them in0/eye/"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("slices"), std::string::npos) << done.err;
 }
 
 TEST(SizeCommand, takes_paths_as_long_as_systems_have_them) {
