@@ -27,6 +27,19 @@ function placeText(line: Line, place: number): string {
   return line.standing === "searched" ? `s${line.place}` : "–";
 }
 
+// Without pairs of lights beside the view, which the engine leaves out and nothing sees.
+function missedInView({ raw }: Case): number | null {
+  if (!raw.error) return null;
+  const removed = raw.pre_cull?.lost_pairs ?? 0;
+  return Math.max(0, raw.error.false_negatives - removed) + (raw.pre_cull?.over_limit?.lost_pairs ?? 0);
+}
+
+// Of the samples that it is ranked by; of a few lights a share says nothing.
+function unlitOf({ aCase: { raw }, line }: Row): number | null {
+  if (line.standing === "unknown") return null;
+  return (raw.samples?.opaque ?? raw.shading)?.unlit ?? null;
+}
+
 const columns: Column<Row>[] = [
   {
     label: "preset",
@@ -36,7 +49,7 @@ const columns: Column<Row>[] = [
   {
     label: "place",
     about:
-      "The same where the model cannot tell costs apart. s: samples search the structure, ranked apart. –: samples lack lights",
+      "The same where the model cannot tell costs apart. s: samples search the structure, ranked apart. –: samples lack lights, or are too few to say that none is lacking",
     value: ({ place }) => place,
     show: ({ line, place }) => placeText(line, place),
   },
@@ -84,15 +97,15 @@ const columns: Column<Row>[] = [
   },
   {
     label: "missed",
-    about: "True pairs that its method does not list, seen or not",
-    value: ({ aCase }) => aCase.missed,
-    show: ({ aCase }) => format.whole(aCase.missed),
+    about: "True pairs that its method or a limit of lights leaves out, seen or not; without lights beside the view",
+    value: ({ aCase }) => missedInView(aCase),
+    show: ({ aCase }) => format.whole(missedInView(aCase)),
   },
   {
     label: "unlit",
     about: "Share of the lights that samples need and are not given: it decides",
-    value: ({ aCase }) => aCase.unlit,
-    show: ({ aCase }) => format.share(aCase.unlit),
+    value: (row) => unlitOf(row),
+    show: (row) => format.share(unlitOf(row)),
   },
   {
     label: "assign µs",
@@ -103,9 +116,19 @@ const columns: Column<Row>[] = [
   { label: "why", value: ({ line }) => line.why },
 ];
 
+const evidenceTexts: Record<string, string> = {
+  ran: "ran: compared with the lists of the engine's code",
+  read: "read: its code or what its authors published",
+  memory: "memory: neither; no reason to take one engine over another",
+};
+
+const evidenceText = ({ evidence }: Facts) => (evidence === undefined ? null : (evidenceTexts[evidence] ?? evidence));
+
 const factColumns: Column<Facts>[] = [
   { label: "preset", value: (facts) => facts.name },
   { label: "engine", value: (facts) => facts.engine },
+  { label: "version", about: "Of the engine, that the preset follows", value: (facts) => facts.version ?? null },
+  { label: "evidence", about: "How its scheme is known", value: evidenceText },
   { label: "scheme", value: (facts) => facts.summary },
   { label: "read in", value: (facts) => facts.source },
   { label: "approximated here", value: (facts) => facts.approximated || null },

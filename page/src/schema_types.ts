@@ -780,7 +780,7 @@ export type Result = {
     cases: Array<{
       id: string; // Of the case
       preset: string; // Of the case
-      standing?: "lists" | "searched" | "lacks_lights" | "unknown"; // lists: samples lack at most a thousandth of the lights that they need. searched: likewise, and samples search the structure, whose price no GPU has measured. lacks_lights: samples lack more. unknown: there are no samples that need lights. Absent in older results
+      standing?: "lists" | "searched" | "lacks_lights" | "unknown"; // lists: samples lack at most a thousandth of the lights that they need. searched: likewise, and samples search the structure, whose price no GPU has measured. lacks_lights: samples lack more. unknown: no sample needs a light, or samples need fewer than 1000, too few to say so, and pairs are lost or were not compared with the truth. Absent in older results
       place?: number; // Among the cases of the same standing, from 1; the same where the model cannot tell costs apart: they differ by 5 % at most, or their order turns as each price of config.cost is half or twice what it is. Absent in older results [count, over the cases]
       gpu_ns: number | null; // upload_ns + read_ns + shade_ns; null without samples. In older results the case's cost.gpu_ns [ns, over one frame]
       upload_ns?: number | null; // Of the lists, by config.cost: 0 where the engine makes them on a GPU. Absent in older results [ns, over one frame]

@@ -125,15 +125,17 @@ describe("presets", () => {
     const page = await open(pages.presets);
     const rows = await page.locator("#presets-0-0 tbody tr").allInnerTexts();
     assert.equal(rows.length, 3);
-    assert.match(rows[0], /^★ .* and costs least: [\d.]+ lights per sample/s);
-    assert.match(rows[1], /at [\d.]+ times the cost of /);
-    assert.match(rows[2], /^just-cause-2.*drops \d+ lights .*room for 4 lights per cell is too little here/s);
+    assert.match(rows[0], /^★ just-cause-3.*loses nothing; costs least: [\d.]+ lights per sample/s);
+    assert.match(rows[1], /^godot\s+s1.*; costs least of those that samples search: /s);
+    assert.match(rows[2], /^just-cause-2.*samples lack .*drops \d+ lights .*room for 4 lights per cell/s);
   });
 
   it("that could not be measured say why, and all where they come from", async () => {
     const page = await open(pages.presets);
     assert.match(await page.locator("#presets > ul").innerText(), /wicked: .*needs a depth buffer/);
     assert.match(await page.locator("#preset-sources tbody").innerText(), /wicked\s+Wicked Engine/);
+    assert.match(await page.locator("#preset-sources thead").innerText(), /version\s+evidence/i);
+    assert.match(await page.locator("#preset-sources tbody").innerText(), /Wicked Engine\s+0\.72 of 2026\s+read: /);
     assert.equal(await page.locator("#preset-sources tbody tr").count(), 4);
   });
 

@@ -11,6 +11,7 @@
 #include "report/columns.h"
 #include "report/json_values.h"
 #include "report/preset_cost.h"
+#include "report/preset_losses.h"
 #include "report/preset_words.h"
 #include "report/result_json.h"
 
@@ -31,29 +32,19 @@ View view_of(const Json& result_case) {
   return {result_case["scene"].get<std::string>(), result_case["camera"].get<std::string>(), result_case["viewport"]};
 }
 
-// One threshold for whatever lights are lost by: samples that lack more are not the same picture.
+// One threshold for whatever lights are lost by: samples that lack more are not the same picture. Samples that need few
+// lights can show that some are lacking, and not that none is.
 PresetStanding standing_of(const RankedPreset& row) {
-  if (!row.unlit || !row.cost) return PresetStanding::unknown;
-  if (*row.unlit > measure::k_most_unlit) return PresetStanding::lacks_lights;
+  if (!row.losses.unlit || !row.cost) return PresetStanding::unknown;
+  if (*row.losses.unlit > measure::k_most_unlit) return PresetStanding::lacks_lights;
+  if (!row.losses.is_decided()) return PresetStanding::unknown;
   return row.cost->is_searched ? PresetStanding::searched : PresetStanding::lists;
-}
-
-// Of all sets of samples that cost something, the one that lacks most.
-std::optional<double> unlit_share(const Json& result_case) {
-  const Json* samples = ranking_samples(result_case);
-  if (samples == nullptr || number_at(*samples, "/needed").value_or(0.0) == 0.0) return std::nullopt;
-  double most = (*samples)["missed"].get<double>() / (*samples)["needed"].get<double>();
-  if (const Json* sets = value_at(result_case, "/cost/sets"))
-    for (const auto& [set, paid] : sets->items())
-      most = std::max(
-          most, number_at(result_case, (set == "volume" ? "/shading" : "/samples/" + set) + "/unlit").value_or(0.0));
-  return most;
 }
 
 bool is_better(const RankedPreset& a, const RankedPreset& b) {
   if (a.standing != b.standing) return a.standing < b.standing;
   if (a.standing == PresetStanding::unknown) return false;
-  if (a.standing == PresetStanding::lacks_lights) return *a.unlit < *b.unlit;
+  if (a.standing == PresetStanding::lacks_lights) return *a.losses.unlit < *b.losses.unlit;
   return a.cost->sum_ns() < b.cost->sum_ns();
 }
 
@@ -71,7 +62,7 @@ void give_places(std::vector<RankedPreset>& rows) {
 std::vector<RankedPreset> ranked(const std::vector<const Json*>& cases, const Json& config) {
   std::vector<RankedPreset> rows;
   for (const Json* result_case : cases) {
-    RankedPreset row{result_case, {}, preset_cost(*result_case, config), unlit_share(*result_case), 0};
+    RankedPreset row{result_case, {}, preset_cost(*result_case, config), preset_losses(*result_case), 0, &config};
     row.standing = standing_of(row);
     rows.push_back(row);
   }
@@ -130,6 +121,12 @@ std::string assign_text(const Json& result_case) {
   return text_at(result_case, "/timing/assign_ns/median", "%.1f", 1e-3);
 }
 
+// Without pairs of lights beside the view, which the engine leaves out and nothing sees.
+std::string missed_pairs_text(const Json& result_case) {
+  const PresetLosses losses = preset_losses(result_case);
+  return losses.is_compared ? short_count({{"missed", losses.missed()}}, "/missed") : "-";
+}
+
 std::string shown_line(const Json& line, const Json& cases, const Json& best, Cells& cells) {
   const auto found =
       std::ranges::find_if(cases, [&](const Json& result_case) { return result_case["id"] == line["id"]; });
@@ -145,8 +142,10 @@ std::string shown_line(const Json& line, const Json& cases, const Json& best, Ce
            text_at(*found, "/occupancy/lights_per_cell/max", "%.0f"),
            short_count(*found, "/buffers/bytes/high_water"),
            short_count(*found, "/buffers/overflow/dropped_pairs"),
-           short_count(*found, "/error/false_negatives"),
-           text_at(*found, (set + "/unlit").c_str(), "%.2f %%", 100.0),
+           missed_pairs_text(*found),
+           line.value("standing", "") == name_of(PresetStanding::unknown)
+               ? "-"
+               : text_at(*found, (set + "/unlit").c_str(), "%.2f %%", 100.0),
            assign_text(*found)};
   return "  " + shown(line["preset"]) + " " + shown(line["why"]) + ".\n";
 }
@@ -165,8 +164,10 @@ constexpr const char* k_legend =
     "* costs the GPU least of the lists that leave no sample without lights, by the key `cost`: upload, reading and "
     "shading.\nplace: the same where the model cannot tell: within 5 %, or the order turns as prices are half or "
     "twice those of `cost`;\ns: samples search the structure, ranked apart, since no GPU has measured what that "
-    "costs; -: samples lack lights.\ngpu, upload, read: us of a frame by the model. Lists that a GPU makes are not "
-    "uploaded. lights: looped over at a sample, on\naverage. dropped, missed: pairs that cells lack, seen or not; "
+    "costs;\n-: samples lack lights, or need fewer than 1000, too few to say that none of those that are lost is "
+    "seen.\ngpu, upload, read: us of a frame by the model. Lists that a GPU makes are not "
+    "uploaded. lights: looped over at a sample, on\naverage. dropped, missed: pairs that cells in view lack, seen or "
+    "not; "
     "unlit: what samples lack decides. assign: us of one core here,\nof engines that assign on the CPU; gpu: a time "
     "here would not be the engine's.\n";
 

@@ -1,6 +1,7 @@
 #include "report/preset_words.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "config/presets.h"
 #include "core/text.h"
@@ -25,13 +26,13 @@ std::string percent(double share) {
   return share < 1e-4 ? "less than 0.01 %" : text(share < 0.1 ? "%.2f %%" : "%.0f %%", 100.0 * share);
 }
 
-std::string bytes_text(double bytes) {
+std::string read_size_text(double bytes) {
   if (bytes < 1e3) return text("%.0f B", bytes);
   return bytes < 1e6 ? text("%.3g kB", bytes / 1e3) : text("%.3g MB", bytes / 1e6);
 }
 
 std::string milliseconds(double ns) {
-  return text(ns < 1e4 ? "%.4f ms" : "%.2f ms", ns / 1e6);
+  return text("%.3g ms", ns / 1e6);
 }
 
 // What a full storage of the preset has too little of.
@@ -44,20 +45,30 @@ std::string shortage(const RankedPreset& row) {
   return " (its pool of entries is too small)";
 }
 
+std::string lost_pairs_text(std::uint64_t lost, const PresetLosses& losses) {
+  return number_of(lost, "pair") + " of " + std::to_string(losses.true_pairs);
+}
+
+// What is lost to a limit of lights; "" where nothing in view is.
+std::string limit_loss(const RankedPreset& row) {
+  std::string out;
+  for (const Json& warning : row.result_case->value("warnings", Json::array()))
+    if (warning["kind"] == "too_many_lights") out = warning["text"].get<std::string>();
+  if (row.losses.by_limit == 0) return out;
+  return out + (out.empty() ? "" : "; ") + "the limit removes " + lost_pairs_text(row.losses.by_limit, row.losses);
+}
+
 // Lights and pairs that are not listed, for each cause; whether samples lack them is told beside.
-std::vector<std::string> losses(const RankedPreset& row) {
+std::vector<std::string> loss_texts(const RankedPreset& row) {
   const Json& result_case = *row.result_case;
   std::vector<std::string> ways;
-  for (const Json& warning : result_case.value("warnings", Json::array()))
-    if (warning["kind"] == "too_many_lights") ways.push_back(warning["text"].get<std::string>());
+  if (const std::string limit = limit_loss(row); !limit.empty()) ways.push_back(limit);
   const Json& overflow = result_case["buffers"]["overflow"];
-  if (overflow["dropped_pairs"] != 0)
+  if (row.losses.dropped > 0)
     ways.push_back("drops " + number_of(overflow["lights"].size(), "light") + " in some cells of " +
                    number_of(overflow["frames"].get<std::uint64_t>(), "frame") + shortage(row));
-  if (number_at(result_case, "/error/false_negatives").value_or(0.0) > 0.0)
-    ways.push_back("its method does not find " +
-                   number_of(result_case["error"]["false_negatives"].get<std::uint64_t>(), "pair") + " of " +
-                   std::to_string(result_case["error"]["true_pairs"].get<std::uint64_t>()));
+  if (row.losses.by_method > 0)
+    ways.push_back("its method does not find " + lost_pairs_text(row.losses.by_method, row.losses));
   const Json* samples = ranking_samples(result_case);
   if (samples != nullptr && number_at(*samples, "/missed_outside").value_or(0.0) > 0.0)
     ways.push_back(percent((*samples)["missed_outside"].get<double>() / (*samples)["needed"].get<double>()) +
@@ -65,14 +76,26 @@ std::vector<std::string> losses(const RankedPreset& row) {
   return ways;
 }
 
+std::string needed_lights_text(const RankedPreset& row) {
+  const auto needed = static_cast<std::uint64_t>(row.losses.needed);
+  return needed == 0 ? "no light" : "only " + number_of(needed, "light");
+}
+
+// Where samples do not tell whether what is lost is seen.
+std::string undecided_loss(const RankedPreset& row) {
+  std::string out = "its samples need " + needed_lights_text(row) + ", too few to tell whether ";
+  if (row.losses.missed() + row.losses.dropped > 0) return out + "what it loses is seen";
+  out += "it loses any that is seen";
+  return row.losses.is_compared ? out : out + ", and its lists were not compared with the truth";
+}
+
 // What is lost, and whether it is seen.
 std::string light_text(const RankedPreset& row) {
-  const std::vector<std::string> ways = losses(row);
+  const std::vector<std::string> ways = loss_texts(row);
   const std::string causes = ways.empty() ? "" : ": " + joined(ways, "; ");
-  if (!row.unlit) return "its samples need too few lights to tell what it loses" + causes;
-  if (row.standing == PresetStanding::lacks_lights)
-    return "samples lack " + percent(*row.unlit) + " of the lights that they need" + causes;
-  if (*row.unlit > 0.0) return "samples lack " + percent(*row.unlit) + " of the lights that they need" + causes;
+  if (row.standing == PresetStanding::unknown && row.losses.has_few_samples()) return undecided_loss(row) + causes;
+  if (row.losses.unlit.value_or(0.0) > 0.0)
+    return "samples lack " + percent(*row.losses.unlit) + " of the lights that they need" + causes;
   return ways.empty() ? "loses nothing" : "loses nothing that a sample needs" + causes;
 }
 
@@ -83,12 +106,12 @@ std::string load_text(const RankedPreset& row) {
   if (const auto lights = per_sample(result_case, "evaluated"))
     out = text("%.3g", *lights) + text(" lights per sample (%.3g needed)", *per_sample(result_case, "needed"));
   if (const auto bytes = per_sample(result_case, "read_bytes"); bytes && row.cost && row.cost->read_ns > 0.0)
-    out += ", for which it reads " + bytes_text(*bytes);
+    out += ", for which it reads " + read_size_text(*bytes);
   const config::Preset* preset = preset_of(row);
   if (preset != nullptr && preset->assigns_on == config::AssignsOn::gpu)
     return out + (out.empty() ? "" : "; ") + "nothing to upload, the GPU makes its lists";
   const auto upload = number_at(result_case, "/buffers/upload_bytes/mean");
-  return out + (out.empty() || !upload ? "" : ", ") + (upload ? bytes_text(*upload) + " uploaded a frame" : "");
+  return out + (out.empty() || !upload ? "" : ", ") + (upload ? read_size_text(*upload) + " uploaded a frame" : "");
 }
 
 // How sure one can be that the engine does as much.
@@ -119,24 +142,65 @@ std::vector<const RankedPreset*> of_standing(const std::vector<RankedPreset>& ro
   return out;
 }
 
+// Why costs that differ are no reason to choose.
+std::string alike_text(const std::vector<const RankedPreset*>& alike) {
+  const double least = alike.front()->cost->sum_ns(), most = alike.back()->cost->sum_ns();
+  const std::string costs = " (" + milliseconds(least) + " to " + milliseconds(most) + " of the GPU a frame)";
+  if (most <= k_alike_ratio * least)
+    return ": no difference beyond " + text("%.0f %%", 100.0 * (k_alike_ratio - 1.0)) + costs;
+  return ": no difference that the model can show" + costs +
+         ", since its prices of upload, reading and looping may each be off by " + text("%.0f times", k_price_factor) +
+         ", which turns the order";
+}
+
+std::string or_text(const std::vector<const RankedPreset*>& rows) {
+  std::string out;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == rows.size() ? " or " : ", ") + name(*rows[i]);
+  return out;
+}
+
 // Of presets with one standing, best first: what to take and by how much.
 std::string choice_text(const std::vector<const RankedPreset*>& rows) {
   const RankedPreset& first = *rows.front();
   std::vector<const RankedPreset*> alike, others;
   for (const RankedPreset* row : rows) (row->place == 1 ? alike : others).push_back(row);
-  std::string out = "take " + name(first);
-  if (alike.size() > 1)
-    out += " or another of " + names_text(alike) + ", between which there is no difference that this can show (" +
-           milliseconds(first.cost->sum_ns()) + " to " + milliseconds(alike.back()->cost->sum_ns()) +
-           " of the GPU a frame)";
-  else
-    out += ", which costs the GPU least: " + milliseconds(first.cost->sum_ns()) + " a frame";
+  std::string out = "take " + or_text(alike);
+  out += alike.size() > 1 ? alike_text(alike)
+                          : ", which costs the GPU least: " + milliseconds(first.cost->sum_ns()) + " a frame";
   if (!others.empty())
     out += "; " + name(*others.front()) + ", the next, costs " +
-           text("%.2f", others.front()->cost->sum_ns() / first.cost->sum_ns()) + " times as much";
+           text("%.2f", others.front()->cost->sum_ns() / first.cost->sum_ns()) + " times as much as " + name(first);
   else if (alike.size() == 1)
-    out += "; no other preset that was measured gives samples all lights";
+    out += "; no other preset that was measured is known to give samples all lights";
   return out;
+}
+
+// How samples come to need enough lights: those of the whole view by more points, surfaces by more rays.
+std::string remedy(const RankedPreset& row) {
+  const Json* samples = ranking_samples(*row.result_case);
+  if (samples == nullptr) return "--set shading.samples=1024 takes samples";
+  const double more = 1.5 * k_least_needed_of_presets / std::max(1.0, row.losses.needed);
+  if (value_at(*row.result_case, "/samples/opaque") == nullptr) {
+    const double frames = number_at(*row.result_case, "/frames").value_or(1.0);
+    const double count = std::min(1e7, std::ceil(more * (*samples)["samples"].get<double>() / frames / 1e3) * 1e3);
+    return text("--set shading.samples=%.0f", std::max(count, 1e3)) +
+           " takes more, --set samples.opaque.ground=lowest those on a floor";
+  }
+  const double edge = number_at(*row.config, "/samples/opaque/divisor").value_or(1.0);
+  if (edge <= 1.0) return "more frames take more samples (--set 'scenes.*.frames=30')";
+  return text("--set samples.opaque.divisor=%.0f", std::max(1.0, std::floor(edge / std::sqrt(more)))) + " takes more";
+}
+
+// Of samples that need few lights: what they leave open, and how to close it. "" where they need enough.
+std::string doubt_text(const std::vector<RankedPreset>& rows) {
+  const RankedPreset& first = rows.front();
+  if (!first.losses.has_few_samples()) return "";
+  std::string out = "samples need " + needed_lights_text(first) + ", and fewer than " +
+                    text("%.0f", k_least_needed_of_presets) + " do not show that lost lights are not seen";
+  const std::vector<const RankedPreset*> open = of_standing(rows, PresetStanding::unknown);
+  if (!open.empty()) out += ", so not ranked: " + names_text(open);
+  return out + "; " + remedy(first);
 }
 
 }  // namespace
@@ -144,11 +208,6 @@ std::string choice_text(const std::vector<const RankedPreset*>& rows) {
 const char* name_of(PresetStanding standing) {
   constexpr const char* k_names[] = {"lists", "searched", "lacks_lights", "unknown"};
   return k_names[static_cast<std::size_t>(standing)];
-}
-
-const Json* ranking_samples(const Json& result_case) {
-  const Json* opaque = value_at(result_case, "/samples/opaque");
-  return opaque != nullptr ? opaque : value_at(result_case, "/shading");
 }
 
 std::optional<double> per_sample(const Json& result_case, const char* what) {
@@ -164,11 +223,12 @@ std::string preset_reason(const RankedPreset& row, const RankedPreset& first) {
   if (!row.cost) return out + "; its cost is not known without samples";
   const bool lacks = row.standing == PresetStanding::lacks_lights || row.standing == PresetStanding::unknown;
   if (lacks)
-    out += "; not compared by cost, which is that of less light";
+    out +=
+        row.standing == PresetStanding::unknown ? "; not ranked" : "; not ranked by cost, which is that of less light";
   else if (&row == &first)
     out += row.standing == PresetStanding::searched ? "; costs least of those that samples search" : "; costs least";
   else if (row.place == first.place)
-    out += "; no difference that this can show to " + name(first);
+    out += "; no difference that the model can show to " + name(first);
   else
     out += text("; %.2f times the cost of ", row.cost->sum_ns() / first.cost->sum_ns()) + name(first);
   return out + ": " + load_text(row) + " (" + evidence_text(row) + ")";
@@ -178,21 +238,24 @@ std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
   const std::vector<const RankedPreset*> lists = of_standing(rows, PresetStanding::lists),
                                          searched = of_standing(rows, PresetStanding::searched),
                                          lacking = of_standing(rows, PresetStanding::lacks_lights);
+  const std::string doubt = doubt_text(rows);
   std::string out;
   if (!lists.empty())
     out = choice_text(lists);
   else if (!searched.empty())
     out = "of lists none gives samples all lights; of the structures that samples search " + choice_text(searched);
   else if (!lacking.empty())
-    return "every preset that was measured leaves samples without lights; least " + name(*lacking.front()) + " (" +
-           percent(*lacking.front()->unlit) + " of those that they need)";
+    return "no preset that was measured is known to give samples all lights; least is lacking in " +
+           name(*lacking.front()) + " (" + percent(*lacking.front()->losses.unlit) + " of those that they need)" +
+           (doubt.empty() ? "" : "; " + doubt);
   else
-    return "which preset suits is not known: no sample needs lights here";
+    return "which preset suits is not known" + (doubt.empty() ? "" : ": " + doubt);
   const RankedPreset& first = lists.empty() ? *searched.front() : *lists.front();
   if (!lists.empty() && !searched.empty())
     out += "; apart, since no GPU has measured what samples search: " + names_text(searched) + ", from " +
            milliseconds(searched.front()->cost->sum_ns()) + " by the model";
-  out += ". Sure by as much as the model of `cost` is; " + name(first) + " is " + evidence_text(first);
+  if (!doubt.empty()) out += "; " + doubt;
+  out += ". Sure by as much as the model of `cost` is; how " + name(first) + " is known: " + evidence_text(first);
   if (first.cost->has_random_depths)
     out += "; depths are random, since there are no surfaces: --set samples.opaque.ground=lowest takes a floor";
   return out;

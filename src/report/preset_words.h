@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "report/preset_cost.h"
+#include "report/preset_losses.h"
 
 namespace clusterbench::report {
 
@@ -18,13 +19,11 @@ struct RankedPreset {
   const nlohmann::ordered_json* result_case = nullptr;
   PresetStanding standing = PresetStanding::unknown;
   std::optional<PresetCost> cost;
-  std::optional<double> unlit;  // share of the lights that samples need and lack; none without samples that need some
-  int place = 0;                // in its part, from 1; those that the model cannot tell apart share the first one's
+  PresetLosses losses;
+  int place = 0;  // in its part, from 1; those that the model cannot tell apart share the first one's
+  const nlohmann::ordered_json* config = nullptr;  // that the case was measured by
 };
 
-// The samples by which a case is ranked: on visible surfaces if they are asked for, else points of the whole view; null
-// without any.
-const nlohmann::ordered_json* ranking_samples(const nlohmann::ordered_json& result_case);
 // Of one sample; `what`: "evaluated", "needed", "read_bytes".
 std::optional<double> per_sample(const nlohmann::ordered_json& result_case, const char* what);
 
