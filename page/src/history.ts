@@ -26,7 +26,7 @@ interface Series {
 interface HistoryData {
   entries: number;
   count: number; // of series, those that never changed included
-  lights: string[]; // sentences: where a scene's lights have changed
+  lights: string[]; // sentences: where a scene or its lights have changed
   series: Series[];
 }
 
@@ -122,7 +122,7 @@ function show({ entries, count, lights, series }: HistoryData): void {
         h(
           "ul",
           { class: "changes" },
-          ...lights.map((change) => h("li", {}, `${change}; figures from there on are of other lights`)),
+          ...lights.map((change) => h("li", {}, change)),
         ),
       figures,
       more,

@@ -200,7 +200,7 @@ export type Result = {
       directional: number; // Directional lights: they reach everything and are never assigned
       box: number; // Oriented boxes, from extras
     }; // By type [lights, over the scene]
-    light_digest?: string; // The same for the same assigned lights (kinds, positions, ranges, directions, angles), whatever their names, order and file are; absent in older results
+    light_digest?: string; // The same for the same assigned lights (kinds, positions, ranges, directions, angles, whether they are dark), whatever their names, order and file are; absent in older results
     frames: number; // Frames of all camera paths together [frames, over the scene]
     range_rule: {
       cutoff_lux: number | null; // A light without a range ends where its illuminance falls to this [lux, over each light]
@@ -208,6 +208,7 @@ export type Result = {
       given: number; // Lights with a range in the file [lights, over the scene]
       from_intensity: number; // Lights without a range, which got one from their intensity [lights, over the scene]
       clamped: number; // Lights whose range was cut to max_range [lights, over the scene]
+      dark?: number; // Point and spot lights that light nothing: of intensity 0, black, or of range 0, at the beginning, the middle and the end of the animations. Methods get them all the same. Absent in older results [lights, over the scene]
       ranges?: {
         least: number; // Shortest
         median: number; // Middle

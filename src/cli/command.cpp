@@ -37,6 +37,13 @@ std::string takes(const std::string& allowed, const std::string& word) {
 }
 
 constexpr const char* k_of_its_type = "of its type";
+constexpr const char* k_of_a_text = "of a text";
+
+// An empty word, which an unset variable of a script becomes, would pass for an option that was not given.
+CLI::Option* with_text(CLI::Option* option) {
+  const auto check = [](const std::string& word) { return word.empty() ? "takes a text that is not empty" : ""; };
+  return option->check(check, "", k_of_a_text);
+}
 
 // What a type can hold, where no narrower range is given.
 template <class Number>
@@ -115,8 +122,8 @@ Option& Option::one_of(std::vector<std::string> words) {
   return *this;
 }
 
-Option& Option::not_empty() {
-  option_->check([](const std::string& word) { return word.empty() ? "takes a text that is not empty" : ""; }, "");
+Option& Option::may_be_empty() {
+  option_->get_validator(k_of_a_text)->active(false);
   return *this;
 }
 
@@ -135,11 +142,11 @@ Command Command::add_command(const std::string& name, const std::string& summary
 }
 
 Option Command::add_option(const std::string& names, std::string& value, const std::string& summary) {
-  return Option(app_->add_option(names, value, summary));
+  return Option(with_text(app_->add_option(names, value, summary)));
 }
 
 Option Command::add_option(const std::string& names, std::vector<std::string>& values, const std::string& summary) {
-  return Option(app_->add_option(names, values, summary));
+  return Option(with_text(app_->add_option(names, values, summary)));
 }
 
 Option Command::add_option(const std::string& names, int& value, const std::string& summary) {
@@ -159,7 +166,7 @@ Option Command::add_flag(const std::string& names, bool& is_set, const std::stri
 }
 
 Option Command::add_flag(const std::string& names, std::string& value, const std::string& summary) {
-  return Option(app_->add_flag(names, value, summary));
+  return Option(with_text(app_->add_flag(names, value, summary)));
 }
 
 void Command::needs_command() {

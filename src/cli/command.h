@@ -27,8 +27,8 @@ class Option {
   Option& positive();
   Option& non_negative();
   Option& one_of(std::vector<std::string> words);
-  Option& not_empty();    // a text
-  Option& once_a_name();  // --name A --name B, not --name A B
+  Option& may_be_empty();  // a text, which else may not
+  Option& once_a_name();   // --name A --name B, not --name A B
   Option& needs(const Option& other);
 
  private:

@@ -39,7 +39,7 @@ ExitCode compare(const CompareFlags& flags) {
   const nlohmann::ordered_json comparison =
       report::compare_results(base, next, flags.threshold_percent / 100.0, {flags.gates_separate, flags.is_forced});
   check_gate(flags, comparison);
-  std::cout << printable_lines(report::comparison_text(comparison));
+  if (flags.markdown != "-" && flags.json != "-") std::cout << printable_lines(report::comparison_text(comparison));
   if (!flags.markdown.empty()) write_text(flags.markdown, report::comparison_markdown(comparison));
   if (!flags.json.empty()) write_output(flags.json, comparison);
   const ExitCode code = report::outcome(comparison, flags.is_strict);
@@ -59,9 +59,10 @@ void add_compare(Command& program, Action& action) {
   command.add_option("--threshold", flags->threshold_percent, "Smallest change of time that matters, in percent")
       .range(0.01, 1000.0)
       .shows_standard();
-  command.add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
-  command.add_option("--markdown", flags->markdown, "Write the comparison for a pull request to this file");
-  command.add_option("--json", flags->json, "Write the comparison as JSON to this file");
+  command.add_option("--filter", flags->filter, "Only cases whose name matches this regular expression").may_be_empty();
+  command.add_option("--markdown", flags->markdown,
+                     "Write the comparison for a pull request to this file (-: in place of the text)");
+  command.add_option("--json", flags->json, "Write the comparison as JSON to this file (-: in place of the text)");
   command.add_flag(
       "--gate-separate", flags->gates_separate,
       "Verdicts on times of separate runs, too: for a machine that does nothing else, false alarms elsewhere");

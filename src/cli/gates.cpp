@@ -25,7 +25,7 @@ void add_gate_options(Command& command, GateFlags& flags) {
       "--baseline", flags.baseline,
       "A result that budgets in percent are held against ('longest > +5 %'), and whose lights it has to have");
   command.add_flag("--allow-no-lights", flags.allows_no_lights,
-                   "Budgets hold also where a scene has no lights, or none is ever in view");
+                   "Budgets hold also where a scene has no lights, dark ones alone, or none is ever in view");
   command.add_flag("--allow-changed-lights", flags.allows_changed_lights,
                    "Lights may be others than those of the --baseline; what has changed is told");
 }
@@ -57,7 +57,7 @@ ExitCode Gates::report(const nlohmann::ordered_json& result) const {
   std::optional<report::BaselineCases> cases;
   if (base != nullptr) cases.emplace(*base, result, filter_, name);
   const report::LimitFindings lights =
-      report::light_findings(result, {limits_.allows_no_lights, limits_.allows_changed_lights, base, name});
+      report::light_findings(result, {limits_.allows_no_lights, limits_.allows_changed_lights, base, name, filter_});
   const report::LimitFindings budgets = report::limit_findings(result, limits_.fail_if, cases ? &*cases : nullptr);
   print_findings(lights);
   print_findings(budgets);

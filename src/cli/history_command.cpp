@@ -34,7 +34,11 @@ ExitCode add(const AddFlags& flags) {
     tell(flags.file + " had " + before + " already; added behind it as one more");
   for (const std::string& change : addition.light_changes)
     tell((flags.allows_changed_lights ? "warning: " : "FAILED ") + change +
-         (flags.allows_changed_lights ? "" : " (it was added; --allow-changed-lights if that is meant)"));
+         (flags.allows_changed_lights ? ""
+          : addition.is_added         ? " (it was added; --allow-changed-lights if that is meant)"
+                                      : " (--allow-changed-lights if that is meant)"));
+  for (const std::string& scene : addition.new_scenes)
+    tell("warning: " + flags.file + " has no earlier lights of " + scene + " to hold these against");
   return addition.light_changes.empty() || flags.allows_changed_lights ? ExitCode::ok : ExitCode::gate_failed;
 }
 
@@ -56,7 +60,7 @@ void add_add(Command& parent, Action& action) {
   command.add_option("FILE", flags->file, "The history, JSON lines; made if there is none").required();
   command.add_option("--commit", flags->commit, "What was measured; without it the commit of clusterbench");
   command.add_flag("--allow-changed-lights", flags->allows_changed_lights,
-                   "Lights may be others than those of the result before; else exit code 1");
+                   "Lights may be others than those of the result before, and levels missing; else exit code 1");
   command.when_named([flags, &action] { action = [flags] { return add(*flags); }; });
 }
 

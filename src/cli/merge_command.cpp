@@ -16,6 +16,7 @@ struct MergeFlags {
 };
 
 ExitCode merge(const MergeFlags& flags) {
+  refuse_overwriting({flags.output}, flags.results);
   std::vector<report::NamedPart> parts;
   for (const std::string& file : flags.results) parts.push_back({file, report::read_result(file)});
   write_output(flags.output, report::merged(parts));

@@ -56,19 +56,48 @@ void probe_output(const std::string& output) {
   if (is_new) fs::remove(output, unknown);
 }
 
+namespace {
+
+// The file that a name will be, also where it does not exist yet: absolute, and through links that lead to nothing.
+fs::path file_of(const std::string& name) {
+  std::error_code none;
+  fs::path file = fs::absolute(name, none);
+  constexpr int k_most_links = 40;
+  for (int link = 0; link < k_most_links && fs::is_symlink(fs::symlink_status(file, none)) && !fs::exists(file, none);
+       ++link)
+    file = file.parent_path() / fs::read_symlink(file, none);
+  return fs::weakly_canonical(file, none);
+}
+
+// "-" by the name that the system has for it.
+std::string name_in_system(const std::string& output) {
+  return output == "-" ? "/dev/stdout" : output;
+}
+
+bool are_one_file(const std::string& a, const std::string& b) {
+  std::error_code none;
+  return fs::equivalent(a, b, none) || file_of(a) == file_of(b);
+}
+
+// Two of them in one stream are neither. What throws away all takes any number.
+bool are_mixed(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty()) return false;
+  const std::string first = name_in_system(a), second = name_in_system(b);
+  return are_one_file(first, second) && !are_one_file(first, "/dev/null");
+}
+
+}  // namespace
+
 void refuse_overwriting(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
-  const auto are_one = [](const std::string& a, const std::string& b) {
-    std::error_code none;
-    return fs::equivalent(a, b, none) || fs::weakly_canonical(a, none) == fs::weakly_canonical(b, none);
-  };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k)
+      if (are_mixed(outputs[i], outputs[k]))
+        throw Error(outputs[i] == "-" ? "standard output" : outputs[i], "",
+                    "is to hold two outputs of this command: name a file for each");
     if (is_stream(outputs[i])) continue;
     for (const std::string& input : inputs)
-      if (!input.empty() && are_one(outputs[i], input))
+      if (!input.empty() && are_one_file(outputs[i], input))
         throw Error(outputs[i], "", "is read by this command and would be lost: name another file for the output");
-    for (std::size_t k = 0; k < i; ++k)
-      if (!is_stream(outputs[k]) && are_one(outputs[i], outputs[k]))
-        throw Error(outputs[i], "", "is to hold two outputs of this command: name a file for each");
   }
 }
 

@@ -322,7 +322,9 @@ std::string own_command_line() {
 
 // Before minutes go into measuring.
 void refuse_losses(const RunFlags& flags, const config::Config& config) {
-  std::vector<std::string> outputs{flags.output}, inputs = flags.inputs.paths;
+  const bool is_printed = flags.output.empty() && !is_for_reading(flags.output);
+  std::vector<std::string> outputs{is_printed ? "-" : flags.output}, inputs = flags.inputs.paths;
+  if (!is_stream(flags.output)) outputs.push_back(flags.output + ".partial");  // report/journal.h
   for (const std::string& text : flags.exports) outputs.push_back(text.substr(text.find('=') + 1));
   for (const config::SceneRequest& scene : config.scenes) inputs.push_back(scene.path.string());
   inputs.push_back(config.limits.baseline.string());
@@ -442,7 +444,7 @@ void add_run(Command& program, Action& action) {
   command.add_option("--export", flags->exports, "FORMAT=FILE, repeatable: also write another tool's format")
       .once_a_name();
   add_image_options(command, flags->images);
-  command.add_option("--filter", flags->filter, "Only cases whose name matches this regular expression");
+  command.add_option("--filter", flags->filter, "Only cases whose name matches this regular expression").may_be_empty();
   add_config_options(command, flags->inputs);
   command.add_flag("--count{auto}", flags->count,
                    "Count instructions, too: --count=perf (hardware), =callgrind (valgrind), or what works");

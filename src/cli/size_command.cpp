@@ -120,7 +120,8 @@ void add_size(Command& program, Action& action) {
                   "A result file of `clusterbench run`; or one configuration (.json), or scenes (.glb, .gltf), whose "
                   "frames are counted, of all cameras, without timing")
       .required();
-  command.add_option("--filter", flags->request.filter, "Only cases whose name matches this regular expression");
+  command.add_option("--filter", flags->request.filter, "Only cases whose name matches this regular expression")
+      .may_be_empty();
   command.add_option("--format", flags->request.format, "What is printed: a table, code, or JSON")
       .one_of(report::size_formats())
       .shows_standard();
@@ -131,11 +132,9 @@ void add_size(Command& program, Action& action) {
   command.add_option("--round", flags->request.rounding, "Bytes of a buffer: to whole pages of 4 KiB, a power of two")
       .one_of(report::size_roundings())
       .shows_standard();
-  command
-      .add_option("--name", flags->request.name,
-                  "What names in code begin with, in place of scene and grid: light_lists_indices ...; where one "
-                  "structure is printed")
-      .not_empty();
+  command.add_option("--name", flags->request.name,
+                     "What names in code begin with, in place of scene and grid: light_lists_indices ...; where one "
+                     "structure is printed");
   command.add_option(
       "--engine", flags->engine,
       "NAME: in the settings of this engine, of the preset of that name: " + joined(report::engines_with_settings()));

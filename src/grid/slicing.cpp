@@ -33,11 +33,20 @@ struct Reach {
   double near, far;
 };
 
+// No far is named, and the view has no end: the lights' end is the grid's. Where they all end before the slices begin,
+// or there are none, nothing is to be told apart behind that, and any far will do.
+double far_from_lights(const Slicing& slicing, double near_m, double lights_end_m) {
+  const bool has_first = slicing.scheme == Scheme::exponential_first || slicing.scheme == Scheme::cubical_first;
+  const double begin_m = has_first ? std::max(near_m, slicing.first_m) : near_m;
+  return lights_end_m <= begin_m ? begin_m + std::abs(begin_m) + 1.0 : lights_end_m;
+}
+
 Reach reach_of(const Slicing& slicing, const SliceRange& range) {
   Reach reach{slicing.near_m != 0.0 ? slicing.near_m : range.camera_near_m, slicing.far_m};
   const double seen =
       slicing.far_at_most_m > 0.0 ? std::min(range.camera_far_m, slicing.far_at_most_m) : range.camera_far_m;
-  if (reach.far == 0.0) reach.far = std::isfinite(seen) ? seen : range.light_far_m;
+  if (reach.far == 0.0)
+    reach.far = std::isfinite(seen) ? seen : far_from_lights(slicing, reach.near, range.light_far_m);
   if (slicing.scheme == Scheme::fit) {
     const double last = std::max(reach.near, reach.far);  // no far is named and all lights end before near
     const Reach lights{std::clamp(range.light_near_m, reach.near, last),

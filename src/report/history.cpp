@@ -187,6 +187,31 @@ std::string changed_lights_text(const SceneLights& before, const SceneLights& no
                                       : before.counts + ", now " + now.counts);
 }
 
+bool has_one_of(const HistoryEntry& entry, const std::vector<SceneLights>& scenes) {
+  return std::ranges::any_of(scenes,
+                             [&](const SceneLights& scene) { return lights_of_scene(entry, scene.scene) != nullptr; });
+}
+
+// Scenes that a result of another commit had beside those of `entry`, and no result of this commit has: what is not
+// there cannot become worse. A job that adds a result for each level has one scene in each, and misses none.
+std::vector<std::string> missing_scenes(std::span<const HistoryEntry> before, std::span<const HistoryEntry> all,
+                                        const HistoryEntry& entry) {
+  const auto is_earlier = [&](const HistoryEntry& other) {
+    return other.commit != entry.commit && has_one_of(other, entry.scenes);
+  };
+  const auto last = std::ranges::find_if(before.rbegin(), before.rend(), is_earlier);
+  if (last == before.rend()) return {};
+  std::vector<std::string> lines;
+  for (const SceneLights& then : last->scenes) {
+    const auto has_it = [&](const HistoryEntry& other) {
+      return other.commit == entry.commit && lights_of_scene(other, then.scene) != nullptr;
+    };
+    if (lights_of_scene(entry, then.scene) == nullptr && std::ranges::none_of(all, has_it))
+      lines.push_back(then.scene + " is missing, which " + last->commit + " has (" + then.counts + ")");
+  }
+  return lines;
+}
+
 // What `entry` has changed against the last results of each of its scenes before it.
 std::vector<std::string> changed_lights(std::span<const HistoryEntry> before, const HistoryEntry& entry) {
   std::vector<std::string> lines;
@@ -259,7 +284,13 @@ Addition add_to_history(const std::string& path, const Json& result, const std::
   std::vector<HistoryEntry> others;
   std::ranges::copy_if(history, std::back_inserter(others),
                        [&](const HistoryEntry& entry) { return entry.commit != commit; });
-  addition.light_changes = changed_lights(others, fresh);
+  addition.light_changes = missing_scenes(others, history, fresh);
+  std::ranges::copy(changed_lights(others, fresh), std::back_inserter(addition.light_changes));
+  for (const SceneLights& scene : fresh.scenes)
+    if (!others.empty() && std::ranges::none_of(others, [&](const HistoryEntry& entry) {
+          return lights_of_scene(entry, scene.scene) != nullptr;
+        }))
+      addition.new_scenes.push_back(scene.scene);
   for (const HistoryEntry& entry : history) {  // a line each
     const std::size_t end = text.find('\n', begin) + 1;
     if (entry.commit == commit) {
@@ -321,9 +352,13 @@ std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const me
 
 std::vector<std::string> light_changes_in(const std::vector<HistoryEntry>& history) {
   std::vector<std::string> lines;
-  for (std::size_t i = 1; i < history.size(); ++i)
-    for (const std::string& change : changed_lights(std::span(history).first(i), history[i]))
-      lines.push_back("at " + history[i].commit + ": " + change);
+  for (std::size_t i = 1; i < history.size(); ++i) {
+    const std::span before = std::span(history).first(i);
+    const std::string at = "at " + history[i].commit + ": ";
+    for (const std::string& missing : missing_scenes(before, history, history[i])) lines.push_back(at + missing);
+    for (const std::string& change : changed_lights(before, history[i]))
+      lines.push_back(at + change + "; figures from there on are of other lights");
+  }
   return lines;
 }
 
@@ -356,7 +391,7 @@ std::string change_text(const measure::ChangePoint& change) {
 std::string history_text(const std::vector<Series>& series, std::size_t entries, bool all,
                          const measure::ChangeRule& rule, const std::vector<std::string>& light_changes) {
   std::string text;
-  for (const std::string& change : light_changes) text += change + "; figures from there on are of other lights\n";
+  for (const std::string& change : light_changes) text += change + "\n";
   std::size_t changes = 0, too_short = 0;
   for (const Series& case_series : series) {
     changes += case_series.changes.size();
@@ -369,9 +404,11 @@ std::string history_text(const std::vector<Series>& series, std::size_t entries,
       renewed.insert({case_series.settings, case_series.case_name + " from " + case_series.settings_since + " on"});
   for (const auto& [settings, what] : renewed)
     text += "warning: other settings (" + settings + "), not joined with what was before: " + what + "\n";
-  text += number_of(entries, "result") + ", " + std::to_string(series.size()) + " series, " +
-          number_of(changes, "change") + least_text(rule) +
-          (light_changes.empty() ? "" : ", " + number_of(light_changes.size(), "change") + " of lights") + "\n";
+  text +=
+      number_of(entries, "result") + ", " + std::to_string(series.size()) + " series, " + number_of(changes, "change") +
+      least_text(rule) +
+      (light_changes.empty() ? "" : ", " + number_of(light_changes.size(), "change") + " of levels or their lights") +
+      "\n";
   return too_short == 0
              ? text
              : text + std::to_string(too_short) + " series of times are too short to tell changes from noise\n";

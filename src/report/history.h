@@ -31,8 +31,10 @@ struct HistoryEntry {
   std::vector<SceneLights> scenes = {};  // none in lines of older versions
 };
 
-// "at 3f2a: the lights of level have changed: 248 points, 52 spots, now 200 points" for each result whose lights are
-// not those of the one before it that has the scene.
+// "at 3f2a: the lights of level have changed: 248 points, 52 spots, now 200 points; figures from there on are of other
+// lights" for each result whose lights are not those of the one before it that has the scene, and "at 3f2a: level is
+// missing, which 1b90 has" where an earlier commit has a scene beside others of the result and no result of this commit
+// does.
 std::vector<std::string> light_changes_in(const std::vector<HistoryEntry>& history);
 
 // One figure of one case, in the order of the file.
@@ -57,6 +59,7 @@ struct Addition {
   std::size_t earlier = 0;  // lines of this commit that were there
   // Like light_changes_in(): against the last lines of other commits.
   std::vector<std::string> light_changes = {};
+  std::vector<std::string> new_scenes = {};  // that no line of another commit has, where there are such lines
 };
 // Adds the result as the file's last line, or behind those of its commit where a job runs again; makes the file if
 // there is none. The file is replaced at once by one that has all lines, so that no crash can leave half of one. Throws

@@ -9,7 +9,7 @@
 
 namespace clusterbench::report {
 
-// Of a result's scene: "248 points, 52 spots"; "no lights".
+// Of a result's scene: "248 points, 52 spots"; "248 points, 12 of them dark"; "no lights".
 std::string lights_text(const nlohmann::ordered_json& scene);
 
 enum class LightChange {
@@ -27,10 +27,12 @@ struct LightGate {
   bool allows_no_lights = false, allows_changed_lights = false;
   const nlohmann::ordered_json* base = nullptr;  // null: no baseline
   std::string base_name = {};                    // as messages call it
+  std::string filter = {};  // what the result's cases were selected by; others of the base are not missed
 };
 
-// Scenes without lights, cases that never have one in view, and scenes with other lights than the baseline's: broken,
-// or a warning where that is allowed.
+// Scenes without lights or with dark ones alone, cases that never have one in view, and scenes with other lights than the baseline's: broken,
+// or a warning where that is allowed. Broken also what budgets cannot be held against: scenes and cameras of which
+// nothing could be measured, and those of the baseline that the result does not have.
 LimitFindings light_findings(const nlohmann::ordered_json& result, const LightGate& gate);
 
 }  // namespace clusterbench::report

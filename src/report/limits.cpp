@@ -12,31 +12,33 @@
 #include "core/text.h"
 #include "report/baseline_cases.h"
 #include "report/json_values.h"
+#include "report/percent_change.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A figure of a case: the number at `value`, by that at `divisor`, times `scale`. All are JSON pointers; "": none.
+// A figure of a case: the number at `value`, by that at `divisor` or by `unit`. All are JSON pointers; "": none. It is
+// divided once, so that it is the double nearest to it, as the number of a budget is.
 struct FigureRow {
   const char* name;
   const char* value;
-  double scale = 1.0;
+  double unit = 1.0;
   const char* frame = "";
   const char* cell = "";
   const char* divisor = "";
   // Where older results lack `value`: the sum of what is at these.
   std::array<const char*, 3> parts = {};
 };
-constexpr double k_ns_to_us = 1e-3;
+constexpr double k_ns_per_us = 1000.0;
 constexpr FigureRow k_figure_rows[] = {
-    {"frame_us", "/timing/frame_ns/median", k_ns_to_us},
-    {"frame_us.max", "/timing/worst_frame/ns", k_ns_to_us, "/timing/worst_frame/frame"},
-    {"frame_cost_us", "/cost/frame_ns", k_ns_to_us},
-    {"assign_us", "/timing/assign_ns/median", k_ns_to_us},
-    {"convert_us", "/timing/convert_ns/median", k_ns_to_us},
-    {"build_us", "/timing/build_ns/median", k_ns_to_us},
+    {"frame_us", "/timing/frame_ns/median", k_ns_per_us},
+    {"frame_us.max", "/timing/worst_frame/ns", k_ns_per_us, "/timing/worst_frame/frame"},
+    {"frame_cost_us", "/cost/frame_ns", k_ns_per_us},
+    {"assign_us", "/timing/assign_ns/median", k_ns_per_us},
+    {"convert_us", "/timing/convert_ns/median", k_ns_per_us},
+    {"build_us", "/timing/build_ns/median", k_ns_per_us},
     {"index_entries", "/buffers/index_entries/high_water", 1.0, "/buffers/worst_frame", "/buffers/worst_cell"},
     {"bytes", "/buffers/bytes/high_water", 1.0, "/buffers/worst_frame", "/buffers/worst_cell"},
     {"upload_bytes", "/buffers/upload_bytes/max"},
@@ -45,6 +47,7 @@ constexpr FigureRow k_figure_rows[] = {
     {"pairs", "/occupancy/pairs/max"},
     {"dropped", "/buffers/overflow/dropped_pairs"},
     {"missed", "/error/false_negatives", 1.0, "/error/deepest/frame", "/error/deepest/cell"},
+    {"excess", "/error/false_positives", 1.0, "", "", "/error/true_pairs"},
     {"excess", "/error/excess_ratio"},
     {"undecided", "/error/undecided"},
     {"unlit", "/shading/missed", 1.0, "/shading/worst_frame/frame", "", "/shading/needed"},
@@ -67,7 +70,9 @@ constexpr FigureRow k_figure_rows[] = {
 // With the row that has it.
 struct Found {
   const FigureRow* row = nullptr;
-  double value = 0.0;
+  Quotient quotient = {};
+
+  double value() const { return quotient.value(); }
 };
 std::optional<double> sum_of_parts(const Json& result_case, const FigureRow& row) {
   std::optional<double> sum;
@@ -83,12 +88,9 @@ std::optional<Found> found_in(const Json& result_case, const std::string& name) 
     std::optional<double> value = number_at(result_case, row.value);
     if (!value) value = sum_of_parts(result_case, row);
     if (!value) continue;
-    if (*row.divisor != '\0') {
-      const double whole = number_at(result_case, row.divisor).value_or(0.0);
-      if (!(whole > 0.0)) continue;  // a share of nothing
-      *value /= whole;
-    }
-    return Found{&row, *value * row.scale};
+    const double whole = *row.divisor == '\0' ? row.unit : number_at(result_case, row.divisor).value_or(0.0);
+    if (!(whole > 0.0)) continue;  // a share of nothing
+    return Found{&row, {*value, whole}};
   }
   return {};
 }
@@ -126,7 +128,7 @@ std::string listed_names(const std::vector<std::string>& names) {
 }
 
 std::string is_text(const Json& result_case, const config::LimitRule& rule, const Found& found) {
-  return result_case["name"].get<std::string>() + ": " + rule.figure + " is " + config::budget_number(found.value) +
+  return result_case["name"].get<std::string>() + ": " + rule.figure + " is " + config::budget_number(found.value()) +
          worst_location(result_case, *found.row);
 }
 
@@ -166,7 +168,7 @@ class RuleCheck {
       if (!found)
         without.push_back((*result_case)["name"].get<std::string>());
       else
-        judge(found->value, is_text(*result_case, rule_, *found));
+        judge(rule_.is_broken_by(found->value()), found->value(), is_text(*result_case, rule_, *found));
     }
     add_without(without);
   }
@@ -193,7 +195,7 @@ class RuleCheck {
       const std::string name = (*result_case)["name"].get<std::string>();
       const Json* before = baseline_->case_of(*result_case);
       const std::optional<Found> now = found_in(*result_case, rule_.figure);
-      const std::optional<double> then = before == nullptr ? std::nullopt : limit_figure(*before, rule_.figure);
+      const std::optional<Found> then = before == nullptr ? std::nullopt : found_in(*before, rule_.figure);
       const std::string why = is_instructions() ? baseline_->obstacle_to_instructions(*result_case) : "";
       if (before == nullptr)
         not_in_base.push_back(name);
@@ -207,13 +209,14 @@ class RuleCheck {
     add_unmatched(not_in_base, without, obstacle);
   }
 
-  void judge_change(const Json& result_case, const Found& now, double then) {
-    const double percent = now.value == then ? 0.0 : 100.0 * (now.value / then - 1.0);  // infinite from 0
+  void judge_change(const Json& result_case, const Found& now, const Found& then) {
+    const double percent = percent_change(then.quotient, now.quotient);
     char amount[48];
     std::snprintf(amount, sizeof amount, "%+.3g %%", percent);
     const std::string change = std::isfinite(percent) ? std::string(amount) + " against " : "was ";
-    judge(percent,
-          is_text(result_case, rule_, now) + ", " + change + config::budget_number(then) + " in " + baseline_->name());
+    judge(is_broken_by_change(rule_, then.quotient, now.quotient), percent,
+          is_text(result_case, rule_, now) + ", " + change + config::budget_number(then.value()) + " in " +
+              baseline_->name());
   }
 
   void add_unmatched(const std::vector<std::string>& not_in_base, const std::vector<std::string>& without,
@@ -246,10 +249,11 @@ class RuleCheck {
 
   bool is_instructions() const { return rule_.figure.ends_with("instructions"); }
 
-  void judge(double value, const std::string& text) {
+  void judge(bool is_broken, double value, const std::string& text) {
     ++findings_.checked;
-    if (rule_.is_broken_by(value)) findings_.broken.push_back(text + ", and fails with " + rule_.text());
-    if (rule_.is_near(value))
+    if (is_broken)
+      findings_.broken.push_back(text + ", and fails with " + rule_.text());
+    else if (rule_.is_near(value))
       findings_.near.push_back(text + ", less than 10 % " +
                                (rule_.side == config::LimitRule::Side::above ? "below " : "above ") + rule_.text());
   }
@@ -276,7 +280,7 @@ void add_changes_since(const Json& result, const BaselineCases& baseline, LimitF
 
 std::optional<double> limit_figure(const Json& result_case, const std::string& name) {
   const std::optional<Found> found = found_in(result_case, name);
-  return found ? std::optional(found->value) : std::nullopt;
+  return found ? std::optional(found->value()) : std::nullopt;
 }
 
 LimitFindings limit_findings(const Json& result, std::span<const config::LimitRule> rules,

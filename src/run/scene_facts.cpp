@@ -79,7 +79,8 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
                     {"max_range", request.range_rule.max_range_m},
                     {"given", given},
                     {"from_intensity", from_intensity},
-                    {"clamped", clamped}};
+                    {"clamped", clamped},
+                    {"dark", scene::count_dark_lights(scene)}};
   if (!ranges.empty()) {
     std::ranges::sort(ranges);
     out.range_rule["ranges"] = {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -31,6 +32,14 @@ std::uint32_t bits_of(double value, double size) {
   return std::abs(value) <= 0x1p-40 * size ? 0 : std::bit_cast<std::uint32_t>(static_cast<float>(value));
 }
 
+bool is_black(const WorldLight& light) {
+  return light.type != LightType::box && !(light.luminous_intensity_cd > 0.0);
+}
+
+std::set<double> digest_times(const Scene& scene) {
+  return {0.0, 0.5 * scene.duration_s, scene.duration_s};
+}
+
 LightNumbers numbers_of(const WorldLight& light, double size) {
   LightNumbers numbers{};
   std::size_t next = 0;
@@ -39,6 +48,7 @@ LightNumbers numbers_of(const WorldLight& light, double size) {
   };
   numbers[next++] = static_cast<std::uint32_t>(light.type);
   numbers[next++] = bits_of(light.range_m, 0.0);
+  numbers.back() = is_black(light) ? 1 : 0;  // not where another number is: of lights that shine it is 0
   add(light.position, size);
   if (light.type == LightType::spot) {
     add(light.direction, 1.0);
@@ -53,7 +63,7 @@ LightNumbers numbers_of(const WorldLight& light, double size) {
 
 std::string light_digest(const Scene& scene) {
   std::string text;
-  for (const double time_s : std::set<double>{0.0, 0.5 * scene.duration_s, scene.duration_s}) {
+  for (const double time_s : digest_times(scene)) {
     const std::vector<WorldLight> lights = world_lights(scene, time_s);
     const double size = size_of(lights);
     std::vector<LightNumbers> all;
@@ -65,6 +75,17 @@ std::string light_digest(const Scene& scene) {
   }
   constexpr std::size_t k_digits = 16;
   return sha256_hex(text).substr(0, k_digits);
+}
+
+int count_dark_lights(const Scene& scene) {
+  std::map<int, bool> is_dark;  // by index in the scene
+  for (const double time_s : digest_times(scene))
+    for (const WorldLight& light : world_lights(scene, time_s)) {
+      if (light.type == LightType::box) continue;
+      bool& dark = is_dark.try_emplace(light.rig_index, true).first->second;
+      dark = dark && (is_black(light) || light.range_m == 0.0);
+    }
+  return static_cast<int>(std::ranges::count_if(is_dark, [](const auto& light) { return light.second; }));
 }
 
 }  // namespace clusterbench::scene

@@ -8,9 +8,12 @@
 namespace clusterbench::scene {
 
 // 16 hexadecimal digits from the lights that are assigned: how many there are, and kind, position, range, direction and
-// angle of each, at the beginning, the middle and the end of the animations. Names, order, colours, surfaces and
-// cameras do not count. All numbers are rounded to single precision, so that it does not count either whether a file
-// writes them with more digits, or a node's transform as a matrix.
+// angle of each, and whether it is dark, at the beginning, the middle and the end of the animations. Names, order,
+// other colours and brightness, surfaces and cameras do not count. All numbers are rounded to single precision, so that
+// it does not count either whether a file writes them with more digits, or a node's transform as a matrix.
 std::string light_digest(const Scene& scene);
+
+// Of the points and spots those that are dark, of intensity 0, black, or of range 0, at all these times.
+int count_dark_lights(const Scene& scene);
 
 }  // namespace clusterbench::scene

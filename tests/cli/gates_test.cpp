@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 // A corridor of so many point lights in front of a camera, or behind it.
-std::string corridor(int lights, double towards = -1.0) {
+std::string corridor(int lights, double towards = -1.0, bool is_endless = false) {
   Json nodes = Json::array({Json{{"name", "camera"}, {"camera", 0}}});
   Json all = Json::array({0});
   for (int i = 0; i < lights; ++i) {
@@ -26,6 +26,7 @@ std::string corridor(int lights, double towards = -1.0) {
       {"scenes", {{{"nodes", all}}}},
       {"nodes", nodes},
       {"cameras", {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}, {"zfar", 100.0}}}}}}};
+  if (is_endless) gltf["cameras"][0]["perspective"].erase("zfar");
   if (lights > 0) {
     gltf["extensionsUsed"] = {"KHR_lights_punctual"};
     gltf["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"range", 3.0}, {"intensity", 10.0}}};
@@ -63,6 +64,93 @@ TEST(Gates, a_level_without_lights_fails_where_there_is_a_budget) {
   const Outcome behind = level.run(corridor(8, 4.0), "--fail-if 'longest > 64'");
   EXPECT_EQ(behind.code, 1);
   EXPECT_TRUE(says(behind, "none of 8 lights is ever in view")) << behind.err;
+}
+
+TEST(Gates, a_level_without_lights_and_without_an_end_fails_beside_others_and_alone) {
+  const Level level;
+  const std::string empty = level.folder.write("empty.gltf", corridor(0, -1.0, true)).string();
+  const std::string budgets = " --fail-if 'lights < 1' --fail-if 'longest > 10'";
+  const Outcome beside = level.run(corridor(8), empty + budgets);
+  EXPECT_EQ(beside.code, 1);
+  EXPECT_TRUE(says(beside, "FAILED empty: has no lights, so budgets say nothing of it")) << beside.err;
+  const Outcome alone = level.run(corridor(0, -1.0, true), "--fail-if 'longest > 10'");
+  EXPECT_EQ(alone.code, 1);
+  EXPECT_TRUE(says(alone, "FAILED level: has no lights, so budgets say nothing of it")) << alone.err;
+  EXPECT_EQ(level.run(corridor(0, -1.0, true), "--fail-if 'longest > 10' --allow-no-lights").code, 0);
+  level.measure_base(8);
+  const Outcome lost = level.run(corridor(0, -1.0, true), "--allow-changed-lights --baseline " + level.base);
+  EXPECT_EQ(lost.code, 1);
+  EXPECT_TRUE(says(lost, "FAILED level: has no lights")) << lost.err;
+}
+
+TEST(Gates, a_level_of_the_baseline_that_is_not_there_fails_unless_the_filter_leaves_it_out) {
+  const Level level;
+  const std::string attic = level.folder.write("attic.gltf", corridor(3)).string();
+  level.measure_base(8, attic);
+  EXPECT_EQ(level.run(corridor(8), attic + " --baseline " + level.base).code, 0);
+  const Outcome missing = level.run(corridor(8), "--fail-if 'longest > 100' --baseline " + level.base);
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_TRUE(says(missing, "FAILED attic: was measured in " + level.base + ", and this result has no case of it"))
+      << missing.err;
+  EXPECT_EQ(level.run(corridor(8), "--filter '^level/' --baseline " + level.base).code, 0);
+}
+
+TEST(Gates, presets_of_a_level_without_lights_are_measured_to_the_end) {
+  const Folder folder;
+  const std::string empty = folder.write("empty.gltf", corridor(0, -1.0, true)).string();
+  const Outcome all =
+      tool("run " + empty + " --presets -q --no-timing --viewport 320x180 -o " + (folder / "result.json").string());
+  EXPECT_EQ(all.code, 0) << all.err;
+}
+
+TEST(Gates, an_empty_word_is_no_commit_and_no_baseline) {
+  const Level level;
+  level.measure_base(8);
+  const std::string history = (level.folder / "history.jsonl").string();
+  const Outcome commit = tool("history add " + level.base + " " + history + " --commit ''");
+  EXPECT_EQ(commit.code, 2);
+  EXPECT_TRUE(says(commit, "--commit: takes a text that is not empty")) << commit.err;
+  EXPECT_FALSE(std::filesystem::exists(history));
+  for (const char* option : {"--baseline ''", "--baseline=", "--fail-if ''", "--count=", "-o ''", "--export ''"})
+    EXPECT_EQ(level.run(corridor(8), option).code, 2) << option;
+  EXPECT_EQ(level.run(corridor(8), "--filter ''").code, 0) << "all cases";
+}
+
+// The result would be lost, or be in one stream with what was exported.
+TEST(Gates, two_outputs_in_one_file_are_refused_however_it_is_named) {
+  const Level level;
+  const std::string scene = level.folder.write("level.gltf", corridor(8)).string();
+  std::filesystem::create_symlink(level.folder / "new.json", level.folder / "link.json");
+  const auto run = [&](const std::string& outputs) {
+    return tool_in(level.folder.path(),
+                   "run " + scene + " -q --no-timing --grid frustum --tiles 16x9t --assigner exact-fast " + outputs);
+  };
+  for (const char* outputs :
+       {"-o new.json --export csv=./new.json", "-o ./new.json --export csv=new.json",
+        "-o new.json --export csv=link.json", "-o new.json --export csv=../$(basename $PWD)/new.json",
+        "-o new.json --export csv=new.json.partial", "-o - --export csv=-", "--export csv=-",
+        "-o /dev/stdout --export csv=-", "-o new.json --export csv=- --export markdown=-"}) {
+    const Outcome refused = run(outputs);
+    EXPECT_EQ(refused.code, 2) << outputs;
+    EXPECT_TRUE(says(refused, "is to hold two outputs of this command: name a file for each")) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(level.folder / "new.json")) << outputs;
+  }
+  EXPECT_EQ(run("-o /dev/null --export csv=/dev/null").code, 0);
+  EXPECT_EQ(run("-o new.json --export csv=-").code, 0);
+}
+
+TEST(Gates, a_level_whose_lights_are_switched_off_fails) {
+  const Level level;
+  level.measure_base(8);
+  std::string off = corridor(8);
+  off.replace(off.find("\"intensity\":10.0"), 16, "\"intensity\":0.0");
+  const Outcome budget = level.run(off, "--fail-if 'lights < 8'");
+  EXPECT_EQ(budget.code, 1);
+  EXPECT_TRUE(says(budget, "FAILED level: of 8 lights all are dark (intensity 0, black, or range 0)")) << budget.err;
+  const Outcome base = level.run(off, "--allow-no-lights --baseline " + level.base);
+  EXPECT_EQ(base.code, 1);
+  EXPECT_TRUE(says(base, "8 points then, 8 points, 8 of them dark now")) << base.err;
+  EXPECT_EQ(level.run(off, "").code, 0);
 }
 
 TEST(Gates, numbers_of_lights_are_budgets) {
@@ -134,6 +222,10 @@ TEST(Gates, a_history_tells_and_fails_with_lights_that_changed) {
   const Outcome changed = tool(add);
   EXPECT_EQ(changed.code, 1);
   EXPECT_TRUE(says(changed, "FAILED the lights of level have changed: 8 points, now 5 points")) << changed.err;
+  const Outcome again = tool(add);
+  EXPECT_TRUE(says(again, "nothing was added")) << again.err;
+  EXPECT_TRUE(says(again, "now 5 points (--allow-changed-lights if that is meant)")) << again.err;
+  EXPECT_FALSE(says(again, "it was added")) << again.err;
   EXPECT_EQ(tool(add + " --allow-changed-lights").code, 0);
   const Outcome shown = tool("history show " + history);
   EXPECT_TRUE(shown.out.starts_with("at b: the lights of level have changed: 8 points, now 5 points")) << shown.out;

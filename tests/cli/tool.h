@@ -48,13 +48,17 @@ class Folder {
   std::filesystem::path path_;
 };
 
-// `arguments` as a shell would take them.
-inline Outcome tool(const std::string& arguments) {
+// `arguments` as a shell in that folder would take them.
+inline Outcome tool_in(const std::filesystem::path& working_folder, const std::string& arguments) {
   const Folder folder;
-  const std::string command = test::program() + " " + arguments + " >" + (folder / "out").string() + " 2>" +
-                              (folder / "err").string() + " </dev/null";
+  const std::string command = "cd " + working_folder.string() + " && " + test::program() + " " + arguments + " >" +
+                              (folder / "out").string() + " 2>" + (folder / "err").string() + " </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, file_text(folder / "out"), file_text(folder / "err")};
+}
+
+inline Outcome tool(const std::string& arguments) {
+  return tool_in(".", arguments);
 }
 
 // The same with all of its output on one terminal.

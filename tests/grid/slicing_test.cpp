@@ -237,6 +237,19 @@ TEST(Slicing, what_cannot_be_is_refused_by_its_key) {
   EXPECT_EQ(key(list, endless, false), "slices.boundaries");
 }
 
+TEST(Slicing, without_an_end_and_without_lights_behind_their_beginning_are_made_all_the_same) {
+  for (const double lights_end_m : {0.0, 0.05, 4.0})
+    for (const Scheme scheme : {Scheme::linear, Scheme::power, Scheme::exponential, Scheme::exponential_first,
+                                Scheme::fit})
+      for (const bool orthographic : {false, true}) {
+        Slicing asked = slicing(scheme, 8, 0.0, 0.0);
+        const SliceRange endless{0.1, k_infinity, 0.0, lights_end_m};
+        EXPECT_GE(make_slices(asked, endless, orthographic).boundaries.back(), lights_end_m) << lights_end_m;
+      }
+  Slicing far = slicing(Scheme::exponential, 8, 50.0, 0.0);
+  EXPECT_GT(make_slices(far, {0.1, k_infinity, 0.0, 20.0}, false).boundaries.back(), 50.0f);
+}
+
 // Filament: 100 m, or the camera's far plane where that is nearer.
 TEST(Slicing, far_at_most_ends_slices_only_where_the_camera_sees_farther) {
   Slicing asked = slicing(Scheme::exponential, 8, 0.0, 0.0);

@@ -151,5 +151,81 @@ TEST(LightGate, fails_where_there_are_no_lights_or_none_is_ever_in_view) {
   EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).warnings.size(), 1u);
 }
 
+TEST(LightGate, fails_where_all_lights_are_dark_and_tells_some) {
+  Json result = baseline_json();
+  result["scenes"][0]["range_rule"]["dark"] = 3;
+  EXPECT_EQ(light_findings(result, {}).broken, Lines{});
+  EXPECT_EQ(
+      light_findings(result, {}).warnings,
+      (Lines{"hall: of 10 lights 3 are dark (intensity 0, black, or range 0), and budgets count them as lights"}));
+  const Json base = baseline_json();
+  result["scenes"][0]["light_digest"] = "another";
+  const Lines fewer = light_findings(result, {.base = &base, .base_name = "base.json"}).broken;
+  ASSERT_EQ(fewer.size(), 1u);
+  EXPECT_NE(fewer[0].find("9 points, 1 spot then, 9 points, 1 spot, 3 of them dark now"), std::string::npos)
+      << fewer[0];
+  result["scenes"][0]["range_rule"]["dark"] = 10;
+  EXPECT_EQ(light_findings(result, {}).broken,
+            (Lines{"hall: of 10 lights all are dark (intensity 0, black, or range 0), so budgets say nothing of it "
+                   "(--allow-no-lights, limits.allow_no_lights, if that is meant)"}));
+  EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).broken, Lines{});
+}
+
+// The level of `json` as a second one, "attic", behind the first.
+Json with_attic(Json json) {
+  json["scenes"].push_back(json["scenes"][0]);
+  json["scenes"].back()["name"] = "attic";
+  for (std::size_t i = 0, count = json["cases"].size(); i < count; ++i) {
+    Json copy = json["cases"][i];
+    copy["scene"] = "attic";
+    copy["name"] = "attic" + copy["name"].get<std::string>().substr(4);
+    json["cases"].push_back(copy);
+  }
+  return json;
+}
+
+TEST(LightGate, fails_where_a_level_or_a_camera_of_the_baseline_is_missing) {
+  const Json base = with_attic(baseline_json()), both = base, hall = baseline_json();
+  const LightGate gate{.base = &base, .base_name = "base.json"};
+  EXPECT_EQ(light_findings(both, gate).broken, Lines{});
+  EXPECT_EQ(light_findings(hall, gate).broken,
+            (Lines{"attic: was measured in base.json, and this result has no case of it, so budgets say nothing of it; "
+                   "measure it or the baseline again, or leave it out (--filter)"}));
+  Json renamed = hall;
+  renamed["scenes"][0]["name"] = "hall-v2";
+  for (Json& result_case : renamed["cases"]) result_case["scene"] = "hall-v2";
+  EXPECT_EQ(light_findings(renamed, gate).broken.size(), 2u) << "of two levels, neither";
+  const LightGate filtered{.base = &base, .base_name = "base.json", .filter = "^hall/"};
+  EXPECT_EQ(light_findings(hall, filtered).broken, Lines{});
+  Json other_camera = both;
+  for (Json& result_case : other_camera["cases"])
+    if (result_case["scene"] == "attic") result_case["camera"] = "fly";
+  const Lines broken = light_findings(other_camera, gate).broken;
+  ASSERT_EQ(broken.size(), 1u);
+  EXPECT_TRUE(broken[0].starts_with("attic, camera walk: was measured in base.json")) << broken[0];
+}
+
+TEST(LightGate, fails_where_nothing_of_a_level_could_be_measured) {
+  Json result = with_attic(baseline_json());
+  for (std::size_t i = 0; i < 2; ++i) {
+    result["skipped"].push_back(
+        {{"name", result["cases"].back()["name"]}, {"reason", "slices.count: must be at least 1"}});
+    result["cases"].erase(result["cases"].size() - 1);
+  }
+  EXPECT_EQ(light_findings(result, {}).broken,
+            (Lines{"attic/walk: none of its 2 combinations could be measured, so budgets say nothing of it: "
+                   "slices.count: must be at least 1"}));
+  EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).broken.size(), 1u) << "it has lights";
+  for (const char* kind : {"point", "spot"}) result["scenes"][1]["lights"][kind] = 0;
+  const Lines broken = light_findings(result, {}).broken;
+  ASSERT_EQ(broken.size(), 1u);
+  EXPECT_TRUE(broken[0].starts_with("attic/walk: has no lights, and none of its 2 combinations")) << broken[0];
+  EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).broken, Lines{});
+  Json one_left = with_attic(baseline_json());
+  one_left["skipped"].push_back({{"name", "attic/walk/frustum/brute-force/packed"}, {"reason", "too many pairs"}});
+  one_left["skipped"].push_back({{"name", "hall/samples visible"}, {"reason", "the scene has no triangles"}});
+  EXPECT_EQ(light_findings(one_left, {}).broken, Lines{});
+}
+
 }  // namespace
 }  // namespace clusterbench::report

@@ -82,7 +82,8 @@ TEST_F(History, fewer_lights_are_told_first_and_are_not_better) {
             std::vector<std::string>{"the lights of hall have changed: 9 points, 1 spot, now 1 spot"});
   const std::vector<HistoryEntry> history = read_history(file_);
   const std::vector<std::string> lights = light_changes_in(history);
-  EXPECT_EQ(lights, std::vector<std::string>{"at b: " + addition.light_changes[0]});
+  EXPECT_EQ(lights, std::vector<std::string>{"at b: " + addition.light_changes[0] +
+                                             "; figures from there on are of other lights"});
   const std::string text = history_text(series_of(history, {}), 2, false, {}, lights);
   EXPECT_TRUE(text.starts_with("at b: the lights of hall have changed")) << text;
   EXPECT_NE(text.find("232 to 16, -93.1 %, of other lights"), std::string::npos) << text;
@@ -104,6 +105,39 @@ TEST_F(History, a_job_that_runs_again_is_held_against_the_commit_before) {
   add_to_history(file_, gone, "b");
   EXPECT_EQ(add_to_history(file_, gone, "b").light_changes.size(), 1u);
   EXPECT_EQ(add_to_history(file_, gone, "c").light_changes.size(), 0u);
+}
+
+// The hall by another name, with the cases that go with it.
+Json level(const std::string& name) {
+  Json json = result_to_json(hall_with(9, 232), {});
+  json["scenes"][0]["name"] = name;
+  for (Json& result_case : json["cases"]) result_case["scene"] = name;
+  return json;
+}
+
+TEST_F(History, a_level_that_is_missing_is_told_once_and_by_its_name) {
+  Json both = level("hall");
+  both["scenes"].push_back(level("attic")["scenes"][0]);
+  add_to_history(file_, both, "a");
+  const Addition gone = add_to_history(file_, level("hall"), "b");
+  EXPECT_EQ(gone.light_changes, std::vector<std::string>{"attic is missing, which a has (9 points, 1 spot)"});
+  EXPECT_EQ(add_to_history(file_, level("hall"), "c").light_changes, std::vector<std::string>{});
+  EXPECT_EQ(light_changes_in(read_history(file_)), std::vector<std::string>{"at b: " + gone.light_changes[0]});
+  const std::string text = history_text({}, 3, false, {}, light_changes_in(read_history(file_)));
+  EXPECT_TRUE(text.starts_with("at b: attic is missing, which a has (9 points, 1 spot)\n")) << text;
+  EXPECT_EQ(add_to_history(file_, level("attic"), "b").light_changes, std::vector<std::string>{});
+  EXPECT_EQ(light_changes_in(read_history(file_)), std::vector<std::string>{}) << "of two results of b, one has it";
+}
+
+TEST_F(History, levels_in_results_of_their_own_miss_none_and_new_ones_are_named) {
+  add_to_history(file_, level("hall"), "a");
+  const Addition other = add_to_history(file_, level("attic"), "a");
+  EXPECT_EQ(other.light_changes, std::vector<std::string>{});
+  EXPECT_EQ(other.new_scenes, std::vector<std::string>{}) << "the first commit has nothing before it";
+  EXPECT_EQ(add_to_history(file_, level("attic"), "b").light_changes, std::vector<std::string>{});
+  const Addition renamed = add_to_history(file_, level("loft"), "c");
+  EXPECT_EQ(renamed.light_changes, std::vector<std::string>{});
+  EXPECT_EQ(renamed.new_scenes, std::vector<std::string>{"loft"});
 }
 
 TEST_F(History, lines_of_older_versions_leave_the_lights_open) {

@@ -65,6 +65,18 @@ TEST(Limits, what_breaks_one_is_told_with_case_frame_and_cell) {
   EXPECT_TRUE(findings_of("longest > 63").broken.front().starts_with("hall/walk/frustum/bounds/packed: "));
 }
 
+TEST(Limits, times_are_in_microseconds_what_they_are_in_nanoseconds) {
+  for (int ns = 1; ns < 5000; ns += 7) {
+    Json result{{"cases", {{{"name", "a"}, {"timing", {{"frame_ns", {{"median", ns}}}}}}}}};
+    char budget[48];
+    std::snprintf(budget, sizeof budget, "%d.%03d", ns / 1000, ns % 1000);
+    const config::LimitRule above[] = {config::limit_rule("frame_us > " + std::string(budget), "", "")};
+    const config::LimitRule at[] = {config::limit_rule("frame_us == " + std::string(budget), "", "")};
+    EXPECT_EQ(limit_findings(result, above).broken.size(), 0u) << ns;
+    EXPECT_EQ(limit_findings(result, at).broken.size(), 1u) << ns;
+  }
+}
+
 TEST(Limits, what_is_less_than_a_tenth_below_is_a_warning) {
   const auto near = [](const std::string& rule) { return findings_of(rule).near; };
   EXPECT_EQ(near("bytes > 1e6"), (Lines{"hall/walk/frustum/bounds/packed: bytes is 950000 (frame 9, cell [1,2,3]), "

@@ -66,6 +66,25 @@ TEST(LightDigest, is_another_where_a_light_is_gone_moved_shortened_or_turned) {
     EXPECT_NE(light_digest(*other), digest);
 }
 
+TEST(LightDigest, is_another_where_a_light_is_switched_off_and_counts_these) {
+  const Scene scene = rig_of(20);
+  EXPECT_EQ(count_dark_lights(scene), 0);
+  const auto is_told = [&](auto&& change) {
+    Scene changed = scene;
+    change(changed.lights[3]);
+    EXPECT_NE(light_digest(changed), light_digest(scene));
+    EXPECT_EQ(count_dark_lights(changed), 1);
+  };
+  is_told([](Light& light) { light.intensity = 0.0; });
+  is_told([](Light& light) { light.color = Vec3d(0.0); });
+  is_told([](Light& light) { light.range_m = 0.0; });
+  Scene dim = scene;
+  dim.lights[3].intensity *= 1e-6;
+  EXPECT_EQ(light_digest(dim), light_digest(scene));
+  for (Light& light : dim.lights) light.intensity = 0.0;
+  EXPECT_EQ(count_dark_lights(dim), 20);
+}
+
 TEST(LightDigest, of_no_lights_is_not_that_of_a_light) {
   Scene none = rig_of(1);
   const std::string one = light_digest(none);

@@ -1,0 +1,22 @@
+#pragma once
+// Changes in percent, decided exactly. In floating point 100 * (103 / 100 - 1) is more than 3, and a budget of +3 %
+// would fail at its own boundary.
+
+#include "config/limit_rules.h"
+
+namespace clusterbench::report {
+
+// A figure as it was counted: a share of two counts, or a number by 1.
+struct Quotient {
+  double numerator = 0.0, denominator = 1.0;  // finite; the second above 0
+
+  double value() const { return numerator / denominator; }
+};
+
+// For people, in percent: infinite from 0 to more; 0 where both are 0.
+double percent_change(const Quotient& then, const Quotient& now);
+
+// Whether the change breaks a budget in percent, whose numbers stand for the decimals that they were written as.
+bool is_broken_by_change(const config::LimitRule& rule, const Quotient& then, const Quotient& now);
+
+}  // namespace clusterbench::report
