@@ -600,6 +600,10 @@ Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json&
   JsonText changed = changed_by_flags(document, grids, text.file, flags);
   if (changed.value.contains("presets") && !names_own && !name_clusterings(flags)) drop_own_clusterings(changed.value);
   usual.add_to(changed.value);
+  if (grids == GridsFrom::defaults && changed.value.contains("grids")) {
+    const Json whole = filled(changed)["grids"], usable = usable_default_grids(whole);
+    if (usable != whole) changed.value["grids"] = usable;
+  }
   return read_config(changed);
 }
 

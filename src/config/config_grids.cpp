@@ -96,6 +96,10 @@ void drop_unused(Json& grid) {
   if (!is_fitted || is_cubical || scheme == "list" || scheme == "fit") slices.erase("fit");
 }
 
+bool has_one_slice_and_a_first(const Json& grid) {
+  return grid.contains("slices") && grid["slices"]["scheme"] == "exponential-first" && grid["slices"]["count"] == 1;
+}
+
 std::vector<Json> expanded(const Json& grid) {
   std::vector<Json> all{grid};
   for (const Axis& axis : k_axes) all = expand_axis(all, Json::json_pointer(axis.pointer), axis.depth);
@@ -208,6 +212,30 @@ std::vector<grid::GridSpec> grid_specs(const Json& grids, const JsonText& text) 
       earlier.push_back(single);
       out.push_back(grid_spec(single));
     }
+  }
+  return out;
+}
+
+Json usable_default_grids(const Json& grids) {
+  std::vector<Json> earlier;
+  Json out = Json::array();
+  for (const Json& grid : grids) {
+    bool is_changed = false;
+    Json kept = Json::array();
+    for (Json single : expanded(grid)) {
+      if (has_one_slice_and_a_first(single)) {
+        single["slices"]["scheme"] = "linear";
+        drop_unused(single);
+        is_changed = true;
+      }
+      const bool is_repeated = std::find(earlier.begin(), earlier.end(), single) != earlier.end();
+      is_changed = is_changed || is_repeated;
+      if (is_repeated) continue;
+      earlier.push_back(single);
+      kept.push_back(single);
+    }
+    if (!is_changed) kept = Json::array({grid});
+    out.insert(out.end(), kept.begin(), kept.end());
   }
   return out;
 }

@@ -225,6 +225,25 @@ TEST(ConfigFlags, scenes_without_a_configuration_take_them_too) {
   EXPECT_EQ(config.name, "level");
 }
 
+TEST(ConfigFlags, every_scheme_of_slices_is_one_for_the_default_sweep) {
+  const Names schemes = {"linear", "exponential", "exponential-first", "power",
+                         "fit",    "cubical",     "cubical-first",     "exponential-first,linear"};
+  for (const std::string& scheme : schemes) {
+    const Flags flags{{"--set", "grids.*.slices.scheme=" + scheme}};
+    const Config config = default_config({"level.glb"}, flags);
+    EXPECT_GE(config.grids.size(), 4u) << scheme;
+    EXPECT_EQ(parse_config(config.resolved.dump(), "c.json").grids.size(), config.grids.size()) << scheme;
+  }
+  const Flags first{{"--set", "grids.*.slices.scheme=exponential-first"}};
+  Names names;
+  for (const grid::GridSpec& grid : default_config({"level.glb"}, first).grids) names.push_back(grid.name());
+  EXPECT_NE(std::find(names.begin(), names.end(), "frustum 32px x 1 linear"), names.end()) << names[3];
+  EXPECT_THROW(parse_config(R"({"scenes": ["a.glb"], "grids": [{"slices": {"scheme": "linear", "count": 1}}]})",
+                            "c.json", first),
+               Error)
+      << "a file's own grid";
+}
+
 TEST(ConfigFlags, a_single_value_is_a_list_of_one_where_only_a_list_can_be) {
   const Config config =
       flagged({{"--set", "precision=half"}, {"--set", "storages=bitfield"}, {"--set", "limits.fail_if=unlit > 0"}});
