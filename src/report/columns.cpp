@@ -49,9 +49,10 @@ std::string what_intervals_take() {
 }
 
 std::string text(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
+  const int length = std::snprintf(nullptr, 0, format, value);
+  std::string out(length > 0 ? static_cast<std::size_t>(length) : 0, '\0');
+  std::snprintf(out.data(), out.size() + 1, format, value);
+  return out;
 }
 
 std::string amount_text(double value) {
