@@ -39,9 +39,11 @@ function typeOf(part, indent = "") {
   if (part.$ref) return nameOf(part.$ref.replace("#/definitions/", ""));
   if ("const" in part) return JSON.stringify(part.const);
   if (part.enum) return part.enum.map((value) => JSON.stringify(value)).join(" | ");
-  if (Array.isArray(part.type)) return part.type.map((type) => simple[type]).join(" | ");
+  if (Array.isArray(part.type)) return part.type.map((type) => typeOf({ ...part, type }, indent)).join(" | ");
   if (part.type === "array") return arrayType(part, indent);
-  return part.type === "object" ? objectType(part, indent) : simple[part.type];
+  if (part.type === "object") return objectType(part, indent);
+  if (!simple[part.type]) throw new Error(`no type is known for ${JSON.stringify(part)}`);
+  return simple[part.type];
 }
 
 const types = Object.entries({ ...schema.definitions, result: schema }).map(

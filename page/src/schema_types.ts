@@ -746,10 +746,10 @@ export type Result = {
     scene: string; // Name of one of scenes
     camera: string; // As in cases
     viewport: [number, number]; // [width, height] [px, over the cases]
-    take: string | null; // Id of the case to take; null: no case is sound
+    take: string | null; // Id of the case to take; null: no case is sound, or nothing that they are ranked by sees a light (then text says what)
     against: string | null; // Id of the cheapest case that is known to cost more; null: there is none
     ratio: number | null; // Cost of that / cost of the case to take [ratio, over the frame times]
-    ci95:  | null; // Its 95 % interval, of the times in it; null where times were not measured side by side [ratio, over the frame times]
+    ci95: [number | null, number | null] | null; // Its 95 % interval, of the times in it; null where times were not measured side by side [ratio, over the frame times]
     alike: string[]; // Ids of cases that are not known to cost more or less
     text: string; // The same for people
   }>; // Per scene, camera and viewport what to take by this result, and how sure that is. Of the cases on the front that which costs least: frame time and, where samples were asked for, upload, reading and shading by the model of config.cost; of those that the times cannot tell apart the one with the fewest bytes. Presets are ranked by themselves. Absent in older results

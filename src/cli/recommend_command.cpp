@@ -172,7 +172,7 @@ ExitCode recommend(const RecommendFlags& flags) {
   config.timing.measure = is_timed;
   config.resolved["timing"]["measure"] = is_timed;
   run::Plan plan = run::make_plan(config, flags.filter);
-  if (!flags.quiet) tell_of_cameras_left_out(config, plan);
+  if (!flags.quiet) tell_of_cameras(config, plan);
   const bool asks_for_cost = std::ranges::any_of(question.constraints, [](const report::Constraint& constraint) {
     return constraint.rule.figure.ends_with("_cost_us");
   });

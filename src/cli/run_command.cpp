@@ -306,10 +306,13 @@ void show_table(const RunFlags& flags, const Json& result) {
   if (for_reading) tell_of_keeping();
 }
 
-// Last of all, behind what is doubted and what failed.
-void show_conclusion(const RunFlags& flags, const Json& result) {
+// Last of all, behind what is doubted. What failed is no ground to take anything.
+void show_conclusion(const RunFlags& flags, const Json& result, bool has_failed) {
   std::ostream& out = is_for_reading(flags.output) ? std::cout : std::cerr;
-  out << report::conclusions_text(result) << report::preset_conclusions(result) << std::flush;
+  if (has_failed)
+    out << "conclusion: none, since the run FAILED for what is told above\n" << std::flush;
+  else
+    out << report::conclusions_text(result) << report::preset_conclusions(result) << std::flush;
 }
 
 std::string own_command_line() {
@@ -386,8 +389,9 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   }
   const ExitCode gates = flags.baseline.binary.empty() ? report_gates(result) : report_baseline(flags, result);
   const ExitCode limits = own_gates.report(result);
-  if (!flags.quiet) show_conclusion(flags, result);
-  return gates == ExitCode::ok ? limits : gates;
+  const ExitCode code = gates == ExitCode::ok ? limits : gates;
+  if (!flags.quiet) show_conclusion(flags, result, code != ExitCode::ok);
+  return code;
 }
 
 void check_baseline(const RunFlags& flags) {

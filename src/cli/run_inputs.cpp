@@ -6,6 +6,7 @@
 #include "cli/output.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "run/scene_facts.h"
 
 namespace clusterbench::cli {
 
@@ -58,9 +59,11 @@ config::Config read_inputs(const RunInputs& inputs, const std::vector<config::Fl
               "takes one configuration (.json), or one or more scenes (.glb, .gltf), not " + joined(inputs.paths));
 }
 
-void tell_of_cameras_left_out(const config::Config& config, const run::Plan& plan) {
+void tell_of_cameras(const config::Config& config, const run::Plan& plan) {
   for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
     const scene::Scene& scene = plan.scenes[i].scene;
+    if (const std::string text = run::without_field_of_view(plan.scenes[i], config.scenes[i]); !text.empty())
+      tell("warning: " + scene.name + ": " + text);
     const std::vector<std::string> others = scene::cameras_left_out(scene, config.scenes[i].camera);
     if (others.empty()) continue;
     tell("of " + scene.name + " only camera '" + plan.scenes[i].paths.front().camera + "', and not " +

@@ -29,7 +29,8 @@ bool is_scene(const std::string& path);  // .glb, .gltf
 config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first = {},
                            const nlohmann::json& standard = {});
 
-// For what searches along one camera or some of a scene: which others there are.
-void tell_of_cameras_left_out(const config::Config& config, const run::Plan& plan);
+// For what searches along one camera or some of a scene: which others there are, and which a field of view that is
+// asked for does not change.
+void tell_of_cameras(const config::Config& config, const run::Plan& plan);
 
 }  // namespace clusterbench::cli

@@ -86,7 +86,7 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   const run::Plan plan = run::make_plan(config, flags.filter);
   const run::CasePlan& case_plan = search::case_to_search(config, plan);
   search::fix_grid(config, plan, case_plan);
-  if (!flags.quiet) tell_of_cameras_left_out(config, plan);
+  if (!flags.quiet) tell_of_cameras(config, plan);
   check_outputs(flags, config);
   const std::atomic<bool>& stop = stop_on_signals();
   ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);

@@ -15,6 +15,7 @@
 #include "report/contender.h"
 #include "report/frame_cost.h"
 #include "report/json_values.h"
+#include "report/nothing_seen.h"
 #include "report/preset_cost.h"
 #include "report/result_json.h"
 
@@ -55,7 +56,7 @@ struct SceneView {
   std::string scene, camera;
   Json viewport;
   std::vector<WeighedCase> front{}, others{}, searched{};
-  std::size_t cases = 0;
+  std::vector<const Json*> cases{};
 };
 
 std::string case_title(const Json& result_case) {
@@ -104,7 +105,7 @@ std::vector<SceneView> scene_views(const Json& result, const Json& config) {
     auto view = std::ranges::find_if(views, is_its);
     if (view == views.end())
       view = views.insert(views.end(), SceneView{result_case["scene"], result_case["camera"], result_case["viewport"]});
-    ++view->cases;
+    view->cases.push_back(&result_case);
     const bool is_sound = result_case["eligible"] == true;
     if (front.contains(result_case["id"].get<std::string>()))
       view->front.push_back(standing_of(result_case, config));
@@ -233,15 +234,20 @@ std::string doubts_text(const Choice& choice) {
 }
 
 Json conclusion_of(const SceneView& view, std::uint64_t seed) {
-  const Choice choice = choose_of(view, seed);
+  const std::string unseen = why_nothing_is_seen(view.cases, RankedBy::cost);
+  const Choice choice = unseen.empty() ? choose_of(view, seed) : Choice{};
   const std::string where = shown(view.scene) + ", camera " + shown(view.camera) + ", " + view.viewport[0].dump() +
                             "x" + view.viewport[1].dump() + ": ";
   Json out{{"scene", view.scene}, {"camera", view.camera}, {"viewport", view.viewport}, {"take", nullptr},
            {"against", nullptr},  {"ratio", nullptr},      {"ci95", nullptr},           {"alike", Json::array()}};
+  if (!unseen.empty()) {
+    out["text"] = where + "nothing to take: " + unseen + ".";
+    return out;
+  }
   if (choice.take == nullptr) {
     out["text"] =
         where +
-        (view.searched.empty() ? "take none of " + number_of(view.cases, "case") + ": each fails or loses lights"
+        (view.searched.empty() ? "take none of " + number_of(view.cases.size(), "case") + ": each fails or loses lights"
                                : "nothing to take: only structures that samples search are sound here, and no GPU has "
                                  "measured such a search") +
         ".";
@@ -283,10 +289,16 @@ std::string beside_choice_text(const Json& record) {
 
 }  // namespace
 
+std::string text_of_nothing_seen(const Json& answer) {
+  const Json* why = value_at(answer, "/nothing_seen");
+  return why != nullptr && why->is_string() ? "nothing to recommend: " + why->get<std::string>() : "";
+}
+
 std::string answer_conclusion(const Json& answer, const Json& objective) {
   std::string out = shown(answer["scene"].get<std::string>()) + ", " + answer["viewport"][0].dump() + "x" +
                     answer["viewport"][1].dump() + ": ";
   const Json& choice = answer["choice"];
+  if (const std::string unseen = text_of_nothing_seen(answer); !unseen.empty()) return out + unseen + ".";
   if (choice.is_null())
     return out + "take none: no candidate satisfies all constraints; see what each of them excludes.";
   out += "take " + shown(choice["name"].get<std::string>()) + "; " + objective_text(choice, objective);

@@ -18,6 +18,9 @@ nlohmann::ordered_json conclusions_of(const nlohmann::ordered_json& result, cons
 // Lines that begin with "conclusion: ", the last ones of a run; "" where the result has none.
 std::string conclusions_text(const nlohmann::ordered_json& result);
 
+// "nothing to recommend: no light is in view in any frame" of an answer of `recommend` for which that is so; else "".
+std::string text_of_nothing_seen(const nlohmann::ordered_json& answer);
+
 // Of one answer of `recommend`, in the same form; `objective`: the recommendation's.
 std::string answer_conclusion(const nlohmann::ordered_json& answer, const nlohmann::ordered_json& objective);
 

@@ -17,6 +17,7 @@
 #include "report/json_values.h"
 #include "report/limits.h"
 #include "report/machine.h"
+#include "report/nothing_seen.h"
 #include "report/preset_cost.h"
 #include "report/result_json.h"
 
@@ -265,6 +266,20 @@ bool rests_on_random_depths(const Json& result_case, const ObjectiveFigure& obje
   return sets != nullptr && sets->contains("volume") && !sets->contains("opaque");
 }
 
+// Of all cameras together: what one of them sees is something to choose by.
+std::string why_nothing_is_seen(const search::Found& found, const config::Config& config, const Question& question) {
+  Json all = Json::array();
+  for (const search::Finalist& finalist : found.finalists)
+    for (const Json& one : cases_json(finalist.cases, config.resolved)) all.push_back(one);
+  std::vector<const Json*> cases;
+  for (const Json& one : all) cases.push_back(&one);
+  const std::string& figure = question.objective.name;
+  const bool is_of_whole_view = figure == k_evaluated || figure == k_read_bytes || figure == "overshade";
+  return why_nothing_is_seen(cases, question.objective.is_cost ? RankedBy::cost
+                                    : is_of_whole_view         ? RankedBy::whole_view
+                                                               : RankedBy::no_samples);
+}
+
 // The best behind the choice. Of those that differ in cells only, which their method then does not use, the first.
 Json runners_up_json(const config::Config& config, const search::View& view, const std::vector<Ranked>& all,
                      const Question& question) {
@@ -336,6 +351,7 @@ Json excluded_json(const search::View& view, const search::Found& found, const Q
 Json work_json(const search::Work& work) {
   const auto share = [](double some, double all) { return number_or_null(all > 0.0 ? some / all : 0.0); };
   return {
+      {"measurements", work.measurements},
       {"evaluations", work.evaluations},
       {"all_evaluations", work.all_evaluations},
       {"evaluations_share", share(static_cast<double>(work.evaluations), static_cast<double>(work.all_evaluations))},
@@ -455,7 +471,8 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
   const std::vector<Ranked> apart(std::ranges::find(all, true, &Ranked::is_apart), all.end());
   all.resize(all.size() - apart.size());
   choose(all, question, config.seed);
-  const bool has_choice = !all.empty() && all.front().is_feasible();
+  const std::string unseen = why_nothing_is_seen(found, config, question);
+  const bool has_choice = unseen.empty() && !all.empty() && all.front().is_feasible();
   const run::SceneData& data = plan.scenes[view.scene];
   const Vec2i viewport = config.viewports[view.viewport];
   Json cameras = Json::array();
@@ -470,6 +487,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
            {"incomplete", view.incomplete},
            {"random_depths", false},
            {"ground_m", nullptr},
+           {"nothing_seen", unseen.empty() ? Json() : Json(unseen)},
            {"choice", nullptr},
            {"runners_up", Json::array()},
            {"searched", Json::array()},
@@ -490,7 +508,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
     out["random_depths"] = rests_on_random_depths(all[0].cases[0], question.objective);
   }
   for (const Ranked& ranked : apart)
-    if (ranked.is_feasible())
+    if (unseen.empty() && ranked.is_feasible())
       out["searched"].push_back(ranked_json(config, view, ranked, has_choice ? all[0] : ranked, question));
   out["constraints"] = excluded_json(view, found, question);
   out["rungs"] = rungs_json(found.rungs);

@@ -99,7 +99,10 @@ std::string answer_text(const Json& answer, const Json& objective) {
                     answer["viewport"][1].dump() + ", " + number_of(answer["frames"].get<std::uint64_t>(), "frame") +
                     ": " + number_of(answer["candidates"].get<std::uint64_t>(), "candidate") + "\n";
   const auto figure = objective["figure"].get<std::string>();
-  if (answer["choice"].is_null()) {
+  const std::string unseen = text_of_nothing_seen(answer);
+  if (!unseen.empty()) {
+    out += unseen + "\n";
+  } else if (answer["choice"].is_null()) {
     out += nearest_text(answer);
   } else {
     std::vector<Cells> rows{candidate_headings(figure)};
@@ -114,11 +117,14 @@ std::string answer_text(const Json& answer, const Json& objective) {
            "\n";
   }
   out += searched_text(answer, figure);
-  out += excluded_text(answer);
+  if (unseen.empty()) out += excluded_text(answer);
   const Json& work = answer["work"];
   out += "measured " + work["evaluations"].dump() + " of " + work["all_evaluations"].dump() +
          " pairs of a candidate and a frame (" + text("%.3g", 100.0 * work["evaluations_share"].get<double>()) +
-         " %), " + text("%.3g", 100.0 * work["tests_share"].get<double>()) + " % of all lights x cells\n";
+         " %), " + text("%.3g", 100.0 * work["tests_share"].get<double>()) + " % of all lights x cells";
+  if (const Json measurements = work.value("measurements", work["evaluations"]); measurements > work["evaluations"])
+    out += "; " + measurements.dump() + " measurements, since a stage measures the frames of the one before again";
+  out += "\n";
   return out;
 }
 

@@ -75,6 +75,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
                            data.paths.front().camera + "': " + first_names(others) +
                            "; \"camera\": \"*\" measures all");
   if (!request.camera.field_of_view) add_fit_warnings(data, viewports, out.warnings);
+  if (const std::string text = without_field_of_view(data, request); !text.empty()) out.warnings.push_back(text);
   out.range_rule = {{"cutoff_lux", request.range_rule.cutoff_lux},
                     {"max_range", request.range_rule.max_range_m},
                     {"given", given},
@@ -87,6 +88,17 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
         {"least", ranges.front()}, {"median", ranges[ranges.size() / 2]}, {"greatest", ranges.back()}};
   }
   return out;
+}
+
+std::string without_field_of_view(const SceneData& data, const config::SceneRequest& request) {
+  if (!request.camera.field_of_view) return "";
+  std::vector<std::string> without;
+  const auto has_none = [](const scene::Shot& shot) { return shot.projection.orthographic || shot.projection.sides; };
+  for (const scene::CameraPath& path : data.paths)
+    if (std::ranges::all_of(path.shots, has_none)) without.push_back("'" + path.camera + "'");
+  if (without.empty()) return "";
+  return "--fov (scenes.*.fov) changes nothing for " + number_of(without.size(), "camera") +
+         ", orthographic or given by its " + "sides: " + first_names(without);
 }
 
 }  // namespace clusterbench::run

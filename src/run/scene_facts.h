@@ -1,6 +1,7 @@
 #pragma once
 // What a result tells of a scene, known before anything is measured.
 
+#include <string>
 #include <vector>
 
 #include "run/result.h"
@@ -10,5 +11,9 @@ namespace clusterbench::run {
 
 SceneResult scene_result(const SceneData& data, const config::SceneRequest& request,
                          const std::vector<Vec2i>& viewports);
+
+// Of the scene's measured cameras, those that have no field of view for a request to set; "" where none is asked for or
+// all have one: "--fov changes nothing ...".
+std::string without_field_of_view(const SceneData& data, const config::SceneRequest& request);
 
 }  // namespace clusterbench::run

@@ -93,7 +93,7 @@ class ViewSearch {
     add_finalists(chosen);
     if (request_.only_grows) add_challengers();
     std::ranges::sort(found_.finalists, {}, &Finalist::candidate);
-    count_all_work();
+    count_work();
     found_.is_complete = !watch_.stop;
     return std::move(found_);
   }
@@ -129,7 +129,7 @@ class ViewSearch {
       pairs[i] = counted.methods[0].has_cells
                      ? counted.methods[0].occupancy.pairs.max
                      : static_cast<double>(counted.structures[0].buffers.index_entries.high_water);
-      add_work(probe, counted.last_grid.cell_count(), 1);
+      ++found_.work.measurements;
     }
     return pairs;
   }
@@ -143,8 +143,7 @@ class ViewSearch {
 
   void add_work(const Candidate& candidate, std::uint64_t cells, std::size_t frames) {
     view_.candidates[static_cast<std::size_t>(&candidate - view_.candidates.data())].cells = cells;
-    found_.work.evaluations += frames;
-    found_.work.tests += static_cast<double>(frames) * static_cast<double>(cells) * lights();
+    found_.work.measurements += frames;
   }
 
   double lights() const { return static_cast<double>(plan_.scenes[view_.scene].scene.lights.size()); }
@@ -360,10 +359,14 @@ class ViewSearch {
     add_finalists(challengers);
   }
 
-  void count_all_work() {
-    for (const Candidate& candidate : view_.candidates) {
+  // Each stage begins with the frames of the one before, so that of a candidate's last is all that it was measured on.
+  void count_work() {
+    for (std::size_t i = 0; i < view_.candidates.size(); ++i) {
+      const double tests_of_frame = static_cast<double>(view_.candidates[i].cells) * lights();
+      found_.work.evaluations += found_.records[i].frames;
+      found_.work.tests += static_cast<double>(found_.records[i].frames) * tests_of_frame;
       found_.work.all_evaluations += view_.frames;
-      found_.work.all_tests += static_cast<double>(view_.frames) * static_cast<double>(candidate.cells) * lights();
+      found_.work.all_tests += static_cast<double>(view_.frames) * tests_of_frame;
     }
   }
 
@@ -378,7 +381,7 @@ class ViewSearch {
     const std::string doing = plan_.scenes[view_.scene].scene.name + ": " + what;
     progress_.doing = doing;
     progress_.cases_total = total;
-    before_stage_ = static_cast<double>(found_.work.evaluations);
+    before_stage_ = static_cast<double>(found_.work.measurements);
     if (watch_.on_stage && !watch_.stop) watch_.on_stage(doing);
   }
   // `done` of the stage's candidates, on so many frames.

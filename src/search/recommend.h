@@ -65,8 +65,10 @@ struct Record {
   double by_best = 0.0;
 };
 
-// Work, beside that of measuring every candidate on every frame.
+// Work, beside that of measuring every candidate on every frame. A candidate on a frame counts once, as often as it was
+// measured there.
 struct Work {
+  std::uint64_t measurements = 0;                      // as often as it was, and to order the frames
   std::uint64_t evaluations = 0, all_evaluations = 0;  // a candidate on a frame
   double tests = 0.0, all_tests = 0.0;                 // lights x cells of those
 };

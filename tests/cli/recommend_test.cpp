@@ -114,7 +114,8 @@ TEST(Recommend, says_that_depths_are_random_and_what_to_do_and_a_ground_changes_
   EXPECT_EQ(ground.out.find("random depths"), std::string::npos) << ground.out;
   const Recommended on_ground = recommended(config, flags + " --set samples.opaque.ground=0.5");
   EXPECT_EQ(on_ground.answer["ground_m"], 0.5);
-  EXPECT_NE(on_ground.outcome.out.find("Samples lie on a floor at y = 0.5 m"), std::string::npos);
+  EXPECT_NE(on_ground.outcome.out.find("Samples lie on a floor at y = 0.5 m, since the scene has no triangles."),
+            std::string::npos);
   EXPECT_EQ(on_ground.answer["random_depths"], false);
   EXPECT_TRUE(on_ground.answer["choice"]["overshade"].is_number());
   EXPECT_EQ(recommended(config, flags).answer["random_depths"], true);
@@ -182,9 +183,60 @@ TEST(Recommend, exits_with_1_where_nothing_satisfies_and_shows_what_excluded_how
   EXPECT_EQ(found.outcome.code, 1);
   EXPECT_TRUE(found.answer["choice"].is_null());
   EXPECT_EQ(found.answer["constraints"][0]["excluded"], 52);
-  EXPECT_EQ(found.answer["work"]["evaluations"], 52 + 8) << "all are out after one frame; 8 were counted to find it";
+  EXPECT_EQ(found.answer["work"]["evaluations"], 52) << "all are out after one frame";
+  EXPECT_EQ(found.answer["work"]["measurements"], 52 + 8) << "8 frames were counted to find the fullest";
   EXPECT_NE(found.outcome.out.find("no candidate satisfies all constraints"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(choice));
+}
+
+// So many lights of 3 m beside or in front of a camera that looks along -z.
+std::string small_level(int lights, double x, double z) {
+  Json gltf{{"asset", {{"version", "2.0"}}},
+            {"scene", 0},
+            {"scenes", {{{"nodes", {0}}}}},
+            {"nodes", {{{"name", "eye"}, {"camera", 0}}}},
+            {"cameras", {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}, {"zfar", 100}}}}}}};
+  if (lights == 0) return gltf.dump();
+  gltf["extensionsUsed"] = {"KHR_lights_punctual"};
+  gltf["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"range", 3.0}, {"intensity", 10.0}}};
+  for (int i = 1; i <= lights; ++i) {
+    gltf["scenes"][0]["nodes"].push_back(i);
+    gltf["nodes"].push_back({{"translation", {x, 0.0, z}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  }
+  return gltf.dump();
+}
+
+TEST(Recommend, recommends_nothing_where_nothing_is_seen) {
+  struct Row {
+    std::string level, flags, why;
+  };
+  const Row rows[] = {
+      {small_level(0, 0, 0), "", "the scene has no lights"},
+      {small_level(5, 0, 50), "", "no light is in view in any frame"},
+      {small_level(5, 0, 50), "--by bytes", "no light is in view in any frame"},
+      {small_level(5, 0, -5), "--set samples.opaque.ground=1e6", "no pixel sees the floor at y = 1e+06 m"},
+      {small_level(5, 0, -5), "--set samples.opaque.ground=0", "no pixel sees the floor at y = 0 m"},
+      {small_level(5, 0, -5), "--set samples.opaque.ground=-9", "no light reaches any of"},
+  };
+  for (const Row& row : rows) {
+    const Folder folder;
+    const std::string level = folder.write("level.gltf", row.level).string(), out = (folder / "answer.json").string();
+    const Outcome done = tool("recommend " + level + " -q --no-timing --grid frustum --tiles 64 --slices 4,8 " +
+                              "--assigner aabb-fast,exact-fast " + row.flags + " -o " + out);
+    EXPECT_EQ(done.code, 1) << row.why << done.err << done.out;
+    EXPECT_NE(done.out.find("conclusion: level, 1920x1080: nothing to recommend: " + row.why), std::string::npos)
+        << done.out << done.err;
+    EXPECT_EQ(done.out.find("take"), std::string::npos) << done.out;
+    EXPECT_EQ(tool("validate " + out).code, 0) << tool("validate " + out).err;
+    const Json answer = Json::parse(file_text(out))["answers"][0];
+    EXPECT_TRUE(answer["choice"].is_null());
+    EXPECT_TRUE(answer["nothing_seen"].is_string());
+  }
+  const Folder folder;
+  const std::string level = folder.write("level.gltf", small_level(5, 0, -5)).string();
+  const std::string flags = " -q --no-timing --grid frustum --tiles 64 --slices 4,8 --assigner aabb-fast,exact-fast ";
+  for (const std::string more : {"", "--set samples.opaque.ground=-1"})
+    EXPECT_EQ(tool("recommend " + level + flags + more).code, 0) << tool("recommend " + level + flags + more).err;
 }
 
 TEST(Recommend, tells_what_comes_nearest_where_nothing_satisfies) {

@@ -120,6 +120,36 @@ TEST(Conclusion, of_cases_that_all_lose_lights_none_is_taken) {
   EXPECT_TRUE(has_words(conclusion, "take none of 2 cases: each fails or loses lights.")) << conclusion["text"];
 }
 
+TEST(Conclusion, where_nothing_is_seen_nothing_is_taken) {
+  const auto expect_none = [](const run::Result& result, const std::string& why) {
+    const Json conclusion = only_conclusion(result);
+    EXPECT_TRUE(conclusion["take"].is_null()) << conclusion["text"];
+    EXPECT_TRUE(conclusion["against"].is_null()) << conclusion["text"];
+    EXPECT_EQ(conclusion["text"], "hall, camera walk, 1920x1080: nothing to take: " + why + ".");
+  };
+  run::Result result = result_by_hand();
+  result.config["cost"] = k_usual_model;
+  for (run::CaseResult& one : result.cases) one.shading->needed = 0;
+  expect_none(result, "no light reaches any of 100 samples");
+  for (run::CaseResult& one : result.cases) {
+    run::SampleSetResult floor;
+    floor.set = measure::SampleSet::opaque;
+    floor.ground_m = 1.7;
+    one.samples.push_back(floor);
+  }
+  expect_none(result, "no pixel sees the floor at y = 1.7 m (samples.opaque.ground)");
+  for (run::CaseResult& one : result.cases) one.lights_in_view.sum = one.lights_in_view.most = 0;
+  expect_none(result, "no light is in view in any frame");
+  for (run::CaseResult& one : result.cases) one.lights = 0;
+  expect_none(result, "the scene has no lights");
+}
+
+TEST(Conclusion, without_samples_it_rests_on_times_where_a_light_is_in_view) {
+  run::Result result = result_by_hand();
+  for (run::CaseResult& one : result.cases) one.shading->samples = one.shading->needed = one.shading->evaluated = 0;
+  EXPECT_EQ(only_conclusion(result)["take"], "fast");
+}
+
 TEST(Conclusion, what_samples_search_is_named_and_not_taken) {
   run::Result result = result_by_hand();
   result.config["cost"] = k_usual_model;

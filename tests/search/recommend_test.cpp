@@ -96,6 +96,21 @@ TEST(SearchView, has_measured_what_it_planned_when_it_is_stopped_before_the_last
   EXPECT_LT(shares.back(), 1.0);
 }
 
+TEST(SearchView, counts_what_it_measured_once_and_so_never_more_than_all) {
+  for (const std::size_t least : {1u, 6u, 100u}) {
+    Walk walk = small_walk(20);
+    const Judge judge = [](std::span<const run::CaseResult> cases) { return Verdict{entries(cases), 0.0, {}, false}; };
+    const Work work = searched(walk, {.judge = judge, .only_grows = true, .keep_one_in = 2, .least = least}).work;
+    EXPECT_LE(work.evaluations, work.all_evaluations) << least;
+    EXPECT_LE(work.tests, work.all_tests) << least;
+    EXPECT_GE(work.measurements, work.evaluations + 20) << "the frames are ordered first";
+    if (least == 100) {
+      EXPECT_EQ(work.evaluations, work.all_evaluations) << "all are measured on all frames";
+      EXPECT_EQ(work.tests, work.all_tests);
+    }
+  }
+}
+
 // The best at first is the worst in the end; only the bound of a mark that grows tells.
 TEST(SearchView, looks_again_at_what_was_dropped_while_it_could_still_be_better) {
   Walk walk = small_walk(20);

@@ -1,0 +1,69 @@
+#include "report/nothing_seen.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "report/columns.h"
+#include "report/json_values.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Of all samples that a ranking rests on.
+struct SeenAtSamples {
+  std::size_t sets = 0;
+  double samples = 0.0, needed = 0.0;
+  std::optional<double> ground_m;
+};
+
+void add_set(const Json& result_case, const std::string& pointer, SeenAtSamples& seen) {
+  const std::optional<double> samples = number_at(result_case, pointer + "/samples");
+  if (!samples) return;
+  ++seen.sets;
+  seen.samples += *samples;
+  seen.needed += number_at(result_case, pointer + "/needed").value_or(0.0);
+  if (const std::optional<double> ground_m = number_at(result_case, pointer + "/ground_m")) seen.ground_m = ground_m;
+}
+
+void add_case(const Json& result_case, RankedBy by, SeenAtSamples& seen) {
+  if (by == RankedBy::no_samples) return;
+  const Json* sets = by == RankedBy::cost ? value_at(result_case, "/cost/sets") : nullptr;
+  if (sets == nullptr) {
+    if (number_at(result_case, "/shading/samples").value_or(0.0) > 0.0) add_set(result_case, "/shading", seen);
+    return;
+  }
+  for (const auto& [name, set] : sets->items())
+    add_set(result_case, name == "volume" ? std::string("/shading") : "/samples/" + name, seen);
+}
+
+std::string of_samples(const SeenAtSamples& seen) {
+  if (seen.samples == 0.0 && seen.ground_m)
+    return "no pixel sees the floor at y = " + text("%.4g", *seen.ground_m) + " m (samples.opaque.ground)";
+  if (seen.samples == 0.0) return "no pixel sees a surface";
+  const std::string on_floor = seen.ground_m ? " on the floor at y = " + text("%.4g", *seen.ground_m) + " m" : "";
+  return "no light reaches any of " + text("%.0f", seen.samples) + " samples" + on_floor;
+}
+
+}  // namespace
+
+std::string why_nothing_is_seen(const std::vector<const Json*>& cases, RankedBy by) {
+  if (cases.empty()) return "";
+  const auto has_none = [&](const char* pointer) {
+    return std::ranges::all_of(cases, [&](const Json* one) { return number_at(*one, pointer) == 0.0; });
+  };
+  if (has_none("/lights")) return "the scene has no lights";
+  if (has_none("/lights_in_view/max")) return "no light is in view in any frame";
+  SeenAtSamples seen;
+  for (const Json* one : cases) {
+    SeenAtSamples of_case;
+    add_case(*one, by, of_case);
+    if (of_case.sets == 0) return "";  // ranked without samples
+    if (of_case.needed > 0.0) return "";
+    if (of_case.samples >= seen.samples) seen = of_case;
+  }
+  return of_samples(seen);
+}
+
+}  // namespace clusterbench::report

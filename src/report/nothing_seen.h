@@ -1,0 +1,19 @@
+#pragma once
+// Whether cases see anything that a choice among them could rest on.
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace clusterbench::report {
+
+// What cases are ranked by: the samples of their `cost` (those of the whole view where they have none), samples of the
+// whole view, or nothing that a sample says.
+enum class RankedBy : std::uint8_t { cost, whole_view, no_samples };
+
+// Of cases on one scene and viewport: why nothing can be said of which of them to take, as "no light is in view in any
+// frame": each would be as good as another, or better for what it leaves out. "" where something is seen.
+std::string why_nothing_is_seen(const std::vector<const nlohmann::ordered_json*>& cases, RankedBy by);
+
+}  // namespace clusterbench::report
