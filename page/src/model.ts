@@ -131,8 +131,7 @@ export const seenBy = (aCase: Case) =>
 export const isRankedByCost = (aCase: Case) => aCase.run.result.config.rank_by === "frame_cost";
 
 function rankAll(cases: Case[]): void {
-  const ranked = (aCase: Case) =>
-    aCase.isSearched ? null : isRankedByCost(aCase) ? aCase.costNs : aCase.frameNs;
+  const ranked = (aCase: Case) => (aCase.isSearched ? null : isRankedByCost(aCase) ? aCase.costNs : aCase.frameNs);
   for (const seen of Map.groupBy(
     cases.filter((aCase) => ranked(aCase) !== null),
     seenBy,
