@@ -257,7 +257,8 @@ std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
   if (!doubt.empty()) out += "; " + doubt;
   out += ". Sure by as much as the model of `cost` is; how " + name(first) + " is known: " + evidence_text(first);
   if (first.cost->has_random_depths)
-    out += "; depths are random, since there are no surfaces: --set samples.opaque.ground=lowest takes a floor";
+    out += std::string("; depths are random, since there are no surfaces") +
+           (doubt.empty() ? ": --set samples.opaque.ground=lowest takes a floor" : "");
   return out;
 }
 

@@ -184,11 +184,14 @@ TEST(PresetRanking, more_samples_are_the_remedy_for_few) {
   Json surfaces = with_few_samples(preset_case("bevy", 1e3, 1e4, 4e5), 100);
   const std::string rays = text_of(surfaces, {{"samples", {{"opaque", {{"divisor", 16}}}}}});
   EXPECT_NE(rays.find("--set samples.opaque.divisor=4 takes more"), std::string::npos) << rays;
+  surfaces["cost"]["sets"] = {{"volume", {{"samples", 2e6}}}};
   surfaces["shading"] = surfaces["samples"]["opaque"];
   surfaces["shading"]["samples"] = 30720;  // of 30 frames
   surfaces.erase("samples");
   const std::string points = text_of(surfaces, Json::object());
   EXPECT_NE(points.find("--set shading.samples=16000 takes more"), std::string::npos) << points;
+  const std::size_t floor = points.find("--set samples.opaque.ground=lowest");
+  EXPECT_EQ(points.find("--set samples.opaque.ground=lowest", floor + 1), std::string::npos) << "once: " << points;
 }
 
 TEST(PresetRanking, pairs_that_a_limit_removes_are_not_those_of_the_method) {
