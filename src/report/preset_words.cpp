@@ -83,6 +83,7 @@ std::string needed_lights_text(const RankedPreset& row) {
 
 // Where samples do not tell whether what is lost is seen.
 std::string undecided_loss(const RankedPreset& row) {
+  if (row.losses.needed == 0.0) return "no sample needs a light, so nothing tells whether it loses any that is seen";
   std::string out = "its samples need " + needed_lights_text(row) + ", too few to tell whether ";
   if (row.losses.missed() + row.losses.dropped > 0) return out + "what it loses is seen";
   out += "it loses any that is seen";
@@ -196,11 +197,13 @@ std::string remedy(const RankedPreset& row) {
 std::string doubt_text(const std::vector<RankedPreset>& rows) {
   const RankedPreset& first = rows.front();
   if (!first.losses.has_few_samples()) return "";
-  std::string out = "samples need " + needed_lights_text(first) + ", and fewer than " +
-                    text("%.0f", k_least_needed_of_presets) + " do not show that lost lights are not seen";
+  if (number_at(*first.result_case, "/lights_in_view/max") == 0.0) return "no light is in view in any frame";
+  if (first.losses.needed == 0.0) return "no sample needs a light; " + remedy(first);
+  const std::string few = "samples need " + needed_lights_text(first);
   const std::vector<const RankedPreset*> open = of_standing(rows, PresetStanding::unknown);
-  if (!open.empty()) out += ", so not ranked: " + names_text(open);
-  return out + "; " + remedy(first);
+  if (open.empty()) return few + ", so costs are rough; " + remedy(first);
+  return few + ", and fewer than " + text("%.0f", k_least_needed_of_presets) +
+         " do not show that lost lights are not seen, so not ranked: " + names_text(open) + "; " + remedy(first);
 }
 
 }  // namespace

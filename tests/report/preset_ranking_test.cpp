@@ -194,6 +194,23 @@ TEST(PresetRanking, more_samples_are_the_remedy_for_few) {
   EXPECT_EQ(points.find("--set samples.opaque.ground=lowest", floor + 1), std::string::npos) << "once: " << points;
 }
 
+TEST(PresetRanking, a_view_without_lights_says_so_and_asks_for_no_samples) {
+  Json empty = with_few_samples(preset_case("bevy", 1e3, 1e4, 4e5), 0);
+  const std::string unseen = ranking_of_cases(Json::array({empty}))["text"];
+  EXPECT_TRUE(unseen.starts_with("which preset suits is not known: no sample needs a light; ")) << unseen;
+  empty["lights_in_view"] = {{"mean", 0}, {"max", 0}};
+  const Json ranking = ranking_of_cases(Json::array({empty}));
+  EXPECT_EQ(ranking["text"], "which preset suits is not known: no light is in view in any frame");
+  EXPECT_EQ(ranking["best"], Json());
+}
+
+TEST(PresetRanking, few_lights_make_costs_rough_where_nothing_is_lost) {
+  const Json whole = with_few_samples(preset_case("bevy", 1e3, 1e4, 4e5), 99);
+  const std::string text = ranking_of_cases(Json::array({whole}))["text"];
+  EXPECT_NE(text.find("samples need only 99 lights, so costs are rough; "), std::string::npos) << text;
+  EXPECT_EQ(text.find("not ranked"), std::string::npos) << text;
+}
+
 TEST(PresetRanking, pairs_that_a_limit_removes_are_not_those_of_the_method) {
   const auto why_of = [](const Json& result_case) {
     return ranking_of_cases(Json::array({result_case}))["cases"][0]["why"].get<std::string>();
