@@ -118,12 +118,7 @@ function show({ entries, count, lights, series }: HistoryData): void {
         { class: "summary" },
         `${plural(entries, "result")}, ${plural(count, "series", "series")}, ${plural(changes, "change")} (dashed lines). Axes begin at the lowest value, not at 0. ${count - series.length} series never changed and are not drawn.`,
       ),
-      lights.length > 0 &&
-        h(
-          "ul",
-          { class: "changes" },
-          ...lights.map((change) => h("li", {}, change)),
-        ),
+      lights.length > 0 && h("ul", { class: "changes" }, ...lights.map((change) => h("li", {}, change))),
       figures,
       more,
     ),

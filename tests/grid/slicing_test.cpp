@@ -239,8 +239,8 @@ TEST(Slicing, what_cannot_be_is_refused_by_its_key) {
 
 TEST(Slicing, without_an_end_and_without_lights_behind_their_beginning_are_made_all_the_same) {
   for (const double lights_end_m : {0.0, 0.05, 4.0})
-    for (const Scheme scheme : {Scheme::linear, Scheme::power, Scheme::exponential, Scheme::exponential_first,
-                                Scheme::fit})
+    for (const Scheme scheme :
+         {Scheme::linear, Scheme::power, Scheme::exponential, Scheme::exponential_first, Scheme::fit})
       for (const bool orthographic : {false, true}) {
         Slicing asked = slicing(scheme, 8, 0.0, 0.0);
         const SliceRange endless{0.1, k_infinity, 0.0, lights_end_m};
