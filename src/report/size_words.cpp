@@ -117,10 +117,11 @@ std::vector<std::string> grid_notes(const SizedStructure& structure) {
 std::vector<std::string> guest_lines(const SizedStructure& structure) {
   std::vector<std::string> lines;
   for (const GuestSamples& guest : structure.guest_samples)
-    lines.push_back("samples of " + guest.camera + " in this grid: " + share_text(guest.outside, guest.samples) +
-                    " lie outside of it; " + share_text(guest.missed, guest.needed) +
-                    " of the lights that they need are missing (" + share_text(guest.missed_outside, guest.needed) +
-                    " outside), most in frame " + std::to_string(guest.worst_frame));
+    lines.push_back(
+        "samples of " + guest.camera + " in this grid (points at random depths of its view, not on surfaces): " +
+        share_text(guest.outside, guest.samples) + " lie outside of it; " + share_text(guest.missed, guest.needed) +
+        " of the lights that they need are missing (" + share_text(guest.missed_outside, guest.needed) +
+        " outside), most in frame " + std::to_string(guest.worst_frame));
   return lines;
 }
 
