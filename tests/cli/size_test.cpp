@@ -374,13 +374,12 @@ TEST(SizeCommand, a_capacity_that_is_all_that_there_can_be_is_not_called_a_multi
 
 TEST(SizeCommand, names_the_case_that_a_filter_meant_and_that_cannot_be) {
   const Folder folder;
-  Json endless = Json::parse(lights_in_view_and_behind(0, 0));
-  endless["cameras"][0]["perspective"].erase("zfar");
-  const std::string scene = folder.write("in0.gltf", endless.dump()).string();
-  const Outcome done = tool("size -q --filter '16x9 x 24 exponential/exact-fast' " + scene);
+  const std::string scene = folder.write("s.gltf", lights_in_view_and_behind(1, 0)).string();
+  const Outcome done =
+      tool("size -q --grid frustum --tiles 16x9t --slices 8 --assigner aabb,tiled --filter '/tiled' " + scene);
   EXPECT_EQ(done.code, 2);
-  EXPECT_NE(done.err.find("cannot be measured, among them in0/eye/"), std::string::npos) << done.err;
-  EXPECT_NE(done.err.find("slices"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("1 combination cannot be measured, among them s/eye/"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("needs a depth buffer"), std::string::npos) << done.err;
 }
 
 TEST(SizeCommand, takes_paths_as_long_as_systems_have_them) {

@@ -98,7 +98,7 @@ TEST(Samples, a_plane_through_the_eye_or_along_all_rays_is_not_seen) {
   EXPECT_EQ(seen(frame_of(true), 4.25), 0u) << "looks along it";
   view::Frame endless = level;
   endless.projection.far_m = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(seen(endless, 0.0), static_cast<std::size_t>(16 * 4)) << "the half below the horizon";
+  EXPECT_EQ(seen(endless, 0.0), static_cast<std::size_t>(16 * 5)) << "rows of blocks whose pixel lies below the middle";
 }
 
 TEST(Samples, visible_ones_lie_on_their_pixels_rays_and_none_is_in_the_sky) {
