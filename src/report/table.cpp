@@ -97,8 +97,7 @@ std::string lost_lux_text(const Json& result_case, const char* what) {
 // Bytes of the structure that a sample reads to know its lights.
 std::string read_bytes_text(const Json& result_case) {
   const std::string set = value_at(result_case, "/samples/opaque") != nullptr ? "/samples/opaque" : "/shading";
-  const auto samples = number_at(result_case, (set + "/samples").c_str()),
-             bytes = number_at(result_case, (set + "/read_bytes").c_str());
+  const auto samples = number_at(result_case, set + "/samples"), bytes = number_at(result_case, set + "/read_bytes");
   return samples && bytes && *samples > 0.0 ? text(*bytes < 100.0 * *samples ? "%.3g" : "%.0f", *bytes / *samples)
                                             : "-";
 }
