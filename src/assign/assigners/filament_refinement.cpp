@@ -91,7 +91,8 @@ class FilamentRefinement final : public LightByLight<FilamentRefinement> {
     const float right = 0.5f * (seen.x + 1.0f), down = 0.5f * (1.0f - seen.y);
     const auto tile = [](float share, int pixels, float scale, int count) {
       const float at = share * static_cast<float>(pixels) * scale;
-      return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(count - 1)));
+      if (!(at > 0.0f)) return 0;  // also of what has no place: a point of the eye's plane on the axis
+      return static_cast<int>(std::min(at, static_cast<float>(count - 1)));
     };
     return {tile(right, tiles().viewport.x, tiles().scale_x, tiles().count.x),
             tile(down, tiles().viewport.y, tiles().scale_y, tiles().count.y)};
