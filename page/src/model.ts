@@ -99,7 +99,7 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | 
     rank: null,
     frameNs: raw.timing?.frame_ns.median ?? null,
     // Who leaves out lights that samples need does not pay for the same picture.
-    costNs: raw.cost?.lit ? (raw.cost.frame_ns ?? raw.cost.gpu_ns ?? null) : null,
+    costNs: raw.cost?.lit ? ((raw.timing ? raw.cost.frame_ns : raw.cost.gpu_ns) ?? null) : null,
     interval: raw.timing?.frame_ns.ci95 ?? [null, null],
     ranked,
     worstNs: raw.timing?.worst_frame?.ns ?? null,

@@ -27,17 +27,9 @@ function placeText(line: Line, place: number): string {
   return line.standing === "searched" ? `s${line.place}` : "–";
 }
 
-// Without pairs of lights beside the view, which the engine leaves out and nothing sees.
-function missedInView({ raw }: Case): number | null {
-  if (!raw.error) return null;
-  const removed = raw.pre_cull?.lost_pairs ?? 0;
-  return Math.max(0, raw.error.false_negatives - removed) + (raw.pre_cull?.over_limit?.lost_pairs ?? 0);
-}
-
-// Of the samples that it is ranked by; of a few lights a share says nothing.
-function unlitOf({ aCase: { raw }, line }: Row): number | null {
-  if (line.standing === "unknown") return null;
-  return (raw.samples?.opaque ?? raw.shading)?.unlit ?? null;
+// Of a few lights a share says nothing.
+function unlitOf({ line }: Row): number | null {
+  return line.standing === "unknown" ? null : (line.unlit ?? null);
 }
 
 const columns: Column<Row>[] = [
@@ -98,8 +90,8 @@ const columns: Column<Row>[] = [
   {
     label: "missed",
     about: "True pairs that its method or a limit of lights leaves out, seen or not; without lights beside the view",
-    value: ({ aCase }) => missedInView(aCase),
-    show: ({ aCase }) => format.whole(missedInView(aCase)),
+    value: ({ line }) => line.missed_in_view ?? null,
+    show: ({ line }) => format.whole(line.missed_in_view ?? null),
   },
   {
     label: "unlit",

@@ -531,10 +531,10 @@ export type Result = {
       undecided: number; // Pairs of the truth that exact arithmetic left undecided, over all steps; counted as true [pairs, over the steps]
     }; // Lists along a piece of the path in fine steps, beside the true lists; where the configuration asks for it
     cost?: {
-      frame_ns: number | null; // assign_ns + gpu_ns; null where nothing is timed [ns]
+      frame_ns: number | null; // assign_ns + gpu_ns; null where nothing is timed, and of presets whose engine makes its lists on a GPU, which is not timed here [ns]
       assign_ns: number | null; // timing.frame_ns.median: assignment and conversion [ns]
       gpu_ns: number | null; // upload_ns + traffic_ns + read_ns + shade_ns: all but the assignment, and the same on every machine [ns]
-      upload_ns: number | null; // buffers.upload_bytes.mean / upload_gb_per_s [ns]
+      upload_ns: number | null; // buffers.upload_bytes.mean / upload_gb_per_s; 0 of presets whose engine makes its lists on a GPU (in older results as of others) [ns]
       traffic_ns: number | null; // buffers.traffic_bytes.mean / memory_gb_per_s [ns]
       read_ns?: number | null; // Sum over the sets: samples x divergence x (reads x ns_per_read + read_bytes / read_gb_per_s). Absent in older results, where reading was free [ns]
       shade_ns: number | null; // Sum over the sets: samples x lights x divergence x ns_per_light [ns]
@@ -750,9 +750,10 @@ export type Result = {
     against: string | null; // Id of the cheapest case that is known to cost more; null: there is none
     ratio: number | null; // Cost of that / cost of the case to take [ratio, over the frame times]
     ci95: [number | null, number | null] | null; // Its 95 % interval, of the times in it; null where times were not measured side by side [ratio, over the frame times]
-    alike: string[]; // Ids of cases that are not known to cost more or less
+    by_prices?: [number | null, number | null]; // From and to what ratio goes as each price of config.cost (of uploading, drawing, reading, looping) takes values between half and twice its own; absent where nothing is modelled, and in older results [ratio, over the samples]
+    alike: string[]; // Ids of cases that are not known to cost more
     text: string; // The same for people
-  }>; // Per scene, camera and viewport what to take by this result, and how sure that is. Of the cases on the front that which costs least: frame time and, where samples were asked for, upload, reading and shading by the model of config.cost; of those that the times cannot tell apart the one with the fewest bytes. Presets are ranked by themselves. Absent in older results
+  }>; // Per scene, camera and viewport what to take by this result, and how sure that is. Of the cases that lose nothing that their samples see, that which costs least: frame time and, where samples were asked for, upload, reading and shading by the model of config.cost. Of those that the times cannot tell apart, or the model (within 5 %), one whose samples lack nothing comes before others, then one on the front, then the one with the fewest bytes. Presets are ranked by themselves. Absent in older results
   presets?: Array<{
     name: string; // As a case's preset
     engine: string; // Whose scheme it is
@@ -783,11 +784,13 @@ export type Result = {
       preset: string; // Of the case
       standing?: "lists" | "searched" | "lacks_lights" | "unknown"; // lists: samples lack at most a thousandth of the lights that they need. searched: likewise, and samples search the structure, whose price no GPU has measured. lacks_lights: samples lack more. unknown: no sample needs a light, or samples need fewer than 1000, too few to say so, and pairs are lost or were not compared with the truth. Absent in older results
       place?: number; // Among the cases of the same standing, from 1; the same where the model cannot tell costs apart: they differ by 5 % at most, or their order turns as each price of config.cost is half or twice what it is. Absent in older results [count, over the cases]
-      gpu_ns: number | null; // upload_ns + read_ns + shade_ns; null without samples. In older results the case's cost.gpu_ns [ns, over one frame]
+      gpu_ns: number | null; // upload_ns + traffic_ns + read_ns + shade_ns; null without samples. In older results the case's cost.gpu_ns [ns, over one frame]
       upload_ns?: number | null; // Of the lists, by config.cost: 0 where the engine makes them on a GPU. Absent in older results [ns, over one frame]
       read_ns?: number | null; // What samples read to know their lights, by config.cost. Absent in older results [ns, over one frame]
       shade_ns?: number | null; // Lights that samples loop over, by config.cost; where the scene has no surfaces, each pixel shaded once at a random depth. Absent in older results [ns, over one frame]
-      lights_per_sample: number | null; // Lights looped over at a sample, on visible surfaces if they are asked for, else in the whole view [count, over all samples]
+      unlit?: number | null; // Share of the lights that its samples need and lack: of the sets that cost something the one that lacks most, else on visible surfaces if they are asked for, else in the whole view; null where no sample needs a light. Absent in older results [ratio, over the lights that samples need]
+      missed_in_view?: number | null; // Pairs that the lists lack, without those of lights beside the view; null where lists were not compared with the truth. Absent in older results [pairs, over all frames]
+      lights_per_sample: number | null; // Lights looped over at a sample of these sets, mean [count, over all samples]
       why: string; // What speaks for and against it here, as text
     }>; // Best first: by standing, then by gpu_ns, or by the share of lights that samples lack
   }>; // Per scene, camera and viewport the cases of presets beside each other; absent without any

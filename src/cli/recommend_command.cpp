@@ -14,6 +14,7 @@
 #include "cli/stop.h"
 #include "cli/terminal.h"
 #include "config/config.h"
+#include "config/presets.h"
 #include "core/text.h"
 #include "report/recommend_report.h"
 #include "run/sweep.h"
@@ -98,9 +99,18 @@ config::Config read_input(const RecommendFlags& flags) {
   return config;
 }
 
-// What is least where nobody says: the modelled cost of a frame, without times that of the GPU alone.
-report::ObjectiveFigure objective_of(const RecommendFlags& flags) {
-  const std::string standard = flags.no_timing ? "gpu_cost_us" : "frame_cost_us";
+// A preset whose engine makes its lists on a GPU, which no time here is that of; "" without any.
+std::string preset_on_gpu(const config::Config& config) {
+  for (const config::PresetChoice& choice : config.presets)
+    if (config::find_preset(choice.preset)->assigns_on == config::AssignsOn::gpu) return choice.preset;
+  return "";
+}
+
+// What is least where nobody says: the modelled cost of a frame; that of the GPU alone without times, and where they
+// are not all that is to be chosen from.
+report::ObjectiveFigure objective_of(const RecommendFlags& flags, const config::Config& config) {
+  const bool has_times = !flags.no_timing && preset_on_gpu(config).empty();
+  const std::string standard = has_times ? "frame_cost_us" : "gpu_cost_us";
   return report::objective_figure(flags.objective.empty() ? standard : flags.objective);
 }
 
@@ -109,25 +119,31 @@ report::ObjectiveFigure objective_of(const RecommendFlags& flags) {
 void weigh_samples(config::Config& config, const run::Plan& plan) {
   nlohmann::json& weights = config.resolved["cost"]["weights"];
   const auto has_cost = [&](const config::SampleSetRequest& set) {
-    return weights[measure::name_of(set.set)].get<double>() > 0.0 &&
+    return weights[measure::name_of(set.set)] != 0.0 &&
            std::ranges::all_of(plan.scenes, [&](const auto& data) { return run::set_obstacle(set, data).empty(); });
   };
   if (std::ranges::any_of(config.sample_sets, has_cost)) return;
-  const auto volume = std::ranges::find(config.sample_sets, measure::SampleSet::volume, &config::SampleSetRequest::set);
-  if (volume == config.sample_sets.end())
+  if (std::ranges::find(config.sample_sets, measure::SampleSet::volume, &config::SampleSetRequest::set) ==
+      config.sample_sets.end())
     throw Error("", "--by", "a cost is that of samples, and there are none; take another figure, or shading.samples");
   tell(
       "warning: the scene has no triangles: each pixel is shaded at a random depth, where no surface is, and surfaces "
       "can "
       "make another clustering the best; export the level's meshes with its lights, or take a floor: --set "
       "samples.opaque.ground=lowest, or =Y for one at that height");
-  const Vec2i viewport = config.viewports.front();
-  weights["volume"] = static_cast<double>(viewport.x) * viewport.y / volume->count;
+  weights["volume"] = "pixels";
 }
 
-void check_timing(const RecommendFlags& flags, const report::Question& question) {
-  if (flags.no_timing && report::needs_times(question.objective, question.constraints))
-    throw Error("", "--no-timing", "leaves out the times that the objective or a constraint needs");
+// Returns whether times are measured.
+bool check_timing(const RecommendFlags& flags, const report::Question& question, const config::Config& config) {
+  if (!report::needs_times(question.objective, question.constraints)) return false;
+  if (flags.no_timing) throw Error("", "--no-timing", "leaves out the times that the objective or a constraint needs");
+  if (const std::string preset = preset_on_gpu(config); !preset.empty())
+    throw Error("", "presets",
+                "'" + preset +
+                    "' makes its lists on a GPU, and a time here would not be the engine's; take --by gpu_cost_us "
+                    "and no constraint on times");
+  return true;
 }
 
 ExitCode write_and_show(const RecommendFlags& flags, const Json& recommendation) {
@@ -160,15 +176,14 @@ ExitCode tell_what_there_is(const config::Config& config, const report::Question
 
 ExitCode recommend(const RecommendFlags& flags) {
   refuse_overwriting({flags.output, flags.written}, flags.inputs.paths);
-  report::Question question{objective_of(flags), {}, share_of(flags.within), flags.runners_up};
   config::Config config = read_input(flags);
+  report::Question question{objective_of(flags, config), {}, share_of(flags.within), flags.runners_up};
   if (config.own_pre_culls > 1)
     throw Error(config.file.string(), "pre_cull",
                 "recommend looks for a clustering of lights that are culled in one way; found " +
                     std::to_string(config.own_pre_culls) + " pre-culls, allowed: 1");
   question.constraints = report::constraints_of(rules_of(flags, config));
-  check_timing(flags, question);
-  const bool is_timed = report::needs_times(question.objective, question.constraints);
+  const bool is_timed = check_timing(flags, question, config);
   config.timing.measure = is_timed;
   config.resolved["timing"]["measure"] = is_timed;
   run::Plan plan = run::make_plan(config, flags.filter);

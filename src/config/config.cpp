@@ -446,8 +446,8 @@ void check_fields_of_view(const Config& config, const JsonText& text) {
 void check_ranking(const Json& document, const std::vector<SampleSetRequest>& sets, const JsonText& text) {
   if (document["rank_by"] != "frame_cost") return;
   const Json& weights = document["cost"]["weights"];
-  const bool has_cost = std::ranges::any_of(
-      sets, [&](const SampleSetRequest& set) { return weights[measure::name_of(set.set)].get<double>() > 0.0; });
+  const bool has_cost =
+      std::ranges::any_of(sets, [&](const SampleSetRequest& set) { return weights[measure::name_of(set.set)] != 0.0; });
   if (!has_cost)
     throw Error(text.file, text.where("/rank_by"),
                 "is frame_cost, and no set of samples with a weight is asked for; add \"samples\": {\"opaque\": {}}");

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "measure/time_statistics.h"
+
 namespace clusterbench::measure {
 
 struct CostModel {
@@ -37,6 +39,17 @@ struct FrameCost {
   double gpu_ns() const { return upload_ns + traffic_ns + read_ns + shade_ns; }
   std::optional<double> frame_ns() const { return assign_ns ? std::optional(*assign_ns + gpu_ns()) : std::nullopt; }
 };
+
+// Costs that differ by no more are alike: samples of some frames tell no less.
+inline constexpr double k_alike_ratio = 1.05;
+// Each price of the model can be so many times lower or higher on the GPU at hand.
+inline constexpr double k_price_factor = 2.0;
+
+// `numerator` / `denominator` as each price takes values within k_price_factor of the model's; measured times have
+// none.
+Interval ratio_by_prices(const FrameCost& numerator, const FrameCost& denominator);
+// Whether what costs more costs no more at some of these prices.
+bool turns_with_prices(const FrameCost& less, const FrameCost& more);
 
 FrameCost frame_cost(const CostModel& model, std::optional<double> assign_ns, double upload_bytes, double traffic_bytes,
                      const std::vector<ShadedSamples>& sets);

@@ -16,7 +16,6 @@
 #include "report/frame_cost.h"
 #include "report/json_values.h"
 #include "report/nothing_seen.h"
-#include "report/preset_cost.h"
 #include "report/result_json.h"
 
 namespace clusterbench::report {
@@ -29,33 +28,39 @@ constexpr const char* k_remedy =
     "the "
     "choice";
 
+// Of samples that need few lights. "" where they need enough.
+std::string few_samples_text(double needed) {
+  if (needed >= k_least_needed_to_choose) return "";
+  return ". Its samples need only " + number_of(static_cast<std::uint64_t>(needed), "light") +
+         ": costs are rough, and a light that is lost can go unseen; more frames, or samples (samples.opaque.divisor, "
+         "shading.samples), tell more";
+}
+
 // A case with what it is ranked by.
 struct WeighedCase {
   const Json* result_case = nullptr;
   run::Contender contender;  // whose times hold what is modelled
-  std::optional<double> frame_ns;
-  std::optional<WholeFrame> modelled;
-  double cost_ns = 0.0;  // of both
+  measure::FrameCost cost;
+  bool is_modelled = false, has_random_depths = false, is_on_front = false;
 
+  bool is_timed() const { return cost.assign_ns.has_value(); }
   double bytes() const { return number_at(*result_case, "/buffers/bytes/high_water").value_or(0.0); }
-  // Share of the lights that its samples need and lack: at visible surfaces where these were asked for.
-  double unlit() const {
-    const bool has_surfaces = value_at(*result_case, "/samples/opaque") != nullptr;
-    return number_at(*result_case, has_surfaces ? "/samples/opaque/unlit" : "/shading/unlit").value_or(0.0);
-  }
+  double ns() const { return cost.assign_ns.value_or(0.0) + cost.gpu_ns(); }
+  double weight() const { return is_timed() || is_modelled ? ns() : bytes(); }
+  double unlit() const { return unlit_at_samples(*result_case).value_or(0.0); }
   // Whether its method is the plain form of one that makes the same lists with SIMD.
   bool is_plain() const {
     return assign::find_assigner((*result_case)["assigner"]["name"].get<std::string>() + "-fast") != nullptr;
   }
   // Of cases that cost alike the least is taken.
-  auto rank() const { return std::tuple(unlit() > 0.0, bytes(), is_plain()); }
+  auto rank() const { return std::tuple(unlit() > 0.0, !is_on_front, bytes(), is_plain()); }
 };
 
 // What is compared with each other: cases that see the same.
 struct SceneView {
   std::string scene, camera;
   Json viewport;
-  std::vector<WeighedCase> front{}, others{}, searched{};
+  std::vector<WeighedCase> sound{}, searched{};  // the cheapest first
   std::vector<const Json*> cases{};
 };
 
@@ -64,14 +69,12 @@ std::string case_title(const Json& result_case) {
   return shown(name.substr(name.find('/', name.find('/') + 1) + 1));
 }
 
-std::string first_titles(const std::vector<const WeighedCase*>& standings) {
+std::string first_titles(const std::vector<const WeighedCase*>& cases) {
   constexpr std::size_t k_most = 3;
   std::vector<std::string> names;
-  for (const WeighedCase* standing : standings)
-    if (names.size() < k_most) names.push_back(case_title(*standing->result_case));
-  const std::string more =
-      standings.size() > k_most ? " and " + std::to_string(standings.size() - k_most) + " more" : "";
-  return joined(names) + more;
+  for (const WeighedCase* weighed : cases)
+    if (names.size() < k_most) names.push_back(case_title(*weighed->result_case));
+  return joined(names) + (cases.size() > k_most ? " and " + std::to_string(cases.size() - k_most) + " more" : "");
 }
 
 std::string ns_text(double ns) {
@@ -79,15 +82,19 @@ std::string ns_text(double ns) {
   return text(us < 10.0 ? "%.2f us" : us < 1000.0 ? "%.3g us" : "%.0f us", us);
 }
 
-WeighedCase standing_of(const Json& result_case, const Json& config) {
-  WeighedCase out{&result_case, contender_of(result_case), number_at(result_case, "/timing/frame_ns/median"),
-                  whole_frame(result_case, config)};
-  const double gpu_ns = out.modelled ? out.modelled->gpu_ns : 0.0;
-  for (double& ns : out.contender.rounds_ns) ns += gpu_ns;
-  out.contender.costs.time_ns.low += gpu_ns;
-  out.contender.costs.time_ns.high += gpu_ns;
-  out.cost_ns = out.frame_ns.value_or(0.0) + gpu_ns;
-  if (!out.frame_ns && !out.modelled) out.cost_ns = out.bytes();
+WeighedCase weigh(const Json& result_case, const Json& config) {
+  WeighedCase out;
+  out.result_case = &result_case;
+  out.contender = contender_of(result_case);
+  if (const std::optional<WholeFrame> frame = whole_frame(result_case, config)) {
+    out.cost = frame->cost;
+    out.is_modelled = true;
+    out.has_random_depths = frame->has_random_depths;
+  }
+  out.cost.assign_ns = number_at(result_case, "/timing/frame_ns/median");
+  for (double& ns : out.contender.rounds_ns) ns += out.cost.gpu_ns();
+  out.contender.costs.time_ns.low += out.cost.gpu_ns();
+  out.contender.costs.time_ns.high += out.cost.gpu_ns();
   return out;
 }
 
@@ -106,76 +113,73 @@ std::vector<SceneView> scene_views(const Json& result, const Json& config) {
     if (view == views.end())
       view = views.insert(views.end(), SceneView{result_case["scene"], result_case["camera"], result_case["viewport"]});
     view->cases.push_back(&result_case);
-    const bool is_sound = result_case["eligible"] == true;
-    if (front.contains(result_case["id"].get<std::string>()))
-      view->front.push_back(standing_of(result_case, config));
-    else if (is_sound)
-      (samples_search(result_case) ? view->searched : view->others).push_back(standing_of(result_case, config));
+    if (!loses_nothing_seen(result_case)) continue;
+    WeighedCase weighed = weigh(result_case, config);
+    weighed.is_on_front = front.contains(result_case["id"].get<std::string>());
+    (samples_search(result_case) ? view->searched : view->sound).push_back(weighed);
   }
+  for (SceneView& view : views)
+    for (std::vector<WeighedCase>* cases : {&view.sound, &view.searched})
+      std::ranges::stable_sort(*cases, {}, &WeighedCase::weight);
   return views;
 }
 
-std::optional<measure::Ratio> weighed_ratio(const WeighedCase& a, const WeighedCase& b, std::uint64_t seed) {
-  if (!a.frame_ns || !b.frame_ns) return std::nullopt;
+bool has_interval(const std::optional<measure::Ratio>& ratio) {
+  return ratio && std::isfinite(ratio->ci95.low) && std::isfinite(ratio->ci95.high);
+}
+
+std::optional<measure::Ratio> measured_ratio(const WeighedCase& a, const WeighedCase& b, std::uint64_t seed) {
+  if (!a.is_timed() || !b.is_timed()) return std::nullopt;
   return run::ratio_between(a.contender, b.contender, seed);
 }
 
-// Whether what is modelled in them leaves open which costs more, as for presets (report/preset_cost.h).
-bool are_modelled_alike(const WeighedCase& a, const WeighedCase& b) {
-  return (a.modelled || b.modelled) && std::max(a.cost_ns, b.cost_ns) <= k_alike_ratio * std::min(a.cost_ns, b.cost_ns);
-}
-
-// Known to be dearer: by the ratio of the rounds, else by intervals of times, or by what is counted.
+// Known to be dearer: beyond what a model can tell, and by the ratio of the rounds, by intervals of the costs, or where
+// nothing was measured often enough for them by the costs.
 bool is_known_dearer(const WeighedCase& a, const WeighedCase& b, std::uint64_t seed) {
-  if (are_modelled_alike(a, b)) return false;
-  if (!a.frame_ns || !b.frame_ns) return a.cost_ns > b.cost_ns;
-  if (const std::optional<measure::Ratio> ratio = weighed_ratio(a, b, seed)) return measure::takes_longer(ratio);
-  return a.contender.costs.time_ns.low > b.contender.costs.time_ns.high;
+  const bool is_estimated = a.is_modelled || b.is_modelled;
+  if (is_estimated && a.weight() <= measure::k_alike_ratio * b.weight()) return false;
+  if (!a.is_timed() || !b.is_timed()) return a.weight() > b.weight();
+  const measure::Interval &of_a = a.contender.costs.time_ns, &of_b = b.contender.costs.time_ns;
+  if (of_b.is_known() && a.cost.gpu_ns() > of_b.high) return true;  // even if its lists cost no time
+  const std::optional<measure::Ratio> ratio = measured_ratio(a, b, seed);
+  if (has_interval(ratio)) return measure::takes_longer(ratio);
+  if (of_a.is_known() && of_b.is_known()) return of_a.low > of_b.high;
+  return a.weight() > measure::k_alike_ratio * b.weight();
 }
 
 // The choice of a view, and what it is held against.
 struct Choice {
   const WeighedCase* take = nullptr;
-  const WeighedCase* against = nullptr;
-  const WeighedCase* fastest = nullptr;  // to make, where that is another one
-  const WeighedCase* searched = nullptr;
-  std::optional<measure::Ratio> ratio;
+  const WeighedCase* against = nullptr;   // the cheapest that is known to be dearer
+  const WeighedCase* fastest = nullptr;   // to make, where that is another one
+  const WeighedCase* searched = nullptr;  // where it would be cheaper
+  std::optional<measure::Ratio> ratio;    // against / take
   std::vector<const WeighedCase*> alike;
+
+  double times_as_much() const { return ratio ? ratio->ratio : against->weight() / take->weight(); }
 };
 
-std::vector<const WeighedCase*> cheapest_first(const std::vector<WeighedCase>& all) {
-  std::vector<const WeighedCase*> order;
-  for (const WeighedCase& standing : all) order.push_back(&standing);
-  std::ranges::stable_sort(order, {}, &WeighedCase::cost_ns);
-  return order;
-}
-
-// Of the cases on the front the cheapest; of those that are not known to be dearer one whose samples lack no light
-// before others, then the smallest.
+// Of the cases that are not known to be dearer than the cheapest one whose samples lack no light before others, then
+// one on the front, then the smallest.
 Choice choose_of(const SceneView& view, std::uint64_t seed) {
   Choice choice;
-  std::vector<const WeighedCase*> order = cheapest_first(view.front);
-  if (order.empty()) return choice;
-  const WeighedCase* best = order.front();
-  for (const WeighedCase* weighed : order)
-    if (!is_known_dearer(*weighed, *best, seed) && (choice.take == nullptr || weighed->rank() < choice.take->rank()))
-      choice.take = weighed;
-  for (const WeighedCase* weighed : cheapest_first(view.others)) order.push_back(weighed);
-  for (const WeighedCase* weighed : order) {
-    if (weighed == choice.take) continue;
-    if (is_known_dearer(*weighed, *choice.take, seed)) {
-      if (choice.against == nullptr) choice.against = weighed;
-    } else if (!is_known_dearer(*choice.take, *weighed, seed)) {
-      choice.alike.push_back(weighed);
-    }
-  }
-  if (choice.against != nullptr) choice.ratio = weighed_ratio(*choice.against, *choice.take, seed);
-  for (const WeighedCase& weighed : view.front)
-    if (weighed.frame_ns && (choice.fastest == nullptr || *weighed.frame_ns < *choice.fastest->frame_ns))
+  for (const WeighedCase& weighed : view.sound) {
+    const bool is_candidate = !is_known_dearer(weighed, view.sound.front(), seed);
+    if (is_candidate && (choice.take == nullptr || weighed.rank() < choice.take->rank())) choice.take = &weighed;
+    if (weighed.is_timed() && (choice.fastest == nullptr || *weighed.cost.assign_ns < *choice.fastest->cost.assign_ns))
       choice.fastest = &weighed;
-  const std::vector<const WeighedCase*> searched = cheapest_first(view.searched);
-  if (!searched.empty() && searched.front()->modelled && searched.front()->cost_ns < choice.take->cost_ns)
-    choice.searched = searched.front();
+  }
+  if (choice.take == nullptr) return choice;
+  for (const WeighedCase& weighed : view.sound) {
+    if (&weighed == choice.take) continue;
+    if (!is_known_dearer(weighed, *choice.take, seed))
+      choice.alike.push_back(&weighed);
+    else if (choice.against == nullptr)
+      choice.against = &weighed;
+  }
+  if (choice.against != nullptr) choice.ratio = measured_ratio(*choice.against, *choice.take, seed);
+  if (!view.searched.empty() && view.searched.front().is_modelled && view.searched.front().ns() < choice.take->ns())
+    choice.searched = &view.searched.front();
   return choice;
 }
 
@@ -186,49 +190,61 @@ std::string bytes_text(double bytes) {
 }
 
 std::string whole_cost_text(const WeighedCase& take) {
-  if (!take.modelled && !take.frame_ns) return text("; %.0f bytes, and no times or samples to rank by", take.bytes());
-  if (!take.modelled) return "; " + ns_text(*take.frame_ns) + " a frame to make on this machine";
+  if (!take.is_modelled && !take.is_timed())
+    return text("; %.0f bytes, and no times or samples to rank by", take.bytes());
+  if (!take.is_modelled) return "; " + ns_text(take.ns()) + " a frame to make on this machine";
   const std::string model = "upload, reading and shading by the model of the key cost";
-  if (!take.frame_ns) return "; " + ns_text(take.modelled->gpu_ns) + " a frame of " + model + ", and nothing was timed";
-  return "; a frame costs " + ns_text(take.cost_ns) + ": " + ns_text(*take.frame_ns) + " to make it on this machine, " +
-         ns_text(take.modelled->gpu_ns) + " of " + model;
+  if (!take.is_timed()) return "; " + ns_text(take.ns()) + " a frame of " + model + ", and nothing was timed";
+  return "; a frame costs " + ns_text(take.ns()) + ": " + ns_text(*take.cost.assign_ns) +
+         " to make it on this machine, " + ns_text(take.cost.gpu_ns()) + " of " + model;
 }
 
-// "10 % more", "2.71 times as much"; with the interval where it is known.
-std::string more_text(double ratio, std::optional<double> low, std::optional<double> high) {
+// "10 % more", "2.71 times as much"; in brackets what it can be by times and by prices, where that is known.
+std::string more_text(double ratio, const measure::Interval& by_times, const measure::Interval& by_prices) {
   const bool is_share = ratio < 2.0;
   const auto amount = [&](double of) { return is_share ? text("%.2g %%", 100.0 * (of - 1.0)) : text("%.3g", of); };
-  std::string out = amount(ratio) + (is_share ? " more" : " times as much");
-  if (low && high) out += " (95 %: " + amount(*low) + " to " + amount(*high) + ")";
-  return out;
+  const auto range = [&](const measure::Interval& of) { return amount(of.low) + " to " + amount(of.high); };
+  std::vector<std::string> ranges;
+  if (by_times.is_known() && std::isfinite(by_times.high)) ranges.push_back("95 % of the times: " + range(by_times));
+  if (by_prices.is_known() && std::isfinite(by_prices.high))
+    ranges.push_back("with prices half or twice those of the key cost: " + range(by_prices));
+  return amount(ratio) + (is_share ? " more" : " times as much") +
+         (ranges.empty() ? "" : " (" + joined(ranges, "; ") + ")");
+}
+
+measure::Interval by_prices(const Choice& choice) {
+  const bool is_modelled = choice.against->is_modelled && choice.take->is_modelled;
+  return is_modelled ? measure::ratio_by_prices(choice.against->cost, choice.take->cost) : measure::Interval{};
 }
 
 std::string against_text(const Choice& choice) {
-  if (choice.against == nullptr) return choice.alike.empty() ? "; there is nothing sound to hold it against" : "";
-  std::string out = "; " + case_title(*choice.against->result_case) + " costs ";
-  const auto& ratio = choice.ratio;
-  if (ratio && std::isfinite(ratio->ci95.low) && std::isfinite(ratio->ci95.high))
-    return out + more_text(ratio->ratio, ratio->ci95.low, ratio->ci95.high);
-  out += more_text(ratio ? ratio->ratio : choice.against->cost_ns / choice.take->cost_ns, {}, {});
-  return choice.take->frame_ns ? out + " (not measured often enough side by side for an interval)" : out;
+  if (choice.against == nullptr) return choice.alike.empty() ? "; no other case loses nothing" : "";
+  const std::string out =
+      "; " + case_title(*choice.against->result_case) + " costs " +
+      more_text(choice.times_as_much(), choice.ratio ? choice.ratio->ci95 : measure::Interval{}, by_prices(choice));
+  const bool is_rough = choice.take->is_timed() && !has_interval(choice.ratio);
+  return out + (is_rough ? ", not measured often enough side by side for an interval" : "");
 }
 
 // What limits how far the choice can be trusted.
 std::string doubts_text(const Choice& choice) {
+  const WeighedCase& take = *choice.take;
   std::string out;
-  if (const double unlit = choice.take->unlit(); unlit > 0.0)
+  if (const double unlit = take.unlit(); unlit > 0.0)
     out += ". Its samples lack " + (unlit < 1e-4 ? "less than 0.01 %" : text("%.2g %%", 100.0 * unlit)) +
            " of the lights that they need";
+  if (take.is_modelled) out += few_samples_text(sum_at_samples(*take.result_case, "needed"));
   if (!choice.alike.empty())
-    out += std::string(". No difference that these ") + (choice.take->frame_ns ? "times" : "figures") + " can show" +
-           (choice.take->modelled ? " (costs within 5 % are alike: part of them is modelled)" : "") + " to " +
+    out += std::string(". No difference that these ") + (take.is_timed() ? "times" : "figures") + " can show" +
+           (take.is_modelled ? " (costs within 5 % are alike: part of them is modelled)" : "") + " to " +
            first_titles(choice.alike);
-  if (choice.fastest != nullptr && choice.fastest != choice.take && choice.take->modelled)
-    out += ". Fastest to make: " + case_title(*choice.fastest->result_case) + ", " + ns_text(*choice.fastest->frame_ns);
+  if (choice.fastest != nullptr && choice.fastest != choice.take && take.is_modelled)
+    out += ". Fastest to make: " + case_title(*choice.fastest->result_case) + ", " +
+           ns_text(*choice.fastest->cost.assign_ns);
   if (choice.searched != nullptr)
     out += ". " + case_title(*choice.searched->result_case) + ", which samples search, would cost " +
-           ns_text(choice.searched->cost_ns) + " by the model; no GPU has measured such a search";
-  if (choice.take->modelled && choice.take->modelled->has_random_depths)
+           ns_text(choice.searched->ns()) + " by the model; no GPU has measured such a search";
+  if (take.has_random_depths)
     out += std::string(". Its samples are at random depths, where no surface is; ") + k_remedy;
   return out;
 }
@@ -256,10 +272,12 @@ Json conclusion_of(const SceneView& view, std::uint64_t seed) {
   out["take"] = (*choice.take->result_case)["id"];
   if (choice.against != nullptr) {
     out["against"] = (*choice.against->result_case)["id"];
-    out["ratio"] = six_digits(choice.ratio ? choice.ratio->ratio : choice.against->cost_ns / choice.take->cost_ns);
+    out["ratio"] = six_digits(choice.times_as_much());
     if (choice.ratio) out["ci95"] = {six_digits(choice.ratio->ci95.low), six_digits(choice.ratio->ci95.high)};
+    if (const measure::Interval range = by_prices(choice); range.is_known())
+      out["by_prices"] = {number_or_null(range.low), number_or_null(range.high)};
   }
-  for (const WeighedCase* standing : choice.alike) out["alike"].push_back((*standing->result_case)["id"]);
+  for (const WeighedCase* weighed : choice.alike) out["alike"].push_back((*weighed->result_case)["id"]);
   out["text"] = where + "take " + case_title(*choice.take->result_case) + " (" + bytes_text(choice.take->bytes()) +
                 ")" + whole_cost_text(*choice.take) + against_text(choice) + doubts_text(choice) + ".";
   return out;
@@ -272,19 +290,45 @@ std::string objective_text(const Json& record, const Json& objective) {
 // Modelled costs within what the model can tell, times that differ by less than their interval, and equal figures.
 bool is_like_choice(const Json& record, const Json& objective) {
   if (objective["figure"].get<std::string>().ends_with("_cost_us") &&
-      number_at(record, "/by_choice").value_or(0.0) <= k_alike_ratio)
+      number_at(record, "/by_choice").value_or(0.0) <= measure::k_alike_ratio)
     return true;
   if (record.contains("ci95") && record["ci95"][0].is_number()) return record["ci95"][0].get<double>() <= 1.0;
   return number_at(record, "/by_choice").value_or(0.0) <= 1.0;
 }
 
+measure::Interval interval_at(const Json& record, const char* key) {
+  const Json* ends = value_at(record, key);
+  if (ends == nullptr || !(*ends)[0].is_number() || !(*ends)[1].is_number()) return {};
+  return {(*ends)[0].get<double>(), (*ends)[1].get<double>()};
+}
+
 std::string beside_choice_text(const Json& record) {
-  const Json interval = record.value("ci95", Json::array({nullptr, nullptr}));
-  const auto end = [&](std::size_t at) {
-    return interval[at].is_number() ? std::optional(interval[at].get<double>()) : std::nullopt;
-  };
   return shown(record["name"].get<std::string>()) + " has " +
-         more_text(record["by_choice"].get<double>(), end(0), end(1));
+         more_text(record["by_choice"].get<double>(), interval_at(record, "/ci95"), interval_at(record, "/by_prices"));
+}
+
+// Why the choice is not the one with least: of those that are like it, it has the fewest bytes.
+std::string smallest_text(const Json& answer, const Json& objective) {
+  const Json* least = nullptr;
+  for (const Json& record : answer["runners_up"]) {
+    const double by = number_at(record, "/by_choice").value_or(1.0);
+    if (by < 1.0 && (least == nullptr || by < (*least)["by_choice"].get<double>())) least = &record;
+  }
+  const std::optional<double> bytes = number_at(answer["choice"], "/figures/bytes");
+  const std::optional<double> more_bytes = least != nullptr ? number_at(*least, "/figures/bytes") : std::nullopt;
+  if (!bytes || !more_bytes || *bytes >= *more_bytes) return "";
+  return "; least is " + objective_text(*least, objective) + " of " + shown((*least)["name"].get<std::string>()) +
+         text(", %.2g %% less, which is no difference here,", 100.0 * (1.0 - (*least)["by_choice"].get<double>())) +
+         " with " + bytes_text(*more_bytes) + " in place of " + bytes_text(*bytes);
+}
+
+// That nothing is to be taken, and what could be.
+std::string none_text(const Json& answer, const Json& objective) {
+  const Json searched = answer.value("searched", Json::array());
+  if (searched.empty()) return "take none: no candidate satisfies all constraints; see what each of them excludes";
+  return "take none: no candidate with lists satisfies all constraints; " +
+         shown(searched[0]["name"].get<std::string>()) + ", which samples search, does (" +
+         objective_text(searched[0], objective) + "), and no GPU has measured such a search";
 }
 
 }  // namespace
@@ -299,9 +343,9 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
                     answer["viewport"][1].dump() + ": ";
   const Json& choice = answer["choice"];
   if (const std::string unseen = text_of_nothing_seen(answer); !unseen.empty()) return out + unseen + ".";
-  if (choice.is_null())
-    return out + "take none: no candidate satisfies all constraints; see what each of them excludes.";
-  out += "take " + shown(choice["name"].get<std::string>()) + "; " + objective_text(choice, objective);
+  if (choice.is_null()) return out + none_text(answer, objective) + ".";
+  out += "take " + shown(choice["name"].get<std::string>()) + "; " + objective_text(choice, objective) +
+         smallest_text(answer, objective);
   std::vector<std::string> alike;
   const Json* against = nullptr;
   for (const Json& record : answer["runners_up"]) {
@@ -318,6 +362,7 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
   if (!searched.empty() && number_at(searched[0], "/by_choice").value_or(1.0) < 1.0)
     out += ". " + shown(searched[0]["name"].get<std::string>()) + ", which samples search, would have " +
            objective_text(searched[0], objective) + "; no GPU has measured such a search";
+  if (const std::optional<double> needed = number_at(answer, "/needed_at_samples")) out += few_samples_text(*needed);
   if (const std::optional<double> height = number_at(answer, "/ground_m"))
     out += text(". Samples lie on a floor at y = %.4g m, since the scene has no triangles", *height);
   if (answer.value("random_depths", false))

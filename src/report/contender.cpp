@@ -5,6 +5,7 @@
 #include "assign/contract/assigner.h"
 #include "report/columns.h"
 #include "report/json_values.h"
+#include "report/limits.h"
 #include "run/sweep.h"
 
 namespace clusterbench::report {
@@ -25,7 +26,7 @@ measure::Costs costs_of(const Json& result_case, RankBy by) {
   if (!draws_lights(result_case))
     costs.bytes = number_at(result_case, "/buffers/bytes/high_water").value_or(costs.k_unknown);
   if (by == RankBy::frame_time) {
-    costs.overshade = number_at(result_case, "/shading/overshade").value_or(costs.k_unknown);
+    costs.overshade = limit_figure(result_case, "overshade").value_or(costs.k_unknown);
     return costs;
   }
   const double gpu_ns = number_at(result_case, "/cost/gpu_ns").value_or(costs.k_unknown);
@@ -37,6 +38,11 @@ measure::Costs costs_of(const Json& result_case, RankBy by) {
 }
 
 }  // namespace
+
+bool loses_nothing_seen(const Json& result_case) {
+  const Json* lit = value_at(result_case, "/cost/lit");
+  return result_case["eligible"] == true && (lit == nullptr || *lit == true);
+}
 
 bool draws_lights(const Json& result_case) {
   const assign::AssignerDescriptor* assigner =
@@ -71,7 +77,7 @@ run::Contender contender_of(const Json& result_case, RankBy by) {
                      result_case["scene"],
                      view_of(result_case),
                      costs_of(result_case, by),
-                     result_case["eligible"] == true && !samples_search(result_case),
+                     loses_nothing_seen(result_case) && !samples_search(result_case),
                      block_of(result_case),
                      {},
                      {},
@@ -79,8 +85,8 @@ run::Contender contender_of(const Json& result_case, RankBy by) {
                      false};
   const double gpu_ns = by == RankBy::frame_cost ? number_at(result_case, "/cost/gpu_ns").value_or(0.0) : 0.0;
   if (by == RankBy::frame_cost) {
-    const Json* lit = value_at(result_case, "/cost/lit");
-    out.is_eligible = out.is_eligible && lit != nullptr && *lit == true;
+    const char* cost = result_case.contains("timing") ? "/cost/frame_ns" : "/cost/gpu_ns";
+    out.is_eligible = out.is_eligible && number_at(result_case, cost);
   }
   if (!result_case.contains("timing")) return out;
   out.rounds_ns = frame_rounds(result_case);

@@ -13,9 +13,14 @@ namespace clusterbench::report {
 enum class RankBy : std::uint8_t { frame_time, frame_cost };
 RankBy rank_by(const nlohmann::ordered_json& result);  // as its configuration says
 
-// A case that samples search is never eligible: what its search costs was not measured. By its cost a case takes its
-// time and, with certainty, what the model adds; overshade is in it. Where nothing is timed that is all. A case that
-// lacks lights at samples that cost something is not eligible then.
+// Whether it may be the answer: no gate holds it back, and samples that cost something lack no more lights than
+// rounding leaves out.
+bool loses_nothing_seen(const nlohmann::ordered_json& result_case);
+
+// A case that loses something, or that samples search, is never eligible: what the search costs was not measured.
+// Overshade is that of samples that cost something, where there are any, else of points of the whole view. By its cost
+// a case takes its time and, with certainty, what the model adds; overshade is in it. Where nothing is timed that is
+// all. One without that cost is not eligible: an engine's time is not known where its lists are a GPU's.
 run::Contender contender_of(const nlohmann::ordered_json& result_case, RankBy by = RankBy::frame_time);
 
 // Whether its method draws lights, and leaves no lists.

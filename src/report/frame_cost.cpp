@@ -1,7 +1,9 @@
 #include "report/frame_cost.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "config/presets.h"
 #include "depth/depth_image.h"
 #include "measure/frame_cost.h"
 #include "measure/shading.h"
@@ -13,6 +15,11 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Where a case has the counts of a set of samples.
+std::string counts_pointer(const std::string& set) {
+  return set == "volume" ? "/shading" : "/samples/" + set;
+}
 
 // Of the picture's pixels one that is looked through stands for so many.
 double pixels_per_sample(const Json& result_case, const std::string& set, const Json& config) {
@@ -32,6 +39,18 @@ double divergence_of(const Json& result_case, const Json& counts, const std::str
   return 1.0;
 }
 
+double pixels_of(const Json& result_case) {
+  return result_case["viewport"][0].get<double>() * result_case["viewport"][1].get<double>();
+}
+
+// How many of a set's samples a frame shades. `weight`: a number, 0 for none, or "pixels": each of the picture's once.
+double shaded_in_frame(const Json& result_case, const std::string& set, const Json& weight, double samples,
+                       const Json& config) {
+  if (weight.is_string()) return pixels_of(result_case);
+  return weight.get<double>() * samples / result_case["frames"].get<double>() *
+         pixels_per_sample(result_case, set, config);
+}
+
 double mean_per_sample(const Json& counts, const char* key) {
   const auto samples = counts["samples"].get<double>();
   return samples > 0.0 ? counts.value(key, 0.0) / samples : 0.0;
@@ -46,16 +65,35 @@ struct WeightedSet {
 
 std::vector<WeightedSet> weighted_sets(const Json& result_case, const Json& config) {
   std::vector<WeightedSet> sets;
-  for (const auto& [name, weight_json] : config["cost"]["weights"].items()) {
-    const double weight = weight_json.get<double>();
-    const Json* counts = value_at(result_case, name == "volume" ? std::string("/shading") : "/samples/" + name);
+  for (const auto& [name, weight] : config["cost"]["weights"].items()) {
+    const Json* counts = value_at(result_case, counts_pointer(name));
     if (weight == 0.0 || counts == nullptr) continue;
-    const auto samples = (*counts)["samples"].get<double>();
-    const double per_frame =
-        weight * samples / result_case["frames"].get<double>() * pixels_per_sample(result_case, name, config);
+    const double per_frame = shaded_in_frame(result_case, name, weight, (*counts)["samples"].get<double>(), config);
     sets.push_back(
         {name, counts, shaded_samples(result_case, *counts, per_frame, config["cost"]["wave"].get<std::string>())});
   }
+  return sets;
+}
+
+double upload_bytes(const Json& result_case) {
+  return makes_lists_on_gpu(result_case) ? 0.0 : number_at(result_case, "/buffers/upload_bytes/mean").value_or(0.0);
+}
+
+// A set that a case is ranked by; shaded: how many of its samples a frame shades.
+struct RankingSet {
+  const Json* counts;
+  double shaded;
+};
+
+std::vector<RankingSet> ranking_sets(const Json& result_case) {
+  std::vector<RankingSet> sets;
+  const auto add = [&](const std::string& name, double shaded) {
+    if (const Json* counts = value_at(result_case, counts_pointer(name))) sets.push_back({counts, shaded});
+  };
+  if (const Json* paid = value_at(result_case, "/cost/sets"); paid != nullptr && !paid->empty())
+    for (const auto& [name, set] : paid->items()) add(name, number_at(set, "/samples").value_or(0.0));
+  else
+    add(value_at(result_case, "/samples/opaque") != nullptr ? "opaque" : "volume", 1.0);
   return sets;
 }
 
@@ -77,10 +115,9 @@ Json cost_of(const Json& result_case, const std::vector<WeightedSet>& sets, cons
     const Json& unlit = (*set.counts)["unlit"];
     is_lit = is_lit && !(unlit.is_number() && unlit.get<double>() > measure::k_most_unlit);
   }
-  const measure::FrameCost cost =
-      measure::frame_cost(model, number_at(result_case, "/timing/frame_ns/median"),
-                          number_at(result_case, "/buffers/upload_bytes/mean").value_or(0.0),
-                          number_at(result_case, "/buffers/traffic_bytes/mean").value_or(0.0), shaded);
+  const measure::FrameCost cost = measure::frame_cost(
+      model, makes_lists_on_gpu(result_case) ? std::nullopt : number_at(result_case, "/timing/frame_ns/median"),
+      upload_bytes(result_case), number_at(result_case, "/buffers/traffic_bytes/mean").value_or(0.0), shaded);
   const auto or_null = [](const std::optional<double>& ns) { return ns ? number_or_null(*ns) : Json(); };
   return {{"frame_ns", or_null(cost.frame_ns())},
           {"assign_ns", or_null(cost.assign_ns)},
@@ -116,18 +153,56 @@ measure::ShadedSamples shaded_samples(const Json& result_case, const Json& count
 }
 
 std::optional<WholeFrame> whole_frame(const Json& result_case, const Json& config) {
-  if (const std::optional<double> gpu_ns = number_at(result_case, "/cost/gpu_ns")) {
+  if (number_at(result_case, "/cost/shade_ns")) {
+    const auto part = [&](const char* pointer) { return number_at(result_case, pointer).value_or(0.0); };
     const Json& sets = result_case["cost"]["sets"];
-    return WholeFrame{*gpu_ns, sets.contains("volume") && !sets.contains("opaque")};
+    WholeFrame frame{
+        {{}, part("/cost/upload_ns"), part("/cost/traffic_ns"), part("/cost/read_ns"), part("/cost/shade_ns")},
+        sets.contains("volume") && !sets.contains("opaque")};
+    if (makes_lists_on_gpu(result_case)) frame.cost.upload_ns = 0.0;  // older results have it
+    return frame;
   }
   const std::optional<double> samples = number_at(result_case, "/shading/samples");
   if (!config.contains("cost") || !samples || *samples == 0.0) return std::nullopt;
-  const double pixels = result_case["viewport"][0].get<double>() * result_case["viewport"][1].get<double>();
-  const measure::FrameCost cost = measure::frame_cost(
-      cost_model_of(config["cost"]), {}, number_at(result_case, "/buffers/upload_bytes/mean").value_or(0.0),
-      number_at(result_case, "/buffers/traffic_bytes/mean").value_or(0.0),
-      {shaded_samples(result_case, result_case["shading"], pixels, config["cost"].value("wave", "8x8"))});
-  return WholeFrame{cost.gpu_ns(), true};
+  return WholeFrame{measure::frame_cost(cost_model_of(config["cost"]), {}, upload_bytes(result_case),
+                                        number_at(result_case, "/buffers/traffic_bytes/mean").value_or(0.0),
+                                        {shaded_samples(result_case, result_case["shading"], pixels_of(result_case),
+                                                        config["cost"].value("wave", "8x8"))}),
+                    true};
+}
+
+bool makes_lists_on_gpu(const Json& result_case) {
+  const config::Preset* preset = config::find_preset(result_case.value("preset", ""));
+  return preset != nullptr && preset->assigns_on == config::AssignsOn::gpu;
+}
+
+std::vector<const Json*> ranking_samples(const Json& result_case) {
+  std::vector<const Json*> all;
+  for (const RankingSet& set : ranking_sets(result_case)) all.push_back(set.counts);
+  return all;
+}
+
+double sum_at_samples(const Json& result_case, const char* count) {
+  double sum = 0.0;
+  for (const Json* set : ranking_samples(result_case)) sum += set->value(count, 0.0);
+  return sum;
+}
+
+std::optional<double> unlit_at_samples(const Json& result_case) {
+  std::optional<double> most;
+  for (const Json* set : ranking_samples(result_case))
+    if (const std::optional<double> unlit = number_at(*set, "/unlit")) most = std::max(*unlit, most.value_or(0.0));
+  return most;
+}
+
+std::optional<double> mean_at_samples(const Json& result_case, const char* count) {
+  double sum = 0.0, shaded = 0.0;
+  for (const RankingSet& set : ranking_sets(result_case)) {
+    if (!set.counts->contains(count)) return std::nullopt;
+    sum += set.shaded * mean_per_sample(*set.counts, count);
+    shaded += set.shaded;
+  }
+  return shaded > 0.0 ? std::optional(sum / shaded) : std::nullopt;
 }
 
 void add_costs(Json& cases, const Json& config) {

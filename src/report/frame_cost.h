@@ -4,13 +4,16 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "measure/frame_cost.h"
+#include "measure/shading.h"
 
 namespace clusterbench::report {
 
 // Gives each case with samples that have a weight its `cost`, anew where it has one. Nothing where the configuration
-// has no model: an older result.
+// has no model: an older result. Of a preset whose engine makes its lists on a GPU nothing is uploaded, and there is no
+// time of making them: that of a stand-in here is not the engine's.
 // Its sets say what samples are given and need, by the sets that cost something: what a rank by cost rests on.
 void add_costs(nlohmann::ordered_json& cases, const nlohmann::ordered_json& config);
 
@@ -21,13 +24,30 @@ measure::CostModel cost_model_of(const nlohmann::ordered_json& constants);
 measure::ShadedSamples shaded_samples(const nlohmann::ordered_json& result_case, const nlohmann::ordered_json& counts,
                                       double samples, const std::string& wave);
 
-// What a frame pays beside its frame time, by the model.
+// What a frame costs the GPU, by the model.
 struct WholeFrame {
-  double gpu_ns = 0.0;
+  measure::FrameCost cost;         // without the time to make the lists
   bool has_random_depths = false;  // of samples that no surface holds
 };
 // As `cost` has it; where that is not there, by samples of the whole view that stand for the picture's pixels. None
 // without samples, and of a result without a model.
 std::optional<WholeFrame> whole_frame(const nlohmann::ordered_json& result_case, const nlohmann::ordered_json& config);
+
+// Whether a case is of a preset whose engine makes its lists on a GPU.
+bool makes_lists_on_gpu(const nlohmann::ordered_json& result_case);
+
+// Samples that need fewer lights cannot show that at most k_most_unlit of them are lacking, since one of them would be
+// more; and what they loop over is a rough mean.
+inline constexpr double k_least_needed_to_choose = 1.0 / measure::k_most_unlit;
+
+// The counts of the sets of samples that a case is ranked by: those that cost something; without any, visible surfaces
+// if they are asked for, else the whole view. Empty without samples.
+std::vector<const nlohmann::ordered_json*> ranking_samples(const nlohmann::ordered_json& result_case);
+// A count of theirs together, as "needed"; 0 where they do not have it.
+double sum_at_samples(const nlohmann::ordered_json& result_case, const char* count);
+// Share of the lights that they need and lack, of the set that lacks most. None where no sample needs a light.
+std::optional<double> unlit_at_samples(const nlohmann::ordered_json& result_case);
+// A count at one of them as a frame shades them, as "evaluated". None without samples and where they do not have it.
+std::optional<double> mean_at_samples(const nlohmann::ordered_json& result_case, const char* count);
 
 }  // namespace clusterbench::report

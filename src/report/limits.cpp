@@ -52,6 +52,7 @@ constexpr FigureRow k_figure_rows[] = {
     {"undecided", "/error/undecided"},
     {"unlit", "/shading/missed", 1.0, "/shading/worst_frame/frame", "", "/shading/needed"},
     {"lost_irradiance", "/shading/lost_irradiance"},
+    {"overshade", "/cost/overshade"},
     {"overshade", "/shading/overshade"},
     {"instructions",
      "/count/instructions_per_frame/frame",

@@ -9,8 +9,9 @@
 #include "core/text.h"
 #include "measure/shading.h"
 #include "report/columns.h"
+#include "report/contender.h"
+#include "report/frame_cost.h"
 #include "report/json_values.h"
-#include "report/preset_cost.h"
 #include "report/preset_losses.h"
 #include "report/preset_words.h"
 #include "report/result_json.h"
@@ -35,34 +36,38 @@ View view_of(const Json& result_case) {
 // One threshold for whatever lights are lost by: samples that lack more are not the same picture. Samples that need few
 // lights can show that some are lacking, and not that none is.
 PresetStanding standing_of(const RankedPreset& row) {
-  if (!row.losses.unlit || !row.cost) return PresetStanding::unknown;
+  if (!row.losses.unlit || !row.frame) return PresetStanding::unknown;
   if (*row.losses.unlit > measure::k_most_unlit) return PresetStanding::lacks_lights;
   if (!row.losses.is_decided()) return PresetStanding::unknown;
-  return row.cost->is_searched ? PresetStanding::searched : PresetStanding::lists;
+  return samples_search(*row.result_case) ? PresetStanding::searched : PresetStanding::lists;
 }
 
 bool is_better(const RankedPreset& a, const RankedPreset& b) {
   if (a.standing != b.standing) return a.standing < b.standing;
   if (a.standing == PresetStanding::unknown) return false;
   if (a.standing == PresetStanding::lacks_lights) return *a.losses.unlit < *b.losses.unlit;
-  return a.cost->sum_ns() < b.cost->sum_ns();
+  return a.gpu_ns() < b.gpu_ns();
 }
 
-// In the order of costs: a row that cannot be told apart from the first one of a place shares that place.
+// Behind those of its part that are known to be better.
 void give_places(std::vector<RankedPreset>& rows) {
-  std::size_t part = 0, leader = 0;
+  std::size_t part = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].standing != rows[part].standing) part = leader = i;
+    if (rows[i].standing != rows[part].standing) part = i;
     const bool is_priced = rows[i].standing == PresetStanding::lists || rows[i].standing == PresetStanding::searched;
-    if (!is_priced || !are_alike(*rows[leader].cost, *rows[i].cost)) leader = i;
-    rows[i].place = static_cast<int>(leader - part) + 1;
+    const auto is_better = [&](const RankedPreset& other) {
+      return !is_priced || !are_alike(other.frame->cost, rows[i].frame->cost);
+    };
+    const auto first = rows.begin() + static_cast<std::ptrdiff_t>(part);
+    rows[i].place =
+        1 + static_cast<int>(std::count_if(first, rows.begin() + static_cast<std::ptrdiff_t>(i), is_better));
   }
 }
 
 std::vector<RankedPreset> ranked(const std::vector<const Json*>& cases, const Json& config) {
   std::vector<RankedPreset> rows;
   for (const Json* result_case : cases) {
-    RankedPreset row{result_case, {}, preset_cost(*result_case, config), preset_losses(*result_case), 0, &config};
+    RankedPreset row{result_case, {}, whole_frame(*result_case, config), preset_losses(*result_case), 0, &config};
     row.standing = standing_of(row);
     rows.push_back(row);
   }
@@ -72,16 +77,20 @@ std::vector<RankedPreset> ranked(const std::vector<const Json*>& cases, const Js
 }
 
 Json line_json(const RankedPreset& row, const RankedPreset& first) {
-  const auto part = [&](double PresetCost::*ns) { return row.cost ? number_or_null((*row.cost).*ns) : Json(); };
+  const auto part = [&](double measure::FrameCost::*ns) {
+    return row.frame ? number_or_null(row.frame->cost.*ns) : Json();
+  };
   return {{"id", (*row.result_case)["id"]},
           {"preset", (*row.result_case)["preset"]},
           {"standing", name_of(row.standing)},
           {"place", row.place},
-          {"gpu_ns", row.cost ? number_or_null(row.cost->sum_ns()) : Json()},
-          {"upload_ns", part(&PresetCost::upload_ns)},
-          {"read_ns", part(&PresetCost::read_ns)},
-          {"shade_ns", part(&PresetCost::shade_ns)},
-          {"lights_per_sample", number_or_null(per_sample(*row.result_case, "evaluated").value_or(NAN))},
+          {"gpu_ns", row.frame ? number_or_null(row.gpu_ns()) : Json()},
+          {"upload_ns", part(&measure::FrameCost::upload_ns)},
+          {"read_ns", part(&measure::FrameCost::read_ns)},
+          {"shade_ns", part(&measure::FrameCost::shade_ns)},
+          {"lights_per_sample", number_or_null(mean_at_samples(*row.result_case, "evaluated").value_or(NAN))},
+          {"unlit", number_or_null(row.losses.unlit.value_or(NAN))},
+          {"missed_in_view", row.losses.is_compared ? Json(row.losses.missed()) : Json()},
           {"why", preset_reason(row, first)}};
 }
 
@@ -121,32 +130,24 @@ std::string assign_text(const Json& result_case) {
   return text_at(result_case, "/timing/assign_ns/median", "%.1f", 1e-3);
 }
 
-// Without pairs of lights beside the view, which the engine leaves out and nothing sees.
-std::string missed_pairs_text(const Json& result_case) {
-  const PresetLosses losses = preset_losses(result_case);
-  return losses.is_compared ? short_count({{"missed", losses.missed()}}, "/missed") : "-";
-}
-
 std::string shown_line(const Json& line, const Json& cases, const Json& best, Cells& cells) {
   const auto found =
       std::ranges::find_if(cases, [&](const Json& result_case) { return result_case["id"] == line["id"]; });
   if (found == cases.end()) return "";
-  const std::string set = value_at(*found, "/samples/opaque") != nullptr ? "/samples/opaque" : "/shading";
-  cells = {line["id"] == best ? "*" : "",
-           line["preset"].get<std::string>(),
-           place_text(line),
-           text_at(line, "/gpu_ns", "%.0f", 1e-3),
-           text_at(line, "/upload_ns", "%.1f", 1e-3),
-           text_at(line, "/read_ns", "%.1f", 1e-3),
-           text_at(line, "/lights_per_sample", "%.2f"),
-           text_at(*found, "/occupancy/lights_per_cell/max", "%.0f"),
-           short_count(*found, "/buffers/bytes/high_water"),
-           short_count(*found, "/buffers/overflow/dropped_pairs"),
-           missed_pairs_text(*found),
-           line.value("standing", "") == name_of(PresetStanding::unknown)
-               ? "-"
-               : text_at(*found, (set + "/unlit").c_str(), "%.2f %%", 100.0),
-           assign_text(*found)};
+  cells = {
+      line["id"] == best ? "*" : "",
+      line["preset"].get<std::string>(),
+      place_text(line),
+      text_at(line, "/gpu_ns", "%.0f", 1e-3),
+      text_at(line, "/upload_ns", "%.1f", 1e-3),
+      text_at(line, "/read_ns", "%.1f", 1e-3),
+      text_at(line, "/lights_per_sample", "%.2f"),
+      text_at(*found, "/occupancy/lights_per_cell/max", "%.0f"),
+      short_count(*found, "/buffers/bytes/high_water"),
+      short_count(*found, "/buffers/overflow/dropped_pairs"),
+      short_count(line, "/missed_in_view"),
+      line.value("standing", "") == name_of(PresetStanding::unknown) ? "-" : text_at(line, "/unlit", "%.2f %%", 100.0),
+      assign_text(*found)};
   return "  " + shown(line["preset"]) + " " + shown(line["why"]) + ".\n";
 }
 
@@ -161,15 +162,14 @@ std::string heading(const Json& ranking) {
 }
 
 constexpr const char* k_legend =
-    "* costs the GPU least of the lists that leave no sample without lights, by the key `cost`: upload, reading and "
-    "shading.\nplace: the same where the model cannot tell: within 5 %, or the order turns as prices are half or "
-    "twice those of `cost`;\ns: samples search the structure, ranked apart, since no GPU has measured what that "
-    "costs;\n-: samples lack lights, or need fewer than 1000, too few to say that none of those that are lost is "
-    "seen.\ngpu, upload, read: us of a frame by the model. Lists that a GPU makes are not "
-    "uploaded. lights: looped over at a sample, on\naverage. dropped, missed: pairs that cells in view lack, seen or "
-    "not; "
-    "unlit: what samples lack decides. assign: us of one core here,\nof engines that assign on the CPU; gpu: a time "
-    "here would not be the engine's.\n";
+    "* costs the GPU least, by the key `cost`, of the lists whose samples lack at most 0.1 % of the lights that they "
+    "need.\nplace: 1 + how many are known to cost less: by over 5 %, and at prices of half and twice those of `cost` "
+    "too;\ns: samples search the structure, ranked apart, since no GPU has measured what that costs;\n-: samples lack "
+    "more lights, or need fewer than 1000, too few to say so.\ngpu, upload, read: us of a frame by the model. Lists "
+    "that "
+    "a GPU makes are not uploaded. lights: looped over at a sample,\non average. dropped, missed: pairs that cells in "
+    "view lack, seen or not; unlit: what samples lack decides. assign: us of one\ncore here, of engines that assign on "
+    "the CPU; gpu: a time here would not be the engine's.\n";
 
 }  // namespace
 

@@ -11,7 +11,7 @@ namespace clusterbench::report {
 nlohmann::ordered_json preset_facts(const nlohmann::ordered_json& cases, const nlohmann::ordered_json& skipped);
 
 // Per scene, camera and viewport the cases of presets: those whose samples lack no light, by what a frame costs the GPU
-// (report/preset_cost.h); then those of them that samples search, among themselves; then those that lack lights, by how
+// (report/frame_cost.h); then those of them that samples search, among themselves; then those that lack lights, by how
 // many. Cases whose costs the model cannot tell apart share a place. `origin`: the result whose configuration they
 // have. Empty without presets.
 nlohmann::ordered_json preset_rankings(const nlohmann::ordered_json& scenes, const nlohmann::ordered_json& cases,

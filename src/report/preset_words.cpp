@@ -8,6 +8,7 @@
 #include "measure/shading.h"
 #include "report/columns.h"
 #include "report/json_values.h"
+#include "report/nothing_seen.h"
 
 namespace clusterbench::report {
 namespace {
@@ -69,10 +70,8 @@ std::vector<std::string> loss_texts(const RankedPreset& row) {
                    number_of(overflow["frames"].get<std::uint64_t>(), "frame") + shortage(row));
   if (row.losses.by_method > 0)
     ways.push_back("its method does not find " + lost_pairs_text(row.losses.by_method, row.losses));
-  const Json* samples = ranking_samples(result_case);
-  if (samples != nullptr && number_at(*samples, "/missed_outside").value_or(0.0) > 0.0)
-    ways.push_back(percent((*samples)["missed_outside"].get<double>() / (*samples)["needed"].get<double>()) +
-                   " of the lights that samples need lie beyond its grid");
+  if (const double outside = sum_at_samples(result_case, "missed_outside"); outside > 0.0)
+    ways.push_back(percent(outside / row.losses.needed) + " of the lights that samples need lie beyond its grid");
   return ways;
 }
 
@@ -81,11 +80,17 @@ std::string needed_lights_text(const RankedPreset& row) {
   return needed == 0 ? "no light" : "only " + number_of(needed, "light");
 }
 
+std::string sample_word(const RankedPreset& row) {
+  return value_at(*row.result_case, "/samples/opaque") != nullptr ? "sample on a visible surface" : "sample";
+}
+
 // Where samples do not tell whether what is lost is seen.
 std::string undecided_loss(const RankedPreset& row) {
-  if (row.losses.needed == 0.0) return "no sample needs a light, so nothing tells whether it loses any that is seen";
+  if (row.losses.needed == 0.0)
+    return "no " + sample_word(row) + " needs a light, so nothing tells whether it loses any that is seen";
   std::string out = "its samples need " + needed_lights_text(row) + ", too few to tell whether ";
-  if (row.losses.missed() + row.losses.dropped > 0) return out + "what it loses is seen";
+  if (row.losses.loses_pairs()) return out + "what it loses is seen";
+  if (row.losses.outside > 0.0) return out + "it loses any beyond its grid, which ends before the view does";
   out += "it loses any that is seen";
   return row.losses.is_compared ? out : out + ", and its lists were not compared with the truth";
 }
@@ -104,12 +109,12 @@ std::string light_text(const RankedPreset& row) {
 std::string load_text(const RankedPreset& row) {
   const Json& result_case = *row.result_case;
   std::string out;
-  if (const auto lights = per_sample(result_case, "evaluated"))
-    out = text("%.3g", *lights) + text(" lights per sample (%.3g needed)", *per_sample(result_case, "needed"));
-  if (const auto bytes = per_sample(result_case, "read_bytes"); bytes && row.cost && row.cost->read_ns > 0.0)
+  if (const auto lights = mean_at_samples(result_case, "evaluated"))
+    out = text("%.3g", *lights) + text(" lights per sample (%.3g needed)", *mean_at_samples(result_case, "needed"));
+  const bool is_read_priced = row.frame && row.frame->cost.read_ns > 0.0;
+  if (const auto bytes = mean_at_samples(result_case, "read_bytes"); bytes && is_read_priced)
     out += ", for which it reads " + read_size_text(*bytes);
-  const config::Preset* preset = preset_of(row);
-  if (preset != nullptr && preset->assigns_on == config::AssignsOn::gpu)
+  if (makes_lists_on_gpu(result_case))
     return out + (out.empty() ? "" : "; ") + "nothing to upload, the GPU makes its lists";
   const auto upload = number_at(result_case, "/buffers/upload_bytes/mean");
   return out + (out.empty() || !upload ? "" : ", ") + (upload ? read_size_text(*upload) + " uploaded a frame" : "");
@@ -145,13 +150,13 @@ std::vector<const RankedPreset*> of_standing(const std::vector<RankedPreset>& ro
 
 // Why costs that differ are no reason to choose.
 std::string alike_text(const std::vector<const RankedPreset*>& alike) {
-  const double least = alike.front()->cost->sum_ns(), most = alike.back()->cost->sum_ns();
+  const double least = alike.front()->gpu_ns(), most = alike.back()->gpu_ns();
   const std::string costs = " (" + milliseconds(least) + " to " + milliseconds(most) + " of the GPU a frame)";
-  if (most <= k_alike_ratio * least)
-    return ": no difference beyond " + text("%.0f %%", 100.0 * (k_alike_ratio - 1.0)) + costs;
+  if (most <= measure::k_alike_ratio * least)
+    return ": no difference beyond " + text("%.0f %%", 100.0 * (measure::k_alike_ratio - 1.0)) + costs;
   return ": no difference that the model can show" + costs +
-         ", since its prices of upload, reading and looping may each be off by " + text("%.0f times", k_price_factor) +
-         ", which turns the order";
+         ", since its prices of upload, reading and looping may each be off by " +
+         text("%.0f times", measure::k_price_factor) + ", which turns the order";
 }
 
 std::string or_text(const std::vector<const RankedPreset*>& rows) {
@@ -161,6 +166,15 @@ std::string or_text(const std::vector<const RankedPreset*>& rows) {
   return out;
 }
 
+// What is lost by a preset that may be taken all the same; "" where nothing is.
+std::string own_loss_text(const RankedPreset& row) {
+  std::vector<std::string> losses;
+  if (row.losses.unlit.value_or(0.0) > 0.0)
+    losses.push_back("samples lack " + percent(*row.losses.unlit) + " of the lights that they need");
+  if (const std::string limit = limit_loss(row); !limit.empty()) losses.push_back(limit);
+  return losses.empty() ? "" : "; " + name(row) + ": " + joined(losses);
+}
+
 // Of presets with one standing, best first: what to take and by how much.
 std::string choice_text(const std::vector<const RankedPreset*>& rows) {
   const RankedPreset& first = *rows.front();
@@ -168,23 +182,24 @@ std::string choice_text(const std::vector<const RankedPreset*>& rows) {
   for (const RankedPreset* row : rows) (row->place == 1 ? alike : others).push_back(row);
   std::string out = "take " + or_text(alike);
   out += alike.size() > 1 ? alike_text(alike)
-                          : ", which costs the GPU least: " + milliseconds(first.cost->sum_ns()) + " a frame";
+                          : ", which costs the GPU least: " + milliseconds(first.gpu_ns()) + " a frame";
   if (!others.empty())
     out += "; " + name(*others.front()) + ", the next, costs " +
-           text("%.2f", others.front()->cost->sum_ns() / first.cost->sum_ns()) + " times as much as " + name(first);
+           text("%.2f", others.front()->gpu_ns() / first.gpu_ns()) + " times as much as " + name(first);
   else if (alike.size() == 1)
-    out += "; no other preset that was measured is known to give samples all lights";
+    out += "; no other preset that was measured is known to lack at most 0.1 % of the lights that samples need";
+  for (const RankedPreset* row : alike) out += own_loss_text(*row);
   return out;
 }
 
 // How samples come to need enough lights: those of the whole view by more points, surfaces by more rays.
 std::string remedy(const RankedPreset& row) {
-  const Json* samples = ranking_samples(*row.result_case);
-  if (samples == nullptr) return "--set shading.samples=1024 takes samples";
-  const double more = 1.5 * k_least_needed_of_presets / std::max(1.0, row.losses.needed);
+  const std::vector<const Json*> sets = ranking_samples(*row.result_case);
+  if (sets.empty()) return "--set shading.samples=1024 takes samples";
+  const double more = 1.5 * k_least_needed_to_choose / std::max(1.0, row.losses.needed);
   if (value_at(*row.result_case, "/samples/opaque") == nullptr) {
     const double frames = number_at(*row.result_case, "/frames").value_or(1.0);
-    const double count = std::min(1e7, std::ceil(more * (*samples)["samples"].get<double>() / frames / 1e3) * 1e3);
+    const double count = std::min(1e7, std::ceil(more * (*sets.front())["samples"].get<double>() / frames / 1e3) * 1e3);
     return text("--set shading.samples=%.0f", std::max(count, 1e3)) +
            " takes more, --set samples.opaque.ground=lowest those on a floor";
   }
@@ -197,12 +212,17 @@ std::string remedy(const RankedPreset& row) {
 std::string doubt_text(const std::vector<RankedPreset>& rows) {
   const RankedPreset& first = rows.front();
   if (!first.losses.has_few_samples()) return "";
-  if (number_at(*first.result_case, "/lights_in_view/max") == 0.0) return "no light is in view in any frame";
-  if (first.losses.needed == 0.0) return "no sample needs a light; " + remedy(first);
+  std::vector<const Json*> cases;
+  for (const RankedPreset& row : rows) cases.push_back(row.result_case);
+  if (const std::string unseen = why_nothing_is_seen(cases, RankedBy::cost); !unseen.empty()) {
+    const bool can_samples_tell = number_at(*first.result_case, "/lights_in_view/max") != 0.0 &&
+                                  sum_at_samples(*first.result_case, "samples") > 0.0;
+    return unseen + (can_samples_tell ? "; " + remedy(first) : "");
+  }
   const std::string few = "samples need " + needed_lights_text(first);
   const std::vector<const RankedPreset*> open = of_standing(rows, PresetStanding::unknown);
   if (open.empty()) return few + ", so costs are rough; " + remedy(first);
-  return few + ", and fewer than " + text("%.0f", k_least_needed_of_presets) +
+  return few + ", and fewer than " + text("%.0f", k_least_needed_to_choose) +
          " do not show that lost lights are not seen, so not ranked: " + names_text(open) + "; " + remedy(first);
 }
 
@@ -213,17 +233,13 @@ const char* name_of(PresetStanding standing) {
   return k_names[static_cast<std::size_t>(standing)];
 }
 
-std::optional<double> per_sample(const Json& result_case, const char* what) {
-  const Json* samples = ranking_samples(result_case);
-  if (samples == nullptr || (*samples)["samples"] == 0) return std::nullopt;
-  const std::optional<double> all = number_at(*samples, std::string("/") + what);
-  if (!all) return std::nullopt;
-  return *all / (*samples)["samples"].get<double>();
+bool are_alike(const measure::FrameCost& less, const measure::FrameCost& more) {
+  return more.gpu_ns() <= measure::k_alike_ratio * less.gpu_ns() || measure::turns_with_prices(less, more);
 }
 
 std::string preset_reason(const RankedPreset& row, const RankedPreset& first) {
   std::string out = light_text(row);
-  if (!row.cost) return out + "; its cost is not known without samples";
+  if (!row.frame) return out + "; its cost is not known without samples";
   const bool lacks = row.standing == PresetStanding::lacks_lights || row.standing == PresetStanding::unknown;
   if (lacks)
     out +=
@@ -233,33 +249,36 @@ std::string preset_reason(const RankedPreset& row, const RankedPreset& first) {
   else if (row.place == first.place)
     out += "; no difference that the model can show to " + name(first);
   else
-    out += text("; %.2f times the cost of ", row.cost->sum_ns() / first.cost->sum_ns()) + name(first);
+    out += text("; %.2f times the cost of ", row.gpu_ns() / first.gpu_ns()) + name(first);
   return out + ": " + load_text(row) + " (" + evidence_text(row) + ")";
 }
 
 std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
   const std::vector<const RankedPreset*> lists = of_standing(rows, PresetStanding::lists),
                                          searched = of_standing(rows, PresetStanding::searched),
-                                         lacking = of_standing(rows, PresetStanding::lacks_lights);
+                                         lacking = of_standing(rows, PresetStanding::lacks_lights),
+                                         unknown = of_standing(rows, PresetStanding::unknown);
   const std::string doubt = doubt_text(rows);
   std::string out;
   if (!lists.empty())
     out = choice_text(lists);
   else if (!searched.empty())
-    out = "of lists none gives samples all lights; of the structures that samples search " + choice_text(searched);
+    out = "of lists none is known to give samples all lights; of the structures that samples search " +
+          choice_text(searched);
   else if (!lacking.empty())
-    return "no preset that was measured is known to give samples all lights; least is lacking in " +
-           name(*lacking.front()) + " (" + percent(*lacking.front()->losses.unlit) + " of those that they need)" +
-           (doubt.empty() ? "" : "; " + doubt);
+    return "no preset that was measured is known to give samples all lights; " +
+           (unknown.empty() ? "" : "whether " + or_text(unknown) + " does is not known; ") + "of those that do not " +
+           name(*lacking.front()) + " lacks least, " + percent(*lacking.front()->losses.unlit) +
+           " of those that they need" + (doubt.empty() ? "" : "; " + doubt);
   else
     return "which preset suits is not known" + (doubt.empty() ? "" : ": " + doubt);
   const RankedPreset& first = lists.empty() ? *searched.front() : *lists.front();
   if (!lists.empty() && !searched.empty())
     out += "; apart, since no GPU has measured what samples search: " + names_text(searched) + ", from " +
-           milliseconds(searched.front()->cost->sum_ns()) + " by the model";
+           milliseconds(searched.front()->gpu_ns()) + " by the model";
   if (!doubt.empty()) out += "; " + doubt;
   out += ". Sure by as much as the model of `cost` is; how " + name(first) + " is known: " + evidence_text(first);
-  if (first.cost->has_random_depths)
+  if (first.frame->has_random_depths)
     out += std::string("; depths are random, since there are no surfaces") +
            (doubt.empty() ? ": --set samples.opaque.ground=lowest takes a floor" : "");
   return out;

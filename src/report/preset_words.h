@@ -6,10 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "report/preset_cost.h"
+#include "report/frame_cost.h"
 #include "report/preset_losses.h"
 
 namespace clusterbench::report {
+
+// Whether the model cannot tell two costs apart: they are nearly the same, or which is less turns with the prices.
+bool are_alike(const measure::FrameCost& less, const measure::FrameCost& more);
 
 // In which part of a ranking a case stands, best first.
 enum class PresetStanding : std::uint8_t { lists, searched, lacks_lights, unknown };
@@ -18,14 +21,12 @@ const char* name_of(PresetStanding standing);  // "lists", "searched", "lacks_li
 struct RankedPreset {
   const nlohmann::ordered_json* result_case = nullptr;
   PresetStanding standing = PresetStanding::unknown;
-  std::optional<PresetCost> cost;
+  std::optional<WholeFrame> frame;  // what it costs the GPU; none without samples
   PresetLosses losses;
+  double gpu_ns() const { return frame ? frame->cost.gpu_ns() : 0.0; }
   int place = 0;  // in its part, from 1; those that the model cannot tell apart share the first one's
   const nlohmann::ordered_json* config = nullptr;  // that the case was measured by
 };
-
-// Of one sample; `what`: "evaluated", "needed", "read_bytes".
-std::optional<double> per_sample(const nlohmann::ordered_json& result_case, const char* what);
 
 // What speaks for and against a case. `first`: of its part.
 std::string preset_reason(const RankedPreset& row, const RankedPreset& first);

@@ -18,7 +18,6 @@
 #include "report/limits.h"
 #include "report/machine.h"
 #include "report/nothing_seen.h"
-#include "report/preset_cost.h"
 #include "report/result_json.h"
 
 namespace clusterbench::report {
@@ -162,6 +161,21 @@ run::Contender pooled(const Json& cases, RankBy by) {
   return all;
 }
 
+// The modelled cost of a frame: of all cameras the mean by frames.
+measure::FrameCost cost_over(const Json& cases) {
+  const auto mean = [&](const char* figure) {
+    double sum = 0.0, frames = 0.0;
+    for (const Json& result_case : cases) {
+      const double weight = result_case["frames"].get<double>();
+      sum += weight * number_at(result_case, figure).value_or(0.0);
+      frames += weight;
+    }
+    return sum / frames;
+  };
+  return {mean("/cost/assign_ns"), mean("/cost/upload_ns"), mean("/cost/traffic_ns"), mean("/cost/read_ns"),
+          mean("/cost/shade_ns")};
+}
+
 // How much longer one takes than another, where the objective is a time with rounds.
 std::optional<measure::Ratio> ratio_of(const Ranked& a, const Ranked& b, const Question& question, std::uint64_t seed) {
   const std::string& figure = question.objective.name;
@@ -190,13 +204,13 @@ std::vector<Ranked> ranked(const config::Config& config, const search::View& vie
 }
 
 // The smallest of those that are not known to be worse than the best one, which is brought to the front: so neither
-// noise nor what a model cannot tell apart (report/preset_cost.h) decides.
+// noise nor what a model cannot tell apart decides.
 void choose(std::vector<Ranked>& all, const Question& question, std::uint64_t seed) {
   if (all.empty() || !all.front().is_feasible()) return;
   std::size_t choice = 0;
   for (std::size_t i = 1; i < all.size() && all[i].is_feasible(); ++i) {
     const std::optional<measure::Ratio> ratio = ratio_of(all[i], all[0], question, seed);
-    const bool is_alike = question.objective.is_cost && all[i].objective <= k_alike_ratio * all[0].objective;
+    const bool is_alike = question.objective.is_cost && all[i].objective <= measure::k_alike_ratio * all[0].objective;
     const bool is_no_worse = is_alike || (ratio ? !measure::takes_longer(ratio) : all[i].objective == all[0].objective);
     if (is_no_worse && all[i].smaller() < all[choice].smaller()) choice = i;
   }
@@ -238,6 +252,10 @@ Json parts_json(const config::Config& config, const search::View& view, const se
           {"precision", packing}};
 }
 
+Json interval_json(const measure::Interval& interval) {
+  return {number_or_null(interval.low), number_or_null(interval.high)};
+}
+
 Json ranked_json(const config::Config& config, const search::View& view, const Ranked& ranked, const Ranked& choice,
                  const Question& question) {
   Json out = parts_json(config, view, view.candidates[ranked.candidate]);
@@ -247,6 +265,8 @@ Json ranked_json(const config::Config& config, const search::View& view, const R
     out["by_choice"] = six_digits(ratio->ratio);
     out["ci95"] = {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)};
   }
+  if (question.objective.is_cost && ranked.objective > choice.objective)
+    out["by_prices"] = interval_json(measure::ratio_by_prices(cost_over(ranked.cases), cost_over(choice.cases)));
   Json figures = Json::object();
   for (const ObjectiveFigure& figure : objective_figures())
     if (const std::optional<double> value = figure_over(ranked.cases, figure.name))
@@ -256,6 +276,13 @@ Json ranked_json(const config::Config& config, const search::View& view, const R
       figure_over(ranked.cases, question.objective.is_cost ? k_cost_overshade : "overshade");
   out["overshade"] = overshade ? number_or_null(*overshade) : Json();
   return out;
+}
+
+// Lights that reach the samples which a cost is that of, of all cameras.
+double needed_over(const Json& cases) {
+  double needed = 0.0;
+  for (const Json& result_case : cases) needed += sum_at_samples(result_case, "needed");
+  return needed;
 }
 
 // Whether the objective is of samples that lie anywhere in the view.
@@ -487,6 +514,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
            {"incomplete", view.incomplete},
            {"random_depths", false},
            {"ground_m", nullptr},
+           {"needed_at_samples", nullptr},
            {"nothing_seen", unseen.empty() ? Json() : Json(unseen)},
            {"choice", nullptr},
            {"runners_up", Json::array()},
@@ -505,6 +533,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
     if (coarsest != &all[0]) out["coarsest"] = ranked_json(config, view, *coarsest, all[0], question);
     out["runners_up"] = runners_up_json(config, view, all, question);
     if (const Json* height = value_at(all[0].cases[0], "/samples/opaque/ground_m")) out["ground_m"] = *height;
+    if (question.objective.is_cost) out["needed_at_samples"] = needed_over(all[0].cases);
     out["random_depths"] = rests_on_random_depths(all[0].cases[0], question.objective);
   }
   for (const Ranked& ranked : apart)

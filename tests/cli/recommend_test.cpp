@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -119,6 +120,42 @@ TEST(Recommend, says_that_depths_are_random_and_what_to_do_and_a_ground_changes_
   EXPECT_EQ(on_ground.answer["random_depths"], false);
   EXPECT_TRUE(on_ground.answer["choice"]["overshade"].is_number());
   EXPECT_EQ(recommended(config, flags).answer["random_depths"], true);
+}
+
+TEST(Recommend, an_answer_does_not_depend_on_the_other_viewports) {
+  const Folder folder;
+  const std::string flags =
+      " --no-timing --tiles 64,128 --slices 8 --grid frustum --assigner exact-fast,aabb-fast -q -o " +
+      (folder / "answer.json").string();
+  const std::string input = folder.write("space.json", space()).string();
+  const auto choices = [&](const std::string& viewports) {
+    EXPECT_EQ(tool("recommend " + input + flags + " --viewport " + viewports).code, 0);
+    std::map<std::string, Json> all;
+    const Json written = Json::parse(file_text(folder / "answer.json"));
+    for (const Json& answer : written["answers"])
+      all[answer["viewport"].dump()] = answer["choice"];
+    return all;
+  };
+  // Names begin with the viewport where there are several.
+  const auto figures = [&](const std::string& viewports, const std::string& of) {
+    const auto all = choices(viewports);
+    return std::pair(all.at(of)["figures"], all.at(of)["grid"]);
+  };
+  for (const std::string viewport : {"[320,180]", "[960,540]"}) {
+    const auto alone = figures(viewport == "[320,180]" ? "320x180" : "960x540", viewport);
+    EXPECT_EQ(figures("320x180,960x540", viewport), alone);
+    EXPECT_EQ(figures("960x540,320x180", viewport), alone);
+  }
+}
+
+TEST(Recommend, of_engines_that_assign_on_a_gpu_no_time_is_asked_for) {
+  const std::string scene = source_file("scenes/street.glb") + " --set 'scenes.*.frames=2' --viewport 320x180 -q ";
+  const Outcome ranked = tool("recommend " + scene + "--preset bevy-gpu,filament");
+  EXPECT_EQ(ranked.code, 0) << ranked.err;
+  EXPECT_TRUE(ranked.out.starts_with("least gpu_cost_us")) << ranked.out;
+  const Outcome timed = tool("recommend " + scene + "--preset bevy-gpu,filament --by frame_us");
+  EXPECT_NE(timed.code, 0);
+  EXPECT_NE(timed.err.find("'bevy-gpu' makes its lists on a GPU"), std::string::npos) << timed.err;
 }
 
 TEST(Recommend, finds_what_a_sweep_over_all_candidates_and_frames_finds) {

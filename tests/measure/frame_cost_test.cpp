@@ -29,6 +29,17 @@ TEST(FrameCost, charges_what_samples_read_by_elements_and_by_bytes) {
   EXPECT_EQ(walk.read_ns(model), 0.0) << "older results have no price for it";
 }
 
+TEST(FrameCost, of_two_the_ratio_goes_as_far_as_prices_do) {
+  const FrameCost uploads{{}, 10.0, 0.0, 0.0, 0.0}, loops{{}, 0.0, 0.0, 0.0, 30.0};
+  EXPECT_EQ(ratio_by_prices(loops, uploads).low, 0.75);
+  EXPECT_EQ(ratio_by_prices(loops, uploads).high, 12.0);
+  EXPECT_TRUE(turns_with_prices(uploads, loops));
+  const FrameCost timed{20.0, 10.0, 0.0, 0.0, 0.0}, twice{60.0, 10.0, 0.0, 0.0, 0.0};
+  EXPECT_EQ(ratio_by_prices(twice, timed).low, 80.0 / 40.0) << "a time has no price";
+  EXPECT_EQ(ratio_by_prices(twice, timed).high, 65.0 / 25.0);
+  EXPECT_FALSE(turns_with_prices(timed, twice));
+}
+
 TEST(FrameCost, without_times_is_what_the_gpu_does) {
   const FrameCost cost = frame_cost({1.0, 1.0, 1.0}, {}, 3.0, 0.0, {});
   EXPECT_FALSE(cost.frame_ns());

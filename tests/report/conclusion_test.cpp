@@ -46,7 +46,8 @@ TEST(Conclusion, takes_the_fastest_and_says_against_what_by_how_much_and_how_sur
   EXPECT_TRUE(has_words(conclusion,
                         "hall, camera walk, 1920x1080: take frustum 64px/aabb/packed (232 B); 3.50 us a frame to make"))
       << conclusion["text"];
-  EXPECT_TRUE(has_words(conclusion, "frustum 64px/brute-force/packed costs 2.71 times as much (95 %: 2.71 to 2.71)"))
+  EXPECT_TRUE(has_words(conclusion,
+                        "frustum 64px/brute-force/packed costs 2.71 times as much (95 % of the times: 2.71 to 2.71)"))
       << conclusion["text"];
   EXPECT_EQ(conclusions_text(valid_json(result)), "conclusion: " + conclusion["text"].get<std::string>() + "\n");
 }
@@ -110,6 +111,101 @@ TEST(Conclusion, takes_only_what_has_a_star) {
   const Json json = valid_json(result);
   const Json ids = json["pareto_front"][0]["ids"];
   EXPECT_NE(std::find(ids.begin(), ids.end(), json["conclusions"][0]["take"]), ids.end());
+}
+
+// Visible surfaces whose samples are given so many lights each, of which they need one.
+void shade_surfaces(run::CaseResult& one, std::uint64_t lights_per_sample, std::uint64_t missed = 0) {
+  run::SampleSetResult opaque{measure::SampleSet::opaque, {}, {}};
+  opaque.counts.samples = opaque.counts.needed = 100000;
+  opaque.counts.evaluated = lights_per_sample * opaque.counts.samples;
+  opaque.counts.missed = missed;
+  one.samples = {opaque};
+}
+
+TEST(Conclusion, what_lacks_lights_on_surfaces_has_no_star_and_is_not_taken_however_cheap) {
+  run::Result result = result_by_hand();
+  result.config["cost"] = k_usual_model;
+  shade_surfaces(result.cases[0], 5);
+  shade_surfaces(result.cases[1], 2, 101);  // more than a thousandth; points of the whole view lack none
+  const Json json = valid_json(result);
+  EXPECT_EQ(json["pareto_front"][0]["ids"], Json::array({"slow"}));
+  EXPECT_EQ(json["conclusions"][0]["take"], "slow") << json["conclusions"][0]["text"];
+  EXPECT_TRUE(json["conclusions"][0]["alike"].empty());
+}
+
+TEST(Conclusion, the_star_counts_overshade_at_samples_that_cost_something) {
+  run::Result result = result_by_hand();
+  result.config["cost"] = k_usual_model;
+  shade_surfaces(result.cases[0], 2);  // slower and larger, of fewer lights where pixels are
+  shade_surfaces(result.cases[1], 9);
+  result.cases[0].shading->evaluated = 1000;
+  const Json json = valid_json(result);
+  EXPECT_EQ(json["pareto_front"][0]["ids"], Json::array({"slow", "fast"}));
+  EXPECT_EQ(json["conclusions"][0]["take"], "slow");
+}
+
+measure::TimeStats even_times(double ns, double low, double high, int rounds) {
+  return {ns, 0.0, low, high, {low, high}, std::vector<double>(static_cast<std::size_t>(rounds), ns)};
+}
+
+TEST(Conclusion, is_held_against_the_cheapest_that_is_dearer_on_the_front_or_not) {
+  run::Result result = result_by_hand();
+  for (run::CaseResult& one : result.cases) one.shading.reset();
+  run::CaseResult next = result.cases[1];
+  next.id = "next";
+  next.name = "hall/walk/frustum 64px/bounds/packed";
+  next.timing->frame_ns = even_times(4200.0, 4190.0, 4210.0, 24);
+  next.buffers.bytes.high_water = 1000;  // dominated by fast, which is better in all
+  result.cases.push_back(next);
+  result.planned_ids.emplace_back("next");
+  const Json conclusion = only_conclusion(result);
+  EXPECT_EQ(conclusion["take"], "fast");
+  EXPECT_EQ(conclusion["against"], "next") << conclusion["text"];
+}
+
+TEST(Conclusion, too_few_launches_for_an_interval_leave_the_costs_to_choose_by) {
+  run::Result result = result_by_hand();
+  for (run::CaseResult& one : result.cases) {
+    one.shading.reset();
+    one.timing->launches = 2;
+  }
+  result.cases[0].timing->frame_ns = {5000.0, 0.0, 5000.0, 5000.0, {}, {5000.0, 5000.0}};
+  result.cases[1].timing->frame_ns = {4000.0, 0.0, 4000.0, 4000.0, {}, {4000.0, 4000.0}};
+  result.cases[0].buffers.bytes.high_water = 1;
+  const Json conclusion = only_conclusion(result);
+  EXPECT_EQ(conclusion["take"], "fast") << conclusion["text"];
+  EXPECT_TRUE(has_words(conclusion, "costs 25 % more, not measured often enough side by side for an interval"))
+      << conclusion["text"];
+}
+
+TEST(Conclusion, what_its_samples_alone_make_dearer_is_dearer_however_its_times_scatter) {
+  run::Result result = result_by_hand();
+  result.config["cost"] = k_usual_model;
+  for (run::CaseResult& one : result.cases) {
+    shade_surfaces(one, 5);
+    one.timing->frame_ns.samples = {3000.0};
+  }
+  result.cases[0].samples[0].counts.evaluated = 2000000;  // 20 us a frame
+  result.cases[0].timing->frame_ns = {100.0, 0.0, 1.0, 1e6, {1.0, 1e6}, {1.0}};
+  const Json conclusion = only_conclusion(result);
+  EXPECT_EQ(conclusion["take"], "fast") << conclusion["text"];
+  EXPECT_TRUE(conclusion["alike"].empty()) << conclusion["text"];
+}
+
+TEST(Conclusion, says_from_and_to_what_prices_change_the_difference) {
+  run::Result result = result_by_hand();
+  result.config["cost"] = k_usual_model;
+  for (run::CaseResult& one : result.cases) one.timing.reset();
+  shade_surfaces(result.cases[0], 4);
+  shade_surfaces(result.cases[1], 5);
+  result.cases[1].samples[0].counts.reads = assign::Reads::of(800000, 3200000);
+  result.cases[0].samples[0].counts.needed = result.cases[1].samples[0].counts.needed = 999;
+  const Json conclusion = only_conclusion(result);
+  ASSERT_EQ(conclusion["by_prices"].size(), 2u) << conclusion["text"];
+  EXPECT_LT(conclusion["by_prices"][0].get<double>(), conclusion["ratio"].get<double>());
+  EXPECT_GT(conclusion["by_prices"][1].get<double>(), conclusion["ratio"].get<double>());
+  EXPECT_TRUE(has_words(conclusion, "with prices half or twice those of the key cost: ")) << conclusion["text"];
+  EXPECT_TRUE(has_words(conclusion, "Its samples need only 999 lights: costs are rough")) << conclusion["text"];
 }
 
 TEST(Conclusion, of_cases_that_all_lose_lights_none_is_taken) {
@@ -197,7 +293,7 @@ TEST(Conclusion, of_a_recommendation_names_the_choice_and_the_next_one) {
   const Json objective{{"figure", "frame_cost_us"}, {"meaning", ""}, {"timed", true}};
   EXPECT_EQ(answer_conclusion(answer_by_hand(1.25, {1.2, 1.3}), objective),
             "hall, 640x360: take frustum 64px/exact-fast/packed; frame_cost_us 100; frustum 32px/aabb/packed has 25 % "
-            "more (95 %: 20 % to 30 %).");
+            "more (95 % of the times: 20 % to 30 %).");
   EXPECT_EQ(answer_conclusion(answer_by_hand(1.02, {0.98, 1.06}), objective),
             "hall, 640x360: take frustum 64px/exact-fast/packed; frame_cost_us 100. No difference that these times can "
             "show to frustum 32px/aabb/packed.");

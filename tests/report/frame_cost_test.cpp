@@ -139,10 +139,30 @@ TEST(FrameCosts, say_the_overshade_of_the_samples_that_they_rest_on) {
   EXPECT_NEAR(result["cases"][1]["cost"]["overshade"].get<double>(), 4.0 * 2 * 240 * 135 / 1000, 1e-3);
 }
 
+TEST(FrameCosts, lists_of_a_gpu_are_not_uploaded_and_have_no_time_of_this_machine) {
+  run::Result result = costly("frame_cost");
+  result.cases[0].preset = "three-js";
+  result.cases[1].preset = "filament";
+  const Json json = of(result);
+  const Json &gpu = json["cases"][0]["cost"], &cpu = json["cases"][1]["cost"];
+  EXPECT_EQ(gpu["upload_ns"], 0.0);
+  EXPECT_TRUE(gpu["frame_ns"].is_null());
+  EXPECT_EQ(cpu["upload_ns"], 100);
+  EXPECT_TRUE(cpu["frame_ns"].is_number());
+  EXPECT_EQ(json["pareto_front"][0]["ids"], Json::array({"fast"})) << "beside a time, none that is not known";
+}
+
+TEST(FrameCosts, a_weight_of_pixels_has_points_of_the_view_stand_for_the_picture) {
+  run::Result result = costly();
+  result.config["cost"]["weights"] = {{"volume", "pixels"}, {"opaque", 0}};
+  const Json json = of(result);
+  EXPECT_EQ(json["cases"][0]["cost"]["sets"]["volume"]["samples"], 1920 * 1080);
+}
+
 TEST(FrameCosts, rank_rows_and_decide_the_front_where_the_configuration_says_so) {
   const auto ids = [](const Json& result) { return result["pareto_front"][0]["ids"]; };
   const Json by_time = of(costly()), by_cost = of(costly("frame_cost"));
-  EXPECT_EQ(ids(by_time), Json({"fast"})) << "by time, bytes and overshade";
+  EXPECT_EQ(ids(by_time), Json({"slow", "fast"})) << "by time, bytes and overshade, which slow has less of";
   EXPECT_EQ(ids(by_cost), Json({"slow"})) << "three lights instead of four";
   const auto is_first = [](const Json& result, const char* method) {
     const std::string table = render_table(result, false);

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "report/preset_cost.h"
+#include "report/preset_words.h"
 
 namespace clusterbench::report {
 namespace {
@@ -48,6 +48,8 @@ Json preset_case(const std::string& preset, double upload_ns, double read_ns, do
 
 Json searched(Json result_case) {
   result_case["samples_search"] = true;
+  result_case["storage"] = "own";
+  result_case["assigner"]["name"] = "bvh";
   return result_case;
 }
 
@@ -197,7 +199,7 @@ TEST(PresetRanking, more_samples_are_the_remedy_for_few) {
 TEST(PresetRanking, a_view_without_lights_says_so_and_asks_for_no_samples) {
   Json empty = with_few_samples(preset_case("bevy", 1e3, 1e4, 4e5), 0);
   const std::string unseen = ranking_of_cases(Json::array({empty}))["text"];
-  EXPECT_TRUE(unseen.starts_with("which preset suits is not known: no sample needs a light; ")) << unseen;
+  EXPECT_TRUE(unseen.starts_with("which preset suits is not known: no light reaches any of 1000 samples; ")) << unseen;
   empty["lights_in_view"] = {{"mean", 0}, {"max", 0}};
   const Json ranking = ranking_of_cases(Json::array({empty}));
   EXPECT_EQ(ranking["text"], "which preset suits is not known: no light is in view in any frame");
@@ -263,9 +265,9 @@ TEST(PresetRanking, costs_that_the_model_cannot_tell_apart_share_a_place) {
 }
 
 TEST(PresetRanking, an_order_that_turns_with_the_prices_is_none) {
-  const PresetCost loops{0.0, 0.0, 100.0, false, false}, reads{0.0, 130.0, 0.0, false, false};
+  const measure::FrameCost loops{{}, 0.0, 0.0, 0.0, 100.0}, reads{{}, 0.0, 0.0, 130.0, 0.0};
   EXPECT_TRUE(are_alike(loops, reads));
-  const PresetCost both{0.0, 30.0, 100.0, false, false}, twice{0.0, 60.0, 200.0, false, false};
+  const measure::FrameCost both{{}, 0.0, 0.0, 30.0, 100.0}, twice{{}, 0.0, 0.0, 60.0, 200.0};
   EXPECT_FALSE(are_alike(both, twice)) << "twice as much at any price";
   const std::string text =
       ranking_of_cases({preset_case("filament", 0.0, 0.0, 1e5), preset_case("bevy", 0.0, 1.3e5, 0.0),
@@ -276,8 +278,52 @@ TEST(PresetRanking, an_order_that_turns_with_the_prices_is_none) {
       << text;
 }
 
+TEST(PresetRanking, a_place_is_behind_all_that_are_known_to_be_better_and_no_others) {
+  const Json ranking =
+      ranking_of_cases({preset_case("playcanvas", 4857, 808, 1485), preset_case("bevy", 9700, 1700, 3000),
+                        preset_case("three-js", 0, 14298, 1094)});
+  EXPECT_EQ(line_of(ranking, "bevy")["place"], 2) << "twice as dear at any price";
+  EXPECT_EQ(line_of(ranking, "three-js")["place"], 1) << "cheaper where uploads are dear and reading is cheap";
+  EXPECT_EQ(ranking["alike"], Json({"id-playcanvas", "id-three-js"}));
+}
+
+TEST(PresetRanking, what_few_samples_leave_open_is_not_counted_among_those_that_lack_lights) {
+  Json open = over_a_limit(preset_case("filament", 1e3, 1e4, 1e5));
+  const Json ranking = ranking_of_cases(
+      {with_few_samples(open, 375), lacking(with_few_samples(preset_case("playcanvas", 0, 1e4, 1e5), 375), 375)});
+  const std::string text = ranking["text"];
+  EXPECT_NE(text.find("whether filament does is not known; of those that do not playcanvas lacks least"),
+            std::string::npos)
+      << text;
+}
+
+TEST(PresetRanking, a_grid_that_ends_before_the_view_is_not_acquitted_by_few_samples) {
+  Json near = with_few_samples(preset_case("filament", 1e3, 1e4, 1e5), 60);
+  EXPECT_EQ(ranking_of_cases(Json::array({near}))["cases"][0]["standing"], "lists");
+  near["samples"]["opaque"]["unanswered"] = 58;
+  const Json ranking = ranking_of_cases(Json::array({near}));
+  EXPECT_EQ(ranking["cases"][0]["standing"], "unknown");
+  const std::string why = ranking["cases"][0]["why"];
+  EXPECT_NE(why.find("too few to tell whether it loses any beyond its grid"), std::string::npos) << why;
+}
+
+TEST(PresetRanking, lights_that_a_limit_leaves_out_beyond_the_grid_count_too) {
+  Json limited = over_a_limit(preset_case("filament", 1e3, 1e4, 1e5));
+  limited["error"]["false_negatives"] = 0;  // they have no cells
+  limited["pre_cull"]["lost_pairs"] = limited["pre_cull"]["over_limit"]["lost_pairs"] = 0;
+  EXPECT_EQ(ranking_of_cases(Json::array({with_few_samples(limited, 60)}))["cases"][0]["standing"], "unknown");
+}
+
+TEST(PresetRanking, the_one_to_take_names_what_it_loses_itself) {
+  const Json ranking =
+      ranking_of_cases({lacking(preset_case("filament", 1e3, 1e4, 1e5), 4), preset_case("bevy", 1e3, 1e4, 4e5)});
+  const std::string text = ranking["text"];
+  EXPECT_NE(text.find("filament: samples lack 0.05 % of the lights that they need"), std::string::npos) << text;
+  EXPECT_EQ(ranking["cases"][0]["unlit"], 0.0005);
+}
+
 TEST(PresetRanking, older_results_have_no_places_and_are_shown) {
-  Json cases{preset_case("filament", 1e3, 1e4, 1e5)};
+  const Json cases = Json::array({preset_case("filament", 1e3, 1e4, 1e5)});
   Json ranking{{"scene", "level"},
                {"camera", "walk"},
                {"viewport", {1920, 1080}},
