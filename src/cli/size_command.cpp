@@ -88,6 +88,7 @@ ExitCode size(SizeFlags flags) {
     counts = counted_for_size(flags.inputs, flags.request.filter, flags.request.all, flags.engine, flags.quiet);
     if (!counts) return stopped_exit_code();
     result = counts->result;
+    request.scope.grown = counts->grown;
   } else {
     check_for_result(flags);
     result = report::read_result(flags.inputs.paths.front());

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "cli/output.h"
+#include "cli/size_limits.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
 #include "core/text.h"
@@ -85,12 +86,6 @@ config::Config counting_only(config::Config config) {
   config.shadow_culls.clear();
   config.shared_frusta.reset();
   for (const char* key : {"shadow_cull", "shadow_frusta"}) config.resolved.erase(key);
-  return config;
-}
-
-config::Config without_light_limits(config::Config config) {
-  for (cull::PreCullSpec& spec : config.pre_culls)
-    std::erase_if(spec.steps, [](const cull::Step& step) { return std::holds_alternative<cull::MostStep>(step); });
   return config;
 }
 
@@ -221,8 +216,9 @@ std::optional<SizeCounts> counted_for_size(const RunInputs& inputs, const std::s
   Sampling sampling{std::move(flags), 0.0, false};
   if (samples) sampling = sampling_of(inputs, std::move(sampling.flags), asked, filter);
   if (stop) return {};
-  SizeCounts out{counting_only(read_inputs(inputs, sampling.flags)), {}, {}};
-  if (!engine.empty()) out.config = without_light_limits(std::move(out.config));
+  SizeCounts out{counting_only(read_inputs(inputs, sampling.flags)), {}, {}, {}};
+  const config::Config limited = out.config;
+  if (!engine.empty()) out.config = without_engine_limits(std::move(out.config));
   out.plan = run::make_plan(out.config, filter);
   if (samples) share_samples(out.config, out.plan);
   if (!quiet) tell_of(sampling, out.plan, exact_methods);
@@ -232,6 +228,7 @@ std::optional<SizeCounts> counted_for_size(const RunInputs& inputs, const std::s
     for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
   if (result.cases.empty())
     for (const run::Skipped& skipped : result.skipped) tell("skipped " + skipped.name + ": " + skipped.reason);
+  if (!engine.empty()) out.grown = grown_tiles(limited, out.plan);
   out.result = report::result_to_json(result, {});
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
 
@@ -27,6 +28,9 @@ std::uint64_t times(std::uint64_t a, std::uint64_t b) {
 std::uint64_t as_count(double value) {
   constexpr double k_end = 18446744073709551616.0;  // 2^64
   return value >= k_end ? k_largest_count : static_cast<std::uint64_t>(value);
+}
+std::uint64_t count_of(const Json& from, const std::string& pointer) {
+  return as_count(std::max(0.0, number_at(from, pointer).value_or(0.0)));
 }
 std::uint64_t up_to_multiple(std::uint64_t value, std::uint64_t step) {
   const std::uint64_t over = value % step;
@@ -252,6 +256,20 @@ Names names_of(const Json& result_case, bool over_viewports) {
   return {scene + "/" + rest, scene + "/" + rest.substr(0, rest.find('/'))};
 }
 
+// As `run` tells it.
+std::optional<GrownTiles> grown_in_result(const Json& result_case) {
+  if (!result_case.contains("react") || result_case["react"]["to"] != "entries") return {};
+  const Json& react = result_case["react"];
+  return GrownTiles{result_case["name"].get<std::string>(),
+                    count_of(react, "/most"),
+                    count_of(result_case, "/frames"),
+                    count_of(react, "/frames/reacted"),
+                    count_of(react, "/frames/over"),
+                    count_of(react, "/needed/max"),
+                    react["tiles"]["asked"].get<std::array<int, 2>>(),
+                    react["tiles"]["fewest"].get<std::array<int, 2>>()};
+}
+
 bool has_camera(const SizedStructure& structure, const Json& result_case) {
   return std::ranges::any_of(structure.cases, [&](const Json* other) {
     return (*other)["camera"] == result_case["camera"] &&
@@ -372,10 +390,15 @@ std::vector<SizedStructure> sized_structures(const Json& result, const std::stri
         structure.has_boxes = number_at(scene, "/lights/box").value_or(0.0) > 0.0;
   }
   set_views(out, scope);
-  for (SizedStructure& structure : out)
-    for (const GuestSamples& guest : scope.guests)
-      if (std::ranges::any_of(structure.cases, [&](const Json* one) { return (*one)["name"] == guest.case_name; }))
-        structure.guest_samples.push_back(guest);
+  for (SizedStructure& structure : out) {
+    const auto is_mine = [&](const auto& told) {
+      return std::ranges::any_of(structure.cases, [&](const Json* one) { return (*one)["name"] == told.case_name; });
+    };
+    std::ranges::copy_if(scope.guests, std::back_inserter(structure.guest_samples), is_mine);
+    std::ranges::copy_if(scope.grown, std::back_inserter(structure.grown), is_mine);
+    for (const Json* result_case : structure.cases)
+      if (const std::optional<GrownTiles> grown = grown_in_result(*result_case)) structure.grown.push_back(*grown);
+  }
   for (SizedStructure& structure : out) size_buffers(structure, rules, found_for(structure, scope.found));
   return out;
 }

@@ -4,6 +4,7 @@
 // decides.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -46,6 +47,16 @@ struct GuestSamples {
   int worst_frame = 0;
 };
 
+// Of a case of an engine whose tiles grow where lists have no room (grid/reaction.h): what they come to with the room
+// that the engine comes with. All else that is told of the case is of tiles that have not grown.
+struct GrownTiles {
+  std::string case_name;
+  std::uint64_t room = 0;                         // entries
+  std::uint64_t frames = 0, grown = 0, over = 0;  // of the path; in other tiles than asked for; without room even so
+  std::uint64_t entries = 0;                      // the most that a frame's lists take in its own tiles
+  std::array<int, 2> asked{}, fewest{};           // columns and rows
+};
+
 // Which cases one allocation serves, and what is known besides them.
 struct AllocationScope {
   // Each the cameras that are drawn in one frame into one buffer: "left,right"; a name may have a * in it.
@@ -54,6 +65,7 @@ struct AllocationScope {
   bool over_viewports = false;  // one allocation for all viewports
   std::vector<FoundFrame> found;
   std::vector<GuestSamples> guests;
+  std::vector<GrownTiles> grown;
 };
 
 // Of the frames of all cameras, each counted once. At most: where an entry stands for several frames it is counted for
@@ -104,6 +116,7 @@ struct SizedStructure {
   std::vector<std::vector<std::string>> views;  // cameras in one frame, as far as they are in it
   std::vector<std::string> guests;              // cameras without a grid of their own
   std::vector<GuestSamples> guest_samples;
+  std::vector<GrownTiles> grown;  // of its cases
   std::optional<FoundFrame> found;
   bool has_boxes = false;      // the scene has oriented boxes among its lights
   bool has_grid_cells = true;  // lists are of the grid's cells, the same in all frames

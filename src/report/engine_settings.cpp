@@ -1,11 +1,14 @@
 #include "report/engine_settings.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cctype>
+#include <span>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "report/columns.h"
+#include "report/engine_limits.h"
 #include "report/json_values.h"
 #include "report/size_words.h"
 
@@ -13,187 +16,6 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// What a setting has to have room for.
-enum class Needed : std::uint8_t { lights_in_view, lights_of_type, lights_in_scene, longest_list, entries };
-
-struct LimitSetting {
-  const char* name;  // as it stands in the engine
-  Needed needed;
-  std::uint64_t standard, least, most;  // as the engine comes, and what it takes
-  std::uint64_t multiple = 1;
-  bool is_constant = false;  // compiled in: nothing to set, and frames can still have more
-};
-
-struct EngineRow {
-  const char *preset, *version;
-  const char* grid;  // the call or member that the grid is set with: X, Y, Z stand for the cells, P for a tile's pixels
-  std::vector<LimitSetting> limits;
-  const char* beyond;  // what happens beyond the limit
-};
-
-constexpr std::uint64_t k_any = 0xffffffff;
-
-// From public code and documentation of the versions named.
-const std::vector<EngineRow>& engine_rows() {
-  static const std::vector<EngineRow> rows{
-      {"godot",
-       "Godot 4, Project Settings",
-       "",
-       {{"rendering/limits/cluster_builder/max_clustered_elements", Needed::lights_of_type, 512, 32, 8192, 32}},
-       "of each type (omni lights, spot lights, decals, reflection probes) elements beyond it are not drawn"},
-      {"playcanvas",
-       "PlayCanvas engine 2, scene.lighting (LightingParams)",
-       "scene.lighting.cells = new pc.Vec3(X, Y, Z)",
-       {{"scene.lighting.maxLightsPerCell", Needed::longest_list, 255, 1, 255},
-        {"lights of a frame, which 8 bits number", Needed::lights_in_view, 255, 1, 255, 1, true}},
-       "a full cell takes no more lights, and a frame no more than 255"},
-      {"three-js",
-       "three.js r187, examples/jsm/lighting/ClusteredLighting.js",
-       "new ClusteredLighting(maxLights, tileSize = P, zSlices = Z, maxLightsPerCluster)",
-       {{"maxLights", Needed::lights_in_scene, 1024, 1, k_any},
-        {"maxLightsPerCluster", Needed::longest_list, 64, 1, k_any}},
-       "lights of the scene beyond maxLights are not drawn, in view or not; a full cluster keeps the farthest lights"},
-      {"bevy",
-       "Bevy 0.19, GlobalClusterSettings and ClusterConfig of a camera",
-       "ClusterConfig::XYZ { dimensions: UVec3::new(X, Y, Z), .. }",
-       {{"GlobalClusterSettings::view_cluster_bindings_max_indices", Needed::entries, 16384, 1, k_any}},
-       "with storage buffers lists grow; without, tiles grow in the next frames until lists fit (dynamic_resizing)"},
-      {"bevy-gpu",
-       "Bevy 0.19, GlobalClusterGpuSettings",
-       "ClusterConfig::XYZ { dimensions: UVec3::new(X, Y, Z), .. }",
-       {{"GlobalClusterSettings::gpu_clustering.initial_index_list_capacity", Needed::entries, 0, 1, k_any}},
-       "the list grows after a few frames that lack lights"},
-      {"ogre-next",
-       "OGRE-Next 2.3 and later, SceneManager",
-       "setForwardClustered(true, X, Y, Z, lightsPerCell, decalsPerCell, cubemapProbesPerCell, minDistance, "
-       "maxDistance)",
-       {{"lightsPerCell", Needed::longest_list, 96, 1, k_any}},
-       "a full cell takes no more lights"},
-      {"unity-urp",
-       "Unity URP 14 and later, package com.unity.render-pipelines.universal-config",
-       "",
-       {{"MAX_VISIBLE_LIGHT_COUNT_DESKTOP (ShaderConfig.cs.hlsl) and k_MaxVisibleLightCountDesktop (ShaderConfig.cs)",
-         Needed::lights_in_view, 256, 1, 256}},
-       "lights beyond it are not drawn; on mobile platforms the limits are 32 and 16"},
-  };
-  return rows;
-}
-
-struct Constant {
-  const char *name, *what;
-};
-constexpr Constant k_constants[] = {
-    {"filament", "CONFIG_MAX_LIGHT_COUNT (256 lights in view) is compiled in"},
-    {"babylon", "its lists are bit masks of all lights"},
-    {"unity-hdrp", "its counts are packed into bits"},
-    {"wicked", "its 256 entities are compiled in"},
-    {"stride", "its lists grow"},
-};
-
-const EngineRow* row_of_engine(const std::string& name) {
-  const auto found =
-      std::ranges::find(engine_rows(), name, [](const EngineRow& row) { return std::string(row.preset); });
-  return found == engine_rows().end() ? nullptr : &*found;
-}
-
-bool is_of_lists(Needed needed) {
-  return needed == Needed::longest_list || needed == Needed::entries;
-}
-
-// Lists of frames in which a limit took lights away are shorter than those that the lights need.
-bool has_lists_behind_limit(const Json& result_case) {
-  const Json* steps = value_at(result_case, "/pre_cull/steps");
-  return steps != nullptr && std::ranges::any_of(*steps, [](const Json& step) {
-           return step["label"].get_ref<const std::string&>().starts_with("most(") &&
-                  number_at(step, "/removed/max").value_or(1.0) > 0.0;
-         });
-}
-
-std::optional<double> most_of_any_type(const Json& result_case) {
-  const Json* by_type = value_at(result_case, "/lights_in_view/max_by_type");
-  if (by_type == nullptr) return number_at(result_case, "/lights_in_view/max");
-  double most = 0.0;
-  for (const Json& lights : *by_type) most = std::max(most, lights.get<double>());
-  return most;
-}
-
-std::optional<double> seen_in_case(const Json& result_case, Needed needed) {
-  if (is_of_lists(needed) && has_lists_behind_limit(result_case)) return {};
-  switch (needed) {
-    case Needed::lights_in_view:
-      return number_at(result_case, "/lights_in_view/max");
-    case Needed::lights_of_type:
-      return most_of_any_type(result_case);
-    case Needed::lights_in_scene:
-      return number_at(result_case, "/lights");
-    case Needed::longest_list:
-      return number_at(result_case, "/occupancy/lights_per_cell/max");
-    case Needed::entries:
-      break;
-  }
-  return number_at(result_case, "/buffers/index_entries/high_water");
-}
-
-// The most that was seen of it, over all cameras; none where the result does not say.
-std::optional<std::uint64_t> most_seen(const SizedStructure& structure, Needed needed) {
-  std::uint64_t most = 0;
-  for (const Json* result_case : structure.cases) {
-    const std::optional<double> value = seen_in_case(*result_case, needed);
-    if (!value) return {};
-    most = std::max(most, static_cast<std::uint64_t>(*value));
-  }
-  return most;
-}
-
-// Of the level: no list and no view has more.
-std::optional<std::uint64_t> most_lights(const SizedStructure& structure) {
-  std::uint64_t most = 0;
-  for (const Json* result_case : structure.cases) {
-    const std::optional<double> lights = number_at(*result_case, "/lights");
-    if (!lights) return {};
-    most = std::max(most, static_cast<std::uint64_t>(*lights));
-  }
-  return structure.found ? std::max(most, structure.found->lights) : most;
-}
-
-// The most that a search found, where it looked for that.
-std::optional<std::uint64_t> most_found(const SizedStructure& structure, Needed needed) {
-  if (!structure.found || !is_of_lists(needed) || structure.buffers.empty()) return {};
-  const SizedBuffer& lists = structure.buffers.front();
-  const bool has_room_per_cell = (*structure.cases.front())["storage"].get<std::string>().starts_with("fixed");
-  if (!lists.found || has_room_per_cell != (needed == Needed::longest_list)) return {};
-  if (!has_room_per_cell) return lists.found;
-  std::uint64_t cells = 1;
-  for (const Json& axis : (*structure.cases.front())["grid"]["cells"]) cells *= axis.get<std::uint64_t>();
-  return *lists.found / std::max<std::uint64_t>(1, cells);
-}
-
-struct SettingValue {
-  const LimitSetting* setting;
-  std::optional<std::uint64_t> seen, found;
-  std::uint64_t value = 0;   // to set
-  std::uint64_t wanted = 0;  // before the engine's largest value
-  bool is_all = false;       // as many as the level has
-
-  std::uint64_t needed() const { return std::max(seen.value_or(0), found.value_or(0)); }
-  bool is_too_much() const { return needed() > setting->most; }
-};
-
-SettingValue value_of(const LimitSetting& setting, const SizedStructure& structure, const AllocationRules& rules) {
-  SettingValue out{&setting, most_seen(structure, setting.needed), most_found(structure, setting.needed)};
-  auto with_margin = static_cast<std::uint64_t>(std::ceil(static_cast<double>(out.needed()) * rules.margin));
-  if (setting.needed == Needed::lights_in_scene)
-    with_margin = std::max(with_margin, most_lights(structure).value_or(0));
-  if (const auto lights = most_lights(structure);
-      lights && setting.needed != Needed::entries && with_margin >= *lights) {
-    with_margin = *lights;
-    out.is_all = true;
-  }
-  out.wanted = (std::max(with_margin, setting.least) + setting.multiple - 1) / setting.multiple * setting.multiple;
-  out.value = std::min(out.wanted, setting.most);
-  return out;
-}
 
 const char* unit_of(Needed needed) {
   switch (needed) {
@@ -211,7 +33,12 @@ const char* unit_of(Needed needed) {
   return "entries in all lists";
 }
 
-std::string grid_text(const EngineRow& row, const Json& grid) {
+// As it is asked for: of tiles that have grown before they did.
+std::string grid_text(const EngineRow& row, const SizedStructure& structure) {
+  const Json& grid = (*structure.cases.front())["grid"];
+  Json cells = grid["cells"];
+  if (!structure.grown.empty())
+    for (std::size_t axis = 0; axis < 2; ++axis) cells[axis] = structure.grown.front().asked[axis];
   std::string out = row.grid;
   const auto put = [&](const std::string& letter, const std::string& value) {
     for (std::size_t at = 0; (at = out.find(letter, at)) != std::string::npos; at += value.size()) {
@@ -221,9 +48,13 @@ std::string grid_text(const EngineRow& row, const Json& grid) {
     }
   };
   const char* letters[] = {"X", "Y", "Z"};
-  for (std::size_t axis = 0; axis < 3; ++axis) put(letters[axis], grid["cells"][axis].dump());
+  for (std::size_t axis = 0; axis < 3; ++axis) put(letters[axis], cells[axis].dump());
   if (const Json* pixels = value_at(grid, "/tiles/pixels")) put("P", (*pixels)[0].dump());
   return out;
+}
+
+std::string tiles_text(const std::array<int, 2>& tiles) {
+  return std::to_string(tiles[0]) + "x" + std::to_string(tiles[1]);
 }
 
 // What the setting is set to, and what the engine comes with.
@@ -247,16 +78,64 @@ std::string search_text(const SettingValue& value, const SizedStructure& structu
   return "not searched (--worst-case)";
 }
 
-// Beyond what the engine takes.
-std::string lost_text(const SettingValue& value) {
-  const std::uint64_t over = value.needed() - value.setting->most;
-  const std::string most = "TOO MUCH: the engine takes at most " + std::to_string(value.setting->most);
-  if (value.setting->needed == Needed::longest_list)
-    return most + "; the longest list loses " + number_of(over, "light");
-  if (value.setting->needed == Needed::entries)
-    return most + "; such a frame loses " + std::to_string(over) + " entries";
-  return most + "; such a frame loses " + number_of(over, "light") +
-         (value.setting->needed == Needed::lights_of_type ? " of that type" : "");
+// "such a frame loses 44 lights": with room for so many fewer than are needed.
+std::string lost_text(Needed needed, std::uint64_t over) {
+  if (needed == Needed::longest_list) return "the longest list loses " + number_of(over, "light");
+  if (needed == Needed::lights_in_scene) return "the scene loses " + number_of(over, "light");
+  if (needed == Needed::entries) return "such a frame loses " + std::to_string(over) + " entries";
+  return "such a frame loses " + number_of(over, "light") + (needed == Needed::lights_of_type ? " of that type" : "");
+}
+
+// Of all cameras' paths.
+GrownTiles together(const std::vector<GrownTiles>& all) {
+  GrownTiles sum = all.front();
+  for (const GrownTiles& one : std::span(all).subspan(1)) {
+    sum.frames += one.frames;
+    sum.grown += one.grown;
+    sum.over += one.over;
+    sum.entries = std::max(sum.entries, one.entries);
+    if (one.fewest[0] * one.fewest[1] < sum.fewest[0] * sum.fewest[1]) sum.fewest = one.fewest;
+  }
+  return sum;
+}
+
+// What a limit is with which the engine's tiles grow, as far as that was looked at.
+std::optional<GrownTiles> grown_tiles(const SettingValue& value, const SizedStructure& structure) {
+  if (value.setting->needed != Needed::entries || structure.grown.empty()) return {};
+  return together(structure.grown);
+}
+
+// What becomes of these frames with what the engine comes with; "" where that is enough, or is not known.
+std::string own_value_text(const SettingValue& value, const SizedStructure& structure) {
+  const LimitSetting& setting = *value.setting;
+  const std::string with = "    with its own " + std::to_string(setting.standard) + ": ";
+  if (const std::optional<GrownTiles> tiles = grown_tiles(value, structure)) {
+    if (tiles->grown == 0 && tiles->over == 0) return "";
+    return with + "tiles grow in " + std::to_string(tiles->grown) + " of " + number_of(tiles->frames, "frame") +
+           ", from " + tiles_text(tiles->asked) + " to " + tiles_text(tiles->fewest) + " at most; " +
+           (tiles->over == 0 ? "lists then fit" : "in " + std::to_string(tiles->over) + " lists do not fit even so") +
+           " (" + std::to_string(tiles->entries) + " entries at most)\n";
+  }
+  if (setting.standard == 0 || setting.is_constant || setting.needed == Needed::entries) return "";
+  return value.needed() > setting.standard ? with + lost_text(setting.needed, value.needed() - setting.standard) + "\n"
+                                           : "";
+}
+
+Json own_value_json(const SettingValue& value, const SizedStructure& structure) {
+  const LimitSetting& setting = *value.setting;
+  if (setting.standard == 0 || setting.is_constant || !value.seen) return nullptr;
+  Json out{{"value", setting.standard}};
+  if (const std::optional<GrownTiles> tiles = grown_tiles(value, structure)) {
+    out.update({{"frames", tiles->frames},
+                {"frames_with_grown_tiles", tiles->grown},
+                {"frames_over", tiles->over},
+                {"fewest_tiles", tiles->fewest},
+                {"entries", tiles->entries}});
+    return out;
+  }
+  if (setting.needed == Needed::entries) return nullptr;
+  out["lost"] = value.needed() > setting.standard ? value.needed() - setting.standard : 0;
+  return out;
 }
 
 std::string setting_lines(const SettingValue& value, const SizedStructure& structure, const AllocationRules& rules) {
@@ -277,7 +156,10 @@ std::string setting_lines(const SettingValue& value, const SizedStructure& struc
                 ? "; the engine takes at most " + std::to_string(setting.most) + ", less room than asked for"
                 : "") +
            "\n";
-  return out + (value.is_too_much() ? "    " + lost_text(value) + "\n" : "");
+  out += own_value_text(value, structure);
+  if (!value.is_too_much()) return out;
+  return out + "    TOO MUCH: the engine takes at most " + std::to_string(setting.most) + "; " +
+         lost_text(setting.needed, value.needed() - setting.most) + "\n";
 }
 
 // What to do with the settings: where frames need more than the engine takes, setting them does not help.
@@ -309,11 +191,10 @@ std::vector<std::string> engines_with_settings() {
 
 void check_engine(const std::string& name) {
   if (row_of_engine(name) != nullptr) return;
-  for (const Constant& constant : k_constants)
-    if (name == constant.name)
-      throw Error("", "--engine",
-                  name + " has no setting for it: " + constant.what + "; `clusterbench run --preset " + name +
-                      "` says what frames lose");
+  if (const std::string why = why_nothing_is_set(name); !why.empty())
+    throw Error(
+        "", "--engine",
+        name + " has no setting for it: " + why + "; `clusterbench run --preset " + name + "` says what frames lose");
   const std::vector<std::string> names = engines_with_settings();
   throw Error("", "--engine",
               "'" + name + "' is no engine whose limits can be set" + did_you_mean(name, names) + "; there are " +
@@ -326,8 +207,7 @@ std::string engine_settings_text(const std::string& engine, const std::vector<Si
   std::string out;
   for (const SizedStructure& structure : structures) {
     out += shown(structure.name) + "\n  " + row.version + "\n";
-    if (const std::string grid = grid_text(row, (*structure.cases.front())["grid"]); !grid.empty())
-      out += "  " + grid + "\n";
+    if (const std::string grid = grid_text(row, structure); !grid.empty()) out += "  " + grid + "\n";
     for (const LimitSetting& setting : row.limits)
       out += setting_lines(value_of(setting, structure, rules), structure, rules);
     if (saw_no_light(structure)) out += "  " + no_light_text() + "\n";
@@ -340,10 +220,8 @@ std::string engine_settings_text(const std::string& engine, const std::vector<Si
 
 Json engine_settings_json(const std::string& engine, const SizedStructure& structure, const AllocationRules& rules) {
   const EngineRow& row = *row_of_engine(engine);
-  Json out{{"engine", engine},
-           {"version", row.version},
-           {"grid", grid_text(row, (*structure.cases.front())["grid"])},
-           {"limits", Json::array()}};
+  Json out{
+      {"engine", engine}, {"version", row.version}, {"grid", grid_text(row, structure)}, {"limits", Json::array()}};
   for (const LimitSetting& setting : row.limits) {
     const SettingValue value = value_of(setting, structure, rules);
     Json entry{{"name", setting.name}, {"needed", unit_of(setting.needed)}};
@@ -353,6 +231,7 @@ Json engine_settings_json(const std::string& engine, const SizedStructure& struc
     entry["most"] = setting.most == k_any ? Json() : Json(setting.most);
     entry["is_too_much"] = value.is_too_much();
     if (value.is_too_much()) entry["lost"] = value.needed() - setting.most;
+    if (const Json own = own_value_json(value, structure); !own.is_null()) entry["with_own_value"] = own;
     out["limits"].push_back(entry);
   }
   return out;

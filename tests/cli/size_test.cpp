@@ -320,6 +320,48 @@ TEST(SizeCommand, an_engines_limit_of_the_scene_or_of_a_type_is_held_against_tho
   EXPECT_EQ(of_type[0]["seen"], 70);
 }
 
+// Forty lights that fill the view, in more cells together than Bevy has indices for: it then draws in fewer tiles.
+TEST(SizeCommand, an_engines_room_for_indices_is_that_of_tiles_that_have_not_grown_for_want_of_it) {
+  const Folder folder;
+  const std::string scene = test::source_file("scenes/lattice.glb"), result = (folder / "result.json").string(),
+                    frames = " --set scenes.*.frames=6 ";
+  const Outcome run = tool("run -q --no-timing --preset bevy --set accuracy.check=false -o " + result + frames + scene);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json react = Json::parse(file_text(result))["cases"][0]["react"];
+  ASSERT_GT(react["fixed"]["index_entries"], react["reacting"]["index_entries"]) << "what the test is about";
+  const auto sized = [](const std::string& arguments) {
+    const Outcome done = tool("size -q --engine bevy --format json --margin 1 --round none " + arguments);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return Json::parse(done.out)["structures"][0];
+  };
+  const Json of_level = sized(frames + scene), of_result = sized(result);
+  EXPECT_EQ(of_level["settings"], of_result["settings"]);
+  const Json limit = of_level["settings"]["limits"][0];
+  EXPECT_EQ(limit["seen"], react["fixed"]["index_entries"]);
+  EXPECT_EQ(limit["value"], limit["seen"]);
+  EXPECT_EQ(of_level["buffers"][0]["capacity"], limit["seen"]) << "the buffers are those of the same tiles";
+  EXPECT_EQ(of_level["settings"]["grid"], "ClusterConfig::XYZ { dimensions: UVec3::new(17, 9, 24), .. }");
+  const Json with_own = limit["with_own_value"];
+  EXPECT_EQ(with_own["value"], 16384);
+  EXPECT_EQ(with_own["frames"], 6);
+  EXPECT_EQ(with_own["frames_with_grown_tiles"], react["frames"]["reacted"]);
+  EXPECT_EQ(with_own["frames_over"], react["frames"]["over"]);
+  EXPECT_EQ(with_own["fewest_tiles"], react["tiles"]["fewest"]);
+  const Outcome told = tool("size -q --engine bevy " + frames + scene);
+  const std::string own = "with its own 16384: tiles grow in " + react["frames"]["reacted"].dump() + " of 6 frames";
+  EXPECT_NE(told.out.find(own), std::string::npos) << told.out;
+}
+
+TEST(SizeCommand, says_what_frames_lose_with_the_value_that_the_engine_comes_with) {
+  const Folder folder;
+  const std::string scene = folder.write("many.gltf", lights_in_view_and_behind(100, 0)).string();
+  const Json limits = limits_of("three-js", scene);
+  EXPECT_EQ(limits[0]["with_own_value"], Json({{"value", 1024}, {"lost", 0}}));
+  EXPECT_EQ(limits[1]["with_own_value"], Json({{"value", 64}, {"lost", 36}}));
+  const Outcome told = tool("size -q --viewport 640x360 --engine three-js " + scene);
+  EXPECT_NE(told.out.find("with its own 64: the longest list loses 36 lights"), std::string::npos) << told.out;
+}
+
 TEST(SizeCommand, says_of_frames_without_a_light_in_view_that_they_size_nothing) {
   const Folder folder;
   const std::string scene = folder.write("behind.gltf", lights_in_view_and_behind(0, 5)).string();

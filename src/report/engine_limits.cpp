@@ -1,0 +1,176 @@
+#include "report/engine_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/json_values.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Constant {
+  const char *name, *what;
+};
+constexpr Constant k_constants[] = {
+    {"filament", "CONFIG_MAX_LIGHT_COUNT (256 lights in view) is compiled in"},
+    {"babylon", "its lists are bit masks of all lights"},
+    {"unity-hdrp", "its counts are packed into bits"},
+    {"wicked", "its 256 entities are compiled in"},
+    {"stride", "its lists grow"},
+};
+
+// Lists of frames in which a limit took lights away are shorter than those that the lights need.
+bool has_lists_behind_limit(const Json& result_case) {
+  const Json* steps = value_at(result_case, "/pre_cull/steps");
+  return steps != nullptr && std::ranges::any_of(*steps, [](const Json& step) {
+           return step["label"].get_ref<const std::string&>().starts_with("most(") &&
+                  number_at(step, "/removed/max").value_or(1.0) > 0.0;
+         });
+}
+
+std::optional<double> most_of_any_type(const Json& result_case) {
+  const Json* by_type = value_at(result_case, "/lights_in_view/max_by_type");
+  if (by_type == nullptr) return number_at(result_case, "/lights_in_view/max");
+  double most = 0.0;
+  for (const Json& lights : *by_type) most = std::max(most, lights.get<double>());
+  return most;
+}
+
+// Where tiles have grown for want of room: in the tiles that were asked for, before they did.
+std::optional<double> entries_in(const Json& result_case) {
+  if (result_case.contains("react")) return number_at(result_case, "/react/fixed/index_entries");
+  return number_at(result_case, "/buffers/index_entries/high_water");
+}
+
+std::optional<double> seen_in_case(const Json& result_case, Needed needed) {
+  if (is_of_lists(needed) && has_lists_behind_limit(result_case)) return {};
+  switch (needed) {
+    case Needed::lights_in_view:
+      return number_at(result_case, "/lights_in_view/max");
+    case Needed::lights_of_type:
+      return most_of_any_type(result_case);
+    case Needed::lights_in_scene:
+      return number_at(result_case, "/lights");
+    case Needed::longest_list:
+      return number_at(result_case, "/occupancy/lights_per_cell/max");
+    case Needed::entries:
+      break;
+  }
+  return entries_in(result_case);
+}
+
+// The most that was seen of it, over all cameras; none where the result does not say.
+std::optional<std::uint64_t> most_seen(const SizedStructure& structure, Needed needed) {
+  std::uint64_t most = 0;
+  for (const Json* result_case : structure.cases) {
+    const std::optional<double> value = seen_in_case(*result_case, needed);
+    if (!value) return {};
+    most = std::max(most, static_cast<std::uint64_t>(*value));
+  }
+  return most;
+}
+
+// Of the level: no list and no view has more.
+std::optional<std::uint64_t> most_lights(const SizedStructure& structure) {
+  std::uint64_t most = 0;
+  for (const Json* result_case : structure.cases) {
+    const std::optional<double> lights = number_at(*result_case, "/lights");
+    if (!lights) return {};
+    most = std::max(most, static_cast<std::uint64_t>(*lights));
+  }
+  return structure.found ? std::max(most, structure.found->lights) : most;
+}
+
+// The most that a search found, where it looked for that.
+std::optional<std::uint64_t> most_found(const SizedStructure& structure, Needed needed) {
+  if (!structure.found || !is_of_lists(needed) || structure.buffers.empty()) return {};
+  const SizedBuffer& lists = structure.buffers.front();
+  const bool has_room_per_cell = (*structure.cases.front())["storage"].get<std::string>().starts_with("fixed");
+  if (!lists.found || has_room_per_cell != (needed == Needed::longest_list)) return {};
+  if (!has_room_per_cell) return lists.found;
+  std::uint64_t cells = 1;
+  for (const Json& axis : (*structure.cases.front())["grid"]["cells"]) cells *= axis.get<std::uint64_t>();
+  return *lists.found / std::max<std::uint64_t>(1, cells);
+}
+
+}  // namespace
+
+// From public code and documentation of the versions named.
+const std::vector<EngineRow>& engine_rows() {
+  static const std::vector<EngineRow> rows{
+      {"godot",
+       "Godot 4, Project Settings",
+       "",
+       {{"rendering/limits/cluster_builder/max_clustered_elements", Needed::lights_of_type, 512, 32, 8192, 32}},
+       "of each type (omni lights, spot lights, decals, reflection probes) elements beyond it are not drawn"},
+      {"playcanvas",
+       "PlayCanvas engine 2, scene.lighting (LightingParams)",
+       "scene.lighting.cells = new pc.Vec3(X, Y, Z)",
+       {{"scene.lighting.maxLightsPerCell", Needed::longest_list, 255, 1, 255},
+        {"lights of a frame, which 8 bits number", Needed::lights_in_view, 255, 1, 255, 1, true}},
+       "a full cell takes no more lights, and a frame no more than 255"},
+      {"three-js",
+       "three.js r187, examples/jsm/lighting/ClusteredLighting.js",
+       "new ClusteredLighting(maxLights, tileSize = P, zSlices = Z, maxLightsPerCluster)",
+       {{"maxLights", Needed::lights_in_scene, 1024, 1, k_any},
+        {"maxLightsPerCluster", Needed::longest_list, 64, 1, k_any}},
+       "lights of the scene beyond maxLights are not drawn, in view or not; a full cluster keeps the farthest lights"},
+      {"bevy",
+       "Bevy 0.19, GlobalClusterSettings and ClusterConfig of a camera",
+       "ClusterConfig::XYZ { dimensions: UVec3::new(X, Y, Z), .. }",
+       {{"GlobalClusterSettings::view_cluster_bindings_max_indices", Needed::entries, 16384, 1, k_any}},
+       "with storage buffers lists grow; without, tiles grow in the next frames until lists fit (dynamic_resizing)"},
+      {"bevy-gpu",
+       "Bevy 0.19, GlobalClusterGpuSettings",
+       "ClusterConfig::XYZ { dimensions: UVec3::new(X, Y, Z), .. }",
+       {{"GlobalClusterSettings::gpu_clustering.initial_index_list_capacity", Needed::entries, 0, 1, k_any}},
+       "the list grows after a few frames that lack lights"},
+      {"ogre-next",
+       "OGRE-Next 2.3 and later, SceneManager",
+       "setForwardClustered(true, X, Y, Z, lightsPerCell, decalsPerCell, cubemapProbesPerCell, minDistance, "
+       "maxDistance)",
+       {{"lightsPerCell", Needed::longest_list, 96, 1, k_any}},
+       "a full cell takes no more lights"},
+      {"unity-urp",
+       "Unity URP 14 and later, package com.unity.render-pipelines.universal-config",
+       "",
+       {{"MAX_VISIBLE_LIGHT_COUNT_DESKTOP (ShaderConfig.cs.hlsl) and k_MaxVisibleLightCountDesktop (ShaderConfig.cs)",
+         Needed::lights_in_view, 256, 1, 256}},
+       "lights beyond it are not drawn; on mobile platforms the limits are 32 and 16"},
+  };
+  return rows;
+}
+
+const EngineRow* row_of_engine(const std::string& name) {
+  const auto found =
+      std::ranges::find(engine_rows(), name, [](const EngineRow& row) { return std::string(row.preset); });
+  return found == engine_rows().end() ? nullptr : &*found;
+}
+
+bool is_of_lists(Needed needed) {
+  return needed == Needed::longest_list || needed == Needed::entries;
+}
+
+std::string why_nothing_is_set(const std::string& name) {
+  const auto found = std::ranges::find(k_constants, name, [](const Constant& row) { return std::string(row.name); });
+  return found == std::end(k_constants) ? "" : found->what;
+}
+
+SettingValue value_of(const LimitSetting& setting, const SizedStructure& structure, const AllocationRules& rules) {
+  SettingValue out{&setting, most_seen(structure, setting.needed), most_found(structure, setting.needed)};
+  auto with_margin = static_cast<std::uint64_t>(std::ceil(static_cast<double>(out.needed()) * rules.margin));
+  if (setting.needed == Needed::lights_in_scene)
+    with_margin = std::max(with_margin, most_lights(structure).value_or(0));
+  if (const auto lights = most_lights(structure);
+      lights && setting.needed != Needed::entries && with_margin >= *lights) {
+    with_margin = *lights;
+    out.is_all = true;
+  }
+  out.wanted = (std::max(with_margin, setting.least) + setting.multiple - 1) / setting.multiple * setting.multiple;
+  out.value = std::min(out.wanted, setting.most);
+  return out;
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,57 @@
+#pragma once
+// Engines whose limits can be set, what each limit has to have room for, and the value that it is to be set to.
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/allocation.h"
+
+namespace clusterbench::report {
+
+// What a setting has to have room for.
+enum class Needed : std::uint8_t { lights_in_view, lights_of_type, lights_in_scene, longest_list, entries };
+
+// What a limit on lights changes.
+bool is_of_lists(Needed needed);
+
+struct LimitSetting {
+  const char* name;  // as it stands in the engine
+  Needed needed;
+  std::uint64_t standard, least, most;  // as the engine comes, and what it takes
+  std::uint64_t multiple = 1;
+  bool is_constant = false;  // compiled in: nothing to set, and frames can still have more
+};
+
+struct EngineRow {
+  const char *preset, *version;
+  const char* grid;  // the call or member that the grid is set with: X, Y, Z stand for the cells, P for a tile's pixels
+  std::vector<LimitSetting> limits;
+  const char* beyond;  // what happens beyond the limit
+};
+
+inline constexpr std::uint64_t k_any = 0xffffffff;  // `most` of a setting that takes as much as is asked for
+
+const std::vector<EngineRow>& engine_rows();
+// nullptr: no such row.
+const EngineRow* row_of_engine(const std::string& name);
+
+// Why there is nothing to set of an engine whose limits are compiled in: "its lists grow"; "" of others.
+std::string why_nothing_is_set(const std::string& name);
+
+struct SettingValue {
+  const LimitSetting* setting;
+  std::optional<std::uint64_t> seen, found;
+  std::uint64_t value = 0;   // to set
+  std::uint64_t wanted = 0;  // before the engine's largest value
+  bool is_all = false;       // as many as the level has
+
+  std::uint64_t needed() const { return std::max(seen.value_or(0), found.value_or(0)); }
+  bool is_too_much() const { return needed() > setting->most; }
+};
+
+SettingValue value_of(const LimitSetting& setting, const SizedStructure& structure, const AllocationRules& rules);
+
+}  // namespace clusterbench::report
