@@ -157,6 +157,7 @@ Json structure_json(const NamedStructure& named, const std::string& engine, cons
     dropped += (*result_case)["buffers"]["overflow"]["dropped_pairs"].get<std::uint64_t>();
   out["dropped_pairs"] = dropped;
   if (const std::vector<std::string> notes = grid_notes(structure); !notes.empty()) out["grid_notes"] = notes;
+  if (const std::vector<std::string> notes = limit_notes(structure); !notes.empty()) out["limit_notes"] = notes;
   out["buffers"] = Json::array();
   for (std::size_t i = 0; i < structure.buffers.size(); ++i)
     out["buffers"].push_back(buffer_json(structure.buffers[i], named.buffers[i]));

@@ -65,6 +65,7 @@ std::string structure_comment(const SizedStructure& structure) {
   std::string out = comment_line(structure.name) + comment_line("  " + cameras_text(structure));
   if (saw_no_light(structure)) out += comment_line("  " + no_light_text());
   for (const std::string& note : grid_notes(structure)) out += comment_line("  grid: " + note);
+  for (const std::string& note : limit_notes(structure)) out += comment_line("  LIMIT: " + note);
   for (const std::string& line : guest_lines(structure)) out += comment_line("  " + line);
   if (const std::string dropped = dropped_text(structure); !dropped.empty())
     out += comment_line("  OVERFLOW: " + dropped + ", for which there is room below");

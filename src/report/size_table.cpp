@@ -79,6 +79,7 @@ std::string marks_text(const SizedStructure& structure, const AllocationRules& r
 std::string note_lines(const SizedStructure& structure) {
   std::string out;
   for (const std::string& note : grid_notes(structure)) out += "  grid: " + shown(note) + "\n";
+  for (const std::string& note : limit_notes(structure)) out += "  LIMIT: " + shown(note) + "\n";
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "report/size_words.h"
 
 #include <algorithm>
+#include <map>
 
 #include "core/text.h"
 #include "report/buffer_tail.h"
@@ -111,6 +112,27 @@ std::vector<std::string> grid_notes(const SizedStructure& structure) {
     const auto note = grid["note"].get<std::string>();
     if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
   }
+  return notes;
+}
+
+std::vector<std::string> limit_notes(const SizedStructure& structure) {
+  std::map<std::string, double> most_removed;  // by the step
+  std::vector<std::string> notes;
+  for (const nlohmann::ordered_json* result_case : structure.cases) {
+    const nlohmann::ordered_json* steps = value_at(*result_case, "/pre_cull/steps");
+    for (const nlohmann::ordered_json& step : steps == nullptr ? nlohmann::ordered_json::array() : *steps) {
+      const auto label = step["label"].get<std::string>();
+      const double removed = number_at(step, "/removed/max").value_or(0.0);
+      if (label.starts_with("most(") && removed > 0.0) most_removed[label] = std::max(most_removed[label], removed);
+    }
+    const double asked = number_at(*result_case, "/react/fixed/index_entries").value_or(0.0);
+    if (asked > 0.0 && number_at(*result_case, "/react/frames/reacted").value_or(0.0) > 0.0)
+      notes.push_back("tiles of camera " + (*result_case)["camera"].get<std::string>() +
+                      " have grown for want of room; those that were asked for need up to " + text("%.0f", asked) +
+                      " entries");
+  }
+  for (const auto& [label, removed] : most_removed)
+    notes.push_back(label + " took up to " + text("%.0f", removed) + " lights from a frame, and no list here has them");
   return notes;
 }
 

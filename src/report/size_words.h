@@ -19,6 +19,10 @@ std::string share_text(std::uint64_t part, std::uint64_t whole);
 // What its grid's capacities rest on, such as a far end that the camera does not have: each note of its cases once.
 std::vector<std::string> grid_notes(const SizedStructure& structure);
 
+// What limits of its own make of its lists, where they were reached: lights that a frame may not have, tiles that grow
+// for want of room. The capacities are then those of what is left. Each note of its cases once.
+std::vector<std::string> limit_notes(const SizedStructure& structure);
+
 // What a capacity rests on: a line each with its label.
 struct MarkLine {
   std::string label, text;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/error.h"
 #include "core/random.h"
@@ -86,6 +87,28 @@ TEST(Packed, gives_all_lights_of_the_frame_from_the_first_list_on_that_has_no_ro
     packed->store(lists_from(std::vector<Ids>(row.cells)));
     EXPECT_EQ(packed->use().index_entries, 0u);
     EXPECT_EQ(packed->use().fallback_cells, 0u);
+  }
+}
+
+// Whatever there was room for: a buffer is sized so that every list fits.
+TEST(Packed, needs_a_buffer_for_all_lists_also_where_some_had_no_room) {
+  for (const char* equal : {"repeated", "shared"}) {
+    Lists lists = random_lists(40, 200, 0.05, 7);
+    std::vector<Ids> doubled;
+    for (std::uint32_t cell = 0; cell < 40; ++cell)
+      doubled.insert(doubled.end(), 2, Ids(lists.of(cell).begin(), lists.of(cell).end()));
+    lists = lists_from(doubled);
+    const auto roomy = storage("packed", {{"equal_lists", std::string(equal)}}),
+               tight = storage("packed", {{"equal_lists", std::string(equal)}, {"max_entries", 250.0}});
+    for (const auto* each : {&roomy, &tight}) {
+      (*each)->start(80, {200, 0});
+      (*each)->store(lists);
+    }
+    ASSERT_GT(tight->use().fallback_cells, 0u);
+    const Ids all(lists.lights.begin(), lists.lights.end());
+    const std::uint64_t listed = std::set<std::uint32_t>(all.begin(), all.end()).size();
+    EXPECT_EQ(tight->buffers()[0].elements, roomy->buffers()[0].elements + listed) << "after the list of all lights";
+    EXPECT_EQ(tight->buffers()[0].most, roomy->buffers()[0].most + 200);
   }
 }
 

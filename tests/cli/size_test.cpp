@@ -352,6 +352,21 @@ TEST(SizeCommand, an_engines_room_for_indices_is_that_of_tiles_that_have_not_gro
   EXPECT_NE(told.out.find(own), std::string::npos) << told.out;
 }
 
+TEST(SizeCommand, says_of_a_preset_that_reached_its_own_limit_that_its_buffers_are_of_what_is_left) {
+  const Folder folder;
+  const std::string scene = folder.write("many.gltf", lights_in_view_and_behind(300, 0)).string(),
+                    flags = "size -q --viewport 640x360 --preset filament --format ";
+  const Json notes = Json::parse(tool(flags + "json " + scene).out)["structures"][0]["limit_notes"];
+  ASSERT_EQ(notes.size(), 1u);
+  const auto note = notes[0].get<std::string>();
+  EXPECT_NE(note.find("took up to 44 lights from a frame"), std::string::npos) << note;
+  for (const std::string format : {"table", "glsl", "cpp"})
+    EXPECT_NE(tool(flags + format + " " + scene).out.find("LIMIT: " + note), std::string::npos) << format;
+  const Json below =
+      Json::parse(tool(flags + "json " + folder.write("few.gltf", lights_in_view_and_behind(200, 0)).string()).out);
+  EXPECT_FALSE(below["structures"][0].contains("limit_notes"));
+}
+
 TEST(SizeCommand, says_what_frames_lose_with_the_value_that_the_engine_comes_with) {
   const Folder folder;
   const std::string scene = folder.write("many.gltf", lights_in_view_and_behind(100, 0)).string();

@@ -94,8 +94,10 @@ class Packed final : public Storage {
             entries * (bits_ / 8) + std::uint64_t{cell_count_} * header_size() + blocks_.size() * sizeof(Block)};
   }
 
+  // Room for all lists, whatever the limit.
   std::vector<BufferNeed> buffers() const override {
-    std::vector<BufferNeed> all{{"indices", bits_ / 8, entries_, most_entries()},
+    std::vector<BufferNeed> all{{"indices", bits_ / 8, entries_ + unwritten_,
+                                 std::uint64_t{cell_count_} * lights_ + (has_limit() ? lights_ : 0)},
                                 {"headers", header_size(), header_count_, cell_count_}};
     if (is_sparse_) all.push_back({"header_blocks", sizeof(Block), blocks_.size(), blocks_.size()});
     return all;
@@ -169,12 +171,20 @@ class Packed final : public Storage {
     all_lights_ = kept_.size();
   }
 
+  // Whether its list equals that of the cell so many before it, and is not written again.
+  bool equals_earlier(const Lists& lists, std::uint32_t cell, std::uint32_t cells_back) const {
+    return shares_ && cells_back > 0 && cell >= cells_back &&
+           std::ranges::equal(lists.of(cell), lists.of(cell - cells_back));
+  }
+
   // No more lists are written: `cell` and those after it read that of all lights.
   void fall_back(const Lists& lists, std::uint32_t cell) {
     full_from_ = cell;
     for (; cell < lists.cell_count(); ++cell) {
       kept_at_[cell] = 0;
       fallback_cells_ += lists.of(cell).empty() ? 0 : 1;
+      const bool is_shared = equals_earlier(lists, cell, 1) || equals_earlier(lists, cell, columns());
+      unwritten_ += is_shared ? 0 : lists.of(cell).size();
     }
   }
 
@@ -182,16 +192,13 @@ class Packed final : public Storage {
     kept_.clear();
     kept_at_.resize(lists.cell_count());
     full_from_ = lists.cell_count();
-    fallback_cells_ = 0;
+    fallback_cells_ = unwritten_ = 0;
     if (has_limit()) keep_all_lights(lists);
     for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
       const auto list = lists.of(cell);
-      const auto equals = [&](std::uint32_t cells_back) {
-        return shares_ && cells_back > 0 && cell >= cells_back && std::ranges::equal(list, lists.of(cell - cells_back));
-      };
-      if (equals(1)) {
+      if (equals_earlier(lists, cell, 1)) {
         kept_at_[cell] = kept_at_[cell - 1];
-      } else if (equals(columns())) {
+      } else if (equals_earlier(lists, cell, columns())) {
         kept_at_[cell] = kept_at_[cell - columns()];
       } else if (has_limit() && kept_.size() + list.size() > max_entries_) {
         return fall_back(lists, cell);
@@ -265,7 +272,7 @@ class Packed final : public Storage {
   std::vector<std::uint32_t> kept_, kept_at_;  // where lists are chosen: those that are written, and each cell's begin
   std::uint32_t full_from_ = std::numeric_limits<std::uint32_t>::max();  // the first cell whose list has no room
   std::size_t all_lights_ = 0;                                           // entries of the first list; with a limit
-  std::uint64_t fallback_cells_ = 0;
+  std::uint64_t fallback_cells_ = 0, unwritten_ = 0;  // that read the first list; entries of the lists without room
   std::vector<bool> is_in_a_list_;
 };
 
