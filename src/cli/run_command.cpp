@@ -114,18 +114,6 @@ void print_skipped(const std::vector<run::Skipped>& skipped) {
               << " of a method with a kind of grid that it does not take (`clusterbench list` tells which it takes)\n";
 }
 
-// One digit, or two of them: more would not be true.
-std::string duration_text(double seconds) {
-  const auto rounded = [](double value, const char* unit) {
-    const double step = value < 10.0 ? 1.0 : value < 100.0 ? 5.0 : 50.0;
-    return number_of(static_cast<std::uint64_t>(step * std::max(1.0, std::round(value / step))), unit);
-  };
-  if (seconds < 1.0) return "less than a second";
-  return "about " + (seconds < 100.0    ? rounded(seconds, "second")
-                     : seconds < 6000.0 ? rounded(seconds / 60.0, "minute")
-                                        : rounded(seconds / 3600.0, "hour"));
-}
-
 // Before a run that somebody waits for: how long, and what makes it shorter.
 void tell_duration(const config::Config& config, const run::Plan& plan, std::span<const run::GroupCost> costs) {
   constexpr double k_soon_s = 5.0, k_patience_s = 120.0;

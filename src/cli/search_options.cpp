@@ -92,11 +92,15 @@ search::WorstCaseRequest search_request(const SearchFlags& flags, const config::
   return request;
 }
 
-search::WorstCaseListener search_listener(ProgressLine& progress) {
+search::WorstCaseListener search_listener(ProgressLine& progress, std::size_t search, std::size_t searches) {
   search::WorstCaseListener listener;
-  listener.on_progress = [&progress](const std::string& doing, int done, int whole) {
-    progress.show({static_cast<std::size_t>(done), static_cast<std::size_t>(whole), static_cast<double>(done),
-                   static_cast<double>(whole), doing});
+  listener.on_progress = [&progress, search, searches](const std::string& doing, int done, int whole) {
+    // Of one search its frames are counted, of several the searches.
+    const double frames_done = static_cast<double>(whole) * static_cast<double>(search) + done;
+    run::Progress now{search, searches, frames_done, static_cast<double>(whole) * static_cast<double>(searches), doing};
+    if (searches == 1)
+      now.cases_done = static_cast<std::size_t>(done), now.cases_total = static_cast<std::size_t>(whole);
+    progress.show(now);
   };
   return listener;
 }

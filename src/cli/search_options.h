@@ -26,7 +26,7 @@ void add_space_options(Command& command, SearchFlags& flags, const Option* only_
 // Throws Error that names the flag.
 search::WorstCaseRequest search_request(const SearchFlags& flags, const config::Config& config);
 
-// Tells how far a search is. `progress` outlives it.
-search::WorstCaseListener search_listener(ProgressLine& progress);
+// Tells how far a search is, or one of several, number `search` of them from 0. `progress` outlives it.
+search::WorstCaseListener search_listener(ProgressLine& progress, std::size_t search = 0, std::size_t searches = 1);
 
 }  // namespace clusterbench::cli

@@ -85,7 +85,11 @@ ExitCode size(SizeFlags flags) {
   std::optional<SizeCounts> counts;
   Json result;
   if (!is_result(flags.inputs)) {
-    counts = counted_for_size(flags.inputs, flags.request.filter, flags.request.all, flags.engine, flags.quiet);
+    std::optional<SizePlan> plan = plan_for_size(flags.inputs, request.filter, request.all, flags.engine);
+    if (!plan) return stopped_exit_code();
+    if (!flags.quiet)
+      tell_of_size(*plan, flags.worst_case ? told_of_search(*plan, request, flags.search) : std::string());
+    counts = counted_for_size(std::move(*plan), flags.quiet);
     if (!counts) return stopped_exit_code();
     result = counts->result;
     request.scope.grown = counts->grown;

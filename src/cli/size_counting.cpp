@@ -184,29 +184,10 @@ Sampling sampling_of(const RunInputs& inputs, std::vector<config::FlagValue> fla
   return out;
 }
 
-void tell_of(const Sampling& sampling, const run::Plan& plan, bool exact_methods) {
-  constexpr double k_worth_telling_ns = 10e9;
-  std::size_t frames = 0, paths = 0;
-  for (const run::SceneData& data : plan.scenes)
-    for (const scene::CameraPath& path : data.paths) frames += path.shots.size(), ++paths;
-  const std::string how = plan.scenes.front().paths.front().how;
-  std::string line = "counts " + number_of(frames, "frame") + " of " + number_of(paths, "camera path");
-  if (!how.empty()) line += " (" + (paths > 1 ? "the first: " : std::string()) + how + ")";
-  if (sampling.work_ns > k_worth_telling_ns)
-    line += report::text(", about %.0f s on one core", 1e-9 * sampling.work_ns);
-  line += "; --set 'scenes.*.frames=N' takes N of each path";
-  if (sampling.is_coarser)
-    line +=
-        ". Fewer frames than the paths have, for want of time: --grid KIND --tiles N --slices N, one structure, has "
-        "more";
-  tell(line);
-  if (exact_methods) tell("of exact lists, the shortest that there are; --assigner NAME counts those of your method");
-}
-
 }  // namespace
 
-std::optional<SizeCounts> counted_for_size(const RunInputs& inputs, const std::string& filter, bool all_methods,
-                                           const std::string& engine, bool quiet) {
+std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string& filter, bool all_methods,
+                                      const std::string& engine) {
   std::vector<config::FlagValue> flags = all_cameras(inputs);
   const bool exact_methods = takes_exact_methods(inputs, filter, all_methods);
   if (exact_methods) flags.push_back({"--assigner", k_exact_methods});
@@ -216,20 +197,45 @@ std::optional<SizeCounts> counted_for_size(const RunInputs& inputs, const std::s
   Sampling sampling{std::move(flags), 0.0, false};
   if (samples) sampling = sampling_of(inputs, std::move(sampling.flags), asked, filter);
   if (stop) return {};
-  SizeCounts out{counting_only(read_inputs(inputs, sampling.flags)), {}, {}, {}};
-  const config::Config limited = out.config;
-  if (!engine.empty()) out.config = without_engine_limits(std::move(out.config));
+  SizePlan out{
+      counting_only(read_inputs(inputs, sampling.flags)), {}, {}, sampling.work_ns, sampling.is_coarser, exact_methods};
+  if (!engine.empty()) {
+    out.limited = out.config;
+    out.config = without_engine_limits(std::move(out.config));
+  }
   out.plan = run::make_plan(out.config, filter);
   if (samples) share_samples(out.config, out.plan);
-  if (!quiet) tell_of(sampling, out.plan, exact_methods);
-  const run::Result result = counts_of(out.config, out.plan, quiet);
-  if (stop) return {};
+  return out;
+}
+
+void tell_of_size(const SizePlan& plan, const std::string& then) {
+  constexpr double k_worth_telling_ns = 10e9;
+  std::size_t frames = 0, paths = 0;
+  for (const run::SceneData& data : plan.plan.scenes)
+    for (const scene::CameraPath& path : data.paths) frames += path.shots.size(), ++paths;
+  const std::string how = plan.plan.scenes.front().paths.front().how;
+  std::string line = "counts " + number_of(frames, "frame") + " of " + number_of(paths, "camera path");
+  if (!how.empty()) line += " (" + (paths > 1 ? "the first: " : std::string()) + how + ")";
+  if (plan.work_ns > k_worth_telling_ns) line += report::text(", about %.0f s on one core", 1e-9 * plan.work_ns);
+  line += then + "; --set 'scenes.*.frames=N' takes N of each path";
+  if (plan.is_coarser)
+    line +=
+        ". Fewer frames than the paths have, for want of time: --grid KIND --tiles N --slices N, one structure, has "
+        "more";
+  tell(line);
+  if (plan.has_exact_methods)
+    tell("of exact lists, the shortest that there are; --assigner NAME counts those of your method");
+}
+
+std::optional<SizeCounts> counted_for_size(SizePlan plan, bool quiet) {
+  const run::Result result = counts_of(plan.config, plan.plan, quiet);
+  if (stop_on_signals()) return {};
   for (const run::SceneResult& scene : result.scenes)
     for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
   if (result.cases.empty())
     for (const run::Skipped& skipped : result.skipped) tell("skipped " + skipped.name + ": " + skipped.reason);
-  if (!engine.empty()) out.grown = grown_tiles(limited, out.plan);
-  out.result = report::result_to_json(result, {});
+  SizeCounts out{std::move(plan.config), std::move(plan.plan), report::result_to_json(result, {}), {}};
+  if (plan.limited) out.grown = grown_tiles(*plan.limited, out.plan);
   return out;
 }
 

@@ -3,9 +3,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "cli/stop.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "search/shared_grid.h"
 #include "search/worst_case.h"
 
@@ -19,11 +21,6 @@ const run::CasePlan* case_named(const run::Plan& plan, const std::string& name) 
   return nullptr;
 }
 
-// What makes the buffers of a structure large: room for the longest list in each cell, else all entries.
-search::Measure measure_of(const report::SizedCase& sized) {
-  return sized.storage.starts_with("fixed") ? search::Measure::longest : search::Measure::entries;
-}
-
 // "" if frames elsewhere can be measured.
 std::string why_not(const config::Config& config, const run::CasePlan& case_plan) {
   const assign::AssignerDescriptor& method = *assign::find_assigner(config.assigners[case_plan.assigner].name);
@@ -32,21 +29,26 @@ std::string why_not(const config::Config& config, const run::CasePlan& case_plan
   return needs_surfaces ? "its lists follow visible surfaces, which a search does not have" : "";
 }
 
+search::Measure measure_named(const std::string& name) {
+  return std::ranges::find(search::measure_rows(), name, [](const auto& row) { return std::string(row.name); })
+      ->measure;
+}
+
 report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& sized, search::WorstCaseRequest request,
                             const search::WorstCaseListener& listener, const std::atomic<bool>& stop) {
   report::FoundFrame out;
   out.case_name = sized.name;
+  out.measure = search::row_of(request.measure).name;
   const run::CasePlan* case_plan = case_named(counts.plan, sized.name);
   if (case_plan == nullptr) return out.refusal = "it is not in the plan", out;
   out.refusal = why_not(counts.config, *case_plan);
   if (!out.refusal.empty()) return out;
   config::Config config = counts.config;
   search::fix_grid(config, counts.plan, *case_plan);
-  request.measure = measure_of(sized);
-  request.random = 0;
   try {
     const search::WorstCase found = search::find_worst_case(config, counts.plan, *case_plan, request, listener, stop);
     if (found.frames.empty()) return out.refusal = "the search was interrupted", out;
+    out.value = static_cast<std::uint64_t>(found.frames.front().value);
     out.evaluations = found.evaluations;
     out.seed = request.seed;
     out.lights = found.own_lights + request.extra_ranges_m.size();
@@ -61,19 +63,92 @@ report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& s
   return out;
 }
 
+// One case of each structure that may be printed: of all, or one of each grid. With several viewports for one
+// allocation of the first.
+std::vector<const run::CasePlan*> cases_to_search(const SizePlan& plan, const report::SizeRequest& request) {
+  std::vector<const run::CasePlan*> out;
+  for (const run::GroupPlan& group : plan.plan.groups) {
+    const bool is_first_camera = group.camera == 0 && (group.viewport == 0 || !request.scope.over_viewports);
+    if (!is_first_camera) continue;
+    std::string preset = "none yet";
+    for (const run::CasePlan& case_plan : group.cases) {
+      if (request.all || case_plan.preset != preset) out.push_back(&case_plan);
+      preset = case_plan.preset;
+    }
+  }
+  return out;
+}
+
+// The time that all searches together have left.
+class SharedSeconds {
+ public:
+  explicit SharedSeconds(double seconds) : seconds_(seconds) {}
+  // For the next of so many; 0: as long as they like.
+  double share(std::size_t searches) const {
+    if (seconds_ == 0.0) return 0.0;
+    const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    return std::max(1e-3, (seconds_ - passed) / static_cast<double>(searches));
+  }
+
+ private:
+  double seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace
+
+std::string told_of_search(const SizePlan& plan, const report::SizeRequest& request, const SearchFlags& flags) {
+  constexpr double k_most_looking_s = 2.0;
+  search::WorstCaseRequest asked = search_request(flags, plan.config);
+  asked.random = 0;
+  const SharedSeconds looking(k_most_looking_s);
+  std::size_t searches = 0, looked_at = 0;
+  double looked_at_s = 0.0;
+  for (const run::CasePlan* case_plan : cases_to_search(plan, request)) {
+    if (!why_not(plan.config, *case_plan).empty()) continue;
+    for (const std::string& measure :
+         report::sized_measures(run::storage_label(plan.config, *case_plan), request.engine)) {
+      ++searches;
+      if (looking.share(1) < 0.1) continue;
+      asked.measure = measure_named(measure);
+      config::Config config = plan.config;
+      search::fix_grid(config, plan.plan, *case_plan);
+      try {
+        looked_at_s += search::estimated_search_s(config, plan.plan, *case_plan, asked);
+        ++looked_at;
+      } catch (const Error& error) {
+        if (error.where().starts_with("--")) throw;
+        --searches;
+      }
+    }
+  }
+  if (searches == 0) return "";
+  double all_s = looked_at_s / static_cast<double>(looked_at) * static_cast<double>(searches);
+  if (asked.seconds > 0.0) all_s = std::min(all_s, asked.seconds);
+  const std::string frames = number_of(static_cast<std::uint64_t>(asked.evaluations), "frame");
+  return ", then searches " + frames + " for worse ones" +
+         (searches > 1 ? ", " + std::to_string(searches) + " times" : std::string()) + ", " + duration_text(all_s) +
+         "; --evaluations N searches fewer, --seconds N ends all searches after N seconds";
+}
 
 std::optional<std::vector<report::FoundFrame>> search_sized(const SizeCounts& counts,
                                                             const std::vector<report::SizedCase>& cases,
                                                             const SearchFlags& flags, bool quiet) {
-  const search::WorstCaseRequest request = search_request(flags, counts.config);
+  search::WorstCaseRequest request = search_request(flags, counts.config);
+  request.random = 0;
+  const SharedSeconds seconds(request.seconds);
   const std::atomic<bool>& stop = stop_on_signals();
   ProgressLine progress(terminal(STDERR_FILENO), quiet);
   std::vector<report::FoundFrame> out;
-  for (const report::SizedCase& sized : cases) {
-    out.push_back(found_in(counts, sized, request, search_listener(progress), stop));
-    if (stop) return {};
-  }
+  std::size_t searches = 0;
+  for (const report::SizedCase& sized : cases) searches += sized.measures.size();
+  for (const report::SizedCase& sized : cases)
+    for (const std::string& measure : sized.measures) {
+      request.measure = measure_named(measure);
+      request.seconds = seconds.share(searches - out.size());
+      out.push_back(found_in(counts, sized, request, search_listener(progress, out.size(), searches), stop));
+      if (stop) return {};
+    }
   return out;
 }
 

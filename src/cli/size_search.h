@@ -11,8 +11,12 @@
 
 namespace clusterbench::cli {
 
-// Searches each case for the frame that needs most of its buffers; one that cannot be searched has the reason. Nothing
-// once it is to stop.
+// What will be searched and about how long that takes, for tell_of_size(): by some frames of the cases, of which it is
+// not yet known which will be printed. "" where nothing can be.
+std::string told_of_search(const SizePlan& plan, const report::SizeRequest& request, const SearchFlags& flags);
+
+// Searches each case for the frames that need most of its buffers, or of an engine's settings; one that cannot be
+// searched has the reason. --seconds is shared by all. Nothing once it is to stop.
 std::optional<std::vector<report::FoundFrame>> search_sized(const SizeCounts& counts,
                                                             const std::vector<report::SizedCase>& cases,
                                                             const SearchFlags& flags, bool quiet);

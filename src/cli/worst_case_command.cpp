@@ -59,6 +59,17 @@ void check_outputs(const WorstCaseFlags& flags, const config::Config& config) {
     if (!is_for_reading(output)) probe_output(output);
 }
 
+// Before a search that somebody waits for.
+void tell_of_work(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
+                  const search::WorstCaseRequest& request) {
+  constexpr double k_soon_s = 5.0;
+  const double seconds = search::estimated_search_s(config, plan, case_plan, request);
+  if (seconds < k_soon_s) return;
+  tell("searches " + number_of(static_cast<std::uint64_t>(request.evaluations), "frame") + ", and " +
+       number_of(static_cast<std::uint64_t>(request.random), "random one") + " to compare with: takes " +
+       duration_text(seconds) + "; shorter: --evaluations 1000, --random 0, --seconds 60");
+}
+
 void write_path(const search::WorstCase& found, const report::WorstCaseFacts& facts) {
   write_text(facts.scene_file, scene::to_gltf(found.path_scene, "clusterbench worst-case"));
   write_text(
@@ -88,6 +99,7 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   search::fix_grid(config, plan, case_plan);
   if (!flags.quiet) tell_of_cameras(config, plan);
   check_outputs(flags, config);
+  if (!flags.quiet) tell_of_work(config, plan, case_plan, request);
   const std::atomic<bool>& stop = stop_on_signals();
   ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
   const search::WorstCase found =

@@ -187,20 +187,24 @@ bool has_bound(const Json& result_case) {
 }
 
 // A search looks at one camera; where several share the buffer, each can be in such a place.
-void add_found(SizedStructure& structure, const FoundFrame& found) {
-  structure.found = found;
+void add_searches(SizedStructure& structure) {
   std::size_t views = 1;
   for (const std::vector<std::string>& view : structure.views) views = std::max(views, view.size());
-  for (const FoundFrame::Need& need : found.needs) {
-    const auto buffer = std::ranges::find(structure.buffers, need.name, &SizedBuffer::name);
-    if (buffer == structure.buffers.end()) continue;
-    buffer->found = times(need.elements, views);
-    buffer->theoretical_max = std::max(buffer->theoretical_max, times(need.most, views));
-    buffer->element_bytes = std::max(buffer->element_bytes, need.element_bytes);
-  }
+  for (std::size_t search = 0; search < structure.searches.size(); ++search)
+    for (const FoundFrame::Need& need : structure.searches[search].needs) {
+      const auto buffer = std::ranges::find(structure.buffers, need.name, &SizedBuffer::name);
+      if (buffer == structure.buffers.end()) continue;
+      const std::uint64_t found = times(need.elements, views);
+      if (!buffer->found || found > *buffer->found) {
+        buffer->found = found;
+        buffer->found_by = search;
+      }
+      buffer->theoretical_max = std::max(buffer->theoretical_max, times(need.most, views));
+      buffer->element_bytes = std::max(buffer->element_bytes, need.element_bytes);
+    }
 }
 
-void size_buffers(SizedStructure& structure, const AllocationRules& rules, const FoundFrame* found) {
+void size_buffers(SizedStructure& structure, const AllocationRules& rules) {
   std::vector<std::uint64_t> steps;
   for (const FrameCameras& cameras : frames_of(structure))
     for (const CaseBuffer& next : buffers_of_frame(cameras)) {
@@ -213,7 +217,7 @@ void size_buffers(SizedStructure& structure, const AllocationRules& rules, const
       }
       add(*known, steps[static_cast<std::size_t>(known - structure.buffers.begin())], next);
     }
-  if (found != nullptr) add_found(structure, *found);
+  add_searches(structure);
   for (std::size_t i = 0; i < structure.buffers.size(); ++i) {
     SizedBuffer& buffer = structure.buffers[i];
     buffer.is_bounded = std::ranges::all_of(structure.cases, [](const Json* one) { return has_bound(*one); });
@@ -336,13 +340,6 @@ void set_views(std::vector<SizedStructure>& structures, const AllocationScope& s
     throw Error("", "--grid-of", "'" + scope.grid_of + "' is none of the cameras of --views");
 }
 
-const FoundFrame* found_for(const SizedStructure& structure, const std::vector<FoundFrame>& all) {
-  for (const FoundFrame& found : all)
-    for (const Json* result_case : structure.cases)
-      if ((*result_case)["name"] == found.case_name) return &found;
-  return nullptr;
-}
-
 }  // namespace
 
 std::uint64_t SizedStructure::frames() const {
@@ -354,6 +351,15 @@ std::uint64_t SizedStructure::frames() const {
     all += most;
   }
   return all;
+}
+
+const FoundFrame* SizedStructure::search_for(const std::string& measure) const {
+  const auto found = std::ranges::find(searches, measure, &FoundFrame::measure);
+  return found == searches.end() ? nullptr : &*found;
+}
+
+bool SizedStructure::is_searched() const {
+  return std::ranges::any_of(searches, [](const FoundFrame& found) { return found.refusal.empty(); });
 }
 
 std::uint64_t SizedBuffer::double_buffered_bytes() const {
@@ -395,11 +401,12 @@ std::vector<SizedStructure> sized_structures(const Json& result, const std::stri
       return std::ranges::any_of(structure.cases, [&](const Json* one) { return (*one)["name"] == told.case_name; });
     };
     std::ranges::copy_if(scope.guests, std::back_inserter(structure.guest_samples), is_mine);
+    std::ranges::copy_if(scope.found, std::back_inserter(structure.searches), is_mine);
     std::ranges::copy_if(scope.grown, std::back_inserter(structure.grown), is_mine);
     for (const Json* result_case : structure.cases)
       if (const std::optional<GrownTiles> grown = grown_in_result(*result_case)) structure.grown.push_back(*grown);
   }
-  for (SizedStructure& structure : out) size_buffers(structure, rules, found_for(structure, scope.found));
+  for (SizedStructure& structure : out) size_buffers(structure, rules);
   return out;
 }
 

@@ -26,8 +26,10 @@ struct AllocationRules {
 
 // What a search for worse frames (`worst-case`) found for a structure.
 struct FoundFrame {
-  std::string case_name;  // whose camera and grid were searched
-  std::string refusal;    // why that case cannot be searched; then nothing else is here
+  std::string case_name;            // whose camera and grid were searched
+  std::string measure = "entries";  // what was made as large as possible, by its name in `worst-case --measure`
+  std::string refusal;              // why that case cannot be searched; then nothing else is here
+  std::uint64_t value = 0;          // of the measure
   int evaluations = 0;
   std::uint64_t seed = 1;
   std::vector<double> eye_m;  // of the worst frame
@@ -87,6 +89,7 @@ struct SizedBuffer {
   std::uint64_t high_water = 0, theoretical_max = 0;  // elements; the most seen, and the most that can be
   bool is_bounded = true;  // theoretical_max holds for other frames, too: not behind a pre-cull, or with fewer cells
   std::optional<std::uint64_t> found;  // elements of the worst frame that a search found
+  std::size_t found_by = 0;            // which of the structure's searches
   std::uint64_t apart = 0;             // of cameras in one frame: if each were at its own most at the same time; else 0
   bool is_sum_of_marks = false;        // their paths have different frames, and high_water is `apart`
   std::string worst_camera;            // that made the high-water mark
@@ -117,10 +120,13 @@ struct SizedStructure {
   std::vector<std::string> guests;              // cameras without a grid of their own
   std::vector<GuestSamples> guest_samples;
   std::vector<GrownTiles> grown;  // of its cases
-  std::optional<FoundFrame> found;
+  std::vector<FoundFrame> searches;
   bool has_boxes = false;      // the scene has oriented boxes among its lights
   bool has_grid_cells = true;  // lists are of the grid's cells, the same in all frames
 
+  // The first for the measure; nullptr if there was none.
+  const FoundFrame* search_for(const std::string& measure) const;
+  bool is_searched() const;  // one that was not refused
   std::uint64_t bytes() const;
   std::uint64_t frames() const;  // of all cameras, or of cameras in one frame, each frame once
 };

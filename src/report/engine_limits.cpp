@@ -80,19 +80,16 @@ std::optional<std::uint64_t> most_lights(const SizedStructure& structure) {
     if (!lights) return {};
     most = std::max(most, static_cast<std::uint64_t>(*lights));
   }
-  return structure.found ? std::max(most, structure.found->lights) : most;
+  for (const FoundFrame& found : structure.searches) most = std::max(most, found.lights);
+  return most;
 }
 
-// The most that a search found, where it looked for that.
+// The most that a search for it found.
 std::optional<std::uint64_t> most_found(const SizedStructure& structure, Needed needed) {
-  if (!structure.found || !is_of_lists(needed) || structure.buffers.empty()) return {};
-  const SizedBuffer& lists = structure.buffers.front();
-  const bool has_room_per_cell = (*structure.cases.front())["storage"].get<std::string>().starts_with("fixed");
-  if (!lists.found || has_room_per_cell != (needed == Needed::longest_list)) return {};
-  if (!has_room_per_cell) return lists.found;
-  std::uint64_t cells = 1;
-  for (const Json& axis : (*structure.cases.front())["grid"]["cells"]) cells *= axis.get<std::uint64_t>();
-  return *lists.found / std::max<std::uint64_t>(1, cells);
+  std::optional<std::uint64_t> most;
+  for (const FoundFrame& found : structure.searches)
+    if (found.refusal.empty() && found.measure == measure_of(needed)) most = std::max(most.value_or(0), found.value);
+  return most;
 }
 
 }  // namespace
@@ -151,6 +148,22 @@ const EngineRow* row_of_engine(const std::string& name) {
 
 bool is_of_lists(Needed needed) {
   return needed == Needed::longest_list || needed == Needed::entries;
+}
+
+std::string measure_of(Needed needed) {
+  switch (needed) {
+    case Needed::lights_in_view:
+      return "lights";
+    case Needed::lights_of_type:
+      return "lights-of-type";
+    case Needed::longest_list:
+      return "longest";
+    case Needed::entries:
+      return "entries";
+    case Needed::lights_in_scene:
+      break;
+  }
+  return "";
 }
 
 std::string why_nothing_is_set(const std::string& name) {

@@ -35,6 +35,8 @@ struct EngineRow {
 inline constexpr std::uint64_t k_any = 0xffffffff;  // `most` of a setting that takes as much as is asked for
 
 const std::vector<EngineRow>& engine_rows();
+// What a search has to make large for it, by its name in `worst-case --measure`; "": nothing that a search changes.
+std::string measure_of(Needed needed);
 // nullptr: no such row.
 const EngineRow* row_of_engine(const std::string& name);
 

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "report/columns.h"
 #include "report/engine_limits.h"
+#include "report/found_frames.h"
 #include "report/json_values.h"
 #include "report/size_words.h"
 
@@ -71,10 +72,14 @@ std::string value_text(const SettingValue& value) {
 }
 
 std::string search_text(const SettingValue& value, const SizedStructure& structure) {
-  const Needed needed = value.setting->needed;
-  if (value.found) return std::to_string(*value.found) + " " + unit_of(needed);
-  if (structure.found && !structure.found->refusal.empty()) return "not searched: " + structure.found->refusal;
-  if (structure.found && !is_of_lists(needed)) return "not looked for: the search makes lists long";
+  const std::string measure = measure_of(value.setting->needed);
+  const FoundFrame* search = structure.search_for(measure);
+  if (value.found)
+    return std::to_string(*value.found) + " " + unit_of(value.setting->needed) + " in " +
+           number_of(static_cast<std::uint64_t>(search->evaluations), "frame") + " tried (seed " +
+           std::to_string(search->seed) + ")";
+  if (search != nullptr) return "not searched: " + search->refusal;
+  if (!structure.searches.empty()) return "not looked for: `clusterbench worst-case --measure " + measure + "` does";
   return "not searched (--worst-case)";
 }
 
@@ -189,6 +194,15 @@ std::vector<std::string> engines_with_settings() {
   return names;
 }
 
+std::vector<std::string> measures_of_engine(const std::string& name) {
+  std::vector<std::string> measures;
+  for (const LimitSetting& setting : row_of_engine(name)->limits)
+    if (const std::string measure = measure_of(setting.needed);
+        !measure.empty() && std::ranges::find(measures, measure) == measures.end())
+      measures.push_back(measure);
+  return measures;
+}
+
 void check_engine(const std::string& name) {
   if (row_of_engine(name) != nullptr) return;
   if (const std::string why = why_nothing_is_set(name); !why.empty())
@@ -227,6 +241,8 @@ Json engine_settings_json(const std::string& engine, const SizedStructure& struc
     Json entry{{"name", setting.name}, {"needed", unit_of(setting.needed)}};
     entry["seen"] = value.seen ? Json(*value.seen) : Json();
     entry["found"] = value.found ? Json(*value.found) : Json();
+    if (const FoundFrame* search = structure.search_for(measure_of(setting.needed)))
+      entry["search"] = search_json(*search);
     entry["value"] = value.seen && !setting.is_constant ? Json(value.value) : Json();
     entry["most"] = setting.most == k_any ? Json() : Json(setting.most);
     entry["is_too_much"] = value.is_too_much();

@@ -15,6 +15,9 @@ std::vector<std::string> engines_with_settings();
 // of an engine whose limits are constants.
 void check_engine(const std::string& name);
 
+// What searches have to make large for its settings, each once, by its name in `worst-case --measure`.
+std::vector<std::string> measures_of_engine(const std::string& name);
+
 // Of each structure the settings: their names as the engine has them, its version, the value to set, what it comes of,
 // and what the engine drops beyond it.
 std::string engine_settings_text(const std::string& engine, const std::vector<SizedStructure>& structures,

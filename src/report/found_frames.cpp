@@ -1,5 +1,7 @@
 #include "report/found_frames.h"
 
+#include <algorithm>
+
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "core/error.h"
@@ -45,6 +47,8 @@ FoundFrame read_found(const std::string& path, const Json& result) {
   check_case(path, json["case"], result);
   FoundFrame out;
   out.case_name = json["case"]["name"].get<std::string>();
+  out.measure = json["measure"]["name"].get<std::string>();
+  out.value = static_cast<std::uint64_t>(std::max(0.0, json["frames"][0]["value"].get<double>()));
   out.evaluations = json["evaluations"].get<int>();
   out.seed = json["seed"].get<std::uint64_t>();
   out.eye_m = json["frames"][0]["eye_m"].get<std::vector<double>>();
@@ -54,6 +58,15 @@ FoundFrame read_found(const std::string& path, const Json& result) {
   for (const Json& need : json["buffers"])
     out.needs.push_back({need["name"].get<std::string>(), need["elements"].get<std::uint64_t>(),
                          need["theoretical_max"].get<std::uint64_t>(), need.value("element_bytes", std::uint64_t{0})});
+  return out;
+}
+
+Json search_json(const FoundFrame& found) {
+  Json out{{"case", found.case_name}, {"measure", found.measure}};
+  if (!found.refusal.empty())
+    out["refusal"] = found.refusal;
+  else
+    out.update({{"evaluations", found.evaluations}, {"seed", found.seed}, {"eye_m", found.eye_m}});
   return out;
 }
 

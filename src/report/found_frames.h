@@ -12,4 +12,7 @@ namespace clusterbench::report {
 // of its scene.
 FoundFrame read_found(const std::string& path, const nlohmann::ordered_json& result);
 
+// For the JSON of `size`.
+nlohmann::ordered_json search_json(const FoundFrame& found);
+
 }  // namespace clusterbench::report

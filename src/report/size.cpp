@@ -10,6 +10,7 @@
 #include "measure/side_by_side.h"
 #include "report/buffer_tail.h"
 #include "report/engine_settings.h"
+#include "report/found_frames.h"
 #include "report/json_values.h"
 #include "report/lookup_constants.h"
 #include "report/named_structures.h"
@@ -129,11 +130,6 @@ Json cameras_of(const std::vector<const Json*>& cases) {
   return out;
 }
 
-Json search_json(const FoundFrame& found) {
-  if (!found.refusal.empty()) return {{"case", found.case_name}, {"refusal", found.refusal}};
-  return {{"case", found.case_name}, {"evaluations", found.evaluations}, {"seed", found.seed}, {"eye_m", found.eye_m}};
-}
-
 Json structure_json(const NamedStructure& named, const std::string& engine, const AllocationRules& rules) {
   const SizedStructure& structure = named.structure;
   const Json& first = *structure.cases.front();
@@ -151,7 +147,7 @@ Json structure_json(const NamedStructure& named, const std::string& engine, cons
                              {"missed", guest.missed},
                              {"missed_outside", guest.missed_outside},
                              {"worst_frame", guest.worst_frame}});
-  if (structure.found) out["search"] = search_json(*structure.found);
+  if (!structure.searches.empty()) out["search"] = search_json(structure.searches.front());
   std::uint64_t dropped = 0;
   for (const Json* result_case : structure.cases)
     dropped += (*result_case)["buffers"]["overflow"]["dropped_pairs"].get<std::uint64_t>();
@@ -223,13 +219,18 @@ std::vector<std::string> size_roundings() {
   return {"page", "power-of-two", "none"};
 }
 
+std::vector<std::string> sized_measures(const std::string& storage, const std::string& engine) {
+  if (!engine.empty()) return measures_of_engine(engine);
+  return {storage.starts_with("fixed") ? "longest" : "entries"};
+}
+
 std::vector<SizedCase> sized_cases(const Json& result, const SizeRequest& request) {
   std::size_t count = 0;
   std::vector<SizedCase> out;
   for (const SizedStructure& structure : chosen_structures(result, request, count)) {
     const Json& of_mark = case_of_mark(structure);
-    out.push_back({structure.name, of_mark["name"].get<std::string>(), of_mark["storage"].get<std::string>(), "",
-                   structure.guests});
+    out.push_back({structure.name, of_mark["name"].get<std::string>(),
+                   sized_measures(of_mark["storage"].get<std::string>(), request.engine), "", structure.guests});
     for (const Json* result_case : structure.cases)
       if ((*result_case)["camera"] == request.scope.grid_of && out.back().grid_case.empty())
         out.back().grid_case = (*result_case)["name"].get<std::string>();

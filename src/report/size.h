@@ -35,13 +35,18 @@ std::vector<std::string> size_formats();
 // Of an allocation's bytes: whole pages, a power of two, none.
 std::vector<std::string> size_roundings();
 
+// What a search has to make large, by its name in `worst-case --measure`: what makes the buffers of a structure large,
+// which is the longest list where every cell has room for it and all entries else; or of an engine what its settings
+// have to have room for.
+std::vector<std::string> sized_measures(const std::string& storage, const std::string& engine);
+
 // Of each structure that is printed, the case whose camera made the high-water mark: where a search for worse frames is
 // to begin.
 struct SizedCase {
   std::string structure, name;
-  std::string storage;
-  std::string grid_case;            // where one camera's grid serves others: the case of that camera
-  std::vector<std::string> guests;  // those others
+  std::vector<std::string> measures;  // for which it is to be searched
+  std::string grid_case;              // where one camera's grid serves others: the case of that camera
+  std::vector<std::string> guests;    // those others
 };
 std::vector<SizedCase> sized_cases(const nlohmann::ordered_json& result, const SizeRequest& request);
 

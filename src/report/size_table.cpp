@@ -133,10 +133,9 @@ std::string size_table(const std::vector<NamedStructure>& structures, const std:
   if (is_bounded(structures)) out += "Of long paths several frames are one number, and percentiles upper bounds.\n";
   if (!remark.empty()) out += remark + "\n";
   const bool is_searched =
-      std::ranges::any_of(structures, [](const NamedStructure& named) { return named.structure.found.has_value(); });
+      std::ranges::any_of(structures, [](const NamedStructure& named) { return !named.structure.searches.empty(); });
   const bool is_of_nothing = std::ranges::any_of(structures, [](const NamedStructure& named) {
-    const bool is_found = named.structure.found && named.structure.found->refusal.empty();
-    return saw_no_light(named.structure) && !is_found;
+    return saw_no_light(named.structure) && !named.structure.is_searched();
   });
   if (is_of_nothing) return out + "Do not allocate these: give cameras that see lights, or --worst-case.\n";
   return out + (is_searched

@@ -48,10 +48,10 @@ std::string seen_text(const SizedBuffer& buffer, const SizedStructure& structure
 }
 
 std::string found_text(const SizedBuffer& buffer, const SizedStructure& structure) {
-  if (!structure.found) return "not searched: --worst-case looks where no camera was recorded";
-  const FoundFrame& found = *structure.found;
-  if (!found.refusal.empty()) return "not searched: " + found.refusal;
+  if (structure.searches.empty()) return "not searched: --worst-case looks where no camera was recorded";
+  if (!structure.is_searched()) return "not searched: " + structure.searches.front().refusal;
   if (!buffer.found) return "nothing for this buffer";
+  const FoundFrame& found = structure.searches[buffer.found_by];
   std::string out = std::to_string(*buffer.found) + " in " +
                     number_of(static_cast<std::uint64_t>(found.evaluations), "frame") + " tried (seed " +
                     std::to_string(found.seed) + ")";

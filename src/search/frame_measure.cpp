@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "measure/lights_in_view.h"
 #include "measure/occupancy.h"
 
 namespace clusterbench::search {
@@ -39,13 +40,16 @@ std::uint32_t longest_of(const assign::Lists& lists) {
 }  // namespace
 
 std::span<const MeasureRow> measure_rows() {
-  static constexpr std::array<MeasureRow, 5> k_rows{{
+  static constexpr std::array<MeasureRow, 7> k_rows{{
       {Measure::entries, "entries", "entries", "index entries of the lists", "buffers.index_entries.high_water"},
       {Measure::longest, "longest", "lights", "the longest list", "occupancy.lights_per_cell.max"},
       {Measure::p99, "p99", "lights", "the list that 99 % of the cells do not exceed", "occupancy.lights_per_cell.p99"},
       {Measure::evaluated, "evaluated", "lights per sample", "lights that a sample of the view loops over, the mean",
        "shading.evaluated / shading.samples"},
       {Measure::tests, "tests", "tests", "tests of a light against a cell or what holds cells", "tests_done"},
+      {Measure::lights, "lights", "lights", "lights in view, whatever the method", "lights_in_view.max"},
+      {Measure::lights_of_type, "lights-of-type", "lights", "lights in view of the type that has most of them",
+       "the largest of lights_in_view.max_by_type"},
   }};
   return k_rows;
 }
@@ -79,8 +83,21 @@ bool FrameMeter::update_grid(const run::PathFrames& path, const view::Frame& fra
   return true;
 }
 
+double FrameMeter::lights_in_view(const view::Frame& frame) {
+  measure::LightsInView counts;
+  measure::add_frame(counts, frame);
+  const view::LightRanges ranges = frame.ranges();
+  if (measure_ == Measure::lights) {
+    lights_ = ranges.size();
+    return static_cast<double>(counts.most);
+  }
+  lights_ = std::ranges::max(ranges.types(), {}, &view::LightRange::count).count;
+  return static_cast<double>(std::ranges::max(counts.most_of_type));
+}
+
 double FrameMeter::value(const run::PathFrames& path, int index) {
   const view::Frame frame = path.frame(index);
+  if (measure_ == Measure::lights || measure_ == Measure::lights_of_type) return lights_in_view(frame);
   const bool is_new_grid = update_grid(path, frame);
   const grid::Grid& grid = *grid_;
   const run::FrameLights lights(precision_, view::lights_in(frame, grid::space_of(grid, frame)));
@@ -109,6 +126,8 @@ double FrameMeter::value(const run::PathFrames& path, int index) {
     case Measure::evaluated:
       return evaluated_at_samples(path, frame);
     case Measure::tests:
+    case Measure::lights:
+    case Measure::lights_of_type:
       break;
   }
   return static_cast<double>(run_.tests_done());
@@ -148,10 +167,13 @@ void fix_grid(config::Config& config, const run::Plan& plan, const run::CasePlan
 }
 
 std::vector<double> values_along(const config::Config& config, const run::CasePlan& plan, Measure measure,
-                                 const run::PathFrames& path) {
+                                 const run::PathFrames& path, const std::function<void()>& on_frame) {
   FrameMeter meter(config, plan, measure);
   std::vector<double> values;
-  for (int frame = 0; frame < path.count(); ++frame) values.push_back(meter.value(path, frame));
+  for (int frame = 0; frame < path.count(); ++frame) {
+    values.push_back(meter.value(path, frame));
+    if (on_frame) on_frame();
+  }
   return values;
 }
 

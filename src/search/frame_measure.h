@@ -1,6 +1,7 @@
 #pragma once
 // One figure of one frame of a case: the same number that `clusterbench run` gives for a path of that frame alone.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,11 +16,13 @@
 namespace clusterbench::search {
 
 enum class Measure : std::uint8_t {
-  entries,    // index entries of the light structure (`buffers.index_entries.high_water`)
-  longest,    // lights in the longest list (`occupancy.lights_per_cell.max`)
-  p99,        // the list that 99 % of the cells do not exceed (`occupancy.lights_per_cell.p99`)
-  evaluated,  // lights per sample of the view: what a pixel loops over (`shading.evaluated` / `shading.samples`)
-  tests       // what the method tests lights against (`tests_done`)
+  entries,        // index entries of the light structure (`buffers.index_entries.high_water`)
+  longest,        // lights in the longest list (`occupancy.lights_per_cell.max`)
+  p99,            // the list that 99 % of the cells do not exceed (`occupancy.lights_per_cell.p99`)
+  evaluated,      // lights per sample of the view: what a pixel loops over (`shading.evaluated` / `shading.samples`)
+  tests,          // what the method tests lights against (`tests_done`)
+  lights,         // in view, whatever the method (`lights_in_view.max`): what engines limit
+  lights_of_type  // the same of the type that has most (`lights_in_view.max_by_type`)
 };
 struct MeasureRow {
   Measure measure;
@@ -36,6 +39,7 @@ class FrameMeter {
   // evaluated needs samples in the view, and visible sets a path of their own. The method must not need depth.
   FrameMeter(const config::Config& config, const run::CasePlan& plan, Measure measure);
 
+  // Of lights in view nothing is assigned, and structure() is not to be asked.
   double value(const run::PathFrames& path, int frame);
   // The most that there can be in the grid and with the lights of the last frame; none for tests.
   std::optional<double> theoretical_max() const;
@@ -47,6 +51,7 @@ class FrameMeter {
  private:
   // True if the grid is a new one.
   bool update_grid(const run::PathFrames& path, const view::Frame& frame);
+  double lights_in_view(const view::Frame& frame);
   double evaluated_at_samples(const run::PathFrames& path, const view::Frame& frame);
 
   const config::Config& config_;
@@ -59,7 +64,7 @@ class FrameMeter {
   run::CulledRun run_;
   std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
   std::uint32_t real_cells_ = 0;
-  std::uint32_t lights_ = 0;
+  std::uint32_t lights_ = 0;  // that the measure can come to
   std::vector<std::uint32_t> given_;
 };
 
@@ -69,8 +74,8 @@ class FrameMeter {
 // and stay so.
 void fix_grid(config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan);
 
-// Of all frames of a path.
+// Of all frames of a path. `on_frame` is told of each.
 std::vector<double> values_along(const config::Config& config, const run::CasePlan& plan, Measure measure,
-                                 const run::PathFrames& path);
+                                 const run::PathFrames& path, const std::function<void()>& on_frame = {});
 
 }  // namespace clusterbench::search

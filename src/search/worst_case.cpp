@@ -116,8 +116,25 @@ class WorstCaseSearch {
                request.eye_height_m),
         clock_(request.seconds, stop),
         stop_(stop),
-        progress_(listener, request.evaluations + request.random),
+        progress_(listener, frames_to_rate()),
         best_(kept(), near_m()) {}
+
+  double estimated_s() {
+    constexpr int k_most_frames = 16;
+    constexpr double k_most_s = 0.25;
+    FrameRater meter = rater();
+    meter.rate(random_frame(0, 0).choice);  // which also makes what the others share
+    const SearchClock::time_point start = SearchClock::now();
+    double passed_s = 0.0;
+    int rated = 0;
+    for (; rated < k_most_frames && passed_s < k_most_s; ++rated) {
+      meter.rate(random_frame(rated, 0).choice);
+      passed_s = std::chrono::duration<double>(SearchClock::now() - start).count();
+    }
+    const double recorded_s = passed_s / rated * static_cast<double>(path_.shots.size());
+    const double others_s = passed_s / rated * (request_.evaluations + request_.random) / std::max(1, request_.threads);
+    return recorded_s + (request_.seconds > 0.0 ? std::min(request_.seconds, others_s) : others_s);
+  }
 
   WorstCase result() {
     measure_recorded();
@@ -148,6 +165,7 @@ class WorstCaseSearch {
  private:
   const scene::CameraProjection& projection() const { return path_.shots.front().projection; }
   FrameRater rater() const { return {config_, case_, request_.measure, rig_, projection()}; }
+  int frames_to_rate() const { return static_cast<int>(path_.shots.size()) + request_.evaluations + request_.random; }
 
   std::optional<Walkable> floor_of(const scene::Scene& scene) const {
     if (!request_.walkable) return std::nullopt;
@@ -174,7 +192,9 @@ class WorstCaseSearch {
   void measure_recorded() {
     const Vec2i viewport = config_.viewports[case_.viewport];
     const run::PathFrames recorded(plan_.scenes[case_.scene].scene, path_, viewport);
-    const std::vector<double> values = values_along(config_, case_, request_.measure, recorded);
+    progress_.begin("the recorded path");
+    const std::vector<double> values =
+        values_along(config_, case_, request_.measure, recorded, [this] { progress_.step(); });
     const auto most = std::ranges::max_element(values);
     out_.recorded = {recorded.count(), *most, static_cast<int>(most - values.begin())};
     const scene::CameraProjection& first = projection();
@@ -392,7 +412,9 @@ class WorstCaseSearch {
     FrameRater meter = rater();
     meter.rate(out_.frames.front().choice);
     out_.theoretical_max = meter.theoretical_max();
-    out_.buffers = meter.buffers();
+    FrameRater lists(config_, case_, Measure::entries, rig_, projection());  // which has lists, whatever was searched
+    lists.rate(out_.frames.front().choice);
+    out_.buffers = lists.buffers();
   }
 
   void compare_with_random() {
@@ -475,6 +497,14 @@ WorstCase find_worst_case(const config::Config& config, const run::Plan& plan, c
                           const std::atomic<bool>& stop) {
   check_request(plan.scenes[case_plan.scene], request);
   return WorstCaseSearch(config, plan, case_plan, request, listener, stop).result();
+}
+
+double estimated_search_s(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
+                          const WorstCaseRequest& request) {
+  check_request(plan.scenes[case_plan.scene], request);
+  const std::atomic<bool> stop{false};
+  const WorstCaseListener nobody;
+  return WorstCaseSearch(config, plan, case_plan, request, nobody, stop).estimated_s();
 }
 
 }  // namespace clusterbench::search

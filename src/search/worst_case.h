@@ -87,4 +87,8 @@ WorstCase find_worst_case(const config::Config& config, const run::Plan& plan, c
                           const WorstCaseRequest& request, const WorstCaseListener& listener,
                           const std::atomic<bool>& stop);
 
+// About how long that takes on this machine, by a few random frames of it.
+double estimated_search_s(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
+                          const WorstCaseRequest& request);
+
 }  // namespace clusterbench::search

@@ -352,6 +352,53 @@ TEST(SizeCommand, an_engines_room_for_indices_is_that_of_tiles_that_have_not_gro
   EXPECT_NE(told.out.find(own), std::string::npos) << told.out;
 }
 
+// Three cameras of which none sees all forty lights.
+TEST(SizeCommand, searches_for_what_an_engines_settings_have_to_have_room_for) {
+  const Folder folder;
+  const std::string scene = folder.write("level.gltf", three_cameras()).string(),
+                    camera = "--viewport 640x360 --set scenes.0.camera=before " + scene;
+  const auto limits = [&](const std::string& engine) {
+    const Outcome done =
+        tool("size -q --worst-case --evaluations 300 --margin 1 --format json --engine " + engine + " " + camera);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return Json::parse(done.out)["structures"][0]["settings"]["limits"];
+  };
+  const Json cells = limits("playcanvas"), types = limits("godot"), bevy = limits("bevy");
+  EXPECT_EQ(cells[0]["search"]["measure"], "longest");
+  EXPECT_EQ(cells[1]["search"]["measure"], "lights");
+  EXPECT_EQ(types[0]["search"]["measure"], "lights-of-type");
+  EXPECT_EQ(bevy[0]["search"]["measure"], "entries");
+  for (const Json& limit : {cells[0], cells[1], types[0], bevy[0]}) {
+    EXPECT_EQ(limit["search"]["evaluations"], 300);
+    EXPECT_GE(limit["found"], limit["seen"]) << limit;
+    EXPECT_TRUE(limit["value"].is_null() || limit["value"] >= limit["found"]) << limit;
+  }
+  EXPECT_EQ(cells[1]["found"], 40) << "one place sees all lights";
+  const std::string found = (folder / "found.json").string();
+  ASSERT_EQ(tool("worst-case -q --evaluations 300 --random 0 --measure lights --preset playcanvas --filter playcanvas "
+                 "-o " +
+                 found + " " + camera)
+                .code,
+            0);
+  EXPECT_EQ(Json::parse(file_text(found))["frames"][0]["value"], cells[1]["found"]);
+  const Outcome told = tool("size --worst-case --evaluations 300 --engine playcanvas " + camera);
+  EXPECT_NE(told.out.find("the most found by a search: 40 lights in view in 300 frames tried"), std::string::npos)
+      << told.out;
+  EXPECT_NE(told.err.find(", then searches 300 frames for worse ones, 2 times, "), std::string::npos) << told.err;
+  EXPECT_NE(told.err.find("--evaluations N"), std::string::npos) << told.err;
+}
+
+TEST(SizeCommand, shares_the_seconds_of_a_search_among_all) {
+  const std::string street = test::source_file("scenes/street.glb");
+  const Outcome done = tool(
+      "size -q --worst-case --seconds 0.001 --engine playcanvas --format json --viewport 640x360 "
+      "--set scenes.*.frames=3 " +
+      street);
+  ASSERT_EQ(done.code, 0) << done.err;
+  for (const Json& limit : Json::parse(done.out)["structures"][0]["settings"]["limits"])
+    EXPECT_LT(limit["search"]["evaluations"], 5000) << limit;
+}
+
 TEST(SizeCommand, says_of_a_preset_that_reached_its_own_limit_that_its_buffers_are_of_what_is_left) {
   const Folder folder;
   const std::string scene = folder.write("many.gltf", lights_in_view_and_behind(300, 0)).string(),

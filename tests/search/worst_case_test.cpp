@@ -44,6 +44,31 @@ TEST(WorstCase, finds_the_crowd_that_the_recorded_camera_never_sees) {
   EXPECT_EQ(found.evaluations, 1500);
 }
 
+// Ten points in front of each other and twenty spots, in two places that no camera sees at once.
+Json two_crowds() {
+  std::vector<TestLight> lights(10, {{100.0, 0.0, 0.0}, 0.5});
+  lights.insert(lights.end(), 20, {{-100.0, 0.0, 0.0}, 0.5, true});
+  lights.insert(lights.end(), 12, {{-101.0, 0.0, 0.0}, 0.5});
+  return scene_json(lights, {{0.0, 0.0, 5.0}});
+}
+
+TEST(WorstCase, finds_where_most_lights_are_in_view_and_where_most_of_one_type) {
+  const SearchFolder folder;
+  const Searched crowds = searched(folder, two_crowds());
+  WorstCaseRequest request = few(1500);
+  request.measure = Measure::lights;
+  const WorstCase all = crowds.search(request);
+  EXPECT_EQ(all.frames.front().value, 32.0);
+  EXPECT_EQ(all.theoretical_max, 42.0);
+  EXPECT_EQ(all.recorded.max, 0.0);
+  EXPECT_EQ(all.buffers.front().name, "indices") << "also of a search that assigns nothing";
+  EXPECT_GT(all.buffers.front().elements, 0u);
+  request.measure = Measure::lights_of_type;
+  const WorstCase of_type = crowds.search(request);
+  EXPECT_EQ(of_type.frames.front().value, 20.0);
+  EXPECT_EQ(of_type.theoretical_max, 22.0) << "points";
+}
+
 TEST(WorstCase, a_light_without_end_is_in_every_cell_of_every_frame) {
   const SearchFolder folder;
   const Searched endless = searched(folder, scene_json({{{0.0, 0.0, 0.0}, 1e16}}, {{0.0, 0.0, 5.0}}));
@@ -95,6 +120,10 @@ double figure_of(const run::CaseResult& result, Measure measure) {
       return static_cast<double>(result.shading->evaluated) / static_cast<double>(result.shading->samples);
     case Measure::tests:
       break;
+    case Measure::lights:
+      return static_cast<double>(result.lights_in_view.most);
+    case Measure::lights_of_type:
+      return static_cast<double>(std::ranges::max(result.lights_in_view.most_of_type));
   }
   return static_cast<double>(result.tests_done);
 }
