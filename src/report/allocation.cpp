@@ -113,7 +113,7 @@ void add(SizedBuffer& buffer, std::uint64_t& step, const CaseBuffer& next) {
 // Cameras of one frame, each with its cases in all viewports; a camera that shares no buffer is alone.
 using FrameCameras = std::vector<std::vector<const Json*>>;
 
-std::vector<FrameCameras> frames_of(const SizedStructure& structure) {
+std::vector<FrameCameras> cameras_by_frame(const SizedStructure& structure) {
   std::vector<FrameCameras> out;
   const auto cases_of = [&](const std::string& camera) {
     std::vector<const Json*> cases;
@@ -133,6 +133,23 @@ std::vector<FrameCameras> frames_of(const SizedStructure& structure) {
     if (const auto camera = (*result_case)["camera"].get<std::string>(); taken.insert(camera).second)
       out.push_back({cases_of(camera)});
   return out;
+}
+
+std::uint64_t frames_of_group(const FrameCameras& cameras) {
+  std::uint64_t most = 0;
+  for (const std::vector<const Json*>& of_camera : cameras)
+    most = std::max(most, of_camera.front()->at("frames").get<std::uint64_t>());
+  return most;
+}
+
+FrameGroup group_of(const FrameCameras& cameras, const CaseBuffer& needs) {
+  FrameGroup group;
+  for (const std::vector<const Json*>& of_camera : cameras)
+    group.cameras.push_back(of_camera.front()->at("camera").get<std::string>());
+  group.frames = frames_of_group(cameras);
+  group.high_water = needs.high_water;
+  group.spread = spread_of({needs.path});
+  return group;
 }
 
 // Of one viewport after the other the cameras together, and then the largest of them.
@@ -206,7 +223,7 @@ void add_searches(SizedStructure& structure) {
 
 void size_buffers(SizedStructure& structure, const AllocationRules& rules) {
   std::vector<std::uint64_t> steps;
-  for (const FrameCameras& cameras : frames_of(structure))
+  for (const FrameCameras& cameras : cameras_by_frame(structure))
     for (const CaseBuffer& next : buffers_of_frame(cameras)) {
       auto known = std::ranges::find(structure.buffers, next.name, &SizedBuffer::name);
       if (known == structure.buffers.end()) {
@@ -216,7 +233,11 @@ void size_buffers(SizedStructure& structure, const AllocationRules& rules) {
         steps.push_back(1);
       }
       add(*known, steps[static_cast<std::size_t>(known - structure.buffers.begin())], next);
+      if (!structure.views.empty()) known->groups.push_back(group_of(cameras, next));
     }
+  for (SizedBuffer& buffer : structure.buffers)
+    if (!buffer.groups.empty())
+      std::erase_if(buffer.paths, [&](const PathNeed& path) { return path.camera != buffer.worst_camera; });
   add_searches(structure);
   for (std::size_t i = 0; i < structure.buffers.size(); ++i) {
     SizedBuffer& buffer = structure.buffers[i];
@@ -344,13 +365,14 @@ void set_views(std::vector<SizedStructure>& structures, const AllocationScope& s
 
 std::uint64_t SizedStructure::frames() const {
   std::uint64_t all = 0;
-  for (const FrameCameras& cameras : frames_of(*this)) {
-    std::uint64_t most = 0;
-    for (const std::vector<const Json*>& of_camera : cameras)
-      most = std::max(most, of_camera.front()->at("frames").get<std::uint64_t>());
-    all += most;
-  }
+  for (const FrameCameras& cameras : cameras_by_frame(*this)) all += frames_of_group(cameras);
   return all;
+}
+
+std::uint64_t SizedStructure::frames_of(const SizedBuffer& buffer) const {
+  const auto made_mark = [&](const FrameGroup& needs) { return joined(needs.cameras, "+") == buffer.worst_camera; };
+  const auto found = std::ranges::find_if(buffer.groups, made_mark);
+  return found == buffer.groups.end() ? frames() : found->frames;
 }
 
 const FoundFrame* SizedStructure::search_for(const std::string& measure) const {

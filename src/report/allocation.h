@@ -83,6 +83,13 @@ struct Growth {
   std::uint64_t high_water = 0;
 };
 
+// What frames of some cameras need of a buffer: of those that share it in one frame, or of one that has it alone.
+struct FrameGroup {
+  std::vector<std::string> cameras;
+  std::uint64_t frames = 0, high_water = 0;
+  std::optional<FrameSpread> spread;  // none where their paths have different frames
+};
+
 struct SizedBuffer {
   std::string name;  // as the structure names it: "indices"
   std::uint64_t element_bytes = 1;
@@ -95,9 +102,12 @@ struct SizedBuffer {
   std::string worst_camera;            // that made the high-water mark
   std::uint64_t worst_frame = 0;       // of its path
   nlohmann::ordered_json worst_cell;   // [x, y, z], its longest list in that frame; null without cells
-  std::vector<PathNeed> paths;         // one per camera (or cameras in one frame), in the cases' order
-  std::vector<Growth> growth;          // every 8th frame first; none where the result has merged frames
-  std::optional<FrameSpread> spread;   // none where the result has no frames
+  // With cameras in one frame: these and the others, each apart. Else empty.
+  std::vector<FrameGroup> groups;
+  // Of all cameras, in the cases' order; of groups the one that made the high-water mark.
+  std::vector<PathNeed> paths;
+  std::vector<Growth> growth;         // every 8th frame first; none where the result has merged frames
+  std::optional<FrameSpread> spread;  // none where the result has no frames
 
   // Capacity: mark() x margin, at most the theoretical maximum; and then what else fits into the rounded bytes.
   std::uint64_t capacity = 0, bytes = 0;
@@ -129,6 +139,8 @@ struct SizedStructure {
   bool is_searched() const;  // one that was not refused
   std::uint64_t bytes() const;
   std::uint64_t frames() const;  // of all cameras, or of cameras in one frame, each frame once
+  // Of those that a buffer's figures are of.
+  std::uint64_t frames_of(const SizedBuffer& buffer) const;
 };
 
 // Of all cases whose name matches the regular expression `filter` ("" = all). Results of earlier versions have no

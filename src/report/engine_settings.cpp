@@ -122,8 +122,10 @@ std::string own_value_text(const SettingValue& value, const SizedStructure& stru
            " (" + std::to_string(tiles->entries) + " entries at most)\n";
   }
   if (setting.standard == 0 || setting.is_constant || setting.needed == Needed::entries) return "";
-  return value.needed() > setting.standard ? with + lost_text(setting.needed, value.needed() - setting.standard) + "\n"
-                                           : "";
+  // Beyond what it takes at all, another line says the same.
+  const bool is_told = value.is_too_much() && setting.standard >= setting.most;
+  if (value.needed() <= setting.standard || is_told) return "";
+  return with + lost_text(setting.needed, value.needed() - setting.standard) + "\n";
 }
 
 Json own_value_json(const SettingValue& value, const SizedStructure& structure) {

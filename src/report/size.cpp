@@ -108,6 +108,11 @@ Json buffer_json(const SizedBuffer& buffer, const std::string& name) {
            {"worst", worst}};
   if (buffer.apart > 0) out["views_apart"] = buffer.apart;
   if (buffer.spread) out["frames"] = spread_json(*buffer.spread);
+  for (const FrameGroup& group : buffer.groups)
+    out["groups"].push_back({{"cameras", group.cameras},
+                             {"count", group.frames},
+                             {"high_water", group.high_water},
+                             {"frames", group.spread ? spread_json(*group.spread) : Json()}});
   for (const Growth& growth : buffer.growth)
     out["high_water_of_every"].push_back({{"every", growth.every}, {"high_water", growth.high_water}});
   if (buffer.found) out["found"] = *buffer.found;

@@ -38,8 +38,11 @@ std::string buffer_comment(const SizedBuffer& buffer, const SizedStructure& stru
   std::string out = comment_line("  " + buffer.name + ": high water " + std::to_string(buffer.high_water) + " in " +
                                  worst_text(buffer) + "; " + share_text(buffer.high_water, buffer.theoretical_max) +
                                  " of the theoretical " + std::to_string(buffer.theoretical_max));
-  if (buffer.spread && buffer.spread->min != buffer.spread->max)
-    out += comment_line("    frames    " + frames_text(*buffer.spread));
+  const bool differs = buffer.spread && buffer.spread->min != buffer.spread->max;
+  if (differs && buffer.groups.empty()) out += comment_line("    frames    " + frames_text(*buffer.spread));
+  for (const FrameGroup& group : buffer.groups)
+    if (group.spread)
+      out += comment_line("    frames    of " + joined(group.cameras, " + ") + ": " + frames_text(*group.spread));
   out += comment_line("    allocate  " + capacity + " elements of " + number_of(buffer.element_bytes, "byte") + " (" +
                       (buffer.is_all() ? "all that there can be" : rule_text(buffer, rules)) +
                       "): " + std::to_string(buffer.bytes) + " bytes, " +

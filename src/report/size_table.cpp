@@ -47,6 +47,33 @@ std::vector<Cells> table_rows(const SizedStructure& structure) {
   return rows;
 }
 
+// Cameras that share a buffer in one frame, and those that have it alone, each apart: a row of each, of the buffers
+// that differ between frames.
+std::vector<Cells> group_rows(const SizedStructure& structure) {
+  std::vector<Cells> rows{
+      {"", "cameras in one frame", "buffer", "frames", "min", "median", "p90", "p99", "high water"}};
+  for (const SizedBuffer& buffer : structure.buffers) {
+    const auto is_constant = [](const FrameGroup& group) {
+      return group.spread && group.spread->min == group.spread->max;
+    };
+    if (std::ranges::all_of(buffer.groups, is_constant)) continue;
+    for (const FrameGroup& group : buffer.groups) {
+      rows.push_back({"", shown(joined(group.cameras, " + ")), shown(buffer.name), std::to_string(group.frames)});
+      for (const auto value : {&FrameSpread::min, &FrameSpread::p50, &FrameSpread::p90, &FrameSpread::p99})
+        rows.back().push_back(group.spread ? std::to_string((*group.spread).*value) : "-");
+      rows.back().push_back(std::to_string(group.high_water));
+    }
+  }
+  return rows;
+}
+
+std::string aligned_rows(const std::vector<Cells>& rows) {
+  std::string out;
+  const std::vector<std::size_t> widths = widths_of(rows);
+  for (const Cells& row : rows) out += aligned(row, widths);
+  return out;
+}
+
 // Which frame made the marks: of all buffers that differ between frames the same, as a rule.
 std::string worst_lines(const SizedStructure& structure) {
   std::vector<std::pair<std::string, std::vector<std::string>>> by_frame;
@@ -100,9 +127,8 @@ std::string counted_text(const SizedStructure& structure) {
 std::string structure_text(const SizedStructure& structure, const AllocationRules& rules) {
   std::string out = shown(structure.name) + "  (" + counted_text(structure) + ")\n";
   if (structure.buffers.empty()) return out + "  has no buffers\n";
-  const std::vector<Cells> rows = table_rows(structure);
-  const std::vector<std::size_t> widths = widths_of(rows);
-  for (const Cells& row : rows) out += aligned(row, widths);
+  out += aligned_rows(table_rows(structure));
+  if (structure.buffers.front().groups.size() > 1) out += aligned_rows(group_rows(structure));
   if (saw_no_light(structure)) out += "  " + no_light_text() + "\n";
   out += worst_lines(structure);
   out += note_lines(structure);
@@ -127,8 +153,12 @@ std::string size_table(const std::vector<NamedStructure>& structures, const std:
   std::string out;
   for (const NamedStructure& named : structures) out += structure_text(named.structure, rules) + "\n";
   if (structures.empty()) out += "The result has no cases.\n\n";
-  out += "Elements over all frames of all cameras. Capacity: " + rule_text(rules) +
-         ", at most what is possible. Warn above " + text("%g %%", 100.0 * rules.warn_at) +
+  const bool has_views =
+      std::ranges::any_of(structures, [](const NamedStructure& named) { return !named.structure.views.empty(); });
+  out += std::string(has_views ? "Elements over the frames of the cameras that made the high water; one allocation "
+                                 "serves all. Capacity: "
+                               : "Elements over all frames of all cameras. Capacity: ") +
+         rule_text(rules) + ", at most what is possible. Warn above " + text("%g %%", 100.0 * rules.warn_at) +
          " of it; \"-\": nothing can overflow. Double: double-buffered.\n";
   if (is_bounded(structures)) out += "Of long paths several frames are one number, and percentiles upper bounds.\n";
   if (!remark.empty()) out += remark + "\n";

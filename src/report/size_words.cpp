@@ -37,10 +37,11 @@ std::string growth_text(const SizedBuffer& buffer) {
 }
 
 std::string seen_text(const SizedBuffer& buffer, const SizedStructure& structure) {
-  const std::string frames = number_of(structure.frames(), "frame");
+  const std::string of_group = buffer.groups.empty() ? "" : " of " + buffer.worst_camera;
+  const std::string frames = number_of(structure.frames_of(buffer), "frame") + of_group;
   if (buffer.is_sum_of_marks)
     return std::to_string(buffer.high_water) + " in " + frames +
-           " if each view needs its most at the same time (their paths have different numbers of frames)";
+           ", if each view needs its most at the same time (their paths have different numbers of frames)";
   std::string out = std::to_string(buffer.high_water) + " in " + frames + growth_text(buffer);
   if (buffer.apart > buffer.high_water)
     out += "; " + std::to_string(buffer.apart) + " if each view needed its most at the same time";

@@ -175,13 +175,41 @@ TEST(SizeMarks, views_of_one_buffer_are_added_frame_by_frame) {
   EXPECT_EQ(all["frames"]["min"], 20 + 21 + 33 + 1);
 }
 
+TEST(SizeMarks, frames_of_cameras_in_one_frame_and_of_single_ones_are_not_mixed) {
+  const run::Result result =
+      result_of_cameras({camera_of_marks("left", {10, 40, 20}), camera_of_marks("right", {30, 5, 21}),
+                         camera_of_marks("map", {33, 2, 3}), camera_of_marks("other", {1, 1, 1})});
+  SizeRequest request = with_views({"left,right"});
+  const MarksJson buffer = sized_json(result, request)["buffers"][0];
+  EXPECT_EQ(buffer["high_water"], 45);
+  EXPECT_EQ(buffer["frames"]["min"], 40) << "of both eyes: 40, 45 and 41";
+  EXPECT_EQ(buffer["frames"]["p50"], 41);
+  ASSERT_EQ(buffer["groups"].size(), 3u);
+  EXPECT_EQ(buffer["groups"][0]["cameras"], MarksJson({"left", "right"}));
+  EXPECT_EQ(buffer["groups"][0]["frames"], buffer["frames"]);
+  EXPECT_EQ(buffer["groups"][0]["count"], 3);
+  EXPECT_EQ(buffer["groups"][1]["cameras"], MarksJson({"map"}));
+  EXPECT_EQ(buffer["groups"][1]["frames"]["min"], 2);
+  EXPECT_EQ(buffer["groups"][1]["high_water"], 33);
+  EXPECT_EQ(buffer["groups"][2]["frames"]["max"], 1);
+  EXPECT_FALSE(sized_json(result, with_views({}))["buffers"][0].contains("groups"));
+  request.format = "table";
+  const std::string table = marks_of(result, request);
+  EXPECT_NE(table.find("45 in 3 frames of left+right"), std::string::npos) << table;
+  EXPECT_NE(table.find("left + right          indices       3   40      41   45   45          45\n"), std::string::npos)
+      << table;
+  request.format = "cpp";
+  const std::string code = marks_of(result, request);
+  EXPECT_NE(code.find("frames    of map: min 2, median 3, p90 33, p99 33, max 33\n"), std::string::npos) << code;
+}
+
 TEST(SizeMarks, views_whose_paths_differ_need_the_sum_of_their_marks) {
   const run::Result result = result_of_cameras({camera_of_marks("one", {10, 40, 20}), camera_of_marks("two", {30, 5})});
   SizeRequest request = with_views({"one,two"});
   EXPECT_EQ(sized_json(result, request)["buffers"][0]["high_water"], 70);
   request.format = "table";
   const std::string table = marks_of(result, request);
-  EXPECT_NE(table.find("70 in 3 frames if each view needs its most at the same time"), std::string::npos) << table;
+  EXPECT_NE(table.find("70 in 3 frames of one+two, if each view needs its most at the same time"), std::string::npos) << table;
 }
 
 // Room for the longest list in every cell: 10 cells each, of which the longest lists have 4 and 3 lights.
