@@ -37,7 +37,7 @@ struct FoundFrame {
   struct Need {
     std::string name;  // of a buffer
     std::uint64_t elements = 0, most = 0;
-    std::uint64_t element_bytes = 0;  // which more lights can widen; 0: not known
+    std::uint64_t element_bytes = 1;  // which more lights can widen
   };
   std::vector<Need> needs;  // of that frame
 };

@@ -55,9 +55,15 @@ FoundFrame read_found(const std::string& path, const Json& result) {
   out.lights = json["space"]["lights"].get<std::uint64_t>() + json["space"]["added_ranges_m"].size();
   if (!json.contains("buffers"))
     throw Error(path, "/buffers", "is missing: an earlier version wrote the file, without what each buffer needs");
-  for (const Json& need : json["buffers"])
+  for (std::size_t i = 0; i < json["buffers"].size(); ++i) {
+    const Json& need = json["buffers"][i];
+    if (!need.contains("element_bytes"))
+      throw Error(path, "/buffers/" + std::to_string(i) + "/element_bytes",
+                  "is missing: an earlier version wrote the file, and nothing says how wide the indices of its lights "
+                  "are; search again");
     out.needs.push_back({need["name"].get<std::string>(), need["elements"].get<std::uint64_t>(),
-                         need["theoretical_max"].get<std::uint64_t>(), need.value("element_bytes", std::uint64_t{0})});
+                         need["theoretical_max"].get<std::uint64_t>(), need["element_bytes"].get<std::uint64_t>()});
+  }
   return out;
 }
 

@@ -465,6 +465,22 @@ TEST(SizeCommand, indices_are_as_wide_as_the_lights_that_the_capacity_holds_for_
   EXPECT_EQ(code.out.find("& 0xffu"), std::string::npos) << code.out;
 }
 
+TEST(SizeCommand, refuses_what_an_earlier_build_found_without_the_width_of_its_elements) {
+  const Folder folder;
+  const std::string scene = folder.write("s.gltf", lights_in_view_and_behind(20, 0)).string(),
+                    found = (folder / "found.json").string(),
+                    flags = " -q --viewport 640x360 --grid frustum --tiles 16x9t --slices 8 --assigner exact-fast ";
+  ASSERT_EQ(tool("worst-case" + flags + "--evaluations 20 -o " + found + " " + scene).code, 0);
+  ASSERT_EQ(tool("size" + flags + "--found " + found + " " + scene).code, 0);
+  Json old = Json::parse(file_text(found));
+  for (Json& buffer : old["buffers"]) buffer.erase("element_bytes");
+  const Outcome done = tool("size" + flags + "--found " + folder.write("old.json", old.dump()).string() + " " + scene);
+  EXPECT_EQ(done.code, 2);
+  EXPECT_EQ(done.out, "");
+  EXPECT_NE(done.err.find("old.json: /buffers/0/element_bytes: is missing"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("search again"), std::string::npos) << done.err;
+}
+
 TEST(SizeCommand, a_capacity_that_is_all_that_there_can_be_is_not_called_a_multiple) {
   const Folder folder;
   const std::string scene = folder.write("s.gltf", lights_in_view_and_behind(1, 0)).string();
