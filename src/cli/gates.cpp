@@ -1,5 +1,8 @@
 #include "cli/gates.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "cli/output.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -38,6 +41,22 @@ void set_gates(config::Config& config, const GateFlags& flags) {
   }
   if (flags.allows_no_lights) limits["allow_no_lights"] = config.limits.allows_no_lights = true;
   if (flags.allows_changed_lights) limits["allow_changed_lights"] = config.limits.allows_changed_lights = true;
+}
+
+void keep_counted_budgets(config::Config& config, const std::string& doing) {
+  constexpr const char* k_counted[] = {"index_entries", "bytes",   "upload_bytes", "scratch_bytes", "longest",
+                                       "pairs",         "dropped", "lights",       "lights_in_view"};
+  const auto is_left_out = [&](const config::LimitRule& rule) {
+    return rule.is_relative || std::ranges::find(k_counted, rule.figure) == std::end(k_counted);
+  };
+  std::vector<std::string> left_out;
+  for (const config::LimitRule& rule : config.limits.fail_if)
+    if (is_left_out(rule)) left_out.push_back("'" + rule.text() + "'");
+  std::erase_if(config.limits.fail_if, is_left_out);
+  config.limits.baseline.clear();
+  if (left_out.empty()) return;
+  tell("warning: of limits.fail_if " + doing + " does not look at " + joined(left_out) +
+       ": it counts lists and lights alone, without times, truth, samples and a baseline; `clusterbench run` does");
 }
 
 Gates::Gates(const config::Config& config, const std::string& filter) : limits_(config.limits), filter_(filter) {

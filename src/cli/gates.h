@@ -19,6 +19,10 @@ void add_gate_options(Command& command, GateFlags& flags);
 // The configuration with what the flags say.
 void set_gates(config::Config& config, const GateFlags& flags);
 
+// Of what only counts frames (`size`): leaves the budgets of figures that it has, and tells of the others, which `run`
+// holds. `doing`: the name of the command.
+void keep_counted_budgets(config::Config& config, const std::string& doing);
+
 class Gates {
  public:
   // Reads the baseline, so that what is wrong with it is known before minutes go into measuring. Throws Error for a

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/gates.h"
 #include "cli/output.h"
 #include "cli/run_inputs.h"
 #include "cli/search_options.h"
@@ -33,6 +34,7 @@ struct SizeFlags {
   SearchFlags search;
   std::vector<std::string> found;  // files of `worst-case`
   std::string engine;              // "": what is printed is of buffers
+  bool allows_no_lights = false;
   bool quiet = false;
 };
 
@@ -72,9 +74,32 @@ void check_for_result(const SizeFlags& flags) {
                 "`clusterbench worst-case -o FILE` wrote with --found FILE");
   if (!flags.request.scope.grid_of.empty())
     throw Error("", "--grid-of", "asks the scene's cameras, and a result does not hold them; give the scene");
-  if (const std::vector<config::FlagValue> given = flag_values(flags.inputs); !given.empty())
-    throw Error("", given.front().name,
-                "changes what is measured, and a result has been; give a configuration or scenes");
+  const std::vector<config::FlagValue> given = flag_values(flags.inputs);
+  if (given.empty()) return;
+  if (given.front().name == "--fail-if")
+    throw Error("", "--fail-if",
+                "is held against what is counted, and a result has been; give `clusterbench run` the flag");
+  throw Error("", given.front().name,
+              "changes what is measured, and a result has been; give a configuration or scenes");
+}
+
+// Sizes of nothing, and what the configuration's budgets say of what was counted.
+ExitCode judged(const SizeFlags& flags, const SizeCounts* counts, const Json& result,
+                const report::SizeRequest& request) {
+  const bool allows_no_lights = flags.allows_no_lights || (counts != nullptr && counts->config.limits.allows_no_lights);
+  ExitCode code = ExitCode::ok;
+  if (counts != nullptr) {
+    config::Config config = counts->config;
+    config.limits.allows_no_lights = allows_no_lights;
+    keep_counted_budgets(config, "size");
+    code = Gates(config, request.filter).report(result);
+  }
+  for (const std::string& name : report::sized_from_nothing(result, request)) {
+    if (!allows_no_lights) code = ExitCode::gate_failed;
+    tell((allows_no_lights ? "warning: " : "FAILED ") + name +
+         (allows_no_lights ? "" : " (--allow-no-lights, limits.allow_no_lights, if that is meant)"));
+  }
+  return code;
 }
 
 ExitCode size(SizeFlags flags) {
@@ -109,8 +134,8 @@ ExitCode size(SizeFlags flags) {
     request.scope.guests = *guests;
   }
   const std::string text = report::size_report(result, request);
-  std::cout << (request.format == "json" ? text : printable_lines(text));
-  return ExitCode::ok;
+  std::cout << (request.format == "json" ? text : printable_lines(text)) << std::flush;
+  return judged(flags, counts ? &*counts : nullptr, result, request);
 }
 
 }  // namespace
@@ -164,7 +189,9 @@ void add_size(Command& program, Action& action) {
       .once_a_name();
   add_effort_options(command, flags->search, &worst_case);
   add_space_options(command, flags->search, &worst_case);
-  add_config_options(command, flags->inputs, {"--rounds", "--launches", "--fail-if"});
+  add_config_options(command, flags->inputs, {"--rounds", "--launches"});
+  command.add_flag("--allow-no-lights", flags->allows_no_lights,
+                   "Sizes count also where no light is ever in view, which fails else");
   command.add_flag("-q,--quiet", flags->quiet, "No progress; warnings stay");
   command.when_named([flags, &action] { action = [flags] { return size(*flags); }; });
 }

@@ -99,6 +99,8 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   search::fix_grid(config, plan, case_plan);
   if (!flags.quiet) tell_of_cameras(config, plan);
   check_outputs(flags, config);
+  if (!config.limits.fail_if.empty())
+    tell("warning: limits.fail_if is not looked at: `clusterbench run` and `size` do");
   if (!flags.quiet) tell_of_work(config, plan, case_plan, request);
   const std::atomic<bool>& stop = stop_on_signals();
   ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);

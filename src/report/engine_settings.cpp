@@ -179,7 +179,7 @@ std::string advice_text(const EngineRow& row, const std::vector<SizedStructure>&
       is_too_much |= value.is_too_much();
       is_known &= value.seen.has_value();
     }
-  if (std::ranges::any_of(structures, saw_no_light))
+  if (std::ranges::any_of(structures, is_sized_from_nothing))
     return "Do not set these values: they hold for frames without lights. Give cameras that see some.\n";
   if (is_too_much)
     return "With these values the engine still loses lights, where it says TOO MUCH: fewer or smaller lights, or "
@@ -226,7 +226,7 @@ std::string engine_settings_text(const std::string& engine, const std::vector<Si
     if (const std::string grid = grid_text(row, structure); !grid.empty()) out += "  " + grid + "\n";
     for (const LimitSetting& setting : row.limits)
       out += setting_lines(value_of(setting, structure, rules), structure, rules);
-    if (saw_no_light(structure)) out += "  " + no_light_text() + "\n";
+    if (const std::string unseen = nothing_seen_text(structure); !unseen.empty()) out += "  " + unseen + "\n";
     out += std::string("  beyond the limit: ") + row.beyond + "\n";
     for (const std::string& note : grid_notes(structure)) out += "  grid: " + shown(note) + "\n";
     out += "\n";
@@ -245,7 +245,8 @@ Json engine_settings_json(const std::string& engine, const SizedStructure& struc
     entry["found"] = value.found ? Json(*value.found) : Json();
     if (const FoundFrame* search = structure.search_for(measure_of(setting.needed)))
       entry["search"] = search_json(*search);
-    entry["value"] = value.seen && !setting.is_constant ? Json(value.value) : Json();
+    const bool is_told = value.seen && !setting.is_constant && !is_sized_from_nothing(structure);
+    entry["value"] = is_told ? Json(value.value) : Json();
     entry["most"] = setting.most == k_any ? Json() : Json(setting.most);
     entry["is_too_much"] = value.is_too_much();
     if (value.is_too_much()) entry["lost"] = value.needed() - setting.most;

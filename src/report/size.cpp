@@ -153,6 +153,8 @@ Json structure_json(const NamedStructure& named, const std::string& engine, cons
                              {"missed_outside", guest.missed_outside},
                              {"worst_frame", guest.worst_frame}});
   if (!structure.searches.empty()) out["search"] = search_json(structure.searches.front());
+  const std::string unseen = nothing_seen_text(structure);
+  out["nothing_seen"] = unseen.empty() ? Json() : Json(unseen);
   std::uint64_t dropped = 0;
   for (const Json* result_case : structure.cases)
     dropped += (*result_case)["buffers"]["overflow"]["dropped_pairs"].get<std::uint64_t>();
@@ -214,6 +216,13 @@ void keep_engine(std::vector<SizedStructure>& structures, const std::string& eng
                 "no case is of the preset '" + engine + "'; measure it: clusterbench size LEVEL --engine " + engine);
 }
 
+// Those that are printed.
+std::vector<SizedStructure> printed_structures(const Json& result, const SizeRequest& request, std::size_t& count) {
+  std::vector<SizedStructure> chosen = chosen_structures(result, request, count);
+  if (!request.engine.empty() && !request.has_own_grid) keep_engine(chosen, request.engine);
+  return chosen;
+}
+
 }  // namespace
 
 std::vector<std::string> size_formats() {
@@ -243,13 +252,20 @@ std::vector<SizedCase> sized_cases(const Json& result, const SizeRequest& reques
   return out;
 }
 
+std::vector<std::string> sized_from_nothing(const Json& result, const SizeRequest& request) {
+  std::size_t count = 0;
+  std::vector<std::string> out;
+  for (const SizedStructure& structure : printed_structures(result, request, count))
+    if (is_sized_from_nothing(structure)) out.push_back(structure.name + ": " + nothing_seen_text(structure));
+  return out;
+}
+
 std::string size_report(const Json& result, const SizeRequest& request) {
   const AllocationRules rules = rules_of(result, request);
   if (!request.name.empty() && request.format == "table")
     throw Error("", "--name", "names what is printed as code, and a table has no names; give --format, too");
   std::size_t count = 0;
-  std::vector<SizedStructure> chosen = chosen_structures(result, request, count);
-  if (!request.engine.empty() && !request.has_own_grid) keep_engine(chosen, request.engine);
+  std::vector<SizedStructure> chosen = printed_structures(result, request, count);
   if (!request.engine.empty() && request.format == "table") return engine_settings_text(request.engine, chosen, rules);
   const std::vector<NamedStructure> named = request.name.empty() ? named_structures(std::move(chosen), request.all)
                                                                  : named_structures(std::move(chosen), request.name);

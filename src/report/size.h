@@ -50,6 +50,10 @@ struct SizedCase {
 };
 std::vector<SizedCase> sized_cases(const nlohmann::ordered_json& result, const SizeRequest& request);
 
+// Of the structures that are printed those whose sizes are of nothing, since no frame had a light in view or in a list
+// and no search found any: name and reason.
+std::vector<std::string> sized_from_nothing(const nlohmann::ordered_json& result, const SizeRequest& request);
+
 // Throws Error if the filter is no regex or matches no case, and for a name that no language takes, that a table would
 // not show, or that more than one structure would have.
 std::string size_report(const nlohmann::ordered_json& result, const SizeRequest& request);

@@ -66,7 +66,7 @@ std::string cameras_text(const SizedStructure& structure) {
 
 std::string structure_comment(const SizedStructure& structure) {
   std::string out = comment_line(structure.name) + comment_line("  " + cameras_text(structure));
-  if (saw_no_light(structure)) out += comment_line("  " + no_light_text());
+  if (const std::string unseen = nothing_seen_text(structure); !unseen.empty()) out += comment_line("  " + unseen);
   for (const std::string& note : grid_notes(structure)) out += comment_line("  grid: " + note);
   for (const std::string& note : limit_notes(structure)) out += comment_line("  LIMIT: " + note);
   for (const std::string& line : guest_lines(structure)) out += comment_line("  " + line);

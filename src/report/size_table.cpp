@@ -129,7 +129,7 @@ std::string structure_text(const SizedStructure& structure, const AllocationRule
   if (structure.buffers.empty()) return out + "  has no buffers\n";
   out += aligned_rows(table_rows(structure));
   if (structure.buffers.front().groups.size() > 1) out += aligned_rows(group_rows(structure));
-  if (saw_no_light(structure)) out += "  " + no_light_text() + "\n";
+  if (const std::string unseen = nothing_seen_text(structure); !unseen.empty()) out += "  " + unseen + "\n";
   out += worst_lines(structure);
   out += note_lines(structure);
   out += marks_text(structure, rules);
@@ -164,9 +164,8 @@ std::string size_table(const std::vector<NamedStructure>& structures, const std:
   if (!remark.empty()) out += remark + "\n";
   const bool is_searched =
       std::ranges::any_of(structures, [](const NamedStructure& named) { return !named.structure.searches.empty(); });
-  const bool is_of_nothing = std::ranges::any_of(structures, [](const NamedStructure& named) {
-    return saw_no_light(named.structure) && !named.structure.is_searched();
-  });
+  const bool is_of_nothing = std::ranges::any_of(
+      structures, [](const NamedStructure& named) { return is_sized_from_nothing(named.structure); });
   if (is_of_nothing) return out + "Do not allocate these: give cameras that see lights, or --worst-case.\n";
   return out + (is_searched
                     ? "Allocate these capacities; --format cpp, hlsl or glsl has them as code.\n"

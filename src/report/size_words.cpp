@@ -148,15 +148,21 @@ std::vector<std::string> guest_lines(const SizedStructure& structure) {
   return lines;
 }
 
-bool saw_no_light(const SizedStructure& structure) {
-  return std::ranges::all_of(structure.cases, [](const nlohmann::ordered_json* result_case) {
-    const std::optional<double> in_view = number_at(*result_case, "/lights_in_view/max");
-    return in_view ? *in_view == 0.0 : number_at(*result_case, "/occupancy/lights_per_cell/max").value_or(1.0) == 0.0;
-  });
+std::string nothing_seen_text(const SizedStructure& structure) {
+  const auto has_none = [&](const char* pointer) {
+    return std::ranges::all_of(structure.cases, [&](const nlohmann::ordered_json* result_case) {
+      return number_at(*result_case, pointer).value_or(1.0) == 0.0;
+    });
+  };
+  constexpr const char* k_says_nothing = "the frames that were counted say nothing of what frames with lights need";
+  if (has_none("/lights_in_view/max")) return std::string("NO LIGHT was ever in view: ") + k_says_nothing;
+  if (has_none("/occupancy/lights_per_cell/max")) return std::string("NO LIST ever had a light: ") + k_says_nothing;
+  return "";
 }
 
-std::string no_light_text() {
-  return "NO LIGHT was ever in view: the frames that were counted say nothing of what frames with lights need";
+bool is_sized_from_nothing(const SizedStructure& structure) {
+  const auto found_some = [](const FoundFrame& found) { return found.refusal.empty() && found.value > 0; };
+  return !nothing_seen_text(structure).empty() && std::ranges::none_of(structure.searches, found_some);
 }
 
 std::string dropped_text(const SizedStructure& structure) {

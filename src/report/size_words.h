@@ -34,9 +34,11 @@ std::vector<MarkLine> mark_lines(const SizedBuffer& buffer, const SizedStructure
 // What samples of cameras without a grid of their own lack: a line each.
 std::vector<std::string> guest_lines(const SizedStructure& structure);
 
-// Whether no frame of any camera has a light in view; also where the result does not say, and no list has one.
-bool saw_no_light(const SizedStructure& structure);
-std::string no_light_text();
+// Why the frames that were counted say nothing of what frames with lights need: no light was ever in view, or no list
+// had one; "" where some did.
+std::string nothing_seen_text(const SizedStructure& structure);
+// The same, and nothing else was found either: a capacity would be one of nothing.
+bool is_sized_from_nothing(const SizedStructure& structure);
 
 // "7 pairs dropped in 3 cells of 1 frame"; "" if none was. Of all cameras.
 std::string dropped_text(const SizedStructure& structure);

@@ -103,8 +103,9 @@ TEST(SizeCommand, prints_every_format_for_a_scene_of_no_lights_in_reach) {
   const Folder folder;
   const std::string scene = folder.write("dark.gltf", three_cameras(R"({"type": "directional"})")).string();
   for (const std::string format : {"table", "cpp", "hlsl", "glsl", "json"}) {
-    const Outcome done = tool("size -q --all --format " + format + k_flags + " " + scene);
+    const Outcome done = tool("size -q --all --allow-no-lights --format " + format + k_flags + " " + scene);
     EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_EQ(tool("size -q --all --format " + format + k_flags + " " + scene).code, 1);
     EXPECT_FALSE(done.out.empty());
   }
 }
@@ -429,10 +430,48 @@ TEST(SizeCommand, says_of_frames_without_a_light_in_view_that_they_size_nothing)
   const std::string scene = folder.write("behind.gltf", lights_in_view_and_behind(0, 5)).string();
   for (const std::string flags : {"--format table", "--format hlsl", "--engine playcanvas", "--engine godot"}) {
     const Outcome told = tool("size -q --viewport 640x360 " + flags + " " + scene);
+    EXPECT_EQ(told.code, 1);
     EXPECT_NE(told.out.find("NO LIGHT was ever in view"), std::string::npos) << told.out;
     EXPECT_EQ(told.out.find("Set these values"), std::string::npos) << told.out;
     EXPECT_EQ(told.out.find("Allocate these"), std::string::npos) << told.out;
+    EXPECT_NE(told.err.find("FAILED behind/"), std::string::npos) << told.err;
+    EXPECT_NE(told.err.find("NO LIGHT was ever in view"), std::string::npos) << told.err;
   }
+}
+
+TEST(SizeCommand, json_of_frames_without_a_light_in_view_says_that_nothing_was_seen) {
+  const Folder folder;
+  const std::string behind = folder.write("behind.gltf", lights_in_view_and_behind(0, 5)).string(),
+                    before = folder.write("before.gltf", lights_in_view_and_behind(5, 5)).string(),
+                    flags = "size -q --viewport 640x360 --format json --engine playcanvas ";
+  const Outcome dark = tool(flags + behind);
+  EXPECT_EQ(dark.code, 1);
+  const Json none = Json::parse(dark.out)["structures"][0],
+             some = Json::parse(tool(flags + before).out)["structures"][0];
+  EXPECT_NE(none["nothing_seen"].get<std::string>().find("NO LIGHT was ever in view"), std::string::npos);
+  EXPECT_EQ(none["settings"]["limits"][0]["value"], Json()) << "nothing to set";
+  EXPECT_EQ(some["nothing_seen"], Json());
+  EXPECT_EQ(some["settings"]["limits"][0]["value"], 10);
+  // What is meant to be so, and what a search finds, is a result.
+  EXPECT_EQ(tool(flags + "--allow-no-lights " + behind).code, 0);
+  EXPECT_EQ(tool(flags + "--set limits.allow_no_lights=true " + behind).code, 0);
+  const Outcome searched = tool(flags + "--worst-case --evaluations 300 " + behind);
+  EXPECT_EQ(searched.code, 0) << searched.err;
+  const Json found = Json::parse(searched.out)["structures"][0];
+  EXPECT_NE(found["nothing_seen"], Json());
+  EXPECT_GT(found["settings"]["limits"][0]["value"], 0);
+}
+
+// In view by its bounding sphere, and beyond the last slice: no list ever has it.
+TEST(SizeCommand, lists_that_are_all_empty_size_nothing_either) {
+  const Folder folder;
+  const std::string scene = folder.write("far.gltf", lights_in_view_and_behind(3, 0)).string();
+  const Outcome done = tool(
+      "size -q --viewport 640x360 --grid frustum --tiles 16x9t --slices 8 --assigner exact-fast --format json "
+      "--set grids.0.slices.scheme=exponential --set grids.0.slices.far=2 " +
+      scene);
+  EXPECT_EQ(done.code, 1);
+  EXPECT_NE(done.err.find("NO LIST ever had a light"), std::string::npos) << done.err << done.out;
 }
 
 TEST(SizeCommand, refuses_flags_that_it_would_not_heed) {
@@ -443,7 +482,37 @@ TEST(SizeCommand, refuses_flags_that_it_would_not_heed) {
     EXPECT_EQ(done.code, 2) << flag;
     EXPECT_NE(done.err.find("--worst-case"), std::string::npos) << done.err;
   }
-  EXPECT_EQ(tool("size -q --fail-if 'longest > 1' " + street).code, 2);
+}
+
+TEST(SizeCommand, holds_what_it_counts_against_the_budgets_of_a_configuration_and_of_a_flag) {
+  const Folder folder;
+  folder.write("level.gltf", three_cameras());
+  const auto sized =
+      [&](const std::string& budgets, const std::string& flags = "") {
+        return tool("size -q --format json " + flags +
+                    folder
+                        .write("c.json", R"({"scenes": [{"path": "level.gltf", "camera": "inside"}],
+        "grids": [{"tiles": {"count": [4, 4]}, "slices": {"count": 4}}], "assigners": ["exact-fast"],
+        "limits": {"fail_if": [)" + budgets + "]}}")
+                        .string());
+      };
+  const Outcome held = sized(R"("index_entries > 100000", "longest <= 0")");
+  EXPECT_EQ(held.code, 0) << held.err;
+  const Outcome broken = sized(R"("longest > 2")");
+  EXPECT_EQ(broken.code, 1);
+  EXPECT_NE(broken.err.find("longest is "), std::string::npos) << broken.err;
+  EXPECT_NE(broken.err.find("and fails with longest > 2"), std::string::npos) << broken.err;
+  EXPECT_EQ(Json::parse(broken.out)["structures"].size(), 1u) << "the sizes are printed all the same";
+  EXPECT_EQ(sized("", "--fail-if 'longest > 2' ").code, 1);
+  // What only `run` measures is told, and is no success that nobody checked.
+  const Outcome others = sized(R"("frame_us > 0", "missed > 0", "unlit > 0", "longest > 2")");
+  EXPECT_EQ(others.code, 1);
+  for (const char* budget : {"frame_us > 0", "missed > 0", "unlit > 0"})
+    EXPECT_NE(others.err.find(budget), std::string::npos) << others.err;
+  EXPECT_NE(others.err.find("`clusterbench run` does"), std::string::npos) << others.err;
+  const Outcome relative = sized(R"("longest > +5 %")");
+  EXPECT_EQ(relative.code, 0) << relative.err;
+  EXPECT_NE(relative.err.find("'longest > +5 %'"), std::string::npos) << relative.err;
 }
 
 TEST(SizeCommand, indices_are_as_wide_as_the_lights_that_the_capacity_holds_for_ask) {

@@ -37,6 +37,7 @@ FoundFrame found_frame(std::uint64_t indices) {
   found.case_name = "hall/walk/frustum 64px/aabb/packed";
   found.evaluations = 5000;
   found.eye_m = {1.0, 2.0, 3.0};
+  found.value = indices;
   found.needs = {{"indices", indices, 480}, {"headers", 24, 24}};
   return found;
 }
