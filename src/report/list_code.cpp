@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "report/json_values.h"
+
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// All code is GLSL first, with P_ for the structure's name, @name@ for a number, and hlsl_of() for the other language.
+// All code is GLSL first, with P_ for the structure's name, @name@ for what differs, and in_language() for both
+// languages.
 constexpr const char* k_packed = R"(struct P_list { uint first, lights, points, spots, boxes; };
 P_list P_list_of(int cell) {
   P_list list;
@@ -35,7 +38,7 @@ constexpr const char* k_wide_counts = R"(  list.points = P_headers_word(at + 1u)
   list.spots = P_headers_word(at + 2u);
 )";
 
-constexpr const char* k_fixed = R"(const uint P_lights_per_cell = @room@u;
+constexpr const char* k_fixed = R"(@constant@ P_lights_per_cell = @room@u;
 struct P_list { uint first, lights; };
 P_list P_list_of(int cell) {
   P_list list;
@@ -49,7 +52,60 @@ uint P_index_at(P_list list, uint n) {
 }
 )";
 
-constexpr const char* k_bitfield = R"(const uint P_words_per_cell = @words@u;
+// Without counts.
+constexpr const char* k_ended = R"(@constant@ P_lights_per_cell = @room@u;
+@marked@ P_end_mark = @end@u;  // the first index that is no light's ends a list that is not full@set@
+struct P_list { uint first, lights; };
+uint P_index_at(P_list list, uint n) {
+  uint entry = list.first + n;
+  return @entry@;
+}
+// Reads the list up to its end: a shader that wants all lights reads up to P_end_mark or P_lights_per_cell itself.
+P_list P_list_of(int cell) {
+  P_list list;
+  list.first = cell < 0 ? 0u : uint(cell) * P_lights_per_cell;
+  list.lights = 0u;
+  while (cell >= 0 && list.lights < P_lights_per_cell && P_index_at(list, list.lights) != P_end_mark) ++list.lights;
+  return list;
+}
+)";
+
+constexpr const char* k_runs = R"(struct P_list { uint first, runs, lights, points, spots, boxes; };
+// Of each run its first light, and how many follow it.
+uint P_run_number(uint entry) {
+  return @entry@;
+}
+uint P_lights_of_runs(uint first, uint runs) {
+  uint lights = 0u;
+  for (uint run = first; run < first + runs; ++run) lights += P_run_number(2u * run + 1u) + 1u;
+  return lights;
+}
+P_list P_list_of(int cell) {
+  P_list list;
+  list.first = list.runs = list.lights = list.points = list.spots = list.boxes = 0u;
+  if (cell < 0) return list;
+  uint at = uint(cell) * @words@u;
+  list.first = P_headers_word(at);
+@counts@  list.runs = list.points + list.spots + list.boxes;
+  uint spots = list.first + list.points, boxes = spots + list.spots;
+  list.points = P_lights_of_runs(list.first, list.points);
+  list.spots = P_lights_of_runs(spots, list.spots);
+  list.boxes = P_lights_of_runs(boxes, list.boxes);
+  list.lights = list.points + list.spots + list.boxes;
+  return list;
+}
+// Walks to the run of the nth light: a shader that wants all lights loops over the runs itself.
+uint P_index_at(P_list list, uint n) {
+  for (uint run = list.first; run < list.first + list.runs; ++run) {
+    uint following = P_run_number(2u * run + 1u);
+    if (n <= following) return P_run_number(2u * run) + n;
+    n -= following + 1u;
+  }
+  return 0xffffffffu;
+}
+)";
+
+constexpr const char* k_bitfield = R"(@constant@ P_words_per_cell = @words@u;
 struct P_list { uint first, lights; };
 P_list P_list_of(int cell) {
   P_list list;
@@ -100,60 +156,123 @@ const SizedBuffer* buffer_named(const SizedStructure& structure, const std::stri
   return found == structure.buffers.end() ? nullptr : &*found;
 }
 
-// Entry number `entry` of indices that are so wide.
-std::string entry_code(std::uint64_t bytes) {
-  if (bytes == 1) return "(P_indices_word(entry >> 2u) >> ((entry & 3u) * 8u)) & 0xffu";
-  if (bytes == 2) return "(P_indices_word(entry >> 1u) >> ((entry & 1u) * 16u)) & 0xffffu";
-  return "P_indices_word(entry)";
+// Entry number `entry` of a buffer of indices that are so wide.
+std::string entry_code(const std::string& buffer, std::uint64_t bytes) {
+  const std::string word = "P_" + buffer + "_word(entry";
+  if (bytes == 1) return "(" + word + " >> 2u) >> ((entry & 3u) * 8u)) & 0xffu";
+  if (bytes == 2) return "(" + word + " >> 1u) >> ((entry & 1u) * 16u)) & 0xffffu";
+  return word + ")";
 }
 
+// Of all views that are in the buffer.
 std::uint64_t cells_of(const SizedStructure& structure) {
   std::uint64_t cells = 1;
+  for (const std::vector<std::string>& view : structure.views) cells = std::max<std::uint64_t>(cells, view.size());
   for (const Json& axis : (*structure.cases.front())["grid"]["cells"]) cells *= axis.get<std::uint64_t>();
   return cells;
 }
 
-std::string packed_code(const SizedStructure& structure) {
-  const SizedBuffer *indices = buffer_named(structure, "indices"), *headers = buffer_named(structure, "headers");
-  if (indices == nullptr || headers == nullptr || headers->element_bytes % 4 != 0) return "";
-  const std::uint64_t words = headers->element_bytes / 4, of_counts = words - 1 - (structure.has_boxes ? 1 : 0);
-  if (of_counts < 1 || of_counts > 2) return "";
+// How a header of so many bytes tells points, spots and boxes, and its words; "" if it is none that is known.
+struct HeaderCode {
+  std::string counts;
+  std::uint64_t words = 0;
+};
+HeaderCode header_code(const SizedBuffer& headers, bool has_boxes) {
+  const std::uint64_t words = headers.element_bytes / 4, of_counts = words - 1 - (has_boxes ? 1 : 0);
+  if (headers.element_bytes % 4 != 0 || of_counts < 1 || of_counts > 2) return {};
   std::string counts = of_counts == 1 ? k_narrow_counts : k_wide_counts;
-  if (structure.has_boxes) counts += "  list.boxes = P_headers_word(at + " + std::to_string(words - 1) + "u);\n";
+  if (has_boxes) counts += "  list.boxes = P_headers_word(at + " + std::to_string(words - 1) + "u);\n";
+  return {counts, words};
+}
+
+// What reads a structure's lists, or why nothing here does.
+struct Reader {
+  std::string code, refusal;
+};
+
+Reader unknown_buffers() {
+  return {"", "its buffers are not those that this version knows"};
+}
+
+Reader packed_reader(const SizedStructure& structure) {
+  const SizedBuffer *indices = buffer_named(structure, "indices"), *headers = buffer_named(structure, "headers");
+  const HeaderCode header = headers == nullptr ? HeaderCode{} : header_code(*headers, structure.has_boxes);
+  if (indices == nullptr || header.words == 0) return unknown_buffers();
   const bool is_sparse = buffer_named(structure, "header_blocks") != nullptr;
   std::string code = substituted(k_packed, "@slot@", is_sparse ? k_sparse_slot : k_dense_slot);
-  code = substituted(substituted(code, "@words@", std::to_string(words)), "@counts@", counts);
-  return substituted(code, "@entry@", entry_code(indices->element_bytes));
+  code = substituted(substituted(code, "@words@", std::to_string(header.words)), "@counts@", header.counts);
+  return {substituted(code, "@entry@", entry_code("indices", indices->element_bytes)), ""};
 }
 
-std::string fixed_code(const SizedStructure& structure) {
+Reader runs_reader(const SizedStructure& structure) {
+  const SizedBuffer *runs = buffer_named(structure, "runs"), *headers = buffer_named(structure, "headers");
+  const HeaderCode header = headers == nullptr ? HeaderCode{} : header_code(*headers, structure.has_boxes);
+  if (runs == nullptr || runs->element_bytes % 2 != 0 || header.words == 0) return unknown_buffers();
+  const std::string code =
+      substituted(substituted(k_runs, "@words@", std::to_string(header.words)), "@counts@", header.counts);
+  return {substituted(code, "@entry@", entry_code("runs", runs->element_bytes / 2)), ""};
+}
+
+// The most lights that lists can be of: of the level and those that a search has added, or those that a cull leaves.
+std::uint64_t lights_of(const SizedStructure& structure) {
+  double most = 0.0;
+  bool is_culled = false;
+  for (const Json* result_case : structure.cases) {
+    const std::optional<double> kept = number_at(*result_case, "/pre_cull/kept/max");
+    is_culled |= kept.has_value();
+    most = std::max(most, kept ? *kept : number_at(*result_case, "/lights").value_or(0.0));
+  }
+  for (const FoundFrame& found : structure.searches)
+    if (!is_culled) most = std::max(most, static_cast<double>(found.lights));
+  return static_cast<std::uint64_t>(most);
+}
+
+Reader fixed_reader(const SizedStructure& structure) {
   const SizedBuffer *indices = buffer_named(structure, "indices"), *counts = buffer_named(structure, "counts");
-  if (indices == nullptr || counts == nullptr || counts->high_water == 0) return "";
-  const std::string code = substituted(
-      k_fixed, "@room@", std::to_string(std::max<std::uint64_t>(1, indices->capacity / counts->high_water)));
-  return substituted(code, "@entry@", entry_code(indices->element_bytes));
+  if (indices == nullptr) return unknown_buffers();
+  const std::uint64_t cells = counts == nullptr ? cells_of(structure) : counts->high_water;
+  if (cells == 0) return unknown_buffers();
+  const std::string room = std::to_string(std::max<std::uint64_t>(1, indices->capacity / cells)),
+                    entry = entry_code("indices", indices->element_bytes);
+  if (counts != nullptr) return {substituted(substituted(k_fixed, "@room@", room), "@entry@", entry), ""};
+  const std::uint64_t end = lights_of(structure);
+  if (end == 0) return {"", "without counts a list ends with the number of lights, and the result does not say it"};
+  // What a cull leaves is numbered anew in each frame.
+  const bool is_culled = structure.cases.front()->contains("pre_cull");
+  std::string code = substituted(substituted(k_ended, "@room@", room), "@entry@", entry);
+  code = substituted(code, "@marked@", is_culled ? "@variable@" : "@constant@");
+  code = substituted(code, "@set@", is_culled ? ": set it to the number of lights that the frame's cull leaves" : "");
+  return {substituted(code, "@end@", std::to_string(end)), ""};
 }
 
-std::string bitfield_code(const SizedStructure& structure) {
+Reader bitfield_reader(const SizedStructure& structure) {
   const SizedBuffer* words = buffer_named(structure, "words");
-  std::size_t views = 1;
-  for (const std::vector<std::string>& view : structure.views) views = std::max(views, view.size());
-  const std::uint64_t cells = cells_of(structure) * views;
-  if (words == nullptr || words->high_water == 0 || words->high_water % cells != 0) return "";
-  return substituted(k_bitfield, "@words@", std::to_string(words->high_water / cells));
+  const std::uint64_t cells = cells_of(structure);
+  if (words == nullptr || words->high_water == 0 || words->high_water % cells != 0) return unknown_buffers();
+  return {substituted(k_bitfield, "@words@", std::to_string(words->high_water / cells)), ""};
 }
 
-// "" of structures that have no lists per cell, or no code here.
-std::string reading_code(const SizedStructure& structure) {
+Reader linked_reader(const SizedStructure& structure) {
+  return buffer_named(structure, "nodes") == nullptr ? unknown_buffers() : Reader{k_linked, ""};
+}
+
+Reader reader_of(const SizedStructure& structure) {
+  struct Row {
+    const char* storage;
+    Reader (*reader)(const SizedStructure& structure);
+  };
+  constexpr Row k_rows[] = {{"packed", packed_reader},
+                            {"fixed", fixed_reader},
+                            {"bitfield", bitfield_reader},
+                            {"linked", linked_reader},
+                            {"runs", runs_reader}};
   const Json& first = *structure.cases.front();
   const auto storage = first["storage"].get<std::string>();
-  // Cells that differ from frame to frame are numbered in another way.
-  if (first.contains("react") || !structure.has_grid_cells) return "";
-  if (storage.starts_with("packed")) return packed_code(structure);
-  if (storage.starts_with("fixed")) return fixed_code(structure);
-  if (storage.starts_with("bitfield")) return bitfield_code(structure);
-  if (storage.starts_with("linked") && buffer_named(structure, "nodes") != nullptr) return k_linked;
-  return "";
+  if (first.contains("react")) return {"", "its tiles react, so that a cell's number is another from frame to frame"};
+  if (!structure.has_grid_cells) return {"", "its cells follow visible surfaces, and are not those of the grid"};
+  for (const Row& row : k_rows)
+    if (storage.substr(0, storage.find('(')) == row.storage) return row.reader(structure);
+  return {"", "it has no lists of cells but the method's own structure, which docs/methods.md describes"};
 }
 
 std::string declared_buffer(const std::string& name, ShaderLanguage language, int slot) {
@@ -167,27 +286,33 @@ std::string declared_buffer(const std::string& name, ShaderLanguage language, in
   return out + "#define " + word + "(i) " + name + "_words[i]\n#endif\n";
 }
 
-std::string hlsl_of(const std::string& glsl) {
-  std::string code = substituted(substituted(glsl, "bitCount(", "countbits("), "findLSB(", "firstbitlow(");
-  return code.starts_with("const uint") ? "static " + code : code;
+std::string in_language(const std::string& code, ShaderLanguage language) {
+  if (language == ShaderLanguage::glsl)
+    return substituted(substituted(code, "@constant@", "const uint"), "@variable@", "uint");
+  const std::string calls = substituted(substituted(code, "bitCount(", "countbits("), "findLSB(", "firstbitlow(");
+  return substituted(substituted(calls, "@constant@", "static const uint"), "@variable@", "static uint");
 }
 
 }  // namespace
 
+std::string why_no_reader(const SizedStructure& structure) {
+  return reader_of(structure).refusal;
+}
+
 std::string list_code(const NamedStructure& named, ShaderLanguage language, int& slot) {
-  const std::string code = reading_code(named.structure);
-  if (code.empty()) return "";
+  const Reader reader = reader_of(named.structure);
+  if (reader.code.empty()) return "// no function here reads its lists: " + reader.refusal + "\n";
   std::string out = "// the nth light of a cell: NAME_index_at(cell, n); of many lights NAME_list_of(cell) once\n";
   if (!named.structure.views.empty())
     out += "// of the views in one buffer the vth has its cells from v * (number of cells) on: pass that sum\n";
   for (const std::string& buffer : named.buffers) out += declared_buffer(buffer, language, slot++);
-  const std::string all = code + k_of_cell;
-  return out + substituted(language == ShaderLanguage::hlsl ? hlsl_of(all) : all, "P_", named.name + "_");
+  return out + substituted(in_language(reader.code + k_of_cell, language), "P_", named.name + "_");
 }
 
 std::vector<std::string> list_code_names(const NamedStructure& named) {
   std::vector<std::string> out;
-  for (const char* what : {"_list", "_list_of", "_index_at", "_lights_per_cell", "_words_per_cell"})
+  for (const char* what : {"_list", "_list_of", "_index_at", "_lights_per_cell", "_words_per_cell", "_end_mark",
+                           "_run_number", "_lights_of_runs"})
     out.push_back(named.name + what);
   for (const std::string& buffer : named.buffers)
     for (const char* what : {"_word", "_words", "_buffer"}) out.push_back(buffer + what);

@@ -13,10 +13,14 @@ enum class ShaderLanguage : std::uint8_t { hlsl, glsl };
 //   NAME_list NAME_list_of(int cell)              where a cell's list is and how many lights it has
 //   uint NAME_index_at(NAME_list list, uint n)    its nth light, points before spots before boxes; n below list.lights
 //   uint NAME_index_at(int cell, uint n)          the same in one step
-// for packed, fixed, bitfield and linked. Buffers are of 32-bit words; a shader that has them elsewhere (bindless, or a
-// ByteAddressBuffer) defines NAME_BUFFER_word(i) before the include, and then none is declared. `slot`: the first
-// binding or register that is free; grows by those that are taken. "" where a structure is read in another way.
+// for packed, fixed, bitfield, linked and runs. Buffers are of 32-bit words; a shader that has them elsewhere
+// (bindless, or a ByteAddressBuffer) defines NAME_BUFFER_word(i) before the include, and then none is declared. `slot`:
+// the first binding or register that is free; grows by those that are taken. A comment that says why where there is no
+// such function.
 std::string list_code(const NamedStructure& named, ShaderLanguage language, int& slot);
+
+// Why nothing of it reads a structure's lists: "its tiles react, ..."; "" where it has them.
+std::string why_no_reader(const SizedStructure& structure);
 
 // What list_code() declares.
 std::vector<std::string> list_code_names(const NamedStructure& named);

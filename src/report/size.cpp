@@ -12,6 +12,7 @@
 #include "report/engine_settings.h"
 #include "report/found_frames.h"
 #include "report/json_values.h"
+#include "report/list_code.h"
 #include "report/lookup_constants.h"
 #include "report/named_structures.h"
 #include "report/ratios.h"
@@ -161,6 +162,7 @@ Json structure_json(const NamedStructure& named, const std::string& engine, cons
   out["dropped_pairs"] = dropped;
   if (const std::vector<std::string> notes = grid_notes(structure); !notes.empty()) out["grid_notes"] = notes;
   if (const std::vector<std::string> notes = limit_notes(structure); !notes.empty()) out["limit_notes"] = notes;
+  if (const std::string why = why_no_reader(structure); !why.empty()) out["no_reader"] = why;
   out["buffers"] = Json::array();
   for (std::size_t i = 0; i < structure.buffers.size(); ++i)
     out["buffers"].push_back(buffer_json(structure.buffers[i], named.buffers[i]));

@@ -4,13 +4,18 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <memory>
 
+#include "assign/contract/storage.h"
 #include "core/random.h"
 #include "grid/grid.h"
 #include "report/result_by_hand.h"
@@ -411,6 +416,7 @@ struct Encoded {
 };
 
 using CellLists = std::vector<std::vector<std::uint32_t>>;
+constexpr std::uint32_t k_lights = 40;  // 20 points, then spots; with boxes 10 of these
 
 std::vector<std::uint32_t> packed_indices(const CellLists& lists, std::uint32_t bytes) {
   std::vector<std::uint32_t> words(64, 0);
@@ -463,6 +469,54 @@ Encoded packed(const CellLists& lists, std::uint32_t bytes, bool is_wide, bool h
   return out;
 }
 
+// Appends a number of so many bytes to words that hold `count` of them so far.
+void append_number(std::vector<std::uint32_t>& words, std::uint32_t& count, std::uint32_t bytes, std::uint32_t number) {
+  if (count * bytes / 4 >= words.size()) words.push_back(0);
+  words[count * bytes / 4] |= number << (8 * (count * bytes % 4));
+  ++count;
+}
+
+// A run is its first light and how many follow it; none goes on from points to spots or from spots to boxes.
+Encoded runs(const CellLists& lists, std::uint32_t bytes, bool is_wide, bool has_boxes) {
+  std::vector<std::uint32_t> headers, words;
+  std::uint32_t numbers = 0;
+  for (const auto& list : lists) {
+    std::uint32_t of_type[3] = {0, 0, 0};
+    const std::uint32_t offset = numbers / 2;
+    const auto type_of = [&](std::uint32_t light) { return light < 20 ? 0 : has_boxes && light >= 30 ? 2 : 1; };
+    for (std::size_t from = 0, to = 0; from < list.size(); from = to) {
+      for (to = from + 1; to < list.size() && list[to] == list[to - 1] + 1 && type_of(list[to]) == type_of(list[from]);)
+        ++to;
+      append_number(words, numbers, bytes, list[from]);
+      append_number(words, numbers, bytes, static_cast<std::uint32_t>(to - from - 1));
+      ++of_type[type_of(list[from])];
+    }
+    headers.push_back(offset);
+    if (is_wide)
+      headers.insert(headers.end(), {of_type[0], of_type[1]});
+    else
+      headers.push_back(of_type[0] | of_type[1] << 16);
+    if (has_boxes) headers.push_back(of_type[2]);
+  }
+  words.push_back(0);
+  return {"runs " + std::to_string(bytes) + (is_wide ? " wide" : "") + (has_boxes ? " boxes" : ""),
+          "runs",
+          {{"runs", words}, {"headers", headers}},
+          {2 * bytes, (is_wide ? 12u : 8u) + (has_boxes ? 4u : 0u)},
+          {numbers / 2, static_cast<std::uint32_t>(lists.size())}};
+}
+
+// Room for 7 in each cell: a list that is full has no end mark.
+Encoded ended(const CellLists& lists, std::uint32_t bytes) {
+  const auto cells = static_cast<std::uint32_t>(lists.size());
+  std::vector<std::uint32_t> words;
+  std::uint32_t numbers = 0;
+  for (const auto& list : lists)
+    for (std::uint32_t i = 0; i < 7; ++i)
+      append_number(words, numbers, bytes, i < list.size() ? list[i] : i == list.size() ? k_lights : 0);
+  return {"ended " + std::to_string(bytes), "fixed(cap=7,counts=none)", {{"indices", words}}, {bytes}, {cells * 7}};
+}
+
 std::vector<Encoded> encodings(const CellLists& lists, bool has_boxes) {
   std::vector<Encoded> all;
   for (const std::uint32_t bytes : {1u, 2u, 4u})
@@ -487,6 +541,10 @@ std::vector<Encoded> encodings(const CellLists& lists, bool has_boxes) {
   bits.buffers = {{"words", words}};
   linked.buffers = {{"nodes", nodes}, {"heads", heads}};
   if (!has_boxes) all.insert(all.end(), {fixed, bits, linked});
+  for (const std::uint32_t bytes : {1u, 2u, 4u}) {
+    for (const bool is_wide : {false, true}) all.push_back(runs(lists, bytes, is_wide, has_boxes));
+    if (!has_boxes) all.push_back(ended(lists, bytes));
+  }
   return all;
 }
 
@@ -500,6 +558,7 @@ run::Result result_of_encodings(const std::vector<Encoded>& all, int cells, bool
     entry.name = "hall/walk/" + one.name + "/aabb/packed";
     entry.grid["cells"] = {cells, 1, 1};
     entry.storage_label = one.storage;
+    entry.lights = k_lights;
     entry.buffers.each.clear();
     for (std::size_t i = 0; i < one.buffers.size(); ++i) {
       measure::BufferHighWater buffer;
@@ -513,6 +572,80 @@ run::Result result_of_encodings(const std::vector<Encoded>& all, int cells, bool
     result.planned_ids.push_back(one.name);
   }
   return result;
+}
+
+assign::Lists as_lists(const CellLists& cells) {
+  assign::Lists lists;
+  lists.begin.push_back(0);
+  for (const auto& cell : cells) {
+    lists.lights.insert(lists.lights.end(), cell.begin(), cell.end());
+    lists.begin.push_back(static_cast<std::uint32_t>(lists.lights.size()));
+  }
+  return lists;
+}
+
+// "fixed(cap=7,counts=none)", made as the tool makes it.
+std::unique_ptr<assign::Storage> storage_of_label(const std::string& label) {
+  const std::size_t open = label.find('(');
+  const assign::StorageDescriptor& found = *assign::find_storage(label.substr(0, open));
+  std::map<std::string, assign::ParamValue> values = assign::Params(found.params).values();
+  std::string rest = open == std::string::npos ? "" : label.substr(open + 1, label.size() - open - 2);
+  for (std::size_t end = 0; !rest.empty(); rest = end == std::string::npos ? "" : rest.substr(end + 1)) {
+    end = rest.find(',');
+    const std::string one = rest.substr(0, end), key = one.substr(0, one.find('=')),
+                      value = one.substr(one.find('=') + 1);
+    values[key] = std::isdigit(static_cast<unsigned char>(value[0])) != 0 ? assign::ParamValue(std::stod(value))
+                                                                          : assign::ParamValue(value);
+  }
+  return found.make(assign::Params(found.params, values));
+}
+
+// The words that the shaders read are made here, by hand: of what is stored the tool's own storages have as many
+// elements, in as many bytes, and read the same lists.
+TEST(SizeEncodings, are_what_the_storages_themselves_need_and_read) {
+  const CellLists lists{{}, {3}, {0, 1, 19, 20, 29}, {}, {30, 34}, {5, 6, 7, 8, 21, 22, 31}, {33}};
+  for (const bool has_boxes : {false, true}) {
+    std::size_t compared = 0;
+    for (const Encoded& one : encodings(lists, has_boxes)) {
+      const auto storage = storage_of_label(one.storage);
+      storage->start(static_cast<std::uint32_t>(lists.size()),
+                     has_boxes ? view::LightRanges(20, 10, 10) : view::LightRanges(20, 20));
+      storage->store(as_lists(lists));
+      for (std::uint32_t cell = 0; cell < lists.size(); ++cell) {
+        std::vector<std::uint32_t> read;
+        storage->read_cell(cell, read);
+        EXPECT_EQ(read, lists[cell]) << one.name;
+      }
+      // 40 lights are numbered in a byte and counted in two.
+      const bool is_other_width = one.name.find(" wide") != std::string::npos ||
+                                  one.name.find(" 2") != std::string::npos || one.name.find(" 4") != std::string::npos;
+      if (is_other_width || one.name == "fixed") continue;  // whose room here is one more than the longest list
+      ++compared;
+      const std::vector<assign::BufferNeed> needs = storage->buffers();
+      ASSERT_EQ(needs.size(), one.buffers.size()) << one.name;
+      for (std::size_t i = 0; i < needs.size(); ++i) {
+        EXPECT_EQ(needs[i].name, one.buffers[i].first) << one.name;
+        EXPECT_EQ(needs[i].element_bytes, one.element_bytes[i]) << one.name;
+        EXPECT_EQ(needs[i].elements, one.elements[i]) << one.name;
+      }
+    }
+    EXPECT_GE(compared, 3u);
+  }
+}
+
+TEST(SizeEncodings, every_storage_of_lists_has_a_reader_and_what_has_none_says_why) {
+  for (const assign::StorageDescriptor* storage : assign::storage_descriptors()) {
+    const CellLists lists{{}, {3}};
+    const auto all = encodings(lists, false);
+    EXPECT_TRUE(std::ranges::any_of(all, [&](const Encoded& one) { return one.storage.starts_with(storage->name); }))
+        << storage->name;
+  }
+  run::Result result = testing::result_by_hand();
+  for (run::CaseResult& one : result.cases) one.storage_label = "own";
+  const std::string own = size_report(result_to_json(result, {}), {"", true, "glsl"});
+  EXPECT_NE(own.find("// no function here reads its lists: it has no lists of cells"), std::string::npos) << own;
+  const nlohmann::json json = nlohmann::json::parse(size_report(result_to_json(result, {}), {"", true, "json"}));
+  EXPECT_NE(json["structures"][0]["no_reader"].get<std::string>().find("it has no lists of cells"), std::string::npos);
 }
 
 // Number of lights and then each light of each cell, from words that are elsewhere than the include would have them.
