@@ -5,6 +5,7 @@
 #include "assign/contract/assigner_run.h"
 #include "assign/settings.h"
 #include "core/error.h"
+#include "effort.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -46,7 +47,7 @@ TEST(OnlyWhatIsNeeded, a_light_outside_of_the_view_costs_at_most_one_test_and_ma
   for (const AssignerDescriptor* row : assigner_descriptors()) {
     if (row->all_pairs || row->naive) continue;
     const Params params(row->params);
-    for (const Setting& setting : testing::settings_for(*row, 3))
+    for (const Setting& setting : test::some(testing::settings_for(*row, 3)))
       for (const Answer answer : answers_with_cells(*row, params)) {
         Setting more = setting;
         add_distant_points(more, k_more);
