@@ -288,6 +288,8 @@ export type Result = {
     tests_done: number; // Over all frames: cells, rows of cells, lights or planes, whichever a method looks at one by one; a method that looks at many at a time counts otherwise than its scalar reference [tests, over all frames]
     fallbacks: number; // Pairs that the method could not decide in single precision and decided at greater cost [pairs, over all frames]
     lights?: number; // Lights of the scene that methods get: points, spots, and boxes where the configuration asks for them. Absent in older results [lights, over the scene]
+    lights_lit?: number; // Those of them that shine in some frame: not of intensity 0, black, or of range 0; boxes count as lit. Dark lights are in lists and all other figures like others. Absent in older results [lights, over all frames]
+    lights_seen?: number; // Those of them that are in view (lights_in_view) in a frame in which they shine, each once. Absent in older results [lights, over all frames]
     lights_in_view?: {
       mean: number; // Over the frames [over all frames]
       max: number; // In the frame with most [over the worst frame]

@@ -40,6 +40,8 @@ constexpr LimitFigure k_figures[] = {
     {"assign_instructions", "instructions to assign a frame's lights (--count)", k_given},
     {"convert_instructions", "instructions to convert a frame's lists (--count)", k_given},
     {"lights", "lights of the scene that methods get", k_given},
+    {"lights_lit", "those of them that shine in some frame: not of intensity 0, black, or of range 0", k_given},
+    {"lights_seen", "those of them that are in view in a frame in which they shine", k_given},
     {"lights_in_view", "lights whose bounding sphere is in view, in the frame with most", k_given},
 };
 

@@ -6,6 +6,7 @@
 
 #include "cull/visible_sets.h"
 #include "grid/lights_in_view.h"
+#include "scene/light_digest.h"
 
 namespace clusterbench::measure {
 
@@ -24,8 +25,14 @@ bool is_in_view(const view::Frame& frame, const scene::WorldLight& light) {
 void add_frame(LightsInView& counts, const view::Frame& frame) {
   const view::LightRanges ranges = frame.ranges();
   std::array<std::uint64_t, view::k_light_types> now{};
-  for (std::uint32_t i = 0; i < ranges.size(); ++i)
-    now[ranges.type_of(i)] += is_in_view(frame, frame.lights[i]) ? 1 : 0;
+  counts.is_lit.resize(ranges.size());
+  counts.is_seen.resize(ranges.size());
+  for (std::uint32_t i = 0; i < ranges.size(); ++i) {
+    const bool is_lit = !scene::is_dark(frame.lights[i]), is_here = is_in_view(frame, frame.lights[i]);
+    now[ranges.type_of(i)] += is_here ? 1 : 0;
+    counts.is_lit[i] = counts.is_lit[i] || is_lit;
+    counts.is_seen[i] = counts.is_seen[i] || (is_lit && is_here);
+  }
   const std::uint64_t all = std::accumulate(now.begin(), now.end(), std::uint64_t{0});
   if (counts.frames == 0 || all > counts.most) {
     counts.most = all;

@@ -1,8 +1,10 @@
 #pragma once
 // How many lights of a frame are in view: what an engine's limit of lights is held against.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "view/frame.h"
 
@@ -19,7 +21,12 @@ struct LightsInView {
   std::uint64_t most = 0, frames_with_most = 0;
   int worst_frame = 0;                                            // the first with most
   std::array<std::uint64_t, view::k_light_types> most_of_type{};  // points, spots, boxes: each in a frame of its own
+  // By index of a frame's lights: those that shine in some frame (scene/light_digest.h), and those that are in view in
+  // a frame in which they shine. Lights that are dark are in view like others.
+  std::vector<bool> is_lit, is_seen;
 
+  std::uint64_t lit() const { return static_cast<std::uint64_t>(std::ranges::count(is_lit, true)); }
+  std::uint64_t seen() const { return static_cast<std::uint64_t>(std::ranges::count(is_seen, true)); }
   double mean() const { return frames == 0 ? 0.0 : static_cast<double>(sum) / static_cast<double>(frames); }
 };
 void add_frame(LightsInView& counts, const view::Frame& frame);

@@ -1,6 +1,7 @@
 #include "report/light_changes.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/pattern.h"
@@ -12,6 +13,8 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* k_dark = "intensity 0, black, or range 0";
 
 std::uint64_t lights_of_kind(const Json& scene, const char* kind) {
   return scene.contains("lights") ? scene["lights"].value(kind, std::uint64_t{0}) : 0;
@@ -27,56 +30,65 @@ bool are_as_many(const Json& a, const Json& b) {
                              [&](const char* kind) { return lights_of_kind(a, kind) == lights_of_kind(b, kind); });
 }
 
-// Of cases of all grids and methods one for each scene, camera and viewport.
-std::vector<const Json*> views_without_lights(const Json& result) {
-  std::vector<const Json*> views;
-  for (const Json& result_case : result["cases"]) {
-    if (number_at(result_case, "/lights_in_view/max").value_or(1.0) > 0.0) continue;
-    const auto is_same_view = [&](const Json* other) {
-      return std::ranges::all_of(std::initializer_list<const char*>{"scene", "camera", "viewport"},
-                                 [&](const char* key) { return (*other)[key] == result_case[key]; });
-    };
-    if (std::ranges::none_of(views, is_same_view)) views.push_back(&result_case);
-  }
-  return views;
+// The lights of a scene as one camera sees them; the same for all grids and methods.
+struct LightsOfView {
+  std::string scene, camera;
+  double all = 0.0, lit = 0.0, in_view = 0.0, seen = 0.0;
+};
+
+// Null of cases that do not tell. Older ones do not tell which lights shine; there all are taken to.
+std::optional<LightsOfView> lights_of_view(const Json& result_case) {
+  const std::optional<double> in_view = number_at(result_case, "/lights_in_view/max");
+  if (!in_view) return std::nullopt;
+  const double all = number_at(result_case, "/lights").value_or(0.0);
+  return LightsOfView{shown(result_case["scene"]),
+                      shown(result_case["camera"]),
+                      all,
+                      number_at(result_case, "/lights_lit").value_or(all),
+                      *in_view,
+                      number_at(result_case, "/lights_seen").value_or(*in_view)};
 }
 
-bool has_cases(const Json& result, const Json& scene) {
-  return std::ranges::any_of(result["cases"],
-                             [&](const Json& result_case) { return result_case["scene"] == scene["name"]; });
+std::string lights_number(double lights, const char* light = "light") {
+  return number_of(static_cast<std::uint64_t>(lights), light);
 }
 
-// A level whose lights are all switched off has as many as before, and nothing is lit.
-void add_dark_lights(const Json& result, bool are_allowed, LimitFindings& findings) {
-  for (const Json& scene : result["scenes"]) {
-    const std::uint64_t dark = dark_lights(scene);
-    if (dark == 0 || !has_cases(result, scene)) continue;
-    const std::uint64_t all = lights_of_kind(scene, "point") + lights_of_kind(scene, "spot");
-    const std::string what = shown(scene["name"]) + ": of " + number_of(all, "light") + " " +
-                             (dark == all ? "all" : std::to_string(dark)) +
-                             " are dark (intensity 0, black, or range 0)";
-    if (dark < all || lights_of_kind(scene, "box") > 0)
-      findings.warnings.push_back(what + ", and budgets count them as lights");
-    else if (are_allowed)
-      findings.warnings.push_back(what);
-    else
-      findings.broken.push_back(
-          what + ", so budgets say nothing of it (--allow-no-lights, limits.allow_no_lights, if " + "that is meant)");
-  }
+// "of 10 lights 3 are dark"
+std::string dark_text(const LightsOfView& lights) {
+  const double dark = lights.all - lights.lit;
+  return "of " + lights_number(lights.all) + " " + (lights.lit == 0.0 ? "all" : config::budget_number(dark)) +
+         (dark == 1.0 && lights.lit > 0.0 ? " is dark" : " are dark");
+}
+
+// Why nothing that a budget could be about is to be seen; "" where something is. A level whose lights are all switched
+// off has as many as before, and nothing is lit.
+std::string why_no_lights(const LightsOfView& lights) {
+  const std::string in_camera = lights.scene + ", camera " + lights.camera + ": none of ";
+  if (lights.all == 0.0) return lights.scene + ": has no lights";
+  if (lights.lit == 0.0) return lights.scene + ": " + dark_text(lights) + " (" + k_dark + ")";
+  if (lights.in_view == 0.0) return in_camera + lights_number(lights.all) + " is ever in view";
+  if (lights.seen > 0.0) return "";
+  return in_camera + lights_number(lights.lit, "lit light") + " is ever in view (" + dark_text(lights) + ": " + k_dark +
+         ")";
+}
+
+void add_once(const std::string& line, std::vector<std::string>& lines) {
+  if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
 }
 
 void add_no_lights(const Json& result, bool are_allowed, LimitFindings& findings) {
-  std::vector<std::string>& lines = are_allowed ? findings.warnings : findings.broken;
-  const std::string advice = are_allowed ? "" : " (--allow-no-lights, limits.allow_no_lights, if that is meant)";
-  std::string last_without;
-  for (const Json* view : views_without_lights(result)) {
-    const std::string scene = shown((*view)["scene"]);
-    const std::uint64_t lights = view->value("lights", std::uint64_t{0});
-    if (lights > 0)
-      lines.push_back(scene + ", camera " + shown((*view)["camera"]) + ": none of " + number_of(lights, "light") +
-                      " is ever in view, so budgets say nothing of it" + advice);
-    else if (scene != std::exchange(last_without, scene))
-      lines.push_back(scene + ": has no lights, so budgets say nothing of it" + advice);
+  for (const Json& result_case : result["cases"]) {
+    const std::optional<LightsOfView> lights = lights_of_view(result_case);
+    if (!lights) continue;
+    const std::string why = why_no_lights(*lights);
+    if (!why.empty())
+      add_once(why + ", so budgets say nothing of it" +
+                   (are_allowed ? "" : " (--allow-no-lights, limits.allow_no_lights, if that is meant)"),
+               are_allowed ? findings.warnings : findings.broken);
+    else if (lights->lit < lights->all)
+      add_once(lights->scene + ": " + dark_text(*lights) + " (" + k_dark +
+                   "); lists and all figures but lights_lit and lights_seen count them",
+               findings.warnings);
   }
 }
 
@@ -204,7 +216,6 @@ const Json* scene_before(const Json& base, const Json& next, const Json& next_sc
 LimitFindings light_findings(const Json& result, const LightGate& gate) {
   LimitFindings findings;
   add_no_lights(result, gate.allows_no_lights, findings);
-  add_dark_lights(result, gate.allows_no_lights, findings);
   add_not_measured(result, gate.allows_no_lights, findings);
   if (gate.base == nullptr) return findings;
   add_changed_lights(result, gate, findings);

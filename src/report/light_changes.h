@@ -30,9 +30,10 @@ struct LightGate {
   std::string filter = {};  // what the result's cases were selected by; others of the base are not missed
 };
 
-// Scenes without lights or with dark ones alone, cases that never have one in view, and scenes with other lights than
-// the baseline's: broken, or a warning where that is allowed. Broken also what budgets cannot be held against: scenes
-// and cameras of which nothing could be measured, and those of the baseline that the result does not have.
+// Scenes without lights or with dark ones alone, cameras that never have one in view that shines, and scenes with other
+// lights than the baseline's: broken, or a warning where that is allowed. Broken also what budgets cannot be held
+// against: scenes and cameras of which nothing could be measured, and those of the baseline that the result does not
+// have.
 LimitFindings light_findings(const nlohmann::ordered_json& result, const LightGate& gate);
 
 }  // namespace clusterbench::report

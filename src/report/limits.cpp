@@ -65,6 +65,8 @@ constexpr FigureRow k_figure_rows[] = {
     {"assign_instructions", "/count/instructions_per_frame/assign"},
     {"convert_instructions", "/count/instructions_per_frame/convert"},
     {"lights", "/lights"},
+    {"lights_lit", "/lights_lit"},
+    {"lights_seen", "/lights_seen"},
     {"lights_in_view", "/lights_in_view/max", 1.0, "/lights_in_view/worst_frame"},
 };
 

@@ -471,6 +471,8 @@ Json case_to_json(const run::CaseResult& case_result) {
     out["warnings"].push_back({{"kind", run::name_of(warning.kind)}, {"text", warning.text}});
   if (case_result.lights_in_view.frames > 0) {
     out["lights"] = case_result.lights;
+    out["lights_lit"] = case_result.lights_in_view.lit();
+    out["lights_seen"] = case_result.lights_in_view.seen();
     out["lights_in_view"] = to_json(case_result.lights_in_view);
   }
   if (case_result.occupancy) out["occupancy"] = occupancy(case_result);

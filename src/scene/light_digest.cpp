@@ -77,15 +77,19 @@ std::string light_digest(const Scene& scene) {
   return sha256_hex(text).substr(0, k_digits);
 }
 
+bool is_dark(const WorldLight& light) {
+  return is_black(light) || !(light.range_m > 0.0);
+}
+
 int count_dark_lights(const Scene& scene) {
-  std::map<int, bool> is_dark;  // by index in the scene
+  std::map<int, bool> always_dark;  // by index in the scene
   for (const double time_s : digest_times(scene))
     for (const WorldLight& light : world_lights(scene, time_s)) {
       if (light.type == LightType::box) continue;
-      bool& dark = is_dark.try_emplace(light.rig_index, true).first->second;
-      dark = dark && (is_black(light) || light.range_m == 0.0);
+      bool& is_always = always_dark.try_emplace(light.rig_index, true).first->second;
+      is_always = is_always && is_dark(light);
     }
-  return static_cast<int>(std::ranges::count_if(is_dark, [](const auto& light) { return light.second; }));
+  return static_cast<int>(std::ranges::count_if(always_dark, [](const auto& light) { return light.second; }));
 }
 
 }  // namespace clusterbench::scene

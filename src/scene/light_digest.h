@@ -13,7 +13,11 @@ namespace clusterbench::scene {
 // it does not count either whether a file writes them with more digits, or a node's transform as a matrix.
 std::string light_digest(const Scene& scene);
 
-// Of the points and spots those that are dark, of intensity 0, black, or of range 0, at all these times.
+// Whether nothing would look other without it: a light of intensity 0, black, or of range 0. A box lights nothing and
+// is dark only without a range, as one that is hidden.
+bool is_dark(const WorldLight& light);
+
+// Of the points and spots those that are dark at all these times.
 int count_dark_lights(const Scene& scene);
 
 }  // namespace clusterbench::scene

@@ -11,13 +11,19 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A corridor of so many point lights in front of a camera, or behind it.
-std::string corridor(int lights, double towards = -1.0, bool is_endless = false) {
+// Point lights of 3 m along the way that the camera looks (z < 0), or behind it; dark ones have intensity 0.
+struct Lamp {
+  double z_m = 0.0;
+  bool is_lit = true;
+};
+
+std::string level_of(const std::vector<Lamp>& lamps, bool is_endless = false) {
   Json nodes = Json::array({Json{{"name", "camera"}, {"camera", 0}}});
   Json all = Json::array({0});
-  for (int i = 0; i < lights; ++i) {
-    nodes.push_back({{"translation", {0.5 * (i % 3 - 1), 0.0, towards * (2.0 + i)}},
-                     {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    const double x_m = 0.5 * (static_cast<double>(i % 3) - 1.0);
+    nodes.push_back({{"translation", {x_m, 0.0, lamps[i].z_m}},
+                     {"extensions", {{"KHR_lights_punctual", {{"light", lamps[i].is_lit ? 0 : 1}}}}}});
     all.push_back(i + 1);
   }
   Json gltf{
@@ -27,11 +33,24 @@ std::string corridor(int lights, double towards = -1.0, bool is_endless = false)
       {"nodes", nodes},
       {"cameras", {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}, {"zfar", 100.0}}}}}}};
   if (is_endless) gltf["cameras"][0]["perspective"].erase("zfar");
-  if (lights > 0) {
+  if (!lamps.empty()) {
     gltf["extensionsUsed"] = {"KHR_lights_punctual"};
-    gltf["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"range", 3.0}, {"intensity", 10.0}}};
+    for (const double intensity : {10.0, 0.0})
+      gltf["extensions"]["KHR_lights_punctual"]["lights"].push_back(
+          {{"type", "point"}, {"range", 3.0}, {"intensity", intensity}});
   }
   return gltf.dump();
+}
+
+// So many lights in a row, in front of the camera or behind it; the first `dark` of them are switched off.
+std::vector<Lamp> row_of(int lights, double towards = -1.0, int dark = 0) {
+  std::vector<Lamp> lamps;
+  for (int i = 0; i < lights; ++i) lamps.push_back({towards * (2.0 + i), i >= dark});
+  return lamps;
+}
+
+std::string corridor(int lights, double towards = -1.0, bool is_endless = false) {
+  return level_of(row_of(lights, towards), is_endless);
 }
 
 struct Level {
@@ -142,8 +161,7 @@ TEST(Gates, two_outputs_in_one_file_are_refused_however_it_is_named) {
 TEST(Gates, a_level_whose_lights_are_switched_off_fails) {
   const Level level;
   level.measure_base(8);
-  std::string off = corridor(8);
-  off.replace(off.find("\"intensity\":10.0"), 16, "\"intensity\":0.0");
+  const std::string off = level_of(row_of(8, -1.0, 8));
   const Outcome budget = level.run(off, "--fail-if 'lights < 8'");
   EXPECT_EQ(budget.code, 1);
   EXPECT_TRUE(says(budget, "FAILED level: of 8 lights all are dark (intensity 0, black, or range 0)")) << budget.err;
@@ -151,6 +169,36 @@ TEST(Gates, a_level_whose_lights_are_switched_off_fails) {
   EXPECT_EQ(base.code, 1);
   EXPECT_TRUE(says(base, "8 points then, 8 points, 8 of them dark now")) << base.err;
   EXPECT_EQ(level.run(off, "").code, 0);
+}
+
+// The lower bounds of docs/ci.md.
+TEST(Gates, a_level_most_of_whose_lights_are_switched_off_fails_by_the_lit_ones) {
+  const Level level;
+  level.measure_base(30);
+  const std::string gate = "--allow-changed-lights --baseline " + level.base + " --fail-if 'lights < -10 %' " +
+                           "--fail-if 'lights_in_view < -10 %' --fail-if 'index_entries < -10 %'";
+  const std::string off = level_of(row_of(30, -1.0, 28));
+  EXPECT_EQ(level.run(off, gate).code, 0) << "lists and these figures hold dark lights, too";
+  const Outcome lit = level.run(off, gate + " --fail-if 'lights_lit < -10 %' --fail-if 'lights_seen < -10 %'");
+  EXPECT_EQ(lit.code, 1);
+  EXPECT_TRUE(says(lit, "lights_lit is 2, -93.3 % against 30 in " + level.base + ", and fails with lights_lit < -10 %"))
+      << lit.err;
+  EXPECT_TRUE(says(lit, "lights_seen is 2, -93.3 % against 30 in " + level.base)) << lit.err;
+}
+
+TEST(Gates, dark_lights_in_view_and_lit_ones_behind_the_camera_fail_where_there_is_a_budget) {
+  const Level level;
+  std::vector<Lamp> lamps = row_of(30, -1.0, 30);
+  for (const Lamp& behind : row_of(30, 3.0)) lamps.push_back(behind);
+  const Outcome gated = level.run(level_of(lamps), "--fail-if 'longest > 64'");
+  EXPECT_EQ(gated.code, 1);
+  EXPECT_TRUE(says(gated,
+                   "FAILED level, camera camera: none of 30 lit lights is ever in view (of 60 lights 30 are "
+                   "dark: intensity 0, black, or range 0), so budgets say nothing of it"))
+      << gated.err;
+  EXPECT_EQ(level.run(level_of(lamps), "--fail-if 'longest > 64' --allow-no-lights").code, 0);
+  lamps.back().z_m = -5.0;
+  EXPECT_EQ(level.run(level_of(lamps), "--fail-if 'longest > 64'").code, 0) << "one of them is in view";
 }
 
 TEST(Gates, numbers_of_lights_are_budgets) {
@@ -230,6 +278,20 @@ TEST(Gates, a_history_tells_and_fails_with_lights_that_changed) {
   const Outcome shown = tool("history show " + history);
   EXPECT_TRUE(shown.out.starts_with("at b: the lights of level have changed: 8 points, now 5 points")) << shown.out;
   EXPECT_EQ(shown.out.find("better"), std::string::npos) << shown.out;
+}
+
+TEST(Gates, a_history_has_series_of_the_lights_that_shine) {
+  const Level level;
+  const std::string history = (level.folder / "history.jsonl").string(), add = "history add " + level.result + " ";
+  ASSERT_EQ(level.run(corridor(8), "").code, 0);
+  ASSERT_EQ(tool(add + history + " --commit a").code, 0);
+  ASSERT_EQ(level.run(level_of(row_of(8, -1.0, 6)), "").code, 0);
+  EXPECT_EQ(tool(add + history + " --commit b").code, 1);
+  const Outcome shown = tool("history show " + history);
+  EXPECT_NE(shown.out.find("lights_lit (lights)\n  2 values, 8 to 2\n  at b: 8 to 2, -75 %"), std::string::npos)
+      << shown.out;
+  EXPECT_NE(shown.out.find("lights_seen (lights)"), std::string::npos) << shown.out;
+  EXPECT_EQ(shown.out.find("lights (lights)"), std::string::npos) << shown.out;
 }
 
 }  // namespace

@@ -77,5 +77,24 @@ TEST(LightsInView, are_counted_over_the_frames_of_a_path) {
   EXPECT_EQ(counts.most_of_type, (std::array<std::uint64_t, 3>{2, 1, 0}));
 }
 
+TEST(LightsInView, that_shine_are_counted_each_once_over_the_path_and_seen_where_they_are_in_view_as_well) {
+  scene::WorldLight ahead = point_at({0, 0, -10}, 1), behind = point_at({0, 0, 9}, 1), off = ahead, hidden = ahead;
+  off.luminous_intensity_cd = 0.0;
+  hidden.range_m = 0.0;
+  scene::WorldLight box = ahead;
+  box.type = scene::LightType::box;
+  box.luminous_intensity_cd = 0.0;
+  LightsInView counts;
+  add_frame(counts, view_with({ahead, behind, off, hidden, box}));
+  EXPECT_EQ(counts.most, 3u) << "dark lights are in view like others";
+  EXPECT_EQ(counts.lit(), 3u) << "a box lights nothing and is meant";
+  EXPECT_EQ(counts.seen(), 2u);
+  off.luminous_intensity_cd = 1.0;
+  off.position = behind.position;
+  add_frame(counts, view_with({ahead, behind, off, hidden, box}));
+  EXPECT_EQ(counts.lit(), 4u) << "it blinks";
+  EXPECT_EQ(counts.seen(), 2u) << "never lit and in view in the same frame";
+}
+
 }  // namespace
 }  // namespace clusterbench::measure

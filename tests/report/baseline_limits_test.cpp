@@ -109,6 +109,14 @@ TEST(BaselineLimits, of_instructions_hold_only_what_was_counted_alike) {
   EXPECT_EQ(against(baseline_json(), now, "instructions > +5 %").broken.size(), 1u) << "the base has none";
 }
 
+TEST(BaselineLimits, of_a_figure_that_the_baseline_is_too_old_for_fail_and_say_so) {
+  Json older = baseline_json();
+  for (Json& result_case : older["cases"]) result_case.erase("lights_lit");
+  EXPECT_EQ(against(older, baseline_json(), "lights_lit < -10 %").broken,
+            (Lines{"'lights_lit < -10 %' could not be checked: no case has lights_lit here and in base.json (a result "
+                   "of an older version tells none)"}));
+}
+
 TEST(LightGate, fails_where_the_lights_are_not_those_of_the_baseline) {
   const Json base = baseline_json(), next = changed_level(7);
   const LightGate gate{.base = &base, .base_name = "base.json"};
@@ -151,24 +159,53 @@ TEST(LightGate, fails_where_there_are_no_lights_or_none_is_ever_in_view) {
   EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).warnings.size(), 1u);
 }
 
+// Of the ten lights of the level so many shine, and so many of these in view.
+void set_lit(Json& result, int lit, int seen) {
+  result["scenes"][0]["range_rule"]["dark"] = 10 - lit;
+  for (Json& result_case : result["cases"]) {
+    result_case["lights_lit"] = lit;
+    result_case["lights_seen"] = seen;
+  }
+}
+
 TEST(LightGate, fails_where_all_lights_are_dark_and_tells_some) {
   Json result = baseline_json();
-  result["scenes"][0]["range_rule"]["dark"] = 3;
+  set_lit(result, 7, 5);
   EXPECT_EQ(light_findings(result, {}).broken, Lines{});
-  EXPECT_EQ(
-      light_findings(result, {}).warnings,
-      (Lines{"hall: of 10 lights 3 are dark (intensity 0, black, or range 0), and budgets count them as lights"}));
+  EXPECT_EQ(light_findings(result, {}).warnings,
+            (Lines{"hall: of 10 lights 3 are dark (intensity 0, black, or range 0); lists and all figures but "
+                   "lights_lit and lights_seen count them"}));
   const Json base = baseline_json();
   result["scenes"][0]["light_digest"] = "another";
   const Lines fewer = light_findings(result, {.base = &base, .base_name = "base.json"}).broken;
   ASSERT_EQ(fewer.size(), 1u);
   EXPECT_NE(fewer[0].find("9 points, 1 spot then, 9 points, 1 spot, 3 of them dark now"), std::string::npos)
       << fewer[0];
-  result["scenes"][0]["range_rule"]["dark"] = 10;
+  set_lit(result, 0, 0);
   EXPECT_EQ(light_findings(result, {}).broken,
             (Lines{"hall: of 10 lights all are dark (intensity 0, black, or range 0), so budgets say nothing of it "
                    "(--allow-no-lights, limits.allow_no_lights, if that is meant)"}));
   EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).broken, Lines{});
+}
+
+TEST(LightGate, fails_where_the_lights_in_view_are_dark_and_others_are_not) {
+  Json result = baseline_json();
+  set_lit(result, 4, 0);
+  EXPECT_EQ(light_findings(result, {}).broken,
+            (Lines{"hall, camera walk: none of 4 lit lights is ever in view (of 10 lights 6 are dark: intensity 0, "
+                   "black, or range 0), so budgets say nothing of it (--allow-no-lights, limits.allow_no_lights, if "
+                   "that is meant)"}));
+  EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).broken, Lines{});
+  set_lit(result, 4, 1);
+  EXPECT_EQ(light_findings(result, {}).broken, Lines{});
+}
+
+TEST(LightGate, takes_lights_of_older_results_as_lit) {
+  Json result = baseline_json();
+  for (Json& result_case : result["cases"])
+    for (const char* key : {"lights_lit", "lights_seen"}) result_case.erase(key);
+  EXPECT_EQ(light_findings(result, {}).broken, Lines{});
+  EXPECT_EQ(light_findings(result, {}).warnings, Lines{});
 }
 
 // The level of `json` as a second one, "attic", behind the first.

@@ -24,7 +24,8 @@ Json case_with_budget_figures() {
                 "scratch_bytes": 8, "overflow": {"dropped_pairs": 3}, "worst_frame": 9, "worst_cell": [1, 2, 3]},
     "occupancy": {"lights_per_cell": {"max": 64}, "pairs": {"max": 4000}, "worst_frame": 8, "worst_cell": [4, 5, 6]},
     "error": {"false_negatives": 2, "excess_ratio": 0.5, "undecided": 0, "deepest": {"frame": 7, "cell": [0, 0, 1]}},
-    "cost": {"frame_ns": 900000}, "lights": 300, "lights_in_view": {"max": 250, "worst_frame": 4},
+    "cost": {"frame_ns": 900000}, "lights": 300, "lights_lit": 290, "lights_seen": 260,
+    "lights_in_view": {"max": 250, "worst_frame": 4},
     "count": {"instructions_per_frame": {"assign": 40000, "convert": 2000, "frame": 42000}},
     "shading": {"missed": 1, "needed": 1000, "lost_irradiance": 0.25, "overshade": 1.5, "worst_frame": {"frame": 3}}})");
 }
@@ -54,6 +55,9 @@ TEST(Limits, what_breaks_one_is_told_with_case_frame_and_cell) {
       {"frame_us > 195", "frame_us is 195.0005, and fails with frame_us > 195"},
       {"lights < 301", "lights is 300, and fails with lights < 301"},
       {"lights < 300", "kept"},
+      {"lights_lit < 291", "lights_lit is 290, and fails with lights_lit < 291"},
+      {"lights_lit < 290", "kept"},
+      {"lights_seen <= 260", "lights_seen is 260, and fails with lights_seen <= 260"},
       {"lights == 300", "lights is 300, and fails with lights == 300"},
       {"lights_in_view 200..240", "lights_in_view is 250 (frame 4), and fails with lights_in_view outside 200..240"},
       {"lights_in_view 200..300", "kept"},

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "run/gate.h"
 #include "run/result.h"
@@ -42,8 +43,16 @@ inline run::CaseResult case_by_hand(const std::string& id, const std::string& as
   case_result.assigner_params = nlohmann::json::object();
   case_result.storage_label = "packed";
   case_result.lights = 10;
-  case_result.lights_in_view = {
-      .frames = 2, .sum = 15, .most = 8, .frames_with_most = 1, .worst_frame = 1, .most_of_type = {7, 1, 0}};
+  std::vector<bool> lit(10, true), seen = lit;
+  seen.back() = false;
+  case_result.lights_in_view = {.frames = 2,
+                                .sum = 15,
+                                .most = 8,
+                                .frames_with_most = 1,
+                                .worst_frame = 1,
+                                .most_of_type = {7, 1, 0},
+                                .is_lit = lit,
+                                .is_seen = seen};
   case_result.occupancy.emplace();
   case_result.occupancy->pairs = {30.0, 20.0, 40.0, 40.0, 40.0};
   case_result.occupancy->lights_per_cell = {1.25, 1.0, 3.0, 7.0, 7.0};

@@ -30,6 +30,8 @@ constexpr Metric k_metrics[] = {
     {"dropped_pairs", "pairs", "/buffers/overflow/dropped_pairs", "", smaller, k_headline},
     {"overshade", "ratio", "/shading/overshade", "", smaller, k_headline},
     {"lights", "lights", "/lights", "", neither, k_headline},
+    {"lights_lit", "lights", "/lights_lit", "", neither, k_headline},
+    {"lights_seen", "lights", "/lights_seen", "", neither, k_headline},
     {"lights_in_view_max", "lights", "/lights_in_view/max", "", neither, k_headline},
 
     {"tests_done", "tests", "/tests_done", "", smaller, k_detail},
