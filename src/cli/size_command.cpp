@@ -18,6 +18,7 @@
 #include "core/text.h"
 #include "report/engine_settings.h"
 #include "report/found_frames.h"
+#include "report/nothing_seen.h"
 #include "report/result_file.h"
 #include "report/size.h"
 
@@ -133,6 +134,8 @@ ExitCode size(SizeFlags flags) {
     if (!guests) return stopped_exit_code();
     request.scope.guests = *guests;
   }
+  for (const std::string& view : report::views_of_dark_lights(result))
+    tell("warning: " + view + "; lists have them all the same, so these are sizes for when they are switched on");
   const std::string text = report::size_report(result, request);
   std::cout << (request.format == "json" ? text : printable_lines(text)) << std::flush;
   return judged(flags, counts ? &*counts : nullptr, result, request);

@@ -11,6 +11,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// They are in lists like others, and samples get them; but of light that is not there nothing can be lost.
+constexpr const char* k_all_dark = "all lights in view are dark (intensity 0 or black) in all frames";
+
 // Of all samples that a ranking rests on.
 struct SeenAtSamples {
   std::size_t sets = 0;
@@ -55,6 +58,7 @@ std::string why_nothing_is_seen(const std::vector<const Json*>& cases, RankedBy 
   };
   if (has_none("/lights")) return "the scene has no lights";
   if (has_none("/lights_in_view/max")) return "no light is in view in any frame";
+  if (has_none("/lights_seen")) return k_all_dark;
   SeenAtSamples seen;
   for (const Json* one : cases) {
     SeenAtSamples of_case;
@@ -64,6 +68,18 @@ std::string why_nothing_is_seen(const std::vector<const Json*>& cases, RankedBy 
     if (of_case.samples >= seen.samples) seen = of_case;
   }
   return of_samples(seen);
+}
+
+std::vector<std::string> views_of_dark_lights(const Json& result) {
+  std::vector<std::string> views;
+  for (const Json& result_case : result["cases"]) {
+    const bool has_lights = number_at(result_case, "/lights_in_view/max").value_or(0.0) > 0.0;
+    if (!has_lights || number_at(result_case, "/lights_seen") != 0.0) continue;
+    const std::string view =
+        shown(result_case["scene"]) + ", camera " + shown(result_case["camera"]) + ": " + k_all_dark;
+    if (std::ranges::find(views, view) == views.end()) views.push_back(view);
+  }
+  return views;
 }
 
 }  // namespace clusterbench::report

@@ -16,4 +16,7 @@ enum class RankedBy : std::uint8_t { cost, whole_view, no_samples };
 // frame": each would be as good as another, or better for what it leaves out. "" where something is seen.
 std::string why_nothing_is_seen(const std::vector<const nlohmann::ordered_json*>& cases, RankedBy by);
 
+// "level, camera walk: all lights in view are dark ..." of each camera of the result of which this is so.
+std::vector<std::string> views_of_dark_lights(const nlohmann::ordered_json& result);
+
 }  // namespace clusterbench::report

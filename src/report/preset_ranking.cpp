@@ -12,6 +12,7 @@
 #include "report/contender.h"
 #include "report/frame_cost.h"
 #include "report/json_values.h"
+#include "report/nothing_seen.h"
 #include "report/preset_losses.h"
 #include "report/preset_words.h"
 #include "report/result_json.h"
@@ -36,7 +37,8 @@ View view_of(const Json& result_case) {
 // One threshold for whatever lights are lost by: samples that lack more are not the same picture. Samples that need few
 // lights can show that some are lacking, and not that none is.
 PresetStanding standing_of(const RankedPreset& row) {
-  if (!row.losses.unlit || !row.frame) return PresetStanding::unknown;
+  const std::string unseen = why_nothing_is_seen({row.result_case}, RankedBy::no_samples);
+  if (!unseen.empty() || !row.losses.unlit || !row.frame) return PresetStanding::unknown;
   if (*row.losses.unlit > measure::k_most_unlit) return PresetStanding::lacks_lights;
   if (!row.losses.is_decided()) return PresetStanding::unknown;
   return samples_search(*row.result_case) ? PresetStanding::searched : PresetStanding::lists;

@@ -211,13 +211,14 @@ std::string remedy(const RankedPreset& row) {
 // Of samples that need few lights: what they leave open, and how to close it. "" where they need enough.
 std::string doubt_text(const std::vector<RankedPreset>& rows) {
   const RankedPreset& first = rows.front();
+  const std::string unseen = why_nothing_is_seen({first.result_case}, RankedBy::no_samples);
+  if (!unseen.empty()) return unseen;
   if (!first.losses.has_few_samples()) return "";
   std::vector<const Json*> cases;
   for (const RankedPreset& row : rows) cases.push_back(row.result_case);
-  if (const std::string unseen = why_nothing_is_seen(cases, RankedBy::cost); !unseen.empty()) {
-    const bool can_samples_tell = number_at(*first.result_case, "/lights_in_view/max") != 0.0 &&
-                                  sum_at_samples(*first.result_case, "samples") > 0.0;
-    return unseen + (can_samples_tell ? "; " + remedy(first) : "");
+  if (const std::string blind = why_nothing_is_seen(cases, RankedBy::cost); !blind.empty()) {
+    const bool has_samples = sum_at_samples(*first.result_case, "samples") > 0.0;
+    return blind + (has_samples ? "; " + remedy(first) : "");
   }
   const std::string few = "samples need " + needed_lights_text(first);
   const std::vector<const RankedPreset*> open = of_standing(rows, PresetStanding::unknown);

@@ -1,0 +1,74 @@
+// Lights that are dark are in lists like others, and light nothing: there is nothing to choose by where no others are
+// seen.
+
+#include <gtest/gtest.h>
+
+#include "cli/lamps.h"
+#include "cli/tool.h"
+
+namespace clusterbench::test {
+namespace {
+
+constexpr const char* k_small = " --viewport 320x180 --grid frustum --tiles 16x9t --assigner aabb,exact-fast";
+
+// Eight dark lights ahead, and some lit ones behind the camera.
+std::string dark_level(int lit_behind = 0) {
+  std::vector<Lamp> lamps = row_of(8, -1.0, 8);
+  for (const Lamp& lamp : row_of(lit_behind, 4.0)) lamps.push_back(lamp);
+  return level_of(lamps);
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(DarkLights, are_nothing_that_a_run_takes_a_clustering_by) {
+  const Folder folder;
+  for (const int lit_behind : {0, 5}) {
+    const std::string level = folder.write("level.gltf", dark_level(lit_behind)).string();
+    const Outcome run = tool("run " + level + k_small + " --no-timing -o " + (folder / "result.json").string());
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_TRUE(contains(run.err, "nothing to take: all lights in view are dark (intensity 0 or black) in all frames"))
+        << run.err;
+  }
+}
+
+TEST(DarkLights, are_nothing_that_presets_are_ranked_by) {
+  const Folder folder;
+  const std::string level = folder.write("level.gltf", dark_level()).string();
+  const Outcome run = tool("run " + level + " --preset filament --preset olsson-2012 --viewport 320x180 --no-timing " +
+                           "--set samples.opaque.ground=lowest -o " + (folder / "result.json").string());
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(contains(run.err, "all lights in view are dark (intensity 0 or black) in all frames")) << run.err;
+  EXPECT_FALSE(contains(run.err, ": take ")) << run.err;
+  const nlohmann::json result = nlohmann::json::parse(file_text(folder / "result.json"));
+  EXPECT_TRUE(result["preset_rankings"][0]["best"].is_null());
+}
+
+TEST(DarkLights, are_nothing_that_recommend_chooses_by) {
+  const Folder folder;
+  const std::string dark = folder.write("dark.gltf", dark_level(5)).string();
+  const Outcome none = tool("recommend " + dark + k_small + " --no-timing -q");
+  EXPECT_EQ(none.code, 1) << none.out;
+  EXPECT_TRUE(contains(none.out, "all lights in view are dark (intensity 0 or black) in all frames")) << none.out;
+  const std::string lit = folder.write("lit.gltf", level_of(row_of(8, -1.0, 7))).string();
+  EXPECT_EQ(tool("recommend " + lit + k_small + " --no-timing -q").code, 0) << "one of them shines";
+}
+
+TEST(DarkLights, are_sized_with_a_warning) {
+  const Folder folder;
+  const std::string level = folder.write("level.gltf", dark_level()).string();
+  const std::string warning =
+      "warning: level, camera camera: all lights in view are dark (intensity 0 or black) in all "
+      "frames; lists have them all the same, so these are sizes for when they are switched on";
+  for (const char* format : {"table", "cpp", "json"}) {
+    const Outcome size = tool("size " + level + k_small + " -q --format " + format);
+    EXPECT_EQ(size.code, 0) << size.err;
+    EXPECT_TRUE(contains(size.err, warning)) << size.err;
+  }
+  const std::string lit = folder.write("level.gltf", level_of(row_of(8, -1.0, 7))).string();
+  EXPECT_FALSE(contains(tool("size " + lit + k_small + " -q").err, "dark"));
+}
+
+}  // namespace
+}  // namespace clusterbench::test
