@@ -43,7 +43,8 @@ void add_ratio(Command& program, Action& action) {
   Command command =
       program.add_command("ratio", "How much longer one method takes than another, with intervals, from one result");
   command.add_option("RESULT", flags->result, "A result file of `clusterbench run`").required();
-  command.add_option("--methods", flags->request.methods, "Only methods whose name matches this regular expression");
+  command.add_option("--methods", flags->request.methods,
+                     "Only methods whose name has this in it, or matches it as a regular expression");
   command.add_flag("--all-pairs", flags->all_pairs, "Each method beside each one that is faster");
   command.add_flag("--across-grids", flags->request.across_grids,
                    "All grids of a scene, camera and viewport in one ranking");

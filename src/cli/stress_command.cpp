@@ -105,10 +105,12 @@ ExitCode stress(const StressFlags& flags) {
   };
   const stress::StressResult result = stress::run_stress(request, listener, stop);
   progress.clear();
-  if (result.methods.empty()) throw Error("", "--methods", "'" + flags.methods + "' names none");
+  if (result.methods.empty())
+    throw Error("", "--methods", "'" + flags.methods + "' names none" + pattern_hint(flags.methods));
   if (!result.interrupted && result.cases.empty() && result.searches.empty() &&
       (!result.random || !flags.cases.empty()))
-    throw Error("", "--cases", "'" + flags.cases + "' names none; there are H1 to H35");
+    throw Error("", "--cases",
+                "'" + flags.cases + "' names none" + pattern_hint(flags.cases) + "; there are H1 to H35");
   const bool for_reading = is_for_reading(flags.output);
   if (!for_reading) write_output(flags.output, report::stress_to_json(result, request));
   if (!flags.quiet) report::print_stress(for_reading ? std::cout : std::cerr, result);
@@ -131,8 +133,10 @@ void add_stress(Command& program, Action& action) {
       program.add_command("stress", "Every assigner on the hard cases for numerical stability, and a search for more");
   command.add_option("-o,--output", flags->output,
                      "JSON file; without it the JSON goes to standard output, on a terminal the table alone");
-  command.add_option("--cases", flags->cases, "Only hard cases that match this regular expression (H1 .. H35)");
-  command.add_option("--methods", flags->methods, "Only methods that contain a match of this regular expression");
+  command.add_option("--cases", flags->cases,
+                     "Only hard cases of this name, or that match it as a regular expression (H1 .. H35)");
+  command.add_option("--methods", flags->methods,
+                     "Only methods whose name has this in it, or matches it as a regular expression");
   command.add_option("--tries", flags->request.tries, "Tries of the search H31 per method; 0 = no search")
       .shows_standard();
   command

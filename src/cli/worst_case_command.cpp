@@ -138,8 +138,9 @@ void add_worst_case(Command& program, Action& action) {
       .one_of(measure_names())
       .shows_standard();
   command
-      .add_option("--filter", flags->filter,
-                  "Of the cases whose name matches this regular expression the first is searched")
+      .add_option(
+          "--filter", flags->filter,
+          "Of the cases whose name has this in it, or matches it as a regular expression, the first is searched")
       .may_be_empty();
   add_effort_options(command, flags->search);
   command.add_option("--random", flags->search.request.random, "Random frames to compare with; 0: none")

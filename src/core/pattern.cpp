@@ -11,6 +11,15 @@ re2::StringPiece re2_text(std::string_view text) {
   return {text.data(), text.size()};
 }
 
+// "\\ makes ( ) + plain characters", of those of the text that mean something in a regular expression; "": none.
+std::string escapes_text(std::string_view text) {
+  std::string special;
+  for (const char character : std::string_view("()[]{}.+*?|^$\\"))
+    if (text.find(character) != std::string_view::npos) special += std::string(1, character) + " ";
+  if (special.empty()) return "";
+  return "\\ makes " + special + (special.size() == 2 ? "a plain character" : "plain characters");
+}
+
 std::shared_ptr<const RE2> compiled(const std::string& text, const std::string& option) {
   constexpr std::size_t k_longest = 10'000;  // bytes
   if (text.size() > k_longest)
@@ -20,21 +29,31 @@ std::shared_ptr<const RE2> compiled(const std::string& text, const std::string& 
   RE2::Options quiet;
   quiet.set_log_errors(false);
   auto expression = std::make_shared<RE2>(text, quiet);
-  if (!expression->ok())
-    throw Error("", option, "'" + text + "' is no regular expression (as RE2 has them): " + expression->error());
+  if (!expression->ok()) {
+    const std::string escapes = escapes_text(text);
+    throw Error("", option,
+                "'" + text + "' is no regular expression (as RE2 has them): " + expression->error() +
+                    (escapes.empty() ? "" : "; " + escapes));
+  }
   return expression;
 }
 
 }  // namespace
 
-Pattern::Pattern(const std::string& text, const std::string& option) : expression_(compiled(text, option)) {}
+Pattern::Pattern(const std::string& text, const std::string& option)
+    : text_(text), expression_(compiled(text, option)) {}
 
 bool Pattern::is_in(std::string_view text) const {
-  return !expression_ || RE2::PartialMatch(re2_text(text), *expression_);
+  return !expression_ || text.find(text_) != std::string_view::npos || RE2::PartialMatch(re2_text(text), *expression_);
 }
 
 bool Pattern::is_all_of(std::string_view text) const {
-  return !expression_ || RE2::FullMatch(re2_text(text), *expression_);
+  return !expression_ || text == text_ || RE2::FullMatch(re2_text(text), *expression_);
+}
+
+std::string pattern_hint(std::string_view text) {
+  const std::string escapes = escapes_text(text);
+  return escapes.empty() ? "" : ", neither as it stands nor as a regular expression, in which " + escapes;
 }
 
 }  // namespace clusterbench

@@ -257,8 +257,8 @@ std::vector<const Json*> matching_cases(const Json& cases, const std::string& fi
     if (pattern.is_in(result_case["name"].get_ref<const std::string&>())) out.push_back(&result_case);
   if (out.empty() && !cases.empty())
     throw Error("", "--filter",
-                "'" + filter + "' matches none of " + number_of(cases.size(), "case") + "; one of them is '" +
-                    cases[0]["name"].get<std::string>() + "'");
+                "'" + filter + "' matches none of " + number_of(cases.size(), "case") + pattern_hint(filter) +
+                    "; one of them is '" + cases[0]["name"].get<std::string>() + "'");
   return out;
 }
 

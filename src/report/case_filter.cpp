@@ -15,7 +15,7 @@ void keep_cases(nlohmann::ordered_json& result, const std::string& filter, const
   if (kept.empty()) {
     const nlohmann::ordered_json& all = result["cases"];
     throw Error(path, "--filter",
-                "'" + filter + "' matches none of " + number_of(all.size(), "case") +
+                "'" + filter + "' matches none of " + number_of(all.size(), "case") + pattern_hint(filter) +
                     (all.empty() ? "" : "; one of them is '" + all[0]["name"].get<std::string>() + "'"));
   }
   result["cases"] = std::move(kept);

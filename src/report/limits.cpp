@@ -158,10 +158,10 @@ class RuleCheck {
   void add_none(const Json& result) {
     std::vector<std::string> names;
     for (const Json& result_case : result["cases"]) names.push_back(result_case["name"].get<std::string>());
-    findings_.broken.push_back(
-        quoted_ + " could not be checked: " +
-        (names.empty() ? "there is no case"
-                       : "its '" + rule_.cases + "' matches no case's name; there are: " + listed_names(names)));
+    findings_.broken.push_back(quoted_ + " could not be checked: " +
+                               (names.empty() ? "there is no case"
+                                              : "its '" + rule_.cases + "' matches no case's name" +
+                                                    pattern_hint(rule_.cases) + "; there are: " + listed_names(names)));
   }
 
   void check_values() {

@@ -223,6 +223,39 @@ TEST(Gates, what_matches_nothing_fails) {
   EXPECT_TRUE(says(named, "its 'exact-fst' matches no case's name")) << named.err;
 }
 
+// Names have parentheses and other characters that mean something in a regular expression.
+TEST(Gates, every_option_that_selects_cases_takes_a_name_as_it_is_printed) {
+  const Folder folder;
+  const std::string level = folder.write("level.gltf", corridor(8)).string(),
+                    result = (folder / "result.json").string(), out = " -o " + (folder / "out").string();
+  const std::string run =
+      "run " + level + " -q --no-timing --viewport 320x180 --preset filament --preset godot -o " + result;
+  ASSERT_EQ(tool(run).code, 0);
+  std::string name;
+  const Json measured = Json::parse(file_text(result));
+  for (const Json& one : measured["cases"])
+    if (one["preset"] == "filament") name = one["name"];
+  ASSERT_NE(name.find('('), std::string::npos) << name;
+  const auto quoted = [](const std::string& text) { return "'" + text + "'"; };
+  const Outcome budget = tool(run + " --fail-if " + quoted(name + ": longest > 0"));
+  EXPECT_EQ(budget.code, 1);
+  EXPECT_TRUE(says(budget, "FAILED " + name + ": longest is ")) << budget.err;
+  EXPECT_FALSE(says(budget, "godot")) << budget.err;
+  const std::string filter = " --filter " + quoted(name);
+  EXPECT_EQ(tool(run + filter).code, 0);
+  EXPECT_EQ(Json::parse(file_text(result))["cases"].size(), 1u);
+  EXPECT_EQ(tool("compare " + result + " " + result + filter).code, 0);
+  EXPECT_EQ(tool("export " + result + " --format csv" + out + filter).code, 0);
+  EXPECT_EQ(tool("size " + result + filter).code, 0);
+  const Outcome other = tool("size " + result + " --filter 'columns=(farthest)'");
+  EXPECT_EQ(other.code, 2);
+  const Outcome none = tool("export " + result + " --format csv" + out + " --filter 'columns=(farthest)'");
+  EXPECT_TRUE(says(none,
+                   "'columns=(farthest)' matches none of 1 case, neither as it stands nor as a regular expression, "
+                   "in which \\ makes ( ) plain characters; one of them is '"))
+      << none.err;
+}
+
 TEST(Gates, a_history_tells_and_fails_with_lights_that_changed) {
   const Level level;
   const std::string history = (level.folder / "history.jsonl").string();

@@ -141,6 +141,23 @@ TEST(Limits, before_a_colon_name_cases_and_what_they_match_has_to_have_the_figur
                    "hall/walk/frustum/bounds/packed"}));
 }
 
+TEST(Limits, of_a_case_by_its_name_as_it_is_printed_are_held_against_it) {
+  const std::string name =
+      "hall/walk/filament: frustum 16px/sphere-refinement(spot=cone-sphere,columns=nearest)/a+b(2)";
+  Json entry = case_with_budget_figures();
+  entry["name"] = name;
+  for (const std::string& cases : {name, name.substr(10)}) {
+    const LimitFindings findings = findings_of(cases + ": longest > 63", entry);
+    ASSERT_EQ(findings.broken.size(), 1u);
+    EXPECT_TRUE(findings.broken[0].starts_with(name + ": longest is 64")) << findings.broken[0];
+  }
+  EXPECT_EQ(findings_of("refinement(spot=cone): longest > 63", entry).broken,
+            (Lines{"'refinement(spot=cone): longest > 63' could not be checked: its 'refinement(spot=cone)' matches no "
+                   "case's name, neither as it stands nor as a regular expression, in which \\ makes ( ) plain "
+                   "characters; there are: " +
+                   name}));
+}
+
 TEST(Limits, of_a_result_without_cases_fail) {
   const config::LimitRule rules[] = {config::limit_rule("longest > 64", "", "--fail-if")};
   EXPECT_EQ(limit_findings(Json{{"cases", Json::array()}}, rules).broken,
