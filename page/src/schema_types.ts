@@ -199,6 +199,7 @@ export type Result = {
       spot: number; // Spot lights
       directional: number; // Directional lights: they reach everything and are never assigned
       box: number; // Oriented boxes, from extras
+      dark?: number; // Of the points and spots those that light nothing: of intensity 0, black, or of range 0, at the beginning, the middle and the end of the animations. Methods get them all the same. Absent in older results
     }; // By type [lights, over the scene]
     light_digest?: string; // The same for the same assigned lights (kinds, positions, ranges, directions, angles, whether they are dark), whatever their names, order and file are; absent in older results
     frames: number; // Frames of all camera paths together [frames, over the scene]
@@ -208,7 +209,7 @@ export type Result = {
       given: number; // Lights with a range in the file [lights, over the scene]
       from_intensity: number; // Lights without a range, which got one from their intensity [lights, over the scene]
       clamped: number; // Lights whose range was cut to max_range [lights, over the scene]
-      dark?: number; // Point and spot lights that light nothing: of intensity 0, black, or of range 0, at the beginning, the middle and the end of the animations. Methods get them all the same. Absent in older results [lights, over the scene]
+      dark?: number; // In older results: what is lights.dark now [lights, over the scene]
       ranges?: {
         least: number; // Shortest
         median: number; // Middle
@@ -744,11 +745,12 @@ export type Result = {
     scene: string; // Name of one of scenes
     ids: string[]; // Ids of the cases with a star, in the order of cases
   }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the interval of their ratio), bytes and overshade together, and better in one; where config.rank_by is frame_cost, in cost and bytes. What draws lights has no lists, so its bytes count as unknown. Only cases that are eligible, and none that samples search
+  failed?: string[]; // What the run failed for beside the failures of its cases, a line each: budgets (limits.fail_if), lights that are missing, what a baseline has, a program beside it. conclusions then take nothing. Absent where it failed for none of these
   conclusions?: Array<{
     scene: string; // Name of one of scenes
     camera: string; // As in cases
     viewport: [number, number]; // [width, height] [px, over the cases]
-    take: string | null; // Id of the case to take; null: no case is sound, or nothing that they are ranked by sees a light (then text says what)
+    take: string | null; // Id of the case to take; null: no case is sound, nothing that they are ranked by sees a light, or the run failed (text says what)
     against: string | null; // Id of the cheapest case that is known to cost more; null: there is none
     ratio: number | null; // Cost of that / cost of the case to take [ratio, over the frame times]
     ci95: [number | null, number | null] | null; // Its 95 % interval, of the times in it; null where times were not measured side by side [ratio, over the frame times]
@@ -785,7 +787,7 @@ export type Result = {
       id: string; // Of the case
       preset: string; // Of the case
       standing?: "lists" | "searched" | "lacks_lights" | "unknown"; // lists: samples lack at most a thousandth of the lights that they need. searched: likewise, and samples search the structure, whose price no GPU has measured. lacks_lights: samples lack more. unknown: no sample needs a light, or samples need fewer than 1000, too few to say so, and pairs are lost or were not compared with the truth. Absent in older results
-      place?: number; // Among the cases of the same standing, from 1; the same where the model cannot tell costs apart: they differ by 5 % at most, or their order turns as each price of config.cost is half or twice what it is. Absent in older results [count, over the cases]
+      place?: number | null; // Among the cases of the same standing, from 1; 1 + how many of them are known to cost less: by more than 5 %, and as each price of config.cost is half or twice what it is. null: not ranked. Absent in older results [count, over the cases]
       gpu_ns: number | null; // upload_ns + traffic_ns + read_ns + shade_ns; null without samples. In older results the case's cost.gpu_ns [ns, over one frame]
       upload_ns?: number | null; // Of the lists, by config.cost: 0 where the engine makes them on a GPU. Absent in older results [ns, over one frame]
       read_ns?: number | null; // What samples read to know their lights, by config.cost. Absent in older results [ns, over one frame]

@@ -8,7 +8,6 @@
 #include "core/text.h"
 #include "report/baseline_cases.h"
 #include "report/light_changes.h"
-#include "report/limits.h"
 #include "report/result_file.h"
 
 namespace clusterbench::cli {
@@ -69,18 +68,24 @@ Gates::Gates(const config::Config& config, const std::string& filter) : limits_(
                       "a result of `clusterbench run`; a share is written without percent, 0.05");
 }
 
-ExitCode Gates::report(const nlohmann::ordered_json& result) const {
-  if (limits_.fail_if.empty() && !base_) return ExitCode::ok;
+std::vector<report::LimitFindings> Gates::findings(const nlohmann::ordered_json& result) const {
+  if (limits_.fail_if.empty() && !base_) return {};
   const std::string name = limits_.baseline.string();
   const nlohmann::ordered_json* base = base_ ? &*base_ : nullptr;
   std::optional<report::BaselineCases> cases;
   if (base != nullptr) cases.emplace(*base, result, filter_, name);
-  const report::LimitFindings lights =
-      report::light_findings(result, {limits_.allows_no_lights, limits_.allows_changed_lights, base, name, filter_});
-  const report::LimitFindings budgets = report::limit_findings(result, limits_.fail_if, cases ? &*cases : nullptr);
-  print_findings(lights);
-  print_findings(budgets);
-  return lights.broken.empty() && budgets.broken.empty() ? ExitCode::ok : ExitCode::gate_failed;
+  return {
+      report::light_findings(result, {limits_.allows_no_lights, limits_.allows_changed_lights, base, name, filter_}),
+      report::limit_findings(result, limits_.fail_if, cases ? &*cases : nullptr)};
+}
+
+ExitCode report_findings(const std::vector<report::LimitFindings>& findings) {
+  bool is_broken = false;
+  for (const report::LimitFindings& some : findings) {
+    print_findings(some);
+    is_broken |= !some.broken.empty();
+  }
+  return is_broken ? ExitCode::gate_failed : ExitCode::ok;
 }
 
 }  // namespace clusterbench::cli

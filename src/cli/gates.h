@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/command.h"
 #include "config/config.h"
+#include "report/limits.h"
 
 namespace clusterbench::cli {
 
@@ -29,13 +31,16 @@ class Gates {
   // budget in percent without one.
   Gates(const config::Config& config, const std::string& filter);
 
-  // Tells what holds and what does not.
-  ExitCode report(const nlohmann::ordered_json& result) const;
+  // What holds and what does not: of the lights, then of the budgets. Nothing without budgets and baseline.
+  std::vector<report::LimitFindings> findings(const nlohmann::ordered_json& result) const;
 
  private:
   const config::LimitsRequest& limits_;
   std::string filter_;
   std::optional<nlohmann::ordered_json> base_;
 };
+
+// Tells them.
+ExitCode report_findings(const std::vector<report::LimitFindings>& findings);
 
 }  // namespace clusterbench::cli

@@ -237,11 +237,38 @@ bool add_baseline(const RunFlags& flags, const config::Config& config, const run
   return !stop;
 }
 
-// The gates of the comparison hold those of the run.
-ExitCode report_baseline(const RunFlags& flags, const Json& result) {
-  const Json comparison = report::compare_results(result, result, flags.baseline.threshold_percent / 100.0);
-  std::cerr << printable_lines(report::comparison_text(comparison));
-  return report::outcome(comparison, false);
+// What a finished run is held against.
+struct Verdicts {
+  Json comparison = Json::object();  // with the program beside it, whose gates hold those of the run; empty without one
+  std::vector<report::LimitFindings> findings;
+};
+
+// The result says what it failed for, too.
+Verdicts judge(const RunFlags& flags, const Gates& gates, Json& result) {
+  Verdicts verdicts;
+  if (!flags.baseline.binary.empty())
+    verdicts.comparison = report::compare_results(result, result, flags.baseline.threshold_percent / 100.0);
+  verdicts.findings = gates.findings(result);
+  const std::vector<std::string> of_cases = report::gate_failures(result);
+  std::vector<std::string> failures;
+  for (const Json& failure : verdicts.comparison.value("failures", Json::array()))
+    if (std::ranges::find(of_cases, failure.get<std::string>()) == of_cases.end()) failures.push_back(failure);
+  for (const report::LimitFindings& some : verdicts.findings)
+    failures.insert(failures.end(), some.broken.begin(), some.broken.end());
+  report::conclude_failures(result, failures);
+  return verdicts;
+}
+
+ExitCode report_verdicts(const Verdicts& verdicts, const Json& result) {
+  ExitCode code = ExitCode::ok;
+  if (verdicts.comparison.empty()) {
+    code = report_gates(result);
+  } else {
+    std::cerr << printable_lines(report::comparison_text(verdicts.comparison));
+    code = report::outcome(verdicts.comparison, false);
+  }
+  const ExitCode limits = report_findings(verdicts.findings);
+  return code == ExitCode::ok ? limits : code;
 }
 
 run::Listener make_listener(ProgressLine& progress, report::Journal* journal, std::size_t earlier, std::size_t total) {
@@ -295,10 +322,10 @@ void show_table(const RunFlags& flags, const Json& result) {
 }
 
 // Last of all, behind what is doubted. What failed is no ground to take anything.
-void show_conclusion(const RunFlags& flags, const Json& result, bool has_failed) {
+void show_conclusion(const RunFlags& flags, const Json& result) {
   std::ostream& out = is_for_reading(flags.output) ? std::cout : std::cerr;
-  if (has_failed)
-    out << "conclusion: none, since the run FAILED for what is told above\n" << std::flush;
+  if (!report::run_failures(result).empty())
+    out << "conclusion: " << report::failed_conclusion(result) << ".\n" << std::flush;
   else
     out << report::conclusions_text(result) << report::preset_conclusions(result) << std::flush;
 }
@@ -365,6 +392,7 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   Json result = report::result_to_json(fresh, earlier);
   if (!flags.baseline.binary.empty() && !add_baseline(flags, config, plan, progress, journal.get(), stop, result))
     return interrupted(journal.get());
+  const Verdicts verdicts = judge(flags, own_gates, result);
   if (journal)
     journal->finish(result);
   else if (!is_for_reading(flags.output))
@@ -375,10 +403,8 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
     tell("interrupted; the result is complete, its pictures are not");
     return stopped_exit_code();
   }
-  const ExitCode gates = flags.baseline.binary.empty() ? report_gates(result) : report_baseline(flags, result);
-  const ExitCode limits = own_gates.report(result);
-  const ExitCode code = gates == ExitCode::ok ? limits : gates;
-  if (!flags.quiet) show_conclusion(flags, result, code != ExitCode::ok);
+  const ExitCode code = report_verdicts(verdicts, result);
+  if (!flags.quiet) show_conclusion(flags, result);
   return code;
 }
 

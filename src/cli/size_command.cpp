@@ -93,7 +93,7 @@ ExitCode judged(const SizeFlags& flags, const SizeCounts* counts, const Json& re
     config::Config config = counts->config;
     config.limits.allows_no_lights = allows_no_lights;
     keep_counted_budgets(config, "size");
-    code = Gates(config, request.filter).report(result);
+    code = report_findings(Gates(config, request.filter).findings(result));
   }
   for (const std::string& name : report::sized_from_nothing(result, request)) {
     if (!allows_no_lights) code = ExitCode::gate_failed;

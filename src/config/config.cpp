@@ -562,21 +562,36 @@ class Usual {
  public:
   Usual(const JsonText& text, std::span<const FlagValue> flags)
       : has_scenes_only_(text.file.empty()),
-        names_samples_(text.value.contains("samples") || names_key(flags, "samples")),
+        names_surfaces_(names_surfaces(text.value) || names_key(flags, "samples[./]opaque") || says_none(flags)),
         names_accuracy_(text.value.contains("accuracy") || names_key(flags, "accuracy")) {}
 
   void add_to(Json& document) const {
     const bool has_presets = document.contains("presets");
     if (!names_accuracy_ && (has_scenes_only_ || has_presets)) document["accuracy"]["most_pairs"] = k_usual_most_pairs;
     if (!has_presets) return;
-    if (!names_samples_) document["samples"] = {{"opaque", {{"divisor", 16}}}};
+    if (!names_surfaces_) add_surfaces(document);
     for (Json& scene : document["scenes"])
       if (scene.is_object() && scene.value("frames", Json()) == usual_frames(k_usual_lights))
         scene["frames"] = usual_frames(k_usual_lights_of_presets);
   }
 
  private:
-  bool has_scenes_only_, names_samples_, names_accuracy_;
+  static void add_surfaces(Json& document) {
+    Json& samples = document["samples"];
+    if (samples.is_null() || (samples.is_object() && !samples.contains("opaque")))
+      samples["opaque"] = {{"divisor", 16}};
+  }
+  // "samples": {} is no set at all.
+  static bool names_surfaces(const Json& document) {
+    return document.contains("samples") && document["samples"].is_object() &&
+           (document["samples"].empty() || document["samples"].contains("opaque"));
+  }
+  static bool says_none(std::span<const FlagValue> flags) {
+    return std::ranges::any_of(
+        flags, [](const FlagValue& flag) { return flag.name == "--set" && flag.value == "samples={}"; });
+  }
+
+  bool has_scenes_only_, names_surfaces_, names_accuracy_;
 };
 
 // The configuration as flags change it. Presets stand alone where neither the file nor a flag names a clustering.

@@ -249,13 +249,25 @@ std::string doubts_text(const Choice& choice) {
   return out;
 }
 
+// "street, camera walk, 1920x1080: ", of a conclusion.
+std::string view_text(const Json& conclusion) {
+  return shown(conclusion["scene"]) + ", camera " + shown(conclusion["camera"]) + ", " +
+         conclusion["viewport"][0].dump() + "x" + conclusion["viewport"][1].dump() + ": ";
+}
+
+// Of a run that failed.
+std::string failure_text(const Json& result) {
+  const std::vector<std::string> failures = run_failures(result);
+  return "the run FAILED: " + shown(failures.front()) +
+         (failures.size() > 1 ? " (and for " + number_of(failures.size() - 1, "other reason") + ")" : "");
+}
+
 Json conclusion_of(const SceneView& view, std::uint64_t seed) {
   const std::string unseen = why_nothing_is_seen(view.cases, RankedBy::cost);
   const Choice choice = unseen.empty() ? choose_of(view, seed) : Choice{};
-  const std::string where = shown(view.scene) + ", camera " + shown(view.camera) + ", " + view.viewport[0].dump() +
-                            "x" + view.viewport[1].dump() + ": ";
   Json out{{"scene", view.scene}, {"camera", view.camera}, {"viewport", view.viewport}, {"take", nullptr},
            {"against", nullptr},  {"ratio", nullptr},      {"ci95", nullptr},           {"alike", Json::array()}};
+  const std::string where = view_text(out);
   if (!unseen.empty()) {
     out["text"] = where + "nothing to take: " + unseen + ".";
     return out;
@@ -263,7 +275,7 @@ Json conclusion_of(const SceneView& view, std::uint64_t seed) {
   if (choice.take == nullptr) {
     out["text"] =
         where +
-        (view.searched.empty() ? "take none of " + number_of(view.cases.size(), "case") + ": each fails or loses lights"
+        (view.searched.empty() ? "take none of " + number_of(view.cases.size(), "case") + ": each loses lights"
                                : "nothing to take: only structures that samples search are sound here, and no GPU has "
                                  "measured such a search") +
         ".";
@@ -322,10 +334,27 @@ std::string smallest_text(const Json& answer, const Json& objective) {
          " with " + bytes_text(*more_bytes) + " in place of " + bytes_text(*bytes);
 }
 
+// ": bytes <= 1000 excludes all 32 candidates, unlit = 0 excludes 4", those that exclude most.
+std::string excluding_text(const Json& answer) {
+  constexpr std::size_t k_most = 3;
+  std::vector<std::pair<std::uint64_t, std::string>> excluding;
+  for (const Json& row : answer["constraints"])
+    if (const auto excluded = row["excluded"].get<std::uint64_t>(); excluded > 0)
+      excluding.emplace_back(excluded, shown(row["constraint"]));
+  std::ranges::stable_sort(excluding, std::greater<>(), &std::pair<std::uint64_t, std::string>::first);
+  std::vector<std::string> texts;
+  for (const auto& [excluded, constraint] : excluding) {
+    if (texts.size() == k_most) break;
+    texts.push_back(constraint + " excludes " + (excluded == answer["candidates"] ? "all " : "") +
+                    number_of(excluded, "candidate"));
+  }
+  return texts.empty() ? "" : ": " + joined(texts);
+}
+
 // That nothing is to be taken, and what could be.
 std::string none_text(const Json& answer, const Json& objective) {
   const Json searched = answer.value("searched", Json::array());
-  if (searched.empty()) return "take none: no candidate satisfies all constraints; see what each of them excludes";
+  if (searched.empty()) return "take none: no candidate satisfies all constraints" + excluding_text(answer);
   return "take none: no candidate with lists satisfies all constraints; " +
          shown(searched[0]["name"].get<std::string>()) + ", which samples search, does (" +
          objective_text(searched[0], objective) + "), and no GPU has measured such a search";
@@ -375,6 +404,33 @@ Json conclusions_of(const Json& result, const Json& origin) {
   for (const SceneView& view : scene_views(result, origin["config"]))
     out.push_back(conclusion_of(view, seed_of(origin)));
   return out;
+}
+
+std::vector<std::string> run_failures(const Json& result) {
+  std::vector<std::string> failures = gate_failures(result);
+  for (const Json& failure : result.value("failed", Json::array())) failures.push_back(failure.get<std::string>());
+  return failures;
+}
+
+void conclude_failures(Json& result, const std::vector<std::string>& failures) {
+  for (const std::string& failure : failures) result["failed"].push_back(failure);
+  if (run_failures(result).empty()) return;
+  const std::string text = "nothing to take: " + failure_text(result);
+  for (Json& conclusion : result["conclusions"]) {
+    for (const char* key : {"take", "against", "ratio", "ci95"}) conclusion[key] = nullptr;
+    conclusion["alike"] = Json::array();
+    conclusion["text"] = view_text(conclusion) + text + ".";
+  }
+  if (!result.contains("preset_rankings")) return;
+  for (Json& ranking : result["preset_rankings"]) {
+    ranking["best"] = nullptr;
+    ranking["alike"] = Json::array();
+    ranking["text"] = text;
+  }
+}
+
+std::string failed_conclusion(const Json& result) {
+  return "none, since " + failure_text(result);
 }
 
 std::string conclusions_text(const Json& result) {

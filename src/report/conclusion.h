@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace clusterbench::report {
 
@@ -14,6 +15,16 @@ namespace clusterbench::report {
 // cannot tell apart it is the one with the fewest bytes. Presets are ranked by themselves and are not among them.
 // `result`: scenes, cases and pareto_front; `origin`: config.
 nlohmann::ordered_json conclusions_of(const nlohmann::ordered_json& result, const nlohmann::ordered_json& origin);
+
+// What a result's run failed for, a line each: the failures of its cases, and `failed`.
+std::vector<std::string> run_failures(const nlohmann::ordered_json& result);
+
+// Where the run failed, nothing is taken: neither a case nor a preset, and the texts say what failed. Adds `failures`
+// to the result's `failed`, which has what is no case's own: budgets, lights, a baseline.
+void conclude_failures(nlohmann::ordered_json& result, const std::vector<std::string>& failures);
+
+// "none, since the run FAILED: ..." of such a result.
+std::string failed_conclusion(const nlohmann::ordered_json& result);
 
 // Lines that begin with "conclusion: ", the last ones of a run; "" where the result has none.
 std::string conclusions_text(const nlohmann::ordered_json& result);

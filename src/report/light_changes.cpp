@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "report/columns.h"
 #include "report/json_values.h"
+#include "report/nothing_seen.h"
 
 namespace clusterbench::report {
 namespace {
@@ -18,11 +19,6 @@ constexpr const char* k_dark = "intensity 0, black, or range 0";
 
 std::uint64_t lights_of_kind(const Json& scene, const char* kind) {
   return scene.contains("lights") ? scene["lights"].value(kind, std::uint64_t{0}) : 0;
-}
-
-// 0 also in results that are older than this count.
-std::uint64_t dark_lights(const Json& scene) {
-  return static_cast<std::uint64_t>(number_at(scene, "/range_rule/dark").value_or(0.0));
 }
 
 bool are_as_many(const Json& a, const Json& b) {

@@ -100,12 +100,14 @@ std::string merged_name(const std::vector<NamedPart>& parts) {
 Json merged(const std::vector<NamedPart>& parts) {
   const Json& first = parts.front().result;
   Json scenes = Json::array(), cases = Json::array(), skipped = Json::array();
+  std::vector<std::string> failed;
   Union scene_union(scenes, "scenes", "name"), case_union(cases, "cases", "id");
   for (const NamedPart& part : parts) {
     check_origin(parts.front(), part);
     for (const Json& scene : part.result.at("scenes")) scene_union.add(scene, part.file, true);
     for (const Json& result_case : part.result.at("cases")) case_union.add(result_case, part.file, false);
     add_skipped(skipped, part.result.at("skipped"));
+    for (const Json& failure : part.result.value("failed", Json::array())) failed.push_back(failure.get<std::string>());
   }
   Json out{{"schema_version", first.at("schema_version")},
            {"name", merged_name(parts)},
@@ -118,6 +120,7 @@ Json merged(const std::vector<NamedPart>& parts) {
            {"skipped", skipped}};
   add_presets(out, first);
   out["conclusions"] = conclusions_of(out, first);
+  conclude_failures(out, failed);
   return out;
 }
 

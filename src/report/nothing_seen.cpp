@@ -1,6 +1,7 @@
 #include "report/nothing_seen.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "report/columns.h"
@@ -51,6 +52,11 @@ std::string of_samples(const SeenAtSamples& seen) {
 
 }  // namespace
 
+std::uint64_t dark_lights(const Json& scene) {
+  const std::optional<double> counted = number_at(scene, "/lights/dark");
+  return static_cast<std::uint64_t>(counted ? *counted : number_at(scene, "/range_rule/dark").value_or(0.0));
+}
+
 std::string why_nothing_is_seen(const std::vector<const Json*>& cases, RankedBy by) {
   if (cases.empty()) return "";
   const auto has_none = [&](const char* pointer) {
@@ -80,6 +86,17 @@ std::vector<std::string> views_of_dark_lights(const Json& result) {
     if (std::ranges::find(views, view) == views.end()) views.push_back(view);
   }
   return views;
+}
+
+std::set<std::string> ids_of_nothing_seen(const Json& cases) {
+  std::map<std::string, std::vector<const Json*>> views;
+  for (const Json& one : cases) views[Json{one["scene"], one["camera"], one["viewport"]}.dump()].push_back(&one);
+  std::set<std::string> ids;
+  for (const auto& [_, of_view] : views) {
+    if (why_nothing_is_seen(of_view, RankedBy::cost).empty()) continue;
+    for (const Json* one : of_view) ids.insert((*one)["id"].get<std::string>());
+  }
+  return ids;
 }
 
 }  // namespace clusterbench::report

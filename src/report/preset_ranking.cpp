@@ -37,8 +37,7 @@ View view_of(const Json& result_case) {
 // One threshold for whatever lights are lost by: samples that lack more are not the same picture. Samples that need few
 // lights can show that some are lacking, and not that none is.
 PresetStanding standing_of(const RankedPreset& row) {
-  const std::string unseen = why_nothing_is_seen({row.result_case}, RankedBy::no_samples);
-  if (!unseen.empty() || !row.losses.unlit || !row.frame) return PresetStanding::unknown;
+  if (!row.unseen.empty() || !row.losses.unlit || !row.frame) return PresetStanding::unknown;
   if (*row.losses.unlit > measure::k_most_unlit) return PresetStanding::lacks_lights;
   if (!row.losses.is_decided()) return PresetStanding::unknown;
   return samples_search(*row.result_case) ? PresetStanding::searched : PresetStanding::lists;
@@ -67,9 +66,11 @@ void give_places(std::vector<RankedPreset>& rows) {
 }
 
 std::vector<RankedPreset> ranked(const std::vector<const Json*>& cases, const Json& config) {
+  const std::string unseen = why_nothing_is_seen(cases, RankedBy::cost);
   std::vector<RankedPreset> rows;
   for (const Json* result_case : cases) {
-    RankedPreset row{result_case, {}, whole_frame(*result_case, config), preset_losses(*result_case), 0, &config};
+    RankedPreset row{result_case, {},    whole_frame(*result_case, config), preset_losses(*result_case), 0,
+                     &config,     unseen};
     row.standing = standing_of(row);
     rows.push_back(row);
   }
@@ -85,7 +86,7 @@ Json line_json(const RankedPreset& row, const RankedPreset& first) {
   return {{"id", (*row.result_case)["id"]},
           {"preset", (*row.result_case)["preset"]},
           {"standing", name_of(row.standing)},
-          {"place", row.place},
+          {"place", row.standing == PresetStanding::unknown ? Json() : Json(row.place)},
           {"gpu_ns", row.frame ? number_or_null(row.gpu_ns()) : Json()},
           {"upload_ns", part(&measure::FrameCost::upload_ns)},
           {"read_ns", part(&measure::FrameCost::read_ns)},

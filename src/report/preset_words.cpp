@@ -84,8 +84,15 @@ std::string sample_word(const RankedPreset& row) {
   return value_at(*row.result_case, "/samples/opaque") != nullptr ? "sample on a visible surface" : "sample";
 }
 
+// Of the samples by which presets are ranked.
+bool has_samples(const RankedPreset& row) {
+  return sum_at_samples(*row.result_case, "samples") > 0.0;
+}
+
 // Where samples do not tell whether what is lost is seen.
 std::string undecided_loss(const RankedPreset& row) {
+  if (!has_samples(row))
+    return "no sample was taken, so what it loses is counted in pairs of a cell and a light, and not in what is seen";
   if (row.losses.needed == 0.0)
     return "no " + sample_word(row) + " needs a light, so nothing tells whether it loses any that is seen";
   std::string out = "its samples need " + needed_lights_text(row) + ", too few to tell whether ";
@@ -211,15 +218,15 @@ std::string remedy(const RankedPreset& row) {
 // Of samples that need few lights: what they leave open, and how to close it. "" where they need enough.
 std::string doubt_text(const std::vector<RankedPreset>& rows) {
   const RankedPreset& first = rows.front();
-  const std::string unseen = why_nothing_is_seen({first.result_case}, RankedBy::no_samples);
-  if (!unseen.empty()) return unseen;
-  if (!first.losses.has_few_samples()) return "";
-  std::vector<const Json*> cases;
-  for (const RankedPreset& row : rows) cases.push_back(row.result_case);
-  if (const std::string blind = why_nothing_is_seen(cases, RankedBy::cost); !blind.empty()) {
-    const bool has_samples = sum_at_samples(*first.result_case, "samples") > 0.0;
-    return blind + (has_samples ? "; " + remedy(first) : "");
+  if (!first.unseen.empty()) {
+    const bool can_samples_tell = number_at(*first.result_case, "/lights_seen") != 0.0 &&
+                                  number_at(*first.result_case, "/lights_in_view/max") != 0.0 && has_samples(first);
+    return first.unseen + (can_samples_tell ? "; " + remedy(first) : "");
   }
+  if (!first.losses.has_few_samples()) return "";
+  if (!has_samples(first))
+    return "no sample was taken, so losses are counted in pairs of a cell and a light, and not in what is seen; " +
+           remedy(first);
   const std::string few = "samples need " + needed_lights_text(first);
   const std::vector<const RankedPreset*> open = of_standing(rows, PresetStanding::unknown);
   if (open.empty()) return few + ", so costs are rough; " + remedy(first);
@@ -241,6 +248,7 @@ bool are_alike(const measure::FrameCost& less, const measure::FrameCost& more) {
 std::string preset_reason(const RankedPreset& row, const RankedPreset& first) {
   std::string out = light_text(row);
   if (!row.frame) return out + "; its cost is not known without samples";
+  if (!row.unseen.empty()) return row.unseen + ", so not ranked: " + load_text(row) + " (" + evidence_text(row) + ")";
   const bool lacks = row.standing == PresetStanding::lacks_lights || row.standing == PresetStanding::unknown;
   if (lacks)
     out +=

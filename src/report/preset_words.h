@@ -26,6 +26,7 @@ struct RankedPreset {
   double gpu_ns() const { return frame ? frame->cost.gpu_ns() : 0.0; }
   int place = 0;  // in its part, from 1; those that the model cannot tell apart share the first one's
   const nlohmann::ordered_json* config = nullptr;  // that the case was measured by
+  std::string unseen{};                            // why nothing is seen by which it could be ranked; "": something is
 };
 
 // What speaks for and against a case. `first`: of its part.

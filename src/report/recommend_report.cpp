@@ -19,6 +19,7 @@
 #include "report/machine.h"
 #include "report/nothing_seen.h"
 #include "report/result_json.h"
+#include "run/scene_facts.h"
 
 namespace clusterbench::report {
 namespace {
@@ -498,9 +499,9 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
   const std::vector<Ranked> apart(std::ranges::find(all, true, &Ranked::is_apart), all.end());
   all.resize(all.size() - apart.size());
   choose(all, question, config.seed);
+  const run::SceneData& data = plan.scenes[view.scene];
   const std::string unseen = why_nothing_is_seen(found, config, question);
   const bool has_choice = unseen.empty() && !all.empty() && all.front().is_feasible();
-  const run::SceneData& data = plan.scenes[view.scene];
   const Vec2i viewport = config.viewports[view.viewport];
   Json cameras = Json::array();
   for (const std::size_t camera : view.cameras) cameras.push_back(data.paths[camera].camera);

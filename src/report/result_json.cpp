@@ -14,6 +14,7 @@
 #include "report/frame_cost.h"
 #include "report/json_values.h"
 #include "report/machine.h"
+#include "report/nothing_seen.h"
 #include "report/preset_ranking.h"
 #include "report/reaction_json.h"
 #include "report/shadows_json.h"
@@ -362,20 +363,6 @@ Json count(const run::CountResult& c) {
   return out;
 }
 
-Json to_json(const run::SceneResult& scene) {
-  Json out{
-      {"name", scene.name},
-      {"sha256", scene.sha256},
-      {"lights",
-       {{"point", scene.points}, {"spot", scene.spots}, {"directional", scene.directionals}, {"box", scene.boxes}}},
-      {"light_digest", scene.light_digest},
-      {"frames", scene.frames},
-      {"range_rule", scene.range_rule},
-      {"warnings", scene.warnings}};
-  if (!scene.rig.is_null()) out["rig"] = scene.rig;
-  return out;
-}
-
 // Pairs per frame against the same case in float32; null where there is none.
 void add_extra_pairs(Json& cases) {
   std::map<std::string, double> pairs;
@@ -411,7 +398,10 @@ Json six_digits(double value) {
 
 Json fronts(const Json& scenes, const Json& cases, const Json& origin) {
   std::vector<run::Contender> all;
-  for (const Json& result_case : cases) all.push_back(contender_of(result_case, rank_by(origin)));
+  const std::set<std::string> unseen = ids_of_nothing_seen(cases);
+  for (const Json& result_case : cases)
+    if (!unseen.contains(result_case["id"].get<std::string>()))
+      all.push_back(contender_of(result_case, rank_by(origin)));
   const std::vector<std::string> ids = run::on_front(all, seed_of(origin));
   const std::set<std::string> best(ids.begin(), ids.end());
   Json list = Json::array();
@@ -439,6 +429,23 @@ Json tool_to_json(const run::ToolFacts& tool) {
   return {{"version", tool.version}, {"git_sha", tool.git_sha},       {"compiler", tool.compiler},
           {"flags", tool.flags},     {"build_type", tool.build_type}, {"simd_target", tool.simd_target},
           {"libraries", libraries}};
+}
+
+Json scene_to_json(const run::SceneResult& scene) {
+  Json out{{"name", scene.name},
+           {"sha256", scene.sha256},
+           {"lights",
+            {{"point", scene.points},
+             {"spot", scene.spots},
+             {"directional", scene.directionals},
+             {"box", scene.boxes},
+             {"dark", scene.dark}}},
+           {"light_digest", scene.light_digest},
+           {"frames", scene.frames},
+           {"range_rule", scene.range_rule},
+           {"warnings", scene.warnings}};
+  if (!scene.rig.is_null()) out["rig"] = scene.rig;
+  return out;
 }
 
 Json case_to_json(const run::CaseResult& case_result) {
@@ -504,7 +511,7 @@ Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_
   out["machine"] = machine_to_json(result.machine);
   out["config"] = result.config;
   out["scenes"] = Json::array();
-  for (const run::SceneResult& scene : result.scenes) out["scenes"].push_back(to_json(scene));
+  for (const run::SceneResult& scene : result.scenes) out["scenes"].push_back(scene_to_json(scene));
   out["cases"] = in_plan_order(result, earlier_cases);
   add_extra_pairs(out["cases"]);
   add_costs(out["cases"], out["config"]);
@@ -516,6 +523,7 @@ Json result_to_json(const run::Result& result, const std::vector<Json>& earlier_
   }
   add_presets(out, out);
   out["conclusions"] = conclusions_of(out, out);
+  conclude_failures(out, {});
   return out;
 }
 

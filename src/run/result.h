@@ -67,6 +67,7 @@ std::string date_now();  // UTC, ISO 8601
 struct SceneResult {
   std::string name, sha256;
   int points = 0, spots = 0, directionals = 0, boxes = 0;
+  int dark = 0;              // of the points and spots those that light nothing (scene/light_digest.h)
   std::string light_digest;  // scene/light_digest.h
   int frames = 0;
   nlohmann::json rig;         // {lights, spots, range, size, seed} of one that was made; else null

@@ -53,6 +53,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
   out.warnings = scene.warnings;
   out.boxes = static_cast<int>(scene.boxes.size());
   out.light_digest = scene::light_digest(scene);
+  out.dark = scene::count_dark_lights(scene);
   int given = 0, from_intensity = 0, clamped = 0;
   std::vector<double> ranges;
   for (const scene::Light& light : scene.lights) {
@@ -80,8 +81,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
                     {"max_range", request.range_rule.max_range_m},
                     {"given", given},
                     {"from_intensity", from_intensity},
-                    {"clamped", clamped},
-                    {"dark", scene::count_dark_lights(scene)}};
+                    {"clamped", clamped}};
   if (!ranges.empty()) {
     std::ranges::sort(ranges);
     out.range_rule["ranges"] = {

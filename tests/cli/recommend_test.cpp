@@ -223,6 +223,9 @@ TEST(Recommend, exits_with_1_where_nothing_satisfies_and_shows_what_excluded_how
   EXPECT_EQ(found.answer["work"]["evaluations"], 52) << "all are out after one frame";
   EXPECT_EQ(found.answer["work"]["measurements"], 52 + 8) << "8 frames were counted to find the fullest";
   EXPECT_NE(found.outcome.out.find("no candidate satisfies all constraints"), std::string::npos);
+  EXPECT_TRUE(found.outcome.out.ends_with(
+      "take none: no candidate satisfies all constraints: bytes <= 1 excludes all 52 candidates.\n"))
+      << found.outcome.out;
   EXPECT_FALSE(std::filesystem::exists(choice));
 }
 

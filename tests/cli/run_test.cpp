@@ -249,16 +249,29 @@ TEST(Run, the_last_line_is_a_conclusion_in_the_words_of_the_result_and_of_the_pa
   EXPECT_NE(file_text(page).find(text), std::string::npos);
 }
 
-TEST(Run, a_run_that_failed_concludes_nothing) {
+TEST(Run, a_run_that_failed_concludes_nothing_on_the_terminal_in_the_result_and_on_the_page) {
+  const Folder folder;
+  const std::string output = (folder / "result.json").string(), page = (folder / "report.html").string();
   const Outcome done = tool("run " + source_file("scenes/street.glb") +
                             " --no-timing --grid frustum --tiles 64 --slices 4 --assigner aabb-fast,exact-fast"
-                            " --set 'scenes.*.frames=2' --fail-if 'longest > 1' -o /dev/null");
+                            " --set 'scenes.*.frames=2' --fail-if 'exact-fast: longest > 1' -o " +
+                            output);
   EXPECT_EQ(done.code, 1);
-  const std::size_t failed = done.err.find("FAILED "), end = done.err.rfind("conclusion: ");
+  const std::size_t failed = done.err.find("FAILED street/"), end = done.err.rfind("conclusion: ");
   ASSERT_NE(end, std::string::npos) << done.err;
   EXPECT_LT(failed, end) << done.err;
-  EXPECT_EQ(done.err.substr(end), "conclusion: none, since the run FAILED for what is told above\n");
+  const std::string failure = done.err.substr(failed + 7, done.err.find('\n', failed) - failed - 7);
+  EXPECT_TRUE(failure.ends_with("fails with exact-fast: longest > 1")) << failure;
+  EXPECT_EQ(done.err.substr(end), "conclusion: none, since the run FAILED: " + failure + ".\n");
   EXPECT_EQ(done.err.find("conclusion: "), end) << "the only one";
+  const Json result = Json::parse(file_text(output));
+  EXPECT_EQ(result["failed"], Json::array({failure}));
+  EXPECT_TRUE(result["conclusions"][0]["take"].is_null());
+  const auto text = result["conclusions"][0]["text"].get<std::string>();
+  EXPECT_EQ(text, "street, camera walk, 1920x1080: nothing to take: the run FAILED: " + failure + ".");
+  EXPECT_EQ(tool("validate " + output).code, 0);
+  EXPECT_EQ(tool("report " + output + " -o " + page).code, 0);
+  EXPECT_NE(file_text(page).find("nothing to take: the run FAILED: "), std::string::npos);
 }
 
 TEST(Run, a_field_of_view_that_changes_no_camera_is_told) {

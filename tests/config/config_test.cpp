@@ -525,6 +525,28 @@ TEST(Config, runs_that_nobody_set_up_compare_what_can_be_compared_soon_and_take_
   EXPECT_EQ(again.resolved, plain.resolved);
 }
 
+TEST(Config, presets_take_samples_of_surfaces_beside_other_sets_unless_these_or_none_are_asked_for) {
+  const auto sets = [](const std::string& more, const std::string& setting) {
+    const std::string text = R"({"scenes": ["a.glb"], "presets": ["godot"])" + more + "}";
+    std::vector<FlagValue> flags;
+    if (!setting.empty()) flags.push_back({"--set", setting});
+    std::vector<std::pair<std::string, int>> found;
+    for (const SampleSetRequest& set : parse_config(text, "c.json", flags).sample_sets)
+      found.emplace_back(measure::name_of(set.set), set.divisor);
+    return found;
+  };
+  using Sets = std::vector<std::pair<std::string, int>>;
+  EXPECT_EQ(sets("", ""), (Sets{{"volume", 8}, {"opaque", 16}}));
+  EXPECT_EQ(sets("", "shading.samples=0"), (Sets{{"opaque", 16}}));
+  EXPECT_EQ(sets(R"(, "samples": {"fog": {}})", ""), (Sets{{"volume", 8}, {"opaque", 16}, {"fog", 8}}));
+  EXPECT_EQ(sets("", "samples.fog={}"), (Sets{{"volume", 8}, {"opaque", 16}, {"fog", 8}}));
+  EXPECT_EQ(sets(R"(, "samples": {"opaque": {"divisor": 8}})", ""), (Sets{{"volume", 8}, {"opaque", 8}}));
+  EXPECT_EQ(sets("", "samples.opaque.divisor=8"), (Sets{{"volume", 8}, {"opaque", 8}}));
+  EXPECT_EQ(sets(R"(, "samples": {})", ""), (Sets{{"volume", 8}}));
+  EXPECT_EQ(sets("", "samples={}"), (Sets{{"volume", 8}}));
+  EXPECT_THROW(parse_config(R"({"scenes": ["a.glb"], "presets": ["godot"], "samples": 5})", "c.json"), Error);
+}
+
 TEST(Config, of_a_file_only_presets_are_compared_in_part_and_only_where_it_says_nothing_of_accuracy) {
   EXPECT_EQ(parse_config(R"({"scenes": ["a.glb"]})", "c.json").most_pairs, std::nullopt);
   EXPECT_EQ(parse_config(R"({"scenes": ["a.glb"], "presets": ["godot"]})", "c.json").most_pairs, 6'000'000u);

@@ -161,7 +161,7 @@ TEST(LightGate, fails_where_there_are_no_lights_or_none_is_ever_in_view) {
 
 // Of the ten lights of the level so many shine, and so many of these in view.
 void set_lit(Json& result, int lit, int seen) {
-  result["scenes"][0]["range_rule"]["dark"] = 10 - lit;
+  result["scenes"][0]["lights"]["dark"] = 10 - lit;
   for (Json& result_case : result["cases"]) {
     result_case["lights_lit"] = lit;
     result_case["lights_seen"] = seen;

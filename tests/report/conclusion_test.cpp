@@ -8,6 +8,7 @@
 #include "config/schema_verdict.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"
+#include "report/table.h"
 
 namespace clusterbench::report {
 namespace {
@@ -208,12 +209,64 @@ TEST(Conclusion, says_from_and_to_what_prices_change_the_difference) {
   EXPECT_TRUE(has_words(conclusion, "Its samples need only 999 lights: costs are rough")) << conclusion["text"];
 }
 
-TEST(Conclusion, of_cases_that_all_lose_lights_none_is_taken) {
+TEST(Conclusion, where_nothing_is_seen_no_case_has_a_star) {
+  run::Result away = result_by_hand(), dark = result_by_hand();
+  for (run::CaseResult& one : away.cases) one.lights_in_view.sum = one.lights_in_view.most = 0;
+  for (run::CaseResult& one : dark.cases) one.lights_in_view.is_lit = one.lights_in_view.is_seen = {};
+  for (const auto& [result, why] :
+       {std::pair(&away, "no light is in view in any frame"),
+        std::pair(&dark, "all lights in view are dark (intensity 0 or black) in all frames")}) {
+    const Json json = valid_json(*result);
+    EXPECT_EQ(json["pareto_front"][0]["ids"], Json::array());
+    EXPECT_TRUE(json["conclusions"][0]["take"].is_null());
+    EXPECT_TRUE(has_words(json["conclusions"][0], std::string("nothing to take: ") + why)) << json["conclusions"][0];
+    EXPECT_EQ(render_table(json, false).find("\n  * "), std::string::npos) << render_table(json, false);
+  }
+}
+
+TEST(Conclusion, of_a_run_that_failed_nothing_is_taken_and_it_says_for_what) {
+  Json json = valid_json(result_by_hand());
+  EXPECT_FALSE(json["conclusions"][0]["take"].is_null());
+  json["preset_rankings"] = {{{"scene", "hall"},
+                              {"camera", "walk"},
+                              {"viewport", {1920, 1080}},
+                              {"best", "fast"},
+                              {"alike", {"fast"}},
+                              {"cases", Json::array()},
+                              {"text", "take fast"}}};
+  conclude_failures(json, {"hall: too many", "hall: too few"});
+  EXPECT_EQ(json["failed"], Json({"hall: too many", "hall: too few"}));
+  const Json& conclusion = json["conclusions"][0];
+  for (const char* key : {"take", "against", "ratio", "ci95"}) EXPECT_TRUE(conclusion[key].is_null()) << key;
+  EXPECT_EQ(conclusion["alike"], Json::array());
+  const std::string why = "the run FAILED: hall: too many (and for 1 other reason)";
+  EXPECT_EQ(conclusion["text"], "hall, camera walk, 1920x1080: nothing to take: " + why + ".");
+  EXPECT_EQ(failed_conclusion(json), "none, since " + why);
+  EXPECT_TRUE(json["preset_rankings"][0]["best"].is_null());
+  EXPECT_EQ(json["preset_rankings"][0]["text"], "nothing to take: " + why);
+  EXPECT_EQ(config::schema_violations(config::result_schema(), nlohmann::json::parse(json.dump())),
+            std::vector<std::string>{});
+}
+
+TEST(Conclusion, a_case_that_fails_by_itself_fails_the_run) {
   run::Result result = result_by_hand();
-  for (run::CaseResult& one : result.cases) testing::lose_a_light(one);
+  testing::lose_a_light(result.cases[0]);
+  result.cases[0].conservative = true;
   const Json conclusion = only_conclusion(testing::judged(result));
   EXPECT_TRUE(conclusion["take"].is_null());
-  EXPECT_TRUE(has_words(conclusion, "take none of 2 cases: each fails or loses lights.")) << conclusion["text"];
+  EXPECT_TRUE(has_words(conclusion, "the run FAILED: hall/walk/frustum 64px/brute-force/packed: lost 3 of 48"))
+      << conclusion["text"];
+}
+
+TEST(Conclusion, of_cases_that_all_lose_lights_none_is_taken) {
+  run::Result result = result_by_hand();
+  for (run::CaseResult& one : result.cases) {
+    testing::lose_a_light(one);
+    one.conservative = one.exact = false;
+  }
+  const Json conclusion = only_conclusion(testing::judged(result));
+  EXPECT_TRUE(conclusion["take"].is_null());
+  EXPECT_TRUE(has_words(conclusion, "take none of 2 cases: each loses lights.")) << conclusion["text"];
 }
 
 TEST(Conclusion, where_nothing_is_seen_nothing_is_taken) {

@@ -36,6 +36,14 @@ TEST(Merge, shards_become_the_whole_result_again) {
   EXPECT_EQ(merged({shard("a", "slow"), shard("b", "fast")}), result_to_json(testing::result_by_hand(), {}));
 }
 
+TEST(Merge, what_a_part_failed_for_the_whole_failed_for) {
+  NamedPart failed = shard("b", "fast");
+  failed.result["failed"] = {"hall: too many"};
+  const Json all = merged({shard("a", "slow"), failed});
+  EXPECT_EQ(all["failed"], Json({"hall: too many"}));
+  EXPECT_TRUE(all["conclusions"][0]["take"].is_null());
+}
+
 TEST(Merge, different_configurations_are_all_kept_and_fit_the_schema) {
   NamedPart other = shard("b", "fast");
   other.result["config"]["seed"] = 2;

@@ -77,6 +77,42 @@ const Json& line_of(const Json& ranking, const std::string& preset) {
 
 using Names = std::vector<std::string>;
 
+TEST(PresetRanking, where_nothing_is_seen_no_preset_has_a_place_and_none_is_taken) {
+  Json beside = preset_case("three-js", 0, 1e4, 2e5), behind = preset_case("godot", 0, 1e4, 3e5);
+  for (Json* one : {&beside, &behind}) (*one)["lights_in_view"] = {{"mean", 0}, {"max", 0}};
+  Json black = preset_case("three-js", 0, 1e4, 2e5), off = preset_case("godot", 0, 1e4, 3e5);
+  for (Json* one : {&black, &off}) (*one)["lights_seen"] = 0;
+  const Json away = ranking_of_cases({beside, behind}), dark = ranking_of_cases({black, off});
+  for (const auto& [ranking, why] :
+       {std::pair(&away, "no light is in view in any frame"),
+        std::pair(&dark, "all lights in view are dark (intensity 0 or black) in all frames")}) {
+    EXPECT_TRUE((*ranking)["best"].is_null());
+    EXPECT_EQ((*ranking)["text"], std::string("which preset suits is not known: ") + why);
+    for (const Json& line : (*ranking)["cases"]) {
+      EXPECT_EQ(line["standing"], "unknown");
+      EXPECT_TRUE(line["place"].is_null());
+      EXPECT_TRUE(line["why"].get<std::string>().starts_with(std::string(why) + ", so not ranked: ")) << line["why"];
+    }
+  }
+}
+
+TEST(PresetRanking, without_samples_losses_are_those_of_pairs_and_it_says_so) {
+  Json none = preset_case("filament", 1e3, 1e4, 1e5);
+  none.erase("samples");
+  none.erase("cost");
+  none["error"] = {{"false_negatives", 5}, {"true_pairs", 1000}};
+  const Json ranking = ranking_of_cases(Json::array({none}));
+  const std::string text = ranking["text"], why = line_of(ranking, "filament")["why"];
+  EXPECT_EQ(
+      text,
+      "which preset suits is not known: no sample was taken, so losses are counted in pairs of a cell and a light, "
+      "and not in what is seen; --set shading.samples=1024 takes samples");
+  EXPECT_TRUE(
+      why.starts_with("no sample was taken, so what it loses is counted in pairs of a cell and a light, and "
+                      "not in what is seen: its method does not find 5 pairs of 1000"))
+      << why;
+}
+
 TEST(PresetRanking, lists_that_a_gpu_makes_are_not_uploaded) {
   const Json ranking =
       ranking_of_cases({preset_case("three-js", 9e6, 1e4, 2e5), preset_case("filament", 1e3, 1e4, 4e5)});
