@@ -34,8 +34,9 @@ search::Measure measure_named(const std::string& name) {
       ->measure;
 }
 
-report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& sized, search::WorstCaseRequest request,
-                            const search::WorstCaseListener& listener, const std::atomic<bool>& stop) {
+report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& sized,
+                            const search::WorstCaseRequest& request, const search::WorstCaseListener& listener,
+                            const std::atomic<bool>& stop) {
   report::FoundFrame out;
   out.case_name = sized.name;
   out.measure = search::row_of(request.measure).name;
