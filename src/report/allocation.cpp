@@ -376,8 +376,20 @@ std::uint64_t SizedStructure::frames_of(const SizedBuffer& buffer) const {
 }
 
 const FoundFrame* SizedStructure::search_for(const std::string& measure) const {
-  const auto found = std::ranges::find(searches, measure, &FoundFrame::measure);
-  return found == searches.end() ? nullptr : &*found;
+  const FoundFrame* best = nullptr;
+  for (const FoundFrame& found : searches) {
+    if (found.measure != measure) continue;
+    const bool is_better = best == nullptr || (found.refusal.empty() && !best->refusal.empty()) ||
+                           (found.refusal.empty() && found.value > best->value);
+    if (is_better) best = &found;
+  }
+  return best;
+}
+
+const FoundFrame* SizedStructure::main_search() const {
+  const auto buffer = std::ranges::find_if(buffers, [](const SizedBuffer& one) { return one.found.has_value(); });
+  if (buffer != buffers.end()) return &searches[buffer->found_by];
+  return searches.empty() ? nullptr : &searches.front();
 }
 
 bool SizedStructure::is_searched() const {

@@ -137,6 +137,8 @@ struct SizedStructure {
   // The first for the measure; nullptr if there was none.
   const FoundFrame* search_for(const std::string& measure) const;
   bool is_searched() const;  // one that was not refused
+  // The one that made the first buffer's find; a refused one, or nullptr, if none found anything.
+  const FoundFrame* main_search() const;
   std::uint64_t bytes() const;
   std::uint64_t frames() const;  // of all cameras, or of cameras in one frame, each frame once
   // Of those that a buffer's figures are of.

@@ -98,7 +98,7 @@ Json spread_json(const FrameSpread& spread) {
           {"p99", spread.p99}, {"max", spread.max}, {"is_exact", spread.is_exact}};
 }
 
-Json buffer_json(const SizedBuffer& buffer, const std::string& name) {
+Json buffer_json(const SizedBuffer& buffer, const std::string& name, const std::vector<FoundFrame>& searches) {
   Json worst{{"camera", buffer.worst_camera}, {"frame", buffer.worst_frame}};
   if (!buffer.worst_cell.is_null()) worst["cell"] = buffer.worst_cell;
   Json out{{"name", buffer.name},
@@ -116,7 +116,7 @@ Json buffer_json(const SizedBuffer& buffer, const std::string& name) {
                              {"frames", group.spread ? spread_json(*group.spread) : Json()}});
   for (const Growth& growth : buffer.growth)
     out["high_water_of_every"].push_back({{"every", growth.every}, {"high_water", growth.high_water}});
-  if (buffer.found) out["found"] = *buffer.found;
+  if (buffer.found) out.update({{"found", *buffer.found}, {"found_by", search_json(searches[buffer.found_by])}});
   out["is_bounded"] = buffer.is_bounded;
   if (buffer.is_bounded)
     out["never_overflows"] = {{"elements", buffer.theoretical_max},
@@ -153,7 +153,7 @@ Json structure_json(const NamedStructure& named, const std::string& engine, cons
                              {"missed", guest.missed},
                              {"missed_outside", guest.missed_outside},
                              {"worst_frame", guest.worst_frame}});
-  if (!structure.searches.empty()) out["search"] = search_json(structure.searches.front());
+  if (const FoundFrame* search = structure.main_search()) out["search"] = search_json(*search);
   const std::string unseen = nothing_seen_text(structure);
   out["nothing_seen"] = unseen.empty() ? Json() : Json(unseen);
   std::uint64_t dropped = 0;
@@ -165,7 +165,7 @@ Json structure_json(const NamedStructure& named, const std::string& engine, cons
   if (const std::string why = why_no_reader(structure); !why.empty()) out["no_reader"] = why;
   out["buffers"] = Json::array();
   for (std::size_t i = 0; i < structure.buffers.size(); ++i)
-    out["buffers"].push_back(buffer_json(structure.buffers[i], named.buffers[i]));
+    out["buffers"].push_back(buffer_json(structure.buffers[i], named.buffers[i], structure.searches));
   if (!engine.empty()) out["settings"] = engine_settings_json(engine, structure, rules);
   out["lookups"] = Json::array();
   for (const NamedLookup& lookup : named.lookups)

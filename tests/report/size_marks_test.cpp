@@ -6,6 +6,7 @@
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "core/error.h"
+#include "core/random.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"
 #include "report/size.h"
@@ -210,7 +211,8 @@ TEST(SizeMarks, views_whose_paths_differ_need_the_sum_of_their_marks) {
   EXPECT_EQ(sized_json(result, request)["buffers"][0]["high_water"], 70);
   request.format = "table";
   const std::string table = marks_of(result, request);
-  EXPECT_NE(table.find("70 in 3 frames of one+two, if each view needs its most at the same time"), std::string::npos) << table;
+  EXPECT_NE(table.find("70 in 3 frames of one+two, if each view needs its most at the same time"), std::string::npos)
+      << table;
 }
 
 // Room for the longest list in every cell: 10 cells each, of which the longest lists have 4 and 3 lights.
@@ -227,6 +229,63 @@ TEST(SizeMarks, a_search_counts_for_each_view) {
   request.scope.found = {found};
   const run::Result result = result_of_cameras({camera_of_marks("left", {10, 40}), camera_of_marks("right", {10, 30})});
   EXPECT_EQ(sized_json(result, request)["buffers"][0]["found"], 100);
+}
+
+// Of one case or of two cameras, each with a place of its own.
+std::vector<FoundFrame> shuffled_finds(const std::vector<std::string>& cameras, SplitMix64& random) {
+  std::vector<FoundFrame> all;
+  const std::uint64_t count = 1 + random.below(6);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    FoundFrame found = found_frame(1 + random.below(400));
+    found.case_name = "hall/" + cameras[random.below(cameras.size())] + "/frustum 64px/aabb/packed";
+    found.seed = i;
+    if (random.below(4) == 0) {
+      found.refusal = "its lists follow visible surfaces";
+      found.needs.clear();
+      found.value = 0;
+    }
+    all.push_back(found);
+  }
+  for (std::size_t i = all.size(); i > 1; --i) std::swap(all[i - 1], all[random.below(i)]);
+  return all;
+}
+
+TEST(SizeMarks, of_any_finds_in_any_order_the_largest_decides_and_is_named) {
+  SplitMix64 random(7);
+  const run::Result result = result_of_cameras({camera_of_marks("left", {10, 40}), camera_of_marks("right", {35, 20})});
+  SizeRequest request = marks_request("json");
+  request.margin = 1.0;
+  for (int round = 0; round < 200; ++round) {
+    request.scope.found = shuffled_finds({"left", "right"}, random);
+    const auto value_of = [](const FoundFrame& found) { return found.value; };
+    const auto largest = std::ranges::max_element(request.scope.found, {}, value_of);
+    const MarksJson structure = sized_json(result, request);
+    EXPECT_EQ(structure["buffers"][0]["capacity"], std::max<std::uint64_t>(40, largest->value));
+    if (largest->value == 0) {
+      EXPECT_FALSE(structure["buffers"][0].contains("found"));
+      EXPECT_TRUE(structure["search"].contains("refusal"));
+      continue;
+    }
+    EXPECT_EQ(structure["buffers"][0]["found"], largest->value);
+    EXPECT_EQ(structure["search"]["seed"], largest->seed) << round;
+    EXPECT_EQ(structure["buffers"][0]["found_by"], structure["search"]);
+  }
+}
+
+TEST(SizeMarks, an_engines_setting_names_the_largest_of_several_finds) {
+  run::Result result = result_of_cameras({camera_of_marks("walk", {10, 40})});
+  FoundFrame less = found_frame(50), more = found_frame(60), refused = found_frame(0);
+  less.seed = 3, more.seed = 4;
+  refused.refusal = "the search was interrupted";
+  SizeRequest request = marks_request("table");
+  request.engine = "bevy";
+  request.has_own_grid = true;
+  std::vector<std::vector<FoundFrame>> orders{{less, more}, {more, less}, {refused, less, more}, {more, refused, less}};
+  for (const std::vector<FoundFrame>& order : orders) {
+    request.scope.found = order;
+    const std::string text = marks_of(result, request);
+    EXPECT_NE(text.find("60 entries in all lists in 5000 frames tried (seed 4)"), std::string::npos) << text;
+  }
 }
 
 TEST(SizeMarks, views_that_name_no_two_cameras_are_refused_with_those_that_there_are) {
@@ -258,6 +317,7 @@ TEST(SizeMarks, one_allocation_serves_all_viewports_where_it_is_asked_for) {
   EXPECT_EQ(structure["cameras"], MarksJson({"walk"}));
   EXPECT_EQ(structure["frames"], 3) << "the same frames, larger or smaller";
 }
+
 
 }  // namespace
 }  // namespace clusterbench::report
