@@ -123,7 +123,11 @@ ExitCode size(SizeFlags flags) {
     check_for_result(flags);
     result = report::read_result(flags.inputs.paths.front());
   }
-  for (const std::string& file : flags.found) request.scope.found.push_back(report::read_found(file, result));
+  for (const std::string& file : flags.found) {
+    request.scope.found.push_back(report::read_found(file, result));
+    const std::string& unknown = request.scope.found.back().not_compared;
+    if (!unknown.empty()) tell("warning: " + file + ": " + unknown);
+  }
   if (flags.worst_case) {
     const auto found = search_sized(*counts, report::sized_cases(result, request), flags.search, flags.quiet);
     if (!found) return stopped_exit_code();

@@ -29,6 +29,7 @@ struct FoundFrame {
   std::string case_name;            // whose camera and grid were searched
   std::string measure = "entries";  // what was made as large as possible, by its name in `worst-case --measure`
   std::string refusal;              // why that case cannot be searched; then nothing else is here
+  std::string not_compared;         // of a file of an earlier version: what it does not say; ""
   std::uint64_t value = 0;          // of the measure
   int evaluations = 0;
   std::uint64_t seed = 1;
@@ -134,11 +135,11 @@ struct SizedStructure {
   bool has_boxes = false;      // the scene has oriented boxes among its lights
   bool has_grid_cells = true;  // lists are of the grid's cells, the same in all frames
 
-  // The first for the measure; nullptr if there was none.
+  // The one with the largest value of the measure, a refused one only if there is no other; nullptr if there was none.
   const FoundFrame* search_for(const std::string& measure) const;
-  bool is_searched() const;  // one that was not refused
   // The one that made the first buffer's find; a refused one, or nullptr, if none found anything.
   const FoundFrame* main_search() const;
+  bool is_searched() const;  // one that was not refused
   std::uint64_t bytes() const;
   std::uint64_t frames() const;  // of all cameras, or of cameras in one frame, each frame once
   // Of those that a buffer's figures are of.

@@ -1,11 +1,16 @@
 #include "report/found_frames.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "core/error.h"
 #include "core/file_text.h"
+#include "core/text.h"
+#include "report/json_values.h"
+#include "scene/camera_path.h"
 
 namespace clusterbench::report {
 namespace {
@@ -25,27 +30,110 @@ Json read_worst_case(const std::string& path) {
   return json;
 }
 
-void check_case(const std::string& path, const Json& searched, const Json& result) {
-  const Json* match = nullptr;
+const Json& case_of(const std::string& path, const Json& searched, const Json& result) {
   for (const Json& result_case : result["cases"])
-    if (result_case["name"] == searched["name"]) match = &result_case;
-  if (match == nullptr)
-    throw Error(
-        path, "/case/name",
-        "is '" + searched["name"].get<std::string>() + "', and no case here has that name" +
-            (result["cases"].empty() ? ""
-                                     : "; one of them is '" + result["cases"][0]["name"].get<std::string>() + "'"));
-  for (const Json& scene : result["scenes"])
-    if (scene["name"] == (*match)["scene"] && scene["sha256"] != searched["sha256"])
+    if (result_case["name"] == searched["name"]) return result_case;
+  throw Error(
+      path, "/case/name",
+      "is '" + searched["name"].get<std::string>() + "', and no case here has that name" +
+          (result["cases"].empty() ? "" : "; one of them is '" + result["cases"][0]["name"].get<std::string>() + "'"));
+}
+
+// Of what the configuration asks of the scene a key; nothing where scenes differ in it and the result does not tell
+// which is whose.
+std::optional<Json> asked_of_scene(const Json& result, std::size_t scene, const char* key) {
+  const Json scenes = value_at(result, "/config/scenes") == nullptr ? Json::array() : result["config"]["scenes"];
+  if (scenes.size() == result["scenes"].size()) return scenes[scene].value(key, Json());
+  std::optional<Json> asked;
+  for (const Json& request : scenes) {
+    const Json next = request.value(key, Json());
+    if (asked && *asked != next) return {};
+    asked = next;
+  }
+  return asked;
+}
+
+bool is_near(double a, double b, double size) {
+  constexpr double k_single = 0x1p-20;  // a result's grid is in single precision
+  return std::abs(a - b) <= k_single * size;
+}
+
+bool is_same_angle(const Json& a, const Json& b) {
+  if (!a.is_string() || !b.is_string()) return a == b;
+  const auto left = scene::field_of_view(a.get<std::string>()), right = scene::field_of_view(b.get<std::string>());
+  return left && right && left->is_horizontal == right->is_horizontal &&
+         std::abs(left->angle_rad - right->angle_rad) < 1e-9;
+}
+
+// "" if the grid ends where that of the search did, or follows something from frame to frame.
+std::string other_end(const Json& searched, const Json& grid) {
+  if (const std::optional<double> end_m = number_at(searched, "/slices_m"); end_m && grid.contains("slices")) {
+    const double here_m = grid["slices"]["boundaries"].back().get<double>();
+    return is_near(*end_m, here_m, here_m)
+               ? ""
+               : text("is %.6g m", *end_m) + text(", and the grid here ends at %.6g m", here_m);
+  }
+  if (!searched.contains("bounds_m") || !grid.contains("bounds")) return "";
+  const Json& box = searched["bounds_m"];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double origin = grid["origin"][axis].get<double>(), lo = box["min"][axis].get<double>(),
+                 hi = box["max"][axis].get<double>();
+    if (!is_near(lo, origin + grid["bounds"]["min"][axis].get<double>(), hi - lo) ||
+        !is_near(hi, origin + grid["bounds"]["max"][axis].get<double>(), hi - lo))
+      return "is another box than that of the grid here";
+  }
+  return "";
+}
+
+void check_settings(const std::string& path, const Json& settings, const Json& result, std::size_t scene,
+                    const Json& match) {
+  const auto differs = [&](const std::string& key, const Json& here) {
+    throw Error(path, "/case/settings/" + key,
+                "is " + settings[key].dump() + ", and here it is " + here.dump() + "; search with the same settings");
+  };
+  if (const auto fov = asked_of_scene(result, scene, "fov"); fov && !is_same_angle(settings["fov"], *fov))
+    differs("fov", *fov);
+  const std::pair<const char*, Json> plain[] = {{"camera_fit", "contain"}, {"boxes", false}};
+  for (const auto& [key, standard] : plain)
+    if (auto asked = asked_of_scene(result, scene, key)) {
+      const Json here = asked->is_null() ? standard : *asked;
+      if (settings[key] != here) differs(key, here);
+    }
+  const Json& rule = result["scenes"][scene]["range_rule"];
+  for (const char* key : {"cutoff_lux", "max_range"})
+    if (settings["range_rule"][key] != rule[key])
+      differs("range_rule", {{"cutoff_lux", rule["cutoff_lux"]}, {"max_range", rule["max_range"]}});
+  if (const std::string other = other_end(settings["grid_end"], match["grid"]); !other.empty())
+    throw Error(path, "/case/settings/grid_end",
+                other +
+                    ": it follows from the lights of the recorded path; fix it for both, as with --set "
+                    "'grids.*.slices.far=METRES' (of boxes, bounds), and search again");
+}
+
+// What an earlier version did not write, and cannot be compared.
+std::string check_case(const std::string& path, const Json& searched, const Json& result) {
+  const Json& match = case_of(path, searched, result);
+  if (searched["viewport"] != match["viewport"])
+    throw Error(path, "/case/viewport",
+                "is " + searched["viewport"].dump() + ", and here it is " + match["viewport"].dump() +
+                    "; search with the same --viewport");
+  for (std::size_t i = 0; i < result["scenes"].size(); ++i) {
+    if (result["scenes"][i]["name"] != match["scene"]) continue;
+    if (result["scenes"][i]["sha256"] != searched["sha256"])
       throw Error(path, "/case/sha256", "is of another version of the scene; search again");
+    if (searched.contains("settings")) check_settings(path, searched["settings"], result, i, match);
+  }
+  if (searched.contains("settings")) return "";
+  return "an earlier version wrote it, without the field of view, the range rule and the end of the grid: whether they "
+         "are those of the case here is not known; search again";
 }
 
 }  // namespace
 
 FoundFrame read_found(const std::string& path, const Json& result) {
   const Json json = read_worst_case(path);
-  check_case(path, json["case"], result);
   FoundFrame out;
+  out.not_compared = check_case(path, json["case"], result);
   out.case_name = json["case"]["name"].get<std::string>();
   out.measure = json["measure"]["name"].get<std::string>();
   out.value = static_cast<std::uint64_t>(std::max(0.0, json["frames"][0]["value"].get<double>()));

@@ -8,8 +8,8 @@
 
 namespace clusterbench::report {
 
-// Throws Error for a file that is none of `worst-case`, of a case that the result does not have, or of another version
-// of its scene.
+// Throws Error for a file that is none of `worst-case`, of a case that the result does not have, of another version of
+// its scene, or of other settings: viewport, field of view, range rule, end of the grid.
 FoundFrame read_found(const std::string& path, const nlohmann::ordered_json& result);
 
 // For the JSON of `size`.

@@ -1,5 +1,7 @@
 #include "report/worst_case_report.h"
 
+#include <numbers>
+
 #include "core/text.h"
 #include "report/columns.h"
 
@@ -53,6 +55,34 @@ Json frame_json(const search::FoundFrame& frame, const WorstCaseFacts& facts, co
   return out;
 }
 
+// Where slices end, or how far boxes reach, that do not follow something: made up from the recorded path, if the camera
+// or the configuration does not say it.
+Json grid_end_json(const grid::GridSpec& spec) {
+  if (spec.has_bounds && spec.follow == grid::Follow::nothing)
+    return {{"bounds_m", box_json({spec.bounds_lo_m, spec.bounds_hi_m})}};
+  const bool is_fixed = spec.has_tiles() && spec.slices.far_m > 0.0 && !spec.slices.fit &&
+                        spec.slices.scheme != grid::Scheme::fit && spec.slices.scheme != grid::Scheme::list;
+  if (is_fixed) return {{"slices_m", spec.slices.far_m}};
+  return nullptr;
+}
+
+// As a configuration has it: "90h"; null: the file's own.
+Json fov_json(const std::optional<scene::FieldOfView>& fov) {
+  if (!fov) return nullptr;
+  return text("%.12g", fov->angle_rad * 180.0 / std::numbers::pi) + (fov->is_horizontal ? "h" : "v");
+}
+
+// What else of the configuration a find is of, besides what the case's name tells.
+Json settings_json(const WorstCaseFacts& facts) {
+  const config::SceneRequest& request = facts.config.scenes[facts.case_plan.scene];
+  return {
+      {"fov", fov_json(request.camera.field_of_view)},
+      {"camera_fit", request.camera.fit == scene::CameraFit::vertical ? "vertical" : "contain"},
+      {"boxes", request.boxes},
+      {"range_rule", {{"cutoff_lux", request.range_rule.cutoff_lux}, {"max_range", request.range_rule.max_range_m}}},
+      {"grid_end", grid_end_json(facts.config.grids[facts.case_plan.grid])}};
+}
+
 Json case_json(const WorstCaseFacts& facts) {
   const run::CasePlan& case_plan = facts.case_plan;
   const run::SceneData& data = facts.plan.scenes[case_plan.scene];
@@ -65,7 +95,8 @@ Json case_json(const WorstCaseFacts& facts) {
           {"viewport", {viewport.x, viewport.y}},
           {"grid", facts.config.grids[case_plan.grid].name()},
           {"assigner", facts.config.assigners[case_plan.assigner].label()},
-          {"storage", run::storage_label(facts.config, case_plan)}};
+          {"storage", run::storage_label(facts.config, case_plan)},
+          {"settings", settings_json(facts)}};
 }
 
 Json space_json(const WorstCase& found, const WorstCaseFacts& facts) {

@@ -1,0 +1,110 @@
+// `clusterbench size --found`: what searches have found, of this case and of others.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.h"
+
+namespace clusterbench {
+namespace {
+
+using test::Folder;
+
+const std::string k_searched_case =
+    " -q --grid frustum --tiles 16x9t --slices 8 --assigner exact-fast --set storages=packed "
+    "--set 'scenes.*.frames=3' ";
+
+class SizeFound : public ::testing::Test {
+ protected:
+  std::string search(const std::string& name, const std::string& flags, const std::string& viewport = "640x360") const {
+    const std::string file = (folder_ / name).string();
+    const test::Outcome done = test::tool("worst-case --random 0 --evaluations 30" + k_searched_case + flags +
+                                          " --viewport " + viewport + " -o " + file + " " + scene_);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return file;
+  }
+  test::Outcome size(const std::string& files, const std::string& flags = "") const {
+    return test::tool("size --viewport 640x360" + k_searched_case + flags + " " + files + " " + scene_);
+  }
+  void expect_refused(const std::string& name, const std::string& flags, const std::string& where,
+                      const std::string& viewport = "640x360") const {
+    const test::Outcome done = size("--found " + search(name, flags, viewport));
+    EXPECT_EQ(done.code, 2) << flags;
+    EXPECT_EQ(done.out, "");
+    EXPECT_NE(done.err.find(name + ": " + where), std::string::npos) << done.err;
+  }
+
+  const Folder folder_;
+  const std::string scene_ = test::source_file("scenes/street.glb");
+};
+
+TEST_F(SizeFound, of_two_files_and_a_search_the_largest_decides_in_any_order) {
+  const std::string few = search("few.json", "--seed 5"), many = search("many.json", "--seed 2 --add-lights 64x20");
+  const auto found = [&](const std::string& files) {
+    const test::Outcome done = size(files, "--format json --margin 1 --round none");
+    EXPECT_EQ(done.code, 0) << done.err;
+    return nlohmann::json::parse(done.out)["structures"][0]["buffers"][0];
+  };
+  const auto most = found("--found " + many);
+  EXPECT_GT(most["found"], found("--found " + few)["found"]);
+  for (const std::string& files : {"--found " + few + " --found " + many, "--found " + many + " --found " + few,
+                                   "--worst-case --evaluations 30 --found " + many}) {
+    EXPECT_EQ(found(files)["found"], most["found"]) << files;
+    EXPECT_EQ(found(files)["capacity"], most["capacity"]) << files;
+    EXPECT_EQ(found(files)["found_by"], most["found_by"]) << files;
+  }
+}
+
+TEST_F(SizeFound, a_search_of_other_settings_is_refused_with_what_differs) {
+  expect_refused("viewport.json", "", "/case/viewport: is [320,180], and here it is [640,360]", "320x180");
+  expect_refused("fov.json", "--fov 120h", R"(/case/settings/fov: is "120h", and here it is null)");
+  expect_refused("rule.json", "--set 'scenes.*.range_rule.cutoff_lux=5'", "/case/settings/range_rule: is ");
+  expect_refused("fit.json", "--set 'scenes.*.camera_fit=vertical'", "/case/settings/camera_fit: is \"vertical\"");
+  const std::string same = search("same.json", "--fov 90.0h");
+  EXPECT_EQ(size("--found " + same, "--fov 90h").code, 0);
+  EXPECT_EQ(size("--found " + same).code, 2);
+}
+
+// A camera without a far plane that walks away from the only light: where slices end is made up from the frames.
+constexpr const char* k_endless = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+  "nodes": [{"extensions": {"KHR_lights_punctual": {"light": 0}}}, {"camera": 0, "name": "walk"}],
+  "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+  "extensionsUsed": ["KHR_lights_punctual"],
+  "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "range": 6}]}},
+  "buffers": [{"byteLength": 32, "uri": "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAIEEAAAAAAAAAAAAAIEI="}],
+  "bufferViews": [{"buffer": 0, "byteLength": 8}, {"buffer": 0, "byteOffset": 8, "byteLength": 24}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+                {"bufferView": 1, "componentType": 5126, "count": 2, "type": "VEC3"}],
+  "animations": [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}],
+                  "samplers": [{"input": 0, "output": 1}]}]})";
+
+TEST_F(SizeFound, a_search_in_a_grid_that_ends_elsewhere_is_refused) {
+  const std::string level = folder_.write("endless.gltf", k_endless).string(), file = (folder_ / "end.json").string();
+  const auto searched = [&](const std::string& frames) {
+    EXPECT_EQ(test::tool("worst-case --random 0 --evaluations 30" + k_searched_case +
+                         "--set 'scenes.*.frames=" + frames + "' -o " + file + " " + level)
+                  .code,
+              0);
+    return test::tool("size" + k_searched_case + "--found " + file + " " + level);
+  };
+  EXPECT_EQ(searched("3").code, 0);
+  const test::Outcome other = searched("1");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("/case/settings/grid_end: is "), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("grids.*.slices.far=METRES"), std::string::npos) << other.err;
+}
+
+TEST_F(SizeFound, what_an_earlier_version_did_not_write_is_told) {
+  const std::string file = search("new.json", "");
+  EXPECT_EQ(size("--found " + file).err.find("earlier version"), std::string::npos);
+  auto old = nlohmann::json::parse(test::file_text(file));
+  old["case"].erase("settings");
+  const test::Outcome done = size("--found " + folder_.write("old.json", old.dump()).string());
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.err.find("old.json: an earlier version wrote it, without the field of view"), std::string::npos)
+      << done.err;
+}
+
+}  // namespace
+}  // namespace clusterbench
