@@ -312,15 +312,18 @@ std::vector<std::string> between_commas(const std::string& list) {
   return parts;
 }
 
+bool is_named_by(const std::string& pattern, const std::string& camera) {
+  return camera == pattern || fnmatch(pattern.c_str(), camera.c_str(), 0) == 0;
+}
+
 // The cameras of a structure that a group names, in the order of the cases.
 std::vector<std::string> cameras_in(const SizedStructure& structure, const std::string& group) {
   std::vector<std::string> out;
   const std::vector<std::string> patterns = between_commas(group);
   for (const Json* result_case : structure.cases) {
     const auto camera = (*result_case)["camera"].get<std::string>();
-    const bool is_named = std::ranges::any_of(patterns, [&](const std::string& pattern) {
-      return camera == pattern || fnmatch(pattern.c_str(), camera.c_str(), 0) == 0;
-    });
+    const bool is_named =
+        std::ranges::any_of(patterns, [&](const std::string& pattern) { return is_named_by(pattern, camera); });
     if (is_named && std::ranges::find(out, camera) == out.end()) out.push_back(camera);
   }
   return out;
@@ -332,11 +335,27 @@ void share_grid(SizedStructure& structure, const std::vector<std::string>& camer
     if (camera != owner) structure.guests.push_back(camera);
 }
 
+// Each name between commas is a camera's of some scene.
+void check_view_names(const std::vector<SizedStructure>& structures, const std::string& group) {
+  std::vector<std::string> known, unknown;
+  for (const SizedStructure& structure : structures)
+    for (const std::string& camera : cameras_in(structure, "*"))
+      if (std::ranges::find(known, camera) == known.end()) known.push_back(camera);
+  for (const std::string& pattern : between_commas(group))
+    if (std::ranges::none_of(known, [&](const std::string& camera) { return is_named_by(pattern, camera); }))
+      unknown.push_back("'" + pattern + "'");
+  if (unknown.empty() || known.empty()) return;
+  throw Error("", "--views",
+              joined(unknown) + (unknown.size() == 1 ? " matches no camera" : " match no camera") + "; there are " +
+                  joined(known) + "; takes names, as in left,right, and * for any letters");
+}
+
 void set_views(std::vector<SizedStructure>& structures, const AllocationScope& scope) {
   if (!scope.grid_of.empty() && scope.views.empty())
     throw Error("", "--grid-of", "needs --views, which says whose samples are looked up in that camera's grid");
   bool is_owner_known = scope.grid_of.empty();
   for (const std::string& group : scope.views) {
+    check_view_names(structures, group);
     bool is_known = false;
     for (SizedStructure& structure : structures) {
       const std::vector<std::string> cameras = cameras_in(structure, group);

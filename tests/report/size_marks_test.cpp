@@ -288,15 +288,24 @@ TEST(SizeMarks, an_engines_setting_names_the_largest_of_several_finds) {
   }
 }
 
-TEST(SizeMarks, views_that_name_no_two_cameras_are_refused_with_those_that_there_are) {
+TEST(SizeMarks, views_that_name_no_camera_or_no_two_are_refused_with_those_that_there_are) {
   const run::Result result = result_of_cameras({camera_of_marks("left", {10}), camera_of_marks("right", {30})});
-  try {
-    sized_json(result, with_views({"left,rihgt"}));
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.where(), "--views");
-    EXPECT_NE(std::string(error.what()).find("has left, right"), std::string::npos) << error.what();
+  const std::pair<const char*, const char*> refused[] = {
+      {"left", "'left' names no two cameras of a scene; hall/frustum 64px/aabb/packed has left, right"},
+      {"left,rihgt", "'rihgt' matches no camera; there are left, right"},
+      {"left,typo,right", "'typo' matches no camera; there are left, right"},
+      {"left,right,", "'' matches no camera"},
+      {"*,up*,left,down", "'up*', 'down' match no camera"}};
+  for (const auto& [views, message] : refused) {
+    try {
+      sized_json(result, with_views({"left,right", views}));
+      ADD_FAILURE() << views;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.where(), "--views");
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
   }
+  EXPECT_EQ(sized_json(result, with_views({"left,rig*"}))["views"][0], MarksJson({"left", "right"}));
 }
 
 TEST(SizeMarks, one_allocation_serves_all_viewports_where_it_is_asked_for) {
