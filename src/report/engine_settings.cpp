@@ -66,8 +66,10 @@ std::string value_text(const SettingValue& value) {
   std::string out = std::to_string(value.value);
   if (value.is_too_much()) return out + ", and that is NOT ENOUGH";
   if (setting.standard > 0 && value.needed() > 0)
-    out += value.value <= setting.standard ? " (the engine's own " + standard + " is enough)"
-                                           : " (the engine comes with " + standard + ")";
+    out += value.value > setting.standard ? " (the engine comes with " + standard + ")"
+           : value.wanted > setting.most
+               ? " (the engine's own " + standard + " is enough for what was seen, not for the margin)"
+               : " (the engine's own " + standard + " is enough)";
   return out;
 }
 

@@ -308,6 +308,23 @@ TEST(SizeMarks, views_that_name_no_camera_or_no_two_are_refused_with_those_that_
   EXPECT_EQ(sized_json(result, with_views({"left,rig*"}))["views"][0], MarksJson({"left", "right"}));
 }
 
+TEST(SizeMarks, an_engines_own_value_without_room_for_the_margin_is_not_called_enough) {
+  nlohmann::ordered_json json = result_to_json(result_of_cameras({camera_of_marks("walk", {10, 40})}), {});
+  SizeRequest request = marks_request("table");
+  request.engine = "playcanvas";
+  request.has_own_grid = true;
+  json["cases"][0]["lights"] = 2000;
+  const auto told = [&](int longest) {
+    json["cases"][0]["occupancy"]["lights_per_cell"]["max"] = longest;
+    return size_report(json, request);
+  };
+  EXPECT_NE(
+      told(200).find("maxLightsPerCell: 255 (the engine's own 255 is enough for what was seen, not for the margin)"),
+      std::string::npos)
+      << told(200);
+  EXPECT_NE(told(100).find("maxLightsPerCell: 200 (the engine's own 255 is enough)"), std::string::npos) << told(100);
+}
+
 TEST(SizeMarks, one_allocation_serves_all_viewports_where_it_is_asked_for) {
   run::CaseResult small = camera_of_marks("walk", {10, 40, 20}, 1, "960x540 "),
                   large = camera_of_marks("walk", {70, 30, 20}, 1, "1920x1080 ");
