@@ -145,6 +145,16 @@ constexpr const char* k_of_cell = R"(uint P_index_at(int cell, uint n) {
 }
 )";
 
+// Of views in one buffer: a sample outside of its view's grid (-1) must not become a cell of another view.
+constexpr const char* k_of_view = R"(@number@ P_cells_of_view = @cells@;
+P_list P_list_of(int view, int cell) {
+  return P_list_of(cell < 0 ? cell : view * P_cells_of_view + cell);
+}
+uint P_index_at(int view, int cell, uint n) {
+  return P_index_at(P_list_of(view, cell), n);
+}
+)";
+
 std::string substituted(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
@@ -164,12 +174,33 @@ std::string entry_code(const std::string& buffer, std::uint64_t bytes) {
   return word + ")";
 }
 
+std::uint64_t cells_of_case(const Json& result_case) {
+  std::uint64_t cells = 1;
+  for (const Json& axis : result_case["grid"]["cells"]) cells *= axis.get<std::uint64_t>();
+  return cells;
+}
+
+// The most in any viewport.
+std::uint64_t cells_of_view(const SizedStructure& structure) {
+  std::uint64_t most = 0;
+  for (const Json* result_case : structure.cases) most = std::max(most, cells_of_case(*result_case));
+  return most;
+}
+
+// Whether all views of a frame have as many cells as each other.
+bool has_views_alike(const SizedStructure& structure) {
+  return std::ranges::all_of(structure.cases, [&](const Json* one) {
+    return std::ranges::all_of(structure.cases, [&](const Json* other) {
+      return (*one)["viewport"] != (*other)["viewport"] || cells_of_case(*one) == cells_of_case(*other);
+    });
+  });
+}
+
 // Of all views that are in the buffer.
 std::uint64_t cells_of(const SizedStructure& structure) {
-  std::uint64_t cells = 1;
-  for (const std::vector<std::string>& view : structure.views) cells = std::max<std::uint64_t>(cells, view.size());
-  for (const Json& axis : (*structure.cases.front())["grid"]["cells"]) cells *= axis.get<std::uint64_t>();
-  return cells;
+  std::uint64_t views = 1;
+  for (const std::vector<std::string>& view : structure.views) views = std::max<std::uint64_t>(views, view.size());
+  return views * cells_of_view(structure);
 }
 
 // How a header of so many bytes tells points, spots and boxes, and its words; "" if it is none that is known.
@@ -286,7 +317,8 @@ std::string declared_buffer(const std::string& name, ShaderLanguage language, in
   return out + "#define " + word + "(i) " + name + "_words[i]\n#endif\n";
 }
 
-std::string in_language(const std::string& code, ShaderLanguage language) {
+std::string in_language(std::string code, ShaderLanguage language) {
+  code = substituted(code, "@number@", language == ShaderLanguage::glsl ? "const int" : "static const int");
   if (language == ShaderLanguage::glsl)
     return substituted(substituted(code, "@constant@", "const uint"), "@variable@", "uint");
   const std::string calls = substituted(substituted(code, "bitCount(", "countbits("), "findLSB(", "firstbitlow(");
@@ -303,16 +335,21 @@ std::string list_code(const NamedStructure& named, ShaderLanguage language, int&
   const Reader reader = reader_of(named.structure);
   if (reader.code.empty()) return "// no function here reads its lists: " + reader.refusal + "\n";
   std::string out = "// the nth light of a cell: NAME_index_at(cell, n); of many lights NAME_list_of(cell) once\n";
-  if (!named.structure.views.empty())
-    out += "// of the views in one buffer the vth has its cells from v * (number of cells) on: pass that sum\n";
+  std::string code = reader.code + k_of_cell;
+  if (!named.structure.views.empty() && has_views_alike(named.structure)) {
+    out += "// of the vth view in one buffer: NAME_list_of(v, cell), NAME_index_at(v, cell, n)\n";
+    code += substituted(k_of_view, "@cells@", std::to_string(cells_of_view(named.structure)));
+  } else if (!named.structure.views.empty()) {
+    out += "// the views in one buffer have different numbers of cells: add those of the views before, and not to -1\n";
+  }
   for (const std::string& buffer : named.buffers) out += declared_buffer(buffer, language, slot++);
-  return out + substituted(in_language(reader.code + k_of_cell, language), "P_", named.name + "_");
+  return out + substituted(in_language(code, language), "P_", named.name + "_");
 }
 
 std::vector<std::string> list_code_names(const NamedStructure& named) {
   std::vector<std::string> out;
   for (const char* what : {"_list", "_list_of", "_index_at", "_lights_per_cell", "_words_per_cell", "_end_mark",
-                           "_run_number", "_lights_of_runs"})
+                           "_run_number", "_lights_of_runs", "_cells_of_view"})
     out.push_back(named.name + what);
   for (const std::string& buffer : named.buffers)
     for (const char* what : {"_word", "_words", "_buffer"}) out.push_back(buffer + what);

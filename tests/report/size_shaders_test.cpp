@@ -14,6 +14,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "assign/contract/storage.h"
 #include "core/random.h"
@@ -693,6 +694,76 @@ TEST_P(SizeLookups, read_the_nth_light_of_a_cell_out_of_each_form_of_buffers) {
         EXPECT_EQ(found, lists[cell]) << all[i].name << ", cell " << cell;
       }
   }
+}
+
+// Each camera with half of what both need together.
+run::Result result_of_views(const std::vector<Encoded>& all, int cells) {
+  run::Result result = result_of_encodings(all, cells, false);
+  const std::vector<run::CaseResult> one_camera = std::exchange(result.cases, {});
+  result.planned_ids.clear();
+  for (const std::string camera : {"left", "right"})
+    for (run::CaseResult entry : one_camera) {
+      entry.camera = camera;
+      entry.name.replace(entry.name.find("walk"), 4, camera);
+      entry.id += camera;
+      for (measure::BufferHighWater& buffer : entry.buffers.each) {
+        buffer.high_water = buffer.theoretical_max = (buffer.high_water + (camera == "left" ? 1 : 0)) / 2;
+        buffer.along_path = measure::PathSeries();
+        buffer.along_path.add_frame(buffer.high_water);
+      }
+      result.cases.push_back(entry);
+      result.planned_ids.push_back(entry.id);
+    }
+  return result;
+}
+
+// Of the second of two views; a sample outside of its grid has no list, and not one of the first view.
+TEST_P(SizeLookups, read_the_lists_of_the_vth_view_and_nothing_outside_of_its_grid) {
+  const CellLists lists{
+      {0, 39}, {3}, {0, 1, 19, 20, 29}, {}, {30, 34}, {5, 6, 7, 8, 21, 22, 31}, {33}, {12, 13}, {}, {38}, {},
+      {1, 2},  {4}, {9, 11, 35}};
+  constexpr int k_cells = 7, k_stride = 8;
+  const std::vector<Encoded> all = encodings(lists, false);
+  const nlohmann::ordered_json json = result_to_json(result_of_views(all, k_cells), {});
+  SizeRequest request{"", false, "json"};
+  request.margin = 1.0;
+  request.rounding = "none";
+  request.scope.views = {"left,right"};
+  const auto structures = nlohmann::json::parse(size_report(json, request))["structures"];
+  request.format = GetParam() ? "hlsl" : "glsl";
+  std::vector<std::uint32_t> words;
+  std::string defines, body;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto name = structures[i]["identifier"].get<std::string>(), at = std::to_string(i * 2 * 8 * k_stride);
+    for (const auto& [buffer, content] : all[i].buffers) {
+      defines += "#define " + name + "_" + buffer + "_word(i) samples[(i) + " + std::to_string(words.size()) + "u]\n";
+      words.insert(words.end(), content.begin(), content.end());
+    }
+    body += "  for (int v = 0; v < 2; ++v)\n    for (int c = -1; c < " + name +
+            "_cells_of_view; ++c) {\n      int at = " + at + " + 8 * (8 * v + c + 1);\n      cells[at] = int(" + name +
+            "_list_of(v, c).lights);\n      for (int k = 0; k < cells[at]; ++k) cells[at + 1 + k] = int(" + name +
+            "_index_at(v, c, uint(k)));\n    }\n";
+    EXPECT_NE(size_report(json, request).find(name + "_cells_of_view = 7;"), std::string::npos);
+  }
+  const std::string start = GetParam() ? "RWStructuredBuffer<uint> samples : register(u0);\n"
+                                         "RWStructuredBuffer<int> cells : register(u1);\n"
+                                       : "#version 450\nlayout(local_size_x = 1) in;\n"
+                                         "layout(std430, binding = 0) buffer In { uint samples[]; };\n"
+                                         "layout(std430, binding = 1) buffer Out { int cells[]; };\n";
+  ASSERT_TRUE(compiles(start + defines + size_report(json, request) +
+                           (GetParam() ? "[numthreads(1, 1, 1)] void main() {\n" : "void main() {\n") + body + "}\n",
+                       GetParam()));
+  const std::vector<std::int32_t> read = answers(words, all.size() * 2 * 8 * k_stride);
+  ASSERT_EQ(read.size(), all.size() * 2 * 8 * k_stride);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (int view = 0; view < 2; ++view)
+      for (int cell = -1; cell < k_cells; ++cell) {
+        const auto* at = &read[(i * 16 + static_cast<std::size_t>(8 * view + cell + 1)) * k_stride];
+        const std::vector<std::uint32_t> found(at + 1, at + 1 + at[0]);
+        const std::size_t listed = static_cast<std::size_t>(view * k_cells + cell);
+        EXPECT_EQ(found, cell < 0 ? std::vector<std::uint32_t>{} : lists[listed])
+            << all[i].name << ", view " << view << ", cell " << cell;
+      }
 }
 
 // Buffers that nothing is said of are declared, and each has its own binding.
