@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "core/text.h"
 #include "report/buffer_tail.h"
@@ -66,6 +68,13 @@ std::string found_text(const SizedBuffer& buffer, const SizedStructure& structur
   return out;
 }
 
+// Lists of all sizes of the picture in one allocation, of tiles that are cut otherwise in each.
+bool has_viewports_of_pixel_tiles(const SizedStructure& structure) {
+  std::set<std::string> viewports;
+  for (const nlohmann::ordered_json* result_case : structure.cases) viewports.insert((*result_case)["viewport"].dump());
+  return viewports.size() > 1 && value_at(*structure.cases.front(), "/grid/tiles/pixels") != nullptr;
+}
+
 std::string possible_text(const SizedBuffer& buffer) {
   if (!buffer.is_bounded)
     return "not known: other frames can have more lights or cells in these lists than those that were counted";
@@ -106,14 +115,27 @@ std::string share_text(std::uint64_t part, std::uint64_t whole) {
 }
 
 std::vector<std::string> grid_notes(const SizedStructure& structure) {
-  std::vector<std::string> notes;
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes;  // each with its cameras
+  std::set<std::string> cameras;
   for (const nlohmann::ordered_json* result_case : structure.cases) {
     const nlohmann::ordered_json& grid = (*result_case)["grid"];
+    const auto camera = (*result_case)["camera"].get<std::string>();
+    cameras.insert(camera);
     if (!grid.contains("note")) continue;
     const auto note = grid["note"].get<std::string>();
-    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+    auto known = std::ranges::find(notes, note, [](const auto& entry) { return entry.first; });
+    if (known == notes.end()) known = notes.insert(known, {note, {}});
+    if (std::ranges::find(known->second, camera) == known->second.end()) known->second.push_back(camera);
   }
-  return notes;
+  std::vector<std::string> out;
+  for (const auto& [note, of] : notes)
+    out.push_back(of.size() == cameras.size() ? note
+                                              : (of.size() == 1 ? "camera " : "cameras ") + joined(of) + ": " + note);
+  if (has_viewports_of_pixel_tiles(structure))
+    out.push_back(
+        "tiles of so many pixels: a picture of a size between these viewports, or below them, can need more, since its "
+        "tiles lie elsewhere; name the sizes that occur, or keep a margin");
+  return out;
 }
 
 std::vector<std::string> limit_notes(const SizedStructure& structure) {

@@ -325,6 +325,22 @@ TEST(SizeMarks, an_engines_own_value_without_room_for_the_margin_is_not_called_e
   EXPECT_NE(told(100).find("maxLightsPerCell: 200 (the engine's own 255 is enough)"), std::string::npos) << told(100);
 }
 
+TEST(SizeMarks, notes_of_the_grid_name_the_cameras_that_they_are_of) {
+  run::CaseResult left = camera_of_marks("left", {10}), right = camera_of_marks("right", {30}),
+                  map = camera_of_marks("map", {5});
+  left.grid["note"] = right.grid["note"] = "the grid ends at 91.32 m";
+  map.grid["note"] = "the grid ends at 40 m";
+  SizeRequest request = marks_request("table");
+  const std::string both = marks_of(result_of_cameras({left, right}), request);
+  EXPECT_NE(both.find("  grid: the grid ends at 91.32 m\n"), std::string::npos) << both;
+  for (const char* format : k_formats) {
+    request.format = format;
+    const std::string text = marks_of(result_of_cameras({left, right, map}), request);
+    EXPECT_NE(text.find("  grid: cameras left, right: the grid ends at 91.32 m\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("  grid: camera map: the grid ends at 40 m\n"), std::string::npos) << text;
+  }
+}
+
 TEST(SizeMarks, one_allocation_serves_all_viewports_where_it_is_asked_for) {
   run::CaseResult small = camera_of_marks("walk", {10, 40, 20}, 1, "960x540 "),
                   large = camera_of_marks("walk", {70, 30, 20}, 1, "1920x1080 ");
@@ -342,8 +358,25 @@ TEST(SizeMarks, one_allocation_serves_all_viewports_where_it_is_asked_for) {
   EXPECT_EQ(structure["buffers"][0]["frames"]["p50"], 40) << "each frame in its largest viewport";
   EXPECT_EQ(structure["cameras"], MarksJson({"walk"}));
   EXPECT_EQ(structure["frames"], 3) << "the same frames, larger or smaller";
+  EXPECT_FALSE(structure.contains("grid_notes"));
 }
 
+// As 3610 entries at 1920x1080 and 960x540, and 3696 at 1872x1053: what is between is cut into other tiles.
+TEST(SizeMarks, tiles_of_pixels_in_several_viewports_are_not_said_to_hold_for_those_between) {
+  run::CaseResult small = camera_of_marks("walk", {10}, 1, "960x540 "),
+                  large = camera_of_marks("walk", {70}, 1, "1920x1080 ");
+  small.viewport = {960, 540};
+  large.viewport = {1920, 1080};
+  for (run::CaseResult* one : {&small, &large}) one->grid["tiles"] = {{"pixels", {64, 64}}};
+  SizeRequest request = marks_request("json");
+  request.scope.over_viewports = true;
+  const MarksJson notes = sized_json(result_of_cameras({small, large}), request)["grid_notes"];
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].get<std::string>().find("name the sizes that occur, or keep a margin"), std::string::npos);
+  EXPECT_FALSE(sized_json(result_of_cameras({large}), request).contains("grid_notes"));
+  for (run::CaseResult* one : {&small, &large}) one->grid["tiles"] = {{"count", {16, 9}}};
+  EXPECT_FALSE(sized_json(result_of_cameras({small, large}), request).contains("grid_notes"));
+}
 
 }  // namespace
 }  // namespace clusterbench::report
