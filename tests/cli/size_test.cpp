@@ -342,6 +342,9 @@ TEST(SizeCommand, an_engines_room_for_indices_is_that_of_tiles_that_have_not_gro
   EXPECT_EQ(limit["value"], limit["seen"]);
   EXPECT_EQ(of_level["buffers"][0]["capacity"], limit["seen"]) << "the buffers are those of the same tiles";
   EXPECT_EQ(of_level["settings"]["grid"], "ClusterConfig::XYZ { dimensions: UVec3::new(17, 9, 24), .. }");
+  const Outcome jam = tool("size -q --engine bevy" + frames + test::source_file("scenes/jam.glb"));
+  EXPECT_NE(jam.out.find("dimensions: UVec3::new(17, 9, 24)"), std::string::npos) << jam.out;
+  EXPECT_NE(jam.out.find("from 17x9 to 2x1 at most"), std::string::npos) << jam.out;
   const Json with_own = limit["with_own_value"];
   EXPECT_EQ(with_own["value"], 16384);
   EXPECT_EQ(with_own["frames"], 6);
