@@ -780,7 +780,7 @@ export type Result = {
       mean: number | null; // Mean
       max: number | null; // Of the frame with most
     }; // As the cases'; absent in older results [lights, over the frames]
-    best: string | null; // Id of the case with lists that costs the GPU least of those that leave no sample without lights; null where there is none
+    best: string | null; // Id of the case with lists that costs the GPU least of those whose samples lack at most 0.1 % of the lights that they need; null where there is none
     alike?: string[]; // Ids of best and of the cases that the model cannot tell from it; absent in older results
     text?: string; // What to take, against what, by how much, and how sure that is, as text; absent in older results
     cases: Array<{

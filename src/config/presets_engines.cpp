@@ -30,7 +30,7 @@ constexpr Preset k_engines[] = {
      .as_shipped = R"({"assigner": {"name": "filament-refinement"}})",
      .tiles = filament_tiles},
     {.name = "bevy",
-     .engine = "Bevy, clustering on the CPU",
+     .engine = "Bevy, clustering on the CPU (where its default, bevy-gpu, cannot run)",
      .version = "0.20-dev of August 2026",
      .evidence = Evidence::ran,
      .source =
@@ -179,7 +179,7 @@ constexpr Preset k_engines[] = {
      .version = "commit 0148835e",
      .evidence = Evidence::read,
      .source = "Unity-Technologies/Graphics, lightlistbuild.compute",
-     .summary = "16 px tiles between the depths of their pixels; 63 lights in each",
+     .summary = "16 px tiles between the depths of their pixels",
      .approximated =
          "planes and boxes in place of screen box, sphere and then each light against each pixel's surface, which "
          "lists "
@@ -248,7 +248,7 @@ constexpr Preset k_engines[] = {
      .evidence = Evidence::read,
      .source = "stride3d/stride, LightClusteredPointSpotGroupRenderer.cs",
      .summary =
-         "64 px tiles, 8 slices of which the first ends at 2 m and each next one is twice as deep; the box of cells "
+         "64 px tiles, 8 slices of which the first ends at 2 m and each later one, from the third on, is twice as deep as the one before; the box of cells "
          "around a sphere, spots by those of their ranges; equal lists shared",
      .approximated =
          "slices are those of a camera with its default far plane of 1000 m, whatever the camera's; equal lists "
