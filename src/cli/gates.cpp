@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "report/baseline_cases.h"
+#include "report/baseline_changes.h"
 #include "report/light_changes.h"
 #include "report/result_file.h"
 
@@ -25,7 +26,8 @@ void print_findings(const report::LimitFindings& findings) {
 void add_gate_options(Command& command, GateFlags& flags) {
   command.add_option(
       "--baseline", flags.baseline,
-      "A result that budgets in percent are held against ('longest > +5 %'), and whose lights it has to have");
+      "A result that budgets in percent are held against ('longest > +5 %'), and whose lights it has to have; "
+      "which figures have changed since is told");
   command.add_flag("--allow-no-lights", flags.allows_no_lights,
                    "Budgets hold also where a scene has no lights, dark ones alone, or none is ever in view");
   command.add_flag("--allow-changed-lights", flags.allows_changed_lights,
@@ -43,8 +45,9 @@ void set_gates(config::Config& config, const GateFlags& flags) {
 }
 
 void keep_counted_budgets(config::Config& config, const std::string& doing) {
-  constexpr const char* k_counted[] = {"index_entries", "bytes",   "upload_bytes", "scratch_bytes", "longest",
-                                       "pairs",         "dropped", "lights",       "lights_in_view"};
+  constexpr const char* k_counted[] = {"index_entries",  "bytes",      "upload_bytes", "scratch_bytes",
+                                       "longest",        "pairs",      "dropped",      "lights",
+                                       "lights_in_view", "lights_lit", "lights_seen"};
   const auto is_left_out = [&](const config::LimitRule& rule) {
     return rule.is_relative || std::ranges::find(k_counted, rule.figure) == std::end(k_counted);
   };
@@ -66,6 +69,11 @@ Gates::Gates(const config::Config& config, const std::string& filter) : limits_(
                   "'" + rule.text() +
                       "' is against a baseline, and there is none: add --baseline FILE (limits.baseline), " +
                       "a result of `clusterbench run`; a share is written without percent, 0.05");
+}
+
+std::string Gates::changes(const nlohmann::ordered_json& result) const {
+  if (!base_) return "";
+  return report::baseline_changes_text(result, {*base_, result, filter_, limits_.baseline.string()});
 }
 
 std::vector<report::LimitFindings> Gates::findings(const nlohmann::ordered_json& result) const {

@@ -31,6 +31,8 @@ class Gates {
   // budget in percent without one.
   Gates(const config::Config& config, const std::string& filter);
 
+  // Which figures have changed since the baseline; "" without one.
+  std::string changes(const nlohmann::ordered_json& result) const;
   // What holds and what does not: of the lights, then of the budgets. Nothing without budgets and baseline.
   std::vector<report::LimitFindings> findings(const nlohmann::ordered_json& result) const;
 

@@ -240,6 +240,7 @@ bool add_baseline(const RunFlags& flags, const config::Config& config, const run
 // What a finished run is held against.
 struct Verdicts {
   Json comparison = Json::object();  // with the program beside it, whose gates hold those of the run; empty without one
+  std::string changes;               // since the baseline
   std::vector<report::LimitFindings> findings;
 };
 
@@ -248,6 +249,7 @@ Verdicts judge(const RunFlags& flags, const Gates& gates, Json& result) {
   Verdicts verdicts;
   if (!flags.baseline.binary.empty())
     verdicts.comparison = report::compare_results(result, result, flags.baseline.threshold_percent / 100.0);
+  verdicts.changes = gates.changes(result);
   verdicts.findings = gates.findings(result);
   const std::vector<std::string> of_cases = report::gate_failures(result);
   std::vector<std::string> failures;
@@ -267,6 +269,7 @@ ExitCode report_verdicts(const Verdicts& verdicts, const Json& result) {
     std::cerr << printable_lines(report::comparison_text(verdicts.comparison));
     code = report::outcome(verdicts.comparison, false);
   }
+  std::cerr << printable_lines(verdicts.changes) << std::flush;
   const ExitCode limits = report_findings(verdicts.findings);
   return code == ExitCode::ok ? limits : code;
 }

@@ -176,7 +176,7 @@ class RuleParser {
 };
 
 std::string number_text(double value, bool is_relative) {
-  return is_relative ? (value < 0.0 ? "" : "+") + budget_number(value) + " %" : budget_number(value);
+  return is_relative ? (std::signbit(value) ? "" : "+") + budget_number(value) + " %" : budget_number(value);
 }
 
 }  // namespace

@@ -117,18 +117,22 @@ std::string advice_on_nothing(const Json& base, const Json& next, const std::str
   const std::string begin = "the results have no case in common: ";
   const auto share = [&](const char* pointer) { return share_any(answers(base, pointer), answers(next, pointer)); };
   const std::string both = shown(base_name) + " " + shown(next_name);
-  if (!share("/scene"))
-    return begin + "they are of other scenes (`clusterbench report " + both + " -o both.html` shows them side by side)";
+  const std::string before_and_after =
+      "of a level before and after a change `clusterbench run ... --baseline " + shown(base_name) +
+      " --allow-changed-lights` says old and new figures, and fails by budgets (--fail-if 'index_entries > +5 %')";
+  if (!share("/scene")) {
+    const bool may_be_renamed = base["scenes"].size() == 1 && next["scenes"].size() == 1;
+    return begin + "they are of other scenes (`clusterbench report " + both +
+           " -o both.html` shows them side by side)" + (may_be_renamed ? "; " + before_and_after : "");
+  }
   if (!share("/grid/name"))
     return begin +
            "their grids differ. To hold grids against each other, measure them in one run (--grid, --tiles and " +
            "--slices take lists) and ask `clusterbench ratio RESULT --across-grids`; `clusterbench report " + both +
            " -o both.html` shows both results";
   if (share("/name"))
-    return begin +
-           "the level or a setting has changed, as told above. Budgets hold across such a change: `clusterbench " +
-           "run ... --baseline " + shown(base_name) +
-           " --fail-if 'index_entries > +5 %'`; `clusterbench history` shows " + "how figures move";
+    return begin + "the level or a setting has changed, as told above; " + before_and_after +
+           "; `clusterbench history` shows how they move";
   if (!share("/assigner/label"))
     return begin + "their methods differ. Measure them in one run and ask `clusterbench ratio RESULT`";
   return begin + "they differ in camera, viewport, grid, method or storage in every case (`clusterbench report " +

@@ -103,7 +103,7 @@ std::string worst_location(const Json& result_case, const FigureRow& row) {
   for (const auto& [word, pointer] : {std::pair("frame ", row.frame), std::pair("cell ", row.cell)})
     if (const Json* found = *pointer != '\0' ? value_at(result_case, pointer) : nullptr; found != nullptr)
       text += (text.empty() ? "" : ", ") + std::string(word) + found->dump();
-  return text.empty() ? "" : " (" + text + ")";
+  return text;
 }
 
 // Why a case may lack a figure.
@@ -131,8 +131,9 @@ std::string listed_names(const std::vector<std::string>& names) {
 }
 
 std::string is_text(const Json& result_case, const config::LimitRule& rule, const Found& found) {
+  const std::string location = worst_location(result_case, *found.row);
   return result_case["name"].get<std::string>() + ": " + rule.figure + " is " + config::budget_number(found.value()) +
-         worst_location(result_case, *found.row);
+         (location.empty() ? "" : " (" + location + ")");
 }
 
 // One budget held against the cases that it names.
@@ -284,6 +285,11 @@ void add_changes_since(const Json& result, const BaselineCases& baseline, LimitF
 std::optional<double> limit_figure(const Json& result_case, const std::string& name) {
   const std::optional<Found> found = found_in(result_case, name);
   return found ? std::optional(found->value()) : std::nullopt;
+}
+
+std::string limit_figure_location(const Json& result_case, const std::string& name) {
+  const std::optional<Found> found = found_in(result_case, name);
+  return found ? worst_location(result_case, *found->row) : "";
 }
 
 LimitFindings limit_findings(const Json& result, std::span<const config::LimitRule> rules,

@@ -16,6 +16,9 @@ class BaselineCases;
 // A figure of a case by its name in budgets (config/limit_rules.h); nothing where the case has none.
 std::optional<double> limit_figure(const nlohmann::ordered_json& result_case, const std::string& name);
 
+// "frame 9, cell [8,4,13]": where the case has that figure; "" where it does not tell.
+std::string limit_figure_location(const nlohmann::ordered_json& result_case, const std::string& name);
+
 // Lines with case, figure and, where they are known, frame and cell.
 struct LimitFindings {
   std::vector<std::string> broken;     // also a budget that could not be checked: about what no case has

@@ -199,6 +199,36 @@ TEST(Gates, a_budget_in_percent_holds_across_a_change_of_the_level) {
   EXPECT_EQ(level.run(corridor(16), gate + "'index_entries > +900 %'").code, 0);
 }
 
+TEST(Gates, a_run_with_a_baseline_says_what_has_changed_without_any_budget) {
+  const Level level;
+  level.measure_base(8);
+  const std::string gate = "--allow-changed-lights --baseline " + level.base;
+  const Outcome same = level.run(corridor(8), gate);
+  EXPECT_EQ(same.code, 0);
+  EXPECT_TRUE(says(same, "changes since " + level.base + ": none in 2 cases")) << same.err;
+  const Outcome more = level.run(corridor(16), gate);
+  EXPECT_EQ(more.code, 0);
+  EXPECT_TRUE(says(more,
+                   "  level, camera camera: lights 8 -> 16 (+100 %), lights_lit 8 -> 16 (+100 %), "
+                   "lights_seen 8 -> 16 (+100 %), lights_in_view 8 -> 16 (+100 %; frame 0)\n"))
+      << more.err;
+  EXPECT_TRUE(says(more, "/exact-fast/packed: index_entries ")) << more.err;
+  EXPECT_EQ(level.run(corridor(8), "").err, "") << "nothing to hold it against";
+}
+
+// The bound of docs/ci.md at which additions pass.
+TEST(Gates, one_light_less_fails_where_that_is_asked_and_more_do_not) {
+  const Level level;
+  level.measure_base(8);
+  const std::string gate = "--allow-changed-lights --baseline " + level.base + " --fail-if 'lights_lit < -0 %'";
+  EXPECT_EQ(level.run(corridor(9), gate).code, 0);
+  EXPECT_EQ(level.run(corridor(8), gate).code, 0);
+  const Outcome fewer = level.run(level_of(row_of(8, -1.0, 1)), gate);
+  EXPECT_EQ(fewer.code, 1);
+  EXPECT_TRUE(says(fewer, "lights_lit is 7, -12.5 % against 8 in " + level.base + ", and fails with lights_lit < -0 %"))
+      << fewer.err;
+}
+
 TEST(Gates, what_cannot_be_held_against_a_baseline_is_said_before_anything_is_measured) {
   const Level level;
   const Outcome none = level.run(corridor(8), "--fail-if 'longest > +5 %'");

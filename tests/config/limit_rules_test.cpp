@@ -63,8 +63,9 @@ TEST(LimitRules, name_cases_before_a_colon) {
 }
 
 TEST(LimitRules, say_themselves_as_they_are_written) {
-  for (const char* text : {"longest > 64", "lights < 1", "lights_in_view == 0", "lights_in_view outside 200..300",
-                           "exact-fast: longest > +5 %", "bytes <= -2.5 %", "unlit >= 0.001"}) {
+  for (const char* text :
+       {"longest > 64", "lights < 1", "lights_in_view == 0", "lights_in_view outside 200..300",
+        "exact-fast: longest > +5 %", "bytes <= -2.5 %", "lights < -0 %", "lights > +0 %", "unlit >= 0.001"}) {
     EXPECT_EQ(rule_of(text).text(), text);
     EXPECT_EQ(rule_of(rule_of(text).text()).text(), text);
   }

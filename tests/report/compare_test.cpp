@@ -537,7 +537,19 @@ TEST(Compare, nothing_in_common_points_to_the_command_that_answers) {
   EXPECT_NE(advice_on_nothing(base, grids, "a.json", "b.json").find("`clusterbench report a.json b.json"),
             std::string::npos);
   for (Json& result_case : level["cases"]) result_case["id"] = "another";
-  EXPECT_NE(advice_on_nothing(base, level, "a.json", "b.json").find("--baseline a.json --fail-if"), std::string::npos);
+  EXPECT_NE(advice_on_nothing(base, level, "a.json", "b.json").find("--baseline a.json --allow-changed-lights"),
+            std::string::npos);
+}
+
+TEST(Compare, a_level_of_another_name_may_be_the_same_one_before_its_change) {
+  const Json base = json_of(result_by_hand());
+  Json next = base;
+  for (Json& result_case : next["cases"]) result_case["scene"] = "hall-v2";
+  next["scenes"][0]["name"] = "hall-v2";
+  EXPECT_NE(advice_on_nothing(base, next, "a.json", "b.json").find("--baseline a.json --allow-changed-lights"),
+            std::string::npos);
+  next["scenes"].push_back(base["scenes"][0]);
+  EXPECT_EQ(advice_on_nothing(base, next, "a.json", "b.json").find("--baseline"), std::string::npos);
 }
 
 TEST(Compare, names_in_markdown_are_no_markup) {

@@ -1,0 +1,100 @@
+#include "report/baseline_changes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/text.h"
+#include "report/baseline_cases.h"
+#include "report/columns.h"
+#include "report/limits.h"
+#include "report/percent_change.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Lines = std::vector<std::string>;
+
+// The first are the same for all cases of a camera and viewport.
+constexpr const char* k_of_view[] = {"lights", "lights_lit", "lights_seen", "lights_in_view"};
+constexpr const char* k_of_case[] = {"index_entries", "bytes", "longest"};
+
+void add_once(const std::string& line, Lines& lines) {
+  if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+}
+
+class Changes {
+ public:
+  Changes(const Json& result, const BaselineCases& baseline) : baseline_(baseline) {
+    for (const Json& result_case : result["cases"])
+      if (const Json* before = baseline.case_of(result_case); before != nullptr)
+        add(*before, result_case);
+      else
+        not_in_base_.push_back(shown(result_case["name"]));
+  }
+
+  std::string text() const {
+    const std::string begin = "changes since " + baseline_.name() + ":";
+    Lines gone;
+    for (const std::string& name : baseline_.gone()) gone.push_back(shown(name));
+    const bool is_all_there = not_in_base_.empty() && gone.empty() && not_told_.empty();
+    if (views_.empty() && cases_.empty() && is_all_there)
+      return begin + " none in " + number_of(unchanged_, "case") + " (lights, " +
+             joined(Lines(std::begin(k_of_case), std::end(k_of_case))) + ")\n";
+    Lines lines = views_;
+    lines.insert(lines.end(), cases_.begin(), cases_.end());
+    if (unchanged_ > 0) lines.push_back("none in " + number_of(unchanged_, cases_.empty() ? "case" : "other case"));
+    if (!not_in_base_.empty()) lines.push_back("not in " + baseline_.name() + ": " + joined(not_in_base_));
+    if (!gone.empty()) lines.push_back("only in " + baseline_.name() + ": " + joined(gone));
+    if (!not_told_.empty()) lines.push_back(baseline_.name() + " does not tell " + joined(not_told_));
+    std::string out = begin + "\n";
+    for (const std::string& line : lines) out += "  " + line + "\n";
+    return out;
+  }
+
+ private:
+  void add(const Json& before, const Json& now) {
+    const std::string of_view = changed(before, now, k_of_view), of_case = changed(before, now, k_of_case);
+    if (!of_view.empty()) add_once(shown(now["scene"]) + ", camera " + shown(now["camera"]) + ": " + of_view, views_);
+    if (of_case.empty())
+      ++unchanged_;
+    else
+      cases_.push_back(shown(now["name"]) + ": " + of_case);
+  }
+
+  // "index_entries 40 -> 50 (+25 %; frame 1, cell [3,2,1]), bytes 232 -> 242 (+4.31 %)"; a location that several
+  // figures share once.
+  std::string changed(const Json& before, const Json& now, std::span<const char* const> figures) {
+    std::string out, last_location;
+    for (const char* figure : figures) {
+      const std::optional<double> was = limit_figure(before, figure), is = limit_figure(now, figure);
+      if (is && !was) add_once(figure, not_told_);
+      if (!is || !was || *is == *was) continue;
+      const double percent = percent_change({*was}, {*is});
+      Lines remarks;
+      if (std::isfinite(percent)) remarks.push_back(report::text("%+.3g %%", percent));
+      const std::string location = limit_figure_location(now, figure);
+      if (!location.empty() && location != last_location) remarks.push_back(location);
+      last_location = location;
+      out += (out.empty() ? "" : ", ") + std::string(figure) + " " + config::budget_number(*was) + " -> " +
+             config::budget_number(*is) + (remarks.empty() ? "" : " (" + joined(remarks, "; ") + ")");
+    }
+    return out;
+  }
+
+  const BaselineCases& baseline_;
+  Lines views_, cases_, not_in_base_, not_told_;
+  std::size_t unchanged_ = 0;
+};
+
+}  // namespace
+
+std::string baseline_changes_text(const Json& result, const BaselineCases& baseline) {
+  return Changes(result, baseline).text();
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,80 @@
+// What a run says of an earlier result beside the budgets: which figures have moved, from what to what.
+
+#include "report/baseline_changes.h"
+
+#include <gtest/gtest.h>
+
+#include "report/baseline_cases.h"
+#include "report/result_by_hand.h"
+#include "report/result_json.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_by_hand() {
+  return result_to_json(testing::result_by_hand(), {});
+}
+
+std::string changes(const Json& base, const Json& result, const std::string& filter = "") {
+  return baseline_changes_text(result, BaselineCases(base, result, filter, "base.json"));
+}
+
+TEST(BaselineChanges, are_one_line_where_nothing_has_changed) {
+  EXPECT_EQ(changes(json_by_hand(), json_by_hand()),
+            "changes since base.json: none in 2 cases (lights, index_entries, bytes, longest)\n");
+}
+
+TEST(BaselineChanges, name_old_and_new_figures_and_where_the_new_ones_are) {
+  Json now = json_by_hand();
+  for (Json& result_case : now["cases"]) result_case["lights_lit"] = 2;
+  now["cases"][1]["buffers"]["index_entries"]["high_water"] = 50;
+  now["cases"][1]["buffers"]["bytes"]["high_water"] = 242;
+  now["cases"][1]["occupancy"]["lights_per_cell"]["max"] = 6;
+  EXPECT_EQ(changes(json_by_hand(), now),
+            "changes since base.json:\n"
+            "  hall, camera walk: lights_lit 10 -> 2 (-80 %)\n"
+            "  hall/walk/frustum 64px/aabb/packed: index_entries 40 -> 50 (+25 %; frame 1, cell [3,2,1]), "
+            "bytes 232 -> 242 (+4.31 %), longest 7 -> 6 (-14.3 %; frame 1, cell [1,1,1])\n"
+            "  none in 1 other case\n");
+}
+
+TEST(BaselineChanges, from_nothing_have_no_percent) {
+  Json base = json_by_hand();
+  base["cases"][1]["occupancy"]["lights_per_cell"]["max"] = 0;
+  EXPECT_NE(changes(base, json_by_hand()).find("longest 0 -> 7 (frame 1, cell [1,1,1])\n"), std::string::npos);
+}
+
+TEST(BaselineChanges, hold_a_renamed_level_against_the_one_before) {
+  Json now = json_by_hand();
+  now["scenes"][0]["name"] = "hall-v2";
+  for (Json& result_case : now["cases"]) {
+    result_case["scene"] = "hall-v2";
+    result_case["lights"] = 11;
+  }
+  EXPECT_EQ(changes(json_by_hand(), now),
+            "changes since base.json:\n  hall-v2, camera walk: lights 10 -> 11 (+10 %)\n  none in 2 cases\n");
+}
+
+TEST(BaselineChanges, tell_cases_that_one_of_both_lacks_and_figures_that_the_base_is_too_old_for) {
+  Json base = json_by_hand(), now = json_by_hand();
+  base["cases"].erase(0);
+  base["cases"][0].erase("lights_seen");
+  now["cases"].erase(1);
+  EXPECT_EQ(changes(base, now),
+            "changes since base.json:\n"
+            "  not in base.json: hall/walk/frustum 64px/brute-force/packed\n"
+            "  only in base.json: hall/walk/frustum 64px/aabb/packed\n");
+  EXPECT_EQ(changes(base, json_by_hand()),
+            "changes since base.json:\n"
+            "  none in 1 case\n"
+            "  not in base.json: hall/walk/frustum 64px/brute-force/packed\n"
+            "  base.json does not tell lights_seen\n");
+  EXPECT_EQ(changes(json_by_hand(), now, "brute-force"),
+            "changes since base.json: none in 1 case (lights, index_entries, bytes, longest)\n")
+      << "others of the base are not looked for";
+}
+
+}  // namespace
+}  // namespace clusterbench::report
