@@ -306,6 +306,22 @@ TEST(Gates, a_history_tells_and_fails_with_lights_that_changed) {
   EXPECT_EQ(shown.out.find("better"), std::string::npos) << shown.out;
 }
 
+// As docs/ci.md says of a history that stays, and of a cache that is dropped with the job that failed.
+TEST(Gates, changed_lights_fail_once_in_a_history_that_stays_and_each_time_in_one_that_is_dropped) {
+  const Level level;
+  const std::string history = (level.folder / "history.jsonl").string(), add = "history add " + level.result + " ";
+  level.measure_base(8);
+  ASSERT_EQ(tool("history add " + level.base + " " + history + " --commit a").code, 0);
+  const std::string cached = file_text(history);
+  ASSERT_EQ(level.run(corridor(5), "").code, 0);
+  EXPECT_EQ(tool(add + history + " --commit b").code, 1);
+  EXPECT_EQ(tool(add + history + " --commit c").code, 0);
+  for (const char* commit : {"b", "c"}) {
+    level.folder.write("history.jsonl", cached);
+    EXPECT_EQ(tool(add + history + " --commit " + commit).code, 1) << commit;
+  }
+}
+
 TEST(Gates, a_history_has_series_of_the_lights_that_shine) {
   const Level level;
   const std::string history = (level.folder / "history.jsonl").string(), add = "history add " + level.result + " ";
