@@ -201,9 +201,7 @@ bool LimitRule::is_broken_by(double value) const {
 
 bool LimitRule::is_near(double value) const {
   constexpr double k_nearly = 0.1;
-  if (is_broken_by(value) || !(limit > 0.0)) return false;
-  if (side == Side::above) return value > (1.0 - k_nearly) * limit;
-  return side == Side::below && value < (1.0 + k_nearly) * limit;
+  return (side == Side::above || side == Side::below) && std::abs(value - limit) < k_nearly * std::abs(limit);
 }
 
 std::string LimitRule::text() const {

@@ -35,7 +35,7 @@ struct LimitRule {
   std::string cases = {};    // a regular expression that a part of a case's name has to match; "": all cases
 
   bool is_broken_by(double value) const;
-  // Not broken, and less than a tenth of the limit away from it. Never said of == and of ranges.
+  // Of a value that does not break it: less than a tenth of the limit away. Not of ==, of ranges and of a limit of 0.
   bool is_near(double value) const;
   // As it was written: "exact-fast: longest > +5 %".
   std::string text() const;

@@ -96,7 +96,15 @@ TEST(LimitRules, are_near_on_the_side_that_they_fail_on) {
   EXPECT_FALSE(rule_of("bytes > 100").is_near(89));
   EXPECT_TRUE(rule_of("lights < 100").is_near(105));
   EXPECT_FALSE(rule_of("lights < 100").is_near(111));
-  EXPECT_FALSE(rule_of("lights 100..200").is_near(199));
+  EXPECT_TRUE(rule_of("lights < -10 %").is_near(-9.5)) << "a tenth of ten percent";
+  EXPECT_FALSE(rule_of("lights < -10 %").is_near(-8.9));
+  EXPECT_TRUE(rule_of("longest > +5 %").is_near(4.6));
+  EXPECT_TRUE(rule_of("longest > -5 %").is_near(-5.4));
+  EXPECT_FALSE(rule_of("longest > -5 %").is_near(-5.6));
+  for (const char* text : {"lights > 0", "lights < 0", "lights < -0 %"})
+    for (const double value : {0.0, 1e-9, -1e-9, 1.0}) EXPECT_FALSE(rule_of(text).is_near(value)) << text;
+  for (const char* text : {"lights 100..200", "lights == 199"})
+    for (const double value : {101.0, 199.0, 198.5}) EXPECT_FALSE(rule_of(text).is_near(value)) << text;
 }
 
 }  // namespace
