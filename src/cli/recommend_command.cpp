@@ -6,8 +6,10 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.h"
+#include "cli/duration.h"
 #include "cli/launches.h"
 #include "cli/output.h"
 #include "cli/run_inputs.h"
@@ -83,13 +85,12 @@ std::string asked_in_vain(const config::Config& config) {
   return keys;
 }
 
-config::Config read_input(const RecommendFlags& flags) {
+// `in_vain`: which keys it leaves out.
+config::Config read_input(const RecommendFlags& flags, std::string& in_vain) {
   nlohmann::json standard = search::recommend_space();
   standard["samples"] = {{"opaque", {{"divisor", 16}}}};
   config::Config config = read_inputs(flags.inputs, {}, standard);
-  const std::string in_vain = asked_in_vain(config);
-  if (!in_vain.empty() && !flags.quiet)
-    tell("recommend compares costs and leaves out " + in_vain + "; run reports them");
+  in_vain = asked_in_vain(config);
   config.details.reset();
   config.stability.reset();
   for (const char* key : {"details", "stability"}) config.resolved[key] = nullptr;
@@ -115,23 +116,19 @@ report::ObjectiveFigure objective_of(const RecommendFlags& flags, const config::
 }
 
 // A cost is that of samples with a weight. A scene without triangles has no surfaces to shade: then each pixel is
-// shaded once at a random depth of its view.
-void weigh_samples(config::Config& config, const run::Plan& plan) {
+// shaded once at a random depth of its view. Whether that is so.
+bool weigh_samples(config::Config& config, const run::Plan& plan) {
   nlohmann::json& weights = config.resolved["cost"]["weights"];
   const auto has_cost = [&](const config::SampleSetRequest& set) {
     return weights[measure::name_of(set.set)] != 0.0 &&
            std::ranges::all_of(plan.scenes, [&](const auto& data) { return run::set_obstacle(set, data).empty(); });
   };
-  if (std::ranges::any_of(config.sample_sets, has_cost)) return;
+  if (std::ranges::any_of(config.sample_sets, has_cost)) return false;
   if (std::ranges::find(config.sample_sets, measure::SampleSet::volume, &config::SampleSetRequest::set) ==
       config.sample_sets.end())
     throw Error("", "--by", "a cost is that of samples, and there are none; take another figure, or shading.samples");
-  tell(
-      "warning: the scene has no triangles: each pixel is shaded at a random depth, where no surface is, and surfaces "
-      "can "
-      "make another clustering the best; export the level's meshes with its lights, or take a floor: --set "
-      "samples.opaque.ground=lowest, or =Y for one at that height");
   weights["volume"] = "pixels";
+  return true;
 }
 
 // Returns whether times are measured.
@@ -174,9 +171,76 @@ ExitCode tell_what_there_is(const config::Config& config, const report::Question
   return stopped_exit_code();
 }
 
+// The searches of a command, each with what it is about to take; no costs where nobody is told.
+struct Searches {
+  std::vector<search::View> views;
+  std::vector<search::SearchCosts> costs;
+};
+
+// The first line.
+void tell_duration(const config::Config& config, run::Plan& plan, const search::Request& request, Searches& searches) {
+  double all_s = 0.0, counting_s = 0.0;
+  std::size_t candidates = 0;
+  for (std::size_t i = 0; i < searches.views.size(); ++i) {
+    const search::View& view = searches.views[i];
+    const search::SearchCosts costs = searches.costs[i] = search::estimated_costs(config, plan, view);
+    candidates += view.candidates.size();
+    all_s += search::estimated_s(costs, view, request);
+    counting_s += search::estimated_s({costs.grid_ns, costs.candidate_ns}, view, request);
+  }
+  std::vector<std::string> shorter;
+  if (all_s - counting_s > 0.2 * all_s) shorter.push_back("--no-timing (" + duration_text(counting_s) + ")");
+  shorter.insert(shorter.end(), {"--tiles 64,128", "--slices 16", "--grid frustum", "--assigner exact-fast,aabb-fast",
+                                 "--filter TEXT"});
+  tell(wait_text(number_of(candidates, "candidate"), all_s, shorter));
+}
+
+// Behind the first line: what is left out, and what is doubtful.
+void tell_what_is_asked(const config::Config& config, const run::Plan& plan, const std::string& in_vain) {
+  if (!in_vain.empty()) tell("recommend compares costs and leaves out " + in_vain + "; run reports them");
+  tell_of_cameras(config, plan);
+}
+
+void warn_of_random_depths() {
+  tell(
+      "warning: the scene has no triangles: each pixel is shaded at a random depth, where no surface is, and surfaces "
+      "can "
+      "make another clustering the best; export the level's meshes with its lights, or take a floor: --set "
+      "samples.opaque.ground=lowest, or =Y for one at that height");
+}
+
+bool asks_for_cost(const report::Question& question) {
+  return question.objective.is_cost ||
+         std::ranges::any_of(question.constraints, [](const report::Constraint& constraint) {
+           return constraint.rule.figure.ends_with("_cost_us");
+         });
+}
+
+// All searches; the answers of those before a stop, and then the exit code of that.
+std::optional<ExitCode> search_all(const RecommendFlags& flags, const config::Config& config, run::Plan& plan,
+                                   const report::Question& question, const search::Request& request, Searches& searches,
+                                   Json& answers) {
+  const std::atomic<bool>& stop = stop_on_signals();
+  const run::Launcher launcher =
+      request.is_timed && config.timing.launches > 1 ? make_launcher(config, plan, nullptr, stop) : run::Launcher{};
+  ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
+  const search::Watch watch{[&](const run::Progress& now) { progress.show(now); }, stop,
+                            [&](const std::string& stage) { progress.stage(stage); }};
+  for (std::size_t i = 0; i < searches.views.size(); ++i) {
+    search::View& view = searches.views[i];
+    if (!flags.quiet) tell(budget_text(plan, view, request));
+    const search::Found found = search::search_view(config, plan, view, request, launcher, watch, searches.costs[i]);
+    progress.clear();
+    if (stop) return tell_what_there_is(config, question, answers, view, found);
+    answers.push_back(report::answer_to_json(config, plan, view, found, question));
+  }
+  return std::nullopt;
+}
+
 ExitCode recommend(const RecommendFlags& flags) {
   refuse_overwriting({flags.output, flags.written}, flags.inputs.paths);
-  config::Config config = read_input(flags);
+  std::string in_vain;
+  config::Config config = read_input(flags, in_vain);
   report::Question question{objective_of(flags, config), {}, share_of(flags.within), flags.runners_up};
   if (config.own_pre_culls > 1)
     throw Error(config.file.string(), "pre_cull",
@@ -187,36 +251,25 @@ ExitCode recommend(const RecommendFlags& flags) {
   config.timing.measure = is_timed;
   config.resolved["timing"]["measure"] = is_timed;
   run::Plan plan = run::make_plan(config, flags.filter);
-  if (!flags.quiet) tell_of_cameras(config, plan);
-  const bool asks_for_cost = std::ranges::any_of(question.constraints, [](const report::Constraint& constraint) {
-    return constraint.rule.figure.ends_with("_cost_us");
-  });
-  if (question.objective.is_cost || asks_for_cost) weigh_samples(config, plan);
-  std::vector<search::View> views = search::views_of(config, plan);
-  if (!flags.written.empty() && views.size() != 1)
+  const bool has_random_depths = asks_for_cost(question) && weigh_samples(config, plan);
+  Searches searches{search::views_of(config, plan), {}};
+  searches.costs.resize(searches.views.size());
+  if (!flags.written.empty() && searches.views.size() != 1)
     throw Error(flags.written, "--write-config",
-                "takes one scene in one viewport; these are " + std::to_string(views.size()));
-
-  const std::atomic<bool>& stop = stop_on_signals();
+                "takes one scene in one viewport; these are " + std::to_string(searches.views.size()));
   const search::Request request{report::judge_of(question, config.resolved), is_timed, question.objective.only_grows,
                                 question.within};
-  const run::Launcher launcher =
-      is_timed && config.timing.launches > 1 ? make_launcher(config, plan, nullptr, stop) : run::Launcher{};
-  Json answers = Json::array();
-  ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
-  const search::Watch watch{[&](const run::Progress& now) { progress.show(now); }, stop,
-                            [&](const std::string& stage) { progress.stage(stage); }};
-  for (search::View& view : views) {
-    if (!flags.quiet) tell(budget_text(plan, view, request));
-    const search::Found found = search::search_view(config, plan, view, request, launcher, watch);
-    progress.clear();
-    if (stop) return tell_what_there_is(config, question, answers, view, found);
-    answers.push_back(report::answer_to_json(config, plan, view, found, question));
+  if (!flags.quiet) {
+    tell_duration(config, plan, request, searches);
+    tell_what_is_asked(config, plan, in_vain);
   }
+  if (has_random_depths) warn_of_random_depths();
+  Json answers = Json::array();
+  if (const auto stopped = search_all(flags, config, plan, question, request, searches, answers)) return *stopped;
   const Json recommendation = report::recommendation_to_json(config, question, answers);
   const ExitCode code = write_and_show(flags, recommendation);
   if (!flags.written.empty() && code == ExitCode::ok)
-    write_output(flags.written, report::recommended_config(config, views.front(), answers[0], question,
+    write_output(flags.written, report::recommended_config(config, searches.views.front(), answers[0], question,
                                                            flags.written_runners_up, flags.written));
   return code;
 }

@@ -13,6 +13,7 @@
 #include "cli/baseline_run.h"
 #include "cli/commands.h"
 #include "cli/count_instructions.h"
+#include "cli/duration.h"
 #include "cli/export_files.h"
 #include "cli/gates.h"
 #include "cli/handover.h"
@@ -114,22 +115,19 @@ void print_skipped(const std::vector<run::Skipped>& skipped) {
               << " of a method with a kind of grid that it does not take (`clusterbench list` tells which it takes)\n";
 }
 
-// Before a run that somebody waits for: how long, and what makes it shorter.
+// Before a run that somebody waits for.
 void tell_duration(const config::Config& config, const run::Plan& plan, std::span<const run::GroupCost> costs) {
-  constexpr double k_soon_s = 5.0, k_patience_s = 120.0;
-  double timing_s = 0.0;
-  for (const run::GroupCost& cost : costs) timing_s += 1e-9 * cost.timing_ns;
-  const double all_s = run::sum_s(costs);
+  constexpr double k_soon_s = 5.0;
+  const double all_s = run::sum_s(costs), timing_s = run::sum_of_timing_s(costs);
   if (all_s < k_soon_s) return;
-  std::string text = number_of(case_count(plan), "case") + ": takes " + duration_text(all_s);
-  if (all_s > k_patience_s) {
-    text += "; shorter: ";
-    if (timing_s > 0.2 * all_s) text += "--no-timing (" + duration_text(all_s - timing_s) + "), ";
-    if (config.timing.measure && config.timing.rounds > 5 && timing_s > 0.2 * all_s) text += "--rounds 5, ";
-    text += "--filter TEXT, --set 'scenes.*.frames=10'";
-    if (config.check_accuracy && !config.most_pairs) text += ", --set accuracy.most_pairs=1000000";
+  std::vector<std::string> shorter;
+  if (timing_s > 0.2 * all_s) {
+    shorter.push_back("--no-timing (" + duration_text(all_s - timing_s) + ")");
+    if (config.timing.rounds > 5) shorter.emplace_back("--rounds 5");
   }
-  tell(text);
+  shorter.insert(shorter.end(), {"--filter TEXT", "--set 'scenes.*.frames=10'"});
+  if (config.check_accuracy && !config.most_pairs) shorter.emplace_back("--set accuracy.most_pairs=1000000");
+  tell(wait_text(number_of(case_count(plan), "case"), all_s, shorter));
 }
 
 ExitCode print_plan(const config::Config& config, const run::Plan& plan) {

@@ -62,8 +62,9 @@ config::Config read_inputs(const RunInputs& inputs, const std::vector<config::Fl
 void tell_of_cameras(const config::Config& config, const run::Plan& plan) {
   for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
     const scene::Scene& scene = plan.scenes[i].scene;
-    if (const std::string text = run::without_field_of_view(plan.scenes[i], config.scenes[i]); !text.empty())
-      tell("warning: " + scene.name + ": " + text);
+    for (const std::string& text :
+         {run::without_field_of_view(plan.scenes[i], config.scenes[i]), run::fewer_frames(plan.scenes[i])})
+      if (!text.empty()) tell("warning: " + scene.name + ": " + text);
     const std::vector<std::string> others = scene::cameras_left_out(scene, config.scenes[i].camera);
     if (others.empty()) continue;
     tell("of " + scene.name + " only camera '" + plan.scenes[i].paths.front().camera + "', and not " +

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cli/duration.h"
 #include "cli/output.h"
 #include "cli/size_limits.h"
 #include "cli/stop.h"
@@ -14,6 +15,7 @@
 #include "core/text.h"
 #include "report/columns.h"
 #include "report/result_json.h"
+#include "run/estimate.h"
 #include "run/runner.h"
 
 namespace clusterbench::cli {
@@ -100,11 +102,12 @@ void share_samples(config::Config& config, const run::Plan& plan) {
     set.count = std::min(set.count, std::max(k_fewest, static_cast<int>(share * set.count)));
 }
 
-run::Result counts_of(const config::Config& config, const run::Plan& plan, bool quiet) {
+run::Result counts_of(const config::Config& config, const run::Plan& plan, bool quiet,
+                      std::span<const run::GroupCost> costs = {}) {
   ProgressLine progress(terminal(STDERR_FILENO), quiet);
   run::Listener listener;
   listener.on_progress = [&](const run::Progress& now) { progress.show(now); };
-  return run::run_plan(config, plan, {}, listener, stop_on_signals());
+  return run::run_plan(config, plan, {}, listener, stop_on_signals(), {}, {}, costs);
 }
 
 // About what a frame of a case takes a core of 2020 to count: a model of what was counted, so that it is the same
@@ -151,7 +154,6 @@ double work_at(double rate_hz, const run::SceneData& data, const run::Result& fe
 
 struct Sampling {
   std::vector<config::FlagValue> flags;
-  double work_ns = 0.0;
   bool is_coarser = false;  // than a path has keys, or 30 a second
 };
 
@@ -178,7 +180,6 @@ Sampling sampling_of(const RunInputs& inputs, std::vector<config::FlagValue> fla
     for (const scene::CameraPath& path : plan.scenes[i].paths)
       if (frames_at(1e9, path) > k_least_frames)
         rate = std::max(rate, (k_least_frames - 1) / (path.shots.back().time_s - path.shots.front().time_s));
-    out.work_ns += work_at(rate, plan.scenes[i], few);
     out.flags.push_back(setting(i, "frames", R"({"rate":)" + report::text("%.6g", rate) + "}"));
   }
   return out;
@@ -194,11 +195,10 @@ std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string
   const std::vector<bool> asked = asked_for(inputs, read_inputs(inputs, flags).scenes.size());
   const std::atomic<bool>& stop = stop_on_signals();
   const bool samples = std::ranges::find(asked, false) != asked.end();
-  Sampling sampling{std::move(flags), 0.0, false};
+  Sampling sampling{std::move(flags), false};
   if (samples) sampling = sampling_of(inputs, std::move(sampling.flags), asked, filter);
   if (stop) return {};
-  SizePlan out{
-      counting_only(read_inputs(inputs, sampling.flags)), {}, {}, sampling.work_ns, sampling.is_coarser, exact_methods};
+  SizePlan out{counting_only(read_inputs(inputs, sampling.flags)), {}, {}, {}, sampling.is_coarser, exact_methods};
   if (!engine.empty()) {
     out.limited = out.config;
     out.config = without_engine_limits(std::move(out.config));
@@ -208,15 +208,16 @@ std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string
   return out;
 }
 
-void tell_of_size(const SizePlan& plan, const std::string& then) {
-  constexpr double k_worth_telling_ns = 10e9;
+void tell_of_size(SizePlan& plan, const std::string& then) {
+  plan.costs = run::estimated_costs(plan.config, plan.plan);
   std::size_t frames = 0, paths = 0;
   for (const run::SceneData& data : plan.plan.scenes)
     for (const scene::CameraPath& path : data.paths) frames += path.shots.size(), ++paths;
   const std::string how = plan.plan.scenes.front().paths.front().how;
   std::string line = "counts " + number_of(frames, "frame") + " of " + number_of(paths, "camera path");
   if (!how.empty()) line += " (" + (paths > 1 ? "the first: " : std::string()) + how + ")";
-  if (plan.work_ns > k_worth_telling_ns) line += report::text(", about %.0f s on one core", 1e-9 * plan.work_ns);
+  line = wait_text(line, run::sum_s(plan.costs),
+                   {"--set 'scenes.*.frames=30'", "--grid KIND --tiles N --slices N", "--assigner NAME"});
   line += then + "; --set 'scenes.*.frames=N' takes N of each path";
   if (plan.is_coarser)
     line +=
@@ -228,7 +229,7 @@ void tell_of_size(const SizePlan& plan, const std::string& then) {
 }
 
 std::optional<SizeCounts> counted_for_size(SizePlan plan, bool quiet) {
-  const run::Result result = counts_of(plan.config, plan.plan, quiet);
+  const run::Result result = counts_of(plan.config, plan.plan, quiet, plan.costs);
   if (stop_on_signals()) return {};
   for (const run::SceneResult& scene : result.scenes)
     for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);

@@ -18,7 +18,7 @@ struct SizePlan {
   config::Config config;
   run::Plan plan;
   std::optional<config::Config> limited;  // of an engine whose settings are asked for: with its own limits
-  double work_ns = 0.0;                   // of the frames that nobody asked for, by a model
+  std::vector<run::GroupCost> costs;      // once somebody was told how long it takes
   bool is_coarser = false;                // than a path has keys, or 30 a second
   bool has_exact_methods = false;         // since nothing names others
 };
@@ -41,7 +41,7 @@ std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string
 
 // What will be counted, about how long that takes, and how to have fewer or more. `then`: what follows it, "" or ",
 // then ...".
-void tell_of_size(const SizePlan& plan, const std::string& then);
+void tell_of_size(SizePlan& plan, const std::string& then);
 
 // Nothing once it is to stop.
 std::optional<SizeCounts> counted_for_size(SizePlan plan, bool quiet);

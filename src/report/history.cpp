@@ -241,6 +241,13 @@ LightsAround lights_around(const Series& series, const measure::ChangePoint& cha
   return digests.contains("") ? LightsAround::unknown : LightsAround::others;
 }
 
+// "all 140,258", "140,258 to 151,000".
+std::string values_text(const std::vector<double>& values) {
+  const bool is_steady = std::ranges::all_of(values, [&](double value) { return value == values.front(); });
+  if (is_steady) return (values.size() > 1 ? "all " : "") + figure_text(values.front());
+  return figure_text(values.front()) + " to " + figure_text(values.back());
+}
+
 std::string series_text(const Series& series) {
   std::string text =
       series.case_name + "  " + std::string(series.metric->name) + " (" + std::string(series.metric->unit) + ")" +
@@ -248,8 +255,7 @@ std::string series_text(const Series& series) {
       (series.settings_since.empty()
            ? ""
            : "  other settings than before, from " + series.settings_since + " on: a series of its own\n") +
-      "  " + number_of(series.values.size(), "value") + ", " + figure_text(series.values.front()) + " to " +
-      figure_text(series.values.back()) + "\n";
+      "  " + number_of(series.values.size(), "value") + ", " + values_text(series.values) + "\n";
   for (const measure::ChangePoint& change : series.changes) {
     char p[48];
     std::snprintf(p, sizeof p, " (p %.1g)", change.p);

@@ -5,14 +5,11 @@
 
 #include "run/cache_sweep.h"
 #include "run/passes/accuracy_pass.h"
-#include "run/passes/timing_pass.h"
 #include "run/repeated.h"
 #include "run/timed_work.h"
 
 namespace clusterbench::run {
 namespace {
-
-constexpr double k_looks_ns = 6e9;  // no further group is looked at after this time
 
 template <class Once>
 double duration_ns(const Once& once) {
@@ -43,11 +40,13 @@ double median(std::vector<double> values) {
 }
 
 // What measure_launch() does with each method in all launches, from what one frame takes.
-double timing_ns(const config::Config& config, const GroupPlan& group, const PathFrames& path, double sweep_ns) {
+double timing_ns(const config::Config& config, const GroupPlan& group, const PathFrames& path, double sweep_ns,
+                 const Looks& looks) {
   const auto frames = static_cast<double>(mean_frames(config, path).size());
   const std::vector<TimedFrame> middle_frame = timed_frames(config, group, path, {path.count() / 2});
   const double min_ns = 1e6 * config.timing.min_time_ms, launches = config.timing.launches;
   const int rounds = rounds_per_launch(config.timing, config.timing.launches);
+  const int warm_rounds = config.timing.cold ? std::min(rounds, looks.warm_rounds) : rounds;
   const int cold = config.timing.cold ? cold_rounds(rounds, static_cast<std::size_t>(frames) + 1, sweep_bytes()) : 0;
   double all = 0.0;
   for (const Method& method : methods_of(group)) {
@@ -64,7 +63,7 @@ double timing_ns(const config::Config& config, const GroupPlan& group, const Pat
     if (!config.timing.cold) warm += std::max(min_ns / 10.0, frames * (assign + converts));
     constexpr double k_cold_by_warm = 2.0;
     const double swept = (frames + 1.0) * (sweep_ns + k_cold_by_warm * (assign + converts));
-    all += launches * (start + rounds * warm + cold * swept);
+    all += launches * (start + warm_rounds * warm + cold * swept);
   }
   return all;
 }
@@ -75,18 +74,19 @@ double sweep_duration_ns() {
   return duration_ns([&] { sweep(); });
 }
 
-GroupCost cost_of_group(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns) {
+GroupCost cost_of_group(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
+                        const Looks& looks) {
   const PathFrames path = path_of(config, plan, group);
   const int steps = config.stability ? config.stability->steps : 0;
   GroupCost cost{counting_ns(config, plan.scenes[group.scene], group, path, path.count() + steps), 0.0};
   const GroupPlan timed = timed_cases(group);
-  if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns);
+  if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns, looks);
   return cost;
 }
 
 }  // namespace
 
-std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan& plan) {
+std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan& plan, const Looks& looks) {
   const double sweep_ns = config.timing.measure && config.timing.cold ? sweep_duration_ns() : 0.0;
   // Some groups of all scenes and grids: each step goes on by about the golden section of the list.
   const std::size_t groups = plan.groups.size();
@@ -94,9 +94,10 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
   while (std::gcd(stride, groups) != 1) ++stride;
   std::vector<GroupCost> costs(groups);
   std::vector<double> counting, timing;
-  for (const double start = wall_ns(); looked < groups && (looked == 0 || wall_ns() - start < k_looks_ns); ++looked) {
+  for (const double start = wall_ns(); looked < groups && (looked == 0 || 1e-9 * (wall_ns() - start) < looks.most_s);
+       ++looked) {
     const std::size_t index = looked * stride % groups;
-    costs[index] = cost_of_group(config, plan, plan.groups[index], sweep_ns);
+    costs[index] = cost_of_group(config, plan, plan.groups[index], sweep_ns, looks);
     counting.push_back(costs[index].counting_ns);
     timing.push_back(costs[index].timing_ns);
   }
@@ -108,6 +109,12 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
 double sum_s(std::span<const GroupCost> costs) {
   double ns = 0.0;
   for (const GroupCost& cost : costs) ns += cost.counting_ns + cost.timing_ns;
+  return 1e-9 * ns;
+}
+
+double sum_of_timing_s(std::span<const GroupCost> costs) {
+  double ns = 0.0;
+  for (const GroupCost& cost : costs) ns += cost.timing_ns;
   return 1e-9 * ns;
 }
 

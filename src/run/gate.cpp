@@ -27,10 +27,24 @@ bool may_not_lose(const CaseResult& result) {
   return result.conservative || (result.exact && gets_all);
 }
 
+// True pairs of lights beside the view, which a preset's engine culls: they are of cells that nothing sees.
+std::uint64_t pairs_culled(const CaseResult& result) {
+  if (!result.error || result.preset.empty() || !result.pre_cull) return 0;
+  const PreCullCounts& counts = result.pre_cull->counts;
+  return std::min(result.error->false_negatives, counts.lost_pairs - counts.lost_to_limits);
+}
+
+// True pairs that are not listed, without those.
+std::uint64_t pairs_lost(const CaseResult& result) {
+  return result.error ? result.error->false_negatives - pairs_culled(result) : 0;
+}
+
 std::string lost_text(const CaseResult& result) {
   const measure::ErrorCounts& error = *result.error;
-  std::string text =
-      "lost " + std::to_string(error.false_negatives) + " of " + number_of(error.true_pairs, "true pair");
+  const std::uint64_t culled = pairs_culled(result);
+  std::string text = "lost " + std::to_string(pairs_lost(result)) + " of " + number_of(error.true_pairs, "true pair");
+  if (culled > 0)
+    return text + ", and leaves out " + std::to_string(culled) + " of lights beside the view, which it culls";
   if (!error.deepest) return text;
   const measure::Miss& deepest = *error.deepest;
   const Vec3i cells = cells_in(result, deepest.frame);
@@ -182,16 +196,6 @@ const PreCullCounts::Step* exceeded_limit(const CaseResult& result) {
 bool misses_dropped_lights(const PreCullCounts& counts) {
   return counts.lost_to_limits > 0 ||
          std::ranges::any_of(counts.samples, [](const LostAtSamples& set) { return set.lost > 0; });
-}
-
-// True pairs that are not listed. What a preset's engine culls by the view's planes is no loss: such pairs are of cells
-// beside the view, which nothing sees.
-std::uint64_t pairs_lost(const CaseResult& result) {
-  if (!result.error) return 0;
-  const std::uint64_t all = result.error->false_negatives;
-  if (result.preset.empty() || !result.pre_cull) return all;
-  const PreCullCounts& counts = result.pre_cull->counts;
-  return all - std::min(all, counts.lost_pairs - counts.lost_to_limits);
 }
 
 std::string limit_text(const CaseResult& result, const PreCullCounts::Step& step) {

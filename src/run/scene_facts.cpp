@@ -76,7 +76,8 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
                            data.paths.front().camera + "': " + first_names(others) +
                            "; \"camera\": \"*\" measures all");
   if (!request.camera.field_of_view) add_fit_warnings(data, viewports, out.warnings);
-  if (const std::string text = without_field_of_view(data, request); !text.empty()) out.warnings.push_back(text);
+  for (const std::string& text : {without_field_of_view(data, request), fewer_frames(data)})
+    if (!text.empty()) out.warnings.push_back(text);
   out.range_rule = {{"cutoff_lux", request.range_rule.cutoff_lux},
                     {"max_range", request.range_rule.max_range_m},
                     {"given", given},
@@ -88,6 +89,16 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
         {"least", ranges.front()}, {"median", ranges[ranges.size() / 2]}, {"greatest", ranges.back()}};
   }
   return out;
+}
+
+std::string fewer_frames(const SceneData& data) {
+  if (data.frames_asked == 0) return "";
+  const double most = *std::ranges::max_element(data.lights_at_points);
+  return "measured in " + number_of(static_cast<std::uint64_t>(data.equal_steps), "frame") + " and not in " +
+         std::to_string(data.frames_asked) +
+         ", since much is to be counted in each: " + std::to_string(std::lround(most)) +
+         " lights reach a point of the view, on average; --set 'scenes.*.frames=" + std::to_string(data.frames_asked) +
+         "' takes all";
 }
 
 std::string without_field_of_view(const SceneData& data, const config::SceneRequest& request) {

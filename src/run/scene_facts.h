@@ -16,4 +16,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
 // all have one: "--fov changes nothing ...".
 std::string without_field_of_view(const SceneData& data, const config::SceneRequest& request);
 
+// That it is measured in fewer frames than asked for, and why; "" where it is not.
+std::string fewer_frames(const SceneData& data);
+
 }  // namespace clusterbench::run

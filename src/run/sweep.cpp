@@ -10,12 +10,12 @@
 #include <set>
 
 #include "assign/contract/storage.h"
-#include "config/grid_json.h"
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/pattern.h"
 #include "core/text.h"
 #include "geom/shapes/domain.h"
+#include "run/case_identity.h"
 #include "run/frame_work.h"
 #include "scene/domain.h"
 #include "view/frame.h"
@@ -53,19 +53,6 @@ bool needs_triangles(const config::Config& config) {
          std::ranges::any_of(config.pre_culls, &cull::PreCullSpec::needs_triangles);
 }
 
-// What a set's samples depend on, besides the scene.
-Json identity(const config::SampleSetRequest& request) {
-  Json out{measure::name_of(request.set),
-           request.count,
-           request.divisor,
-           request.layers,
-           request.froxels.x,
-           request.froxels.y,
-           request.froxels.z};
-  if (request.ground) out.push_back(request.ground->is_lowest ? Json("lowest") : Json(request.ground->height_m));
-  return out;
-}
-
 // Where frames are fewer, and which grids are compared cell by cell, depends on how many lights reach a point.
 void weigh_frames(const config::Config& config, const config::SceneRequest& request, SceneData& data) {
   if (request.camera.most_lights == 0.0 && !config.most_pairs) return;
@@ -78,12 +65,6 @@ void weigh_frames(const config::Config& config, const config::SceneRequest& requ
   data.frames_asked = request.camera.count;
   data.equal_steps = fewer.count;
   data.paths = scene::camera_paths(data.scene, fewer);
-  const auto most = std::ranges::max_element(data.lights_at_points);
-  data.scene.warnings.push_back("measured in " + number_of(static_cast<std::uint64_t>(fewer.count), "frame") +
-                                " and not in " + std::to_string(data.frames_asked) +
-                                ", since much is to be counted in each: " + std::to_string(std::lround(*most)) +
-                                " lights reach a point of the view, on average; --set 'scenes.*.frames=" +
-                                std::to_string(data.frames_asked) + "' takes all");
 }
 
 scene::Scene loaded(const config::SceneRequest& request) {
@@ -151,86 +132,6 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
       data.visible_sets = std::make_shared<SceneVisibleSets>(data.scene, *data.geometry);
     }
   return scenes;
-}
-
-bool is_late_default(std::span<const assign::ParamSpec> specs, const std::string& name,
-                     const assign::ParamValue& value) {
-  return std::ranges::any_of(specs, [&](const assign::ParamSpec& spec) {
-    return spec.is_late && spec.name == name && spec.standard == value;
-  });
-}
-
-Json identity(const config::MethodRequest& method, std::span<const assign::ParamSpec> specs) {
-  Json params = Json::object();
-  for (const auto& [name, value] : method.params.values())
-    if (!is_late_default(specs, name, value))
-      params[name] = std::visit([](const auto& number) { return Json(number); }, value);
-  return {{"name", method.name}, {"params", params}};
-}
-
-Json identity(const config::SceneRequest& request, const SceneData& data) {
-  // By the frames that there are, as if so many had been asked for.
-  const int count = data.frames_asked == 0 ? request.camera.count : data.equal_steps;
-  Json out{{"sha256", data.contents_sha256()},
-           {"frames", {static_cast<int>(request.camera.choice), count, request.camera.rate_hz}},
-           {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
-  if (request.camera.fit != scene::CameraFit::contain) out["camera_fit"] = "vertical";
-  if (request.camera.field_of_view)
-    out["fov"] = {request.camera.field_of_view->angle_rad, request.camera.field_of_view->is_horizontal};
-  if (request.boxes) out["boxes"] = true;
-  for (const Vec2d& offset : request.camera.jitter_px) out["jitter"].push_back({offset.x, offset.y});
-  return out;
-}
-
-std::string short_hash(const Json& all) {
-  constexpr std::size_t k_digits = 12;
-  return sha256_hex(all.dump()).substr(0, k_digits);
-}
-
-// Settings that change what a case counts; timing and threads do not.
-Json identity(const config::Config& config, const SceneData& data, const CasePlan& plan) {
-  const Vec2i viewport = config.viewports[plan.viewport];
-  const config::MethodRequest& assigner = config.assigners[plan.assigner];
-  Json storage = k_own_structure;
-  if (plan.storage) {
-    const config::MethodRequest& kept_in = config.storages[*plan.storage];
-    storage = identity(kept_in, assign::find_storage(kept_in.name)->params);
-  }
-  Json all{{"scene", identity(config.scenes[plan.scene], data)},
-           {"camera", {data.paths[plan.camera].camera, plan.camera}},
-           {"viewport", {viewport.x, viewport.y}},
-           {"grid", config::grid_identity(config.grids[plan.grid])},
-           {"assigner", identity(assigner, assign::find_assigner(assigner.name)->params)},
-           {"storage", std::move(storage)},
-           {"seed", config.seed},
-           {"shading_samples", 0}};
-  for (const config::SampleSetRequest& request : config.sample_sets) {
-    if (request.set == measure::SampleSet::volume)
-      all["shading_samples"] = request.count;
-    else
-      all["samples"].push_back(identity(request));
-  }
-  if (config.lookup) {
-    all["lookup"] = {config.lookup->samples};
-    for (const measure::LookupWay& way : config.lookup->ways)
-      all["lookup"].push_back({measure::name_of(way.logarithm), measure::name_of(way.depth)});
-  }
-  if (config.stability) {
-    const config::StabilityRequest& stability = *config.stability;
-    all["stability"] = {stability.steps, stability.step_mm, stability.step_deg, stability.window};
-  }
-  for (const config::ShadowCullRequest& cull : config.shadow_culls)
-    all["shadow_cull"].push_back({cull.map.resolution, depth::name_of(cull.map.bound), cull.map.near_m, cull.bias_m});
-  if (config.shared_frusta) {
-    const config::SharedFrustaRequest& frusta = *config.shared_frusta;
-    all["shadow_frusta"] = {frusta.apart_m, frusta.turned_deg, frusta.growth};
-  }
-  const config::PrecisionRequest& precision = config.precisions[plan.precision];
-  if (!plan.preset.empty()) all["preset"] = plan.preset;
-  if (const cull::PreCullSpec& pre_cull = config.pre_culls[plan.pre_cull]; !pre_cull.is_none())
-    all["pre_cull"] = pre_cull.label();
-  if (precision.is_lossy()) all["precision"] = {view::packing_name(precision.packing), precision.inflate};
-  return all;
 }
 
 std::string listed(const std::vector<grid::Kind>& kinds) {
@@ -512,10 +413,9 @@ class Expansion {
 
   void add_case(const Plan& plan, GroupPlan& group, CasePlan case_plan) {
     case_plan.name = unique_name(case_plan.name, names_);
-    Json all = identity(config_, plan.scenes[group.scene], case_plan);
-    case_plan.id = unique_name(short_hash(all), ids_);
-    all["scene"].erase("sha256");
-    case_plan.settings = short_hash(all);
+    const CaseIdentity identity = identity_of(config_, plan.scenes[group.scene], case_plan);
+    case_plan.id = unique_name(identity.id, ids_);
+    case_plan.settings = identity.settings;
     ++all_cases_;
     if (example_.empty()) example_ = case_plan.name;
     if (filter_.is_in(case_plan.name)) group.cases.push_back(std::move(case_plan));

@@ -143,8 +143,9 @@ std::string projection_text(const CameraProjection& projection) {
   if (projection.orthographic)
     return "orthographic, " + four_digits(2.0 * projection.ymag_m) + " m high, " + shape + reach;
   const double width = half.width > 0.0 ? half.width : k_usual_aspect * half.height;
+  const bool is_usual = std::abs(width / (k_usual_aspect * half.height) - 1.0) < 0.01;
   return "perspective, " + degrees_text(half.height) + " degrees high and " + degrees_text(width) + " wide" +
-         (half.width > 0.0 ? "" : " in 16:9") + ", " + shape + reach;
+         (is_usual ? " in 16:9" : "") + ", " + shape + reach;
 }
 
 // The sides of a projection's view, wider than for any picture in use (32:9) and as high as in one of 16:9 that holds

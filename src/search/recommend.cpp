@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "core/text.h"
@@ -39,18 +40,17 @@ struct FrameOfView {
   int index = 0;
 };
 
-// Few rounds of this process: enough to tell which share is the better one.
-config::Config quickly_timed(config::Config config) {
-  config.timing.rounds = std::min(config.timing.rounds, 3);
-  config.timing.min_time_ms = std::min(config.timing.min_time_ms, 0.5);
-  config.timing.launches = 1;
-  return config;
-}
-
 HalvingRequest halving_of(const View& view, const Request& request) {
   HalvingRequest halving{view.candidates.size(), view.frames, 1, request.growth, request.keep_one_in, request.least};
   for (const Candidate& candidate : view.candidates) halving.apart.push_back(candidate.is_apart);
   return halving;
+}
+
+// Grids of the view, on its first camera: they are the same on all.
+std::size_t grids_of(const View& view) {
+  std::set<std::size_t> grids;
+  for (const Candidate& candidate : view.candidates) grids.insert(candidate.grid);
+  return grids.size();
 }
 
 // Where all of a view's candidates are of one sort there is nothing to be apart from.
@@ -66,14 +66,16 @@ void set_apart(const config::Config& config, View& view) {
 class ViewSearch {
  public:
   ViewSearch(const config::Config& config, run::Plan& plan, View& view, const Request& request,
-             const run::Launcher& launcher, const Watch& watch)
+             const run::Launcher& launcher, const Watch& watch, const SearchCosts& costs)
       : config_(config),
         quick_(quickly_timed(config)),
         plan_(plan),
         view_(view),
         request_(request),
         launcher_(launcher),
-        watch_(watch) {
+        watch_(watch),
+        costs_(costs),
+        grids_(grids_of(view)) {
     for (const std::size_t camera : view.cameras)
       paths_.emplace_back(plan.scenes[view.scene].scene, plan.scenes[view.scene].paths[camera],
                           config.viewports[view.viewport], plan.scenes[view.scene].depths.get(), config.threads,
@@ -118,9 +120,10 @@ class ViewSearch {
     counting.sample_sets.clear();
     counting.lookup.reset();
     const Candidate& probe = view_.candidates.front();
-    begin_stage("the lights of " + number_of(frames.size(), "frame"), frames.size());
+    begin_stage("the lights of " + number_of(frames.size(), "frame"), frames.size(),
+                costs_.candidate_ns * static_cast<double>(frames.size()));
     for (std::size_t i = 0; i < frames.size() && !watch_.stop; ++i) {
-      tell(i, 1);
+      tell(i);
       const run::GroupPlan group = group_of({&probe, 1}, frames[i].camera);
       const run::AccuracyResult counted = accuracy_pass(
           counting, plan_.scenes[view_.scene], group, paths_[frames[i].camera].only({frames[i].index}), [](int) {},
@@ -178,7 +181,7 @@ class ViewSearch {
   }
 
   std::vector<run::TimingResult> quick_times(const run::GroupPlan& group, const run::PathFrames& path) const {
-    const run::LaunchRequest launch{0, quick_.timing.rounds, {}};
+    const run::LaunchRequest launch{0, quick_.timing.rounds, {}, {}, k_quick_warm_rounds};
     const run::GroupSamples samples = measure_launch(
         quick_, group, path, launch, [](int) {}, watch_.stop);
     if (samples.methods.empty()) return {};
@@ -195,9 +198,10 @@ class ViewSearch {
   // Records what candidates do on the first frames of the order.
   void record(std::span<const std::size_t> candidates, std::size_t frames) {
     std::size_t done = 0;
-    begin_stage(number_of(frames, "frame") + ": " + number_of(candidates.size(), "candidate"), candidates.size());
+    begin_stage(number_of(frames, "frame") + ": " + number_of(candidates.size(), "candidate"), candidates.size(),
+                costs_.rung_ns(candidates.size(), grids_, frames));
     for (const auto& [grid, some] : by_grid(candidates)) {
-      tell(done, frames);
+      tell(done);
       const std::vector<std::vector<run::CaseResult>> cases =
           measured(some, std::span(order_).first(frames), request_.is_timed);
       if (watch_.stop) return;
@@ -259,7 +263,6 @@ class ViewSearch {
   // Of the coarsest grids that are about as good as the best one, as far as they were looked at, the best candidate
   // each: whether they are is to be known on all frames.
   void add_coarse(std::vector<std::size_t>& chosen) const {
-    constexpr std::size_t k_most = 4;
     std::map<std::pair<std::uint64_t, std::size_t>, std::size_t> best;  // by cells and grid
     for (std::size_t i = 0; i < view_.candidates.size(); ++i) {
       const Record& record = found_.records[i];
@@ -270,7 +273,7 @@ class ViewSearch {
     }
     std::size_t count = 0;
     for (const auto& [grid, candidate] : best) {
-      if (count++ == k_most) break;
+      if (count++ == k_most_coarse) break;
       if (std::ranges::find(chosen, candidate) == chosen.end()) chosen.push_back(candidate);
     }
   }
@@ -280,8 +283,9 @@ class ViewSearch {
   void add_finalists(std::vector<std::size_t> candidates) {
     std::ranges::sort(candidates);
     begin_stage("all " + number_of(view_.frames, "frame") + ": " + number_of(candidates.size(), "candidate"),
-                candidates.size());
-    tell(0, view_.frames);
+                candidates.size(), costs_.last_ns(candidates.size(), grids_, view_.frames));
+    progress_.cost_total = before_stage_ns_ + stage_ns_;  // nothing else is planned
+    tell(0);
     std::vector<Finalist> finalists = request_.is_timed ? timed_finalists(candidates) : counted_finalists(candidates);
     if (watch_.stop) return;
     for (Finalist& finalist : finalists) {
@@ -296,7 +300,7 @@ class ViewSearch {
       std::vector<std::vector<run::CaseResult>> cases = measured(some, order_, false);
       if (watch_.stop) return {};
       for (std::size_t i = 0; i < some.size(); ++i) finalists.push_back({some[i], std::move(cases[i])});
-      tell(finalists.size(), view_.frames);
+      tell(finalists.size());
     }
     return finalists;
   }
@@ -311,7 +315,9 @@ class ViewSearch {
     }
     std::swap(plan_.groups, groups);
     run::Listener listener;
-    listener.on_progress = watch_.on_progress;
+    listener.on_progress = [&](const run::Progress& now) {
+      tell(now.cases_done / std::max<std::size_t>(1, view_.cameras.size()), now.cost_done / now.cost_total);
+    };
     const run::Result result = run_plan(config_, plan_, {}, listener, watch_.stop, {}, launcher_);
     std::swap(plan_.groups, groups);
     if (watch_.stop) return {};
@@ -370,26 +376,26 @@ class ViewSearch {
     }
   }
 
-  // Of the whole search, in candidates on frames.
   void plan_progress() {
-    const Halving planned = planned_halving(view_, request_);
-    progress_.cost_total = static_cast<double>(view_.frames * (1 + planned.finalists.size()));
-    for (const Rung& rung : planned.rungs) progress_.cost_total += static_cast<double>(rung.frames * rung.candidates);
+    progress_.cost_total = costs_.candidate_ns * static_cast<double>(view_.frames) +
+                           planned_ns(costs_, planned_halving(view_, request_), grids_, view_.frames);
   }
 
-  void begin_stage(const std::string& what, std::size_t total) {
-    const std::string doing = plan_.scenes[view_.scene].scene.name + ": " + what;
-    progress_.doing = doing;
+  // `ns`: what it costs, by what is planned.
+  void begin_stage(const std::string& what, std::size_t total, double ns) {
+    progress_.doing = plan_.scenes[view_.scene].scene.name + ": " + what;
     progress_.cases_total = total;
-    before_stage_ = static_cast<double>(found_.work.measurements);
-    if (watch_.on_stage && !watch_.stop) watch_.on_stage(doing);
+    before_stage_ns_ += stage_ns_;
+    stage_ns_ = ns;
+    if (watch_.on_stage && !watch_.stop) watch_.on_stage(progress_.doing);
   }
-  // `done` of the stage's candidates, on so many frames.
-  void tell(std::size_t done, std::size_t frames) {
+  // `done` of the stage's candidates.
+  void tell(std::size_t done) { tell(done, static_cast<double>(done) / static_cast<double>(progress_.cases_total)); }
+  void tell(std::size_t done, double share_of_stage) {
     if (!watch_.on_progress) return;
     progress_.cases_done = done;
-    progress_.cost_done = before_stage_ + static_cast<double>(done * frames);
-    progress_.cost_total = std::max(progress_.cost_total, progress_.cost_done);
+    progress_.cost_done = before_stage_ns_ + stage_ns_ * share_of_stage;
+    progress_.cost_total = std::max(progress_.cost_total, before_stage_ns_ + stage_ns_);
     watch_.on_progress(progress_);
   }
 
@@ -400,11 +406,13 @@ class ViewSearch {
   const Request& request_;
   const run::Launcher& launcher_;
   const Watch& watch_;
+  const SearchCosts& costs_;
+  std::size_t grids_;
   std::vector<run::PathFrames> paths_;  // of the cameras, whole
   std::vector<FrameOfView> order_;
   Found found_;
   run::Progress progress_;
-  double before_stage_ = 0.0;  // candidates on frames
+  double before_stage_ns_ = 0.0, stage_ns_ = 0.0;
 };
 
 }  // namespace
@@ -446,9 +454,20 @@ Halving planned_halving(const View& view, const Request& request) {
   });
 }
 
+SearchCosts estimated_costs(const config::Config& config, run::Plan& plan, const View& view) {
+  std::vector<run::GroupPlan> groups;
+  for (const run::GroupPlan& group : plan.groups)
+    if (group.scene == view.scene && group.viewport == view.viewport) groups.push_back(group);
+  return looked_at(config, plan, groups);
+}
+
+double estimated_s(const SearchCosts& costs, const View& view, const Request& request) {
+  return 1e-9 * planned_ns(costs, planned_halving(view, request), grids_of(view), view.frames);
+}
+
 Found search_view(const config::Config& config, run::Plan& plan, View& view, const Request& request,
-                  const run::Launcher& launcher, const Watch& watch) {
-  return ViewSearch(config, plan, view, request, launcher, watch).search();
+                  const run::Launcher& launcher, const Watch& watch, const SearchCosts& costs) {
+  return ViewSearch(config, plan, view, request, launcher, watch, costs).search();
 }
 
 }  // namespace clusterbench::search

@@ -13,6 +13,7 @@
 
 #include "run/runner.h"
 #include "search/halving.h"
+#include "search/search_cost.h"
 
 namespace clusterbench::search {
 
@@ -97,9 +98,14 @@ struct Watch {
 // frames. Coarse grids that are about as good and challengers come on top.
 Halving planned_halving(const View& view, const Request& request);
 
-// Sets the cells of the view's candidates. Finalists that are timed are so by `launcher` (run/runner.h). Throws Error
-// as run_plan() does. `plan` is as it was afterwards. What was found before a stop is in `records`.
+// About how long a view's search takes, and how long it can take by that at most. `plan` is as it was afterwards.
+SearchCosts estimated_costs(const config::Config& config, run::Plan& plan, const View& view);
+double estimated_s(const SearchCosts& costs, const View& view, const Request& request);
+
+// `costs`: for the progress that is told. Sets the cells of the view's candidates. Finalists that are timed are so by
+// `launcher` (run/runner.h). Throws Error as run_plan() does. `plan` is as it was afterwards. What was found before a
+// stop is in `records`.
 Found search_view(const config::Config& config, run::Plan& plan, View& view, const Request& request,
-                  const run::Launcher& launcher, const Watch& watch);
+                  const run::Launcher& launcher, const Watch& watch, const SearchCosts& costs = {});
 
 }  // namespace clusterbench::search

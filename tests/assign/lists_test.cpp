@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "core/error.h"
@@ -104,6 +105,30 @@ TEST(PairBuffer, more_pairs_than_an_offset_can_count_are_refused) {
     EXPECT_EQ(error.code(), ExitCode::usage);
     EXPECT_NE(std::string(error.what()).find("4294967296"), std::string::npos) << error.what();
   }
+}
+
+// Short lists of few lights: ascending, with equal neighbours, empty ones between, and with one pair out of order.
+TEST(Lists, ascend_if_each_of_them_does) {
+  SplitMix64 random(7);
+  int ascending = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Lists lists{{0}, {}};
+    for (std::uint64_t cell = 0, cells = random.below(6); cell < cells; ++cell) {
+      for (std::uint64_t k = random.below(4); k > 0; --k)
+        lists.lights.push_back(static_cast<std::uint32_t>(random.below(5)));
+      if (random.below(3) > 0) std::sort(lists.lights.begin() + lists.begin.back(), lists.lights.end());
+      lists.begin.push_back(static_cast<std::uint32_t>(lists.lights.size()));
+    }
+    bool each = true;
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+      each = each && std::is_sorted(lists.of(cell).begin(), lists.of(cell).end());
+    EXPECT_EQ(are_ascending(lists), each) << i;
+    ascending += each ? 1 : 0;
+    make_ascending(lists);
+    EXPECT_TRUE(are_ascending(lists)) << i;
+  }
+  EXPECT_GT(ascending, 500);
+  EXPECT_LT(ascending, 1900);
 }
 
 }  // namespace

@@ -315,7 +315,7 @@ TEST(Run, a_field_of_view_is_a_flag) {
             std::string::npos);
   EXPECT_EQ(tool("run " + source_file("scenes/street.glb") + " --fov 90h --viewport 9000x100").code, 2);
   const Outcome info = tool("scene info " + source_file("scenes/street.glb"));
-  EXPECT_NE(info.out.find("60 degrees high and 91.49 wide, 0.1 m"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("60 degrees high and 91.49 wide in 16:9, 0.1 m"), std::string::npos) << info.out;
 }
 
 TEST(Run, a_dry_run_lists_cases_and_measures_nothing) {

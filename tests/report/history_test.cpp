@@ -161,6 +161,8 @@ TEST_F(History, a_slower_commit_is_named_with_its_change_and_direction) {
   EXPECT_NE(said.find("at b1: 3000 to 3300, +10 %, worse (p 0.0"), std::string::npos) << said;
   EXPECT_EQ(said.find("brute-force"), std::string::npos) << said;
   EXPECT_NE(history_text(all, 14, true).find("brute-force"), std::string::npos);
+  EXPECT_NE(history_text(all, 14, true).find("  14 values, all 232\n"), std::string::npos) << "a mark that stays";
+  EXPECT_NE(said.find("  14 values, 3000 to 3296.7\n"), std::string::npos) << said;
   EXPECT_NE(said.find("14 results, "), std::string::npos) << said;
   EXPECT_NE(said.find(" series, 1 change of 0.5 % or more\n"), std::string::npos)
       << "the same time per pair is no second one\n"

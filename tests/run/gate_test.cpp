@@ -76,6 +76,27 @@ TEST(Gate, a_lost_pair_of_a_conservative_method_fails_and_of_another_loses_light
   EXPECT_TRUE(loses_lights(case_result));
 }
 
+TEST(Gate, pairs_of_lights_beside_the_view_that_a_preset_culls_are_told_apart_from_those_that_it_loses) {
+  CaseResult case_result = with_cells();
+  case_result.conservative = false;
+  case_result.preset = "godot";
+  case_result.error->true_pairs = 100;
+  case_result.error->false_negatives = 30;
+  case_result.error->deepest = measure::Miss{.frame = 5, .cell = 17, .light = 8, .rig_index = 9, .depth = 0.125};
+  case_result.pre_cull.emplace();
+  case_result.pre_cull->counts.lost_pairs = 25;
+  case_result.pre_cull->counts.lost_to_limits = 4;
+  ASSERT_EQ(warnings_of(case_result).size(), 1u);
+  EXPECT_EQ(warnings_of(case_result)[0].text,
+            "lost 9 of 100 true pairs, and leaves out 21 of lights beside the view, which it culls");
+  case_result.error->false_negatives = 21;
+  EXPECT_TRUE(warnings_of(case_result).empty()) << "what an engine culls is no loss";
+  EXPECT_FALSE(loses_lights(case_result));
+  case_result.error->false_negatives = 4;
+  case_result.pre_cull->counts.lost_pairs = 4;
+  EXPECT_TRUE(warnings_of(case_result)[0].text.starts_with("lost 4 of 100 true pairs; deepest in frame 5"));
+}
+
 TEST(Gate, any_difference_of_an_exact_method_fails) {
   CaseResult case_result = with_cells();
   case_result.error->false_positives = 1;

@@ -61,6 +61,19 @@ TEST(TimingPass, without_cold_times_nothing_is_swept_and_frames_are_told_apart_w
   EXPECT_GT(timing.frame_ns.median, 0.0);
 }
 
+TEST(TimingPass, warm_rounds_can_be_fewer_where_caches_are_cold) {
+  Walk walk = timed_walk(R"("assigners": ["aabb"])");
+  const LaunchRequest request{0, 4, {}, [] {}, 1};
+  const GroupSamples cold = measured(walk, request);
+  EXPECT_EQ(cold.methods[0].warm_ns.size(), 1u);
+  EXPECT_EQ(cold.methods[0].cold_each.size(), 4u);
+  const TimingResult timing = timing_results(walk.config, walk.plan.groups[0], std::span(&cold, 1))[0];
+  EXPECT_EQ(timing.frame_ns.samples.size(), 4u);
+  EXPECT_EQ(timing.warm->frame_ns.samples.size(), 1u);
+  walk.config.timing.cold = false;
+  EXPECT_EQ(measured(walk, request).methods[0].warm_ns.size(), 4u) << "there is nothing else";
+}
+
 TEST(TimingPass, the_frame_with_most_pairs_is_timed_beside_those_of_the_means) {
   const Walk walk = timed_walk(R"("assigners": ["aabb"])");
   const GroupSamples samples = measured(walk, {0, 1, {2}});

@@ -96,6 +96,29 @@ TEST(SearchView, has_measured_what_it_planned_when_it_is_stopped_before_the_last
   EXPECT_LT(shares.back(), 1.0);
 }
 
+TEST(SearchView, tells_how_far_the_whole_search_is_also_while_the_last_ones_are_timed) {
+  Walk walk = small_walk(6);
+  walk.config.timing = {.measure = true, .rounds = 2, .min_time_ms = 0.01, .frames = 2, .launches = 1};
+  const Judge judge = [](std::span<const run::CaseResult> cases) { return Verdict{entries(cases), 0.0, {}, false}; };
+  std::vector<View> views = views_of(walk.config, walk.plan);
+  const std::atomic<bool> stop = false;
+  std::vector<double> shares;
+  std::vector<std::string> doing;
+  const Watch watch{[&](const run::Progress& now) {
+                      shares.push_back(now.cost_done / now.cost_total);
+                      doing.push_back(now.doing);
+                    },
+                    stop};
+  const SearchCosts costs{.grid_ns = 5.0, .candidate_ns = 1.0, .last_timing_ns = 100.0};
+  const Found found =
+      search_view(walk.config, walk.plan, views[0], {.judge = judge, .is_timed = true, .least = 2}, {}, watch, costs);
+  EXPECT_TRUE(found.is_complete);
+  EXPECT_TRUE(std::ranges::is_sorted(shares)) << "of the whole search";
+  EXPECT_GT(shares.back(), 0.8);
+  EXPECT_LE(shares.back(), 1.0);
+  EXPECT_TRUE(doing.back().starts_with("walk: all 6 frames: ")) << doing.back();
+}
+
 TEST(SearchView, counts_what_it_measured_once_and_so_never_more_than_all) {
   for (const std::size_t least : {1u, 6u, 100u}) {
     Walk walk = small_walk(20);

@@ -45,10 +45,17 @@ std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view
   return "";
 }
 
+// Ascending lists descend nowhere but from the end of one to the beginning of the next. All entries at once are counted
+// many times faster than list by list: compilers make vectors of that loop.
 bool are_ascending(const Lists& lists) {
-  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
-    if (!std::is_sorted(lists.of(cell).begin(), lists.of(cell).end())) return false;
-  return true;
+  const std::uint32_t* const lights = lists.lights.data();
+  std::uint32_t descents = 0, between_lists = 0;
+  for (std::uint32_t i = lists.begin.front() + 1; i < lists.begin.back(); ++i) descents += lights[i] < lights[i - 1];
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+    const std::uint32_t at = lists.begin[cell];
+    if (at > lists.begin.front() && at < lists.begin[cell + 1]) between_lists += lights[at] < lights[at - 1];
+  }
+  return descents == between_lists;
 }
 
 void make_ascending(Lists& lists) {

@@ -425,7 +425,7 @@ GroupSamples measure_launch(const config::Config& config, const GroupPlan& group
     for (const std::size_t method : method_order(tracks.size(), config.seed, request.launch, round)) {
       if (stop) return {};
       TimingTrack& track = *tracks[method];
-      track.warm_round();
+      if (!config.timing.cold || round < request.warm_rounds) track.warm_round();
       if (!config.timing.cold) track.warm_frames();
       if (round < cold) track.cold_frames(sweep);
     }

@@ -14,6 +14,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <span>
 
 #include "run/path_frames.h"
@@ -30,10 +31,13 @@ int rounds_per_launch(const config::TimingRequest& timing, int launches);
 // reverse, so that neighbours change and nobody is always early.
 std::vector<std::size_t> method_order(std::size_t methods, std::uint64_t seed, int launch, int round);
 
+inline constexpr int k_all_rounds = std::numeric_limits<int>::max();
+
 struct LaunchRequest {
   int launch = 0, rounds = 1;        // which it is; the order of methods follows from it and the seed
   std::vector<int> fullest_frames;   // per method of the group: its frame with the most pairs; -1: none is known
   std::function<void()> sweep = {};  // empties the caches; without one those of this machine
+  int warm_rounds = k_all_rounds;    // of the first ones; where caches are cold, further rounds are so alone
 };
 
 // What this process measures; nothing of methods if stopped before the end.
