@@ -174,7 +174,8 @@ TEST(SizeCommand, worst_case_is_searched_first_and_the_capacity_has_room_for_wha
     const Outcome done = tool("size -q --all --worst-case --evaluations 300 --margin " + margin + " --format json" +
                               flags + "--set scenes.0.camera=before " + scene);
     ASSERT_EQ(done.code, 0) << done.err;
-    for (const Json& structure : Json::parse(done.out)["structures"]) {
+    const Json sized = Json::parse(done.out);
+    for (const Json& structure : sized["structures"]) {
       const Json& buffer = structure["buffers"][0];
       EXPECT_EQ(structure["search"]["evaluations"], 300);
       EXPECT_GT(buffer["found"], buffer["high_water"]) << "the camera stands before the lights";
