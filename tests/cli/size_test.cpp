@@ -508,6 +508,11 @@ TEST(SizeCommand, holds_what_it_counts_against_the_budgets_of_a_configuration_an
   EXPECT_NE(broken.err.find("and fails with longest > 2"), std::string::npos) << broken.err;
   EXPECT_EQ(Json::parse(broken.out)["structures"].size(), 1u) << "the sizes are printed all the same";
   EXPECT_EQ(sized("", "--fail-if 'longest > 2' ").code, 1);
+  for (const char* figure : {"lights_lit", "lights_seen"}) {
+    const Outcome lights = sized("\"" + std::string(figure) + " < 1000\"");
+    EXPECT_EQ(lights.code, 1) << lights.err;
+    EXPECT_NE(lights.err.find(std::string("and fails with ") + figure + " < 1000"), std::string::npos) << lights.err;
+  }
   // What only `run` measures is told, and is no success that nobody checked.
   const Outcome others = sized(R"("frame_us > 0", "missed > 0", "unlit > 0", "longest > 2")");
   EXPECT_EQ(others.code, 1);
