@@ -9,6 +9,7 @@
 #include "cli/run_inputs.h"
 #include "config/config.h"
 #include "report/allocation.h"
+#include "run/runner.h"
 #include "run/sweep.h"
 
 namespace clusterbench::cli {

@@ -1,4 +1,5 @@
 #include "cli/size_search.h"
+#include "cli/duration.h"
 
 #include <unistd.h>
 

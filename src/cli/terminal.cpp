@@ -28,17 +28,6 @@ std::string minutes_and_seconds(double seconds) {
 }  // namespace
 
 // One digit, or two of them: more would not be true.
-std::string duration_text(double seconds) {
-  const auto rounded = [](double value, const char* unit) {
-    const double step = value < 10.0 ? 1.0 : value < 100.0 ? 5.0 : 50.0;
-    return number_of(static_cast<std::uint64_t>(step * std::max(1.0, std::round(value / step))), unit);
-  };
-  if (seconds < 1.0) return "less than a second";
-  return "about " + (seconds < 100.0    ? rounded(seconds, "second")
-                     : seconds < 6000.0 ? rounded(seconds / 60.0, "minute")
-                                        : rounded(seconds / 3600.0, "hour"));
-}
-
 Terminal terminal(int stream) {
   Terminal found;
   const char* term = std::getenv("TERM");

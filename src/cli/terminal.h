@@ -16,9 +16,6 @@ struct Terminal {
 };
 Terminal terminal(int stream);  // STDERR_FILENO, STDOUT_FILENO
 
-// "about 2 minutes", of an estimate.
-std::string duration_text(double seconds);
-
 // A line with an estimate of the time left (by cost, not by count) on a terminal, else a line per finished case, and
 // one with the estimate where nothing else was told for ten seconds.
 class ProgressLine {

@@ -400,7 +400,8 @@ TEST(SizeCommand, shares_the_seconds_of_a_search_among_all) {
       "--set scenes.*.frames=3 " +
       street);
   ASSERT_EQ(done.code, 0) << done.err;
-  for (const Json& limit : Json::parse(done.out)["structures"][0]["settings"]["limits"])
+  const Json sized = Json::parse(done.out);
+  for (const Json& limit : sized["structures"][0]["settings"]["limits"])
     EXPECT_LT(limit["search"]["evaluations"], 5000) << limit;
 }
 
