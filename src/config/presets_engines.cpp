@@ -247,9 +247,9 @@ constexpr Preset k_engines[] = {
      .version = "commit 19687250",
      .evidence = Evidence::read,
      .source = "stride3d/stride, LightClusteredPointSpotGroupRenderer.cs",
-     .summary =
-         "64 px tiles, 8 slices of which the first ends at 2 m and each later one, from the third on, is twice as deep as the one before; the box of cells "
-         "around a sphere, spots by those of their ranges; equal lists shared",
+     .summary = "64 px tiles, 8 slices of which the first ends at 2 m and each later one, from the third on, is twice "
+                "as deep as the one before; the box of cells "
+                "around a sphere, spots by those of their ranges; equal lists shared",
      .approximated =
          "slices are those of a camera with its default far plane of 1000 m, whatever the camera's; equal lists "
          "are shared between neighbours, where it shares them between all cells",

@@ -132,8 +132,7 @@ TEST(Recommend, an_answer_does_not_depend_on_the_other_viewports) {
     EXPECT_EQ(tool("recommend " + input + flags + " --viewport " + viewports).code, 0);
     std::map<std::string, Json> all;
     const Json written = Json::parse(file_text(folder / "answer.json"));
-    for (const Json& answer : written["answers"])
-      all[answer["viewport"].dump()] = answer["choice"];
+    for (const Json& answer : written["answers"]) all[answer["viewport"].dump()] = answer["choice"];
     return all;
   };
   // Names begin with the viewport where there are several.
