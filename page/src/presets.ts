@@ -139,7 +139,8 @@ const shownColumns = (rows: Row[]) => columns.filter(({ value }) => rows.some((r
 
 // The conclusion first; then how lines come to their places.
 function leadOf(ranking: Ranking): string {
-  const rule = "★ costs the GPU least of the lists whose samples lack at most 0.1 % of the lights that they need. A place is 1 + how many are known to cost less: by over 5 %, and at prices of half and twice those of the key cost too. Those that lack more come last, behind those whose samples need fewer than 1000 lights, too few to say so.";
+  const rule =
+    "★ costs the GPU least of the lists whose samples lack at most 0.1 % of the lights that they need. A place is 1 + how many are known to cost less: by over 5 %, and at prices of half and twice those of the key cost too. Those that lack more come last, behind those whose samples need fewer than 1000 lights, too few to say so.";
   if (ranking.text === undefined) return rule;
   const seen = ranking.lights_in_view;
   const inView =
