@@ -174,7 +174,7 @@ class TileSlices final : public AssignerOf<TileSliceLists> {
   explicit TileSlices(const Params& params)
       : test_(params, CellAabbs::k_roundoffs), least_growth_(params.number("least_growth")) {}
 
-  void build(const grid::Grid& grid, const LightKinds&) override {
+  void build(const grid::Grid& grid, const LightKinds& kinds) override {
     grid_ = &grid;
     near_ = grid.screen().slices.boundaries.front();
     far_ = grid.screen().slices.boundaries.back();
@@ -183,14 +183,15 @@ class TileSlices final : public AssignerOf<TileSliceLists> {
     tiles_ = {one_slice};
     view_ = ViewCull(grid.screen());
     pixels_.build(grid.screen());
-    check_memory("slices of tiles", grid.cell_count() + tiles_.cell_count(), sizeof(TileSlicing::Bounds));
+    check_memory("slices of tiles", grid.cell_count(), sizeof(geom::Box) + (kinds.spots ? sizeof(geom::Ball) : 0));
     slicings_.resize(tiles_.cell_count());
-    bounds_.resize(grid.cell_count() + tiles_.cell_count());
+    boxes_.resize(grid.cell_count());
+    balls_.resize(kinds.spots ? grid.cell_count() : 0);
     depths_.clear(tiles_.cell_count());
   }
   std::uint64_t tests_done() const override { return tests_; }
   std::size_t scratch_bytes() const override {
-    return pixels_.capacity_bytes() + depths_.capacity_bytes() + bytes_of(slicings_, bounds_) +
+    return pixels_.capacity_bytes() + depths_.capacity_bytes() + bytes_of(slicings_, boxes_, balls_) +
            pairs_.capacity_bytes() + bytes_of(lists_.begin, lists_.lights);
   }
 
@@ -209,8 +210,9 @@ class TileSlices final : public AssignerOf<TileSliceLists> {
 
  private:
   int count() const { return grid_->screen().slices.count(); }
-  TileSlicing::Bounds& bounds(std::uint32_t tile, int slice) {
-    return bounds_[tile * (static_cast<std::size_t>(count()) + 1) + static_cast<std::size_t>(slice)];
+  // In the order of slices, tile by tile.
+  std::size_t place_of(std::uint32_t tile, int slice) const {
+    return tile * static_cast<std::size_t>(count()) + static_cast<std::size_t>(slice);
   }
 
   // Half of the slices reach to this depth: (g^(n/2) - 1) / (g^n - 1) is its share of the range.
@@ -226,11 +228,17 @@ class TileSlices final : public AssignerOf<TileSliceLists> {
   void slice(std::uint32_t tile) {
     const TileSlicing& slicing = slicings_[tile] =
         TileSlicing(near_, far_, count(), growth_for(depths_.empty(tile) ? far_ : depths_.hi[tile]));
+    geom::FrustumCell cell = std::get<geom::FrustumCell>(tiles_.cell(tile));
+    cell.depth0 = near_;
     double x = 1.0;
-    for (int at = 0; at <= count(); ++at, x *= static_cast<double>(slicing.growth))
-      bounds(tile, at) = slicing.bounds(at, x);
-    bounds(tile, 0).lo = near_;
-    bounds(tile, count()).hi = far_;
+    for (int at = 0; at < count(); ++at) {
+      x *= static_cast<double>(slicing.growth);
+      const TileSlicing::Bounds end = slicing.bounds(at + 1, x);
+      cell.depth1 = at + 1 == count() ? far_ : end.hi;
+      boxes_[place_of(tile, at)] = geom::box_around(cell);
+      if (!balls_.empty()) balls_[place_of(tile, at)] = geom::ball_around(cell);
+      cell.depth0 = end.lo;
+    }
   }
 
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
@@ -248,13 +256,11 @@ class TileSlices final : public AssignerOf<TileSliceLists> {
     if (!(near <= far_ && far >= near_)) return;
     const std::uint32_t tile = grid::cell_index({at.x, at.y, 0}, tiles_.cells());
     const int last = slicings_[tile].slice_of(std::min(far, far_));
-    geom::FrustumCell cell = std::get<geom::FrustumCell>(tiles_.cell(tile));
     for (int slice = slicings_[tile].slice_of(std::max(near, near_)); slice <= last; ++slice) {
-      cell.depth0 = bounds(tile, slice).lo;
-      cell.depth1 = bounds(tile, slice + 1).hi;
       ++tests_;
-      if (geom::ball_touches_box(light.ball, geom::box_around(cell)) &&
-          (!light.has_cone || geom::cone_touches_ball(light.cone, geom::ball_around(cell))))
+      const std::size_t place = place_of(tile, slice);
+      if (geom::ball_touches_box(light.ball, boxes_[place]) &&
+          (!light.has_cone || geom::cone_touches_ball(light.cone, balls_[place])))
         pairs_.add(grid::cell_index({at.x, at.y, slice}, grid_->cells()), light.index);
     }
   }
@@ -266,9 +272,10 @@ class TileSlices final : public AssignerOf<TileSliceLists> {
   float near_ = 0.0f, far_ = 0.0f;
   ViewCull view_;
   PixelDepths pixels_;
-  DepthRanges depths_;                       // of the tiles
-  std::vector<TileSlicing> slicings_;        // the same
-  std::vector<TileSlicing::Bounds> bounds_;  // where slices begin, tile by tile, and where the last one ends
+  DepthRanges depths_;                 // of the tiles
+  std::vector<TileSlicing> slicings_;  // the same
+  std::vector<geom::Box> boxes_;       // around the frame's cells
+  std::vector<geom::Ball> balls_;      // the same, where there are spots
   PairBuffer pairs_;
   Lists lists_;
   std::uint64_t tests_ = 0;
