@@ -387,6 +387,8 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
   if (!alike.empty())
     out += std::string(". No difference that these ") + (objective["timed"] == true ? "times" : "figures") +
            " can show to " + joined(alike);
+  if (const Json* why = value_at(answer, "/no_reader"); why != nullptr && why->is_string())
+    out += ". `size --format hlsl` (glsl) has no function that reads its lists: " + shown(*why);
   const Json searched = answer.value("searched", Json::array());
   if (!searched.empty() && number_at(searched[0], "/by_choice").value_or(1.0) < 1.0)
     out += ". " + shown(searched[0]["name"].get<std::string>()) + ", which samples search, would have " +

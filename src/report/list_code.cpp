@@ -331,6 +331,11 @@ std::string why_no_reader(const SizedStructure& structure) {
   return reader_of(structure).refusal;
 }
 
+std::string why_no_reader(const Json& cases) {
+  const Json result{{"cases", cases}};
+  return why_no_reader(sized_structures(result, "", {}).front());
+}
+
 std::string list_code(const NamedStructure& named, ShaderLanguage language, int& slot) {
   const Reader reader = reader_of(named.structure);
   if (reader.code.empty()) return "// no function here reads its lists: " + reader.refusal + "\n";

@@ -21,6 +21,8 @@ std::string list_code(const NamedStructure& named, ShaderLanguage language, int&
 
 // Why nothing of it reads a structure's lists: "its tiles react, ..."; "" where it has them.
 std::string why_no_reader(const SizedStructure& structure);
+// The same of the cases of one structure on its cameras, as a result has them.
+std::string why_no_reader(const nlohmann::ordered_json& cases);
 
 // What list_code() declares.
 std::vector<std::string> list_code_names(const NamedStructure& named);

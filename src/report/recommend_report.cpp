@@ -16,6 +16,7 @@
 #include "report/frame_cost.h"
 #include "report/json_values.h"
 #include "report/limits.h"
+#include "report/list_code.h"
 #include "report/machine.h"
 #include "report/nothing_seen.h"
 #include "report/result_json.h"
@@ -516,6 +517,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
            {"random_depths", false},
            {"ground_m", nullptr},
            {"needed_at_samples", nullptr},
+           {"no_reader", nullptr},
            {"nothing_seen", unseen.empty() ? Json() : Json(unseen)},
            {"choice", nullptr},
            {"runners_up", Json::array()},
@@ -534,6 +536,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
     if (coarsest != &all[0]) out["coarsest"] = ranked_json(config, view, *coarsest, all[0], question);
     out["runners_up"] = runners_up_json(config, view, all, question);
     if (const Json* height = value_at(all[0].cases[0], "/samples/opaque/ground_m")) out["ground_m"] = *height;
+    if (const std::string why = why_no_reader(all[0].cases); !why.empty()) out["no_reader"] = why;
     if (question.objective.is_cost) out["needed_at_samples"] = needed_over(all[0].cases);
     out["random_depths"] = rests_on_random_depths(all[0].cases[0], question.objective);
   }

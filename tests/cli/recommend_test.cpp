@@ -99,6 +99,21 @@ TEST(Recommend, ranks_what_samples_search_apart_and_never_takes_it_while_there_a
   }
 }
 
+TEST(Recommend, says_where_no_shader_function_reads_the_choice) {
+  const Recommended listed = recommended(space(), "--no-timing --by bytes --tiles 64 --slices 4");
+  ASSERT_EQ(listed.outcome.code, 0) << listed.outcome.err;
+  EXPECT_TRUE(listed.answer["no_reader"].is_null()) << listed.answer["no_reader"];
+  std::string config = space();
+  config.replace(config.find(R"("aabb-fast", "exact-fast", "world-grid-fast")"), 44, R"("z-binning")");
+  const Recommended searched = recommended(config, "--no-timing --by bytes --tiles 64 --slices 4");
+  ASSERT_EQ(searched.outcome.code, 0) << searched.outcome.err;
+  ASSERT_TRUE(searched.answer["no_reader"].is_string());
+  EXPECT_NE(searched.outcome.out.find(". `size --format hlsl` (glsl) has no function that reads its lists: " +
+                                      searched.answer["no_reader"].get<std::string>()),
+            std::string::npos)
+      << searched.outcome.out;
+}
+
 TEST(Recommend, says_that_depths_are_random_and_what_to_do_and_a_ground_changes_that) {
   const std::string config = space(R"(, "samples": {"opaque": {}})");
   const std::string flags = "--no-timing --tiles 64 --slices 4,8 --assigner exact-fast";
