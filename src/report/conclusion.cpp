@@ -338,7 +338,8 @@ std::string smallest_text(const Json& answer, const Json& objective) {
 std::string excluding_text(const Json& answer) {
   constexpr std::size_t k_most = 3;
   std::vector<std::pair<std::uint64_t, std::string>> excluding;
-  for (const Json& row : answer["constraints"])
+  const Json constraints = answer.value("constraints", Json::array());
+  for (const Json& row : constraints)
     if (const auto excluded = row["excluded"].get<std::uint64_t>(); excluded > 0)
       excluding.emplace_back(excluded, shown(row["constraint"]));
   std::ranges::stable_sort(excluding, std::greater<>(), &std::pair<std::uint64_t, std::string>::first);
