@@ -43,12 +43,12 @@ Json preset_level_json(const PresetLevel& level, SplitMix64& random) {
   const Json lamp{{"type", "point"}, {"range", 2.0}, {"intensity", level.are_dark ? 0.0 : 50.0}};
   Json out{{"asset", {{"version", "2.0"}}},
            {"scene", 0},
-           {"scenes", {{{"nodes", all}}}},
+           {"scenes", Json::array({{{"nodes", all}}})},
            {"nodes", nodes},
            {"cameras", {perspective, flat}}};
   if (level.seen + level.behind == 0) return out;
-  out["extensionsUsed"] = {"KHR_lights_punctual"};
-  out["extensions"]["KHR_lights_punctual"]["lights"] = {lamp};
+  out["extensionsUsed"] = Json::array({"KHR_lights_punctual"});
+  out["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({lamp});
   return out;
 }
 
