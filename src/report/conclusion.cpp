@@ -25,8 +25,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* k_remedy =
     "--set 'samples.opaque={}' (levels with triangles) or samples.opaque.ground=lowest shades surfaces, and can change "
-    "the "
-    "choice";
+    "the choice";
 
 // Of samples that need few lights. "" where they need enough.
 std::string few_samples_text(double needed) {
@@ -218,7 +217,7 @@ measure::Interval by_prices(const Choice& choice) {
 }
 
 std::string against_text(const Choice& choice) {
-  if (choice.against == nullptr) return choice.alike.empty() ? "; no other case loses nothing" : "";
+  if (choice.against == nullptr) return choice.alike.empty() ? "; no other case that loses nothing was measured" : "";
   const std::string out =
       "; " + case_title(*choice.against->result_case) + " costs " +
       more_text(choice.times_as_much(), choice.ratio ? choice.ratio->ci95 : measure::Interval{}, by_prices(choice));
@@ -421,6 +420,7 @@ void conclude_failures(Json& result, const std::vector<std::string>& failures) {
   const std::string text = "nothing to take: " + failure_text(result);
   for (Json& conclusion : result["conclusions"]) {
     for (const char* key : {"take", "against", "ratio", "ci95"}) conclusion[key] = nullptr;
+    conclusion.erase("by_prices");
     conclusion["alike"] = Json::array();
     conclusion["text"] = view_text(conclusion) + text + ".";
   }

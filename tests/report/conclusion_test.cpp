@@ -234,10 +234,12 @@ TEST(Conclusion, of_a_run_that_failed_nothing_is_taken_and_it_says_for_what) {
                               {"alike", {"fast"}},
                               {"cases", Json::array()},
                               {"text", "take fast"}}};
+  json["conclusions"][0]["by_prices"] = {1.1, 1.2};
   conclude_failures(json, {"hall: too many", "hall: too few"});
   EXPECT_EQ(json["failed"], Json({"hall: too many", "hall: too few"}));
   const Json& conclusion = json["conclusions"][0];
   for (const char* key : {"take", "against", "ratio", "ci95"}) EXPECT_TRUE(conclusion[key].is_null()) << key;
+  EXPECT_FALSE(conclusion.contains("by_prices")) << "of a difference to nothing";
   EXPECT_EQ(conclusion["alike"], Json::array());
   const std::string why = "the run FAILED: hall: too many (and for 1 other reason)";
   EXPECT_EQ(conclusion["text"], "hall, camera walk, 1920x1080: nothing to take: " + why + ".");
