@@ -1,11 +1,11 @@
 #include "cli/size_search.h"
-#include "cli/duration.h"
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 
+#include "cli/duration.h"
 #include "cli/stop.h"
 #include "core/error.h"
 #include "core/text.h"

@@ -601,6 +601,16 @@ std::unique_ptr<assign::Storage> storage_of_label(const std::string& label) {
   return found.make(assign::Params(found.params, values));
 }
 
+// A compute shader of one thread that reads `samples` and writes `cells`, behind what an include asks for.
+std::string program_of(const std::string& included, const std::string& body, bool is_hlsl) {
+  const std::string start = is_hlsl ? "RWStructuredBuffer<uint> samples : register(u0);\n"
+                                      "RWStructuredBuffer<int> cells : register(u1);\n"
+                                    : "#version 450\nlayout(local_size_x = 1) in;\n"
+                                      "layout(std430, binding = 0) buffer In { uint samples[]; };\n"
+                                      "layout(std430, binding = 1) buffer Out { int cells[]; };\n";
+  return start + included + (is_hlsl ? "[numthreads(1, 1, 1)] void main() {\n" : "void main() {\n") + body + "}\n";
+}
+
 // The words that the shaders read are made here, by hand: of what is stored the tool's own storages have as many
 // elements, in as many bytes, and read the same lists.
 TEST(SizeEncodings, are_what_the_storages_themselves_need_and_read) {
@@ -677,14 +687,7 @@ TEST_P(SizeLookups, read_the_nth_light_of_a_cell_out_of_each_form_of_buffers) {
               n + ") cells[" + at + " + 8 * c" + n + " + 1 + int(k" + n + ")] = int(" + name + "_index_at(c" + n +
               ", k" + n + "));\n  }\n";
     }
-    const std::string start = GetParam() ? "RWStructuredBuffer<uint> samples : register(u0);\n"
-                                           "RWStructuredBuffer<int> cells : register(u1);\n"
-                                         : "#version 450\nlayout(local_size_x = 1) in;\n"
-                                           "layout(std430, binding = 0) buffer In { uint samples[]; };\n"
-                                           "layout(std430, binding = 1) buffer Out { int cells[]; };\n";
-    ASSERT_TRUE(compiles(start + defines + size_report(json, request) +
-                             (GetParam() ? "[numthreads(1, 1, 1)] void main() {\n" : "void main() {\n") + body + "}\n",
-                         GetParam()));
+    ASSERT_TRUE(compiles(program_of(defines + size_report(json, request), body, GetParam()), GetParam()));
     const std::vector<std::int32_t> read = answers(words, all.size() * lists.size() * k_most);
     ASSERT_EQ(read.size(), all.size() * lists.size() * k_most);
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -745,14 +748,7 @@ TEST_P(SizeLookups, read_the_lists_of_the_vth_view_and_nothing_outside_of_its_gr
             "_index_at(v, c, uint(k)));\n    }\n";
     EXPECT_NE(size_report(json, request).find(name + "_cells_of_view = 7;"), std::string::npos);
   }
-  const std::string start = GetParam() ? "RWStructuredBuffer<uint> samples : register(u0);\n"
-                                         "RWStructuredBuffer<int> cells : register(u1);\n"
-                                       : "#version 450\nlayout(local_size_x = 1) in;\n"
-                                         "layout(std430, binding = 0) buffer In { uint samples[]; };\n"
-                                         "layout(std430, binding = 1) buffer Out { int cells[]; };\n";
-  ASSERT_TRUE(compiles(start + defines + size_report(json, request) +
-                           (GetParam() ? "[numthreads(1, 1, 1)] void main() {\n" : "void main() {\n") + body + "}\n",
-                       GetParam()));
+  ASSERT_TRUE(compiles(program_of(defines + size_report(json, request), body, GetParam()), GetParam()));
   const std::vector<std::int32_t> read = answers(words, all.size() * 2 * 8 * k_stride);
   ASSERT_EQ(read.size(), all.size() * 2 * 8 * k_stride);
   for (std::size_t i = 0; i < all.size(); ++i)
