@@ -27,11 +27,11 @@ View = collections.namedtuple("View", "caption layer level", defaults=(None,))
 VIEWS = {
     "frustum": View("the slice from 8.7 to 10.8 m, as the camera sees it", 10),
     "distance": View("the shell from 8.7 to 10.8 m, as the camera sees it", 10),
-    "cascades": View("boxes of 0.5 m at the height of the ball's centre, from above; the eye is below", 16, 1),
-    "world": View("boxes at the height of the ball's centre, from above; the eye is below", 4),
+    "cascades": View("boxes of 0.5 m at the height of the sphere's centre, from above; the eye is below", 16, 1),
+    "world": View("boxes at the height of the sphere's centre, from above; the eye is below", 4),
 }
 # Methods whose mistake shows only where something is lost: scene, part of the grid's name, and the view.
-LOST = ("methods-lost", "12x12", View("the slice from 35.9 to 50.8 m of 12 × 12 tiles and a ball that reaches one more", 17))
+LOST = ("methods-lost", "12x12", View("the slice from 35.9 to 50.8 m of 12 × 12 tiles and a sphere that reaches one more", 17))
 BOXES = ("methods-boxes", "32x18", View("the slice from 8.7 to 10.8 m, with a turned box beside the two lights", 10))
 SPECIAL = {"naive-refinement": LOST, "bevy-refinement": LOST, "box-bounds": BOXES, "box-refined": BOXES, "box-separating-axis": BOXES}
 # Which form of a method is drawn, where not the first.
