@@ -86,6 +86,18 @@ bool are_mixed(const std::string& a, const std::string& b) {
   return are_one_file(first, second) && !are_one_file(first, "/dev/null");
 }
 
+// A file in a folder that is not there cannot be made, and the system says so of the file.
+void refuse_missing_folder(const std::string& output) {
+  std::error_code none;
+  const fs::path folder = file_of(output).parent_path();
+  if (fs::is_directory(folder, none)) return;
+  const std::string given = fs::path(output).parent_path().string();
+  throw Error(output, "",
+              "cannot be written: " + (fs::exists(folder, none)
+                                           ? "'" + given + "' is no folder"
+                                           : "there is no folder '" + given + "'; make it first (mkdir -p)"));
+}
+
 }  // namespace
 
 void refuse_overwriting(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
@@ -95,6 +107,7 @@ void refuse_overwriting(const std::vector<std::string>& outputs, const std::vect
         throw Error(outputs[i] == "-" ? "standard output" : outputs[i], "",
                     "is to hold two outputs of this command: name a file for each");
     if (is_stream(outputs[i])) continue;
+    refuse_missing_folder(outputs[i]);
     for (const std::string& input : inputs)
       if (!input.empty() && are_one_file(outputs[i], input))
         throw Error(outputs[i], "", "is read by this command and would be lost: name another file for the output");

@@ -130,20 +130,6 @@ void tell_duration(const config::Config& config, const run::Plan& plan, std::spa
   tell(wait_text(number_of(case_count(plan), "case"), all_s, shorter));
 }
 
-ExitCode print_plan(const config::Config& config, const run::Plan& plan) {
-  for (const run::GroupPlan& group : plan.groups)
-    for (const run::CasePlan& case_plan : group.cases)
-      std::cout << case_plan.id << "  " << printable(case_plan.name) << "\n";
-  print_skipped(plan.skipped);
-  std::cerr << number_of(case_count(plan), "case") << ", " << plan.skipped.size() << " skipped; takes "
-            << duration_text(run::estimated_s(config, plan)) << "\n";
-  for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
-    const run::SceneResult scene = run::scene_result(plan.scenes[i], config.scenes[i], config.viewports);
-    for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
-  }
-  return ExitCode::ok;
-}
-
 // The configuration without what no result depends on.
 Json what_is_measured(const config::Config& config) {
   Json out = config.resolved;
@@ -163,12 +149,48 @@ Json journal_header(const config::Config& config, const run::Plan& plan, const R
   return header;
 }
 
+[[noreturn]] void throw_no_file_to_resume() {
+  throw Error("", "--resume", "needs the result file of the interrupted run: add -o FILE");
+}
+
+// The plan without the cases that an interrupted run has finished.
+run::Plan plan_left(run::Plan plan, const std::vector<std::string>& done) {
+  for (run::GroupPlan& group : plan.groups)
+    std::erase_if(group.cases, [&](const run::CasePlan& one) { return std::ranges::find(done, one.id) != done.end(); });
+  std::erase_if(plan.groups, [](const run::GroupPlan& group) { return group.cases.empty(); });
+  return plan;
+}
+
+ExitCode print_plan(const RunFlags& flags, const config::Config& config, run::Plan all) {
+  if (flags.resume && is_stream(flags.output)) throw_no_file_to_resume();
+  const std::vector<std::string> done = flags.resume
+                                            ? report::finished_ids(flags.output, journal_header(config, all, flags))
+                                            : std::vector<std::string>{};
+  const std::size_t total = case_count(all);
+  const run::Plan plan = plan_left(std::move(all), done);
+  for (const run::GroupPlan& group : plan.groups)
+    for (const run::CasePlan& case_plan : group.cases)
+      std::cout << case_plan.id << "  " << printable(case_plan.name) << "\n";
+  print_skipped(plan.skipped);
+  const std::size_t left = case_count(plan);
+  std::cerr << number_of(left, "case")
+            << (flags.resume ? " left of " + std::to_string(total) + ", " + std::to_string(total - left) + " done"
+                             : std::string())
+            << ", " << plan.skipped.size() << " skipped; takes " << duration_text(run::estimated_s(config, plan))
+            << "\n";
+  for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
+    const run::SceneResult scene = run::scene_result(plan.scenes[i], config.scenes[i], config.viewports);
+    for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
+  }
+  return ExitCode::ok;
+}
+
 // A file gets a journal; a device or a pipe takes the result at the end.
 std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const config::Config& config,
                                               const run::Plan& plan) {
   constexpr std::uint64_t k_bytes_per_case = 24 << 10;
   if (is_stream(flags.output)) {
-    if (flags.resume) throw Error("", "--resume", "needs the result file of the interrupted run: add -o FILE");
+    if (flags.resume) throw_no_file_to_resume();
     return nullptr;
   }
   const std::uint64_t per_case = k_bytes_per_case + (config.details ? config.details->max_bytes : 0);
@@ -194,7 +216,16 @@ Error with_what_is_kept(const Error& error, const report::Journal* journal) {
 }
 
 ExitCode interrupted(const report::Journal* journal) {
-  tell("interrupted" + what_is_kept(journal));
+  if (journal == nullptr)
+    tell(
+        "interrupted; nothing is kept without a file: -o FILE keeps each case as it is finished, and then --resume "
+        "goes on");
+  else if (journal->is_empty())
+    tell(
+        "interrupted before a case was finished, so nothing is kept: the same command begins anew; once some are, "
+        "--resume goes on");
+  else
+    tell("interrupted" + what_is_kept(journal));
   return stopped_exit_code();
 }
 
@@ -443,10 +474,10 @@ ExitCode run(const RunFlags& flags) {
   if (flags.serves_launch || !flags.count_dumps.empty()) return serve_run(flags);
   const config::Config config = overridden(read_config(flags), flags);
   const CountWay way = count_way(flags.count);
-  const run::Plan plan = run::make_plan(config, flags.filter);
+  run::Plan plan = run::make_plan(config, flags.filter);
   if (flags.rounds_server != 0) return serve(flags, config, plan);
   const std::vector<ExportTarget> exports = export_targets(flags.exports);
-  if (flags.dry_run) return print_plan(config, plan);
+  if (flags.dry_run) return print_plan(flags, config, std::move(plan));
   if (!flags.baseline.binary.empty()) check_baseline(flags);
   return measure(flags, config, plan, way, exports);
 }

@@ -2,8 +2,11 @@
 // What a terminal can show, and the progress of a run on standard error.
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <mutex>
 #include <string>
+#include <thread>
 
 #include "run/runner.h"
 
@@ -17,11 +20,11 @@ struct Terminal {
 Terminal terminal(int stream);  // STDERR_FILENO, STDOUT_FILENO
 
 // A line with an estimate of the time left (by cost, not by count) on a terminal, else a line per finished case, and
-// one with the estimate where nothing else was told for ten seconds.
+// one with the estimate where nothing else was told for ten seconds, however long a step takes.
 class ProgressLine {
  public:
-  ProgressLine(Terminal terminal, bool quiet) : terminal_(terminal), quiet_(quiet) {}
-  ~ProgressLine() { clear(); }
+  ProgressLine(Terminal terminal, bool quiet, std::chrono::milliseconds tell_every = std::chrono::seconds(10));
+  ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
@@ -32,12 +35,24 @@ class ProgressLine {
   void clear();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string line() const;
+  void tell_line(const std::string& line);
+  void tell_in_silence(const std::stop_token& stop);
+
   Terminal terminal_;
   bool quiet_;
+  std::chrono::milliseconds tell_every_;
   bool drawn_ = false;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point drawn_at_{};
-  std::chrono::steady_clock::time_point told_at_ = std::chrono::steady_clock::now();  // a line that stays
+  Clock::time_point start_ = Clock::now(), drawn_at_{};
+
+  std::mutex mutex_;  // of what follows
+  std::condition_variable_any changed_;
+  run::Progress last_;
+  bool has_last_ = false;                     // and it is still going on
+  Clock::time_point told_at_ = Clock::now();  // a line that stays
+  std::jthread teller_;                       // where no line can be redrawn
 };
 
 }  // namespace clusterbench::cli

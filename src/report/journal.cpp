@@ -3,12 +3,15 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <functional>
 
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "core/error.h"
+#include "core/file_text.h"
 #include "core/text.h"
 #include "report/compact_json.h"
+#include "report/json_values.h"
 
 namespace clusterbench::report {
 namespace {
@@ -39,7 +42,40 @@ fs::path partial_of(const fs::path& file) {
   return file.string() + ".partial";
 }
 
+// Calls take(entry) for each line behind the header, which returns whether it is one that a run writes. Returns where
+// the last whole line ends.
+std::size_t each_entry(const std::string& text, const fs::path& path, const Json& header,
+                       const std::function<bool(Json& entry)>& take) {
+  std::size_t begin = 0;
+  for (int number = 1; begin < text.size(); ++number) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;  // the line that was being written when the run ended
+    Json entry = Json::parse(text.substr(begin, end - begin), nullptr, false);
+    const auto refuse = [&](const std::string& what) {
+      throw Error(path.string(), "line " + std::to_string(number),
+                  what + "; without --resume the run begins anew and the file is kept under another name");
+    };
+    if (number == 1 && (!entry.is_object() || !entry.contains("header"))) refuse("does not say what was run");
+    if (number == 1 && entry["header"] != header)
+      refuse("is an interrupted run of another configuration, --count, scene or build");
+    if (number > 1 && !(entry.is_object() && take(entry))) refuse("is not what a run writes");
+    begin = end + 1;
+  }
+  return begin;
+}
+
 }  // namespace
+
+std::vector<std::string> finished_ids(const fs::path& file, const Json& header) {
+  const fs::path partial = partial_of(target_of(file));
+  std::vector<std::string> ids;
+  if (!fs::exists(partial)) return ids;
+  each_entry(file_text(partial.string()), partial, header, [&](const Json& entry) {
+    if (const Json* id = value_at(entry, "/case/id"); id != nullptr && id->is_string()) ids.push_back(*id);
+    return true;
+  });
+  return ids;
+}
 
 Journal::Journal(const fs::path& file, const Json& header, bool resume, std::uint64_t expected_bytes)
     : file_(target_of(file)), partial_(partial_of(file_)) {
@@ -68,27 +104,13 @@ void Journal::set_earlier_aside() {
 }
 
 void Journal::read_earlier(const Json& header) {
-  const std::string text = partial_.text();
-  std::size_t begin = 0;
-  for (int number = 1; begin < text.size(); ++number) {
-    const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos) break;  // the line that was being written when the run ended
-    Json entry = Json::parse(text.substr(begin, end - begin), nullptr, false);
-    const auto refuse = [&](const std::string& what) {
-      throw Error(partial_path().string(), "line " + std::to_string(number),
-                  what + "; without --resume the run begins anew and the file is kept under another name");
-    };
-    if (number == 1 && (!entry.is_object() || !entry.contains("header"))) refuse("does not say what was run");
-    if (number == 1 && entry["header"] != header)
-      refuse("is an interrupted run of another configuration, --count, scene or build");
-    if (number > 1 && entry.is_object() && entry.contains("case"))
-      earlier_cases_.push_back(std::move(entry["case"]));
-    else if (number > 1 && !take_answer(entry))
-      refuse("is not what a run writes");
-    begin = end + 1;
-  }
+  const std::size_t end = each_entry(partial_.text(), partial_path(), header, [&](Json& entry) {
+    if (!entry.contains("case")) return take_answer(entry);
+    earlier_cases_.push_back(std::move(entry["case"]));
+    return true;
+  });
   check_earlier();
-  partial_.cut_to(begin);
+  partial_.cut_to(end);
 }
 
 void Journal::check_earlier() const {

@@ -16,6 +16,9 @@
 
 namespace clusterbench::report {
 
+// The ids of the cases that an interrupted run has finished, as Journal with `resume` finds them; nothing is written.
+std::vector<std::string> finished_ids(const std::filesystem::path& file, const nlohmann::ordered_json& header);
+
 class Journal {
  public:
   // Starts FILE.partial, or with `resume` goes on with it. `header` says what is being run: an interrupted run

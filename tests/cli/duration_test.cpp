@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <thread>
 
 #include "cli/terminal.h"
 #include "cli/tool.h"
@@ -67,6 +69,33 @@ TEST(Duration, is_told_in_the_first_line_of_each_command_that_somebody_waits_for
     EXPECT_TRUE(std::regex_match(first, told)) << first;
     EXPECT_EQ(tool(arguments + " -q").err.find("takes "), std::string::npos);
   }
+}
+
+// Where no line can be redrawn.
+TEST(Progress, a_step_that_takes_long_says_again_and_again_that_it_goes_on) {
+  ::testing::internal::CaptureStderr();
+  {
+    ProgressLine line({.interactive = false}, false, std::chrono::milliseconds(20));
+    line.show({3, 8, 50.0, 200.0, "level: truth"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  }
+  const std::string told = ::testing::internal::GetCapturedStderr();
+  std::size_t lines = 0;
+  for (std::size_t at = told.find("[3/8] 25 %"); at != std::string::npos; at = told.find("[3/8] 25 %", at + 1)) ++lines;
+  EXPECT_GE(lines, 2u) << told;
+  EXPECT_NE(told.find("  level: truth\n"), std::string::npos) << told;
+}
+
+TEST(Progress, nothing_is_told_before_there_is_something_and_after_it_has_ended) {
+  ::testing::internal::CaptureStderr();
+  {
+    ProgressLine line({.interactive = false}, false, std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    line.show({3, 8, 50.0, 200.0, "level: truth"});
+    line.clear();
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace

@@ -315,7 +315,7 @@ TEST(Run, a_field_of_view_is_a_flag) {
             std::string::npos);
   EXPECT_EQ(tool("run " + source_file("scenes/street.glb") + " --fov 90h --viewport 9000x100").code, 2);
   const Outcome info = tool("scene info " + source_file("scenes/street.glb"));
-  EXPECT_NE(info.out.find("60 degrees high and 91.49 wide in 16:9, 0.1 m"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("vertical FOV 60°, horizontal 91.49° in 16:9, 0.1 m"), std::string::npos) << info.out;
 }
 
 TEST(Run, a_dry_run_lists_cases_and_measures_nothing) {
@@ -390,11 +390,11 @@ TEST(Run, scenes_and_configurations_are_not_mixed) {
 }
 
 // Starts a run, waits for its journal, then ends it as a shutting-down machine would.
-int interrupt(const std::string& config, const std::string& out) {
+int interrupt(const std::string& config, const std::string& out, const std::string& messages = "/dev/null") {
   const std::string run = test::program() + " run -q " + config + " -o " + out;
   const std::string wait_for_journal = "while [ ! -s " + out + ".partial ]; do sleep 0.01; done";
   const int status =
-      std::system((run + " 2>/dev/null & pid=$!; " + wait_for_journal + "; kill -TERM $pid; wait $pid").c_str());
+      std::system((run + " 2>" + messages + " & pid=$!; " + wait_for_journal + "; kill -TERM $pid; wait $pid").c_str());
   return WEXITSTATUS(status);
 }
 
@@ -408,9 +408,13 @@ TEST(Run, a_termination_signal_keeps_what_is_finished_and_exits_75) {
   const Folder folder;
   const std::string config = folder.write("slow.json", slow_config()).string();
   const std::string out = (folder / "r.json").string();
-  EXPECT_EQ(interrupt(config, out), 75);
+  const std::string messages = (folder / "messages").string();
+  EXPECT_EQ(interrupt(config, out, messages), 75);
   EXPECT_FALSE(std::filesystem::exists(out));
   EXPECT_TRUE(std::filesystem::exists(out + ".partial"));
+  const std::string told = file_text(messages);
+  EXPECT_NE(told.find("interrupted"), std::string::npos);
+  EXPECT_NE(told.find("--resume goes on"), std::string::npos) << told;
 }
 
 TEST(Run, an_interrupted_run_resumes_to_the_same_counts) {
@@ -427,6 +431,13 @@ TEST(Run, an_interrupted_run_resumes_to_the_same_counts) {
   EXPECT_NE(refused.err.find("is an interrupted run of another"), std::string::npos) << refused.err;
   EXPECT_EQ(tool("run -q --resume --tiles 32 " + config + " -o " + cut).code, 2);
 
+  const std::size_t all = complete["cases"].size();
+  const Outcome left = tool("run --resume --dry-run " + config + " -o " + cut);
+  EXPECT_EQ(left.code, 0) << left.err;
+  EXPECT_NE(left.err.find(" left of " + std::to_string(all) + ", "), std::string::npos) << left.err;
+  EXPECT_EQ(left.out.find(complete["cases"][0]["id"].get<std::string>()), std::string::npos) << left.out;
+  EXPECT_FALSE(std::filesystem::exists(cut)) << "nothing is measured";
+
   const Outcome resumed = tool("run -q --resume --threads 2 " + config + " -o " + cut);
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   EXPECT_EQ(resumed.err.find("clusterbench: "), std::string::npos) << resumed.err;  // warnings of times may be
@@ -434,6 +445,23 @@ TEST(Run, an_interrupted_run_resumes_to_the_same_counts) {
   EXPECT_EQ(same["config"]["threads"], 2);
   same["config"]["threads"] = 1;
   EXPECT_EQ(same.dump(), without_timing(complete).dump());
+}
+
+TEST(Run, an_output_in_a_folder_that_is_not_there_names_the_folder_before_anything_is_measured) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  for (const std::string& output :
+       {std::string("-o nodir/x.json"), std::string("-o x.json --export csv=nodir/x.csv")}) {
+    const Outcome done = tool_in(folder.path(), "run -q " + config + " " + output);
+    EXPECT_EQ(done.code, 2);
+    EXPECT_NE(done.err.find("cannot be written: there is no folder 'nodir'; make it first (mkdir -p)"),
+              std::string::npos)
+        << done.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "x.json"));
+  folder.write("file", "");
+  const Outcome in_file = tool_in(folder.path(), "run -q " + config + " -o file/x.json");
+  EXPECT_NE(in_file.err.find("'file' is no folder"), std::string::npos) << in_file.err;
 }
 
 TEST(Run, resuming_without_an_interrupted_run_says_that_it_begins_anew) {

@@ -179,5 +179,15 @@ TEST_F(JournalTest, a_disk_without_room_is_an_error_at_the_start) {
   EXPECT_LE(fs::exists(file_.string() + ".partial") ? fs::file_size(file_.string() + ".partial") : 0, 0u);
 }
 
+TEST_F(JournalTest, what_is_left_is_told_without_a_change_on_disk) {
+  EXPECT_EQ(finished_ids(file_, k_header), std::vector<std::string>{});
+  EXPECT_FALSE(fs::exists(file_.string() + ".partial"));
+  leave_one_case();
+  const std::string before = text_of(file_.string() + ".partial");
+  EXPECT_EQ(finished_ids(file_, k_header), std::vector<std::string>{"first"});
+  EXPECT_EQ(text_of(file_.string() + ".partial"), before);
+  EXPECT_THROW(finished_ids(file_, Json{{"config", "b"}}), Error);
+}
+
 }  // namespace
 }  // namespace clusterbench::report
