@@ -81,6 +81,7 @@ constexpr WordsRow k_words[] = {
     {"export", "--format", formats},
     {"export", "--filter", anything},
     {"compare", "--filter", anything},
+    {"report", "--filter", anything},
     {"stress", "--cases", hard_cases},
     {"stress", "--methods", assigners},
     {"worst-case", "--filter", anything},

@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "core/text.h"
+#include "report/case_filter.h"
 #include "report/page.h"
 #include "report/page_pictures.h"
 #include "report/result_file.h"
@@ -14,13 +15,14 @@ namespace {
 
 struct ReportOptions {
   std::vector<std::string> files;
-  std::string output, images;
+  std::string output, images, filter;
 };
 
 std::string command_of(const ReportOptions& options) {
   std::vector<std::string> words{"clusterbench", "report"};
   words.insert(words.end(), options.files.begin(), options.files.end());
   if (!options.images.empty()) words.insert(words.end(), {"--images", options.images});
+  if (!options.filter.empty()) words.insert(words.end(), {"--filter", options.filter});
   if (!options.output.empty()) words.insert(words.end(), {"-o", options.output});
   return printable(shell_command(words));
 }
@@ -28,7 +30,10 @@ std::string command_of(const ReportOptions& options) {
 ExitCode write_report(const ReportOptions& options) {
   refuse_overwriting({options.output}, options.files);
   std::vector<report::NamedResult> results;
-  for (const std::string& file : options.files) results.push_back({file, report::read_result(file)});
+  for (const std::string& file : options.files) {
+    results.push_back({file, report::read_result(file)});
+    report::keep_cases_and_conclude(results.back().result, options.filter, file);
+  }
   const std::vector<report::PagePicture> pictures =
       options.images.empty() ? std::vector<report::PagePicture>{} : report::page_pictures(options.images, results);
   const std::string page = report::page(results, command_of(options), pictures);
@@ -48,6 +53,10 @@ void add_report(Command& program, Action& action) {
       .required();
   command.add_option("--images", options->images,
                      "DIR: also show the pictures that `clusterbench run --images DIR` has made of these cases");
+  command
+      .add_option("--filter", options->filter,
+                  "Only cases whose names have this in them, or match it as a regular expression")
+      .may_be_empty();
   command.add_option("-o,--output", options->output, "Where the page goes; standard output by default");
   command.when_named([options, &action] { action = [options] { return write_report(*options); }; });
 }

@@ -51,6 +51,14 @@ bool Pattern::is_all_of(std::string_view text) const {
   return !expression_ || text == text_ || RE2::FullMatch(re2_text(text), *expression_);
 }
 
+bool Pattern::is_in_as_it_stands(std::string_view text) const {
+  return text.find(text_) != std::string_view::npos;
+}
+
+bool Pattern::is(std::string_view text) const {
+  return text == text_;
+}
+
 std::string pattern_hint(std::string_view text) {
   const std::string escapes = escapes_text(text);
   return escapes.empty() ? "" : ", neither as it stands nor as a regular expression, in which " + escapes;

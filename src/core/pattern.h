@@ -22,6 +22,9 @@ class Pattern {
   // As it stands, or as a regular expression: a name that was copied has parentheses, points and the like.
   bool is_in(std::string_view text) const;
   bool is_all_of(std::string_view text) const;
+  // Not as a regular expression.
+  bool is_in_as_it_stands(std::string_view text) const;
+  bool is(std::string_view text) const;
 
  private:
   std::string text_;

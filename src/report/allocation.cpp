@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/pattern.h"
 #include "core/text.h"
+#include "report/case_filter.h"
 #include "report/json_values.h"
 
 namespace clusterbench::report {
@@ -254,7 +255,7 @@ std::vector<const Json*> matching_cases(const Json& cases, const std::string& fi
   std::vector<const Json*> out;
   const Pattern pattern(filter, "--filter");
   for (const Json& result_case : cases)
-    if (pattern.is_in(result_case["name"].get_ref<const std::string&>())) out.push_back(&result_case);
+    if (is_selected(pattern, result_case)) out.push_back(&result_case);
   if (out.empty() && !cases.empty())
     throw Error("", "--filter",
                 "'" + filter + "' matches none of " + number_of(cases.size(), "case") + pattern_hint(filter) +
@@ -269,16 +270,10 @@ struct Names {
 };
 
 Names names_of(const Json& result_case, bool over_viewports) {
-  const auto name = result_case["name"].get<std::string>(), scene = result_case["scene"].get<std::string>();
-  const std::string prefix = scene + "/" + result_case["camera"].get<std::string>() + "/";
-  if (!name.starts_with(prefix)) return {name, name};
-  std::string rest = name.substr(prefix.size());
-  if (over_viewports) {
-    const Json& viewport = result_case["viewport"];
-    const std::string size = viewport[0].dump() + "x" + viewport[1].dump() + " ";
-    if (rest.starts_with(size)) rest.erase(0, size.size());
-  }
-  return {scene + "/" + rest, scene + "/" + rest.substr(0, rest.find('/'))};
+  const run::CaseNames names = names_of_case(result_case);
+  const std::string rest = run::name_without_camera(names, !over_viewports);
+  if (rest == names.name) return {rest, rest};
+  return {names.scene + "/" + rest, names.scene + "/" + rest.substr(0, rest.find('/'))};
 }
 
 // As `run` tells it.

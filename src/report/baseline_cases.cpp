@@ -4,6 +4,7 @@
 
 #include "core/pattern.h"
 #include "core/text.h"
+#include "report/case_filter.h"
 #include "report/case_settings.h"
 #include "report/compare.h"
 #include "report/json_values.h"
@@ -30,7 +31,9 @@ BaselineCases::BaselineCases(const BaseJson& base, const BaseJson& result, const
   for (const BaseJson& base_case : base["cases"]) {
     const std::string key = key_of(base_case), case_name = base_case["name"].get<std::string>();
     by_key_.try_emplace(key, &base_case);
-    if (!now.contains(key) && wanted.is_in(case_name)) gone_.push_back(case_name);
+    if (now.contains(key) || !is_selected(wanted, base_case)) continue;
+    gone_.push_back(case_name);
+    gone_cases_.push_back(&base_case);
   }
 }
 

@@ -20,6 +20,7 @@ class BaselineCases {
   const nlohmann::ordered_json* case_of(const nlohmann::ordered_json& result_case) const;
   // The base's cases that the result no longer has, by their names.
   const std::vector<std::string>& gone() const { return gone_; }
+  const std::vector<const nlohmann::ordered_json*>& gone_cases() const { return gone_cases_; }
   const nlohmann::ordered_json& result() const { return base_; }
   const std::string& name() const { return name_; }
   // "the scene's file, its lights (300, now 250)"; "" where nothing has changed that results tell.
@@ -35,6 +36,7 @@ class BaselineCases {
   bool is_one_scene_ = false;
   std::map<std::string, const nlohmann::ordered_json*> by_key_;
   std::vector<std::string> gone_;
+  std::vector<const nlohmann::ordered_json*> gone_cases_;
 };
 
 }  // namespace clusterbench::report

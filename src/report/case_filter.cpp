@@ -3,15 +3,45 @@
 #include "core/error.h"
 #include "core/pattern.h"
 #include "core/text.h"
+#include "report/columns.h"
+#include "report/conclusion.h"
+#include "report/json_values.h"
+#include "report/result_json.h"
+#include "run/sweep.h"
 
 namespace clusterbench::report {
+
+run::CaseNames names_of_case(const nlohmann::ordered_json& result_case) {
+  const auto text_of = [&](const char* pointer) {
+    const nlohmann::ordered_json* found = value_at(result_case, pointer);
+    return found == nullptr ? std::string() : found->is_string() ? found->get<std::string>() : found->dump();
+  };
+  return {text_of("/name"),
+          text_of("/id"),
+          text_of("/scene"),
+          text_of("/camera"),
+          text_of("/viewport/0") + "x" + text_of("/viewport/1"),
+          text_of("/grid/name"),
+          value_at(result_case, "/assigner/label") == nullptr ? "" : method_name(result_case),
+          text_of("/storage")};
+}
+
+void use_current_names(nlohmann::ordered_json& result) {
+  for (nlohmann::ordered_json& result_case : result["cases"])
+    if (result_case.value("storage", "") == run::k_own_structure)
+      result_case["name"] = run::current_name(result_case["name"].get<std::string>());
+}
+
+bool is_selected(const Pattern& pattern, const nlohmann::ordered_json& result_case) {
+  return run::is_selected(pattern, names_of_case(result_case));
+}
 
 void keep_cases(nlohmann::ordered_json& result, const std::string& filter, const std::string& path) {
   if (filter.empty()) return;
   const Pattern pattern(filter, "--filter");
   nlohmann::ordered_json kept = nlohmann::ordered_json::array();
   for (const nlohmann::ordered_json& result_case : result["cases"])
-    if (pattern.is_in(result_case["name"].get<std::string>())) kept.push_back(result_case);
+    if (is_selected(pattern, result_case)) kept.push_back(result_case);
   if (kept.empty()) {
     const nlohmann::ordered_json& all = result["cases"];
     throw Error(path, "--filter",
@@ -19,6 +49,19 @@ void keep_cases(nlohmann::ordered_json& result, const std::string& filter, const
                     (all.empty() ? "" : "; one of them is '" + all[0]["name"].get<std::string>() + "'"));
   }
   result["cases"] = std::move(kept);
+}
+
+void keep_cases_and_conclude(nlohmann::ordered_json& result, const std::string& filter, const std::string& path) {
+  if (filter.empty()) return;
+  keep_cases(result, filter, path);
+  result["pareto_front"] = fronts(result["scenes"], result["cases"], result);
+  if (result.contains("preset_rankings")) {
+    for (const char* key : {"presets", "preset_rankings"}) result.erase(key);
+    add_presets(result, result);
+  }
+  if (!result.contains("conclusions")) return;
+  result["conclusions"] = conclusions_of(result, result);
+  conclude_failures(result, {});
 }
 
 }  // namespace clusterbench::report

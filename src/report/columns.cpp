@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "measure/time_change.h"
 #include "report/json_values.h"
+#include "run/sweep.h"
 
 namespace clusterbench::report {
 namespace {
@@ -21,13 +22,19 @@ std::string count_text(double value) {
   return text("%.2fM", value / 1e6);
 }
 
+// In columns of a terminal: a character of several bytes takes one.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
+}
+
 }  // namespace
 
 std::vector<std::size_t> widths_of(const std::vector<Cells>& rows) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const Cells& row : rows)
     for (std::size_t column = 0; column < row.size(); ++column)
-      widths[column] = std::max(widths[column], row[column].size());
+      widths[column] = std::max(widths[column], width_of(row[column]));
   widths[0] = 1;
   return widths;
 }
@@ -35,7 +42,7 @@ std::vector<std::size_t> widths_of(const std::vector<Cells>& rows) {
 std::string aligned(const Cells& cells, const std::vector<std::size_t>& widths) {
   std::string row = "  ";
   for (std::size_t column = 0; column < cells.size(); ++column) {
-    const std::string padding(widths[column] - cells[column].size(), ' ');
+    const std::string padding(widths[column] - width_of(cells[column]), ' ');
     row += column < 2 ? cells[column] + padding : padding + cells[column];
     row += column == 0 ? " " : "  ";
   }
@@ -55,6 +62,18 @@ std::string text(const char* format, double value) {
   return out;
 }
 
+std::string frame_interval_text(const Json& result_case) {
+  constexpr double k_wide_percent = 20.0;
+  const auto low = number_at(result_case, "/timing/frame_ns/ci95/0"),
+             high = number_at(result_case, "/timing/frame_ns/ci95/1"),
+             median = number_at(result_case, "/timing/frame_ns/median");
+  if (!median || *median <= 0.0) return "-";
+  if (!low || !high) return k_unknown_interval;
+  const double below = 100.0 * (1.0 - *low / *median), above = 100.0 * (*high / *median - 1.0);
+  if (std::max(below, above) < k_wide_percent) return text("%.1f %%", 0.5 * (below + above));
+  return text("-%.0f", below) + text("/+%.0f %%", above);
+}
+
 std::string amount_text(double value) {
   const bool is_count = value == std::floor(value) && std::abs(value) < 1e9;
   return text(is_count ? "%.0f" : std::abs(value) < 1e5 ? "%.4g" : "%.6g", value);
@@ -68,6 +87,11 @@ std::string text_at(const Json& result_case, const char* pointer, const char* fo
 std::string short_count(const Json& result_case, const char* pointer) {
   const std::optional<double> count = number_at(result_case, pointer);
   return count ? count_text(*count) : "-";
+}
+
+std::string storage_name(const Json& result_case) {
+  const auto storage = result_case["storage"].get<std::string>();
+  return storage == run::k_own_structure ? run::k_no_lists : printable(storage);
 }
 
 std::string method_name(const Json& result_case) {
@@ -99,8 +123,7 @@ std::vector<NamedCase> distinct_cases(const Json& cases, const Json& scene, cons
   std::map<std::string, int> uses;
   for (const NamedCase& named : out) ++uses[named.name];
   for (NamedCase& named : out)
-    if (uses[named.name] > 1)
-      named.name += " / " + printable((*named.result_case)["storage"].get_ref<const std::string&>());
+    if (uses[named.name] > 1) named.name += " / " + storage_name(*named.result_case);
   return out;
 }
 

@@ -11,7 +11,7 @@ namespace clusterbench::report {
 
 using Cells = std::vector<std::string>;  // one line: a mark, a name, then numbers
 
-// The widest text of each column; the first column is one character wide. All rows have as many cells.
+// The widest text of each column in characters; the first column is one character wide. All rows have as many cells.
 std::vector<std::size_t> widths_of(const std::vector<Cells>& rows);
 // The first two columns to the left, numbers to the right.
 std::string aligned(const Cells& cells, const std::vector<std::size_t>& widths);
@@ -24,6 +24,9 @@ inline std::string shown(const std::string& text) {
 std::string markdown_cell(const std::string& text);
 // In the place of a 95 % interval of times, where too few launches or rounds were measured to tell one.
 inline constexpr const char* k_unknown_interval = "unknown";
+// The 95 % interval of a frame's time in percent of it, the same wherever it is told: half of it, "3.5 %"; of a wide
+// one, whose ends lie at different distances, both: "-14/+36 %".
+std::string frame_interval_text(const nlohmann::ordered_json& result_case);
 // "an interval takes ..."
 std::string what_intervals_take();
 // One number by a printf format.
@@ -36,6 +39,8 @@ std::string text_at(const nlohmann::ordered_json& result_case, const char* point
 // Bytes and counts as people say them: 831, 12.3k, 4.56M; "-" where there is none.
 std::string short_count(const nlohmann::ordered_json& result_case, const char* pointer);
 
+// What its lights are kept in, as people read it: "packed", "no lists".
+std::string storage_name(const nlohmann::ordered_json& result_case);
 // The preset if the case is of one, the assigner's label, how its lights are packed where that is not float32, and what
 // culls them before.
 std::string method_name(const nlohmann::ordered_json& result_case);

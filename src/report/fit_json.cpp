@@ -18,7 +18,7 @@ Cells row_of(const Json& result_case) {
   const Json& frame = result_case.contains("timing") ? result_case["timing"] : Json();
   return {"",
           method_name(result_case),
-          shown(result_case["storage"]),
+          storage_name(result_case),
           text_at(result_case, "/fit/moves/changed", "%.0f"),
           text_at(result_case, "/fit/moves/cells", "%.0f %%", 100.0),
           text_at(result_case, "/fit/fitted/lists_changed", "%.1f %%", 100.0),

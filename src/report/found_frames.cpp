@@ -9,7 +9,9 @@
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/text.h"
+#include "report/columns.h"
 #include "report/json_values.h"
+#include "run/case_names.h"
 #include "scene/camera_path.h"
 
 namespace clusterbench::report {
@@ -30,13 +32,61 @@ Json read_worst_case(const std::string& path) {
   return json;
 }
 
-const Json& case_of(const std::string& path, const Json& searched, const Json& result) {
-  for (const Json& result_case : result["cases"])
-    if (result_case["name"] == searched["name"]) return result_case;
-  throw Error(
-      path, "/case/name",
-      "is '" + searched["name"].get<std::string>() + "', and no case here has that name" +
-          (result["cases"].empty() ? "" : "; one of them is '" + result["cases"][0]["name"].get<std::string>() + "'"));
+// What is searched, whatever the scene is called and how many viewports there are beside it: grid, method, storage, how
+// lights are packed and culled, as a case's name has them.
+std::string structure_of(const Json& one) {
+  const Json& viewport = one["viewport"];
+  run::CaseNames names;
+  names.name = run::current_name(one["name"].get<std::string>());
+  names.scene = one["scene"].get<std::string>();
+  names.camera = one["camera"].get<std::string>();
+  names.viewport = viewport[0].dump() + "x" + viewport[1].dump();
+  return run::name_without_camera(names, false);
+}
+
+std::string sha256_of_scene(const Json& result, const Json& result_case) {
+  for (const Json& scene : result["scenes"])
+    if (scene["name"] == result_case["scene"]) return scene.value("sha256", "");
+  return "";
+}
+
+// Each once, in words: "640x360 or 320x180".
+std::string viewports_text(const std::vector<const Json*>& cases) {
+  std::vector<std::string> all;
+  for (const Json* one : cases)
+    if (const std::string viewport = (*one)["viewport"].dump(); std::ranges::find(all, viewport) == all.end())
+      all.push_back(viewport);
+  return joined(all, " or ");
+}
+
+// The cases of its structure, camera and viewport on its scene. Of a scene that the result has several times those that
+// are called like it come first.
+std::vector<const Json*> matches_of(const std::string& path, const Json& searched, const Json& result) {
+  std::vector<const Json*> alike, seen_alike, out;
+  for (const Json& one : result["cases"]) {
+    const bool is_its_scene =
+        one["scene"] == searched["scene"] || sha256_of_scene(result, one) == searched["sha256"].get<std::string>();
+    if (is_its_scene && one["camera"] == searched["camera"] && structure_of(one) == structure_of(searched))
+      alike.push_back(&one);
+  }
+  if (alike.empty())
+    throw Error(
+        path, "/case/name",
+        "is '" + searched["name"].get<std::string>() +
+            "', and no case here has its scene, camera, grid, method and storage" +
+            (result["cases"].empty() ? ""
+                                     : "; one of them is '" + result["cases"][0]["name"].get<std::string>() + "'"));
+  for (const Json* one : alike)
+    if ((*one)["viewport"] == searched["viewport"]) seen_alike.push_back(one);
+  if (seen_alike.empty())
+    throw Error(path, "/case/viewport",
+                "is " + searched["viewport"].dump() + ", and here it is " + viewports_text(alike) +
+                    "; search with the same --viewport");
+  for (const Json* one : seen_alike)
+    if (sha256_of_scene(result, *one) == searched["sha256"]) out.push_back(one);
+  if (out.empty()) throw Error(path, "/case/sha256", "is of another version of the scene; search again");
+  std::ranges::stable_partition(out, [&](const Json* one) { return (*one)["scene"] == searched["scene"]; });
+  return out;
 }
 
 // Of what the configuration asks of the scene a key; nothing where scenes differ in it and the result does not tell
@@ -110,31 +160,37 @@ void check_settings(const std::string& path, const Json& settings, const Json& r
                     "'grids.*.slices.far=METRES' (of boxes, bounds), and search again");
 }
 
-// What an earlier version did not write, and cannot be compared.
-std::string check_case(const std::string& path, const Json& searched, const Json& result) {
-  const Json& match = case_of(path, searched, result);
-  if (searched["viewport"] != match["viewport"])
-    throw Error(path, "/case/viewport",
-                "is " + searched["viewport"].dump() + ", and here it is " + match["viewport"].dump() +
-                    "; search with the same --viewport");
-  for (std::size_t i = 0; i < result["scenes"].size(); ++i) {
-    if (result["scenes"][i]["name"] != match["scene"]) continue;
-    if (result["scenes"][i]["sha256"] != searched["sha256"])
-      throw Error(path, "/case/sha256", "is of another version of the scene; search again");
-    if (searched.contains("settings")) check_settings(path, searched["settings"], result, i, match);
-  }
-  if (searched.contains("settings")) return "";
-  return "an earlier version wrote it, without the field of view, the range rule and the end of the grid: whether they "
-         "are those of the case here is not known; search again";
+void check_settings(const std::string& path, const Json& searched, const Json& result, const Json& match) {
+  if (!searched.contains("settings")) return;
+  for (std::size_t i = 0; i < result["scenes"].size(); ++i)
+    if (result["scenes"][i]["name"] == match["scene"]) check_settings(path, searched["settings"], result, i, match);
 }
+
+// The case that was searched: of several that are alike the first one of its settings.
+const Json& searched_case(const std::string& path, const Json& searched, const Json& result) {
+  const std::vector<const Json*> matches = matches_of(path, searched, result);
+  for (const Json* match : matches) {
+    try {
+      check_settings(path, searched, result, *match);
+      return *match;
+    } catch (const Error&) {
+      if (match == matches.back()) throw;
+    }
+  }
+  return *matches.front();
+}
+
+constexpr const char* k_not_compared =
+    "an earlier version wrote it, without the field of view, the range rule and the end of the grid: whether they "
+    "are those of the case here is not known; search again";
 
 }  // namespace
 
 FoundFrame read_found(const std::string& path, const Json& result) {
   const Json json = read_worst_case(path);
   FoundFrame out;
-  out.not_compared = check_case(path, json["case"], result);
-  out.case_name = json["case"]["name"].get<std::string>();
+  out.case_name = searched_case(path, json["case"], result)["name"].get<std::string>();
+  if (!json["case"].contains("settings")) out.not_compared = k_not_compared;
   out.measure = json["measure"]["name"].get<std::string>();
   out.value = static_cast<std::uint64_t>(std::max(0.0, json["frames"][0]["value"].get<double>()));
   out.evaluations = json["evaluations"].get<int>();

@@ -8,6 +8,7 @@
 
 namespace clusterbench::report {
 
+// Of the case with its scene, camera, viewport and structure (grid, method, storage), whatever that is called here.
 // Throws Error for a file that is none of `worst-case`, of a case that the result does not have, of another version of
 // its scene, or of other settings: viewport, field of view, range rule, end of the grid.
 FoundFrame read_found(const std::string& path, const nlohmann::ordered_json& result);

@@ -20,6 +20,7 @@
 #include "core/text.h"
 #include "report/light_changes.h"
 #include "report/machine.h"
+#include "run/case_names.h"
 
 namespace clusterbench::report {
 namespace {
@@ -72,8 +73,10 @@ Json history_line(const Json& result, const std::string& commit) {
 }
 
 HistoryEntry::Case parsed_case(const Json& stored) {
-  HistoryEntry::Case out{
-      stored.value("settings", ""), stored.at("name").get<std::string>(), {}, stored.value("scene", std::string())};
+  HistoryEntry::Case out{stored.value("settings", ""),
+                         run::current_name(stored.at("name").get<std::string>()),
+                         {},
+                         stored.value("scene", std::string())};
   for (const auto& [name, value] : stored.at("figures").items()) out.figures.emplace_back(name, value.get<double>());
   return out;
 }

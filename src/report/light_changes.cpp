@@ -6,6 +6,7 @@
 
 #include "core/pattern.h"
 #include "core/text.h"
+#include "report/case_filter.h"
 #include "report/columns.h"
 #include "report/json_values.h"
 #include "report/nothing_seen.h"
@@ -138,7 +139,7 @@ void add_gone_views(const Json& result, const LightGate& gate, LimitFindings& fi
   const Pattern wanted(gate.filter, "--filter");
   std::vector<std::string> gone;
   for (const Json& base_case : (*gate.base)["cases"]) {
-    if (!wanted.is_in(base_case["name"].get<std::string>())) continue;
+    if (!is_selected(wanted, base_case)) continue;
     const auto scenes = std::ranges::find_if((*gate.base)["scenes"],
                                              [&](const Json& scene) { return scene["name"] == base_case["scene"]; });
     const Json* now = scenes == (*gate.base)["scenes"].end() ? nullptr : scene_now(*gate.base, result, *scenes);

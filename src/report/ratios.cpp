@@ -33,7 +33,7 @@ struct Block {
 
 std::string name_of_case(const Json& result_case, bool across_grids) {
   return (across_grids ? result_case["grid"]["name"].get<std::string>() + " / " : "") + method_name(result_case) +
-         " / " + result_case["storage"].get<std::string>();
+         " / " + storage_name(result_case);
 }
 
 std::string name_of_block(const Json& result_case, bool across_grids) {

@@ -27,7 +27,7 @@ Cells reaction_row(const Json& result_case) {
   const auto saving = [&](const char* key) { return against_other(saved, key); };
   return {"",
           method_name(result_case),
-          shown(result_case["storage"]),
+          storage_name(result_case),
           of_frames(result_case, "/react/frames/reacted"),
           text_at(result_case, "/react/frames/over", "%.0f"),
           tiles_text(react["tiles"]["fewest"]),
@@ -52,7 +52,7 @@ Cells fallback_row(const Json& result_case) {
   const Json& saved = result_case["fallback"]["saved"];
   return {"",
           method_name(result_case),
-          shown(result_case["storage"]),
+          storage_name(result_case),
           of_frames(result_case, "/fallback/frames"),
           text_at(result_case, "/fallback/cells", "%.0f"),
           against_other(saved, "index_entries"),

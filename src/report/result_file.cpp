@@ -6,6 +6,7 @@
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "core/error.h"
+#include "report/case_filter.h"
 #include "report/result_json.h"
 
 namespace clusterbench::report {
@@ -57,6 +58,7 @@ Json read_result(const std::string& path) {
                     : "is "s + config::row_of(document).title + "; wanted is one of `clusterbench run`");
   config::check_version(path, result, config::row_of(config::Document::result));
   check(path, result);
+  use_current_names(result);
   return result;
 }
 

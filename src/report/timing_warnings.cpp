@@ -67,9 +67,10 @@ std::string unknown_warning(const Doubt& unknown, std::size_t timed) {
 }
 
 std::string wide_warning(const Doubt& wide, std::size_t timed) {
-  return wide.cases(timed) + " with intervals wider than +- 10 %, the widest +- " +
-         text("%.0f %%", 100.0 * wide.badness()) + ": " + wide.name() + "; stop other programs, or try " +
-         more_launches(wide.worst());
+  std::string interval = frame_interval_text(wide.worst());
+  if (!interval.starts_with('-')) interval.insert(0, "±");
+  return wide.cases(timed) + " with intervals wider than ±10 %, the widest " + interval + ": " + wide.name() +
+         "; stop other programs, or try " + more_launches(wide.worst());
 }
 
 std::string modes_warning(const Doubt& two, std::size_t timed) {

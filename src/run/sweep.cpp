@@ -16,6 +16,7 @@
 #include "core/text.h"
 #include "geom/shapes/domain.h"
 #include "run/case_identity.h"
+#include "run/case_names.h"
 #include "run/frame_work.h"
 #include "scene/domain.h"
 #include "view/frame.h"
@@ -382,8 +383,8 @@ class Expansion {
     }
     if (!descriptor.answers(assign::Answer::structure) || !is_wanted(family, std::nullopt)) return;
     case_plan.storage.reset();
-    case_plan.name = name + "/" + k_own_structure + part;
-    if (const std::string earlier = same_without_grid(descriptor, case_plan); !earlier.empty())
+    case_plan.name = name + "/" + k_no_lists + part;
+    if (const std::string earlier = same_without_grid(plan, descriptor, case_plan); !earlier.empty())
       skip(plan, family, case_plan.name,
            descriptor.name + "'s own structure has nothing of the grid: measured once, as " + earlier);
     else
@@ -392,8 +393,9 @@ class Expansion {
 
   // The case on an earlier grid that this one would repeat, "" if there is none: a structure that has nothing of its
   // grid is measured once in a view.
-  std::string same_without_grid(const assign::AssignerDescriptor& descriptor, const CasePlan& case_plan) {
-    if (!descriptor.own_without_grid || !filter_.is_in(case_plan.name)) return "";
+  std::string same_without_grid(const Plan& plan, const assign::AssignerDescriptor& descriptor,
+                                const CasePlan& case_plan) {
+    if (!descriptor.own_without_grid || !is_selected(filter_, names_of(plan, case_plan))) return "";
     const Json key{case_plan.scene,    case_plan.camera,    case_plan.viewport, case_plan.assigner,
                    case_plan.pre_cull, case_plan.precision, case_plan.preset};
     return without_grid_.try_emplace(key.dump(), case_plan.name).first->second == case_plan.name
@@ -411,6 +413,22 @@ class Expansion {
     return !storage || *storage < config_.own_storages;
   }
 
+  CaseNames names_of(const Plan& plan, const CasePlan& case_plan) const {
+    const Vec2i viewport = config_.viewports[case_plan.viewport];
+    const config::PrecisionRequest& precision = config_.precisions[case_plan.precision];
+    const cull::PreCullSpec& pre_cull = config_.pre_culls[case_plan.pre_cull];
+    return {case_plan.name,
+            case_plan.id,
+            plan.scenes[case_plan.scene].scene.name,
+            plan.scenes[case_plan.scene].paths[case_plan.camera].camera,
+            std::to_string(viewport.x) + "x" + std::to_string(viewport.y),
+            config_.grids[case_plan.grid].name(),
+            (case_plan.preset.empty() ? "" : case_plan.preset + ": ") + config_.assigners[case_plan.assigner].label() +
+                (precision.is_lossy() ? " " + precision.label() : "") +
+                (pre_cull.is_none() ? "" : " after " + pre_cull.label()),
+            storage_label(config_, case_plan)};
+  }
+
   void add_case(const Plan& plan, GroupPlan& group, CasePlan case_plan) {
     case_plan.name = unique_name(case_plan.name, names_);
     const CaseIdentity identity = identity_of(config_, plan.scenes[group.scene], case_plan);
@@ -418,7 +436,7 @@ class Expansion {
     case_plan.settings = identity.settings;
     ++all_cases_;
     if (example_.empty()) example_ = case_plan.name;
-    if (filter_.is_in(case_plan.name)) group.cases.push_back(std::move(case_plan));
+    if (is_selected(filter_, names_of(plan, case_plan))) group.cases.push_back(std::move(case_plan));
   }
 
   // Sets of samples that a scene with cases cannot have.
@@ -495,7 +513,7 @@ std::string method_label(const config::Config& config, const Method& method) {
   const cull::PreCullSpec& pre_cull = config.pre_culls[method.pre_cull];
   const bool is_one_of_two = method.answer == assign::Answer::structure &&
                              assign::find_assigner(assigner.name)->answers(assign::Answer::lists);
-  return assigner.label() + (is_one_of_two ? std::string(" ") + k_own_structure : "") +
+  return assigner.label() + (is_one_of_two ? std::string(" (") + k_no_lists + ")" : "") +
          (precision.is_lossy() ? " " + precision.label() : "") +
          (pre_cull.is_none() ? "" : " after " + pre_cull.label());
 }

@@ -48,6 +48,8 @@ struct CasePlan {
 
 // What stands for a storage's name where an assigner leaves its own structure.
 inline constexpr const char* k_own_structure = "own";
+// In its place in names of cases.
+inline constexpr const char* k_no_lists = "no lists";
 
 // Cases of one scene, camera, viewport and grid: measured together, in interleaved rounds.
 struct GroupPlan {

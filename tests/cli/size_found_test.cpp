@@ -66,6 +66,30 @@ TEST_F(SizeFound, a_search_of_other_settings_is_refused_with_what_differs) {
   EXPECT_EQ(size("--found " + same).code, 2);
 }
 
+TEST_F(SizeFound, finds_for_each_of_two_viewports_are_taken_in_any_order_and_for_no_other) {
+  const std::string small = search("small.json", "", "320x180"), large = search("large.json", "", "640x360");
+  const auto sized = [&](const std::string& files) {
+    const test::Outcome done =
+        test::tool("size --viewport 640x360,320x180 --all --format json" + k_searched_case + files + " " + scene_);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return nlohmann::json::parse(done.out)["structures"];
+  };
+  const auto one_way = sized("--found " + small + " --found " + large),
+             other_way = sized("--found " + large + " --found " + small);
+  ASSERT_EQ(one_way.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(one_way[i]["buffers"][0]["found"].is_number()) << one_way[i];
+    EXPECT_EQ(one_way[i]["buffers"][0]["found"], other_way[i]["buffers"][0]["found"]);
+  }
+  const test::Outcome other = test::tool("size --viewport 640x360,320x180" + k_searched_case + "--found " +
+                                         search("other.json", "", "800x450") + " " + scene_);
+  EXPECT_EQ(other.code, 2);
+  EXPECT_EQ(other.out, "");
+  EXPECT_NE(other.err.find("other.json: /case/viewport: is [800,450], and here it is [640,360] or [320,180]"),
+            std::string::npos)
+      << other.err;
+}
+
 // A camera without a far plane that walks away from the only light: where slices end is made up from the frames.
 constexpr const char* k_endless = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
   "nodes": [{"extensions": {"KHR_lights_punctual": {"light": 0}}}, {"camera": 0, "name": "walk"}],

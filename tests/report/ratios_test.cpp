@@ -183,7 +183,7 @@ TEST(TimingWarnings, say_what_speaks_against_times_and_what_to_try) {
   EXPECT_NE(with("throttled", 3).find("heat 3 times"), std::string::npos);
 
   const std::string wide = timing_warnings(three_methods()["cases"]);
-  EXPECT_NE(wide.find("3 of 3 times with intervals wider than +- 10 %"), std::string::npos) << wide;
+  EXPECT_NE(wide.find("3 of 3 times with intervals wider than ±10 %"), std::string::npos) << wide;
   EXPECT_NE(wide.find("--launches 12"), std::string::npos) << wide;
 
   std::vector<double> alternating;

@@ -146,7 +146,7 @@ TEST(LightStructures, a_method_registered_at_run_time_goes_through_a_whole_confi
   ASSERT_EQ(all.result.cases.size(), 3u) << "the axis of storages is not its own";
   EXPECT_TRUE(all.plan.skipped.empty());
   const CaseResult& own = all.of("all-lights", "own");
-  EXPECT_TRUE(own.name.ends_with("/all-lights/own")) << own.name;
+  EXPECT_TRUE(own.name.ends_with("/all-lights/no lists")) << own.name;
   ASSERT_TRUE(own.error);
   EXPECT_EQ(own.error->false_negatives, 0u);
   EXPECT_EQ(own.error->reported_pairs, 5u * 4u * 6u * k_rig_lights);
@@ -246,7 +246,7 @@ TEST(LightStructures, a_method_of_both_forms_has_a_case_for_each) {
   EXPECT_TRUE(own.timing->against_first);
   EXPECT_EQ(method_label(config::parse_config(R"({"scenes": ["a.glb"], "assigners": ["bvh"]})", "c.json"),
                          all.plan.groups[0].cases[2].method()),
-            "bvh own");
+            "bvh (no lists)");
 }
 
 }  // namespace

@@ -1,0 +1,68 @@
+#include "run/case_names.h"
+
+#include <algorithm>
+
+#include "core/text.h"
+#include "run/sweep.h"
+
+namespace clusterbench::run {
+namespace {
+
+// "a/own/half" with another word for "own"; the first part from the fourth on that is it: scene, camera and grid can be
+// called anything.
+std::string with_part(const std::string& name, const std::string& part, const std::string& other) {
+  std::size_t begin = 0;
+  for (int before = 0; begin != std::string::npos; ++before) {
+    const std::size_t end = name.find('/', begin);
+    if (before >= 4 && name.substr(begin, end == std::string::npos ? end : end - begin) == part)
+      return name.substr(0, begin) + other + (end == std::string::npos ? "" : name.substr(end));
+    begin = end == std::string::npos ? end : end + 1;
+  }
+  return name;
+}
+
+// Beside the case's name. A reader sees them as printable() has them.
+std::vector<std::string> other_names(const CaseNames& names) {
+  std::vector<std::string> all{names.id, names.grid + ", camera " + names.camera + ", " + names.viewport};
+  for (const bool with_viewport : {true, false}) {
+    const std::string rest = name_without_camera(names, with_viewport);
+    if (rest == names.name) continue;
+    const std::string group = rest.substr(0, rest.find('/'));
+    for (const std::string& part : {rest, group}) {
+      all.push_back(part);
+      all.push_back(names.scene + "/" + part);
+      all.push_back(names.scene + "/" + names.camera + "/" + part);
+    }
+  }
+  const std::string storage = names.storage == k_own_structure ? k_no_lists : names.storage;
+  for (const std::string& method :
+       {names.method, names.method + " / " + storage, names.method + " / " + names.storage}) {
+    all.push_back(method);
+    all.push_back(method + ", " + names.grid);
+    all.push_back(names.grid + " / " + method);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string current_name(const std::string& name) {
+  return with_part(name, k_own_structure, k_no_lists);
+}
+
+std::string name_without_camera(const CaseNames& names, bool with_viewport) {
+  const std::string prefix = names.scene + "/" + names.camera + "/", viewport = names.viewport + " ";
+  if (!names.name.starts_with(prefix)) return names.name;
+  std::string rest = names.name.substr(prefix.size());
+  if (!with_viewport && rest.starts_with(viewport)) rest.erase(0, viewport.size());
+  return rest;
+}
+
+bool is_selected(const Pattern& pattern, const CaseNames& names) {
+  return pattern.is_in(names.name) || pattern.is_in(with_part(names.name, k_no_lists, k_own_structure)) ||
+         pattern.is_in_as_it_stands(printable(names.name)) ||
+         std::ranges::any_of(other_names(names),
+                             [&](const std::string& name) { return pattern.is(name) || pattern.is(printable(name)); });
+}
+
+}  // namespace clusterbench::run

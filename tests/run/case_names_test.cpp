@@ -1,0 +1,38 @@
+#include "run/case_names.h"
+
+#include <gtest/gtest.h>
+
+namespace clusterbench::run {
+namespace {
+
+const CaseNames k_case{"street/walk/640x360 frustum 64px/bvh/no lists/half",
+                       "0123456789ab",
+                       "street",
+                       "walk",
+                       "640x360",
+                       "frustum 64px",
+                       "bvh half",
+                       "own"};
+
+TEST(CaseNames, every_name_that_is_printed_for_a_case_selects_it) {
+  for (const char* name :
+       {"street/walk/640x360 frustum 64px/bvh/no lists/half", "frustum 64px/bvh", "^street/.*/half$", "0123456789ab",
+        "street/640x360 frustum 64px/bvh/no lists/half", "street/frustum 64px/bvh/no lists/half",
+        "frustum 64px/bvh/no lists/half", "street/frustum 64px", "bvh half", "bvh half / no lists",
+        "bvh half / no lists, frustum 64px", "frustum 64px / bvh half / no lists",
+        "frustum 64px, camera walk, 640x360"})
+    EXPECT_TRUE(is_selected(Pattern(name, ""), k_case)) << name;
+  for (const char* name : {"street/frustum 32px", "street/bvh", "0123456789", "frustum 64px, camera idle, 640x360"})
+    EXPECT_FALSE(is_selected(Pattern(name, ""), k_case)) << name;
+}
+
+TEST(CaseNames, filters_and_names_of_earlier_versions_still_mean_structures_without_lists) {
+  for (const char* name : {"bvh/own", "/own/", "street/walk/640x360 frustum 64px/bvh/own/half", "bvh half / own"})
+    EXPECT_TRUE(is_selected(Pattern(name, ""), k_case)) << name;
+  EXPECT_EQ(current_name("street/walk/frustum/bvh/own"), "street/walk/frustum/bvh/no lists");
+  EXPECT_EQ(current_name("street/walk/frustum/bvh/own/half"), "street/walk/frustum/bvh/no lists/half");
+  EXPECT_EQ(current_name("own/own/own/own/packed"), "own/own/own/own/packed") << "of scene, camera, grid and method";
+}
+
+}  // namespace
+}  // namespace clusterbench::run
