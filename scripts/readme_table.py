@@ -45,7 +45,7 @@ def best_of_grids(result):
 
 
 def grids(result):
-    rows = ["| grid | fastest method | µs per frame | lights looped over per light needed | needed and missing | KB to allocate |",
+    rows = ["| grid | fastest method | µs per frame | overshade | needed and missing | KB to allocate |",
             "|---|---|---:|---:|---:|---:|"]
     for case in best_of_grids(result):
         size = case["buffers"]["bytes"]["recommended"] / 1e3

@@ -2,6 +2,7 @@
 // share.
 
 import type { CaseResult, Maybe, PageData, Picture, Ranked, Result } from "./result.ts";
+import { overshadeAtSets, unlitAtSets } from "./sample_sets.ts";
 
 export interface Run {
   file: string;
@@ -43,7 +44,7 @@ export interface Case {
   dropped: number;
   lostLux: Maybe; // on visible surfaces if they are asked for, else in the whole view; mean
   worstLux: Maybe; // of the sample that loses most
-  unlit: Maybe;
+  unlit: Maybe; // at the samples that it is ranked by, as overshade
   overshade: Maybe;
   p99: Maybe;
   longest: Maybe;
@@ -77,8 +78,8 @@ function labels(files: string[]): string[] {
 }
 
 function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | null): Case {
-  const packed =
-    raw.precision && raw.precision.packing !== "float32" ? `${raw.storage}, ${raw.precision.label}` : raw.storage;
+  const kept = raw.storage === "own" ? "no lists" : raw.storage;
+  const packed = raw.precision && raw.precision.packing !== "float32" ? `${kept}, ${raw.precision.label}` : kept;
   const storage = raw.pre_cull ? `${packed}, after ${raw.pre_cull.label}` : packed;
   const seen = raw.samples?.opaque ?? raw.shading;
   return {
@@ -115,8 +116,8 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | 
     dropped: raw.buffers.overflow.dropped_pairs,
     lostLux: seen?.lost_lux ?? null,
     worstLux: seen?.darkest?.lost_lux ?? (seen ? 0 : null),
-    unlit: raw.shading?.unlit ?? null,
-    overshade: raw.shading?.overshade ?? null,
+    unlit: unlitAtSets(raw),
+    overshade: overshadeAtSets(raw),
     p99: raw.occupancy?.lights_per_cell.p99 ?? null,
     longest: raw.occupancy?.lights_per_cell.max ?? null,
     bytes: raw.buffers.bytes.high_water,

@@ -6,6 +6,7 @@ import { copyButton, csv, downloadButton } from "./handover.ts";
 import { type Case, isRankedByCost } from "./model.ts";
 import { type Mean, type Standing, standings } from "./overall.ts";
 import { icon } from "./palette.ts";
+import { countsThatLackMost, headingOfSets, wordsOfSets } from "./sample_sets.ts";
 import { type Column, type Table, tableView } from "./table.ts";
 import type { Section, View } from "./view.ts";
 
@@ -29,7 +30,7 @@ const lost = (text: string, isBad: boolean, title = "") =>
   h("span", { class: isBad && "bad", title: title || null }, text);
 
 function unlit({ raw, unlit, isUnlit }: Case): HTMLElement {
-  const { missed_in_cells, missed_outside } = raw.shading ?? {};
+  const { missed_in_cells, missed_outside } = countsThatLackMost(raw) ?? {};
   const title =
     missed_outside === undefined
       ? ""
@@ -92,15 +93,14 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
       show: (row) => lost(format.decimal(row.lostLux), !!row.lostLux, `at most ${format.decimal(row.worstLux)} lx`),
     },
     measured((row) => row.unlit) && {
-      label: "unlit",
-      about:
-        "Share of the lights that samples need and are not given: their cell lacks them, the storage dropped them, or they are outside of the grid",
+      label: `unlit${headingOfSets(rows.map(({ raw }) => raw))}`,
+      about: `Share of the lights that samples (${wordsOfSets(rows.map(({ raw }) => raw))}) need and are not given: their cell lacks them, the storage dropped them, or they are outside of the grid`,
       value: (row) => row.unlit,
       show: (row) => unlit(row),
     },
     measured((row) => row.overshade) && {
-      label: "overshade",
-      about: "Lights evaluated by lights needed, at the samples; none where lights are unlit or few are needed",
+      label: `overshade${headingOfSets(rows.map(({ raw }) => raw))}`,
+      about: `Lights given / lights needed, at samples (${wordsOfSets(rows.map(({ raw }) => raw))}); none where lights are unlit or few are needed`,
       value: (row) => row.overshade,
       show: (row) => format.factor(row.overshade),
     },

@@ -22,7 +22,7 @@ export const measures: Record<string, Measure> = {
     label: "overshade",
     of: (aCase) => aCase.overshade,
     show: format.factor,
-    about: "lights evaluated by lights needed at the samples; compares across grids",
+    about: "lights given / lights needed, at the samples that rank; compares across grids",
   },
   excess: {
     label: "excess",
@@ -46,7 +46,7 @@ export const measures: Record<string, Measure> = {
     label: "unlit",
     of: (aCase) => aCase.unlit,
     show: format.share,
-    about: "share of needed lights that samples are not given",
+    about: "share of the lights that the samples that rank need and are not given",
   },
   missed: { label: "missed", of: (aCase) => aCase.missed, show: format.count, about: "lights lost" },
 };

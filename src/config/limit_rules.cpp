@@ -10,11 +10,12 @@
 #include "core/error.h"
 #include "core/pattern.h"
 #include "core/text.h"
+#include "measure/samples.h"
 
 namespace clusterbench::config {
 namespace {
 
-constexpr bool k_choosable = true, k_given = false, k_timed = true;
+constexpr bool k_choosable = true, k_given = false, k_timed = true, k_counted = false, k_at_samples = true;
 
 constexpr LimitFigure k_figures[] = {
     {"frame_us", "median time of a frame in microseconds: assign and convert", k_choosable, k_timed},
@@ -33,9 +34,10 @@ constexpr LimitFigure k_figures[] = {
     {"missed", "true pairs that lists lack, over all frames"},
     {"excess", "pairs beside the truth, by true pairs"},
     {"undecided", "pairs that the truth could not decide, over all frames"},
-    {"unlit", "share of the lights that samples need and are not given"},
-    {"lost_irradiance", "share of the irradiance that such lights carry"},
-    {"overshade", "lights that samples are given, by those they need"},
+    {"unlit", "share of the lights that samples (of the sets that rank) need and are not given", k_choosable, k_counted,
+     k_at_samples},
+    {"lost_irradiance", "share of the irradiance that such lights carry", k_choosable, k_counted, k_at_samples},
+    {"overshade", "lights that samples are given / lights that they need", k_choosable, k_counted, k_at_samples},
     {"instructions", "instructions of a frame: cull, assign and convert (--count)", k_given},
     {"assign_instructions", "instructions to assign a frame's lights (--count)", k_given},
     {"convert_instructions", "instructions to convert a frame's lists (--count)", k_given},
@@ -60,6 +62,22 @@ std::vector<std::string> figure_names() {
   std::vector<std::string> names;
   for (const LimitFigure& figure : k_figures) names.emplace_back(figure.name);
   return names;
+}
+
+std::vector<std::string> sets_of_samples() {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < measure::k_sample_set_count; ++i)
+    names.emplace_back(measure::name_of(static_cast<measure::SampleSet>(i)));
+  return names;
+}
+
+// "; of one set of samples as 'opaque.unlit' (sets: volume, opaque ...; figures: unlit ...)".
+std::string at_samples_text() {
+  std::vector<std::string> figures;
+  for (const LimitFigure& figure : k_figures)
+    if (figure.is_at_samples) figures.emplace_back(figure.name);
+  return "; of one set of samples as in 'opaque.unlit' (sets: " + joined(sets_of_samples()) +
+         "; figures: " + joined(figures) + ")";
 }
 
 struct Number {
@@ -161,13 +179,17 @@ class RuleParser {
 
   void check_figure() const {
     const std::vector<std::string> names = figure_names();
-    const LimitFigure* figure =
-        std::ranges::find_if(k_figures, [&](const LimitFigure& known) { return rule_.figure == known.name; });
+    const FigureAtSamples parts = figure_at_samples(rule_.figure);
+    const LimitFigure* figure = std::ranges::find_if(k_figures, [&](const LimitFigure& known) {
+      return parts.figure == known.name && (parts.set.empty() || known.is_at_samples);
+    });
     if (figure == std::end(k_figures))
-      refuse("names no figure of a case" + did_you_mean(rule_.figure, names) + "; there are: " + joined(names));
+      refuse("names no figure of a case" + did_you_mean(parts.figure, names) + "; there are: " + joined(names) +
+             at_samples_text());
     if (rule_.is_relative && figure->is_timed)
       refuse(
-          "holds times of two runs against each other, which differ by themselves; hold instructions against the "
+          "holds times of two runs against each other, and two runs of one program can differ several-fold; hold "
+          "instructions against the "
           "baseline (--count), or measure both programs side by side (--baseline-binary)");
   }
 
@@ -183,6 +205,18 @@ std::string number_text(double value, bool is_relative) {
 
 std::span<const LimitFigure> limit_figures() {
   return k_figures;
+}
+
+FigureAtSamples figure_at_samples(const std::string& name) {
+  const std::size_t point = name.find('.');
+  if (point == std::string::npos || !measure::sample_set_named(name.substr(0, point))) return {"", name};
+  return {name.substr(0, point), name.substr(point + 1)};
+}
+
+bool is_at_samples(const std::string& name) {
+  const std::string figure = figure_at_samples(name).figure;
+  return std::ranges::any_of(k_figures,
+                             [&](const LimitFigure& known) { return known.is_at_samples && figure == known.name; });
 }
 
 bool LimitRule::is_broken_by(double value) const {

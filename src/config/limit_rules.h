@@ -1,5 +1,6 @@
 #pragma once
-// Budgets that fail a run: "frame_us.max > 200", "lights_in_view 200..300", "exact-fast: longest > +5 %".
+// Budgets that fail a run: "frame_us.max > 200", "lights_in_view 200..300", "exact-fast: longest > +5 %",
+// "opaque.unlit > 0".
 // report/limits.h holds results against them.
 
 #include <span>
@@ -12,10 +13,18 @@ namespace clusterbench::config {
 struct LimitFigure {
   const char* name;
   const char* meaning;
-  bool is_choosable = true;  // `recommend` can choose grids, methods and structures by it
-  bool is_timed = false;     // rests on times, so that two runs of one program differ in it
+  bool is_choosable = true;    // `recommend` can choose grids, methods and structures by it
+  bool is_timed = false;       // rests on times, so that two runs of one program differ in it
+  bool is_at_samples = false;  // can be asked of one set of samples: "opaque.unlit"
 };
 std::span<const LimitFigure> limit_figures();
+
+// "opaque.unlit" in its parts; the set is "" where none is named.
+struct FigureAtSamples {
+  std::string set, figure;
+};
+FigureAtSamples figure_at_samples(const std::string& name);
+bool is_at_samples(const std::string& name);  // of one set or of those that rank
 
 // A budget says what fails.
 struct LimitRule {
@@ -26,7 +35,7 @@ struct LimitRule {
     outside  // of limit..upper
   };
 
-  std::string figure;         // one of limit_figures()
+  std::string figure;         // one of limit_figures(), or of one set of samples: "opaque.unlit"
   bool is_inclusive = false;  // ">=" and "<="
   double limit = 0.0;
   Side side = Side::above;

@@ -58,7 +58,7 @@ std::optional<measure::TailEstimate> tail_of(const SizedBuffer& buffer) {
 std::string tail_text(const SizedBuffer& buffer) {
   const std::optional<measure::TailEstimate> found = tail_of(buffer);
   if (!found) return "";
-  if (!found->tail) return buffer.name + ": unknown, " + found->refusal;
+  if (!found->tail) return buffer.name + ": no estimate: " + found->refusal;
   const measure::Tail& tail = *found->tail;
   const measure::Tail::Capacity rare = capacity_for_rare(tail, buffer);
   return buffer.name + (tail.fits ? ": above " : ": NO GOOD FIT, do not rely on it: above ") +

@@ -14,8 +14,8 @@ namespace clusterbench::report {
 std::optional<measure::TailEstimate> tail_of(const SizedBuffer& buffer);
 
 // "indices: above 51398 in no frame, as far as the fit tells (at most 1 in 30000); 1 in 10^5 frames above 31000 (at
-// most 35000)", and what speaks against it; or "indices: unknown, only 7 separate peaks ...". "" where there is no
-// estimate.
+// most 35000)", and what speaks against it; or "indices: no estimate: 7 of the 20 independent peaks it needs ...". ""
+// where there is no estimate.
 std::string tail_text(const SizedBuffer& buffer);
 
 // Null where there is no estimate; with "refusal" alone where there can be none.

@@ -367,10 +367,10 @@ std::string listed(const Json& names) {
 }
 
 constexpr const char* k_separate_hints =
-    "times are of separate runs, which differ by themselves, on a busy machine several times over: they are hints and "
-    "fail nothing; to gate on time use `run --baseline-binary`, on a noisy machine `run --count`";
+    "two runs of one program can differ several-fold; hints only, which fail nothing: to gate on time use `run "
+    "--baseline-binary`, on a noisy machine `run --count`";
 constexpr const char* k_separate_verdicts =
-    "--gate-separate: times are of separate runs, and intervals know nothing of what differs between runs; on a busy "
+    "--gate-separate: two runs of one program can differ several-fold, and intervals know nothing of that; on a busy "
     "machine every second comparison of a program with itself failed";
 
 // The names that stand on one side alone. What the other has under the same name is told apart, with the difference.

@@ -17,6 +17,7 @@
 #include "report/json_values.h"
 #include "report/nothing_seen.h"
 #include "report/result_json.h"
+#include "report/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {
@@ -27,10 +28,15 @@ constexpr const char* k_remedy =
     "--set 'samples.opaque={}' (levels with triangles) or samples.opaque.ground=lowest shades surfaces, and can change "
     "the choice";
 
+// "Its samples (visible surfaces)".
+std::string samples_text(const std::vector<std::string>& sets) {
+  return "Its samples" + (sets.empty() ? "" : " (" + words_of_sets(sets) + ")");
+}
+
 // Of samples that need few lights. "" where they need enough.
-std::string few_samples_text(double needed) {
+std::string few_samples_text(double needed, const std::vector<std::string>& sets) {
   if (needed >= k_least_needed_to_choose) return "";
-  return ". Its samples need only " + number_of(static_cast<std::uint64_t>(needed), "light") +
+  return ". " + samples_text(sets) + " need only " + number_of(static_cast<std::uint64_t>(needed), "light") +
          ": costs are rough, and a light that is lost can go unseen; more frames, or samples (samples.opaque.divisor, "
          "shading.samples), tell more";
 }
@@ -230,9 +236,10 @@ std::string doubts_text(const Choice& choice) {
   const WeighedCase& take = *choice.take;
   std::string out;
   if (const double unlit = take.unlit(); unlit > 0.0)
-    out += ". Its samples lack " + (unlit < 1e-4 ? "less than 0.01 %" : text("%.2g %%", 100.0 * unlit)) +
-           " of the lights that they need";
-  if (take.is_modelled) out += few_samples_text(sum_at_samples(*take.result_case, "needed"));
+    out += ". " + samples_text(ranking_set_names(*take.result_case)) + " lack " +
+           (unlit < 1e-4 ? "less than 0.01 %" : text("%.2g %%", 100.0 * unlit)) + " of the lights that they need";
+  if (take.is_modelled)
+    out += few_samples_text(sum_at_samples(*take.result_case, "needed"), ranking_set_names(*take.result_case));
   if (!choice.alike.empty())
     out += std::string(". No difference that these ") + (take.is_timed() ? "times" : "figures") + " can show" +
            (take.is_modelled ? " (costs within 5 % are alike: part of them is modelled)" : "") + " to " +
@@ -262,7 +269,7 @@ std::string failure_text(const Json& result) {
 }
 
 Json conclusion_of(const SceneView& view, std::uint64_t seed) {
-  const std::string unseen = why_nothing_is_seen(view.cases, RankedBy::cost);
+  const std::string unseen = why_nothing_is_seen(view.cases, RankedBy::samples);
   const Choice choice = unseen.empty() ? choose_of(view, seed) : Choice{};
   Json out{{"scene", view.scene}, {"camera", view.camera}, {"viewport", view.viewport}, {"take", nullptr},
            {"against", nullptr},  {"ratio", nullptr},      {"ci95", nullptr},           {"alike", Json::array()}};
@@ -333,7 +340,7 @@ std::string smallest_text(const Json& answer, const Json& objective) {
          " with " + bytes_text(*more_bytes) + " in place of " + bytes_text(*bytes);
 }
 
-// ": bytes <= 1000 excludes all 32 candidates, unlit = 0 excludes 4", those that exclude most.
+// ": bytes <= 1000 rejects all 32 candidates, unlit = 0 rejects 4", those that reject most.
 std::string excluding_text(const Json& answer) {
   constexpr std::size_t k_most = 3;
   std::vector<std::pair<std::uint64_t, std::string>> excluding;
@@ -345,7 +352,7 @@ std::string excluding_text(const Json& answer) {
   std::vector<std::string> texts;
   for (const auto& [excluded, constraint] : excluding) {
     if (texts.size() == k_most) break;
-    texts.push_back(constraint + " excludes " + (excluded == answer["candidates"] ? "all " : "") +
+    texts.push_back(constraint + " rejects " + (excluded == answer["candidates"] ? "all " : "") +
                     number_of(excluded, "candidate"));
   }
   return texts.empty() ? "" : ": " + joined(texts);
@@ -393,7 +400,8 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
   if (!searched.empty() && number_at(searched[0], "/by_choice").value_or(1.0) < 1.0)
     out += ". " + shown(searched[0]["name"].get<std::string>()) + ", which samples search, would have " +
            objective_text(searched[0], objective) + "; no GPU has measured such a search";
-  if (const std::optional<double> needed = number_at(answer, "/needed_at_samples")) out += few_samples_text(*needed);
+  if (const std::optional<double> needed = number_at(answer, "/needed_at_samples"))
+    out += few_samples_text(*needed, answer.value("samples", Json::array()).get<std::vector<std::string>>());
   if (const std::optional<double> height = number_at(answer, "/ground_m"))
     out += text(". Samples lie on a floor at y = %.4g m, since the scene has no triangles", *height);
   if (answer.value("random_depths", false))

@@ -10,16 +10,12 @@
 #include "report/contender.h"
 #include "report/json_values.h"
 #include "report/result_json.h"
+#include "report/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Where a case has the counts of a set of samples.
-std::string counts_pointer(const std::string& set) {
-  return set == "volume" ? "/shading" : "/samples/" + set;
-}
 
 // Of the picture's pixels one that is looked through stands for so many.
 double pixels_per_sample(const Json& result_case, const std::string& set, const Json& config) {
@@ -66,7 +62,7 @@ struct WeightedSet {
 std::vector<WeightedSet> weighted_sets(const Json& result_case, const Json& config) {
   std::vector<WeightedSet> sets;
   for (const auto& [name, weight] : config["cost"]["weights"].items()) {
-    const Json* counts = value_at(result_case, counts_pointer(name));
+    const Json* counts = samples_of_set(result_case, name);
     if (weight == 0.0 || counts == nullptr) continue;
     const double per_frame = shaded_in_frame(result_case, name, weight, (*counts)["samples"].get<double>(), config);
     sets.push_back(
@@ -87,13 +83,11 @@ struct RankingSet {
 
 std::vector<RankingSet> ranking_sets(const Json& result_case) {
   std::vector<RankingSet> sets;
-  const auto add = [&](const std::string& name, double shaded) {
-    if (const Json* counts = value_at(result_case, counts_pointer(name))) sets.push_back({counts, shaded});
-  };
-  if (const Json* paid = value_at(result_case, "/cost/sets"); paid != nullptr && !paid->empty())
-    for (const auto& [name, set] : paid->items()) add(name, number_at(set, "/samples").value_or(0.0));
-  else
-    add(value_at(result_case, "/samples/opaque") != nullptr ? "opaque" : "volume", 1.0);
+  const Json* paid = value_at(result_case, "/cost/sets");
+  const bool is_paid = paid != nullptr && !paid->empty();
+  for (const std::string& name : ranking_set_names(result_case))
+    sets.push_back({samples_of_set(result_case, name),
+                    is_paid ? number_at(result_case, "/cost/sets/" + name + "/samples").value_or(0.0) : 1.0});
   return sets;
 }
 
@@ -189,10 +183,8 @@ double sum_at_samples(const Json& result_case, const char* count) {
 }
 
 std::optional<double> unlit_at_samples(const Json& result_case) {
-  std::optional<double> most;
-  for (const Json* set : ranking_samples(result_case))
-    if (const std::optional<double> unlit = number_at(*set, "/unlit")) most = std::max(*unlit, most.value_or(0.0));
-  return most;
+  const Json* most = most_at_sets(result_case, "/unlit");
+  return most != nullptr ? number_at(*most, "/unlit") : std::nullopt;
 }
 
 std::optional<double> mean_at_samples(const Json& result_case, const char* count) {

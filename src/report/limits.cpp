@@ -11,8 +11,10 @@
 #include "core/pattern.h"
 #include "core/text.h"
 #include "report/baseline_cases.h"
+#include "report/case_filter.h"
 #include "report/json_values.h"
 #include "report/percent_change.h"
+#include "report/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {
@@ -50,10 +52,6 @@ constexpr FigureRow k_figure_rows[] = {
     {"excess", "/error/false_positives", 1.0, "", "", "/error/true_pairs"},
     {"excess", "/error/excess_ratio"},
     {"undecided", "/error/undecided"},
-    {"unlit", "/shading/missed", 1.0, "/shading/worst_frame/frame", "", "/shading/needed"},
-    {"lost_irradiance", "/shading/lost_irradiance"},
-    {"overshade", "/cost/overshade"},
-    {"overshade", "/shading/overshade"},
     {"instructions",
      "/count/instructions_per_frame/frame",
      1.0,
@@ -70,10 +68,17 @@ constexpr FigureRow k_figure_rows[] = {
     {"lights_in_view", "/lights_in_view/max", 1.0, "/lights_in_view/worst_frame"},
 };
 
-// With the row that has it.
+// Figures at samples: pointers in the counts of a set.
+constexpr FigureRow k_rows_at_samples[] = {
+    {"unlit", "/missed", 1.0, "/worst_frame/frame", "", "/needed"},
+    {"lost_irradiance", "/lost_irradiance"},
+    {"overshade", "/overshade"},
+};
+
+// With where it is so, and of which samples.
 struct Found {
-  const FigureRow* row = nullptr;
   Quotient quotient = {};
+  std::string location, samples = {};
 
   double value() const { return quotient.value(); }
 };
@@ -85,19 +90,6 @@ std::optional<double> sum_of_parts(const Json& result_case, const FigureRow& row
   return sum;
 }
 
-std::optional<Found> found_in(const Json& result_case, const std::string& name) {
-  for (const FigureRow& row : k_figure_rows) {
-    if (row.name != name) continue;
-    std::optional<double> value = number_at(result_case, row.value);
-    if (!value) value = sum_of_parts(result_case, row);
-    if (!value) continue;
-    const double whole = *row.divisor == '\0' ? row.unit : number_at(result_case, row.divisor).value_or(0.0);
-    if (!(whole > 0.0)) continue;  // a share of nothing
-    return Found{&row, {*value, whole}};
-  }
-  return {};
-}
-
 std::string worst_location(const Json& result_case, const FigureRow& row) {
   std::string text;
   for (const auto& [word, pointer] : {std::pair("frame ", row.frame), std::pair("cell ", row.cell)})
@@ -106,16 +98,65 @@ std::string worst_location(const Json& result_case, const FigureRow& row) {
   return text;
 }
 
+std::optional<Found> found_by(const FigureRow& row, const Json& from) {
+  std::optional<double> value = number_at(from, row.value);
+  if (!value) value = sum_of_parts(from, row);
+  if (!value) return {};
+  const double whole = *row.divisor == '\0' ? row.unit : number_at(from, row.divisor).value_or(0.0);
+  if (!(whole > 0.0)) return {};  // a share of nothing
+  return Found{{*value, whole}, worst_location(from, row)};
+}
+
+const FigureRow* row_at_samples(const std::string& figure) {
+  const auto* const row = std::ranges::find(k_rows_at_samples, figure, &FigureRow::name);
+  return row == std::end(k_rows_at_samples) ? nullptr : row;
+}
+
+// Of several sets the one where it is largest: what is lacking in one is not made up for in another. Overshade of sets
+// that have weights is that of all of them, as a frame shades them.
+std::optional<Found> found_at_samples(const Json& result_case, const FigureRow& row,
+                                      const std::vector<std::string>& sets, bool is_of_ranking) {
+  std::optional<Found> most;
+  const std::optional<double> weighted = number_at(result_case, "/cost/overshade");
+  if (is_of_ranking && weighted && row.name == std::string_view("overshade"))
+    return Found{{*weighted, 1.0}, words_of_sets(sets), joined(sets)};
+  for (const std::string& set : sets) {
+    const Json* counts = samples_of_set(result_case, set);
+    std::optional<Found> found = counts != nullptr ? found_by(row, *counts) : std::nullopt;
+    if (!found || (most && most->value() >= found->value())) continue;
+    found->location = words_of_set(set) + (found->location.empty() ? "" : ", ") + found->location;
+    found->samples = joined(sets);
+    most = std::move(found);
+  }
+  return most;
+}
+
+std::optional<Found> found_in(const Json& result_case, const std::string& name) {
+  const config::FigureAtSamples parts = config::figure_at_samples(name);
+  if (const FigureRow* row = row_at_samples(parts.figure))
+    return parts.set.empty() ? found_at_samples(result_case, *row, ranking_set_names(result_case), true)
+                             : found_at_samples(result_case, *row, {parts.set}, false);
+  for (const FigureRow& row : k_figure_rows)
+    if (row.name == name)
+      if (std::optional<Found> found = found_by(row, result_case)) return found;
+  return {};
+}
+
 // Why a case may lack a figure.
 std::string reason_for_none(const std::string& figure) {
   const auto row = std::find_if(std::begin(k_figure_rows), std::end(k_figure_rows),
                                 [&](const FigureRow& candidate) { return candidate.name == figure; });
   const std::string_view pointer = row == std::end(k_figure_rows) ? "" : row->value;
   if (pointer.starts_with("/timing/")) return " (--no-timing or timing.measure: false leaves times out)";
-  if (figure == "overshade")
-    return " (there is none where more than 0.1 % of the lights are unlit or fewer than 100 reach the samples, as with "
-           "shading.samples: 0)";
-  if (pointer.starts_with("/shading/")) return " (no light reaches the samples, or shading.samples: 0 leaves them out)";
+  if (const config::FigureAtSamples parts = config::figure_at_samples(figure); row_at_samples(parts.figure)) {
+    const std::string without = parts.set.empty() || parts.set == "volume"
+                                    ? "shading.samples: 0 leaves them out"
+                                    : "samples." + parts.set + ": {} takes such samples";
+    if (parts.figure == "overshade")
+      return " (there is none where more than 0.1 % of the lights are unlit or fewer than 100 reach the samples; " +
+             without + ")";
+    return " (no light reaches the samples; " + without + ")";
+  }
   if (pointer.starts_with("/error/"))
     return " (accuracy.check: false leaves errors out; structures without cells have none)";
   if (pointer.starts_with("/count/")) return " (--count counts instructions)";
@@ -131,9 +172,8 @@ std::string listed_names(const std::vector<std::string>& names) {
 }
 
 std::string is_text(const Json& result_case, const config::LimitRule& rule, const Found& found) {
-  const std::string location = worst_location(result_case, *found.row);
   return result_case["name"].get<std::string>() + ": " + rule.figure + " is " + config::budget_number(found.value()) +
-         (location.empty() ? "" : " (" + location + ")");
+         (found.location.empty() ? "" : " (" + found.location + ")");
 }
 
 // One budget held against the cases that it names.
@@ -143,7 +183,7 @@ class RuleCheck {
       : rule_(rule), quoted_("'" + rule.text() + "'"), baseline_(baseline), findings_(findings) {
     const Pattern pattern(rule.cases, "");
     for (const Json& result_case : result["cases"])
-      if (pattern.is_in(result_case["name"].get<std::string>())) cases_.push_back(&result_case);
+      if (is_selected(pattern, result_case)) cases_.push_back(&result_case);
   }
 
   void check(const Json& result) {
@@ -207,6 +247,8 @@ class RuleCheck {
         without.push_back(name);
       else if (!why.empty())
         obstacle = why;
+      else if (now->samples != then->samples)
+        add_other_samples(name, *now, *then);
       else
         judge_change(*result_case, *now, *then);
     }
@@ -221,6 +263,12 @@ class RuleCheck {
     judge(is_broken_by_change(rule_, then.quotient, now.quotient), percent,
           is_text(result_case, rule_, now) + ", " + change + config::budget_number(then.value()) + " in " +
               baseline_->name());
+  }
+
+  void add_other_samples(const std::string& name, const Found& now, const Found& then) {
+    findings_.broken.push_back(quoted_ + " could not be checked for " + name + ": " + rule_.figure +
+                               " is at samples of " + now.samples + " here and of " + then.samples + " in " +
+                               baseline_->name() + "; name one set, as in 'volume." + rule_.figure + "'");
   }
 
   void add_unmatched(const std::vector<std::string>& not_in_base, const std::vector<std::string>& without,
@@ -243,8 +291,8 @@ class RuleCheck {
                                  "; measure the baseline in the same job");
     const Pattern pattern(rule_.cases, "");
     std::vector<std::string> gone;
-    for (const std::string& name : baseline_->gone())
-      if (pattern.is_in(name)) gone.push_back(name);
+    for (const Json* base_case : baseline_->gone_cases())
+      if (is_selected(pattern, *base_case)) gone.push_back((*base_case)["name"].get<std::string>());
     if (!gone.empty())
       findings_.broken.push_back(begin + " for " + number_of(gone.size(), "case") + " of " + baseline_->name() +
                                  " that this result does not have: " + listed_names(gone) +
@@ -289,7 +337,7 @@ std::optional<double> limit_figure(const Json& result_case, const std::string& n
 
 std::string limit_figure_location(const Json& result_case, const std::string& name) {
   const std::optional<Found> found = found_in(result_case, name);
-  return found ? worst_location(result_case, *found->row) : "";
+  return found ? found->location : "";
 }
 
 LimitFindings limit_findings(const Json& result, std::span<const config::LimitRule> rules,

@@ -6,6 +6,7 @@
 
 #include "report/columns.h"
 #include "report/json_values.h"
+#include "report/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {
@@ -22,24 +23,22 @@ struct SeenAtSamples {
   std::optional<double> ground_m;
 };
 
-void add_set(const Json& result_case, const std::string& pointer, SeenAtSamples& seen) {
-  const std::optional<double> samples = number_at(result_case, pointer + "/samples");
+void add_set(const Json& counts, SeenAtSamples& seen) {
+  const std::optional<double> samples = number_at(counts, "/samples");
   if (!samples) return;
   ++seen.sets;
   seen.samples += *samples;
-  seen.needed += number_at(result_case, pointer + "/needed").value_or(0.0);
-  if (const std::optional<double> ground_m = number_at(result_case, pointer + "/ground_m")) seen.ground_m = ground_m;
+  seen.needed += number_at(counts, "/needed").value_or(0.0);
+  if (const std::optional<double> ground_m = number_at(counts, "/ground_m")) seen.ground_m = ground_m;
 }
 
 void add_case(const Json& result_case, RankedBy by, SeenAtSamples& seen) {
   if (by == RankedBy::no_samples) return;
-  const Json* sets = by == RankedBy::cost ? value_at(result_case, "/cost/sets") : nullptr;
-  if (sets == nullptr) {
-    if (number_at(result_case, "/shading/samples").value_or(0.0) > 0.0) add_set(result_case, "/shading", seen);
-    return;
+  const bool is_costed = result_case.contains("cost");
+  for (const std::string& set : ranking_set_names(result_case)) {
+    const Json& counts = *samples_of_set(result_case, set);
+    if (is_costed || set != "volume" || number_at(counts, "/samples").value_or(0.0) > 0.0) add_set(counts, seen);
   }
-  for (const auto& [name, set] : sets->items())
-    add_set(result_case, name == "volume" ? std::string("/shading") : "/samples/" + name, seen);
 }
 
 std::string of_samples(const SeenAtSamples& seen) {
@@ -93,7 +92,7 @@ std::set<std::string> ids_of_nothing_seen(const Json& cases) {
   for (const Json& one : cases) views[Json{one["scene"], one["camera"], one["viewport"]}.dump()].push_back(&one);
   std::set<std::string> ids;
   for (const auto& [_, of_view] : views) {
-    if (why_nothing_is_seen(of_view, RankedBy::cost).empty()) continue;
+    if (why_nothing_is_seen(of_view, RankedBy::samples).empty()) continue;
     for (const Json* one : of_view) ids.insert((*one)["id"].get<std::string>());
   }
   return ids;

@@ -9,9 +9,8 @@
 
 namespace clusterbench::report {
 
-// What cases are ranked by: the samples of their `cost` (those of the whole view where they have none), samples of the
-// whole view, or nothing that a sample says.
-enum class RankedBy : std::uint8_t { cost, whole_view, no_samples };
+// What cases are ranked by: the samples that rank them (report/sample_sets.h), or nothing that a sample says.
+enum class RankedBy : std::uint8_t { samples, no_samples };
 
 // Of the points and spots of a result's scene those that light nothing; 0 also in results that are older than this
 // count.

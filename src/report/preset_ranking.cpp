@@ -16,6 +16,7 @@
 #include "report/preset_losses.h"
 #include "report/preset_words.h"
 #include "report/result_json.h"
+#include "report/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {
@@ -66,7 +67,7 @@ void give_places(std::vector<RankedPreset>& rows) {
 }
 
 std::vector<RankedPreset> ranked(const std::vector<const Json*>& cases, const Json& config) {
-  const std::string unseen = why_nothing_is_seen(cases, RankedBy::cost);
+  const std::string unseen = why_nothing_is_seen(cases, RankedBy::samples);
   std::vector<RankedPreset> rows;
   for (const Json* result_case : cases) {
     RankedPreset row{result_case, {},    whole_frame(*result_case, config), preset_losses(*result_case), 0,
@@ -154,14 +155,17 @@ std::string shown_line(const Json& line, const Json& cases, const Json& best, Ce
   return "  " + shown(line["preset"]) + " " + shown(line["why"]) + ".\n";
 }
 
-std::string heading(const Json& ranking) {
+std::string heading(const Json& ranking, const Json& cases) {
   std::string out = "\npresets: " + shown(ranking["scene"]) + "/" + shown(ranking["camera"]) + ", " +
                     ranking["viewport"][0].dump() + "x" + ranking["viewport"][1].dump();
   if (ranking.contains("frames")) out += ", " + number_of(ranking["frames"].get<std::uint64_t>(), "frame");
   if (ranking.contains("lights_in_view"))
     out += "; lights in view: " + text_at(ranking, "/lights_in_view/mean", "%.3g") + " on average, " +
            text_at(ranking, "/lights_in_view/max", "%.0f") + " at most";
-  return out + "\n";
+  const Json& first = ranking["cases"].front()["id"];
+  const auto found = std::ranges::find_if(cases, [&](const Json& result_case) { return result_case["id"] == first; });
+  const std::vector<std::string> sets = found == cases.end() ? std::vector<std::string>{} : ranking_set_names(*found);
+  return out + (sets.empty() ? "" : "; samples: " + words_of_sets(sets)) + "\n";
 }
 
 constexpr const char* k_legend =
@@ -170,7 +174,7 @@ constexpr const char* k_legend =
     "too;\ns: samples search the structure, ranked apart, since no GPU has measured what that costs;\n-: samples lack "
     "more lights, or need fewer than 1000, too few to say so.\ngpu, upload, read: us of a frame by the model. Lists "
     "that "
-    "a GPU makes are not uploaded. lights: looped over at a sample,\non average. dropped, missed: pairs that cells in "
+    "a GPU makes are not uploaded. lights: that a sample is given,\non average. dropped, missed: pairs that cells in "
     "view lack, seen or not; unlit: what samples lack decides. assign: us of one\ncore here, of engines that assign on "
     "the CPU; gpu: a time here would not be the engine's.\n";
 
@@ -227,7 +231,7 @@ std::string preset_table(const Json& result) {
       reasons += reason;
     }
     const std::vector<std::size_t> widths = widths_of(rows);
-    out += heading(ranking);
+    out += heading(ranking, result["cases"]);
     for (const Cells& row : rows) out += aligned(row, widths);
     out += reasons;
   }

@@ -9,6 +9,7 @@
 #include "report/columns.h"
 #include "report/json_values.h"
 #include "report/nothing_seen.h"
+#include "report/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {
@@ -69,7 +70,8 @@ std::vector<std::string> loss_texts(const RankedPreset& row) {
     ways.push_back("drops " + number_of(overflow["lights"].size(), "light") + " in some cells of " +
                    number_of(overflow["frames"].get<std::uint64_t>(), "frame") + shortage(row));
   if (row.losses.by_method > 0)
-    ways.push_back("its method does not find " + lost_pairs_text(row.losses.by_method, row.losses));
+    ways.push_back("its test misses cells that the light reaches: " +
+                   lost_pairs_text(row.losses.by_method, row.losses));
   if (const double outside = sum_at_samples(result_case, "missed_outside"); outside > 0.0)
     ways.push_back(percent(outside / row.losses.needed) + " of the lights that samples need lie beyond its grid");
   return ways;
@@ -81,7 +83,12 @@ std::string needed_lights_text(const RankedPreset& row) {
 }
 
 std::string sample_word(const RankedPreset& row) {
-  return value_at(*row.result_case, "/samples/opaque") != nullptr ? "sample on a visible surface" : "sample";
+  return "sample (" + words_of_sets(ranking_set_names(*row.result_case)) + ")";
+}
+
+// "samples (visible surfaces)".
+std::string samples_words(const RankedPreset& row) {
+  return "samples (" + words_of_sets(ranking_set_names(*row.result_case)) + ")";
 }
 
 // Of the samples by which presets are ranked.
@@ -108,7 +115,7 @@ std::string light_text(const RankedPreset& row) {
   const std::string causes = ways.empty() ? "" : ": " + joined(ways, "; ");
   if (row.standing == PresetStanding::unknown && row.losses.has_few_samples()) return undecided_loss(row) + causes;
   if (row.losses.unlit.value_or(0.0) > 0.0)
-    return "samples lack " + percent(*row.losses.unlit) + " of the lights that they need" + causes;
+    return samples_words(row) + " lack " + percent(*row.losses.unlit) + " of the lights that they need" + causes;
   return ways.empty() ? "loses nothing" : "loses nothing that a sample needs" + causes;
 }
 
@@ -162,7 +169,7 @@ std::string alike_text(const std::vector<const RankedPreset*>& alike) {
   if (most <= measure::k_alike_ratio * least)
     return ": no difference beyond " + text("%.0f %%", 100.0 * (measure::k_alike_ratio - 1.0)) + costs;
   return ": no difference that the model can show" + costs +
-         ", since its prices of upload, reading and looping may each be off by " +
+         ", since its prices of upload, reading and shading may each be off by " +
          text("%.0f times", measure::k_price_factor) + ", which turns the order";
 }
 

@@ -20,6 +20,7 @@
 #include "report/machine.h"
 #include "report/nothing_seen.h"
 #include "report/result_json.h"
+#include "report/sample_sets.h"
 #include "run/scene_facts.h"
 
 namespace clusterbench::report {
@@ -57,6 +58,8 @@ FigureKind figure_kind(const std::string& name) {
   return found == std::end(k_kinds) ? FigureKind{"", OverCameras::mean} : *found;
 }
 
+// What surfaces of the path do not need can be needed by what moves there.
+constexpr const char* k_unlit_in_view = "volume.unlit";
 // Overshade at the samples that cost something.
 constexpr const char* k_cost_overshade = "cost_overshade";
 constexpr const char *k_gpu_cost = "gpu_cost_us", *k_evaluated = "evaluated", *k_read_bytes = "read_bytes";
@@ -68,9 +71,7 @@ std::optional<double> figure_of(const Json& result_case, const std::string& name
   }
   if (name == k_cost_overshade) return number_at(result_case, "/cost/overshade");
   if (name != k_evaluated && name != k_read_bytes) return limit_figure(result_case, name);
-  const std::optional<double> samples = number_at(result_case, "/shading/samples"),
-                              sum = number_at(result_case, "/shading/" + name);
-  return samples && sum && *samples > 0.0 ? std::optional(*sum / *samples) : std::nullopt;
+  return mean_at_samples(result_case, name.c_str());
 }
 
 // Nothing where a camera lacks it.
@@ -107,6 +108,9 @@ std::optional<double> breaking_figure(const Json& cases, const Constraint& const
   for (const Json& result_case : cases) {
     const std::optional<double> value = figure_of(result_case, constraint.rule.figure);
     if (!value && constraint.is_given) return std::numeric_limits<double>::quiet_NaN();
+    if (!constraint.is_given && constraint.rule.figure == k_unlit_in_view &&
+        ranking_set_names(result_case) == std::vector<std::string>{"volume"})
+      continue;
     if (value && constraint.rule.is_broken_by(*value)) largest = std::max(*value, largest.value_or(*value));
   }
   return largest;
@@ -287,12 +291,16 @@ double needed_over(const Json& cases) {
   return needed;
 }
 
+bool rests_on_samples(const ObjectiveFigure& objective) {
+  return objective.is_cost || objective.name == k_evaluated || objective.name == k_read_bytes ||
+         config::is_at_samples(objective.name);
+}
+
 // Whether the objective is of samples that lie anywhere in the view.
 bool rests_on_random_depths(const Json& result_case, const ObjectiveFigure& objective) {
-  if (!objective.is_cost)
-    return objective.name == "evaluated" || objective.name == "read_bytes" || objective.name == "overshade";
-  const Json* sets = value_at(result_case, "/cost/sets");
-  return sets != nullptr && sets->contains("volume") && !sets->contains("opaque");
+  const std::vector<std::string> sets = ranking_set_names(result_case);
+  return rests_on_samples(objective) && std::ranges::find(sets, "volume") != sets.end() &&
+         std::ranges::find(sets, "opaque") == sets.end();
 }
 
 // Of all cameras together: what one of them sees is something to choose by.
@@ -302,11 +310,7 @@ std::string why_nothing_is_seen(const search::Found& found, const config::Config
     for (const Json& one : cases_json(finalist.cases, config.resolved)) all.push_back(one);
   std::vector<const Json*> cases;
   for (const Json& one : all) cases.push_back(&one);
-  const std::string& figure = question.objective.name;
-  const bool is_of_whole_view = figure == k_evaluated || figure == k_read_bytes || figure == "overshade";
-  return why_nothing_is_seen(cases, question.objective.is_cost ? RankedBy::cost
-                                    : is_of_whole_view         ? RankedBy::whole_view
-                                                               : RankedBy::no_samples);
+  return why_nothing_is_seen(cases, rests_on_samples(question.objective) ? RankedBy::samples : RankedBy::no_samples);
 }
 
 // The best behind the choice. Of those that differ in cells only, which their method then does not use, the first.
@@ -460,9 +464,12 @@ const ObjectiveFigure& objective_figure(const std::string& name) {
 std::vector<Constraint> constraints_of(const std::vector<config::LimitRule>& given) {
   std::vector<Constraint> all;
   for (const config::LimitRule& rule : given) all.push_back({rule, true});
+  const auto is_given = [&](const std::string& figure) {
+    return std::ranges::find(given, figure, &config::LimitRule::figure) != given.end();
+  };
   for (const char* figure : {"missed", "dropped", "unlit"})
-    if (std::ranges::find(given, figure, &config::LimitRule::figure) == given.end())
-      all.push_back({{figure, false, 0.0}, false});
+    if (!is_given(figure)) all.push_back({{figure, false, 0.0}, false});
+  if (!is_given("unlit") && !is_given(k_unlit_in_view)) all.push_back({{k_unlit_in_view, false, 0.0}, false});
   return all;
 }
 
@@ -514,6 +521,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
            {"lights", data.scene.lights.size()},
            {"candidates", view.candidates.size()},
            {"incomplete", view.incomplete},
+           {"samples", Json::array()},
            {"random_depths", false},
            {"ground_m", nullptr},
            {"needed_at_samples", nullptr},
@@ -538,11 +546,14 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
     if (const Json* height = value_at(all[0].cases[0], "/samples/opaque/ground_m")) out["ground_m"] = *height;
     if (const std::string why = why_no_reader(all[0].cases); !why.empty()) out["no_reader"] = why;
     if (question.objective.is_cost) out["needed_at_samples"] = needed_over(all[0].cases);
+    out["samples"] = ranking_set_names(all[0].cases[0]);
     out["random_depths"] = rests_on_random_depths(all[0].cases[0], question.objective);
   }
-  for (const Ranked& ranked : apart)
-    if (unseen.empty() && ranked.is_feasible())
-      out["searched"].push_back(ranked_json(config, view, ranked, has_choice ? all[0] : ranked, question));
+  for (const Ranked& ranked : apart) {
+    if (!unseen.empty() || !ranked.is_feasible()) continue;
+    if (!has_choice) out["samples"] = ranking_set_names(ranked.cases[0]);
+    out["searched"].push_back(ranked_json(config, view, ranked, has_choice ? all[0] : ranked, question));
+  }
   out["constraints"] = excluded_json(view, found, question);
   out["rungs"] = rungs_json(found.rungs);
   out["finalists"] = found.finalists.size();

@@ -8,6 +8,7 @@
 #include "report/conclusion.h"
 #include "report/json_values.h"
 #include "report/recommend_report.h"
+#include "report/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {
@@ -56,15 +57,18 @@ std::string nearest_text(const Json& answer) {
     const Json& nearest = row["nearest"];
     if (row["given"] == false || nearest.is_null()) continue;
     out += "nearest to " + row["constraint"].get<std::string>() +
-           " of those that it excludes: " + amount_text(nearest["figure"].get<double>()) + " on " +
+           " of those that it rejects: " + amount_text(nearest["figure"].get<double>()) + " on " +
            number_of(nearest["frames"].get<std::uint64_t>(), "frame") + ", " +
            shown(nearest["name"].get<std::string>()) + "\n";
   }
   return out;
 }
 
-std::string excluded_text(const Json& answer) {
-  std::vector<Cells> rows{{" ", "constraint", "excludes", "alone", "best of those", "by the best", "on frames"}};
+std::string excluded_text(const Json& answer, const Json& objective) {
+  const auto figure = objective["figure"].get<std::string>();
+  const std::string its = figure.ends_with("_cost_us") ? "its cost" : "its " + figure;
+  std::vector<Cells> rows{
+      {" ", "constraint", "rejects", "only by this rule", "best rejected", its + " ÷ best accepted", "on frames"}};
   for (const Json& row : answer["constraints"]) {
     if (row["excluded"] == 0 && row["given"] == false) continue;
     const Json& best = row["best"];
@@ -76,18 +80,33 @@ std::string excluded_text(const Json& answer) {
   return rows.size() > 1 ? table_of(rows) : "";
 }
 
+std::vector<std::string> answer_sets(const Json& answer) {
+  return answer.value("samples", Json::array()).get<std::vector<std::string>>();
+}
+
 // "read": bytes of the structure that a sample reads.
-Cells candidate_headings(const std::string& figure) {
+Cells candidate_headings(const Json& answer, const std::string& figure) {
   const bool is_column = figure == "bytes" || figure == "longest" || figure == "overshade";
-  return {" ",    "candidate", is_column ? "objective" : figure, "worse by", "cells", "bytes", "longest",
-          "read", "overshade"};
+  const std::string of_sets = heading_of_sets(answer_sets(answer));
+  return {" ",        "candidate",      is_column ? "objective" : figure,
+          "worse by", "cells",          "bytes",
+          "longest",  "read" + of_sets, "overshade" + of_sets};
+}
+
+// What the headings mean.
+std::string sets_line(const Json& answer) {
+  const std::vector<std::string> sets = answer_sets(answer);
+  if (sets.empty()) return "";
+  const std::string heading = heading_of_sets(sets);
+  return heading.substr(2, heading.size() - 3) + ": samples of " + words_of_sets(sets) +
+         (sets.size() > 1 ? ", by the weights of the key `cost`" : "") + "; read: bytes that one reads\n";
 }
 
 // Never beside the others: what their search costs on a GPU is a model's.
 std::string searched_text(const Json& answer, const std::string& figure) {
   const Json searched = answer.value("searched", Json::array());
   if (searched.empty()) return "";
-  std::vector<Cells> rows{candidate_headings(figure)};
+  std::vector<Cells> rows{candidate_headings(answer, figure)};
   for (const Json& record : searched) rows.push_back(candidate_row(" ", record, figure));
   return "structures that samples search, priced by the model (key cost: ns_per_read, read_gb_per_s), which no GPU has "
          "confirmed:\n" +
@@ -105,7 +124,7 @@ std::string answer_text(const Json& answer, const Json& objective) {
   } else if (answer["choice"].is_null()) {
     out += nearest_text(answer);
   } else {
-    std::vector<Cells> rows{candidate_headings(figure)};
+    std::vector<Cells> rows{candidate_headings(answer, figure)};
     rows.push_back(candidate_row("*", answer["choice"], figure));
     for (const Json& runner_up : answer["runners_up"]) rows.push_back(candidate_row(" ", runner_up, figure));
     out += table_of(rows);
@@ -117,7 +136,8 @@ std::string answer_text(const Json& answer, const Json& objective) {
            "\n";
   }
   out += searched_text(answer, figure);
-  if (unseen.empty()) out += excluded_text(answer);
+  if (unseen.empty()) out += sets_line(answer);
+  if (unseen.empty()) out += excluded_text(answer, objective);
   const Json& work = answer["work"];
   out += "measured " + work["evaluations"].dump() + " of " + work["all_evaluations"].dump() +
          " pairs of a candidate and a frame (" + text("%.3g", 100.0 * work["evaluations_share"].get<double>()) +

@@ -1,6 +1,7 @@
 #include "report/samples_table.h"
 
 #include "report/columns.h"
+#include "report/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {
@@ -19,17 +20,25 @@ std::string given_text(const Json& set) {
   return text("%.2f", set_per_sample(set, "evaluated")) + (unlit > 0.0 ? text(", %.3g %% unlit", 100.0 * unlit) : "");
 }
 
+// All of a case by name, points of the whole view first.
+std::vector<std::pair<std::string, const Json*>> all_sets_of(const Json& result_case) {
+  std::vector<std::pair<std::string, const Json*>> sets;
+  if (const Json* volume = samples_of_set(result_case, "volume")) sets.emplace_back("volume", volume);
+  for (const auto& [name, set] : result_case["samples"].items()) sets.emplace_back(shown(name), &set);
+  return sets;
+}
+
 // Methods as lines, sets as columns. All cases of a block have the same sets.
 std::string samples_block(const std::string& block, const std::vector<NamedCase>& cases) {
   Cells headings{"", "assigner"}, needed{"", "(needed)"};
-  for (const auto& [name, set] : (*cases.front().result_case)["samples"].items()) {
+  for (const auto& [name, set] : all_sets_of(*cases.front().result_case)) {
     headings.push_back(name);
-    needed.push_back(set["samples"] == 0 ? "-" : text("%.2f", set_per_sample(set, "needed")));
+    needed.push_back((*set)["samples"] == 0 ? "-" : text("%.2f", set_per_sample(*set, "needed")));
   }
   std::vector<Cells> rows{headings, needed};
   for (const NamedCase& named : cases) {
     Cells row{"", named.name};
-    for (const Json& set : (*named.result_case)["samples"]) row.push_back(given_text(set));
+    for (const auto& [name, set] : all_sets_of(*named.result_case)) row.push_back(given_text(*set));
     rows.push_back(row);
   }
   const std::vector<std::size_t> widths = widths_of(rows);
@@ -52,7 +61,7 @@ std::string samples_table(const Json& result) {
   }
   if (out.empty()) return "";
   return "\n" + out +
-         "lights that a shader loops over at a sample, by set, and those that reach it (needed).\n"
+         "lights that a sample is given, by set, and those that reach it (needed). volume: random points in the view.\n"
          "unlit: share of the needed ones that are not given. no answer: all samples lie outside of the cells.\n";
 }
 

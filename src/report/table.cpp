@@ -9,13 +9,16 @@
 #include "core/text.h"
 #include "report/columns.h"
 #include "report/fit_json.h"
+#include "report/frame_cost.h"
 #include "report/json_values.h"
+#include "report/limits.h"
 #include "report/lookup_table.h"
 #include "report/pre_cull_table.h"
 #include "report/precision_table.h"
 #include "report/preset_ranking.h"
 #include "report/ratios.h"
 #include "report/reaction_json.h"
+#include "report/sample_sets.h"
 #include "report/samples_table.h"
 #include "report/shadows_table.h"
 #include "report/stability_table.h"
@@ -53,19 +56,6 @@ std::string time_text(const Json& result_case, const char* pointer) {
   return text(us < 10.0 ? "%.2f" : us < 1000.0 ? "%.1f" : "%.0f", us);
 }
 
-// Half of the interval, of the time. A wide one has its ends at different distances, and shows both.
-std::string interval_text(const Json& result_case) {
-  constexpr double k_wide_percent = 20.0;
-  const auto low = number_at(result_case, "/timing/frame_ns/ci95/0"),
-             high = number_at(result_case, "/timing/frame_ns/ci95/1"),
-             median = number_at(result_case, "/timing/frame_ns/median");
-  if (!median || *median <= 0.0) return "-";
-  if (!low || !high) return k_unknown_interval;
-  const double below = 100.0 * (1.0 - *low / *median), above = 100.0 * (*high / *median - 1.0);
-  if (std::max(below, above) < k_wide_percent) return text("%.1f %%", 0.5 * (below + above));
-  return text("-%.0f", below) + text("/+%.0f %%", above);
-}
-
 std::string worst_text(const Json& result_case) {
   const Json* frame = value_at(result_case, "/timing/worst_frame/frame");
   return frame == nullptr ? "-" : time_text(result_case, "/timing/worst_frame/ns") + " @" + frame->dump();
@@ -79,27 +69,32 @@ std::string pairs_text(const Json& result_case) {
 
 // A share that is small and not nothing never looks like nothing.
 std::string unlit_text(const Json& result_case) {
-  const std::optional<double> share = number_at(result_case, "/shading/unlit");
+  const std::optional<double> share = unlit_at_samples(result_case);
   if (!share) return "-";
   const double percent = 100.0 * *share;
   if (percent == 0.0) return "0 %";
   return percent < 0.01 ? "<0.01 %" : text(percent < 1.0 ? "%.2f %%" : "%.1f %%", percent);
 }
 
-// On visible surfaces if they are asked for, else at points of the whole view.
+// Of the samples that the case is ranked by, as `unlit`.
 std::string lost_lux_text(const Json& result_case, const char* what) {
-  const std::string set = value_at(result_case, "/samples/opaque") != nullptr ? "/samples/opaque" : "/shading";
-  const std::optional<double> loses = number_at(result_case, set + "/lost_lux");
+  const Json* most = most_at_sets(result_case, what);
+  const std::optional<double> loses = number_at(most != nullptr ? *most : result_case, "/lost_lux");
   if (loses && *loses == 0.0) return "0";
-  return text_at(result_case, (set + what).c_str(), "%.3g");
+  return most != nullptr ? text_at(*most, what, "%.3g") : "-";
+}
+
+// What the star goes by; lists that leave lights out are short.
+std::string overshade_text(const Json& result_case) {
+  const Json* is_lit = value_at(result_case, "/cost/lit");
+  const std::optional<double> overshade = limit_figure(result_case, "overshade");
+  return overshade && (is_lit == nullptr || *is_lit == true) ? text("%.2f", *overshade) : "-";
 }
 
 // Bytes of the structure that a sample reads to know its lights.
 std::string read_bytes_text(const Json& result_case) {
-  const std::string set = value_at(result_case, "/samples/opaque") != nullptr ? "/samples/opaque" : "/shading";
-  const auto samples = number_at(result_case, set + "/samples"), bytes = number_at(result_case, set + "/read_bytes");
-  return samples && bytes && *samples > 0.0 ? text(*bytes < 100.0 * *samples ? "%.3g" : "%.0f", *bytes / *samples)
-                                            : "-";
+  const std::optional<double> bytes = mean_at_samples(result_case, "read_bytes");
+  return bytes ? text(*bytes < 100.0 ? "%.3g" : "%.0f", *bytes) : "-";
 }
 
 // Where nothing is timed what the GPU does.
@@ -128,12 +123,14 @@ struct Column {
   const char* heading;
   std::string (*text)(const Json& result_case);
   bool Extras::*needed = nullptr;  // left out where the table has none of it
+  bool is_at_samples = false;      // the heading says of which
 };
+constexpr bool k_at_samples = true;
 
 constexpr Column k_columns[] = {
     {k_frame_heading, [](const Json& result_case) { return time_text(result_case, "/timing/frame_ns/median"); },
      &Extras::times},
-    {"+-", interval_text, &Extras::times},
+    {"±", frame_interval_text, &Extras::times},
     {"worst us", worst_text, &Extras::times},
     {"assign", [](const Json& result_case) { return time_text(result_case, "/timing/assign_ns/median"); },
      &Extras::times},
@@ -153,9 +150,8 @@ constexpr Column k_columns[] = {
     {"lost lx", [](const Json& result_case) { return lost_lux_text(result_case, "/lost_lux"); }, &Extras::dropped},
     {"worst lx", [](const Json& result_case) { return lost_lux_text(result_case, "/darkest/lost_lux"); },
      &Extras::dropped},
-    {"unlit", unlit_text, &Extras::samples},
-    {"shade", [](const Json& result_case) { return text_at(result_case, "/shading/overshade", "%.2f"); },
-     &Extras::samples},
+    {"unlit", unlit_text, &Extras::samples, k_at_samples},
+    {"overshade", overshade_text, &Extras::samples, k_at_samples},
     {"read", read_bytes_text, &Extras::searched},
     {"bytes", [](const Json& result_case) { return short_count(result_case, "/buffers/bytes/high_water"); }},
 };
@@ -164,17 +160,19 @@ bool is_shown(const Column& column, const Extras& extras) {
   return column.needed == nullptr || extras.*column.needed;
 }
 
-Cells headings(const Extras& extras) {
+// Of a block, whose cases have the same samples.
+Cells headings(const Extras& extras, const Json& result_case) {
   Cells cells{"", "assigner"};
   for (const Column& column : k_columns)
-    if (is_shown(column, extras)) cells.emplace_back(column.heading);
+    if (is_shown(column, extras))
+      cells.push_back(column.heading + (column.is_at_samples ? heading_of_sets(result_case) : std::string()));
   return cells;
 }
 
 // Cases that samples search stand together, and so name their grids, where they use them.
 std::string table_label(const Json& result_case, const Extras& extras) {
   std::string label = method_name(result_case);
-  if (extras.storages) label += " / " + shown(result_case["storage"]);
+  if (extras.storages) label += " / " + storage_name(result_case);
   const assign::AssignerDescriptor* assigner =
       assign::find_assigner(result_case["assigner"]["name"].get<std::string>());
   if (samples_search(result_case) && (assigner == nullptr || !assigner->own_without_grid))
@@ -212,9 +210,9 @@ Extras extras_of(const Json& cases) {
     extras.instructions |= result_case.contains("count");
     extras.cold |= result_case.contains("timing") && result_case["timing"].value("caches", "") == "cold";
     extras.launches |= result_case.contains("timing") && result_case["timing"].value("launches", 1) > 1;
-    extras.samples |= result_case.contains("shading");
+    extras.samples |= !ranking_set_names(result_case).empty();
     extras.costs |= result_case.contains("cost");
-    extras.searched |= samples_search(result_case) && result_case.contains("shading");
+    extras.searched |= samples_search(result_case) && !ranking_set_names(result_case).empty();
     extras.dropped |= result_case["buffers"]["overflow"]["dropped_pairs"] != 0;
   }
   extras.storages = storages.size() > 1;
@@ -254,8 +252,23 @@ bool mark_alike(const Json& result, const Cells& heads, RankBy by, std::vector<L
   return has_some;
 }
 
+// Of which samples the figures are.
+std::string sets_text(const Json& cases) {
+  std::vector<std::string> lines;
+  for (const Json& result_case : cases) {
+    const std::vector<std::string> sets = ranking_set_names(result_case);
+    if (sets.empty()) continue;
+    const std::string heading = heading_of_sets(result_case);
+    std::string line = heading.empty() ? "samples" : heading.substr(2, heading.size() - 3);
+    line += ": " + words_of_sets(sets);
+    if (sets.size() > 1) line += ", by the weights of the key `cost`; unlit: of the set that lacks most";
+    if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+  }
+  return lines.empty() ? "" : joined(lines, ". ") + ".\n";
+}
+
 // Of the marks and columns that the table has.
-std::string legend(const Extras& extras, RankBy by, bool has_front, bool is_complete) {
+std::string legend(const Json& cases, const Extras& extras, RankBy by, bool has_front, bool is_complete) {
   std::string out;
   const std::string interval = extras.times ? " (beyond the interval of their ratio)" : "";
   if (has_front)
@@ -264,7 +277,7 @@ std::string legend(const Extras& extras, RankBy by, bool has_front, bool is_comp
                                      : (extras.times ? "time" + interval + ", " : "") + "bytes and overshade.\n");
   if (extras.times)
     out += std::string("frame: time of a frame") + (extras.cold ? " with cold caches" : "") + ", assign" +
-           (extras.conversions ? " + convert" : "") + "; +-: half of its 95 % interval" +
+           (extras.conversions ? " + convert" : "") + "; ±: half of its 95 % interval" +
            (extras.launches ? " between launches" : "") + ", both sides where one is above 20 %" +
            ".\nworst: the slowest of the timed frames and the one with most pairs, @ its number.\n";
   if (extras.builds) out += "build: the grid changes between frames, and assign holds its builds.\n";
@@ -280,8 +293,9 @@ std::string legend(const Extras& extras, RankBy by, bool has_front, bool is_comp
         "mean and most.\n";
   if (extras.samples)
     out +=
-        "unlit: share of the lights that samples need and are not given. shade: overshade, lights given at the "
-        "samples / lights needed.\n";
+        "unlit: share of the lights that samples need and are not given. overshade: lights given at samples / lights "
+        "needed.\n" +
+        sets_text(cases);
   if (extras.searched)
     out +=
         "structures that samples search: no lists; each sample finds its lights in a hierarchy or in masks of bits, "
@@ -342,13 +356,13 @@ std::string render_table(const Json& result, bool colour) {
   const Extras extras = extras_of(cases);
   const RankBy by = rank_by(result);
   bool is_complete = true, has_alike = false;
-  const Cells heads = headings(extras);
   std::string out;
   for (const Json& scene : result["scenes"]) {
     const std::vector<TableBlock> blocks = table_blocks(cases, scene);
     if (blocks.empty()) continue;
     out += (colour ? k_bold : "") + scene_heading(scene) + (colour ? k_plain : "") + "\n";
     for (const TableBlock& block : blocks) {
+      const Cells heads = headings(extras, *block.cases.front());
       std::vector<Line> lines;
       for (const Json* result_case : block.cases)
         lines.push_back(line_of(*result_case, on_front.contains((*result_case)["id"].get<std::string>()), extras, by));
@@ -367,7 +381,7 @@ std::string render_table(const Json& result, bool colour) {
     }
     out += "\n";
   }
-  out += legend(extras, by, !on_front.empty(), is_complete);
+  out += legend(cases, extras, by, !on_front.empty(), is_complete);
   if (has_alike) out += "~: may be as fast as the row above, as far as their ratio is known (`clusterbench ratio`).\n";
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
   out += skipped_text(result["skipped"]);

@@ -60,8 +60,8 @@ std::string cost_warning(const Json& cases) {
   if (first == nullptr) return "";
   return "warning: " + shown((*first)["name"]) +
          (count > 1 ? " and " + number_of(count - 1, "more case") + " lack" : std::string(" lacks")) + " up to " +
-         text("%.3g %%", 100.0 * most) + " of the lights at " + where +
-         " samples: what they cost is not the cost of the same picture (--set cost.weights." + where +
+         text("%.3g %%", 100.0 * most) + " of the lights that " + where +
+         " samples need: what they cost is not the cost of the same picture (--set cost.weights." + where +
          "=0 leaves that set out)\n";
 }
 
@@ -73,16 +73,22 @@ std::string ranges_text(const Json& rule) {
          metres("greatest");
 }
 
-// What is to be known of a grid, once for all of its cases.
+// What is to be known of grids, once for all of whose cases it is so.
 std::string grid_notes(const Json& cases) {
-  std::vector<std::string> lines;
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes;  // what, and of which grids
   for (const Json& result_case : cases) {
     if (!result_case["grid"].contains("note")) continue;
-    const std::string line = "note: " + shown(result_case["scene"]) + ", " + shown(result_case["grid"]["name"]) + ": " +
-                             shown(result_case["grid"]["note"]) + "\n";
-    if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+    const std::string note = shown(result_case["grid"]["note"]),
+                      grid = shown(result_case["scene"]) + ", " + shown(result_case["grid"]["name"]);
+    auto same = std::ranges::find_if(notes, [&](const auto& had) { return had.first == note; });
+    if (same == notes.end()) same = notes.insert(notes.end(), {note, {}});
+    if (std::ranges::find(same->second, grid) == same->second.end()) same->second.push_back(grid);
   }
-  return joined(lines, "");
+  std::string out;
+  for (const auto& [note, grids] : notes)
+    out += "note: " + grids.front() +
+           (grids.size() > 1 ? " and " + number_of(grids.size() - 1, "more grid") : std::string()) + ": " + note + "\n";
+  return out;
 }
 
 }  // namespace

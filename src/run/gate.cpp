@@ -86,16 +86,20 @@ bool is_at_surfaces(const CaseResult& result) {
 
 // Where cells were not compared with the truth: the samples that lack more lights than lookups round away; null if none
 // do, or if cells were compared. What slices that follow surfaces promise ends there.
-const measure::ShadingCounts* lacking_samples(const CaseResult& result) {
+struct LackingSamples {
+  const measure::ShadingCounts* counts = nullptr;
+  measure::SampleSet set = measure::SampleSet::volume;
+};
+LackingSamples lacking_samples(const CaseResult& result) {
   const auto lacks = [](const measure::ShadingCounts& counts) {
     return counts.needed > 0 && counts.unlit_inside() > measure::k_most_unlit;
   };
-  if (result.cells_not_compared == 0) return nullptr;
-  if (result.shading && lacks(*result.shading)) return &*result.shading;
+  if (result.cells_not_compared == 0) return {};
+  if (result.shading && lacks(*result.shading)) return {&*result.shading};
   const auto found = std::ranges::find_if(result.samples, [&](const SampleSetResult& set) {
     return lacks(set.counts) && (!is_at_surfaces(result) || set.set == measure::SampleSet::opaque);
   });
-  return found == result.samples.end() ? nullptr : &found->counts;
+  return found == result.samples.end() ? LackingSamples{} : LackingSamples{&found->counts, found->set};
 }
 
 // A method that promises the lights of visible surfaces answers for them, but for what lookups round and for surfaces
@@ -134,10 +138,16 @@ bool is_lost_by_pre_cull(const CaseResult& result) {
                              [&](const LostAtSamples& lost) { return missed_of(lost.set) <= lost.lost; });
 }
 
+// "random points in the view need", "opaque samples need".
+std::string needing_text(measure::SampleSet set) {
+  return set == measure::SampleSet::volume ? "random points in the view need"
+                                           : measure::name_of(set) + std::string(" samples need");
+}
+
 std::string missed_without_cells_text(const CaseResult& result) {
   if (missed_in_view(result) > 0)
     return "lost " + std::to_string(missed_in_view(result)) + " of " + number_of(result.shading->needed, "light") +
-           " that its samples need" + worst_text(result);
+           " that random points in the view need" + worst_text(result);
   if (const SampleSetResult* set = missing_set(result, has_cells(result) || is_at_surfaces(result)))
     return "lost " + std::to_string(set->counts.missed - set->counts.missed_outside) + " of " +
            number_of(set->counts.needed, "light") + " that its " + measure::name_of(set->set) + " samples need";
@@ -146,11 +156,16 @@ std::string missed_without_cells_text(const CaseResult& result) {
          " that the samples of its lookup need";
 }
 
-// Samples that say what is lost: on visible surfaces if there are some, else anywhere in the view; null without any.
-const measure::ShadingCounts* seen_samples(const CaseResult& result) {
+// Samples that say what is lost, with what they are: visible surfaces if there are some, else anywhere in the view;
+// null without any.
+struct SeenSamples {
+  const measure::ShadingCounts* counts = nullptr;
+  const char* words = "";
+};
+SeenSamples seen_samples(const CaseResult& result) {
   for (const SampleSetResult& set : result.samples)
-    if (set.set == measure::SampleSet::opaque) return &set.counts;
-  return result.shading ? &*result.shading : nullptr;
+    if (set.set == measure::SampleSet::opaque) return {&set.counts, "visible surfaces"};
+  return {result.shading ? &*result.shading : nullptr, "random points in the view"};
 }
 
 bool is_unlit(const CaseResult& result) {
@@ -165,21 +180,21 @@ std::string dropped_text(const CaseResult& result) {
 
 // What dropped lights cost where they are missed.
 std::string lost_light_text(const CaseResult& result) {
-  const measure::ShadingCounts* counts = seen_samples(result);
+  const auto [counts, words] = seen_samples(result);
   if (counts == nullptr || !counts->darkest) return "";
   const auto lux = [](double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g lx", value);
     return std::string(text);
   };
-  return "; samples lose " + percent(counts->lost_irradiance()) + " of their irradiance, " +
+  return std::string("; ") + words + " lose " + percent(counts->lost_irradiance()) + " of their irradiance, " +
          lux(counts->lost_lux / static_cast<double>(counts->samples)) + " on average and " +
          lux(counts->darkest->lost_lux) + " at most (frame " + std::to_string(counts->darkest->frame) + ")";
 }
 
 std::string unlit_text(const CaseResult& result) {
   const measure::ShadingCounts& shading = *result.shading;
-  return percent(shading.unlit()) + " of the lights that samples need are unlit, " +
+  return percent(shading.unlit()) + " of the lights that random points in the view need are unlit, " +
          percent(shading.lost_irradiance()) +
          " of the irradiance: " + std::to_string(shading.missed - shading.missed_outside) + " in cells, " +
          std::to_string(shading.missed_outside) + " outside of the grid" + worst_text(result);
@@ -200,8 +215,8 @@ bool misses_dropped_lights(const PreCullCounts& counts) {
 
 std::string limit_text(const CaseResult& result, const PreCullCounts::Step& step) {
   const PreCullCounts& counts = result.pre_cull->counts;
-  std::string text = "takes " + number_of(static_cast<std::uint64_t>(*step.limit), "light") +
-                     (step.label.ends_with(",type)") ? " of each type, and " : ", and ") +
+  std::string text = "limit: " + number_of(static_cast<std::uint64_t>(*step.limit), "light") +
+                     (step.label.ends_with(",type)") ? " of each type in view; " : " in view; ") +
                      number_of(static_cast<std::uint64_t>(step.frames), "frame") + " of " +
                      std::to_string(result.frames) + (step.frames == 1 ? " has" : " have") +
                      " more: " + std::to_string(static_cast<std::uint64_t>(step.removed.max)) + " too many at most, " +
@@ -209,7 +224,7 @@ std::string limit_text(const CaseResult& result, const PreCullCounts::Step& step
   for (const LostAtSamples& set : counts.samples)
     if (set.is_asked && set.needed > 0 && set.lost > 0)
       text += ", " + percent(static_cast<double>(set.lost) / static_cast<double>(set.needed)) + " of those that " +
-              (set.set == measure::SampleSet::volume ? "the view's" : measure::name_of(set.set)) + " samples need";
+              needing_text(set.set);
   return text;
 }
 
@@ -241,10 +256,10 @@ std::vector<Failure> failures_of(const CaseResult& result, const config::LimitsR
   if (may_not_lose(result) && (misses_without_cells(result) || misses_at_surfaces(result)) &&
       !is_lost_by_pre_cull(result))
     failures.push_back({Kind::lost_at_samples, missed_without_cells_text(result)});
-  else if (const measure::ShadingCounts* lacking = lacking_samples(result); lacking != nullptr && may_not_lose(result))
-    failures.push_back({Kind::lost_at_samples, "lost " + std::to_string(lacking->missed - lacking->missed_outside) +
-                                                   " of " + number_of(lacking->needed, "light") +
-                                                   " that its samples need"});
+  else if (const auto [counts, set] = lacking_samples(result); counts != nullptr && may_not_lose(result))
+    failures.push_back({Kind::lost_at_samples, "lost " + std::to_string(counts->missed - counts->missed_outside) +
+                                                   " of " + number_of(counts->needed, "light") + " that " +
+                                                   needing_text(set)});
   const measure::Buffers& buffers = result.buffers;
   if (limits.dropped_pairs && buffers.dropped_pairs > *limits.dropped_pairs)
     failures.push_back({Kind::dropped_pairs, dropped_text(result) + ", more than limits.dropped_pairs allows (" +
@@ -276,7 +291,7 @@ std::vector<Warning> warnings_of(const CaseResult& result) {
 bool loses_lights(const CaseResult& result) {
   const bool loses_to_limit = exceeded_limit(result) != nullptr && misses_dropped_lights(result.pre_cull->counts);
   return pairs_lost(result) > 0 || result.buffers.dropped_pairs > 0 || loses_to_limit || misses_without_cells(result) ||
-         lacking_samples(result) != nullptr || is_unlit(result);
+         lacking_samples(result).counts != nullptr || is_unlit(result);
 }
 
 bool is_eligible(const CaseResult& result) {

@@ -44,7 +44,7 @@ std::span<const MeasureRow> measure_rows() {
       {Measure::entries, "entries", "entries", "index entries of the lists", "buffers.index_entries.high_water"},
       {Measure::longest, "longest", "lights", "the longest list", "occupancy.lights_per_cell.max"},
       {Measure::p99, "p99", "lights", "the list that 99 % of the cells do not exceed", "occupancy.lights_per_cell.p99"},
-      {Measure::evaluated, "evaluated", "lights per sample", "lights that a sample of the view loops over, the mean",
+      {Measure::evaluated, "evaluated", "lights per sample", "lights that a random point in the view is given, the mean",
        "shading.evaluated / shading.samples"},
       {Measure::tests, "tests", "tests", "tests of a light against a cell or what holds cells", "tests_done"},
       {Measure::lights, "lights", "lights", "lights in view, whatever the method", "lights_in_view.max"},

@@ -107,5 +107,25 @@ TEST(LimitRules, are_near_on_the_side_that_they_fail_on) {
     for (const double value : {101.0, 199.0, 198.5}) EXPECT_FALSE(rule_of(text).is_near(value)) << text;
 }
 
+TEST(LimitRules, a_figure_at_samples_can_name_its_set_and_others_can_not) {
+  for (const char* text : {"opaque.unlit > 0", "volume.overshade > 3", "fog.lost_irradiance >= 0.5"})
+    EXPECT_EQ(limit_rule(text, "", "--fail-if").text(), text);
+  EXPECT_EQ(figure_at_samples("opaque.unlit").set, "opaque");
+  EXPECT_EQ(figure_at_samples("frame_us.max").set, "");
+  for (const char* text : {"opaque.bytes > 0", "opaqe.unlit > 0", "opaque. > 0"}) {
+    std::string message;
+    try {
+      limit_rule(text, "", "--fail-if");
+    } catch (const Error& error) {
+      message = error.what();
+    }
+    EXPECT_NE(
+        message.find("of one set of samples as in 'opaque.unlit' (sets: volume, opaque, transparent, fog, mirror, "
+                     "anywhere; figures: unlit, lost_irradiance, overshade)"),
+        std::string::npos)
+        << text << ": " << message;
+  }
+}
+
 }  // namespace
 }  // namespace clusterbench::config

@@ -9,6 +9,7 @@
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "report/exports/metrics.h"
+#include "report/limits.h"
 #include "report/ratios.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"
@@ -127,7 +128,7 @@ TEST(FrameCosts, reading_is_charged_and_what_samples_search_is_on_no_front) {
     EXPECT_EQ(ranked["pareto_front"][0]["ids"].dump().find("walked"), std::string::npos) << by;
     const std::string table = render_table(ranked, false);
     EXPECT_NE(table.find(" structures that samples search, camera walk, 1920x1080"), std::string::npos) << table;
-    EXPECT_GT(table.find("bvh / own"), table.find(" structures that samples search,")) << table;
+    EXPECT_GT(table.find("bvh / no lists"), table.find(" structures that samples search,")) << table;
   }
   EXPECT_EQ(config::schema_violations(config::result_schema(), nlohmann::json::parse(json.dump())),
             std::vector<std::string>{});
@@ -216,7 +217,51 @@ TEST(FrameCosts, a_case_that_lacks_lights_at_samples_with_a_weight_is_on_no_fron
   EXPECT_EQ(json["pareto_front"][0]["ids"], Json({"fast"}));
   const std::string table = render_table(json, false);
   EXPECT_LT(table.find("aabb "), table.find("brute-force ")) << "which would be cheaper";
-  EXPECT_NE(table.find("lacks up to 0.2 % of the lights at opaque samples"), std::string::npos) << table;
+  EXPECT_NE(table.find("lacks up to 0.2 % of the lights that opaque samples need"), std::string::npos) << table;
+}
+
+TEST(FrameCosts, table_and_budgets_have_overshade_and_unlit_of_the_samples_that_rank_and_say_which) {
+  run::Result result = costly();
+  for (run::CaseResult& one : result.cases) one.samples[0].counts.missed = 1;
+  result.cases[0].shading->missed = 1;  // of 200 at points in the view
+  const Json json = of(result);
+  const std::string table = render_table(json, false);
+  EXPECT_NE(table.find("unlit (opaque)  overshade (opaque)"), std::string::npos) << table;
+  EXPECT_NE(table.find("opaque: visible surfaces.\n"), std::string::npos) << table;
+  EXPECT_EQ(table.find("0.50 %"), std::string::npos) << "of another set, unnamed\n" << table;
+  EXPECT_NE(table.find("0.10 %              259.20"), std::string::npos) << table;
+  const Json& one = json["cases"][1];
+  EXPECT_NEAR(*limit_figure(one, "overshade"), 259.2, 1e-9);
+  EXPECT_NEAR(*limit_figure(one, "opaque.overshade"), 259.2, 1e-9);
+  EXPECT_EQ(limit_figure(one, "volume.overshade"), 1.5);
+  EXPECT_EQ(limit_figure(one, "unlit"), 0.001);
+  EXPECT_EQ(limit_figure(one, "volume.unlit"), 0.0);
+  EXPECT_EQ(limit_figure(json["cases"][0], "volume.unlit"), 0.005);
+  EXPECT_EQ(limit_figure(one, "fog.unlit"), std::nullopt);
+}
+
+TEST(FrameCosts, of_several_sets_overshade_is_weighted_and_unlit_that_of_the_one_that_lacks_most) {
+  run::Result result = costly();
+  for (run::CaseResult& one : result.cases) {
+    measure::ShadingCounts fog{.samples = 100, .evaluated = 300, .needed = 2000, .missed = 2};
+    one.samples.push_back({measure::SampleSet::fog, fog, {}});
+  }
+  const Json json = of(result);
+  const std::string table = render_table(json, false);
+  EXPECT_NE(table.find("unlit (weighted)  overshade (weighted)"), std::string::npos) << table;
+  EXPECT_NE(table.find("weighted: fog froxels, visible surfaces, by the weights of the key `cost`; unlit: of the set "
+                       "that lacks most.\n"),
+            std::string::npos)
+      << table;
+  EXPECT_EQ(limit_figure(json["cases"][0], "unlit"), 0.001);
+  EXPECT_EQ(limit_figure_location(json["cases"][0], "unlit"), "fog froxels");
+  EXPECT_EQ(limit_figure(json["cases"][0], "overshade"), json["cases"][0]["cost"]["overshade"].get<double>());
+}
+
+TEST(FrameCosts, without_sets_of_samples_the_legend_says_that_they_are_random_points_in_the_view) {
+  const std::string table = render_table(of(result_by_hand()), false);
+  EXPECT_NE(table.find("unlit  overshade  bytes"), std::string::npos) << table;
+  EXPECT_NE(table.find("samples: random points in the view.\n"), std::string::npos) << table;
 }
 
 }  // namespace

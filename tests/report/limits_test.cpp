@@ -8,6 +8,7 @@
 
 #include "config/documents.h"
 #include "places.h"
+#include "report/baseline_cases.h"
 #include "report/exports/metrics.h"
 
 namespace clusterbench::report {
@@ -45,7 +46,7 @@ TEST(Limits, what_breaks_one_is_told_with_case_frame_and_cell) {
   const std::pair<const char*, const char*> rows[] = {
       {"frame_us.max > 200", "frame_us.max is 250 (frame 12), and fails with frame_us.max > 200"},
       {"index_entries > 4096", "index_entries is 4097 (frame 9, cell [1,2,3]), and fails with index_entries > 4096"},
-      {"unlit > 0", "unlit is 0.001 (frame 3), and fails with unlit > 0"},
+      {"unlit > 0", "unlit is 0.001 (random points in the view, frame 3), and fails with unlit > 0"},
       {"dropped>0", "dropped is 3, and fails with dropped > 0"},
       {"missed > 0", "missed is 2 (frame 7, cell [0,0,1]), and fails with missed > 0"},
       {"longest > 63", "longest is 64 (frame 8, cell [4,5,6]), and fails with longest > 63"},
@@ -103,7 +104,7 @@ TEST(Limits, what_no_case_has_fails) {
   EXPECT_EQ(
       findings_of("overshade > 2", bare).broken,
       (Lines{"'overshade > 2' could not be checked: no case has overshade (there is none where more than 0.1 % of "
-             "the lights are unlit or fewer than 100 reach the samples, as with shading.samples: 0)"}));
+             "the lights are unlit or fewer than 100 reach the samples; shading.samples: 0 leaves them out)"}));
 }
 
 TEST(Limits, what_some_cases_have_is_held_there_and_the_others_are_named) {
@@ -218,6 +219,26 @@ TEST(Limits, every_figure_can_be_read_and_stands_in_the_schema_that_documents_it
     EXPECT_EQ(findings_of(std::string(figure.name) + " >= 0").broken.front().find("could not"), std::string::npos);
     EXPECT_NE(documented.find(figure.name), std::string::npos) << figure.name;
   }
+}
+
+// A budget in percent of one set is never held against another one.
+TEST(Limits, a_change_is_of_the_same_samples_or_could_not_be_checked) {
+  Json base{{"cases", Json::array()}, {"scenes", Json::array()}, {"tool", Json::object()}, {"machine", Json::object()}};
+  base["cases"].push_back(Json::parse(R"({"id": "a", "name": "hall/walk/frustum/bounds/packed", "scene": "hall",
+    "camera": "walk", "viewport": [8, 8], "grid": {"name": "frustum"}, "assigner": {"name": "bounds", "label": "bounds"},
+    "storage": "packed", "shading": {"missed": 1, "needed": 1000}})"));
+  Json now = base;
+  now["cases"][0]["samples"] = {{"opaque", {{"missed", 1}, {"needed", 100}}}};
+  const BaselineCases baseline(base, now, "", "base.json");
+  const auto broken = [&](const std::string& text) {
+    const config::LimitRule rules[] = {config::limit_rule(text, "", "--fail-if")};
+    return limit_findings(now, rules, &baseline).broken;
+  };
+  EXPECT_EQ(
+      broken("unlit > +5 %"),
+      (Lines{"'unlit > +5 %' could not be checked for hall/walk/frustum/bounds/packed: unlit is at samples of opaque "
+             "here and of volume in base.json; name one set, as in 'volume.unlit'"}));
+  EXPECT_EQ(broken("volume.unlit > +5 %"), Lines{});
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ TEST(PresetRanking, without_samples_losses_are_those_of_pairs_and_it_says_so) {
       "and not in what is seen; --set shading.samples=1024 takes samples");
   EXPECT_TRUE(
       why.starts_with("no sample was taken, so what it loses is counted in pairs of a cell and a light, and "
-                      "not in what is seen: its method does not find 5 pairs of 1000"))
+                      "not in what is seen: its test misses cells that the light reaches: 5 pairs of 1000"))
       << why;
 }
 
@@ -150,7 +150,7 @@ TEST(PresetRanking, lost_pairs_that_no_sample_needs_are_told_and_are_no_loss) {
   EXPECT_EQ(ranking["best"], "id-filament");
   const std::string why = line_of(ranking, "filament")["why"];
   EXPECT_NE(why.find("loses nothing that a sample needs: drops 2 lights"), std::string::npos) << why;
-  EXPECT_NE(why.find("does not find 5 pairs of 1000"), std::string::npos) << why;
+  EXPECT_NE(why.find("its test misses cells that the light reaches: 5 pairs of 1000"), std::string::npos) << why;
 }
 
 TEST(PresetRanking, what_samples_lack_decides_by_one_threshold_whatever_the_cause) {
@@ -258,7 +258,8 @@ TEST(PresetRanking, pairs_that_a_limit_removes_are_not_those_of_the_method) {
       << why_of(limited);
   EXPECT_EQ(why_of(limited).find("method"), std::string::npos) << why_of(limited);
   limited["error"]["false_negatives"] = 457;
-  EXPECT_NE(why_of(limited).find("its method does not find 7 pairs of 3000"), std::string::npos) << why_of(limited);
+  EXPECT_NE(why_of(limited).find("its test misses cells that the light reaches: 7 pairs of 3000"), std::string::npos)
+      << why_of(limited);
 }
 
 TEST(PresetRanking, pairs_of_lights_beside_the_view_are_no_loss) {
@@ -310,7 +311,7 @@ TEST(PresetRanking, an_order_that_turns_with_the_prices_is_none) {
                         preset_case("doom-2016", 0.0, 0.0, 9e5)})["text"];
   EXPECT_TRUE(
       text.starts_with("take filament or bevy: no difference that the model can show (0.1 ms to 0.13 ms of the "
-                       "GPU a frame), since its prices of upload, reading and looping may each be off by 2 times"))
+                       "GPU a frame), since its prices of upload, reading and shading may each be off by 2 times"))
       << text;
 }
 

@@ -122,7 +122,7 @@ TEST(FrameSamples, only_what_is_not_bound_to_the_picture_answers_outside_of_it) 
   EXPECT_EQ(lists.missed, lists.needed);
   EXPECT_EQ(lists.missed_outside, lists.missed);
   EXPECT_GT(lists.lost_lux, 0.0);
-  const measure::ShadingCounts& tree = counts_of(case_named(run, "bvh/own"), measure::SampleSet::mirror);
+  const measure::ShadingCounts& tree = counts_of(case_named(run, "bvh/no lists"), measure::SampleSet::mirror);
   EXPECT_EQ(tree.unanswered, 0u);
   EXPECT_EQ(tree.missed, 0u);
   EXPECT_GT(tree.needed, 0u);
@@ -213,7 +213,7 @@ TEST(FrameSamples, a_moved_mesh_is_another_case_with_the_same_settings) {
 
 TEST(FrameSamples, a_structure_without_cells_that_loses_a_light_on_a_surface_fails) {
   RoomRun run = run_of(room(), R"(, "samples": {"opaque": {}})");
-  CaseResult tree = case_named(run, "bvh/own");
+  CaseResult tree = case_named(run, "bvh/no lists");
   EXPECT_TRUE(failures_of(tree, {}).empty());
   tree.samples.at(0).counts.missed = 3;
   ASSERT_EQ(failures_of(tree, {}).size(), 1u);
@@ -242,7 +242,7 @@ TEST(FrameSamples, dropped_lights_are_lost_irradiance_at_the_samples_that_they_w
   EXPECT_LE(counts.darkest->lost_lux, 1.0);
   ASSERT_FALSE(warnings_of(fixed).empty());
   const std::string text = warnings_of(fixed)[0].text;
-  EXPECT_NE(text.find("samples lose 50 % of their irradiance"), std::string::npos) << text;
+  EXPECT_NE(text.find("lose 50 % of their irradiance"), std::string::npos) << text;
   EXPECT_NE(text.find("lx on average and"), std::string::npos) << text;
   EXPECT_EQ(counts_of(packed, measure::SampleSet::opaque).lost_lux, 0.0);
 }

@@ -152,7 +152,7 @@ TEST(Gate, what_lies_outside_of_the_grid_loses_lights_and_is_told_with_its_frame
   CaseResult own = without_cells();
   miss(own, 100, 90);
   const std::string text = failures_of(own, {})[0].text;
-  EXPECT_EQ(text, "lost 100 of 1000 lights that its samples need; most in frame 7, 100 of 140");
+  EXPECT_EQ(text, "lost 100 of 1000 lights that random points in the view need; most in frame 7, 100 of 140");
 }
 
 std::vector<Warning::Kind> warned(const CaseResult& case_result) {

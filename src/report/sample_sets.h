@@ -1,0 +1,33 @@
+#pragma once
+// Of which samples a figure is: a case has several sets of them, and is ranked by those that cost something
+// (frame_cost.h). Tables, budgets and sentences name the sets in the same words.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace clusterbench::report {
+
+// "visible surfaces" of opaque, "random points in the view" of volume.
+std::string words_of_set(const std::string& set);
+// "visible surfaces, fog froxels".
+std::string words_of_sets(const std::vector<std::string>& sets);
+
+// The counts of a case's set of samples; null without them.
+const nlohmann::ordered_json* samples_of_set(const nlohmann::ordered_json& result_case, const std::string& set);
+
+// The sets that a case is ranked by: those that cost something; without any, visible surfaces if they are asked for,
+// else points of the whole view. Empty without samples.
+std::vector<std::string> ranking_set_names(const nlohmann::ordered_json& result_case);
+
+// Behind a column's heading: " (opaque)", of several sets " (weighted)"; "" of points of the whole view where the case
+// has no other samples.
+std::string heading_of_sets(const nlohmann::ordered_json& result_case);
+// " (opaque)", of several sets " (weighted)", of none "".
+std::string heading_of_sets(const std::vector<std::string>& sets);
+
+// Of the sets that a case is ranked by the one with the largest number at a JSON pointer ("/unlit"); null where none
+// has one.
+const nlohmann::ordered_json* most_at_sets(const nlohmann::ordered_json& result_case, const char* pointer);
+
+}  // namespace clusterbench::report
