@@ -29,7 +29,7 @@ struct Label {
 std::span<const StepSummary> step_summaries() {
   static constexpr StepSummary k_rows[] = {
       {"frustum",
-       "lights whose ball (a spot's: around its cone) lies outside of one of the planes around the view are removed; "
+       "lights whose sphere (a spot's: around its cone) lies outside of one of the planes around the view are removed; "
        "loses nothing in frustum and distance grids",
        "all engines"},
       {"distance_m",

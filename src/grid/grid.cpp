@@ -107,7 +107,7 @@ Vec3i Grid::cell_at(std::uint32_t index) const {
 
 std::vector<geom::Ball> Grid::balls_around_cells() const {
   std::vector<geom::Ball> balls;
-  check_memory("balls around cells", cell_count(), sizeof(geom::Ball));
+  check_memory("spheres around cells", cell_count(), sizeof(geom::Ball));
   balls.reserve(cell_count());
   for (std::uint32_t index = 0; index < cell_count(); ++index)
     balls.push_back(is_hole(index) ? geom::Ball{} : geom::ball_around(cell(index)));

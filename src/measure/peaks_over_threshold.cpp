@@ -177,10 +177,10 @@ bool TailMaker::try_threshold(std::uint64_t threshold) {
   const Clusters clusters = clusters_above(paths, threshold);
   const std::uint64_t peaks = clusters.peaks.size(), cut = std::ranges::count_if(clusters.peaks, &Peak::is_cut);
   if (peaks - cut < k_least_peaks)
-    return refuse("only " + number_of(peaks - cut, "separate peak") + " above " + std::to_string(threshold) + " in " +
-                  number_of(common.frames, "frame") +
-                  (cut > 0 ? ", and " + std::to_string(cut) + " cut off at an end of the path" : "") + "; " +
-                  std::to_string(k_least_peaks) + " are needed");
+    return refuse(std::to_string(peaks - cut) + " of the " + std::to_string(k_least_peaks) +
+                  " independent peaks it needs" +
+                  (cut > 0 ? " (and " + std::to_string(cut) + " cut off at an end of the path)" : "") +
+                  "; record more frames or run worst-case");
   // Wider steps than the unit where there are many: an excess is known to lie within one.
   constexpr std::uint64_t k_most_steps = 250;
   const std::uint64_t range = (common.highest - threshold) / common.unit;

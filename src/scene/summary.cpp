@@ -134,9 +134,9 @@ std::string projection_text(const CameraProjection& projection) {
   if (projection.sides)
     return "perspective, off-centre: slopes " + four_digits(projection.sides->left) + " to " +
            four_digits(projection.sides->right) + " across, " + four_digits(projection.sides->bottom) + " to " +
-           four_digits(projection.sides->top) + " up, " +
-           four_digits(degrees_between(projection.sides->bottom, projection.sides->top)) + " degrees high and " +
-           four_digits(degrees_between(projection.sides->left, projection.sides->right)) + " wide, " + reach;
+           four_digits(projection.sides->top) + " up, " + "vertical FOV " +
+           four_digits(degrees_between(projection.sides->bottom, projection.sides->top)) + "°, horizontal " +
+           four_digits(degrees_between(projection.sides->left, projection.sides->right)) + "°, " + reach;
   const HalfExtents half = rectangle_of(projection);
   const bool is_wide = half.width > 1.01 * k_usual_aspect * half.height;
   const std::string shape = is_wide ? four_digits(half.width / half.height) + " times as wide, " : "";
@@ -144,7 +144,7 @@ std::string projection_text(const CameraProjection& projection) {
     return "orthographic, " + four_digits(2.0 * projection.ymag_m) + " m high, " + shape + reach;
   const double width = half.width > 0.0 ? half.width : k_usual_aspect * half.height;
   const bool is_usual = std::abs(width / (k_usual_aspect * half.height) - 1.0) < 0.01;
-  return "perspective, " + degrees_text(half.height) + " degrees high and " + degrees_text(width) + " wide" +
+  return "perspective, vertical FOV " + degrees_text(half.height) + "°, horizontal " + degrees_text(width) + "°" +
          (is_usual ? " in 16:9" : "") + ", " + shape + reach;
 }
 

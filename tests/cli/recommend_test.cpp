@@ -238,7 +238,7 @@ TEST(Recommend, exits_with_1_where_nothing_satisfies_and_shows_what_excluded_how
   EXPECT_EQ(found.answer["work"]["measurements"], 52 + 8) << "8 frames were counted to find the fullest";
   EXPECT_NE(found.outcome.out.find("no candidate satisfies all constraints"), std::string::npos);
   EXPECT_TRUE(found.outcome.out.ends_with(
-      "take none: no candidate satisfies all constraints: bytes <= 1 excludes all 52 candidates.\n"))
+      "take none: no candidate satisfies all constraints: bytes <= 1 rejects all 52 candidates.\n"))
       << found.outcome.out;
   EXPECT_FALSE(std::filesystem::exists(choice));
 }
@@ -303,7 +303,7 @@ TEST(Recommend, tells_what_comes_nearest_where_nothing_satisfies) {
   const Json& nearest = found.answer["constraints"][0]["nearest"];
   EXPECT_EQ(nearest["figure"], figure(nearest_case, "bytes"));
   EXPECT_EQ("street/walk/" + nearest["name"].get<std::string>(), nearest_case["name"]);
-  const std::string told = "nearest to bytes <= 1 of those that it excludes: " + nearest["figure"].dump() +
+  const std::string told = "nearest to bytes <= 1 of those that it rejects: " + nearest["figure"].dump() +
                            " on 1 frame, " + nearest["name"].get<std::string>();
   EXPECT_NE(found.outcome.out.find(told), std::string::npos) << found.outcome.out;
 }

@@ -29,7 +29,8 @@ class RowsByBoxes {
 extern const AssignerDescriptor aabb_fast_descriptor;
 const AssignerDescriptor aabb_fast_descriptor{
     .name = "aabb-fast",
-    .summary = "aabb with gaps that rows share, one ball per lane, lists by compression (SIMD, dispatched at run time)",
+    .summary =
+        "aabb with gaps that rows share, one sphere per lane, lists by compression (SIMD, dispatched at run time)",
     .source = "Persson 2015, Practical Clustered Shading; DaveH355's test, which visits every cell",
     .kinds = {grid::Kind::frustum},
     .params = light_params(),

@@ -41,7 +41,7 @@ const AssignerDescriptor babylon_masks_descriptor{
     .name = "babylon-masks",
     .summary =
         "masks of tiles and ranges of slices as z-binning has them, of points and spots in one order by depth; spots "
-        "are the balls of their ranges",
+        "are the spheres of their ranges",
     .source = "Babylon.js, clustered light container (9.35)",
     .kinds = {grid::Kind::frustum},
     .by_name = true,

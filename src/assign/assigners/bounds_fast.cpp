@@ -27,7 +27,7 @@ class AllRows {
 extern const AssignerDescriptor bounds_fast_descriptor;
 const AssignerDescriptor bounds_fast_descriptor{
     .name = "bounds-fast",
-    .summary = "bounds, a vector of balls at a time, lists by compression (SIMD, dispatched at run time)",
+    .summary = "bounds, a vector of spheres at a time, lists by compression (SIMD, dispatched at run time)",
     .source =
         "Persson 2015, Practical Clustered Shading, made conservative: tangents rounded outward, slices without a "
         "logarithm",

@@ -7,7 +7,7 @@ namespace clusterbench::assign {
 extern const AssignerDescriptor cascades_fast_descriptor;
 const AssignerDescriptor cascades_fast_descriptor{
     .name = "cascades-fast",
-    .summary = "cascades, one ball per lane, lists by compression (SIMD, dispatched at run time)",
+    .summary = "cascades, one sphere per lane, lists by compression (SIMD, dispatched at run time)",
     .source =
         "this project's method: squared distance per axis as in Arvo 1990; cascades of boxes in view space are an idea "
         "of Persson 2015",

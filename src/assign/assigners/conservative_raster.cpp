@@ -124,13 +124,13 @@ class ConservativeRaster final : public LightByLight<ConservativeRaster> {
 std::vector<ParamSpec> conservative_raster_params() {
   return {{.name = "level",
            .summary =
-               "how fine meshes are: 0 (a ball has 20 triangles), 1 (80), 2 (320), 3 (1280), or screen: the first of "
-               "them whose balls stand off by at most `excess`",
+               "how fine meshes are: 0 (a sphere has 20 triangles), 1 (80), 2 (320), 3 (1280), or screen: the first of "
+               "them whose spheres stand off by at most `excess`",
            .standard = std::string("screen"),
            .unit = "",
            .choices = {"screen", "0", "1", "2", "3"}},
           {.name = "excess",
-           .summary = "level screen: how far a mesh may stand off its ball, but for the finest one",
+           .summary = "level screen: how far a mesh may stand off its sphere, but for the finest one",
            .standard = 0.25,
            .unit = "tiles",
            .min = 0.0,

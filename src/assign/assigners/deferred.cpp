@@ -268,7 +268,7 @@ class Deferred final : public AssignerOf<DrawnLights> {
 std::vector<ParamSpec> deferred_params() {
   std::vector<ParamSpec> params{
       {.name = "depth_test",
-       .summary = "which drawn pixels are shaded: all (none), those in front of the ball's far side (back), or those "
+       .summary = "which drawn pixels are shaded: all (none), those in front of the sphere's far side (back), or those "
                   "in it, as "
                   "a stencil of both sides finds them, and of a spot those in its cone (both)",
        .standard = std::string("both"),
@@ -300,7 +300,8 @@ extern const AssignerDescriptor deferred_descriptor;
 const AssignerDescriptor deferred_descriptor{
     .name = "deferred",
     .summary =
-        "no lists: each light's ball is drawn over the picture and shades the pixels that pass its depth test; pixels "
+        "no lists: each light's sphere is drawn over the picture and shades the pixels that pass its depth test; "
+        "pixels "
         "and bytes of that are counted, a grid's cells do not matter",
     .source = "Hargreaves and Harris 2004, Deferred Shading; the baseline of Persson 2015",
     .kinds = {grid::Kind::frustum},

@@ -150,8 +150,8 @@ class Distance final : public LightByLight<Distance> {
 extern const AssignerDescriptor distance_descriptor;
 const AssignerDescriptor distance_descriptor{
     .name = "distance",
-    .summary = "the circular cap that a ball covers in each distance shell, row by row of tiles",
-    .source = "this project: the closed form of a ball's cap; shells of distance are an idea of Persson 2015",
+    .summary = "the circular cap that a sphere covers in each distance shell, row by row of tiles",
+    .source = "this project: the closed form of a sphere's cap; shells of distance are an idea of Persson 2015",
     .kinds = {grid::Kind::distance},
     .orthographic = false,
     .params = light_params(),

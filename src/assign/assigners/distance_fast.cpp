@@ -35,8 +35,8 @@ class ShellKernel {
 extern const AssignerDescriptor distance_fast_descriptor;
 const AssignerDescriptor distance_fast_descriptor{
     .name = "distance-fast",
-    .summary = "distance, one ball per lane, lists by compression (SIMD, dispatched at run time)",
-    .source = "this project: the closed form of a ball's cap; shells of distance are an idea of Persson 2015",
+    .summary = "distance, one sphere per lane, lists by compression (SIMD, dispatched at run time)",
+    .source = "this project: the closed form of a sphere's cap; shells of distance are an idea of Persson 2015",
     .kinds = {grid::Kind::distance},
     .orthographic = false,
     .params = light_params(),

@@ -166,7 +166,7 @@ extern const AssignerDescriptor exact_fast_descriptor;
 const AssignerDescriptor exact_fast_descriptor{
     .name = "exact-fast",
     .summary =
-        "the lists of exact by another algorithm, one ball per lane, lists by compression (SIMD, dispatched at run "
+        "the lists of exact by another algorithm, one sphere per lane, lists by compression (SIMD, dispatched at run "
         "time)",
     .source = "this project",
     .kinds = {grid::Kind::frustum},

@@ -83,7 +83,7 @@ class LightBoxes final : public LightByLight<LightBoxes> {
 extern const AssignerDescriptor light_boxes_descriptor;
 const AssignerDescriptor light_boxes_descriptor{
     .name = "light-boxes",
-    .summary = "all boxes of the world grid that the box around a light's volume meets; no ball or cone is tested",
+    .summary = "all boxes of the world grid that the box around a light's volume meets; no sphere or cone is tested",
     .source = "PlayCanvas clustered lighting, which also lists the boxes after a light's last ones",
     .kinds = {grid::Kind::world},
     .by_name = true,

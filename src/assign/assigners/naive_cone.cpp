@@ -92,7 +92,7 @@ const AssignerDescriptor naive_cone_descriptor{
     .naive = true,
     .params = {{.name = "flaw",
                 .summary = "the mistake. sine-from-cosine: the sine of the angle is computed from its cosine; "
-                           "no-range: no test against the range; flat-cap-ball: the ball of a cone with a flat cap",
+                           "no-range: no test against the range; flat-cap-ball: the sphere of a cone with a flat cap",
                 .standard = std::string("sine-from-cosine"),
                 .unit = "",
                 .choices = {"sine-from-cosine", "no-range", "flat-cap-ball"}}},

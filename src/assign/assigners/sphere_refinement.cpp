@@ -170,7 +170,7 @@ std::vector<ParamSpec> scalar_params() {
   params.push_back({.name = "columns",
                     .summary =
                         "by which planes a column is tested. both: its left and its right one; nearest: the one "
-                        "towards the centre of what is left of the ball, whose column is always taken (Filament)",
+                        "towards the centre of what is left of the sphere, whose column is always taken (Filament)",
                     .standard = std::string("both"),
                     .unit = "",
                     .choices = {"both", "nearest"},
@@ -183,7 +183,7 @@ std::vector<ParamSpec> scalar_params() {
 extern const AssignerDescriptor sphere_refinement_descriptor;
 const AssignerDescriptor sphere_refinement_descriptor{
     .name = "sphere-refinement",
-    .summary = "a light's ball cut down at the nearer plane of each slice and each row, then against the columns",
+    .summary = "a light's sphere cut down at the nearer plane of each slice and each row, then against the columns",
     .source =
         "Persson 2015, Practical Clustered Shading, made conservative: sides are taken again after each cut, by both "
         "planes of a row and a column, without a logarithm (Filament takes row and column again per slice, Bevy its "

@@ -32,7 +32,7 @@ class RefinedRows {
 extern const AssignerDescriptor sphere_refinement_fast_descriptor;
 const AssignerDescriptor sphere_refinement_fast_descriptor{
     .name = "sphere-refinement-fast",
-    .summary = "sphere-refinement, one ball per lane, lists by compression (SIMD, dispatched at run time)",
+    .summary = "sphere-refinement, one sphere per lane, lists by compression (SIMD, dispatched at run time)",
     .source =
         "Persson 2015, Practical Clustered Shading, made conservative: sides are taken again after each cut, by both "
         "planes of a row and a column, without a logarithm (Filament takes row and column again per slice, Bevy its "

@@ -9,7 +9,7 @@ const AssignerDescriptor world_grid_descriptor{
     .name = "world-grid",
     .summary = "sphere against the boxes of a fixed world grid, row by row",
     .source =
-        "PlayCanvas clustered lighting, which lists a light's box in a grid over the frame's lights; here balls and "
+        "PlayCanvas clustered lighting, which lists a light's box in a grid over the frame's lights; here spheres and "
         "cones are tested, in a grid that stays",
     .kinds = {grid::Kind::world},
     .params = light_params(),

@@ -7,9 +7,9 @@ namespace clusterbench::assign {
 extern const AssignerDescriptor world_grid_fast_descriptor;
 const AssignerDescriptor world_grid_fast_descriptor{
     .name = "world-grid-fast",
-    .summary = "world-grid, one ball per lane, lists by compression (SIMD, dispatched at run time)",
+    .summary = "world-grid, one sphere per lane, lists by compression (SIMD, dispatched at run time)",
     .source =
-        "PlayCanvas clustered lighting, which lists a light's box in a grid over the frame's lights; here balls and "
+        "PlayCanvas clustered lighting, which lists a light's box in a grid over the frame's lights; here spheres and "
         "cones are tested, in a grid that stays",
     .kinds = {grid::Kind::world},
     .params = light_params(),

@@ -109,7 +109,7 @@ void find_spot_balls(const view::LightArrays& lights, float roundoffs, bool arou
 
 CellBalls::CellBalls(std::span<const geom::Ball> balls) {
   const std::size_t padded = balls.size() + k_most_lanes;
-  check_memory("balls around cells, side by side", padded, 5 * sizeof(float));
+  check_memory("spheres around cells, side by side", padded, 5 * sizeof(float));
   grow_to(padded, x, y, z, radius, size);
   for (std::size_t cell = 0; cell < balls.size(); ++cell) {
     const Vec3f& center = balls[cell].center;

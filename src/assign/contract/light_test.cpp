@@ -5,15 +5,16 @@
 namespace clusterbench::assign {
 
 ParamSpec spot_param() {
-  return {
-      .name = "spot",
-      .summary =
-          "how spots are tested. ball: the ball around their cone; range: the ball of their range; cone-sphere: the "
-          "ball of their range, and the cone against each cell's bounding sphere; both: a cell has to pass ball and "
-          "cone-sphere",
-      .standard = std::string("both"),
-      .unit = "",
-      .choices = {"ball", "range", "cone-sphere", "both"}};
+  return {.name = "spot",
+          .summary =
+              "how spots are tested. ball: the sphere around their cone; range: the sphere of their range; "
+              "cone-sphere: the "
+              "sphere of their range, and the cone against each cell's bounding sphere; both: a cell has to pass "
+              "sphere and "
+              "cone-sphere",
+          .standard = std::string("both"),
+          .unit = "",
+          .choices = {"ball", "range", "cone-sphere", "both"}};
 }
 
 ParamSpec inflation_param() {

@@ -50,7 +50,7 @@ void OccupiedMethod::build(const grid::Grid& grid, const LightKinds&) {
   cells_ = extents_.cells();
   view_ = ViewCull(extents_.screen());
   pixels_.build(grid.screen());
-  check_memory("boxes and balls around cells", extents_.cell_count(), sizeof(geom::Box) + sizeof(geom::Ball));
+  check_memory("boxes and spheres around cells", extents_.cell_count(), sizeof(geom::Box) + sizeof(geom::Ball));
   boxes_.resize(extents_.cell_count());
   balls_.resize(extents_.cell_count());
   if (bounds_ != CellBounds::cell) return;
