@@ -490,8 +490,8 @@ export type Result = {
         apart_m: number; // Largest distance between two lights of a group [m, over the case]
         turned_deg: number; // Largest angle between two axes of a group [degrees, over the case]
         growth: number; // Largest volume of a group's frustum, over that of its largest member's own [ratio, over the case]
-        points: MeanMax; // Points whose ball may be in view; they share nothing [lights]
-        spots: MeanMax; // Spots whose bounding ball may be in view: maps if none is shared [lights]
+        points: MeanMax; // Points whose sphere may be in view; they share nothing [lights]
+        spots: MeanMax; // Spots whose bounding sphere may be in view: maps if none is shared [lights]
         maps: MeanMax; // Maps of these spots if they share [maps]
         shared: MeanMax; // Of the maps, those with more than one spot [maps]
         saved: number | null; // Share of the spots' maps that sharing saves, over all frames; null without spots in view [share of 1]
@@ -794,7 +794,7 @@ export type Result = {
       shade_ns?: number | null; // Lights that samples loop over, by config.cost; where the scene has no surfaces, each pixel shaded once at a random depth. Absent in older results [ns, over one frame]
       unlit?: number | null; // Share of the lights that its samples need and lack: of the sets that cost something the one that lacks most, else on visible surfaces if they are asked for, else in the whole view; null where no sample needs a light. Absent in older results [ratio, over the lights that samples need]
       missed_in_view?: number | null; // Pairs that the lists lack, without those of lights beside the view; null where lists were not compared with the truth. Absent in older results [pairs, over all frames]
-      lights_per_sample: number | null; // Lights looped over at a sample of these sets, mean [count, over all samples]
+      lights_per_sample: number | null; // Lights given at a sample of these sets, mean [count, over all samples]
       why: string; // What speaks for and against it here, as text
     }>; // Best first: by standing, then by gpu_ns, or by the share of lights that samples lack
   }>; // Per scene, camera and viewport the cases of presets beside each other; absent without any

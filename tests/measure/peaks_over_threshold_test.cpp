@@ -157,8 +157,6 @@ TEST(Tail, is_refused_for_too_few_peaks_and_says_how_many_there_are) {
   const TailEstimate found = tail_of_one(needs);
   EXPECT_FALSE(found.tail);
   EXPECT_NE(found.refusal.find("of the 20 independent peaks it needs"), std::string::npos) << found.refusal;
-  EXPECT_NE(found.refusal.find("in 600 frames"), std::string::npos) << found.refusal;
-  EXPECT_NE(found.refusal.find("20 are needed"), std::string::npos) << found.refusal;
 }
 
 // Frames in the hundreds are no substitute for hills.
@@ -167,7 +165,7 @@ TEST(Tail, is_refused_for_one_smooth_hill) {
   for (std::uint64_t i = 0; i < 1000; ++i) needs.push_back(1000 + (i < 500 ? i : 999 - i) * 3 + i % 7);
   const TailEstimate found = tail_of_one(needs);
   EXPECT_FALSE(found.tail);
-  EXPECT_EQ(found.refusal.find("only 1 separate peak above"), 0u) << found.refusal;
+  EXPECT_EQ(found.refusal.find("1 of the 20 independent peaks it needs"), 0u) << found.refusal;
 }
 
 TEST(Tail, is_refused_for_a_loop_that_is_walked_again_and_again) {
