@@ -414,7 +414,7 @@ describe("times", () => {
 
   it("have the terminal's warnings, of each result by its name", async () => {
     const texts = async (name) => (await textsOf(await open(pages[name]), "#warnings li")).join("\n");
-    assert.match(await texts("wide"), /Note\. Times: \d+ of \d+ times with intervals wider than \+- 10 %/);
+    assert.match(await texts("wide"), /Note\. Times: \d+ of \d+ times with intervals wider than ±10 %/);
     assert.match(await texts("wide"), /--launches \d+/);
     const two = await texts("two");
     assert.match(two, /Note\. (quick|.*\/quick): Times: /);
@@ -501,7 +501,7 @@ describe("what a case loses", () => {
     const page = await open(pages.lossy);
     const text = (await textsOf(page, "#warnings li")).join("\n");
     assert.match(text, /Note\. 4 cases dropped lights because the storage was full/);
-    assert.match(text, /Note\. 6 cases left more of the lights that samples need unlit than rounding does/);
+    assert.match(text, /Note\. 6 cases left more of the lights that random points in the view need unlit than rounding does/);
     assert.doesNotMatch(text, /Failed/);
   });
 });

@@ -85,7 +85,7 @@ std::vector<const Json*> matches_of(const std::string& path, const Json& searche
   for (const Json* one : seen_alike)
     if (sha256_of_scene(result, *one) == searched["sha256"]) out.push_back(one);
   if (out.empty()) throw Error(path, "/case/sha256", "is of another version of the scene; search again");
-  std::ranges::stable_partition(out, [&](const Json* one) { return (*one)["scene"] == searched["scene"]; });
+  std::stable_partition(out.begin(), out.end(), [&](const Json* one) { return (*one)["scene"] == searched["scene"]; });
   return out;
 }
 
