@@ -36,7 +36,8 @@ function failuresOf(cases: Case[]): Warning[] {
 
 const doubts: Record<WarningKind, string> = {
   dropped_pairs: "dropped lights because the storage was full",
-  unlit: "left more of the lights that random points in the view need unlit than rounding does, in cells or outside of the grid",
+  unlit:
+    "left more of the lights that random points in the view need unlit than rounding does, in cells or outside of the grid",
   undecided: "had pairs that stayed undecided, counted as true",
   unchecked: "went without a check against the truth",
   too_many_lights: "had more lights in view than their engines take, and lost some",

@@ -501,7 +501,10 @@ describe("what a case loses", () => {
     const page = await open(pages.lossy);
     const text = (await textsOf(page, "#warnings li")).join("\n");
     assert.match(text, /Note\. 4 cases dropped lights because the storage was full/);
-    assert.match(text, /Note\. 6 cases left more of the lights that random points in the view need unlit than rounding does/);
+    assert.match(
+      text,
+      /Note\. 6 cases left more of the lights that random points in the view need unlit than rounding does/,
+    );
     assert.doesNotMatch(text, /Failed/);
   });
 });

@@ -60,8 +60,6 @@ FigureKind figure_kind(const std::string& name) {
 
 // What surfaces of the path do not need can be needed by what moves there.
 constexpr const char* k_unlit_in_view = "volume.unlit";
-// Overshade at the samples that cost something.
-constexpr const char* k_cost_overshade = "cost_overshade";
 constexpr const char *k_gpu_cost = "gpu_cost_us", *k_evaluated = "evaluated", *k_read_bytes = "read_bytes";
 
 std::optional<double> figure_of(const Json& result_case, const std::string& name) {
@@ -69,7 +67,6 @@ std::optional<double> figure_of(const Json& result_case, const std::string& name
     const std::optional<double> ns = number_at(result_case, "/cost/gpu_ns");
     return ns ? std::optional(1e-3 * *ns) : std::nullopt;
   }
-  if (name == k_cost_overshade) return number_at(result_case, "/cost/overshade");
   if (name != k_evaluated && name != k_read_bytes) return limit_figure(result_case, name);
   return mean_at_samples(result_case, name.c_str());
 }
@@ -278,8 +275,7 @@ Json ranked_json(const config::Config& config, const search::View& view, const R
     if (const std::optional<double> value = figure_over(ranked.cases, figure.name))
       figures[figure.name] = figure.is_timed ? six_digits(*value) : number_or_null(*value);
   out["figures"] = figures;
-  const std::optional<double> overshade =
-      figure_over(ranked.cases, question.objective.is_cost ? k_cost_overshade : "overshade");
+  const std::optional<double> overshade = figure_over(ranked.cases, "overshade");
   out["overshade"] = overshade ? number_or_null(*overshade) : Json();
   return out;
 }
@@ -292,15 +288,8 @@ double needed_over(const Json& cases) {
 }
 
 bool rests_on_samples(const ObjectiveFigure& objective) {
-  return objective.is_cost || objective.name == k_evaluated || objective.name == k_read_bytes ||
-         config::is_at_samples(objective.name);
-}
-
-// Whether the objective is of samples that lie anywhere in the view.
-bool rests_on_random_depths(const Json& result_case, const ObjectiveFigure& objective) {
-  const std::vector<std::string> sets = ranking_set_names(result_case);
-  return rests_on_samples(objective) && std::ranges::find(sets, "volume") != sets.end() &&
-         std::ranges::find(sets, "opaque") == sets.end();
+  const std::string& name = objective.name;
+  return objective.is_cost || name == k_evaluated || name == k_read_bytes || config::is_at_samples(name);
 }
 
 // Of all cameras together: what one of them sees is something to choose by.
@@ -547,7 +536,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
     if (const std::string why = why_no_reader(all[0].cases); !why.empty()) out["no_reader"] = why;
     if (question.objective.is_cost) out["needed_at_samples"] = needed_over(all[0].cases);
     out["samples"] = ranking_set_names(all[0].cases[0]);
-    out["random_depths"] = rests_on_random_depths(all[0].cases[0], question.objective);
+    out["random_depths"] = rests_on_samples(question.objective) && ranks_at_random_depths(all[0].cases[0]);
   }
   for (const Ranked& ranked : apart) {
     if (!unseen.empty() || !ranked.is_feasible()) continue;

@@ -1,5 +1,7 @@
 #include "report/sample_sets.h"
 
+#include <algorithm>
+
 #include "core/text.h"
 #include "report/json_values.h"
 
@@ -42,6 +44,12 @@ std::vector<std::string> ranking_set_names(const Json& result_case) {
   for (const char* set : {"opaque", k_volume})
     if (samples_of_set(result_case, set) != nullptr) return {set};
   return {};
+}
+
+bool ranks_at_random_depths(const Json& result_case) {
+  const std::vector<std::string> sets = ranking_set_names(result_case);
+  const auto has = [&](const char* set) { return std::ranges::find(sets, set) != sets.end(); };
+  return has(k_volume) && !has("opaque");
 }
 
 std::string heading_of_sets(const Json& result_case) {

@@ -20,6 +20,9 @@ const nlohmann::ordered_json* samples_of_set(const nlohmann::ordered_json& resul
 // else points of the whole view. Empty without samples.
 std::vector<std::string> ranking_set_names(const nlohmann::ordered_json& result_case);
 
+// Of points of the view, where no surface is, and of no surfaces beside.
+bool ranks_at_random_depths(const nlohmann::ordered_json& result_case);
+
 // Behind a column's heading: " (opaque)", of several sets " (weighted)"; "" of points of the whole view where the case
 // has no other samples.
 std::string heading_of_sets(const nlohmann::ordered_json& result_case);
