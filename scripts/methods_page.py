@@ -130,18 +130,23 @@ def digits(value):
     return f"{value:.0f}" if value >= 100 else f"{value:.2g}"
 
 
+def kept_in(case):
+    """As the program's tables call it."""
+    return "no lists" if case["storage"] == "own" else case["storage"]
+
+
 def time_of(case, firsts):
     first = firsts[case["grid"]["name"]]
     if "timing" not in case:
         return ""
-    base = f"{first['assigner']['label']}" + (f" / {first['storage']}" if first["assigner"]["name"] == "bvh" else "")
+    base = f"{first['assigner']['label']}" + (f" / {kept_in(first)}" if first["assigner"]["name"] == "bvh" else "")
     return "this" if case is first else f"{digits(100 * case['timing']['against_first']['ratio'])} % of `{base}`"
 
 
 def row(case, firsts):
     samples, error = case["samples"]["opaque"], case.get("error")
     label = case["assigner"]["label"]
-    name = f"`{label}`" + (f" / {case['storage']}" if label == "bvh" else "")
+    name = f"`{label}`" + (f" / {kept_in(case)}" if label == "bvh" else "")
     lists = ["none", ""] if error is None else [f"{100 * error['excess_ratio']:.1f} %", f"{error['false_negatives']:,}"]
     unlit = samples["missed"] / samples["needed"]
     return [name, case["grid"]["kind"], *lists, f"{samples['evaluated'] / samples['samples']:.2f}",

@@ -127,7 +127,10 @@ describe("presets", () => {
     assert.equal(rows.length, 3);
     assert.match(rows[0], /^★ just-cause-3.*loses nothing; costs least: [\d.]+ lights per sample/s);
     assert.match(rows[1], /^godot\s+s1.*; costs least of those that samples search: /s);
-    assert.match(rows[2], /^just-cause-2.*samples lack .*drops \d+ lights .*room for 4 lights per cell/s);
+    assert.match(
+      rows[2],
+      /^just-cause-2.*samples \(random points in the view\) lack .*drops \d+ lights .*room for 4 lights per cell/s,
+    );
   });
 
   it("that could not be measured say why, and all where they come from", async () => {

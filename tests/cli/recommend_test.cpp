@@ -134,7 +134,15 @@ TEST(Recommend, says_that_depths_are_random_and_what_to_do_and_a_ground_changes_
             std::string::npos);
   EXPECT_EQ(on_ground.answer["random_depths"], false);
   EXPECT_TRUE(on_ground.answer["choice"]["overshade"].is_number());
-  EXPECT_EQ(recommended(config, flags).answer["random_depths"], true);
+  EXPECT_EQ(on_ground.answer["samples"], Json::array({"opaque"}));
+  EXPECT_NE(on_ground.outcome.out.find("read (opaque)  overshade (opaque)"), std::string::npos);
+  EXPECT_NE(on_ground.outcome.out.find("opaque: samples of visible surfaces; read: bytes that one reads\n"),
+            std::string::npos);
+  const Recommended by_overshade = recommended(config, flags + " --by overshade --set samples.opaque.ground=0.5");
+  EXPECT_EQ(by_overshade.answer["random_depths"], false) << "overshade is of the floor, too";
+  const Recommended at_random = recommended(config, flags);
+  EXPECT_EQ(at_random.answer["random_depths"], true);
+  EXPECT_EQ(at_random.answer["samples"], Json::array({"volume"}));
 }
 
 TEST(Recommend, an_answer_does_not_depend_on_the_other_viewports) {

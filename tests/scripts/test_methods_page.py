@@ -29,7 +29,8 @@ def run(*arguments):
 
 def counted(result):
     """What a row shows of each case, but for its time."""
-    return {case["name"]: (case.get("error"), case["buffers"]["bytes"]["high_water"], case["samples"]["opaque"]["evaluated"],
+    # Names of results that were measured before structures without lists were called so.
+    return {case["name"].replace("/own", "/no lists"): (case.get("error"), case["buffers"]["bytes"]["high_water"], case["samples"]["opaque"]["evaluated"],
                            case["samples"]["opaque"]["read_bytes"],
                            case["samples"]["opaque"]["missed"]) for case in result["cases"]}
 
