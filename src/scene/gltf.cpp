@@ -200,11 +200,26 @@ Interpolation interpolation_of(const std::string& name) {
   return name == "CUBICSPLINE" ? Interpolation::cubic_spline : Interpolation::linear;
 }
 
+// Which nodes move a light, a camera or a box: their own, or one below them.
+std::vector<bool> carrying_nodes(const Scene& scene) {
+  std::vector<bool> carries(scene.nodes.size(), false);
+  const auto mark = [&](const auto& things) {
+    for (const auto& thing : things) carries[static_cast<std::size_t>(thing.node)] = true;
+  };
+  mark(scene.lights);
+  mark(scene.cameras);
+  mark(scene.boxes);
+  for (std::size_t i = scene.nodes.size(); i-- > 0;)  // parents come first
+    if (const int parent = scene.nodes[i].parent; carries[i] && parent >= 0)
+      carries[static_cast<std::size_t>(parent)] = true;
+  return carries;
+}
+
 // Adds the channels of checked animations; of several that move the same the last one wins.
 class ChannelsOfFile {
  public:
   ChannelsOfFile(const std::map<int, int>& placed, AccessorReader& reader, Scene& scene)
-      : placed_(placed), reader_(reader), scene_(scene) {}
+      : placed_(placed), reader_(reader), scene_(scene), carries_(carrying_nodes(scene)) {}
 
   void add(const nlohmann::json& animation, const JsonLocation& location) {
     for (const nlohmann::json& channel : animation["channels"]) add_channel(animation["samplers"], channel, location);
@@ -221,17 +236,17 @@ class ChannelsOfFile {
     const std::size_t number = from["sampler"].get<std::size_t>();
     const nlohmann::json& sampler = samplers[number];
     const JsonLocation sampler_location = location.at("samplers").at(number);
-    std::optional<Channel> keys =
-        read_keys(reader_, sampler_location, sampler["input"].get<std::size_t>(), sampler["output"].get<std::size_t>(),
-                  static_cast<ChannelPath>(from["path"].get<int>()), from["is_pointer"].get<bool>(),
-                  interpolation_of(sampler["interpolation"].get<std::string>()));
-    if (!keys) {
-      sampler_location.warn("its accessors hold no data; the channel is ignored");
-      return;
-    }
     const auto kind = static_cast<TargetKind>(from["kind"].get<int>());
     const int index = from["index"].get<int>();
     const bool is_node = kind == TargetKind::node;
+    const KeysMove moved = is_node && !carries_[static_cast<std::size_t>(placed_.at(index))]
+                               ? KeysMove::neither
+                               : KeysMove::lights_or_cameras;
+    std::optional<Channel> keys =
+        read_keys(reader_, sampler_location, sampler["input"].get<std::size_t>(), sampler["output"].get<std::size_t>(),
+                  static_cast<ChannelPath>(from["path"].get<int>()), from["is_pointer"].get<bool>(),
+                  interpolation_of(sampler["interpolation"].get<std::string>()), moved);
+    if (!keys) return;
     (is_node ? keys->node : keys->definition) = is_node ? placed_.at(index) : index;
     scene_.duration_s = std::max(scene_.duration_s, keys->times_s.back());
     std::vector<Channel>& channels = is_node                     ? scene_.channels
@@ -254,6 +269,7 @@ class ChannelsOfFile {
   const std::map<int, int>& placed_;
   AccessorReader& reader_;
   Scene& scene_;
+  std::vector<bool> carries_;                                              // by node
   std::map<std::tuple<TargetKind, int, ChannelPath>, std::size_t> taken_;  // which channel moves what
 };
 
@@ -319,6 +335,7 @@ Scene load_gltf(const std::filesystem::path& path) {
   Warnings warnings;
   AccessorReader reader(file, warnings);
   const JsonLocation& root = reader.root();
+  if (file.has_byte_order_mark) root.warn("begins with a byte order mark, which JSON has none of; skipped");
   Scene scene;
   scene.name = printable(path.stem().string());
   scene.path = path;

@@ -130,6 +130,20 @@ struct Elements {
   std::string_view at(std::size_t index) const { return bytes.substr(index * stride, size); }
 };
 
+// Exporters give strides to keys of animations, too, for which glTF has none; where they say what they mean.
+std::size_t stride_of(const JsonLocation& location, AccessorUse use) {
+  const std::size_t stride = location.whole();
+  if (stride == 0) {
+    location.warn("found 0, where glTF asks for 4 to 252; read as no stride");
+    return 0;
+  }
+  if (stride > 252 || (stride < 4 && use == AccessorUse::vertices))
+    location.refuse("found " + std::to_string(stride) + ", 4 to 252 is needed");
+  if (use == AccessorUse::animations)
+    location.warn("a stride on keys of an animation, where glTF has none; read as so many bytes from one to the next");
+  return stride;
+}
+
 // `count` elements of `element` bytes from byteOffset of `object` on; refuses what does not lie inside `view`.
 Elements elements_of(std::string_view view, std::size_t stride, const JsonLocation& object, std::size_t count,
                      std::size_t element, std::size_t alignment) {
@@ -257,13 +271,7 @@ AccessorReader::View AccessorReader::view(const JsonLocation& reference) {
   const std::size_t chosen = reference.index(views, "bufferView");
   const JsonLocation view = root_.at("bufferViews").at(chosen);
   std::size_t stride = 0;
-  if (view.has("byteStride")) {
-    if (use_ == AccessorUse::animations)
-      view.at("byteStride").refuse("only vertex data may have a stride; animations use this bufferView");
-    stride = view.at("byteStride").whole();
-    if (stride < 4 || stride > 252)
-      view.at("byteStride").refuse("found " + std::to_string(stride) + ", 4 to 252 is needed");
-  }
+  if (view.has("byteStride")) stride = stride_of(view.at("byteStride"), use_);
   const std::size_t index = view.at("buffer").index(array_size(root_, "buffers"), "buffer");
   const std::size_t length = at_least_one(view.at("byteLength")), offset = whole_or(view, "byteOffset", 0);
   const std::string_view bytes = buffer(index);

@@ -76,7 +76,25 @@ void check_extensions(const JsonLocation& root) {
   }
 }
 
-json checked_roots(const JsonLocation& scene, const std::vector<bool>& is_child) {
+constexpr std::size_t k_no_parent = static_cast<std::size_t>(-1);
+
+bool has_transform(const json& node) {
+  return node.contains("matrix") || node.contains("translation") || node.contains("rotation") || node.contains("scale");
+}
+
+// A root has no parent. One that does not stand in the scene itself moves nothing.
+void check_root(const JsonLocation& root, std::size_t node, std::size_t parent, const json& nodes,
+                const LoadedScene& loaded) {
+  if (parent == k_no_parent) return;
+  if (loaded.nodes[parent])
+    root.refuse("node " + std::to_string(node) + " has a parent that is loaded; a scene lists roots");
+  root.warn("node " + std::to_string(node) + " has the parent " + std::to_string(parent) +
+            ", which does not stand in the scene; read as a root" +
+            (has_transform(nodes[parent]) ? ", without that parent's transform" : ""));
+}
+
+json checked_roots(const JsonLocation& scene, const json& nodes, const std::vector<std::size_t>& parents,
+                   const LoadedScene& loaded) {
   scene.expect_object();
   json roots = json::array();
   if (!scene.has("nodes")) return roots;
@@ -84,8 +102,8 @@ json checked_roots(const JsonLocation& scene, const std::vector<bool>& is_child)
   const std::size_t count = list.elements();
   std::set<std::size_t> listed;
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t node = list.at(k).index(is_child.size(), "node");
-    if (is_child[node]) list.at(k).refuse("node " + std::to_string(node) + " has a parent; a scene lists roots");
+    const std::size_t node = list.at(k).index(parents.size(), "node");
+    check_root(list.at(k), node, parents[node], nodes, loaded);
     if (!listed.insert(node).second) list.at(k).refuse("node " + std::to_string(node) + " is listed twice");
     roots.push_back(node);
   }
@@ -95,16 +113,17 @@ json checked_roots(const JsonLocation& scene, const std::vector<bool>& is_child)
 json checked_scenes(const JsonLocation& root, const LoadedScene& loaded, const json& nodes) {
   json out = json::array();
   if (!root.has("scenes")) return out;
-  std::vector<bool> is_child(nodes.size(), false);
-  for (const json& node : nodes) {
-    for (const json& child : node.value("children", json::array())) is_child[child.get<std::size_t>()] = true;
+  std::vector<std::size_t> parents(nodes.size(), k_no_parent);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const json children = nodes[i].value("children", json::array());
+    for (const json& child : children) parents[child.get<std::size_t>()] = i;
   }
   const JsonLocation scenes = root.at("scenes");
   const std::size_t count = scenes.elements();
   for (std::size_t i = 0; i < count; ++i) {
     json roots = json::array();
     try {
-      roots = checked_roots(scenes.at(i), is_child);
+      roots = checked_roots(scenes.at(i), nodes, parents, loaded);
     } catch (const Error& fault) {
       if (i == loaded.scene) throw;
       warn_of_unloaded(scenes.at(i), fault);

@@ -8,8 +8,27 @@ namespace {
 
 using nlohmann::json;
 
+constexpr const char* k_angles[] = {"innerConeAngle", "outerConeAngle"};
+
+bool has_angles(const JsonLocation& object) {
+  return object.has(k_angles[0]) || object.has(k_angles[1]);
+}
+
+// Where a spot light has its cone angles. Exporters put them beside `spot`, too.
+JsonLocation spot_of(const JsonLocation& light) {
+  if (light.has("spot")) light.at("spot").expect_object();
+  if (light.has("spot") && (has_angles(light.at("spot")) || !has_angles(light))) {
+    if (has_angles(light)) light.warn("cone angles both in 'spot' and beside it; read are those in 'spot'");
+    return light.at("spot");
+  }
+  if (has_angles(light))
+    light.warn("cone angles beside 'spot', where glTF has them in it; read as if they stood there");
+  else
+    light.warn("a spot light without 'spot'; angles 0 and pi/4 taken");
+  return light;
+}
+
 json checked_spot(const JsonLocation& spot) {
-  spot.expect_object();
   const double inner = spot.has("innerConeAngle") ? spot.at("innerConeAngle").number() : 0.0;
   const double outer = spot.has("outerConeAngle") ? spot.at("outerConeAngle").number() : std::numbers::pi / 4.0;
   if (inner < 0.0) spot.at("innerConeAngle").refuse("found " + std::to_string(inner) + ", 0 or more is needed");
@@ -39,7 +58,10 @@ void copy_range(const JsonLocation& light, json& out) {
     range.warn("the largest number of single precision; read as no range, which is what glTF has for an endless one");
     return;
   }
-  if (range_m == 0.0) range.warn("a range of 0 lights nothing (glTF asks for more than 0)");
+  if (range_m == 0.0) {
+    range.warn("a range of 0, where glTF asks for more; read as no range, so that the range rule gives one");
+    return;
+  }
   out["range"] = range_m;
 }
 
@@ -75,11 +97,7 @@ json checked_light(const JsonLocation& light) {
     }
   }
   if (type != "directional") copy_range(light, out);
-  if (type == "spot") {
-    if (!light.has("spot")) light.warn("a spot light without 'spot'; angles 0 and pi/4 taken");
-    out["spot"] = light.has("spot") ? checked_spot(light.at("spot"))
-                                    : json({{"innerConeAngle", 0.0}, {"outerConeAngle", std::numbers::pi / 4.0}});
-  }
+  if (type == "spot") out["spot"] = checked_spot(spot_of(light));
   return out;
 }
 

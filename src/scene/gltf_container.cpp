@@ -95,8 +95,10 @@ void check_nesting(const GltfFile& file, std::string_view text, std::size_t offs
 }
 
 void parse(GltfFile& file, std::string_view text) {
+  constexpr std::string_view k_mark = "\xEF\xBB\xBF";
+  file.has_byte_order_mark = text.starts_with(k_mark);
+  if (file.has_byte_order_mark) text.remove_prefix(k_mark.size());
   const auto offset = static_cast<std::size_t>(text.data() - file.bytes.data());
-  if (text.starts_with("\xEF\xBB\xBF")) refuse_at(file, offset, "JSON must not begin with a byte order mark");
   check_nesting(file, text, offset);
   try {
     file.json = nlohmann::json::parse(text);
@@ -138,7 +140,7 @@ void read_gltf_file(const std::filesystem::path& path, GltfFile& file) {
   file.bytes = read_bytes(path, file.name, "", std::numeric_limits<std::size_t>::max());
   if (file.bytes.empty()) refuse_at(file, 0, "the file is empty; glTF JSON or a GLB is needed");
   const bool binary = file.bytes.size() >= 4 && little_endian(file.bytes, 0) == k_magic;
-  if (!binary && path.extension() == ".glb") refuse_at(file, 0, "a .glb file must begin with 'glTF'");
+
   parse(file, binary ? glb_json(file) : std::string_view(file.bytes));
 }
 

@@ -13,6 +13,7 @@ struct GltfFile {
   std::string name;   // the path, for messages
   std::string bytes;  // of the whole file
   nlohmann::json json;
+  bool has_byte_order_mark = false;        // before the JSON; skipped
   std::optional<std::string_view> binary;  // the GLB's BIN chunk, inside `bytes`
 
   GltfFile() = default;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "scene/gltf_checked.h"
 
@@ -24,16 +25,31 @@ void check_times_format(const AccessorReader& reader, const JsonLocation& sample
   }
 }
 
-std::vector<double> read_times(AccessorReader& reader, const JsonLocation& sampler, std::size_t accessor) {
+constexpr const char* k_moves_neither = "; it moves neither light nor camera";
+
+// Nothing where keys are out of order and move neither light nor camera.
+std::optional<std::vector<double>> read_times(AccessorReader& reader, const JsonLocation& sampler, std::size_t accessor,
+                                              KeysMove moved) {
   const JsonLocation input = sampler.at("input");
+  const bool is_strict = moved == KeysMove::lights_or_cameras;
   std::vector<double> times_s = reader.numbers(accessor, 1);
-  if (times_s.front() < 0.0)
-    input.refuse("the first key time is " + std::to_string(times_s.front()) + ", 0 or more is needed");
+  bool has_equal = false;
   for (std::size_t i = 1; i < times_s.size(); ++i) {
-    if (times_s[i] <= times_s[i - 1]) {
-      input.refuse("key times must ascend: key " + std::to_string(i) + " is at " + std::to_string(times_s[i]) +
-                   " s, the one before at " + std::to_string(times_s[i - 1]) + " s");
+    if (times_s[i] > times_s[i - 1]) continue;
+    const std::string fault = "key " + std::to_string(i) + " is at " + std::to_string(times_s[i]) +
+                              " s, the one before at " + std::to_string(times_s[i - 1]) + " s";
+    if (is_strict) input.refuse("key times must ascend: " + fault);
+    if (times_s[i] < times_s[i - 1]) {
+      input.warn("key times that do not ascend: " + fault + k_moves_neither + ", so the channel is ignored");
+      return std::nullopt;
     }
+    if (!std::exchange(has_equal, true))
+      input.warn("key times must ascend: " + fault + k_moves_neither + ", so the later of the two holds");
+  }
+  if (times_s.front() < 0.0) {
+    const std::string fault = "the first key time is " + std::to_string(times_s.front()) + ", 0 or more is needed";
+    if (is_strict) input.refuse(fault);
+    input.warn(fault + k_moves_neither + ", so it is read as it is");
   }
   return times_s;
 }
@@ -97,7 +113,8 @@ void check_unit(const JsonLocation& output, const Channel& channel) {
 }  // namespace
 
 std::optional<Channel> read_keys(AccessorReader& reader, const JsonLocation& sampler, std::size_t input,
-                                 std::size_t output, ChannelPath path, bool is_pointer, Interpolation interpolation) {
+                                 std::size_t output, ChannelPath path, bool is_pointer, Interpolation interpolation,
+                                 KeysMove moved) {
   check_times_format(reader, sampler, input);
   const AccessorHead head = reader.head(output);
   check_format(sampler.at("output"), head, path, is_pointer);
@@ -110,7 +127,11 @@ std::optional<Channel> read_keys(AccessorReader& reader, const JsonLocation& sam
     sampler.at("output").refuse("found " + std::to_string(head.count) + " values, " + std::to_string(needed) +
                                 " are needed for " + std::to_string(keys) + " keys");
   }
-  if (keys == 0) return std::nullopt;
+  const auto without_data = [&] {
+    sampler.warn("its accessors hold no data; the channel is ignored");
+    return std::nullopt;
+  };
+  if (keys == 0) return without_data();
 
   Channel channel;
   channel.path = path;
@@ -126,9 +147,11 @@ std::optional<Channel> read_keys(AccessorReader& reader, const JsonLocation& sam
   if (path >= ChannelPath::range && path <= ChannelPath::outer_cone) check_allowed(sampler.at("output"), channel);
   const bool rotation = path == ChannelPath::rotation, turns = rotation && reader.has_data(output);
   if (turns) check_unit(sampler.at("output"), channel);
-  if (keys > 1 && !reader.has_data(input)) return std::nullopt;
-  channel.times_s = read_times(reader, sampler, input);
-  if (rotation && !turns) return std::nullopt;
+  if (keys > 1 && !reader.has_data(input)) return without_data();
+  std::optional<std::vector<double>> times_s = read_times(reader, sampler, input, moved);
+  if (!times_s) return std::nullopt;
+  if (rotation && !turns) return without_data();
+  channel.times_s = std::move(*times_s);
   return channel;
 }
 

@@ -113,7 +113,7 @@ struct Channel {
   int definition = -1;  // of all lights, or all cameras, of one definition
   ChannelPath path = ChannelPath::translation;
   Interpolation interpolation = Interpolation::linear;
-  std::vector<double> times_s;  // strictly ascending
+  std::vector<double> times_s;  // ascending; equal ones only where neither light nor camera moves: the later holds
   std::vector<Vec4d> values;    // one per key; cubic spline: in-tangent, value, out-tangent per key
 };
 

@@ -128,17 +128,101 @@ TEST(GltfAsExported, faults_of_nodes_that_are_loaded_are_refused_whatever_the_nu
   EXPECT_EQ(refusal(document(R"("nodes": [{}, {"children": [2]}, {"rotation": [0, 0, 0, 2]}])" + scenes))
                 .find("/nodes/2/rotation"),
             0U);
-  // Where it stands would depend on the node above it, which the scene does not hold.
-  EXPECT_EQ(refusal(document(R"("nodes": [{"children": [1]}, {}])" + scenes)).find("/scenes/1/nodes/0: node 1 has"),
+  // A root below a node that the scene holds, too, would stand there twice.
+  EXPECT_EQ(refusal(document(R"("nodes": [{"children": [1]}, {}], "scenes": [{"nodes": [0, 1]}])"))
+                .find("/scenes/0/nodes/1: node 1 has a parent"),
+            0U);
+}
+
+TEST(GltfAsExported, a_root_below_a_node_that_the_scene_does_not_hold_is_a_root) {
+  const std::string scenes = R"(, "scenes": [{"nodes": [1]}])";
+  Scene scene = loaded(document(R"("nodes": [{"children": [1]}, {"translation": [1, 2, 3]}])" + scenes));
+  ASSERT_EQ(scene.nodes.size(), 1U);
+  EXPECT_EQ(world_transforms(scene, 0.0)[0][3].z, 3.0);
+  expect_one_warning(scene,
+                     "/scenes/0/nodes/0: node 1 has the parent 0, which does not stand in the scene; read as a "
+                     "root");
+  EXPECT_EQ(scene.warnings[0].find("transform"), std::string::npos);
+  scene = loaded(document(R"("nodes": [{"children": [1], "scale": [2, 2, 2]}, {"translation": [1, 2, 3]}])" + scenes));
+  EXPECT_EQ(world_transforms(scene, 0.0)[0][3].z, 3.0);
+  expect_one_warning(scene, "read as a root, without that parent's transform");
+}
+
+TEST(GltfAsExported, keys_of_an_animation_with_a_stride_are_read_by_it) {
+  Animation keys = animation("translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 2, 3});
+  const auto strided = [&](const std::string& stride) {
+    std::string text = document(R"("nodes": [{}], )" + keys.text());
+    const std::string part = R"("byteOffset": 8, )";
+    return text.replace(text.find(part), part.size(), part + R"("byteStride": )" + stride + ", ");
+  };
+  for (const auto& [stride, says] : {std::pair("12", "/bufferViews/1/byteStride: a stride on keys of an animation"),
+                                     std::pair("0", "/bufferViews/1/byteStride: found 0, where glTF asks")}) {
+    const Scene scene = loaded(strided(stride));
+    EXPECT_EQ(world_transforms(scene, 1.0)[0][3].z, 3.0) << stride;
+    expect_one_warning(scene, says);
+  }
+  keys = animation("translation", "LINEAR", {0, 1}, {0, 0, 0, 9, 1, 2, 3});
+  keys.elements = 2;
+  EXPECT_EQ(world_transforms(loaded(strided("16")), 1.0)[0][3].x, 1.0);
+  EXPECT_EQ(refusal(strided("8")).find("/accessors/1: elements of 12 bytes do not fit into a byteStride of 8"), 0U);
+}
+
+TEST(GltfAsExported, odd_key_times_are_refused_only_where_a_light_or_a_camera_moves) {
+  const auto text = [](const std::string& nodes, const std::vector<float>& times, const std::string& how = "LINEAR") {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < times.size() * (how == "CUBICSPLINE" ? 3 : 1); ++i)
+      values.insert(values.end(), {static_cast<float>(i), 0, 0});
+    return document(R"("nodes": [)" + nodes + R"(], "cameras": [{"type": "perspective", "perspective": {"yfov": 1, )" +
+                    R"("znear": 1}}], )" + animation("translation", how, times, values).text());
+  };
+  const std::string mesh = "{}", carrier = R"({"children": [1]}, {"camera": 0})";
+  Scene scene = loaded(text(mesh, {0, 1, 1, 2}));
+  expect_one_warning(scene,
+                     "/animations/0/samplers/0/input: key times must ascend: key 2 is at 1.000000 s, the one "
+                     "before at 1.000000 s; it moves neither light nor camera, so the later of the two holds");
+  EXPECT_EQ(world_transforms(scene, 0.5)[0][3].x, 0.5);
+  EXPECT_EQ(world_transforms(scene, 1.0)[0][3].x, 2.0);
+  EXPECT_EQ(world_transforms(scene, 1.5)[0][3].x, 2.5);
+  scene = loaded(text(mesh, {0, 0, 1}, "CUBICSPLINE"));
+  EXPECT_TRUE(std::isfinite(world_transforms(scene, 0.0)[0][3].x));
+  scene = loaded(text(mesh, {-1, 1}));
+  expect_one_warning(scene, "the first key time is -1.000000, 0 or more is needed; it moves neither");
+  EXPECT_EQ(world_transforms(scene, 0.0)[0][3].x, 0.5);
+  scene = loaded(text(mesh, {0, 2, 1}));
+  expect_one_warning(scene, "so the channel is ignored");
+  EXPECT_TRUE(scene.channels.empty());
+  for (const std::vector<float>& times : {std::vector<float>{0, 1, 1}, std::vector<float>{-1, 1}})
+    EXPECT_EQ(refusal(text(carrier, times)).find("/animations/0/samplers/0/input: "), 0U);
+}
+
+TEST(GltfAsExported, a_byte_order_mark_is_skipped) {
+  const std::string mark = "\xEF\xBB\xBF";
+  expect_one_warning(loaded(mark + document("")), "/: begins with a byte order mark");
+  EXPECT_EQ(refusal(mark + "{").find("byte 4: not JSON"), 0U);
+}
+
+TEST(GltfAsExported, cone_angles_beside_the_spot_are_read) {
+  Scene scene = loaded(lit_scene(R"({"type": "spot", "innerConeAngle": 0.02, "outerConeAngle": 0.05})"));
+  EXPECT_EQ(scene.lights.at(0).outer_cone_rad, 0.05);
+  EXPECT_EQ(scene.lights.at(0).inner_cone_rad, 0.02);
+  expect_one_warning(scene, "/extensions/KHR_lights_punctual/lights/0: cone angles beside 'spot'");
+  scene = loaded(lit_scene(R"({"type": "spot", "outerConeAngle": 0.05, "spot": {"outerConeAngle": 0.5}})"));
+  EXPECT_EQ(scene.lights.at(0).outer_cone_rad, 0.5);
+  expect_one_warning(scene, "cone angles both in 'spot' and beside it");
+  EXPECT_EQ(refusal(lit_scene(R"({"type": "spot", "outerConeAngle": 5})"))
+                .find("/extensions/KHR_lights_punctual/lights/0/outerConeAngle: found 5"),
+            0U);
+  EXPECT_EQ(refusal(lit_scene(R"({"type": "spot", "spot": 5})")).find("/extensions/KHR_lights_punctual/lights/0/spot"),
             0U);
 }
 
 TEST(GltfWarnings, that_differ_in_numbers_alone_are_one_with_a_count) {
   std::string list;
   for (int i = 0; i < 70; ++i) list += std::string(i > 0 ? ", " : "") + R"({"type": "point", "range": 0})";
-  expect_one_warning(loaded(lit_scene(list, 70)),
-                     "/extensions/KHR_lights_punctual/lights/0/range: a range of 0 lights nothing (glTF asks for more "
-                     "than 0) (and 69 more like it)");
+  expect_one_warning(
+      loaded(lit_scene(list, 70)),
+      "/extensions/KHR_lights_punctual/lights/0/range: a range of 0, where glTF asks for more; read as no "
+      "range, so that the range rule gives one (and 69 more like it)");
 }
 
 TEST(GltfWarnings, of_different_kinds_end_in_a_count_after_a_hundred) {

@@ -408,12 +408,12 @@ TEST(Ranges, a_given_range_stays_and_a_missing_one_comes_from_intensity_and_cuto
   EXPECT_TRUE(std::isinf(scene.lights[4].range_m));
 }
 
-TEST(Ranges, a_range_of_zero_is_kept_with_a_warning) {
+TEST(Ranges, a_range_of_zero_is_that_of_the_rule_with_a_warning) {
   Scene scene = loaded(document(nodes(lit(0)) + ", " + lights(R"({"type": "point", "range": 0})")));
   EXPECT_EQ(scene.warnings.size(), 1U);
-  resolve_ranges(scene, RangeRule{});
-  EXPECT_EQ(scene.lights[0].range_m, 0.0);
-  EXPECT_EQ(scene.lights[0].range_source, RangeSource::given);
+  resolve_ranges(scene, RangeRule{1.0, 100.0});
+  EXPECT_EQ(scene.lights[0].range_m, 1.0);
+  EXPECT_EQ(scene.lights[0].range_source, RangeSource::from_intensity);
 }
 
 }  // namespace
