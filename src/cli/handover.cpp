@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/file_text.h"
+#include "core/json_document.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -37,7 +38,7 @@ std::string handed_over(const config::Config& config, const run::Plan& plan, std
 }
 
 ReceivedRun received_run(const std::string& line, const std::string& file) {
-  const Json given = Json::parse(line);
+  const Json given = read_json<Json>(line, file);
   ReceivedRun run{config::parse_config(given["config"].dump(), file == k_no_file ? "" : file), {}};
   std::vector<config::SceneRequest> scenes;
   for (const Json& scene : given["scenes"]) {

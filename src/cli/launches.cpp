@@ -9,6 +9,7 @@
 #include "cli/child.h"
 #include "cli/handover.h"
 #include "core/error.h"
+#include "core/json_document.h"
 #include "run/passes/timing_pass.h"
 
 namespace clusterbench::cli {
@@ -141,7 +142,7 @@ class Launch {
     child_.send_line(request.dump());
     const std::optional<std::string> line = next_line();
     if (!line) return std::nullopt;
-    Json read = Json::parse(*line, nullptr, false);
+    Json read = json_or_discarded<Json>(*line);
     if (!read.is_object()) fail("answered '" + line->substr(0, 100) + "'");
     return read;
   }

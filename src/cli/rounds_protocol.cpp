@@ -6,6 +6,7 @@
 
 #include "cli/stop.h"
 #include "core/error.h"
+#include "core/json_document.h"
 #include "report/result_json.h"
 #include "run/served_cases.h"
 
@@ -98,7 +99,7 @@ Json RemoteProgram::answer(const std::string& request) {
                            : "ended" + how + " at '" + request + "'");
     }
   }
-  Json read = Json::parse(line, nullptr, false);
+  Json read = json_or_discarded<Json>(line);
   if (read.is_discarded() && !tool_.is_null()) fail("answered '" + request + "' with '" + line.substr(0, 100) + "'");
   return read;
 }

@@ -11,6 +11,7 @@
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "core/file_text.h"
+#include "core/json_document.h"
 #include "core/text.h"
 #include "run/sweep.h"
 
@@ -42,7 +43,7 @@ ExitCode validate_config(const std::string& path) {
 }
 
 ExitCode validate(const std::string& path) {
-  const nlohmann::json document = nlohmann::json::parse(file_text(path), nullptr, false, true);
+  const nlohmann::json document = json_or_discarded<nlohmann::json>(file_text(path), JsonComments::allowed);
   const config::DocumentRow& row = config::row_of(config::document_of(document));
   return row.document == config::Document::config ? validate_config(path) : validate_written(path, document, row);
 }

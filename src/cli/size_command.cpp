@@ -15,6 +15,8 @@
 #include "cli/stop.h"
 #include "config/documents.h"
 #include "core/error.h"
+#include "core/file_text.h"
+#include "core/json_document.h"
 #include "core/text.h"
 #include "report/engine_settings.h"
 #include "report/found_frames.h"
@@ -42,8 +44,7 @@ struct SizeFlags {
 // A configuration may have comments, and need not be JSON to be told apart: what is wrong with it, its own reader says.
 bool is_config(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) return false;
-  std::ifstream in(path, std::ios::binary);
-  const Json value = Json::parse(in, nullptr, false, true);
+  const Json value = json_or_discarded<Json>(file_text(path), JsonComments::allowed);
   return value.is_object() && !value.empty() && config::document_of(value) == config::Document::config &&
          !value.contains("schema_version") && !value.contains("header");
 }

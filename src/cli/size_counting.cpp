@@ -12,6 +12,8 @@
 #include "cli/size_limits.h"
 #include "cli/stop.h"
 #include "cli/terminal.h"
+#include "core/file_text.h"
+#include "core/json_document.h"
 #include "core/text.h"
 #include "report/columns.h"
 #include "report/result_json.h"
@@ -39,8 +41,7 @@ std::vector<bool> asked_for(const RunInputs& inputs, std::size_t scenes) {
   const bool is_flagged = std::ranges::any_of(flag_values(inputs), asks_for_frames);
   std::vector<bool> asked(scenes, is_flagged);
   if (is_scene(inputs.paths.front()) || is_flagged) return asked;
-  std::ifstream in(inputs.paths.front(), std::ios::binary);
-  const Json file = Json::parse(in, nullptr, false, true);
+  const Json file = json_or_discarded<Json>(file_text(inputs.paths.front()), JsonComments::allowed);
   const bool is_list = file.is_object() && file.contains("scenes") && file["scenes"].is_array();
   // Scenes that come of axes are not those of the file.
   if (!is_list || file["scenes"].size() != scenes) return std::vector<bool>(scenes, true);

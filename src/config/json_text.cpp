@@ -5,12 +5,11 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/json_document.h"
 #include "core/text.h"
 
 namespace clusterbench::config {
 namespace {
-
-constexpr int k_max_depth = 64;
 
 TextPosition position_of(std::string_view text, std::size_t offset) {
   TextPosition position;
@@ -31,21 +30,20 @@ std::string to_text(TextPosition position, const std::string& pointer) {
          (pointer.empty() ? "/" : pointer);
 }
 
-// Walks over text that the parser has accepted and notes where things stand.
+// Walks over text that the parser has accepted, which is not deep, and notes where things stand.
 class Scanner {
  public:
   Scanner(std::string_view text, JsonText& out) : text_(text), out_(out) {
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
   }
 
-  void value(const std::string& pointer, int depth) {
+  void value(const std::string& pointer) {
     skip_blank();
     out_.values[pointer] = here();
-    if (depth > k_max_depth) throw Error(out_.file, to_text(here(), ""), "nested deeper than 64 levels");
     if (text_[at_] == '{') {
-      object(pointer, depth);
+      object(pointer);
     } else if (text_[at_] == '[') {
-      array(pointer, depth);
+      array(pointer);
     } else if (text_[at_] == '"') {
       string();
     } else {
@@ -84,7 +82,7 @@ class Scanner {
     return nlohmann::json::parse(text_.substr(begin, at_ - begin)).get<std::string>();
   }
 
-  void object(const std::string& pointer, int depth) {
+  void object(const std::string& pointer) {
     ++at_;
     for (skip_blank(); text_[at_] != '}'; skip_blank()) {
       const TextPosition key_position = here();
@@ -98,17 +96,17 @@ class Scanner {
       }
       skip_blank();
       ++at_;  // the colon
-      value(member, depth + 1);
+      value(member);
       skip_comma();
     }
     ++at_;
   }
 
-  void array(const std::string& pointer, int depth) {
+  void array(const std::string& pointer) {
     ++at_;
     std::size_t index = 0;
     for (skip_blank(); text_[at_] != ']'; skip_blank()) {
-      value(child_pointer(pointer, index++), depth + 1);
+      value(child_pointer(pointer, index++));
       skip_comma();
     }
     ++at_;
@@ -125,26 +123,11 @@ class Scanner {
   TextPosition position_;
 };
 
-// The library's message without its own prefix and position.
-std::string plain_message(const std::string& what) {
-  const std::size_t position = what.find("column ");
-  const std::size_t colon = what.find(": ", position == std::string::npos ? 0 : position);
-  const std::size_t bracket = what.find("] ");
-  if (position != std::string::npos && colon != std::string::npos) return what.substr(colon + 2);
-  return bracket == std::string::npos ? what : what.substr(bracket + 2);
-}
-
 nlohmann::json parsed(const std::string& text, const std::string& file) {
-  try {
-    return nlohmann::json::parse(text, nullptr, true, true);
-  } catch (const nlohmann::json::parse_error& error) {
-    throw Error(file, to_text(position_of(text, error.byte > 0 ? error.byte - 1 : 0), ""), plain_message(error.what()));
-  } catch (const nlohmann::json::out_of_range& error) {
-    const std::string message = plain_message(error.what());
-    const std::size_t open = message.find('\''), close = message.rfind('\'');
-    const std::size_t offset = open < close ? text.find(message.substr(open + 1, close - open - 1)) : 0;
-    throw Error(file, to_text(position_of(text, offset), ""), message);
-  }
+  nlohmann::json value;
+  if (const std::optional<JsonFault> fault = parse_json(text, value, JsonComments::allowed))
+    throw Error(file, to_text(position_of(text, fault->byte), ""), fault->what);
+  return value;
 }
 
 }  // namespace
@@ -183,7 +166,7 @@ JsonText parse_json_text(const std::string& text, const std::string& file) {
   JsonText out;
   out.file = file;
   out.value = parsed(text, file);
-  Scanner(text, out).value("", 0);
+  Scanner(text, out).value("");
   return out;
 }
 

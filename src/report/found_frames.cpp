@@ -8,6 +8,7 @@
 #include "config/schema_verdict.h"
 #include "core/error.h"
 #include "core/file_text.h"
+#include "core/json_document.h"
 #include "core/text.h"
 #include "report/columns.h"
 #include "report/json_values.h"
@@ -20,8 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json read_worst_case(const std::string& path) {
-  const Json json = Json::parse(file_text(path), nullptr, false);
-  if (json.is_discarded()) throw Error(path, "", "is not JSON");
+  const Json json = read_json<Json>(file_text(path), path);
   const config::DocumentRow& row = config::row_of(config::Document::worst_case);
   if (config::document_of(json) != config::Document::worst_case)
     throw Error(path, "", "is not what `clusterbench worst-case -o FILE` writes");

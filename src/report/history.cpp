@@ -17,6 +17,7 @@
 
 #include "core/error.h"
 #include "core/file_text.h"
+#include "core/json_document.h"
 #include "core/text.h"
 #include "report/light_changes.h"
 #include "report/machine.h"
@@ -82,7 +83,7 @@ HistoryEntry::Case parsed_case(const Json& stored) {
 }
 
 HistoryEntry parsed(const std::string& line) {
-  const Json json = Json::parse(line);
+  const Json json = read_json<Json>(line, "");
   if (json.at("history_version") != k_history_version)
     throw Error("", "", "history_version is " + json["history_version"].dump() + "; this version reads 1");
   HistoryEntry entry{json.at("commit").get<std::string>(),
@@ -101,8 +102,6 @@ HistoryEntry parsed_at(const std::string& path, const std::string& line, std::si
   const std::string where = "line " + std::to_string(number);
   try {
     return parsed(line);
-  } catch (const nlohmann::json::parse_error&) {
-    throw Error(path, where, "is not JSON");
   } catch (const nlohmann::json::exception&) {
     throw Error(path, where, "is not a line of `clusterbench history add`");
   } catch (const Error& error) {

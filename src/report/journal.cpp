@@ -9,6 +9,7 @@
 #include "config/schema_verdict.h"
 #include "core/error.h"
 #include "core/file_text.h"
+#include "core/json_document.h"
 #include "core/text.h"
 #include "report/compact_json.h"
 #include "report/json_values.h"
@@ -50,7 +51,7 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
   for (int number = 1; begin < text.size(); ++number) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) break;  // the line that was being written when the run ended
-    Json entry = Json::parse(text.substr(begin, end - begin), nullptr, false);
+    Json entry = json_or_discarded<Json>(std::string_view(text).substr(begin, end - begin));
     const auto refuse = [&](const std::string& what) {
       throw Error(path.string(), "line " + std::to_string(number),
                   what + "; without --resume the run begins anew and the file is kept under another name");
@@ -93,7 +94,7 @@ Journal::Journal(const fs::path& file, const Json& header, bool resume, std::uin
 void Journal::set_earlier_aside() {
   const std::string text = partial_.text();
   const std::size_t header_end = text.find('\n');
-  const bool is_header = Json::parse(text.substr(0, header_end), nullptr, false).contains("header");
+  const bool is_header = json_or_discarded<Json>(std::string_view(text).substr(0, header_end)).contains("header");
   const bool has_more = header_end != std::string::npos && header_end + 1 < text.size();
   if (text.empty() || (is_header && !has_more)) {
     partial_.cut_to(0);

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/file_text.h"
+#include "core/json_document.h"
 
 namespace clusterbench::report {
 namespace {
@@ -59,7 +60,7 @@ PagePicture picture_of(const Json& entry) {
 
 std::vector<PagePicture> page_pictures(const fs::path& folder, const std::vector<NamedResult>& results) {
   const fs::path index = folder / "pictures.json";
-  const Json document = Json::parse(file_text(index), nullptr, false);
+  const Json document = read_json<Json>(file_text(index), index.string());
   const std::set<std::string> ids = case_ids_of(results);
   std::vector<PagePicture> pictures;
   std::uint64_t bytes = 0;

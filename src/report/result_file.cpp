@@ -1,11 +1,10 @@
 #include "report/result_file.h"
 
-#include <cerrno>
-#include <fstream>
-
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "core/error.h"
+#include "core/file_text.h"
+#include "core/json_document.h"
 #include "report/case_filter.h"
 #include "report/result_json.h"
 
@@ -16,12 +15,8 @@ using Json = nlohmann::ordered_json;
 using namespace std::string_literals;
 
 // The journal (report/journal.h) has a document per line, the first of them its header.
-bool is_journal(std::istream& in) {
-  std::string line;
-  in.clear();
-  in.seekg(0);
-  std::getline(in, line);
-  const Json first = Json::parse(line, nullptr, false);
+bool is_journal(std::string_view text) {
+  const Json first = json_or_discarded<Json>(text.substr(0, text.find('\n')));
   return first.is_object() && first.contains("header");
 }
 
@@ -36,21 +31,11 @@ void check(const std::string& path, const Json& result) {
 }  // namespace
 
 Json read_result(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in || in.peek() == std::ifstream::traits_type::eof())
-    throw Error(path, "", in.eof() ? "is empty" : errno_says("cannot be read"));
-  if (is_journal(in))
+  const std::string text = file_text(path);
+  if (text.empty()) throw Error(path, "", "is empty");
+  if (is_journal(text))
     throw Error(path, "", "is what an unfinished run left; `clusterbench run` with --resume makes a result of it");
-  in.clear();
-  in.seekg(0);
-  Json result;
-  try {
-    result = Json::parse(in);
-  } catch (const nlohmann::json::parse_error& error) {
-    throw Error(path, "byte " + std::to_string(error.byte), "is not JSON");
-  } catch (const nlohmann::json::out_of_range&) {
-    throw Error(path, "", "has a number that is larger than double precision can hold");
-  }
+  Json result = read_json<Json>(text, path);
   if (const config::Document document = config::document_of(result); document != config::Document::result)
     throw Error(path, "",
                 document == config::Document::config

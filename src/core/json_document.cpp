@@ -1,0 +1,94 @@
+#include "core/json_document.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/memory.h"
+
+namespace clusterbench {
+namespace {
+
+// Goes over a text that need not be JSON, without recursion.
+class Counter {
+ public:
+  Counter(std::string_view text, JsonComments comments, std::size_t most_members)
+      : text_(text), has_comments_(comments == JsonComments::allowed), most_members_(most_members) {}
+
+  std::optional<JsonFault> excess() {
+    for (; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      if (c == '"') {
+        skip_string();
+      } else if (has_comments_ && c == '/') {
+        skip_comment();
+      } else if (c == '[' || c == '{') {
+        if (open_.size() == k_deepest_json)
+          return JsonFault{at_, "is nested deeper than " + std::to_string(k_deepest_json) + " levels"};
+        open_.push_back({c == '{', 1});
+        ++values_;
+      } else if (c == ']' || c == '}') {
+        if (!open_.empty()) open_.pop_back();
+      } else if (c == ',') {
+        ++values_;
+        if (!open_.empty() && ++open_.back().members > most_members_ && open_.back().is_object)
+          return JsonFault{at_, "has an object of more than " + std::to_string(most_members_) + " members"};
+      }
+    }
+    check_memory("values of a JSON document", values_, k_json_value_bytes, "split the file");
+    return std::nullopt;
+  }
+
+ private:
+  struct Open {
+    bool is_object = false;
+    std::size_t members = 0;
+  };
+
+  void skip_string() {
+    for (++at_; at_ < text_.size() && text_[at_] != '"'; ++at_)
+      if (text_[at_] == '\\') ++at_;
+  }
+  void skip_comment() {
+    const std::string_view rest = text_.substr(at_);
+    std::size_t end = at_;
+    if (rest.starts_with("//"))
+      end = text_.find('\n', at_);
+    else if (rest.starts_with("/*"))
+      end = text_.find("*/", at_ + 2);
+    at_ = std::min(end, text_.size());
+  }
+
+  std::string_view text_;
+  bool has_comments_;
+  std::size_t most_members_;
+  std::size_t at_ = 0, values_ = 1;
+  std::vector<Open> open_;
+};
+
+}  // namespace
+
+std::optional<JsonFault> json_excess(std::string_view text, JsonComments comments, std::size_t most_members) {
+  return Counter(text, comments, most_members).excess();
+}
+
+std::string plain_json_message(const std::string& what) {
+  const std::size_t position = what.find("column ");
+  const std::size_t colon = what.find(": ", position == std::string::npos ? 0 : position);
+  const std::size_t bracket = what.find("] ");
+  if (position != std::string::npos && colon != std::string::npos) return what.substr(colon + 2);
+  return bracket == std::string::npos ? what : what.substr(bracket + 2);
+}
+
+namespace json_detail {
+
+JsonFault number_fault(std::string_view text, const std::string& what) {
+  const std::size_t first = what.find('\''), last = what.rfind('\'');
+  const std::string number = first < last ? what.substr(first + 1, last - first - 1) : "";
+  const std::size_t at = text.find(number);
+  return {at == std::string_view::npos ? 0 : at,
+          "has a number that is larger than double precision can hold: " + number};
+}
+
+}  // namespace json_detail
+
+}  // namespace clusterbench

@@ -1,0 +1,13 @@
+// What `worst-case -o FILE` found, as `size` reads it beside a result.
+
+#include "fuzz/input.h"
+#include "report/found_frames.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace clusterbench;
+  return fuzz::answered([&] {
+    const nlohmann::ordered_json result{{"scenes", nlohmann::ordered_json::array()},
+                                        {"cases", nlohmann::ordered_json::array()}};
+    static_cast<void>(report::read_found(fuzz::written(data, size, ".json").string(), result));
+  });
+}
