@@ -32,6 +32,8 @@ HOMES = {
     "boost/multiprecision": ["geom"],
     "boost/math": ["measure"],
     "tiny_gltf.h": ["scene"],
+    "meshoptimizer.h": ["scene"],
+    "draco/": ["scene"],
     "embree": ["depth"],
     "hwy/": ["assign"],
     "png.h": ["pictures"],

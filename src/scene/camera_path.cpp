@@ -135,7 +135,9 @@ CameraPath path_around_lights(const Scene& scene, const PathRequest& request) {
   constexpr double k_eye_height_m = 1.7, k_half_turn = 3.14159265358979323846, k_smallest_half_axis_m = 1.0;
   const Extent extent = light_positions(scene);
   if (!(extent.lo.x <= extent.hi.x))
-    throw Error(scene.path.string(), "", "has neither a camera nor a point or spot light to look at");
+    throw Error(scene.path.string(), "",
+                "has neither a camera nor a point or spot light to look at" +
+                    (why_no_lights(scene).empty() ? "" : ": " + why_no_lights(scene)));
   const Vec3d middle = 0.5 * (extent.lo + extent.hi), half = 0.25 * (extent.hi - extent.lo);
   const double a = std::max(half.x, k_smallest_half_axis_m), b = std::max(half.z, k_smallest_half_axis_m);
   const double height = std::min(extent.lo.y + k_eye_height_m, std::max(extent.hi.y, extent.lo.y));

@@ -54,7 +54,7 @@ enum class GeometryParts : std::uint8_t { positions, positions_and_uvs };
 inline constexpr double k_farthest_uv = 4096.0;
 
 // Reads the scene's file once more, for the meshes of its nodes: triangle lists, strips and fans; points and lines are
-// left out. Throws Error (file, JSON pointer) for what is broken in them, and for compressed ones (Draco, meshopt).
+// left out. Compressed ones (Draco, meshopt) are decoded. Throws Error (file, JSON pointer) for what is broken in them.
 Geometry load_geometry(const Scene& scene, GeometryParts parts = GeometryParts::positions);
 
 }  // namespace clusterbench::scene

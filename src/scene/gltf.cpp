@@ -1,6 +1,4 @@
-// load_gltf: the checked document goes through tinygltf into a model, the model into a Scene.
-
-#include <tiny_gltf.h>
+// load_gltf: the checked document becomes a Scene.
 
 #include <algorithm>
 #include <cmath>
@@ -11,189 +9,107 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/text.h"
 #include "scene/animation.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_checked.h"
+#include "scene/gltf_choice.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_keys.h"
 #include "scene/gltf_pointers.h"
+#include "scene/gltf_unread.h"
 #include "scene/scene.h"
 
 namespace clusterbench::scene {
 namespace {
-
-constexpr const char* k_lights = "KHR_lights_punctual";
-
-// The document holds no images, buffers or meshes, so tinygltf opens no file and decodes nothing.
-tinygltf::Model parsed_model(const nlohmann::json& document, const std::string& file) {
-  const std::string text = document.dump();
-  if (text.size() > std::numeric_limits<unsigned int>::max()) throw Error(file, "", "the scene is larger than 4 GiB");
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
-                           void*) { return true; },
-                        nullptr);
-  tinygltf::Model model;
-  std::string error, warning;
-  if (!loader.LoadASCIIFromString(&model, &error, &warning, text.c_str(), static_cast<unsigned int>(text.size()), "")) {
-    std::replace(error.begin(), error.end(), '\n', ' ');
-    throw Error(file, "/", error);
-  }
-  return model;
-}
-
-Vec3d vec3_or(const std::vector<double>& numbers, const Vec3d& otherwise) {
-  return numbers.size() == 3 ? Vec3d(numbers[0], numbers[1], numbers[2]) : otherwise;
-}
-
-// `definition` is the node's checked JSON: tinygltf knows no visibility.
-Node node_of(const tinygltf::Node& from, const nlohmann::json& definition, int gltf_index, int parent) {
-  Node node;
-  node.name = from.name;
-  node.parent = parent;
-  node.gltf_index = gltf_index;
-  node.has_matrix = !from.matrix.empty();
-  for (std::size_t i = 0; i < from.matrix.size(); ++i) {
-    node.matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = from.matrix[i];
-  }
-  node.translation = vec3_or(from.translation, node.translation);
-  node.scale = vec3_or(from.scale, node.scale);
-  node.visible = definition.value("visible", true);
-  if (from.rotation.size() == 4)
-    node.rotation = {from.rotation[0], from.rotation[1], from.rotation[2], from.rotation[3]};
-  return node;
-}
-
-std::vector<int> roots_of(const tinygltf::Model& model) {
-  if (!model.scenes.empty()) return model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes;
-  std::vector<char> is_child(model.nodes.size(), 0);
-  for (const tinygltf::Node& node : model.nodes) {
-    for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = 1;
-  }
-  std::vector<int> roots;
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    if (!is_child[i]) roots.push_back(static_cast<int>(i));
-  }
-  return roots;
-}
-
-// Depth first, children in their order, parents before children. Returns scene node -> index in `nodes`.
-std::map<int, int> add_nodes(const tinygltf::Model& model, const nlohmann::json& definitions, Scene& scene) {
-  std::map<int, int> placed;
-  std::vector<std::pair<int, int>> waiting;  // glTF index, parent's index
-  const auto push = [&](const std::vector<int>& nodes, int parent) {
-    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) waiting.emplace_back(*node, parent);
-  };
-  push(roots_of(model), -1);
-  while (!waiting.empty()) {
-    const auto [index, parent] = waiting.back();
-    waiting.pop_back();
-    const int location = static_cast<int>(scene.nodes.size());
-    const tinygltf::Node& from = model.nodes[static_cast<std::size_t>(index)];
-    scene.nodes.push_back(node_of(from, definitions[static_cast<std::size_t>(index)], index, parent));
-    placed.emplace(index, location);
-    push(from.children, location);
-  }
-  return placed;
-}
 
 std::string first_name(const std::string& node, const std::string& definition, const char* kind, std::size_t number) {
   if (!node.empty()) return node;
   return definition.empty() ? kind + std::string(" ") + std::to_string(number) : definition;
 }
 
-// `definition` is the light's checked JSON: tinygltf's Light cannot tell an absent range from 0.
-Light light_of(const tinygltf::Light& from, const nlohmann::json& definition, int node) {
-  Light light;
-  light.node = node;
-  light.type = from.type == "spot"          ? LightType::spot
-               : from.type == "directional" ? LightType::directional
-                                            : LightType::point;
-  light.color = vec3_or(from.color, light.color);
-  light.intensity = from.intensity;
-  if (definition.contains("range")) light.range_given_m = from.range;
-  if (light.type == LightType::directional) {
-    light.range_m = std::numeric_limits<double>::infinity();
-  } else if (light.range_given_m) {
-    light.range_m = *light.range_given_m;
+// Puts a checked document's nodes into a scene, and what they carry: depth first, children in their order, parents
+// before children. Reads each node once more, so that only the scene's own nodes take memory.
+class NodePlacer {
+ public:
+  NodePlacer(const JsonLocation& root, const CheckedDocument& document, Scene& scene)
+      : root_(root), document_(document), lights_(light_definitions(root)), scene_(scene) {
+    placed_.assign(document.nodes.size(), -1);
   }
-  if (light.type == LightType::spot) {
-    light.inner_cone_rad = from.spot.innerConeAngle;
-    light.outer_cone_rad = from.spot.outerConeAngle;
-  }
-  return light;
-}
 
-// Absent (0) or the largest number of single precision: infinitely far.
-double far_of(double zfar) {
-  return zfar > 0.0 && !is_float_max(zfar) ? zfar : std::numeric_limits<double>::infinity();
-}
-
-Camera camera_of(const tinygltf::Camera& from, int node) {
-  Camera camera;
-  camera.node = node;
-  CameraProjection& projection = camera.projection;
-  projection.orthographic = from.type == "orthographic";
-  if (projection.orthographic) {
-    projection.xmag_m = from.orthographic.xmag;
-    projection.ymag_m = from.orthographic.ymag;
-    projection.near_m = from.orthographic.znear;
-    projection.far_m = far_of(from.orthographic.zfar);
-  } else {
-    projection.yfov_rad = from.perspective.yfov;
-    projection.near_m = from.perspective.znear;
-    projection.far_m = far_of(from.perspective.zfar);
-    if (from.perspective.aspectRatio > 0.0) projection.aspect_ratio = from.perspective.aspectRatio;
-    if (from.extras.Has("clusterbench_sides")) {
-      const tinygltf::Value sides = from.extras.Get("clusterbench_sides");
-      const auto side = [&](std::size_t i) { return sides.Get(i).GetNumberAsDouble(); };
-      projection.sides = ProjectionSides{side(0), side(1), side(2), side(3)};
+  // For each of the document's nodes its index in the scene; -1: it does not stand there.
+  std::vector<std::int32_t> place(const LoadedScene& loaded) {
+    reserve(loaded);
+    push(document_.roots, -1);
+    while (!waiting_.empty()) {
+      const auto [index, parent] = waiting_.back();
+      waiting_.pop_back();
+      add(index, parent);
+      push(document_.nodes.children_of(index), placed_[index]);
     }
+    return std::move(placed_);
   }
-  return camera;
-}
 
-void add_light(const tinygltf::Model& model, const nlohmann::json& definitions, const tinygltf::Node& from, int node,
-               Scene& scene) {
-  const auto reference = from.extensions.find(k_lights);
-  if (reference == from.extensions.end()) return;
-  const auto index = static_cast<std::size_t>(reference->second.Get("light").GetNumberAsInt());
-  Light light = light_of(model.lights[index], definitions[index], node);
-  light.definition = static_cast<int>(index);
-  light.name = first_name(from.name, model.lights[index].name, "light", scene.lights.size());
-  scene.lights.push_back(std::move(light));
-}
-
-void add_camera(const tinygltf::Model& model, const tinygltf::Node& from, int node, Scene& scene) {
-  if (from.camera < 0) return;
-  const tinygltf::Camera& definition = model.cameras[static_cast<std::size_t>(from.camera)];
-  Camera camera = camera_of(definition, node);
-  camera.definition = from.camera;
-  camera.name = first_name(from.name, definition.name, "camera", scene.cameras.size());
-  scene.cameras.push_back(std::move(camera));
-}
-
-void add_box(const tinygltf::Node& from, int node, Scene& scene) {
-  if (!from.extras.Has("clusterbench_box")) return;
-  const tinygltf::Value half_extents = from.extras.Get("clusterbench_box").Get("half_extents");
-  OrientedBox box;
-  box.node = node;
-  box.name = first_name(from.name, "", "box", scene.boxes.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    box.half_extents_m[axis] = half_extents.Get(static_cast<std::size_t>(axis)).GetNumberAsDouble();
+ private:
+  // So much at once and no more; refused before it is taken.
+  void reserve(const LoadedScene& loaded) {
+    std::size_t nodes = 0, lights = 0;
+    for (std::size_t i = 0; i < loaded.nodes.size(); ++i) {
+      if (!loaded.nodes[i]) continue;
+      ++nodes;
+      lights += document_.nodes.light[i] >= 0 ? 1 : 0;
+    }
+    check_memory("nodes of a scene", nodes, sizeof(Node) + sizeof(Mat4d), "use fewer nodes");
+    check_memory("lights of a scene", lights, sizeof(Light) + sizeof(WorldLight), "use fewer lights");
+    scene_.nodes.reserve(nodes);
+    scene_.lights.reserve(lights);
   }
-  scene.boxes.push_back(std::move(box));
-}
 
-void add_things(const tinygltf::Model& model, const nlohmann::json& document, Scene& scene) {
-  const nlohmann::json& definitions = document["extensions"][k_lights]["lights"];
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    const tinygltf::Node& from = model.nodes[static_cast<std::size_t>(scene.nodes[i].gltf_index)];
-    add_light(model, definitions, from, static_cast<int>(i), scene);
-    add_camera(model, from, static_cast<int>(i), scene);
-    add_box(from, static_cast<int>(i), scene);
+  void push(std::span<const std::uint32_t> nodes, std::int32_t parent) {
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) waiting_.emplace_back(*node, parent);
   }
-}
+
+  void add(std::uint32_t index, std::int32_t parent) {
+    const auto location = static_cast<std::int32_t>(scene_.nodes.size());
+    placed_[index] = location;
+    ReadNode read = read_node(root_, root_.at("nodes").at(index), document_.nodes.size());
+    read.node.parent = parent;
+    read.node.gltf_index = static_cast<int>(index);
+    if (read.light >= 0) add_light(read, location);
+    if (read.camera >= 0) add_camera(read, location);
+    if (read.box_half_extents_m)
+      scene_.boxes.push_back(
+          {first_name(read.node.name, "", "box", scene_.boxes.size()), location, *read.box_half_extents_m});
+    scene_.nodes.push_back(std::move(read.node));
+  }
+
+  void add_light(const ReadNode& read, std::int32_t location) {
+    std::optional<Light> light = read_light(lights_->at(static_cast<std::size_t>(read.light)));
+    if (!light) return;
+    light->node = location;
+    light->definition = read.light;
+    light->name = first_name(read.node.name, light->name, "light", scene_.lights.size());
+    scene_.lights.push_back(std::move(*light));
+  }
+
+  void add_camera(const ReadNode& read, std::int32_t location) {
+    const std::optional<Camera>& definition = document_.cameras[static_cast<std::size_t>(read.camera)];
+    if (!definition) return;
+    Camera camera = *definition;
+    camera.node = location;
+    camera.definition = read.camera;
+    camera.name = first_name(read.node.name, definition->name, "camera", scene_.cameras.size());
+    scene_.cameras.push_back(std::move(camera));
+  }
+
+  const JsonLocation& root_;
+  const CheckedDocument& document_;
+  std::optional<JsonLocation> lights_;
+  Scene& scene_;
+  std::vector<std::int32_t> placed_;
+  std::vector<std::pair<std::uint32_t, std::int32_t>> waiting_;  // a node of the document, its parent in the scene
+};
 
 Interpolation interpolation_of(const std::string& name) {
   if (name == "STEP") return Interpolation::step;
@@ -218,12 +134,13 @@ std::vector<bool> carrying_nodes(const Scene& scene) {
 // Adds the channels of checked animations; of several that move the same the last one wins.
 class ChannelsOfFile {
  public:
-  ChannelsOfFile(const std::map<int, int>& placed, AccessorReader& reader, Scene& scene)
+  ChannelsOfFile(const std::vector<std::int32_t>& placed, AccessorReader& reader, Scene& scene)
       : placed_(placed), reader_(reader), scene_(scene), carries_(carrying_nodes(scene)) {}
 
   void add(const nlohmann::json& animation, const JsonLocation& location) {
     for (const nlohmann::json& channel : animation["channels"]) add_channel(animation["samplers"], channel, location);
   }
+  bool moves_twice() const { return moves_twice_; }
   // When all are added.
   void finish() {
     for (std::vector<Channel>* channels : {&scene_.light_channels, &scene_.camera_channels})
@@ -239,7 +156,7 @@ class ChannelsOfFile {
     const auto kind = static_cast<TargetKind>(from["kind"].get<int>());
     const int index = from["index"].get<int>();
     const bool is_node = kind == TargetKind::node;
-    const KeysMove moved = is_node && !carries_[static_cast<std::size_t>(placed_.at(index))]
+    const KeysMove moved = is_node && !carries_[static_cast<std::size_t>(placed_[static_cast<std::size_t>(index)])]
                                ? KeysMove::neither
                                : KeysMove::lights_or_cameras;
     std::optional<Channel> keys =
@@ -247,7 +164,7 @@ class ChannelsOfFile {
                   static_cast<ChannelPath>(from["path"].get<int>()), from["is_pointer"].get<bool>(),
                   interpolation_of(sampler["interpolation"].get<std::string>()), moved);
     if (!keys) return;
-    (is_node ? keys->node : keys->definition) = is_node ? placed_.at(index) : index;
+    (is_node ? keys->node : keys->definition) = is_node ? placed_[static_cast<std::size_t>(index)] : index;
     scene_.duration_s = std::max(scene_.duration_s, keys->times_s.back());
     std::vector<Channel>& channels = is_node                     ? scene_.channels
                                      : kind == TargetKind::light ? scene_.light_channels
@@ -257,6 +174,7 @@ class ChannelsOfFile {
       channels.push_back(std::move(*keys));
       return;
     }
+    moves_twice_ = true;
     location.at("channels")
         .at(from["channel"].get<std::size_t>())
         .warn((is_node                     ? "moves node "
@@ -266,9 +184,10 @@ class ChannelsOfFile {
     channels[known->second] = std::move(*keys);
   }
 
-  const std::map<int, int>& placed_;
+  const std::vector<std::int32_t>& placed_;
   AccessorReader& reader_;
   Scene& scene_;
+  bool moves_twice_ = false;
   std::vector<bool> carries_;                                              // by node
   std::map<std::tuple<TargetKind, int, ChannelPath>, std::size_t> taken_;  // which channel moves what
 };
@@ -329,9 +248,9 @@ void check_world(const Scene& scene, const JsonLocation& root) {
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& path) {
+Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice) {
   GltfFile file;
-  read_gltf_file(path, file);
+  read_gltf_file(path, file, k_lazy_from_bytes);
   Warnings warnings;
   AccessorReader reader(file, warnings);
   const JsonLocation& root = reader.root();
@@ -339,20 +258,30 @@ Scene load_gltf(const std::filesystem::path& path) {
   Scene scene;
   scene.name = printable(path.stem().string());
   scene.path = path;
-  nlohmann::json document = checked_document(root);
-  const nlohmann::json animations = std::move(document["animations"]);
-  document.erase("animations");  // tinygltf knows no pointers
-  const tinygltf::Model model = parsed_model(document, file.name);
-  const std::map<int, int> placed = add_nodes(model, document["nodes"], scene);
-  add_things(model, document, scene);
+  const ChosenParts chosen = chosen_parts(root, choice);
+  const LoadedScene loaded = loaded_scene(root, chosen.scene);
+  CheckedDocument document = checked_document(root, loaded, chosen.animation);
+  scene.contents = contents_of(root, loaded);
+  if (!chosen.scene) warn_of_other_scenes(root, scene.contents);
+  count_unread_lights(root, loaded, scene.contents);
+  // What there is to warn of has been said.
+  Warnings said;
+  const std::vector<std::int32_t> placed =
+      NodePlacer(JsonLocation(file.name, file.json, said, "", &file.lazy), document, scene).place(loaded);
+  const nlohmann::json& animations = document.animations;
   ChannelsOfFile channels(placed, reader, scene);
   for (std::size_t i = 0; i < animations.size(); ++i) channels.add(animations[i], root.at("animations").at(i));
   channels.finish();
+  if (channels.moves_twice())
+    root.at("animations")
+        .warn(number_of(animations.size(), "animation") + ", played together: " + numbered(scene.contents.animations) +
+              "; the key animation (--animation) chooses one");
   mark_animated_cameras(scene);
   tell_cameras_apart(scene);
   leave_out_hidden_lights(scene, warnings);
   check_world(scene, root);
-  scene.sha256 = sha256_hex(file.bytes + reader.external_bytes());
+  reader.add_external_bytes(file.hash);
+  scene.sha256 = file.hash.hex();
   scene.warnings = warnings.lines();
   return scene;
 }

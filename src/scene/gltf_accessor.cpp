@@ -10,6 +10,7 @@
 #include "core/memory.h"
 #include "core/text.h"
 #include "scene/geometry.h"
+#include "scene/gltf_meshopt.h"
 
 namespace clusterbench::scene {
 namespace {
@@ -169,7 +170,7 @@ Elements elements_of(std::string_view view, std::size_t stride, const JsonLocati
 }  // namespace
 
 AccessorReader::AccessorReader(const GltfFile& file, Warnings& warnings, AccessorUse use)
-    : file_(file), root_(file.name, file.json, warnings), use_(use) {}
+    : file_(file), root_(file.name, file.json, warnings, "", &file.lazy), use_(use) {}
 
 AccessorHead AccessorReader::head(std::size_t accessor) const {
   const JsonLocation from = location(accessor);
@@ -213,12 +214,9 @@ void AccessorReader::count_numbers(const JsonLocation& accessor, std::size_t cou
   numbers_ += count * components;
 }
 
-std::string AccessorReader::external_bytes() const {
-  std::string all;
-  for (const auto& [index, bytes] : buffers_) {
-    if (bytes.external) all += bytes.owned;
-  }
-  return all;
+void AccessorReader::add_external_bytes(Sha256& hash) const {
+  for (const auto& [index, bytes] : buffers_)
+    if (bytes.external) hash.add(bytes.owned);
 }
 
 void AccessorReader::read_dense(const JsonLocation& accessor, const AccessorHead& head, std::size_t components,
@@ -272,6 +270,37 @@ AccessorReader::View AccessorReader::view(const JsonLocation& reference) {
   const JsonLocation view = root_.at("bufferViews").at(chosen);
   std::size_t stride = 0;
   if (view.has("byteStride")) stride = stride_of(view.at("byteStride"), use_);
+  const std::optional<JsonLocation> compressed = meshopt_extension(view);
+  if (compressed && (has_meshopt() || !has_fallback(view))) return decoded_view(view, *compressed, chosen, stride);
+  return plain_view(view, stride);
+}
+
+// Whether a compressed view's own buffer holds the same numbers for readers that know no compression.
+bool AccessorReader::has_fallback(const JsonLocation& view) const {
+  const std::size_t index = view.at("buffer").index(array_size(root_, "buffers"), "buffer");
+  return root_.at("buffers").at(index).has("uri") || (index == 0 && file_.binary);
+}
+
+AccessorReader::View AccessorReader::decoded_view(const JsonLocation& view, const JsonLocation& extension,
+                                                  std::size_t index, std::size_t stride) {
+  const MeshoptView about = meshopt_view(extension);
+  const auto [known, is_new] = decoded_.try_emplace(index);
+  try {
+    if (is_new) known->second = meshopt_decoded(about, plain_view(extension, 0).bytes, extension);
+  } catch (...) {
+    decoded_.erase(known);
+    throw;
+  }
+  const std::size_t length = at_least_one(view.at("byteLength"));
+  if (length > known->second.size())
+    view.at("byteLength")
+        .refuse(std::to_string(length) + " bytes, the compressed data holds " + std::to_string(known->second.size()));
+  const bool is_strided = about.mode == MeshoptMode::attributes && stride == 0;
+  return {std::string_view(known->second).substr(0, length), is_strided ? about.stride : stride};
+}
+
+// `view`: a bufferView, or the compressed bytes of one, which are given in the same way.
+AccessorReader::View AccessorReader::plain_view(const JsonLocation& view, std::size_t stride) {
   const std::size_t index = view.at("buffer").index(array_size(root_, "buffers"), "buffer");
   const std::size_t length = at_least_one(view.at("byteLength")), offset = whole_or(view, "byteOffset", 0);
   const std::string_view bytes = buffer(index);

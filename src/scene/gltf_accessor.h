@@ -45,8 +45,11 @@ class AccessorReader {
   // So that a small document that names one large file many times does not fill the memory.
   static constexpr std::size_t k_most_external_bytes = std::size_t{1} << 31;
 
+  // The bytes of a bufferView, for what reads them by itself.
+  std::string_view view_bytes(const JsonLocation& reference) { return view(reference).bytes; }
+
   // The bytes of the external files read so far, in the order of their buffers.
-  std::string external_bytes() const;
+  void add_external_bytes(Sha256& hash) const;
 
  private:
   std::string_view buffer(std::size_t index);
@@ -55,6 +58,9 @@ class AccessorReader {
     std::size_t stride = 0;  // 0: elements lie close together
   };
   View view(const JsonLocation& reference);
+  bool has_fallback(const JsonLocation& view) const;
+  View plain_view(const JsonLocation& view, std::size_t stride);
+  View decoded_view(const JsonLocation& view, const JsonLocation& extension, std::size_t index, std::size_t stride);
   void read_dense(const JsonLocation& accessor, const AccessorHead& head, std::size_t components,
                   std::vector<double>& out);
   void read_sparse(const JsonLocation& accessor, const AccessorHead& head, std::size_t components,
@@ -70,7 +76,8 @@ class AccessorReader {
   JsonLocation root_;
   AccessorUse use_;
   std::map<std::size_t, Bytes> buffers_;
-  std::size_t numbers_ = 0;  // handed out
+  std::map<std::size_t, std::string> decoded_;  // of compressed bufferViews
+  std::size_t numbers_ = 0;                     // handed out
   std::size_t external_bytes_left_ = k_most_external_bytes;
 };
 

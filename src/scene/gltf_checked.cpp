@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -11,8 +10,6 @@
 
 namespace clusterbench::scene {
 namespace {
-
-using nlohmann::json;
 
 // "major.minor" as two numbers.
 std::pair<long, long> version_of(const JsonLocation& location) {
@@ -76,88 +73,56 @@ void check_extensions(const JsonLocation& root) {
   }
 }
 
-constexpr std::size_t k_no_parent = static_cast<std::size_t>(-1);
-
-bool has_transform(const json& node) {
-  return node.contains("matrix") || node.contains("translation") || node.contains("rotation") || node.contains("scale");
-}
+constexpr std::uint32_t k_no_parent = static_cast<std::uint32_t>(-1);
 
 // A root has no parent. One that does not stand in the scene itself moves nothing.
-void check_root(const JsonLocation& root, std::size_t node, std::size_t parent, const json& nodes,
+void check_root(const JsonLocation& root, std::size_t node, std::uint32_t parent, const NodeTable& nodes,
                 const LoadedScene& loaded) {
   if (parent == k_no_parent) return;
   if (loaded.nodes[parent])
     root.refuse("node " + std::to_string(node) + " has a parent that is loaded; a scene lists roots");
   root.warn("node " + std::to_string(node) + " has the parent " + std::to_string(parent) +
             ", which does not stand in the scene; read as a root" +
-            (has_transform(nodes[parent]) ? ", without that parent's transform" : ""));
+            (nodes.has_transform[parent] ? ", without that parent's transform" : ""));
 }
 
-json checked_roots(const JsonLocation& scene, const json& nodes, const std::vector<std::size_t>& parents,
-                   const LoadedScene& loaded) {
+std::vector<std::uint32_t> checked_roots(const JsonLocation& scene, const NodeTable& nodes,
+                                         const std::vector<std::uint32_t>& parents, const LoadedScene& loaded) {
   scene.expect_object();
-  json roots = json::array();
+  std::vector<std::uint32_t> roots;
   if (!scene.has("nodes")) return roots;
   const JsonLocation list = scene.at("nodes");
   const std::size_t count = list.elements();
-  std::set<std::size_t> listed;
+  std::vector<bool> is_listed(parents.size(), false);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t node = list.at(k).index(parents.size(), "node");
     check_root(list.at(k), node, parents[node], nodes, loaded);
-    if (!listed.insert(node).second) list.at(k).refuse("node " + std::to_string(node) + " is listed twice");
-    roots.push_back(node);
+    if (is_listed[node]) list.at(k).refuse("node " + std::to_string(node) + " is listed twice");
+    is_listed[node] = true;
+    roots.push_back(static_cast<std::uint32_t>(node));
   }
   return roots;
 }
 
-json checked_scenes(const JsonLocation& root, const LoadedScene& loaded, const json& nodes) {
-  json out = json::array();
-  if (!root.has("scenes")) return out;
-  std::vector<std::size_t> parents(nodes.size(), k_no_parent);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const json children = nodes[i].value("children", json::array());
-    for (const json& child : children) parents[child.get<std::size_t>()] = i;
-  }
-  const JsonLocation scenes = root.at("scenes");
-  const std::size_t count = scenes.elements();
+// The roots of the scene that is loaded; without scenes, all nodes that have no parent.
+std::vector<std::uint32_t> checked_scenes(const JsonLocation& root, const LoadedScene& loaded, const NodeTable& nodes) {
+  std::vector<std::uint32_t> parents(nodes.size(), k_no_parent), roots;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const std::uint32_t child : nodes.children_of(i)) parents[child] = static_cast<std::uint32_t>(i);
+  const std::size_t count = root.has("scenes") ? root.at("scenes").elements() : 0;
   for (std::size_t i = 0; i < count; ++i) {
-    json roots = json::array();
+    const JsonLocation scene = root.at("scenes").at(i);
     try {
-      roots = checked_roots(scenes.at(i), nodes, parents, loaded);
+      std::vector<std::uint32_t> found = checked_roots(scene, nodes, parents, loaded);
+      if (i == loaded.scene) roots = std::move(found);
     } catch (const Error& fault) {
       if (i == loaded.scene) throw;
-      warn_of_unloaded(scenes.at(i), fault);
+      warn_of_unloaded(scene, fault);
     }
-    out.push_back({{"nodes", std::move(roots)}});
   }
-  return out;
-}
-
-// What is null in `definitions` is of a kind that this tool does not know: nobody refers to it any more, and `stand_in`
-// keeps its index.
-template <typename Forget>
-void drop_unknown(json& definitions, json& nodes, const json& stand_in, Forget forget) {
-  for (json& node : nodes) forget(node, definitions);
-  for (json& definition : definitions) {
-    if (definition.is_null()) definition = stand_in;
-  }
-}
-
-void drop_unknown_cameras(json& document) {
-  const json stand_in = {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 1.0}}}};
-  drop_unknown(document["cameras"], document["nodes"], stand_in, [](json& node, const json& cameras) {
-    if (node.contains("camera") && cameras[node["camera"].get<std::size_t>()].is_null()) node.erase("camera");
-  });
-}
-
-void drop_unknown_lights(json& document) {
-  const json stand_in = {{"type", "point"}};
-  json& lights = document["extensions"]["KHR_lights_punctual"]["lights"];
-  drop_unknown(lights, document["nodes"], stand_in, [](json& node, const json& definitions) {
-    if (!node.contains("extensions")) return;
-    const std::size_t light = node["extensions"]["KHR_lights_punctual"]["light"].get<std::size_t>();
-    if (definitions[light].is_null()) node.erase("extensions");
-  });
+  for (std::size_t i = 0; count == 0 && i < nodes.size(); ++i)
+    if (parents[i] == k_no_parent) roots.push_back(static_cast<std::uint32_t>(i));
+  return roots;
 }
 
 }  // namespace
@@ -198,31 +163,26 @@ void warn_of_unknown_extras(const JsonLocation& object, const std::vector<std::s
   }
 }
 
-void copy_name(const JsonLocation& object, json& out) {
-  if (!object.has("name")) return;
+std::string name_of(const JsonLocation& object) {
+  if (!object.has("name")) return "";
   const JsonLocation name = object.at("name");
-  if (name.value().is_null()) {
-    name.warn("null, where glTF asks for a string; read as no name");
-  } else {
-    out["name"] = name.text();
-  }
+  if (!name.value().is_null()) return name.text();
+  name.warn("null, where glTF asks for a string; read as no name");
+  return "";
 }
 
-json checked_document(const JsonLocation& root) {
+CheckedDocument checked_document(const JsonLocation& root, const LoadedScene& loaded,
+                                 std::optional<std::size_t> animation) {
   root.expect_object();
   check_asset(root);
   check_extensions(root);
-  json out = {{"asset", {{"version", "2.0"}}}};
-  const LoadedScene loaded = loaded_scene(root);
-  out["nodes"] = checked_nodes(root, loaded);
-  out["scenes"] = checked_scenes(root, loaded, out["nodes"]);
-  if (root.has("scene")) out["scene"] = root.at("scene").index(out["scenes"].size(), "scene");
-  out["cameras"] = checked_cameras(root);
-  const json lights = checked_lights(root);
-  out["animations"] = checked_animations(root, loaded, lights, out["cameras"]);
-  out["extensions"] = {{"KHR_lights_punctual", {{"lights", lights}}}};
-  drop_unknown_cameras(out);
-  drop_unknown_lights(out);
+  CheckedDocument out;
+  out.nodes = checked_nodes(root, loaded);
+  out.roots = checked_scenes(root, loaded, out.nodes);
+  if (root.has("scene")) root.at("scene").index(count_of(root, "scenes"), "scene");
+  out.cameras = checked_cameras(root);
+  out.lights = checked_lights(root);
+  out.animations = checked_animations(root, loaded, out, animation);
   return out;
 }
 

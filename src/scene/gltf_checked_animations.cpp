@@ -15,7 +15,8 @@ using nlohmann::json;
 struct Document {
   const JsonLocation& root;
   const LoadedScene& loaded;
-  const json &lights, &cameras;  // checked
+  const std::vector<std::optional<LightType>>& lights;  // checked
+  const std::vector<std::optional<Camera>>& cameras;
   bool requires_pointers;
 };
 
@@ -92,13 +93,16 @@ void check_target(const JsonLocation& root, const JsonLocation& target, const Ta
 // A light has a range and angles, a camera an angle or a size, only if it is of a kind that does.
 bool has_property(const Document& document, const Target& moved) {
   if (moved.kind == TargetKind::node) return true;
-  const json& definition = (moved.kind == TargetKind::light ? document.lights : document.cameras)[moved.index];
-  const std::string type = definition.is_null() ? "" : definition["type"].get<std::string>();
   const ChannelPath path = moved.path;
-  if (path == ChannelPath::yfov || path == ChannelPath::aspect_ratio) return type == "perspective";
-  if (path == ChannelPath::xmag || path == ChannelPath::ymag) return type == "orthographic";
-  if (path == ChannelPath::inner_cone || path == ChannelPath::outer_cone) return type == "spot";
-  return path == ChannelPath::range ? type == "point" || type == "spot" : !type.empty();
+  if (moved.kind == TargetKind::light) {
+    const std::optional<LightType> type = document.lights[moved.index];
+    if (path == ChannelPath::inner_cone || path == ChannelPath::outer_cone) return type == LightType::spot;
+    return path == ChannelPath::range ? type == LightType::point || type == LightType::spot : type.has_value();
+  }
+  const std::optional<Camera>& camera = document.cameras[moved.index];
+  if (path == ChannelPath::yfov || path == ChannelPath::aspect_ratio) return camera && !camera->projection.orthographic;
+  if (path == ChannelPath::xmag || path == ChannelPath::ymag) return camera && camera->projection.orthographic;
+  return camera.has_value();
 }
 
 // null for a channel that moves nothing that is loaded.
@@ -143,12 +147,15 @@ json checked_animation(const Document& document, const JsonLocation& animation) 
 
 }  // namespace
 
-json checked_animations(const JsonLocation& root, const LoadedScene& loaded, const json& lights, const json& cameras) {
+json checked_animations(const JsonLocation& root, const LoadedScene& loaded, const CheckedDocument& checked,
+                        std::optional<std::size_t> animation) {
   json out = json::array();
-  const Document document{root, loaded, lights, cameras, is_required(root, k_pointers)};
+  const Document document{root, loaded, checked.lights, checked.cameras, is_required(root, k_pointers)};
   const std::size_t count = root.has("animations") ? root.at("animations").elements() : 0;
   for (std::size_t i = 0; i < count; ++i) {
-    out.push_back(checked_animation(document, root.at("animations").at(i)));
+    const bool is_read = !animation || *animation == i;
+    out.push_back(is_read ? checked_animation(document, root.at("animations").at(i))
+                          : json{{"channels", json::array()}});
   }
   return out;
 }

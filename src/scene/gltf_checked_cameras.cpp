@@ -1,12 +1,11 @@
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "scene/gltf_checked.h"
 
 namespace clusterbench::scene {
 namespace {
-
-using nlohmann::json;
 
 double positive(const JsonLocation& location) {
   const double number = location.number();
@@ -15,30 +14,32 @@ double positive(const JsonLocation& location) {
 }
 
 // The far plane if there is one.
-void copy_far(const JsonLocation& projection, json& out) {
-  if (!projection.has("zfar")) return;
-  const JsonLocation zfar = projection.at("zfar");
+void read_far(const JsonLocation& from, CameraProjection& out) {
+  out.far_m = std::numeric_limits<double>::infinity();
+  if (!from.has("zfar")) return;
+  const JsonLocation zfar = from.at("zfar");
   const double far = positive(zfar);
-  if (far <= out["znear"].get<double>()) projection.refuse("zfar must be greater than znear");
-  if (is_float_max(far)) zfar.warn("the largest number of single precision; read as infinitely far");
-  out["zfar"] = far;
+  if (far <= out.near_m) from.refuse("zfar must be greater than znear");
+  if (is_float_max(far))
+    zfar.warn("the largest number of single precision; read as infinitely far");
+  else
+    out.far_m = far;
 }
 
-// null for a projection that glTF allows and that shows nothing.
-json checked_perspective(const JsonLocation& projection) {
-  projection.expect_object();
-  json out = {{"yfov", positive(projection.at("yfov"))}, {"znear", positive(projection.at("znear"))}};
-  copy_far(projection, out);
-  if (projection.has("aspectRatio")) out["aspectRatio"] = positive(projection.at("aspectRatio"));
-  if (out["yfov"].get<double>() >= std::numbers::pi) {
-    projection.at("yfov").warn("pi radians or more show nothing (degrees?); the camera is ignored");
-    return json(nullptr);
-  }
-  return out;
+// False for a projection that glTF allows and that shows nothing.
+bool read_perspective(const JsonLocation& from, CameraProjection& out) {
+  from.expect_object();
+  out.yfov_rad = positive(from.at("yfov"));
+  out.near_m = positive(from.at("znear"));
+  read_far(from, out);
+  if (from.has("aspectRatio")) out.aspect_ratio = positive(from.at("aspectRatio"));
+  if (out.yfov_rad < std::numbers::pi) return true;
+  from.at("yfov").warn("pi radians or more show nothing (degrees?); the camera is ignored");
+  return false;
 }
 
 // An off-centre picture, an invention of this tool: see ProjectionSides.
-void copy_sides(const JsonLocation& camera, json& out) {
+void read_sides(const JsonLocation& camera, CameraProjection& out) {
   if (!camera.has("extras")) return;
   warn_of_unknown_extras(camera, {k_sides});
   if (!camera.at("extras").has(k_sides)) return;
@@ -46,8 +47,8 @@ void copy_sides(const JsonLocation& camera, json& out) {
   const std::vector<double> sides = location.numbers(4);
   if (!(sides[0] < sides[1]) || !(sides[2] < sides[3]))
     location.refuse("left must be less than right and bottom less than top: [left, right, bottom, top]");
-  if (out.contains("orthographic")) location.refuse("only a perspective camera can have it");
-  out["extras"][k_sides] = sides;
+  if (out.orthographic) location.refuse("only a perspective camera can have it");
+  out.sides = ProjectionSides{sides[0], sides[1], sides[2], sides[3]};
 }
 
 // A negative magnification mirrors the picture; which lights it holds is the same.
@@ -58,43 +59,40 @@ double magnification(const JsonLocation& location) {
   return std::abs(number);
 }
 
-json checked_orthographic(const JsonLocation& projection) {
-  projection.expect_object();
-  json out = {{"xmag", magnification(projection.at("xmag"))},
-              {"ymag", magnification(projection.at("ymag"))},
-              {"znear", projection.at("znear").number()}};
-  if (out["znear"].get<double>() < 0.0)
-    projection.at("znear").refuse("found " + kind_of(projection.at("znear").value()) + ", 0 or more is needed");
-  projection.at("zfar");  // must be there
-  copy_far(projection, out);
-  return out;
+void read_orthographic(const JsonLocation& from, CameraProjection& out) {
+  from.expect_object();
+  out.orthographic = true;
+  out.xmag_m = magnification(from.at("xmag"));
+  out.ymag_m = magnification(from.at("ymag"));
+  out.near_m = from.at("znear").number();
+  if (out.near_m < 0.0) from.at("znear").refuse("found " + kind_of(from.at("znear").value()) + ", 0 or more is needed");
+  from.at("zfar");  // must be there
+  read_far(from, out);
 }
 
-json checked_camera(const JsonLocation& camera) {
-  json out = json::object();
-  const std::string& type = camera.at("type").text();
-  copy_name(camera, out);
-  if (camera.has("perspective") && camera.has("orthographic")) {
-    camera.refuse("a camera is either perspective or orthographic, not both");
+std::optional<Camera> checked_camera(const JsonLocation& from) {
+  Camera out;
+  const std::string& type = from.at("type").text();
+  out.name = name_of(from);
+  if (from.has("perspective") && from.has("orthographic")) {
+    from.refuse("a camera is either perspective or orthographic, not both");
   }
   if (type == "perspective") {
-    out["perspective"] = checked_perspective(camera.at("perspective"));
-    if (out["perspective"].is_null()) return json(nullptr);
+    if (!read_perspective(from.at("perspective"), out.projection)) return std::nullopt;
   } else if (type == "orthographic") {
-    out["orthographic"] = checked_orthographic(camera.at("orthographic"));
+    read_orthographic(from.at("orthographic"), out.projection);
   } else {
-    camera.at("type").warn("the camera type is not known; the camera is ignored");
-    return json(nullptr);
+    from.at("type").warn("the camera type is not known; the camera is ignored");
+    return std::nullopt;
   }
-  out["type"] = type;
-  copy_sides(camera, out);
+  read_sides(from, out.projection);
   return out;
 }
 
 }  // namespace
 
-json checked_cameras(const JsonLocation& root) {
-  json out = json::array();
+std::vector<std::optional<Camera>> checked_cameras(const JsonLocation& root) {
+  std::vector<std::optional<Camera>> out;
   const std::size_t count = root.has("cameras") ? root.at("cameras").elements() : 0;
   for (std::size_t i = 0; i < count; ++i) out.push_back(checked_camera(root.at("cameras").at(i)));
   return out;

@@ -1,12 +1,11 @@
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 #include "scene/gltf_checked.h"
 
 namespace clusterbench::scene {
 namespace {
-
-using nlohmann::json;
 
 constexpr const char* k_angles[] = {"innerConeAngle", "outerConeAngle"};
 
@@ -28,7 +27,7 @@ JsonLocation spot_of(const JsonLocation& light) {
   return light;
 }
 
-json checked_spot(const JsonLocation& spot) {
+void read_cone(const JsonLocation& spot, Light& out) {
   const double inner = spot.has("innerConeAngle") ? spot.at("innerConeAngle").number() : 0.0;
   const double outer = spot.has("outerConeAngle") ? spot.at("outerConeAngle").number() : std::numbers::pi / 4.0;
   if (inner < 0.0) spot.at("innerConeAngle").refuse("found " + std::to_string(inner) + ", 0 or more is needed");
@@ -46,10 +45,11 @@ json checked_spot(const JsonLocation& spot) {
   if (inner >= outer)
     blamed.warn("innerConeAngle is outerConeAngle, where glTF asks for less; read as a spot with a hard edge");
   const double widest = std::min(outer, std::numbers::pi / 2.0);
-  return {{"innerConeAngle", std::min(inner, widest)}, {"outerConeAngle", widest}};
+  out.inner_cone_rad = std::min(inner, widest);
+  out.outer_cone_rad = widest;
 }
 
-void copy_range(const JsonLocation& light, json& out) {
+void read_range(const JsonLocation& light, Light& out) {
   if (!light.has("range")) return;
   const JsonLocation range = light.at("range");
   const double range_m = range.number();
@@ -62,10 +62,10 @@ void copy_range(const JsonLocation& light, json& out) {
     range.warn("a range of 0, where glTF asks for more; read as no range, so that the range rule gives one");
     return;
   }
-  out["range"] = range_m;
+  out.range_given_m = out.range_m = range_m;
 }
 
-void copy_colour(const JsonLocation& light, json& out) {
+void read_colour(const JsonLocation& light, Light& out) {
   if (!light.has("color")) return;
   const JsonLocation color = light.at("color");
   const bool has_alpha = color.value().is_array() && color.size() == 4;
@@ -76,42 +76,60 @@ void copy_colour(const JsonLocation& light, json& out) {
     if (rgb[i] < 0.0) color.at(i).refuse("found " + kind_of(color.at(i).value()) + ", 0 to 1 is allowed");
     if (rgb[i] > 1.0) color.at(i).warn("a colour above 1; taken as it is");
   }
-  out["color"] = rgb;
+  out.color = {rgb[0], rgb[1], rgb[2]};
 }
 
-json checked_light(const JsonLocation& light) {
-  json out = json::object();
-  const std::string& type = light.at("type").text();
-  if (type != "point" && type != "spot" && type != "directional") {
-    light.at("type").warn("the light type is not known; the light is ignored");
-    return json(nullptr);
-  }
-  out["type"] = type;
-  copy_name(light, out);
-  warn_of_unknown_extras(light, {});
-  copy_colour(light, out);
-  if (light.has("intensity")) {
-    out["intensity"] = light.at("intensity").number();
-    if (out["intensity"].get<double>() < 0.0) {
-      light.at("intensity").refuse("found " + kind_of(light.at("intensity").value()) + ", 0 or more is needed");
-    }
-  }
-  if (type != "directional") copy_range(light, out);
-  if (type == "spot") out["spot"] = checked_spot(spot_of(light));
-  return out;
+std::optional<LightType> type_of(const std::string& name) {
+  if (name == "point") return LightType::point;
+  if (name == "spot") return LightType::spot;
+  if (name == "directional") return LightType::directional;
+  return std::nullopt;
 }
 
 }  // namespace
 
-json checked_lights(const JsonLocation& root) {
-  json out = json::array();
-  if (!root.has("extensions")) return out;
+std::optional<Light> read_light(const JsonLocation& light) {
+  Light out;
+  const std::optional<LightType> type = type_of(light.at("type").text());
+  if (!type) {
+    light.at("type").warn("the light type is not known; the light is ignored");
+    return std::nullopt;
+  }
+  out.type = *type;
+  out.name = name_of(light);
+  warn_of_unknown_extras(light, {});
+  read_colour(light, out);
+  if (light.has("intensity")) {
+    out.intensity = light.at("intensity").number();
+    if (out.intensity < 0.0)
+      light.at("intensity").refuse("found " + kind_of(light.at("intensity").value()) + ", 0 or more is needed");
+  }
+  if (out.type == LightType::directional)
+    out.range_m = std::numeric_limits<double>::infinity();
+  else
+    read_range(light, out);
+  if (out.type == LightType::spot) read_cone(spot_of(light), out);
+  return out;
+}
+
+std::optional<JsonLocation> light_definitions(const JsonLocation& root) {
+  if (!root.has("extensions")) return std::nullopt;
   const JsonLocation extensions = root.at("extensions");
   extensions.expect_object();
-  if (!extensions.has("KHR_lights_punctual")) return out;
-  const JsonLocation lights = extensions.at("KHR_lights_punctual").at("lights");
-  const std::size_t count = lights.elements();
-  for (std::size_t i = 0; i < count; ++i) out.push_back(checked_light(lights.at(i)));
+  if (!extensions.has(k_punctual)) return std::nullopt;
+  return extensions.at(k_punctual).at("lights");
+}
+
+std::vector<std::optional<LightType>> checked_lights(const JsonLocation& root) {
+  std::vector<std::optional<LightType>> out;
+  const std::optional<JsonLocation> lights = light_definitions(root);
+  if (!lights) return out;
+  const std::size_t count = lights->elements();
+  out.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::optional<Light> light = read_light(lights->at(i));
+    out.push_back(light ? std::optional(light->type) : std::nullopt);
+  }
   return out;
 }
 

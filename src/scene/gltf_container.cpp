@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/json_document.h"
+#include "scene/exporters.h"
 #include "scene/gltf_location.h"
 
 namespace clusterbench::scene {
@@ -72,49 +74,29 @@ std::string_view glb_json(GltfFile& file) {
   return text;
 }
 
-// Copying and destroying a JSON value recurses, so nesting is bounded before anything is parsed.
-void check_nesting(const GltfFile& file, std::string_view text, std::size_t offset) {
-  constexpr int k_deepest = 256;
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > k_deepest) {
-        refuse_at(file, offset + i, "JSON nested deeper than " + std::to_string(k_deepest) + " levels");
-      }
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
+// The document without its long arrays, of whose text it keeps the places.
+std::optional<std::string> long_arrays_left_out(const std::filesystem::path& path, GltfFile& file,
+                                                std::string_view text, std::size_t offset) {
+  const auto source =
+      file.binary ? std::make_shared<TextSource>(std::string_view(file.bytes)) : std::make_shared<TextSource>(path);
+  return without_long_arrays(text, offset, file.name, source, file.lazy);
 }
 
-void parse(GltfFile& file, std::string_view text) {
+void parse(const std::filesystem::path& path, GltfFile& file, std::string_view text, std::size_t lazy_from_bytes) {
   constexpr std::string_view k_mark = "\xEF\xBB\xBF";
   file.has_byte_order_mark = text.starts_with(k_mark);
   if (file.has_byte_order_mark) text.remove_prefix(k_mark.size());
   const auto offset = static_cast<std::size_t>(text.data() - file.bytes.data());
-  check_nesting(file, text, offset);
-  try {
-    file.json = nlohmann::json::parse(text);
-  } catch (const nlohmann::json::parse_error& error) {
-    const std::string what = error.what();
-    const std::size_t detail = what.find("] ");
-    refuse_at(file, offset + (error.byte > 0 ? error.byte - 1 : 0),
-              "not JSON: " + (detail == std::string::npos ? what : what.substr(detail + 2)));
-  } catch (const nlohmann::json::out_of_range& error) {  // a number beyond double precision, quoted in the message
-    const std::string what = error.what();
-    const std::size_t first = what.find('\''), last = what.rfind('\'');
-    const std::string number = first < last ? what.substr(first + 1, last - first - 1) : "";
-    const std::size_t at = text.find(number);
-    refuse_at(file, offset + (at == std::string_view::npos ? 0 : at),
-              "the number " + number + " is larger than double precision can hold");
+  if (text.size() >= lazy_from_bytes) {
+    const std::optional<std::string> rest = long_arrays_left_out(path, file, text, offset);
+    if (rest && !parse_json(*rest, file.json)) {
+      if (!file.binary) std::string().swap(file.bytes);
+      return;
+    }
+    file.lazy = {};  // what is wrong, the whole text says at its place
   }
+  if (const std::optional<JsonFault> fault = parse_json(text, file.json))
+    refuse_at(file, offset + fault->byte, fault->text());
 }
 
 }  // namespace
@@ -135,13 +117,16 @@ std::string read_bytes(const std::filesystem::path& path, const std::string& fil
   return bytes;
 }
 
-void read_gltf_file(const std::filesystem::path& path, GltfFile& file) {
+void read_gltf_file(const std::filesystem::path& path, GltfFile& file, std::size_t lazy_from_bytes) {
   file.name = path.string();
   file.bytes = read_bytes(path, file.name, "", std::numeric_limits<std::size_t>::max());
   if (file.bytes.empty()) refuse_at(file, 0, "the file is empty; glTF JSON or a GLB is needed");
+  if (const std::string other = other_format(file.bytes, path); !other.empty())
+    refuse_at(file, 0, "is " + other + "; glTF is read");
   const bool binary = file.bytes.size() >= 4 && little_endian(file.bytes, 0) == k_magic;
 
-  parse(file, binary ? glb_json(file) : std::string_view(file.bytes));
+  file.hash.add(file.bytes);
+  parse(path, file, binary ? glb_json(file) : std::string_view(file.bytes), lazy_from_bytes);
 }
 
 }  // namespace clusterbench::scene

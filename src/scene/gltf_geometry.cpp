@@ -12,12 +12,12 @@
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_checked.h"
 #include "scene/gltf_container.h"
+#include "scene/gltf_draco.h"
 
 namespace clusterbench::scene {
 namespace {
 
 constexpr const char* k_draco = "KHR_draco_mesh_compression";
-constexpr const char* k_meshopt = "EXT_meshopt_compression";
 constexpr const char* k_instancing = "EXT_mesh_gpu_instancing";
 
 bool has_extension(const JsonLocation& object, const char* name) {
@@ -107,25 +107,44 @@ class MeshReader {
     const std::size_t positions = accessor_of(attributes.at("POSITION"), "VEC3");
     const bool has_indices =
         !primitive.has("indices") || reader_.has_data(accessor_of(primitive.at("indices"), "SCALAR"));
-    if (has_extension(primitive, k_draco) && !(reader_.has_data(positions) && has_indices))
-      primitive.at("extensions").at(k_draco).refuse("Draco compression is not read; export the scene without it");
     const std::size_t vertices = reader_.head(positions).count;
     const std::size_t corners =
         primitive.has("indices") ? reader_.head(accessor_of(primitive.at("indices"), "SCALAR")).count : vertices;
     count_memory(vertices, triangle_count(static_cast<Mode>(mode), corners));
+    const std::string uvs = "TEXCOORD_" + std::to_string(uv_set);
+    draco_.reset();
+    if (has_extension(primitive, k_draco) && !(reader_.has_data(positions) && has_indices))
+      decompress(primitive.at("extensions").at(k_draco), uvs);
     Surface surface;
     read_material(primitive, surface);
     if (skin)
-      read_skinned(attributes, positions, *skin, surface);
+      read_skinned(attributes, *skin, surface);
     else
-      surface.vertices = vertices_of(positions);
-    surface.triangles = triangles_of(static_cast<Mode>(mode), corners_of(primitive, surface.vertices.size()));
-    const std::string uvs = "TEXCOORD_" + std::to_string(uv_set);
+      surface.vertices = vertices_of(attributes);
+    // Draco makes lists of triangles of strips and fans.
+    surface.triangles = triangles_of(draco_ ? Mode::triangles : static_cast<Mode>(mode),
+                                     corners_of(primitive, surface.vertices.size()));
     if (uv_set >= 0 && attributes.has(uvs)) {
-      surface.uvs = uvs_of(attributes.at(uvs), surface.vertices.size());
+      surface.uvs = uvs_of(attributes, uvs, surface.vertices.size());
       surface.uv_set = uv_set;
     }
     return surface;
+  }
+
+  void decompress(const JsonLocation& extension, const std::string& uvs) {
+    draco_ = draco_mesh(reader_.view_bytes(extension.at("bufferView")), extension,
+                        {{"POSITION", 3}, {uvs, 2}, {"JOINTS_0", 4}, {"WEIGHTS_0", 4}});
+    if (!draco_->attributes.contains("POSITION")) extension.at("attributes").refuse("'POSITION' is missing");
+  }
+
+  // Of an attribute, from the primitive's compressed data where they hold it.
+  std::vector<double> attribute_numbers(const JsonLocation& attributes, const std::string& name, const char* type,
+                                        std::size_t components) {
+    const std::size_t accessor = accessor_of(attributes.at(name), type);
+    if (draco_)
+      if (const auto found = draco_->attributes.find(name); found != draco_->attributes.end())
+        return std::move(found->second);
+    return reader_.numbers(accessor, components);
   }
 
   static std::size_t mode_of(const JsonLocation& primitive) {
@@ -161,8 +180,8 @@ class MeshReader {
     return mode.text();
   }
 
-  std::vector<Vec3f> vertices_of(std::size_t accessor) {
-    const std::vector<double> numbers = checked_numbers(accessor, 3);
+  std::vector<Vec3f> vertices_of(const JsonLocation& attributes) {
+    const std::vector<double> numbers = attribute_numbers(attributes, "POSITION", "VEC3", 3);
     std::vector<Vec3f> out;
     out.reserve(numbers.size() / 3);
     for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
@@ -171,12 +190,12 @@ class MeshReader {
     return out;
   }
 
-  std::vector<Vec2f> uvs_of(const JsonLocation& attribute, std::size_t vertices) {
-    const std::size_t accessor = accessor_of(attribute, "VEC2");
-    if (const std::size_t count = reader_.head(accessor).count; count != vertices)
-      attribute.refuse(std::to_string(count) + " texture coordinates for " + std::to_string(vertices) + " vertices");
+  std::vector<Vec2f> uvs_of(const JsonLocation& attributes, const std::string& name, std::size_t vertices) {
+    const JsonLocation attribute = attributes.at(name);
     check_memory("texture coordinates", uvs_ += vertices, sizeof(Vec2f), k_fewer_triangles);
-    const std::vector<double> numbers = checked_numbers(accessor, 2);
+    const std::vector<double> numbers = attribute_numbers(attributes, name, "VEC2", 2);
+    if (const std::size_t count = numbers.size() / 2; count != vertices)
+      attribute.refuse(std::to_string(count) + " texture coordinates for " + std::to_string(vertices) + " vertices");
     std::vector<Vec2f> out;
     out.reserve(vertices);
     for (std::size_t i = 0; i < vertices; ++i) {
@@ -190,6 +209,10 @@ class MeshReader {
 
   std::vector<std::uint32_t> corners_of(const JsonLocation& primitive, std::size_t vertices) {
     std::vector<std::uint32_t> out;
+    if (draco_) {
+      for (const double index : draco_->corners) out.push_back(static_cast<std::uint32_t>(index));
+      return out;  // of vertices that there are: the library looks
+    }
     if (!primitive.has("indices")) {
       for (std::size_t i = 0; i < vertices; ++i) out.push_back(static_cast<std::uint32_t>(i));
       return out;
@@ -197,7 +220,7 @@ class MeshReader {
     const JsonLocation location = primitive.at("indices");
     const std::size_t accessor = accessor_of(location, "SCALAR");
     expect_indices(accessor, {Component::u8, Component::u16, Component::u32});
-    for (const double index : checked_numbers(accessor, 1)) {
+    for (const double index : reader_.numbers(accessor, 1)) {
       if (!(index < static_cast<double>(vertices)))
         location.refuse("index " + std::to_string(static_cast<std::uint64_t>(index)) + " of " +
                         std::to_string(vertices) + " vertices");
@@ -220,7 +243,7 @@ class MeshReader {
     if (count == 0) joints.refuse("a skin needs a joint");
     std::vector<double> inverse;
     if (location.has("inverseBindMatrices"))
-      inverse = checked_numbers(accessor_of(location.at("inverseBindMatrices"), "MAT4"), 16);
+      inverse = reader_.numbers(accessor_of(location.at("inverseBindMatrices"), "MAT4"), 16);
     if (!inverse.empty() && inverse.size() / 16 < count)
       location.at("inverseBindMatrices").refuse("fewer matrices than the skin's " + std::to_string(count) + " joints");
     if (rest_.empty()) rest_ = rest_transforms(scene_);
@@ -236,13 +259,13 @@ class MeshReader {
   }
 
   // Where the skin's joints put vertices at rest, in world space.
-  void read_skinned(const JsonLocation& attributes, std::size_t positions, std::size_t skin, Surface& surface) {
+  void read_skinned(const JsonLocation& attributes, std::size_t skin, Surface& surface) {
     const std::vector<Mat4d>& joints = joints_of(skin);
-    const std::vector<double> at = checked_numbers(positions, 3);
+    const std::vector<double> at = attribute_numbers(attributes, "POSITION", "VEC3", 3);
     const std::size_t joints_of_vertices = accessor_of(attributes.at("JOINTS_0"), "VEC4");
     expect_indices(joints_of_vertices, {Component::u8, Component::u16});
-    const std::vector<double> chosen = checked_numbers(joints_of_vertices, 4);
-    const std::vector<double> weights = checked_numbers(accessor_of(attributes.at("WEIGHTS_0"), "VEC4"), 4);
+    const std::vector<double> chosen = attribute_numbers(attributes, "JOINTS_0", "VEC4", 4);
+    const std::vector<double> weights = attribute_numbers(attributes, "WEIGHTS_0", "VEC4", 4);
     const std::size_t count = at.size() / 3;
     if (chosen.size() / 4 != count || weights.size() / 4 != count)
       attributes.refuse("JOINTS_0 and WEIGHTS_0 must have as many elements as POSITION");
@@ -286,20 +309,8 @@ class MeshReader {
     return index;
   }
 
-  std::vector<double> checked_numbers(std::size_t accessor, std::size_t components) {
-    refuse_meshopt(accessor);
-    return reader_.numbers(accessor, components);
-  }
-  void refuse_meshopt(std::size_t accessor) const {
-    const JsonLocation from = reader_.location(accessor);
-    if (!from.has("bufferView")) return;
-    const std::size_t index = from.at("bufferView").index(count_of(reader_.root(), "bufferViews"), "bufferView");
-    const JsonLocation view = reader_.root().at("bufferViews").at(index);
-    if (has_extension(view, k_meshopt))
-      view.at("extensions").at(k_meshopt).refuse("meshopt compression is not read; export the scene without it");
-  }
-
   AccessorReader& reader_;
+  std::optional<DracoMesh> draco_;  // of the primitive that is read
   const Scene& scene_;
   GeometryParts parts_;
   std::map<std::size_t, int> node_of_gltf_;
@@ -345,7 +356,7 @@ std::uint64_t Geometry::vertex_count() const {
 
 Geometry load_geometry(const Scene& scene, GeometryParts parts) {
   GltfFile file;
-  read_gltf_file(scene.path, file);
+  read_gltf_file(scene.path, file, k_lazy_from_bytes);
   Warnings warnings;
   AccessorReader reader(file, warnings, AccessorUse::vertices);
   MeshReader meshes(scene, reader, parts);

@@ -24,28 +24,35 @@ const json& array_of(const json& object, const char* key) {
 
 }  // namespace
 
-LoadedScene loaded_scene(const JsonLocation& root) {
-  const json &document = root.value(), &nodes = array_of(document, "nodes"), &scenes = array_of(document, "scenes");
+LoadedScene loaded_scene(const JsonLocation& root, std::optional<std::size_t> wanted) {
+  const json &document = root.value(), &scenes = array_of(document, "scenes");
+  const bool has_nodes = root.has("nodes") && document["nodes"].is_array();
+  const std::size_t count = has_nodes ? root.at("nodes").size() : 0;
   LoadedScene loaded;
-  loaded.nodes.assign(nodes.size(), true);
-  const auto chosen = root.has("scene") ? index_in(document["scene"], scenes.size()) : index_in(0, scenes.size());
+  loaded.nodes.assign(count, true);
+  const auto chosen = wanted              ? wanted
+                      : root.has("scene") ? index_in(document["scene"], scenes.size())
+                                          : index_in(0, scenes.size());
   if (!chosen) return loaded;
   loaded.scene = *chosen;
-  loaded.nodes.assign(nodes.size(), false);
-  std::vector<std::size_t> waiting;
+  loaded.nodes.assign(count, false);
+  if (!has_nodes) return loaded;
+  const JsonLocation nodes = root.at("nodes");
+  std::vector<std::uint32_t> waiting;
   const auto visit = [&](const json& indices) {
-    for (const json& index : indices) {
-      const auto node = index_in(index, nodes.size());
+    // Taken from the end: in the order of the list, which is that of the text as a rule.
+    for (auto index = indices.rbegin(); index != indices.rend(); ++index) {
+      const auto node = index_in(*index, count);
       if (!node || loaded.nodes[*node]) continue;
       loaded.nodes[*node] = true;
-      waiting.push_back(*node);
+      waiting.push_back(static_cast<std::uint32_t>(*node));
     }
   };
   visit(array_of(scenes[*chosen], "nodes"));
   while (!waiting.empty()) {
-    const json& node = nodes[waiting.back()];
+    const JsonLocation node = nodes.at(waiting.back());
     waiting.pop_back();
-    visit(array_of(node, "children"));
+    visit(array_of(node.value(), "children"));
   }
   return loaded;
 }

@@ -63,11 +63,23 @@ JsonLocation JsonLocation::at(const std::string& key) const {
   expect_object();
   const auto found = value_->find(key);
   if (found == value_->end()) refuse("'" + key + "' is missing");
-  return JsonLocation(*file_, *found, *warnings_, pointer_ + "/" + escaped(key));
+  JsonLocation out(*file_, *found, *warnings_, pointer_ + "/" + escaped(key), lazy_);
+  out.owned_ = owned_;
+  if (lazy_ != nullptr) out.array_ = lazy_->at(out.pointer_);
+  return out;
 }
 
 JsonLocation JsonLocation::at(std::size_t index) const {
-  return JsonLocation(*file_, (*value_)[index], *warnings_, pointer_ + "/" + std::to_string(index));
+  const std::string pointer = pointer_ + "/" + std::to_string(index);
+  if (array_ != nullptr) {
+    const auto element = std::make_shared<const nlohmann::json>(array_->element(index));
+    JsonLocation out(*file_, *element, *warnings_, pointer);
+    out.owned_ = element;
+    return out;
+  }
+  JsonLocation out(*file_, (*value_)[index], *warnings_, pointer, lazy_);
+  out.owned_ = owned_;
+  return out;
 }
 
 void JsonLocation::expect_object() const {
@@ -80,8 +92,8 @@ void JsonLocation::expect_array() const {
 
 std::size_t JsonLocation::elements() const {
   expect_array();
-  if (value_->empty()) warn("an empty array, where glTF asks for one element or more; read as absent");
-  return value_->size();
+  if (size() == 0) warn("an empty array, where glTF asks for one element or more; read as absent");
+  return size();
 }
 
 const std::string& JsonLocation::text() const {

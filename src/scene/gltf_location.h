@@ -2,24 +2,28 @@
 // A value of a glTF document together with where it stands, so that every refusal names its JSON pointer.
 
 #include <cstddef>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "scene/gltf_lazy.h"
 #include "scene/gltf_warnings.h"
 
 namespace clusterbench::scene {
 
 class JsonLocation {
  public:
-  // `file`, `value` and `warnings` must outlive the JsonLocation.
-  JsonLocation(const std::string& file, const nlohmann::json& value, Warnings& warnings, std::string pointer = "")
-      : file_(&file), value_(&value), warnings_(&warnings), pointer_(std::move(pointer)) {}
+  // `file`, `value`, `warnings` and `lazy` must outlive the JsonLocation. `lazy`: arrays of the document that are read
+  // element by element; what is below such an element lives as long as a location below it.
+  JsonLocation(const std::string& file, const nlohmann::json& value, Warnings& warnings, std::string pointer = "",
+               const LazyArrays* lazy = nullptr)
+      : file_(&file), value_(&value), warnings_(&warnings), pointer_(std::move(pointer)), lazy_(lazy) {}
 
   const nlohmann::json& value() const { return *value_; }
   const std::string& pointer() const { return pointer_; }
   bool has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
-  std::size_t size() const { return value_->size(); }
+  std::size_t size() const { return array_ != nullptr ? array_->size() : value_->size(); }
 
   // A member that must be there, or an element of an array.
   JsonLocation at(const std::string& key) const;
@@ -46,6 +50,9 @@ class JsonLocation {
   const nlohmann::json* value_;
   Warnings* warnings_;
   std::string pointer_;
+  const LazyArrays* lazy_ = nullptr;
+  const LazyArray* array_ = nullptr;             // this is one of them
+  std::shared_ptr<const nlohmann::json> owned_;  // the element of one that this is, or is below
 };
 
 // printable(), and cut to a length that a line can bear: strings of a file in messages.

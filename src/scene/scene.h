@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,8 +81,7 @@ struct Node {
   std::string name;
   int parent = -1;  // always smaller than the node's own index: parents come first
   int gltf_index = -1;
-  bool has_matrix = false;
-  Mat4d matrix{1.0};
+  std::shared_ptr<const Mat4d> matrix{};  // in place of the three below; few nodes have one
   Vec3d translation{0.0};
   Vec4d rotation{0.0, 0.0, 0.0, 1.0};  // quaternion x, y, z, w
   Vec3d scale{1.0};
@@ -124,6 +124,25 @@ struct RangeRule {
   double max_range_m = 100.0;
 };
 
+// Which of a file's scenes and animations are read: a name, or a number from 0. Empty: the file's default scene, and
+// all animations, played together.
+struct GltfChoice {
+  std::string scene, animation;
+
+  friend bool operator==(const GltfChoice&, const GltfChoice&) = default;
+};
+
+// What a file has beside what is read of it.
+struct GltfContents {
+  std::string generator;                        // asset/generator: the exporter, at best
+  std::vector<std::string> scenes, animations;  // their names, "" without
+  std::size_t scene = 0;                        // the scene that is read, where there are some
+  std::size_t unread_lights = 0;                // of other scenes and of extensions that this tool does not read
+};
+
+// "0 'idle', 1 'walk'": names with their numbers.
+std::string numbered(const std::vector<std::string>& names);
+
 struct Scene {
   std::string name;  // file stem
   std::filesystem::path path;
@@ -138,10 +157,15 @@ struct Scene {
   double duration_s = 0.0;               // last key of any channel
   RangeRule range_rule;                  // by which ranges were resolved; holds for intensities that change, too
   std::vector<std::string> warnings;
+  GltfContents contents;  // of its file; nothing of scenes that come from none
 };
 
-// Reads .gltf or .glb. Throws Error (file, JSON pointer) for what is broken in a part that this tool reads.
-Scene load_gltf(const std::filesystem::path& path);
+// Reads glTF, whatever the file's ending. Throws Error (file, JSON pointer) for what is broken in a part that this tool
+// reads, and for other programs' files, of which it says how they become glTF.
+Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice = {});
+
+// Why a scene has nothing to assign, and how its exporter writes lights; "" where it has lights, or boxes.
+std::string why_no_lights(const Scene& scene);
 
 // Appends the scene's boxes to its lights, so that they are assigned. They light nothing: their intensity is 0.
 void assign_boxes(Scene& scene);

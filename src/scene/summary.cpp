@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "core/text.h"
 #include "geom/shapes/domain.h"
 #include "scene/camera_path.h"
 #include "scene/domain.h"
@@ -27,11 +28,21 @@ bool is_assigned(const Light& light) {
   return light.type != LightType::directional;
 }
 
+// Of a kind that is warned of there may be millions.
+struct Counted {
+  std::size_t count = 0;
+  std::string first;
+
+  void push_back(const std::string& name) {
+    if (count++ == 0) first = name;
+  }
+};
+
 // "12 lights ...: first 'lamp 3'", or nothing.
-void warn_of(Summary& summary, const std::vector<std::string>& names, const std::string& what) {
-  if (names.empty()) return;
-  summary.warnings.push_back(std::to_string(names.size()) + (names.size() == 1 ? " light " : " lights ") + what + ": " +
-                             (names.size() == 1 ? "'" : "first '") + names.front() + "'");
+void warn_of(Summary& summary, const Counted& lights, const std::string& what) {
+  if (lights.count == 0) return;
+  summary.warnings.push_back(std::to_string(lights.count) + (lights.count == 1 ? " light " : " lights ") + what + ": " +
+                             (lights.count == 1 ? "'" : "first '") + lights.first + "'");
 }
 
 void count_lights(const Scene& scene, Summary& summary) {
@@ -270,7 +281,7 @@ void warn_of_steep_cameras(const Scene& scene, Summary& summary) {
 }
 
 void warn_of_lights(const Scene& scene, const Sight& sight, Summary& summary) {
-  std::vector<std::string> without_range, useless, black, unseen;
+  Counted without_range, useless, black, unseen;
   const double diagonal = usual_distance(scene);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
@@ -282,6 +293,11 @@ void warn_of_lights(const Scene& scene, const Sight& sight, Summary& summary) {
     if (light.range_m > 0.0 && !sight.is_seen[i]) unseen.push_back(light.name);
   }
   warn_of(summary, without_range, "without range (the rule of the configuration gives one)");
+  if (2 * summary.ranges_clamped > summary.points + summary.spots)
+    summary.warnings.push_back("most ranges are the range rule's longest (--max-range): " +
+                               number_of(static_cast<std::uint64_t>(summary.ranges_clamped), "light") +
+                               " would shine farther at its cut-off (--cutoff-lux); give them ranges, or your engine's "
+                               "cut-off");
   warn_of(summary, useless, "reaching farther than the lights are apart, for which clustering is useless");
   warn_of(summary, black, "black or of no range");
   if (sight.is_known)
@@ -302,6 +318,7 @@ Summary summarise(const Scene& scene) {
   const Sight sight = look_through_cameras(scene, summary);
   warn_of_steep_cameras(scene, summary);
   warn_of_lights(scene, sight, summary);
+  if (const std::string why = why_no_lights(scene); !why.empty()) summary.warnings.push_back(why);
   return summary;
 }
 

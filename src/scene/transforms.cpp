@@ -37,7 +37,7 @@ Mat3d rotation_matrix(const Vec4d& q) {
 }
 
 Mat4d local_matrix(const Node& node) {
-  if (node.has_matrix) return node.matrix;
+  if (node.matrix) return *node.matrix;
   const Mat3d rotation = rotation_matrix(node.rotation);
   return Mat4d(Vec4d(rotation[0] * node.scale.x, 0.0), Vec4d(rotation[1] * node.scale.y, 0.0),
                Vec4d(rotation[2] * node.scale.z, 0.0), Vec4d(node.translation, 1.0));
@@ -204,7 +204,8 @@ Mat4d world_transform(const Scene& scene, int index, double time_s) {
   return world;
 }
 
-std::vector<Node> posed_nodes(const Scene& scene, double time_s) {
+// Of a scene whose nodes move; others are not copied.
+std::vector<Node> moved_nodes(const Scene& scene, double time_s) {
   std::vector<Node> posed = scene.nodes;
   for (const Channel& channel : scene.channels) {
     apply(channel, time_s, posed[static_cast<std::size_t>(channel.node)]);
@@ -233,7 +234,8 @@ std::vector<bool> visible_of(const std::vector<Node>& posed) {
 }  // namespace
 
 std::vector<Mat4d> world_transforms(const Scene& scene, double time_s) {
-  return transforms_of(posed_nodes(scene, time_s));
+  if (scene.channels.empty()) return transforms_of(scene.nodes);
+  return transforms_of(moved_nodes(scene, time_s));
 }
 
 std::vector<Mat4d> rest_transforms(const Scene& scene) {
@@ -241,14 +243,17 @@ std::vector<Mat4d> rest_transforms(const Scene& scene) {
 }
 
 std::vector<bool> visible_nodes(const Scene& scene, double time_s) {
-  return visible_of(posed_nodes(scene, time_s));
+  if (scene.channels.empty()) return visible_of(scene.nodes);
+  return visible_of(moved_nodes(scene, time_s));
 }
 
 std::vector<WorldLight> world_lights(const Scene& scene, double time_s) {
-  const std::vector<Node> posed = posed_nodes(scene, time_s);
+  const std::vector<Node> moved = scene.channels.empty() ? std::vector<Node>() : moved_nodes(scene, time_s);
+  const std::vector<Node>& posed = scene.channels.empty() ? scene.nodes : moved;
   const std::vector<Mat4d> world = transforms_of(posed);
   const std::vector<bool> visible = visible_of(posed);
   std::vector<WorldLight> out;
+  out.reserve(scene.lights.size());
   for (const LightType type : {LightType::point, LightType::spot, LightType::box}) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
       const Light& light = scene.lights[i];

@@ -17,9 +17,9 @@ using Json = nlohmann::ordered_json;
 Json node_json(const Node& node) {
   Json out = Json::object();
   if (!node.name.empty()) out["name"] = node.name;
-  if (node.has_matrix) {
+  if (node.matrix) {
     for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 4; ++row) out["matrix"].push_back(node.matrix[column][row]);
+      for (int row = 0; row < 4; ++row) out["matrix"].push_back((*node.matrix)[column][row]);
     return out;
   }
   if (node.translation != Vec3d(0.0)) out["translation"] = {node.translation.x, node.translation.y, node.translation.z};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <glm/geometric.hpp>
 
 #include "stress/contact.h"
@@ -101,9 +102,12 @@ class BoxDraw {
     light.intensity = 0.0;
     light.half_extents_m = Vec3d(1.0);
     light.range_m = 1.0;
-    scene::Node node{.name = light.name, .has_matrix = true};
-    for (int axis = 0; axis < 3; ++axis) node.matrix[axis] = Vec4d(axes[axis], 0.0);
-    node.matrix[3] = Vec4d(middle, 1.0);
+    scene::Node node;
+    node.name = light.name;
+    Mat4d matrix(1.0);
+    for (int axis = 0; axis < 3; ++axis) matrix[axis] = Vec4d(axes[axis], 0.0);
+    matrix[3] = Vec4d(middle, 1.0);
+    node.matrix = std::make_shared<const Mat4d>(matrix);
     trial_.scene.nodes.push_back(node);
     trial_.scene.lights.push_back(light);
   }

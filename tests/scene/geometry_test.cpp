@@ -169,24 +169,6 @@ TEST(Geometry, a_skin_without_joints_and_joints_that_are_no_indices_are_refused)
   EXPECT_EQ(refusal({0}, 5121, true), "/accessors/1/normalized: indices are no shares");
 }
 
-TEST(Geometry, compressed_meshes_are_refused_by_name) {
-  MeshFile draco;
-  Json of = primitive(draco.positions(k_quad));
-  draco.json["accessors"][0].erase("bufferView");
-  of["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}, {"attributes", {{"POSITION", 0}}}};
-  draco.node({{"mesh", draco.mesh(of)}});
-  EXPECT_EQ(test::geometry_refusal(draco.text()),
-            "/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: Draco compression is not read; export the "
-            "scene without it");
-  MeshFile meshopt;
-  of = primitive(meshopt.positions(k_quad));
-  meshopt.json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = Json::object();
-  meshopt.node({{"mesh", meshopt.mesh(of)}});
-  EXPECT_EQ(test::geometry_refusal(meshopt.text()),
-            "/bufferViews/0/extensions/EXT_meshopt_compression: meshopt compression is not read; export the scene "
-            "without it");
-}
-
 TEST(Geometry, what_is_broken_is_refused_where_it_stands_and_only_if_it_is_read) {
   const auto refusal = [](auto&& spoil) {
     MeshFile file;

@@ -198,7 +198,7 @@ TEST(GltfAsExported, odd_key_times_are_refused_only_where_a_light_or_a_camera_mo
 TEST(GltfAsExported, a_byte_order_mark_is_skipped) {
   const std::string mark = "\xEF\xBB\xBF";
   expect_one_warning(loaded(mark + document("")), "/: begins with a byte order mark");
-  EXPECT_EQ(refusal(mark + "{").find("byte 4: not JSON"), 0U);
+  EXPECT_EQ(refusal(mark + "{").find("byte 4: is not JSON"), 0U);
 }
 
 TEST(GltfAsExported, cone_angles_beside_the_spot_are_read) {

@@ -216,7 +216,7 @@ TEST(GltfRefusals, a_broken_container_names_its_byte) {
   EXPECT_TRUE(refusal(glb(chunk("JSOM", "{}", ' ')), "a.glb").starts_with("byte 16: "));
   EXPECT_TRUE(refusal(glb(json_chunk + json_chunk), "a.glb").starts_with("byte "));
   EXPECT_TRUE(refusal(glb(little_endian(0xFFFFFFFF) + "JSON"), "a.glb").starts_with("byte 12: "));
-  EXPECT_TRUE(refusal("{\"asset\": }").starts_with("byte 10: not JSON"));
+  EXPECT_TRUE(refusal("{\"asset\": }").starts_with("byte 10: is not JSON"));
   EXPECT_TRUE(refusal("{\"asset\": {\"version\": 1e999}}").starts_with("byte 22: "));
   EXPECT_TRUE(refusal("[]").starts_with("/: "));
   EXPECT_TRUE(refusal("{}").starts_with("/: 'asset' is missing"));

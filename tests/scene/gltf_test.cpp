@@ -313,8 +313,9 @@ TEST(GltfAnimations, of_two_animations_of_the_same_thing_the_later_wins_with_a_w
   const Scene scene = loaded(document(nodes("{}") + ", " + text));
   ASSERT_EQ(scene.channels.size(), 1U);
   EXPECT_EQ(scene.channels[0].interpolation, Interpolation::linear);
-  ASSERT_EQ(scene.warnings.size(), 1U);
+  ASSERT_EQ(scene.warnings.size(), 2U);
   EXPECT_NE(scene.warnings[0].find("/animations/1"), std::string::npos);
+  EXPECT_NE(scene.warnings[1].find("/animations: 2 animations, played together"), std::string::npos);
 }
 
 TEST(GltfAnimations, weights_and_pointers_are_ignored_with_a_warning) {

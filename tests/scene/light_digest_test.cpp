@@ -44,9 +44,9 @@ TEST(LightDigest, does_not_depend_on_whether_a_file_has_single_precision_or_a_ma
   Scene by_matrix = scene;
   for (std::size_t i = 0; i < by_matrix.lights.size(); ++i) {
     Node& node = node_of(by_matrix, i);
-    node.matrix = rest_transforms(scene)[static_cast<std::size_t>(scene.lights[i].node)];
-    node.matrix[3][0] *= 1.0 + 0x1p-52;
-    node.has_matrix = true;
+    Mat4d matrix = rest_transforms(scene)[static_cast<std::size_t>(scene.lights[i].node)];
+    matrix[3][0] *= 1.0 + 0x1p-52;
+    node.matrix = std::make_shared<const Mat4d>(matrix);
   }
   EXPECT_EQ(light_digest(by_matrix), light_digest(scene));
 }
