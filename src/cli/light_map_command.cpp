@@ -15,6 +15,7 @@ namespace {
 struct LightMapFlags {
   std::vector<std::string> scenes;
   std::string output, resolution;
+  scene::GltfChoice choice;
   scene::RangeRule rule;
   measure::LightMapRequest request;
   bool conservative = false, quiet = false;
@@ -49,7 +50,7 @@ measure::LightMapRequest light_map_request(const LightMapFlags& flags) {
 report::LightMapScene light_maps_of(const std::string& path, const LightMapFlags& flags,
                                     const measure::LightMapRequest& request) {
   report::LightMapScene out;
-  out.scene = scene::load_gltf(path);
+  out.scene = scene::load_gltf(path, flags.choice);
   scene::resolve_ranges(out.scene, flags.rule);
   const scene::Geometry geometry = load_geometry(
       out.scene, request.unwrap ? scene::GeometryParts::positions : scene::GeometryParts::positions_and_uvs);
@@ -110,6 +111,8 @@ void add_light_map(Command& program, Action& action) {
   command.add_option("--tile", flags->request.tile, "Texels squared that share a bit field, for comparison")
       .range(1, 256)
       .shows_standard();
+  command.add_option("--scene", flags->choice.scene, "Name or number of one of the file's scenes");
+  command.add_option("--animation", flags->choice.animation, "Name or number of the only animation that plays");
   command.add_option("--cutoff-lux", flags->rule.cutoff_lux, "Illuminance at which a light without range ends")
       .shows_standard()
       .positive();

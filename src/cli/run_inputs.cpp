@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "run/scene_facts.h"
+#include "scene/exporters.h"
 
 namespace clusterbench::cli {
 
@@ -42,8 +43,7 @@ std::vector<config::FlagValue> flag_values(const RunInputs& inputs) {
 }
 
 bool is_scene(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  return extension == ".glb" || extension == ".gltf";
+  return scene::is_scene_file(path);
 }
 
 config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first,

@@ -45,6 +45,8 @@ Json to_json(const scene::Scene& scene, const scene::Summary& summary) {
               {"ranges", ranges},
               {"bounds_m", {to_json(summary.bounds_lo), to_json(summary.bounds_hi)}},
               {"duration_s", scene.duration_s},
+              {"scenes", scene.contents.scenes},
+              {"animations", scene.contents.animations},
               {"cameras", summary.cameras},
               {"warnings", summary.warnings}};
 }
@@ -81,12 +83,16 @@ void print(const scene::Scene& scene, const scene::Summary& summary) {
     print_made_ranges(scene.range_rule, summary);
     std::printf("  bounds   (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m\n", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
   }
+  const scene::GltfContents& file = scene.contents;
+  if (file.scenes.size() > 1)
+    std::printf("  scenes   %s; read is %zu\n", printable(scene::numbered(file.scenes)).c_str(), file.scene);
+  if (file.animations.size() > 1) std::printf("  clips    %s\n", printable(scene::numbered(file.animations)).c_str());
   for (const std::string& camera : summary.cameras) std::printf("  camera   %s\n", printable(camera).c_str());
   for (const std::string& warning : summary.warnings) std::printf("  warning  %s\n", printable(warning).c_str());
 }
 
-ExitCode info(const std::string& path, const scene::RangeRule& rule, bool as_json) {
-  scene::Scene scene = scene::load_gltf(path);
+ExitCode info(const std::string& path, const scene::GltfChoice& choice, const scene::RangeRule& rule, bool as_json) {
+  scene::Scene scene = scene::load_gltf(path, choice);
   scene::resolve_ranges(scene, rule);
   const scene::Summary summary = scene::summarise(scene);
   if (as_json)
@@ -98,6 +104,7 @@ ExitCode info(const std::string& path, const scene::RangeRule& rule, bool as_jso
 
 struct InfoFlags {
   std::string file;
+  scene::GltfChoice choice;
   scene::RangeRule rule;
   bool as_json = false;
 };
@@ -113,6 +120,9 @@ void add_info(Command& parent, Action& action) {
   Command command =
       parent.add_command("info", "Lights, ranges, cameras and warnings of a glTF file; exit 2 if it is refused");
   command.add_option("FILE", flags->file, "A .gltf or .glb file").required();
+  command.add_option("--scene", flags->choice.scene, "Name or number of one of its scenes; without, its default");
+  command.add_option("--animation", flags->choice.animation,
+                     "Name or number of the only animation that plays; without, all together");
   command.add_option("--cutoff-lux", flags->rule.cutoff_lux, "Illuminance at which a light without range ends")
       .shows_standard()
       .positive();
@@ -120,7 +130,8 @@ void add_info(Command& parent, Action& action) {
       .shows_standard()
       .positive();
   command.add_flag("--json", flags->as_json, "As JSON");
-  command.when_named([flags, &action] { action = [flags] { return info(flags->file, flags->rule, flags->as_json); }; });
+  command.when_named(
+      [flags, &action] { action = [flags] { return info(flags->file, flags->choice, flags->rule, flags->as_json); }; });
 }
 
 void add_generate(Command& parent, Action& action) {

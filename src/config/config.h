@@ -31,6 +31,7 @@ struct SceneRequest {
   std::filesystem::path path;         // "" with a rig
   std::string named_by, named_at;     // the configuration that names it, and where in it; "" for scenes given otherwise
   std::optional<scene::RigSpec> rig;  // made in memory, in place of a file
+  scene::GltfChoice choice;           // which of the file's scenes and animations
   scene::PathRequest camera;
   scene::RangeRule range_rule;
   bool boxes = false;  // the scene's oriented boxes are assigned, too

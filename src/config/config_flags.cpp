@@ -8,6 +8,7 @@
 #include "config/documents.h"
 #include "config/presets.h"
 #include "core/error.h"
+#include "core/json_document.h"
 
 namespace clusterbench::config {
 namespace {
@@ -18,8 +19,6 @@ using Json = nlohmann::json;
   throw Error("", flag.shown(), what);
 }
 
-constexpr int k_most_nested = 64;  // as in a configuration's file
-
 // "a,[b,c],{d,e}" at its commas outside of brackets and quotes.
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts(1);
@@ -29,7 +28,8 @@ std::vector<std::string> split(const std::string& text) {
     const char c = text[i];
     if (c == '"' && (i == 0 || text[i - 1] != '\\')) quoted = !quoted;
     if (!quoted && (c == '[' || c == '{')) ++depth;
-    if (depth > k_most_nested) throw Error("", "--set", "a value nested deeper than 64 levels");
+    if (depth > k_deepest_json)
+      throw Error("", "--set", "a value nested deeper than " + std::to_string(k_deepest_json) + " levels");
     if (!quoted && (c == ']' || c == '}')) --depth;
     if (c == ',' && depth == 0 && !quoted)
       parts.emplace_back();
@@ -219,6 +219,23 @@ void set_field_of_view(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"scenes", "*", "fov"}, flag, Json(flag.value));
 }
 
+// A number from 0, or a name; "12" may be either, which the file decides.
+void set_scene(FlaggedConfig& document, const FlagValue& flag) {
+  set_key(document, {"scenes", "*", "scene"}, flag, Json(flag.value));
+}
+
+void set_animation(FlaggedConfig& document, const FlagValue& flag) {
+  set_key(document, {"scenes", "*", "animation"}, flag, Json(flag.value));
+}
+
+void set_cutoff(FlaggedConfig& document, const FlagValue& flag) {
+  set_key(document, {"scenes", "*", "range_rule", "cutoff_lux"}, flag, value_of(flag.value));
+}
+
+void set_max_range(FlaggedConfig& document, const FlagValue& flag) {
+  set_key(document, {"scenes", "*", "range_rule", "max_range"}, flag, value_of(flag.value));
+}
+
 void set_rounds(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"timing", "rounds"}, flag, value_of(flag.value));
 }
@@ -303,6 +320,11 @@ constexpr FlagRow k_rows[] = {
      choose_presets},
     {{"--fov", "DEGREESh or DEGREESv: the cameras' field of view across the picture, as 90h, or up and down, as 60v"},
      set_field_of_view},
+    {{"--scene", "NAME or number: which of a glTF file's scenes; without, its default"}, set_scene},
+    {{"--animation", "NAME or number: the only one of a file's animations that plays; without, all together"},
+     set_animation},
+    {{"--cutoff-lux", "LUX: illuminance at which a light without a range ends"}, set_cutoff},
+    {{"--max-range", "METRES: the longest range that such a light gets"}, set_max_range},
     {{"--rounds", "N: timed rounds over all cases of a group"}, set_rounds},
     {{"--launches", "N: processes that measure one after the other; intervals hold between them"}, set_launches},
     {{"--threads", "N: threads for the truth and for rays; results do not depend on it"}, set_threads},

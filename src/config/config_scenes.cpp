@@ -59,6 +59,12 @@ scene::PathRequest path_request(const Json& scene, const std::string& pointer, c
   return request;
 }
 
+// A name, or a number.
+std::string chosen(const Json& scene, const char* key) {
+  if (!scene.contains(key)) return "";
+  return scene[key].is_string() ? scene[key].get<std::string>() : std::to_string(scene[key].get<std::uint64_t>());
+}
+
 // Where relative paths start: beside the configuration, and of one that comes through a pipe, here.
 fs::path folder_of(const std::string& file) {
   return is_stream_name(file) ? fs::path() : fs::path(file).parent_path();
@@ -89,6 +95,10 @@ void add_scenes(const Json& scene, const std::string& pointer, const JsonText& t
   request.range_rule = {scene["range_rule"]["cutoff_lux"].get<double>(),
                         scene["range_rule"]["max_range"].get<double>()};
   request.boxes = scene.value("boxes", false);
+  request.choice = {chosen(scene, "scene"), chosen(scene, "animation")};
+  for (const char* key : {"scene", "animation"})
+    if (has_rig && scene.contains(key))
+      throw Error(text.file, text.where(pointer + "/" + key), std::string("a rig has no ") + key + "; a file has some");
   if (request.boxes && has_rig)
     throw Error(text.file, text.where(pointer + "/boxes"), "a rig has no boxes; a scene from a file may have some");
   if (has_rig) {

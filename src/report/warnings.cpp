@@ -98,7 +98,8 @@ std::string notes_text(const Json& result) {
   for (const Json& scene : result["scenes"]) {
     const Json& rule = scene["range_rule"];
     const auto made = rule["from_intensity"].get<std::uint64_t>() + rule["clamped"].get<std::uint64_t>();
-    if (made == 0) continue;
+    // Where the rule's longest range cuts most lights off the scene's own warning says so.
+    if (made == 0 || 2 * rule["clamped"].get<std::uint64_t>() > made + rule["given"].get<std::uint64_t>()) continue;
     out += "note: " + shown(scene["name"]) + ": " + number_of(made, "light") +
            (made == 1 ? " has no range; it ends where it falls to " : " have no range; they end where they fall to ") +
            text("%g", rule["cutoff_lux"].get<double>()) + " lux, at most " +

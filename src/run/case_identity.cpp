@@ -50,6 +50,8 @@ Json identity(const config::SceneRequest& request, const SceneData& data) {
   if (request.camera.field_of_view)
     out["fov"] = {request.camera.field_of_view->angle_rad, request.camera.field_of_view->is_horizontal};
   if (request.boxes) out["boxes"] = true;
+  if (!request.choice.scene.empty()) out["scene"] = request.choice.scene;
+  if (!request.choice.animation.empty()) out["animation"] = request.choice.animation;
   for (const Vec2d& offset : request.camera.jitter_px) out["jitter"].push_back({offset.x, offset.y});
   return out;
 }

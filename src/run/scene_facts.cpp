@@ -41,6 +41,16 @@ std::string first_names(std::vector<std::string> names) {
   return joined(names) + " and " + std::to_string(more) + " more";
 }
 
+// What is measured is then the rule's longest range more than the file's lights.
+std::string most_clamped(int clamped, int all, const scene::RangeRule& rule) {
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "%d of %d lights have no range and shine farther than %g m at %g lux: the range rule cuts them off "
+                "there. Give them ranges, or your engine's cut-off (--cutoff-lux, --max-range)",
+                clamped, all, rule.max_range_m, rule.cutoff_lux);
+  return text;
+}
+
 }  // namespace
 
 SceneResult scene_result(const SceneData& data, const config::SceneRequest& request,
@@ -75,9 +85,12 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
     out.warnings.push_back("not measured: " + number_of(others.size(), "camera") + " beside '" +
                            data.paths.front().camera + "': " + first_names(others) +
                            "; \"camera\": \"*\" measures all");
+  if (const std::string why = scene::why_no_lights(scene); !request.rig && !why.empty()) out.warnings.push_back(why);
   if (!request.camera.field_of_view) add_fit_warnings(data, viewports, out.warnings);
   for (const std::string& text : {without_field_of_view(data, request), fewer_frames(data)})
     if (!text.empty()) out.warnings.push_back(text);
+  if (2 * clamped > given + from_intensity + clamped)
+    out.warnings.push_back(most_clamped(clamped, given + from_intensity + clamped, request.range_rule));
   out.range_rule = {{"cutoff_lux", request.range_rule.cutoff_lux},
                     {"max_range", request.range_rule.max_range_m},
                     {"given", given},

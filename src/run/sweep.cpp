@@ -72,7 +72,7 @@ scene::Scene loaded(const config::SceneRequest& request) {
   std::error_code unknown;
   if (!request.named_by.empty() && !std::filesystem::exists(request.path, unknown) && !unknown)
     throw Error(request.named_by, request.named_at, "names '" + request.path.string() + "', and there is no such file");
-  return scene::load_gltf(request.path);
+  return scene::load_gltf(request.path, request.choice);
 }
 
 double lowest_height(const SceneData& data) {

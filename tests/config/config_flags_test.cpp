@@ -174,7 +174,7 @@ TEST(ConfigFlags, a_key_of_thousands_of_steps_is_refused_at_once_and_in_short) {
   for (int i = 0; i < 50'000; ++i) deep += ".a";
   EXPECT_EQ(refusal_of({{"--set", deep + "=1"}}), "--set: a key with 50000 steps; at most 16");
   EXPECT_EQ(refusal_of({{"--set", "details=" + std::string(50'000, '[') + std::string(50'000, ']')}}),
-            "--set: a value nested deeper than 64 levels");
+            "--set: a value nested deeper than 256 levels");
 }
 
 TEST(ConfigFlags, what_is_wrong_is_said_with_the_flag) {
