@@ -4,7 +4,7 @@ function(clusterbench_facts TARGET)
   string(TOUPPER "${CMAKE_BUILD_TYPE}" TYPE)
   string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${TYPE}} -ffp-contract=off" FLAGS)
   set(LIBRARIES "")  # those whose headers tool_facts.cpp cannot ask
-  foreach(NAME Boost TBB TinyGLTF)
+  foreach(NAME Boost TBB)
     set(VERSION ${${NAME}_VERSION})
     if(VERSION)
       string(TOLOWER ${NAME} LOWER)

@@ -15,7 +15,6 @@ find_package(embree 3 REQUIRED)
 find_package(HWY REQUIRED)
 find_package(PNG 1.6 REQUIRED)
 find_path(VALIJSON_INCLUDE valijson/validator.hpp REQUIRED)
-find_package(TinyGLTF REQUIRED)
 find_package(NLopt 2.7 REQUIRED)
 # Compressed scenes: without them a scene that needs one is refused in a sentence.
 find_package(meshoptimizer CONFIG QUIET)

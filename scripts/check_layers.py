@@ -31,7 +31,6 @@ HOMES = {
     "boost/": ["geom", "measure"],
     "boost/multiprecision": ["geom"],
     "boost/math": ["measure"],
-    "tiny_gltf.h": ["scene"],
     "meshoptimizer.h": ["scene"],
     "draco/": ["scene"],
     "embree": ["depth"],

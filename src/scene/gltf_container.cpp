@@ -77,8 +77,7 @@ std::string_view glb_json(GltfFile& file) {
 // The document without its long arrays, of whose text it keeps the places.
 std::optional<std::string> long_arrays_left_out(const std::filesystem::path& path, GltfFile& file,
                                                 std::string_view text, std::size_t offset) {
-  const auto source =
-      file.binary ? std::make_shared<TextSource>(std::string_view(file.bytes)) : std::make_shared<TextSource>(path);
+  const TextSource source = file.binary ? TextSource(std::string_view(file.bytes)) : TextSource(path);
   return without_long_arrays(text, offset, file.name, source, file.lazy);
 }
 

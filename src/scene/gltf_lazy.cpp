@@ -118,10 +118,12 @@ class LazyReader {
     return rest + std::string(text_.substr(kept));
   }
 
-  LazyArrays arrays(const std::string& file, const std::shared_ptr<TextSource>& source) {
+  LazyArrays arrays(const std::string& file, const TextSource& source) {
     nodes_.shrink_to_fit();
     lights_.shrink_to_fit();
-    return {LazyArray(std::move(nodes_), file, source), LazyArray(std::move(lights_), file, source)};
+    // A window each: a node and its light are read in turn.
+    return {LazyArray(std::move(nodes_), file, std::make_shared<TextSource>(source)),
+            LazyArray(std::move(lights_), file, std::make_shared<TextSource>(source))};
   }
 
  private:
@@ -186,7 +188,7 @@ const LazyArray* LazyArrays::at(const std::string& pointer) const {
 }
 
 std::optional<std::string> without_long_arrays(std::string_view text, std::uint64_t offset, const std::string& file,
-                                               std::shared_ptr<TextSource> source, LazyArrays& out) {
+                                               const TextSource& source, LazyArrays& out) {
   LazyReader reader(text, offset);
   if (!reader.look()) return std::nullopt;
   out = reader.arrays(file, source);

@@ -64,6 +64,6 @@ inline constexpr const char* k_lazy_lights = "/extensions/KHR_lights_punctual/li
 // Nothing where there are none, or where the text is broken, which the parser says better. `offset`: of the text in the
 // file; `source`: of the file's bytes.
 std::optional<std::string> without_long_arrays(std::string_view text, std::uint64_t offset, const std::string& file,
-                                               std::shared_ptr<TextSource> source, LazyArrays& out);
+                                               const TextSource& source, LazyArrays& out);
 
 }  // namespace clusterbench::scene

@@ -225,8 +225,8 @@ std::map<double, std::vector<std::size_t>> moments_to_look_at(const Scene& scene
 
 // All cameras that look at one time share the lights' positions.
 void look_through(const Scene& scene, double time_s, const std::vector<std::size_t>& cameras, Sight& sight) {
+  std::vector<WorldLight> unseen = world_lights(scene, time_s);  // first: it has the transforms, too, while it works
   const std::vector<Mat4d> world = world_transforms(scene, time_s);
-  std::vector<WorldLight> unseen = world_lights(scene, time_s);
   check_domain(scene, unseen, time_s);
   for (const std::size_t index : cameras) {
     const Camera& camera = scene.cameras[index];

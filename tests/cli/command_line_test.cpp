@@ -214,7 +214,7 @@ TEST(CommandLine, all_that_reads_results_refuses_a_broken_one_and_other_document
   refuses(broken, "is not a valid result: /cases/1: Missing required property 'buffers'");
   refuses(stress, "is a result of `clusterbench stress`; wanted is one of `clusterbench run`");
   const std::string huge = folder.write("huge.json", "{\"version\": 1e999}").string();
-  refuses(huge, "has a number that is larger than double precision can hold");
+  refuses(huge, "byte 12: has a number that is larger than double precision can hold: 1e999");
 }
 
 TEST(CommandLine, validate_tells_a_good_configuration_from_a_broken_one) {

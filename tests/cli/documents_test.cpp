@@ -26,9 +26,10 @@ TEST(DeepDocuments, of_results_end_every_command_in_a_line) {
   for (const std::string& command :
        {"report " + result, "report " + result + " --output " + out, "compare " + result + " " + result,
         "size " + result, "merge " + result + " " + result + " -o " + out, "history add " + result + " " + out,
-        "ratio " + result + " " + result})
+        "export --format csv " + result})
     expect_one_line(tool(command), "is nested deeper than 256 levels", command);
-  expect_one_line(tool("history show " + result), "is nested deeper than 256 levels", "history show");
+  const std::string history = folder.write("deep.jsonl", nested("{\"cases\": ", "}\n")).string();
+  expect_one_line(tool("history show " + history), "is nested deeper than 256 levels", "history show");
 }
 
 TEST(DeepDocuments, of_configurations_and_scenes_end_in_a_line) {
