@@ -225,13 +225,18 @@ std::map<double, std::vector<std::size_t>> moments_to_look_at(const Scene& scene
 
 // All cameras that look at one time share the lights' positions.
 void look_through(const Scene& scene, double time_s, const std::vector<std::size_t>& cameras, Sight& sight) {
-  std::vector<WorldLight> unseen = world_lights(scene, time_s);  // first: it has the transforms, too, while it works
-  const std::vector<Mat4d> world = world_transforms(scene, time_s);
+  std::vector<WorldLight> unseen = world_lights(scene, time_s);
+  // Of many cameras the transforms of all nodes at once; of few that would be memory for nothing.
+  constexpr std::size_t k_few_cameras = 16;
+  const std::vector<Mat4d> world =
+      cameras.size() > k_few_cameras ? world_transforms(scene, time_s) : std::vector<Mat4d>();
   check_domain(scene, unseen, time_s);
   for (const std::size_t index : cameras) {
     const Camera& camera = scene.cameras[index];
     const CameraProjection projection = projection_at(scene, camera, time_s);
-    const View view{camera_pose(world[static_cast<std::size_t>(camera.node)]), projection, largest_view(projection)};
+    const CameraPose pose =
+        world.empty() ? camera_pose(scene, camera, time_s) : camera_pose(world[static_cast<std::size_t>(camera.node)]);
+    const View view{pose, projection, largest_view(projection)};
     check_domain(scene, camera.name, Shot{time_s, view.pose, projection});
     std::erase_if(unseen, [&](const WorldLight& light) {
       const auto rig_index = static_cast<std::size_t>(light.rig_index);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <span>
@@ -223,6 +224,34 @@ std::vector<Mat4d> transforms_of(const std::vector<Node>& posed) {
   return world;
 }
 
+// World transforms, of which only those of nodes with nodes below them are kept: of a million lamps that is nothing.
+class NodeTransforms {
+ public:
+  explicit NodeTransforms(const std::vector<Node>& posed) : posed_(posed), kept_at_(posed.size(), -1) {
+    std::vector<bool> is_parent(posed.size(), false);
+    for (const Node& node : posed)
+      if (node.parent >= 0) is_parent[static_cast<std::size_t>(node.parent)] = true;
+    for (std::size_t i = 0; i < posed.size(); ++i) {
+      if (!is_parent[i]) continue;
+      const Mat4d world = of(i);
+      kept_at_[i] = static_cast<std::int32_t>(kept_.size());
+      kept_.push_back(world);
+    }
+  }
+
+  Mat4d of(std::size_t node) const {
+    const Mat4d local = local_matrix(posed_[node]);
+    const int parent = posed_[node].parent;
+    if (parent < 0) return local;
+    return kept_[static_cast<std::size_t>(kept_at_[static_cast<std::size_t>(parent)])] * local;
+  }
+
+ private:
+  const std::vector<Node>& posed_;
+  std::vector<std::int32_t> kept_at_;
+  std::vector<Mat4d> kept_;
+};
+
 std::vector<bool> visible_of(const std::vector<Node>& posed) {
   std::vector<bool> visible;
   visible.reserve(posed.size());
@@ -250,7 +279,7 @@ std::vector<bool> visible_nodes(const Scene& scene, double time_s) {
 std::vector<WorldLight> world_lights(const Scene& scene, double time_s) {
   const std::vector<Node> moved = scene.channels.empty() ? std::vector<Node>() : moved_nodes(scene, time_s);
   const std::vector<Node>& posed = scene.channels.empty() ? scene.nodes : moved;
-  const std::vector<Mat4d> world = transforms_of(posed);
+  const NodeTransforms world(posed);
   const std::vector<bool> visible = visible_of(posed);
   std::vector<WorldLight> out;
   out.reserve(scene.lights.size());
@@ -261,7 +290,7 @@ std::vector<WorldLight> world_lights(const Scene& scene, double time_s) {
       const auto node = static_cast<std::size_t>(light.node);
       const auto channels = channels_of(scene.light_channels, light.definition);
       out.push_back(world_light(channels.empty() ? light : light_at(scene, light, channels, time_s),
-                                static_cast<int>(i), world[node]));
+                                static_cast<int>(i), world.of(node)));
       if (!visible[node]) out.back().range_m = 0.0;
     }
   }
