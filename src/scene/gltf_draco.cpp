@@ -49,7 +49,7 @@ std::vector<double> numbers_of(const draco::Mesh& mesh, const JsonLocation& id, 
   return out;
 }
 
-std::unique_ptr<draco::Mesh> decoded(std::string_view stream, const JsonLocation& extension) {
+std::unique_ptr<draco::Mesh> decoded_mesh(std::string_view stream, const JsonLocation& extension) {
   draco::DecoderBuffer buffer;
   buffer.Init(stream.data(), stream.size());
   draco::Decoder decoder;
@@ -68,7 +68,7 @@ std::unique_ptr<draco::Mesh> decoded(std::string_view stream, const JsonLocation
 
 DracoMesh draco_mesh(std::string_view stream, const JsonLocation& extension,
                      const std::map<std::string, std::size_t>& wanted) {
-  const std::unique_ptr<draco::Mesh> mesh = decoded(stream, extension);
+  const std::unique_ptr<draco::Mesh> mesh = decoded_mesh(stream, extension);
   DracoMesh out;
   out.vertices = mesh->num_points();
   check_memory("vertices of compressed meshes", out.vertices, 16 * sizeof(double), k_fewer_triangles);
