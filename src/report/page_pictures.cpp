@@ -60,7 +60,7 @@ PagePicture picture_of(const Json& entry) {
 
 std::vector<PagePicture> page_pictures(const fs::path& folder, const std::vector<NamedResult>& results) {
   const fs::path index = folder / "pictures.json";
-  const Json document = read_json<Json>(file_text(index), index.string());
+  const Json document = json_or_discarded<Json>(file_text(index));
   const std::set<std::string> ids = case_ids_of(results);
   std::vector<PagePicture> pictures;
   std::uint64_t bytes = 0;
