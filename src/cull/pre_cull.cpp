@@ -22,9 +22,11 @@ struct StepOnLights {
   FrameCull& out;
   std::vector<std::uint32_t>& kept = out.kept;
 
+  // A light of range 0 reaches nothing, and is not in view (grid/lights_in_view.h).
   void operator()(const FrustumStep&) const {
-    const ViewPlanes planes(frame, grid);
-    std::erase_if(kept, [&](std::uint32_t light) { return planes.are_missed_by(ball(light)); });
+    const ViewPlanes planes(frame, grid, ViewPlanes::Depths::camera);
+    std::erase_if(kept,
+                  [&](std::uint32_t light) { return lights.is_empty(light) || planes.are_missed_by(ball(light)); });
   }
 
   void operator()(const DistanceStep& step) const {
@@ -73,13 +75,26 @@ struct StepOnLights {
   geom::Ball ball(std::uint32_t light) const { return lights.bounding_ball(light, k_cull_roundoffs); }
 };
 
+// Of one frame.
 struct IsConservative {
+  const view::Frame& frame;
   const grid::Grid& grid;
+  const view::LightArrays& lights;
+  std::uint32_t removed;  // by the step
 
-  bool operator()(const FrustumStep&) const { return grid.has_tiles(); }
+  // Cells of frustum and distance grids end with the picture's sides, and maybe not with the camera's near and far.
+  bool operator()(const FrustumStep&) const {
+    if (!grid.has_tiles()) return false;
+    const ViewPlanes camera(frame, grid, ViewPlanes::Depths::camera), cells(frame, grid, ViewPlanes::Depths::cells);
+    for (std::uint32_t light = 0; light < lights.size(); ++light) {
+      const geom::Ball ball = lights.bounding_ball(light, k_cull_roundoffs);
+      if (!lights.is_empty(light) && camera.are_missed_by(ball) && !cells.are_missed_by(ball)) return false;
+    }
+    return true;
+  }
   bool operator()(const DistanceStep& step) const { return farthest_of_cells(grid) <= step.distance_m; }
   bool operator()(const VisibleSetStep&) const { return false; }
-  bool operator()(const MostStep&) const { return false; }
+  bool operator()(const MostStep&) const { return removed == 0; }
 };
 
 }  // namespace
@@ -110,17 +125,10 @@ void PreCull::give_source(const view::LightArrays& lights, FrameCull& out) {
   out.lights.source = out.source;
 }
 
-bool PreCull::is_conservative(const grid::Grid& grid) const {
-  for (const Step& step : spec_.steps)
-    if (!std::visit(IsConservative{grid}, step)) return false;
-  return true;
-}
-
-bool PreCull::is_conservative(const grid::Grid& grid, const FrameCull& cull) const {
-  for (std::size_t i = 0; i < spec_.steps.size(); ++i) {
-    const bool is_idle_limit = std::holds_alternative<MostStep>(spec_.steps[i]) && cull.removed[i] == 0;
-    if (!is_idle_limit && !std::visit(IsConservative{grid}, spec_.steps[i])) return false;
-  }
+bool PreCull::is_conservative(const view::Frame& frame, const grid::Grid& grid, const view::LightArrays& lights,
+                              const FrameCull& cull) const {
+  for (std::size_t i = 0; i < spec_.steps.size(); ++i)
+    if (!std::visit(IsConservative{frame, grid, lights, cull.removed[i]}, spec_.steps[i])) return false;
   return true;
 }
 

@@ -41,12 +41,12 @@ class PreCull {
   // Gives what is kept the double-precision numbers that it was rounded from. No engine does that: not timed.
   static void give_source(const view::LightArrays& lights, FrameCull& out);
 
-  // Whether no light is removed that shares a point with a cell of this grid, whatever the frame. By the view's planes:
-  // where cells end with the picture, in frustum and distance grids. By distance: where no cell reaches farther. A
-  // visible set and a limit never are.
-  bool is_conservative(const grid::Grid& grid) const;
-  // The same of the frame that `cull` is of: a limit that has removed nothing loses nothing.
-  bool is_conservative(const grid::Grid& grid, const FrameCull& cull) const;
+  // Whether it removed no light that shares a point with a cell of this grid, in the frame that `cull` is of. By the
+  // view's planes: where cells end with the picture, in frustum and distance grids, and no light is beside the camera's
+  // near and far plane and yet at the depth of a cell. By distance: where no cell reaches farther. A limit that removed
+  // nothing loses nothing. A visible set never is.
+  bool is_conservative(const view::Frame& frame, const grid::Grid& grid, const view::LightArrays& lights,
+                       const FrameCull& cull) const;
 
   std::uint64_t bytes() const;  // of its visible sets
   double build_ns() const;      // what these took

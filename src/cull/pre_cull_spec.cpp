@@ -29,8 +29,9 @@ struct Label {
 std::span<const StepSummary> step_summaries() {
   static constexpr StepSummary k_rows[] = {
       {"frustum",
-       "lights whose sphere (a spot's: around its cone) lies outside of one of the planes around the view are removed; "
-       "loses nothing in frustum and distance grids",
+       "lights whose sphere (a spot's: around its cone) lies outside of one of the camera's six planes are removed, "
+       "and those of range 0; what is left is in view. Loses nothing that a point in view needs, and no pair of "
+       "frustum and distance grids whose slices end with the camera's near and far plane",
        "all engines"},
       {"distance_m",
        "lights that begin farther from the eye are distant ones: drawn, not shaded; loses nothing where no cell "

@@ -9,7 +9,9 @@
 
 namespace clusterbench::cull {
 
-// Lights whose ball (a spot's: around its cone) lies outside of one of the view's planes are removed.
+// Lights whose ball (a spot's: around its cone) lies outside of one of the camera's six planes are removed, whatever
+// depths the grid's slices have, and those of range 0: what is left is in view (grid/lights_in_view.h), up to the
+// padding.
 struct FrustumStep {
   friend bool operator==(const FrustumStep&, const FrustumStep&) = default;
 };

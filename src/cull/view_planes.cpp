@@ -22,11 +22,11 @@ Sides sides_of(const view::Projection& projection, const grid::Grid& grid) {
 
 }  // namespace
 
-ViewPlanes::ViewPlanes(const view::Frame& frame, const grid::Grid& grid) {
+ViewPlanes::ViewPlanes(const view::Frame& frame, const grid::Grid& grid, Depths depths) {
   const view::Projection& projection = frame.projection;
   const Sides sides = sides_of(projection, grid);
   double near = projection.near_m, far = projection.far_m;
-  if (grid.has_tiles()) {
+  if (depths == Depths::cells && grid.has_tiles()) {
     const grid::ScreenGrid& screen = grid.screen();
     // A shell of distance begins at less depth than at distance, away from the view axis.
     near = std::min<double>(near, screen.by_distance ? 0.0f : screen.slices.boundaries.front());

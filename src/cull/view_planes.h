@@ -2,6 +2,7 @@
 // The planes around what a camera sees, as a pre-cull holds lights against them.
 
 #include <array>
+#include <cstdint>
 
 #include "geom/shapes/ball_and_cone.h"
 #include "grid/grid.h"
@@ -17,11 +18,14 @@ inline constexpr float k_cull_roundoffs = 8.0f;
 // In metres, beyond that: what roundoffs of numbers too small for single precision may lose.
 inline constexpr double k_cull_least_m = 0x1p-126;
 
-// The picture's four sides, and the depths from near to far: those of the camera and of the grid's cells together, as
-// slices may begin before the near plane and end beyond the far one. In the grid's space.
+// The picture's four sides, and two depths. In the grid's space.
 class ViewPlanes {
  public:
-  ViewPlanes(const view::Frame& frame, const grid::Grid& grid);
+  // Between which depths. camera: its near and far plane, as engines cull; no sample of the view lies beside them.
+  // cells: these and the grid's slices together, which may begin before the near plane and end beyond the far one.
+  enum class Depths : std::uint8_t { camera, cells };
+
+  ViewPlanes(const view::Frame& frame, const grid::Grid& grid, Depths depths);
 
   // Whether the ball lies wholly outside of one of the planes. A ball outside of an edge or a corner may not.
   bool are_missed_by(const geom::Ball& ball) const;

@@ -7,6 +7,7 @@
 #include "core/clock.h"
 #include "core/memory.h"
 #include "core/random.h"
+#include "grid/lights_in_view.h"
 
 namespace clusterbench::cull {
 namespace {
@@ -45,21 +46,11 @@ bool is_alike(const scene::WorldLight& a, const scene::WorldLight& b) {
 bool touches(const Voxels& voxels, const scene::WorldLight& light) {
   if (!(light.range_m > 0.0)) return false;
   if (!std::isfinite(light.range_m)) return true;
-  const WorldBall ball = ball_around(light);
+  const grid::WorldBall ball = grid::ball_around(light);
   return voxels.are_touched_by(ball.center, ball.radius_m);
 }
 
 }  // namespace
-
-WorldBall ball_around(const scene::WorldLight& light) {
-  if (light.type != scene::LightType::spot) return {light.position, light.range_m};
-  const double cosine = std::cos(light.outer_cone_rad), sine = std::sin(light.outer_cone_rad);
-  if (cosine > sine) {  // below 45 degrees: through the apex and the rim
-    const double radius = light.range_m / (2.0 * cosine);
-    return {light.position + radius * light.direction, radius};
-  }
-  return {light.position + light.range_m * cosine * light.direction, light.range_m * sine};
-}
 
 std::vector<depth::WorldRay> view_rays(const VoxelIndex& view_cell, std::span<const Vec3d> eyes,
                                        const VisibleSetStep& step, const depth::RayCaster& caster, std::uint64_t seed,
@@ -125,7 +116,7 @@ void VisibleSets::find_moving(const scene::Scene& scene, const scene::CameraPath
     for (std::size_t i = 0; i < now.size(); ++i) {
       if (!is_alike(now[i], lights_[i])) moves_[i] = any_moves_ = true;
       if (!std::isfinite(now[i].range_m) || !(now[i].range_m > 0.0)) continue;
-      const WorldBall ball = ball_around(now[i]);
+      const grid::WorldBall ball = grid::ball_around(now[i]);
       lo_ = is_first ? ball.center - ball.radius_m : glm::min(lo_, ball.center - ball.radius_m);
       hi_ = is_first ? ball.center + ball.radius_m : glm::max(hi_, ball.center + ball.radius_m);
       is_first = false;

@@ -24,13 +24,6 @@
 
 namespace clusterbench::cull {
 
-// The ball around a light: of a spot, the smallest around its sphere-capped cone.
-struct WorldBall {
-  Vec3d center{0.0};
-  double radius_m = 0.0;
-};
-WorldBall ball_around(const scene::WorldLight& light);
-
 // The ways from which a view cell's space is seen: `rays` of them, in directions that are spread evenly over the sphere
 // (a Fibonacci lattice, turned at random). Each begins at a random point of the view cell that one of the eyes sees;
 // the eyes take turns. `caster` is posed. Their length is how far they get.

@@ -20,6 +20,24 @@ bool may_be_in_view(const view::Projection& projection, const Vec3d& center, dou
          -beyond(center.y, projection.bottom) <= radius && beyond(center.y, projection.top) <= radius;
 }
 
+WorldBall ball_around(const scene::WorldLight& light) {
+  if (light.type != scene::LightType::spot) return {light.position, light.range_m};
+  const double cosine = std::cos(light.outer_cone_rad), sine = std::sin(light.outer_cone_rad);
+  if (cosine > sine) {  // below 45 degrees: through the apex and the rim
+    const double radius = light.range_m / (2.0 * cosine);
+    return {light.position + radius * light.direction, radius};
+  }
+  return {light.position + light.range_m * cosine * light.direction, light.range_m * sine};
+}
+
+bool is_in_view(const view::Frame& frame, const scene::WorldLight& light) {
+  if (!(light.range_m > 0.0)) return false;
+  if (!std::isfinite(light.range_m)) return true;
+  const WorldBall around = ball_around(light);
+  const Vec3d center = frame.view_space.rotation * (around.center - frame.view_space.origin);
+  return may_be_in_view(frame.projection, center, around.radius_m + slack_of(center, light.range_m));
+}
+
 double slack_of(const Vec3d& center, double range_m) {
   return 0x1p-40 * (glm::length(center) + range_m);
 }
@@ -49,10 +67,8 @@ std::optional<WorldBox> box_around_lights_in_view(const view::Frame& frame) {
   WorldBox all;
   bool is_first = true;
   for (const scene::WorldLight& light : frame.lights) {
-    if (!(light.range_m > 0.0)) continue;
+    if (!is_in_view(frame, light)) continue;
     if (!std::isfinite(light.range_m)) return std::nullopt;
-    const Vec3d center = in_view_space(frame, light);
-    if (!may_be_in_view(frame.projection, center, light.range_m + slack_of(center, light.range_m))) continue;
     const WorldBox box = box_around(light);
     all.lo = is_first ? box.lo : glm::min(all.lo, box.lo);
     all.hi = is_first ? box.hi : glm::max(all.hi, box.hi);

@@ -36,12 +36,8 @@ Tiling doubled_tiles(const Tiling& asked, Vec2i viewport, std::uint64_t lights, 
 }
 
 std::uint64_t count_lights_in_view(const view::Frame& frame) {
-  return static_cast<std::uint64_t>(std::ranges::count_if(frame.lights, [&](const scene::WorldLight& light) {
-    if (!(light.range_m > 0.0)) return false;
-    if (!std::isfinite(light.range_m)) return true;
-    const Vec3d center = in_view_space(frame, light);
-    return may_be_in_view(frame.projection, center, light.range_m + slack_of(center, light.range_m));
-  }));
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(frame.lights, [&](const scene::WorldLight& light) { return is_in_view(frame, light); }));
 }
 
 std::uint64_t lights_with_bits(const Reaction& reaction, const view::Frame& frame) {

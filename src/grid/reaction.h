@@ -37,7 +37,7 @@ std::uint64_t mask_words(const Tiling& tiles, Vec2i viewport, std::uint64_t ligh
 // again, whatever its words.
 Tiling doubled_tiles(const Tiling& asked, Vec2i viewport, std::uint64_t lights, std::uint64_t most);
 
-// Lights whose balls may be in view (lights_in_view.h), spots by theirs; none of range 0.
+// Lights in view (lights_in_view.h).
 std::uint64_t count_lights_in_view(const view::Frame& frame);
 
 // Lights that get a bit.

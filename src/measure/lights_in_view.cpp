@@ -1,26 +1,12 @@
 #include "measure/lights_in_view.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
-#include "cull/visible_sets.h"
 #include "grid/lights_in_view.h"
 #include "scene/light_digest.h"
 
 namespace clusterbench::measure {
-
-bool is_in_view(const view::Frame& frame, const scene::WorldLight& light) {
-  if (!(light.range_m > 0.0)) return false;
-  scene::WorldLight ball = light;
-  if (std::isfinite(light.range_m)) {
-    const cull::WorldBall around = cull::ball_around(light);
-    ball.position = around.center;
-    ball.range_m = around.radius_m;
-  }
-  const Vec3d center = grid::in_view_space(frame, ball);
-  return grid::may_be_in_view(frame.projection, center, ball.range_m + grid::slack_of(center, light.range_m));
-}
 
 void add_frame(LightsInView& counts, const view::Frame& frame) {
   const view::LightRanges ranges = frame.ranges();
@@ -28,7 +14,7 @@ void add_frame(LightsInView& counts, const view::Frame& frame) {
   counts.is_lit.resize(ranges.size());
   counts.is_seen.resize(ranges.size());
   for (std::uint32_t i = 0; i < ranges.size(); ++i) {
-    const bool is_lit = !scene::is_dark(frame.lights[i]), is_here = is_in_view(frame, frame.lights[i]);
+    const bool is_lit = !scene::is_dark(frame.lights[i]), is_here = grid::is_in_view(frame, frame.lights[i]);
     now[ranges.type_of(i)] += is_here ? 1 : 0;
     counts.is_lit[i] = counts.is_lit[i] || is_lit;
     counts.is_seen[i] = counts.is_seen[i] || (is_lit && is_here);

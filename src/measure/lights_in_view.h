@@ -10,12 +10,8 @@
 
 namespace clusterbench::measure {
 
-// Whether the light's bounding sphere (a spot's: around its cone; a box's: around it) reaches into the half-spaces of
-// the camera's six planes, as a frustum cull of lights asks. One outside of an edge or a corner may. A light of range 0
-// never is, one without an end always.
-bool is_in_view(const view::Frame& frame, const scene::WorldLight& light);
-
-// Over the frames of a path. Before any pre-cull: it depends on camera and lights alone, and not on the grid.
+// By grid/lights_in_view.h, over the frames of a path. Before any pre-cull: it depends on camera and lights alone, and
+// not on the grid.
 struct LightsInView {
   std::uint64_t frames = 0, sum = 0;
   std::uint64_t most = 0, frames_with_most = 0;

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "geom/shapes/angle_between.h"
-#include "measure/lights_in_view.h"
+#include "grid/lights_in_view.h"
 
 namespace clusterbench::measure {
 namespace {
@@ -220,7 +220,7 @@ void add_frame(SharingCounts& counts, const view::Frame& frame, const SharingLim
   std::size_t points = 0;
   for (std::uint32_t i = 0; i < frame.lights.size(); ++i) {
     const scene::LightType type = frame.lights[i].type;
-    if (type == scene::LightType::box || !is_in_view(frame, frame.lights[i])) continue;
+    if (type == scene::LightType::box || !grid::is_in_view(frame, frame.lights[i])) continue;
     if (type == scene::LightType::spot)
       spots.push_back(i);
     else

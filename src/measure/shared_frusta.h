@@ -68,7 +68,7 @@ struct SharingCounts {
 
   double saved() const;  // share of the spots' maps; NaN without spots
 };
-// The frame's lights that may be in view (measure/lights_in_view.h).
+// The frame's lights that may be in view (grid/lights_in_view.h).
 void add_frame(SharingCounts& counts, const view::Frame& frame, const SharingLimits& limits);
 
 }  // namespace clusterbench::measure

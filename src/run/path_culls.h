@@ -64,8 +64,10 @@ class CulledRun {
 
   // Null where nothing is culled.
   const cull::FrameCull* cull() const { return pre_cull_->is_none() ? nullptr : &cull_; }
-  // Of this frame: it removes no light of a cell.
-  bool cull_is_conservative() const { return pre_cull_->is_conservative(*grid_, cull_); }
+  // Of the frame that assign() was given last: it removes no light of a cell.
+  bool cull_is_conservative(const view::Frame& frame, const view::LightArrays& lights) const {
+    return pre_cull_->is_conservative(frame, *grid_, lights, cull_);
+  }
 
   bool has_cells() const { return run_.has_cells(); }
   bool has_occupied_cells() const { return run_.has_occupied_cells(); }

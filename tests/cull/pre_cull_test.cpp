@@ -54,6 +54,12 @@ struct Setting {
     PreCull::give_source(lights, out);
     return out;
   }
+  bool is_conservative(const PreCullSpec& steps) {
+    const FrameCull out = culled(steps);
+    const grid::Grid made = grid();
+    const view::LightArrays lights = view::lights_in(frame, grid::space_of(made, frame));
+    return PreCull(steps, {}).is_conservative(frame, made, lights, out);
+  }
   std::vector<std::uint32_t> kept(const PreCullSpec& steps) { return culled(steps).kept; }
 };
 
@@ -66,11 +72,10 @@ TEST(FrustumCull, removes_balls_beyond_each_plane_and_keeps_those_that_touch_it)
     Setting setting(kind);
     setting.spec.slices.near_m = 1.0;
     const double depth = 10.0, r = 2.0, beside = depth + r * k_root;
-    const double near = kind == grid::Kind::distance ? 0.0 : 1.0;  // where shells can begin away from the axis
     for (const double share : {1.0 - 1e-3, 1.0 + 1e-3}) {
       setting.point({beside * share, 0.0, -depth}, r).point({-beside * share, 0.0, -depth}, r);
       setting.point({0.0, beside * share, -depth}, r).point({0.0, -beside * share, -depth}, r);
-      setting.point({0.0, 0.0, -near + r * share}, r).point({0.0, 0.0, -(100.0 + r) * share}, r);
+      setting.point({0.0, 0.0, -1.0 + r * share}, r).point({0.0, 0.0, -(100.0 + r) * share}, r);
     }
     EXPECT_EQ(setting.kept(k_frustum), (Indices{0, 1, 2, 3, 4, 5})) << grid::kind_name(kind);
   }
@@ -106,11 +111,22 @@ TEST(FrustumCull, keeps_what_has_no_end_and_lights_around_the_eye) {
   EXPECT_EQ(setting.kept(k_frustum), (Indices{0, 1}));
 }
 
-TEST(FrustumCull, reaches_as_far_as_the_grid_does) {
+TEST(FrustumCull, ends_with_the_camera_wherever_slices_begin_and_end) {
+  for (const bool is_flat : {false, true}) {
+    Setting setting(grid::Kind::frustum, is_flat);
+    setting.frame.projection.near_m = 5.0;
+    setting.frame.projection.far_m = 20.0;
+    setting.spec.slices.near_m = 0.5;  // and they go on to 50 m
+    setting.point({0.0, 0.0, -1.0}, 3.9).point({0.0, 0.0, -1.0}, 4.1);
+    setting.point({0.0, 0.0, -30.0}, 9.9).point({0.0, 0.0, -30.0}, 10.1);
+    EXPECT_EQ(setting.kept(k_frustum), (Indices{1, 3}));
+  }
+}
+
+TEST(FrustumCull, removes_what_reaches_nothing) {
   Setting setting;
-  setting.frame.projection.far_m = 20.0;  // slices go on to 50 m
-  setting.point({0.0, 0.0, -40.0}, 1.0).point({0.0, 0.0, -52.0}, 1.0);
-  EXPECT_EQ(setting.kept(k_frustum), (Indices{0}));
+  setting.point({0.0, 0.0, -10.0}, 0.0).point({0.0, 0.0, -10.0}, 1e-9);
+  EXPECT_EQ(setting.kept(k_frustum), (Indices{1}));
 }
 
 TEST(DistanceCull, removes_balls_that_begin_beyond_it) {
@@ -124,8 +140,8 @@ TEST(DistanceCull, removes_balls_that_begin_beyond_it) {
 }
 
 TEST(DistanceCull, is_conservative_where_no_cell_ends_farther_away) {
-  const auto is_safe = [](const Setting& setting, double distance_m) {
-    return PreCull({{DistanceStep{distance_m}}}, {}).is_conservative(setting.grid());
+  const auto is_safe = [](Setting setting, double distance_m) {
+    return setting.is_conservative({{DistanceStep{distance_m}}});
   };
   const double corner = 50.0 * std::sqrt(3.0);  // slopes 1 to both sides
   EXPECT_TRUE(is_safe(Setting(), corner * 1.0001));
@@ -138,12 +154,29 @@ TEST(DistanceCull, is_conservative_where_no_cell_ends_farther_away) {
 }
 
 TEST(PreCull, by_planes_is_conservative_where_cells_end_with_the_picture) {
-  const PreCull cull(k_frustum, {});
-  EXPECT_TRUE(cull.is_conservative(Setting().grid()));
-  EXPECT_TRUE(cull.is_conservative(Setting(grid::Kind::distance).grid()));
-  EXPECT_FALSE(cull.is_conservative(Setting(grid::Kind::cascades).grid()));
-  EXPECT_FALSE(cull.is_conservative(Setting(grid::Kind::world).grid()));
-  EXPECT_FALSE(PreCull({{FrustumStep{}, DistanceStep{1.0}}}, {}).is_conservative(Setting().grid())) << "all steps are";
+  EXPECT_TRUE(Setting().is_conservative(k_frustum));
+  EXPECT_TRUE(Setting(grid::Kind::distance).is_conservative(k_frustum));
+  EXPECT_FALSE(Setting(grid::Kind::cascades).is_conservative(k_frustum));
+  EXPECT_FALSE(Setting(grid::Kind::world).is_conservative(k_frustum));
+  EXPECT_FALSE(Setting().is_conservative({{FrustumStep{}, DistanceStep{1.0}}})) << "all steps are";
+}
+
+TEST(PreCull, by_planes_is_conservative_while_no_light_is_at_depths_that_cells_have_and_the_camera_has_not) {
+  const auto setting_with = [](double depth, double range_m) {
+    Setting setting;
+    setting.frame.projection.near_m = 5.0;
+    setting.frame.projection.far_m = 20.0;
+    setting.spec.slices.near_m = 2.0;  // to 50 m
+    setting.point({0.0, 0.0, -depth}, range_m);
+    return setting;
+  };
+  EXPECT_TRUE(setting_with(10.0, 1.0).is_conservative(k_frustum)) << "is in view";
+  EXPECT_FALSE(setting_with(3.0, 1.0).is_conservative(k_frustum)) << "before the near plane, in the first slice";
+  EXPECT_TRUE(setting_with(3.0, 2.5).is_conservative(k_frustum)) << "reaches beyond the near plane";
+  EXPECT_TRUE(setting_with(0.5, 1.0).is_conservative(k_frustum)) << "before the first slice";
+  EXPECT_TRUE(setting_with(3.0, 0.0).is_conservative(k_frustum)) << "reaches nothing";
+  EXPECT_FALSE(setting_with(40.0, 1.0).is_conservative(k_frustum)) << "beyond the far plane, in a slice";
+  EXPECT_TRUE(setting_with(60.0, 1.0).is_conservative(k_frustum)) << "beyond the last slice";
 }
 
 PreCullSpec limit(int lights, MostStep::Keep keep = MostStep::Keep::first, bool per_type = false) {
@@ -197,10 +230,8 @@ TEST(Limit, counts_lights_in_view_behind_a_cull_by_planes) {
 TEST(Limit, is_conservative_in_frames_that_it_removes_nothing_from) {
   Setting setting;
   setting.point({0, 0, -5}, 1).point({0, 0, -6}, 1);
-  const PreCull two({{FrustumStep{}, MostStep{2}}}, {}), one({{FrustumStep{}, MostStep{1}}}, {});
-  EXPECT_FALSE(two.is_conservative(setting.grid()));
-  EXPECT_TRUE(two.is_conservative(setting.grid(), setting.culled(two.spec())));
-  EXPECT_FALSE(one.is_conservative(setting.grid(), setting.culled(one.spec())));
+  EXPECT_TRUE(setting.is_conservative({{FrustumStep{}, MostStep{2}}}));
+  EXPECT_FALSE(setting.is_conservative({{FrustumStep{}, MostStep{1}}}));
 }
 
 TEST(PreCull, steps_follow_each_other_and_each_tells_what_it_removes) {

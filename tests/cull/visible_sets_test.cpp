@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/random.h"
+#include "grid/lights_in_view.h"
 #include "places.h"
 #include "scene/camera_path.h"
 #include "scene/mesh_fixture.h"
@@ -119,7 +120,7 @@ TEST(VisibleSets, a_spots_ball_is_the_one_around_its_cone) {
     spot.range_m = random.between(0.5, 9.0);
     spot.outer_cone_rad = random.between(0.0, M_PI / 2);
     spot.direction = {0.0, 0.6, -0.8};
-    const WorldBall ball = ball_around(spot);
+    const grid::WorldBall ball = grid::ball_around(spot);
     EXPECT_LE(ball.radius_m, spot.range_m * (1.0 + 1e-12));
     const Vec3d across(1.0, 0.0, 0.0);
     for (double angle = -1.0; angle <= 1.0; angle += 0.125)
@@ -290,7 +291,7 @@ TEST_P(OnScene, a_set_is_what_its_rays_pass_through) {
     for (const depth::WorldRay& ray : view_rays(cell, eyes[cell], step, caster, 1, 1))
       add_voxels(voxels, ray, step.voxel_m, farthest);
     for (const scene::WorldLight& light : lights) {
-      const WorldBall ball = ball_around(light);
+      const grid::WorldBall ball = grid::ball_around(light);
       double nearest = std::numeric_limits<double>::infinity();
       for (const VoxelIndex& voxel : voxels) {
         const Vec3d lo = step.voxel_m * Vec3d(static_cast<double>(voxel[0]), static_cast<double>(voxel[1]),
@@ -328,7 +329,7 @@ TEST_P(OnScene, nearly_every_light_that_an_eye_sees_is_kept) {
   int seen = 0, lost = 0;
   for (int trial = 0; trial < 400; ++trial) {
     const std::size_t shot = random.below(path_.shots.size()), light = random.below(lights.size());
-    const WorldBall ball = ball_around(lights[light]);
+    const grid::WorldBall ball = grid::ball_around(lights[light]);
     const double x = random.between(-0.5, 0.5), y = random.between(-0.5, 0.5), z = random.between(-0.5, 0.5);
     const Vec3d eye = path_.shots[shot].pose.eye, to = ball.center + ball.radius_m * Vec3d(x, y, z) - eye;
     bool is_sure = true;

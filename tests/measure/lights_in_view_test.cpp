@@ -6,6 +6,8 @@
 
 #include <limits>
 
+#include "grid/lights_in_view.h"
+
 namespace clusterbench::measure {
 namespace {
 
@@ -35,7 +37,7 @@ scene::WorldLight spot_at(const Vec3d& position, const Vec3d& direction, double 
 }
 
 bool is_seen(const scene::WorldLight& light) {
-  return is_in_view(view_with({light}), light);
+  return grid::is_in_view(view_with({light}), light);
 }
 
 TEST(LightsInView, reach_into_all_six_half_spaces) {
