@@ -302,6 +302,10 @@ export type Result = {
         box: number; // Boxes
       }; // Of each type by itself, in the frame that has most of it [over the worst frame]
     }; // Lights of a frame whose bounding sphere (a spot's: around its cone) reaches into the half-spaces of the camera's six planes, before any pre-cull; the same for all cases of a camera and viewport. What engines' limits of lights are about. Absent in older results [lights]
+    lights_beyond_grid?: {
+      max: number; // In the frame with most; 0: none ever does [over the worst frame]
+      frames: number; // How many frames have such a light [frames, over all frames]
+    }; // Lights in view that may reach a point in view which lies in no cell of the grid. 0: samples beyond the cells lack nothing, however few they are. Absent without cells of the grid and in older results [lights]
     occupancy?: {
       pairs: Spread; // (cell, light) pairs of a frame [pairs, over all frames]
       lights_per_cell: {

@@ -16,7 +16,7 @@ struct PresetLosses {
   std::uint64_t by_limit = 0;   // of lights that a limit removes; those beside the view are no loss and not in here
   std::uint64_t dropped = 0;    // pairs that the storage has no room for
   std::uint64_t limited = 0;    // lights that a limit removes in some frame
-  double outside = 0.0;         // samples that lie beyond its cells
+  double outside = 0.0;         // samples that lie beyond its cells, where a light may be
   double needed = 0.0;          // lights that reach the samples by which it is ranked
   std::optional<double> unlit;  // share of them that is lacking, of the set of samples that lacks most
 

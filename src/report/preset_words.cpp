@@ -104,7 +104,12 @@ std::string undecided_loss(const RankedPreset& row) {
     return "no " + sample_word(row) + " needs a light, so nothing tells whether it loses any that is seen";
   std::string out = "its samples need " + needed_lights_text(row) + ", too few to tell whether ";
   if (row.losses.loses_pairs()) return out + "what it loses is seen";
-  if (row.losses.outside > 0.0) return out + "it loses any beyond its grid, which ends before the view does";
+  if (row.losses.outside > 0.0) {
+    const auto beyond =
+        static_cast<std::uint64_t>(number_at(*row.result_case, "/lights_beyond_grid/max").value_or(0.0));
+    return out + "it loses any beyond its grid, which ends before the view does" +
+           (beyond > 0 ? " (" + number_of(beyond, "light") + " in view may reach there, in the frame with most)" : "");
+  }
   out += "it loses any that is seen";
   return row.losses.is_compared ? out : out + ", and its lists were not compared with the truth";
 }

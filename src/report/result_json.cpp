@@ -482,6 +482,9 @@ Json case_to_json(const run::CaseResult& case_result) {
     out["lights_seen"] = case_result.lights_in_view.seen();
     out["lights_in_view"] = to_json(case_result.lights_in_view);
   }
+  if (case_result.lights_beyond_grid)
+    out["lights_beyond_grid"] = {{"max", case_result.lights_beyond_grid->most},
+                                 {"frames", case_result.lights_beyond_grid->frames}};
   if (case_result.occupancy) out["occupancy"] = occupancy(case_result);
   out["buffers"] = buffers(case_result);
   if (case_result.error) out["error"] = error(case_result);

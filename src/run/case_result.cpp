@@ -82,6 +82,7 @@ CaseResult case_result(const config::Config& config, const Plan& whole, const Ca
   out.lights = static_cast<int>(std::ranges::count_if(
       scene.lights, [](const scene::Light& light) { return light.type != scene::LightType::directional; }));
   out.lights_in_view = counted.lights_in_view;
+  if (method.has_cells && method.has_grid_cells) out.lights_beyond_grid = counted.lights_beyond_grid;
   out.tests_done = method.tests_done;
   out.fallbacks = method.fallbacks;
   if (method.has_cells) out.occupancy = method.occupancy;

@@ -13,6 +13,7 @@
 #include "measure/buffers.h"
 #include "measure/coherence.h"
 #include "measure/depth_ranges.h"
+#include "measure/lights_beyond_grid.h"
 #include "measure/lights_in_view.h"
 #include "measure/list_errors.h"
 #include "measure/lookup.h"
@@ -229,7 +230,8 @@ struct CaseResult {
   std::string preset;                    // config/presets.h; "" for the configuration's own clusterings
   int lights = 0;                        // of the scene that methods get: points, spots, and boxes where asked for
   measure::LightsInView lights_in_view;  // the same for all cases of a camera and viewport
-  std::optional<measure::Occupancy> occupancy;  // with cells
+  std::optional<measure::LightsBeyondGrid> lights_beyond_grid;  // with the grid's cells
+  std::optional<measure::Occupancy> occupancy;                  // with cells
   measure::Buffers buffers;
   std::uint64_t tests_done = 0;                      // over all frames
   std::uint64_t fallbacks = 0;                       // over all frames

@@ -344,6 +344,18 @@ TEST(PresetRanking, a_grid_that_ends_before_the_view_is_not_acquitted_by_few_sam
   EXPECT_NE(why.find("too few to tell whether it loses any beyond its grid"), std::string::npos) << why;
 }
 
+TEST(PresetRanking, a_grid_that_ends_behind_all_lights_is_acquitted_by_few_samples) {
+  Json near = with_few_samples(preset_case("bevy", 1e3, 1e4, 1e5), 60);
+  near["samples"]["opaque"]["unanswered"] = 58;
+  near["lights_beyond_grid"] = {{"max", 1}, {"frames", 1}};
+  EXPECT_EQ(ranking_of_cases(Json::array({near}))["cases"][0]["standing"], "unknown");
+  near["lights_beyond_grid"] = {{"max", 0}, {"frames", 0}};
+  EXPECT_EQ(ranking_of_cases(Json::array({near}))["cases"][0]["standing"], "lists");
+  near["cost"]["sets"]["mirror"] = {{"samples", 1e3}};  // beside the view nothing is known
+  near["samples"]["mirror"] = near["samples"]["opaque"];
+  EXPECT_EQ(ranking_of_cases(Json::array({near}))["cases"][0]["standing"], "unknown");
+}
+
 TEST(PresetRanking, lights_that_a_limit_leaves_out_beyond_the_grid_count_too) {
   Json limited = over_a_limit(preset_case("filament", 1e3, 1e4, 1e5));
   limited["error"]["false_negatives"] = 0;  // they have no cells

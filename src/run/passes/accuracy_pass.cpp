@@ -63,6 +63,7 @@ class MethodMeter {
     measures_.fallbacks += run_.fallbacks();
     if (!measures_.has_cells) return;
     lists_ = &run_.cell_lists();
+    measures_.has_grid_cells = !run_.has_occupied_cells();
     if (!occupancy_) occupancy_.emplace(0);
     if (now.is_new_grid)
       occupancy_->set_real_cells(run_.has_occupied_cells() ? lists_->cell_count() : real_cells(grid));
@@ -333,6 +334,7 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
     on_frame(index);
     const PreparedFrame now = prepare(config, group, path, samples, grids, index, needs_truth);
     measure::add_frame(result.lights_in_view, now.frame);
+    measure::add_frame(result.lights_beyond_grid, now.frame, grids.grid());
     if (moves) moves->add(grids.grid().screen(), path.spans(spec)[static_cast<std::size_t>(index)]);
     for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));
     if (shadows) shadows->start(now.frame);

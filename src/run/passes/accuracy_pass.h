@@ -16,7 +16,8 @@ namespace clusterbench::run {
 // What a method answers, whatever keeps its lists.
 struct MethodMeasures {
   Method method;
-  bool has_cells = true;  // without: neither occupancy nor error
+  bool has_cells = true;       // without: neither occupancy nor error
+  bool has_grid_cells = true;  // its cells are those of the grid, and not its own
   measure::Occupancy occupancy;
   measure::ErrorCounts error;  // of the lists, before a storage drops anything
   std::uint64_t tests_done = 0, fallbacks = 0;
@@ -39,6 +40,7 @@ struct AccuracyResult {
   std::vector<StructureMeasures> structures;  // one per case of the group
   std::vector<measure::PackingLoss> losses;   // one per precision of the configuration; none if it has float32 alone
   measure::LightsInView lights_in_view;
+  measure::LightsBeyondGrid lights_beyond_grid;
   std::optional<measure::DepthRanges> depth_ranges;  // of visible surfaces in a frustum grid, where asked for
   std::optional<measure::SharingCounts> sharing;     // of shadow maps, where asked for
   std::optional<GridMoves> moves;                    // of a grid that follows what frames need
