@@ -44,14 +44,14 @@ constexpr Preset k_engines[] = {
      .approximated =
          "far is that of the frame's own lights, where it has that of the frame before; cones are held against the "
          "sphere "
-         "around a cell, where it takes the one around the cell's box; a cell's header has 8 bytes, where its has 32",
+         "around a cell, where it takes the one around the cell's box",
      .unverified = "",
      .assigns_on = AssignsOn::cpu,
      .parts = R"({"grid": {"kind": "frustum", "slices":
                  {"scheme": "exponential-first", "count": 24, "first": 5, "orthographic": "linear", "fit": {"to": "ranges"}},
                  "react": {"to": "entries", "most": 16384, "of": "sphere-refinement"}},
                  "assigner": {"name": "sphere-refinement", "spot": "cone-sphere", "columns": "nearest"},
-                 "storage": {"name": "packed", "index_bits": "32"}})",
+                 "storage": {"name": "packed", "index_bits": "32", "header_size": 32}})",
      .mistakes = "the row of a light's centre is taken once and not again in each slice; nothing is padded",
      .as_shipped = R"({"grid": {"react": {"of": "bevy-refinement"}}, "assigner": {"name": "bevy-refinement"}})",
      .tiles = bevy_tiles},
@@ -63,15 +63,14 @@ constexpr Preset k_engines[] = {
      .summary =
          "the clusters of `bevy`; per slice, inside the light's rectangle, sphere against the cell's box, and cones "
          "against the sphere around that box",
-     .approximated = "far is that of the frame's own lights; cones are held against the sphere around a cell; a cell's "
-                     "header has 8 "
-                     "bytes, where its has 32; columns and rows do not follow what its buffers have room for",
+     .approximated = "far is that of the frame's own lights; cones are held against the sphere around a cell; columns "
+                     "and rows do not follow what its buffers have room for",
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "slices":
                  {"scheme": "exponential-first", "count": 24, "first": 5, "orthographic": "linear", "fit": {"to": "ranges"}}},
                  "assigner": {"name": "aabb", "spot": "cone-sphere"},
-                 "storage": {"name": "packed", "index_bits": "32"}})",
+                 "storage": {"name": "packed", "index_bits": "32", "header_size": 32}})",
      .tiles = bevy_tiles},
     {.name = "godot",
      .engine = "Godot 4",

@@ -210,9 +210,9 @@ struct HeaderCode {
 };
 HeaderCode header_code(const SizedBuffer& headers, bool has_boxes) {
   const std::uint64_t words = headers.element_bytes / 4, of_counts = words - 1 - (has_boxes ? 1 : 0);
-  if (headers.element_bytes % 4 != 0 || of_counts < 1 || of_counts > 2) return {};
-  std::string counts = of_counts == 1 ? k_narrow_counts : k_wide_counts;
-  if (has_boxes) counts += "  list.boxes = P_headers_word(at + " + std::to_string(words - 1) + "u);\n";
+  if (headers.element_bytes % 4 != 0 || of_counts < 1) return {};
+  std::string counts = of_counts == 1 ? k_narrow_counts : k_wide_counts;  // with more than 2 the rest is not of lights
+  if (has_boxes) counts += "  list.boxes = P_headers_word(at + " + std::to_string(of_counts == 1 ? 2 : 3) + "u);\n";
   return {counts, words};
 }
 

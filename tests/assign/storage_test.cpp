@@ -149,6 +149,28 @@ TEST(Packed, counts_8_bytes_per_cell_and_the_index_width_per_pair) {
   }
 }
 
+// Bevy's has 32 bytes.
+TEST(Packed, a_header_can_be_larger_than_its_counts_and_is_never_smaller) {
+  const Lists lists = lists_from({{0, 7}, {}, {1, 2, 6}});
+  constexpr std::pair<double, std::uint64_t> k_sizes[] = {{0, 8}, {4, 12}, {12, 12}, {30, 32}, {32, 32}, {256, 256}};
+  for (const auto& [asked, bytes] : k_sizes) {
+    const auto packed = storage("packed", {{"index_bits", std::string("32")}, {"header_size", asked}});
+    packed->start(3, {5, 3});
+    packed->store(lists);
+    EXPECT_EQ(packed->use().header_bytes, 3 * bytes) << asked;
+    EXPECT_EQ(packed->use().upload_bytes, 3 * bytes + 20) << asked;
+    EXPECT_EQ(packed->limit().bytes, 3 * bytes + 24 * 4) << asked;
+    EXPECT_EQ(packed->buffers()[1].element_bytes, bytes) << asked;
+    EXPECT_EQ(packed->reads_of_cell(0).bytes, bytes + 8) << asked;
+    EXPECT_EQ(packed->expanded(), lists) << asked;
+  }
+  const auto with_boxes = storage("packed", {{"header_size", 4.0}});
+  with_boxes->start(3, {4, 2, 2});
+  with_boxes->store(lists);
+  EXPECT_EQ(with_boxes->use().header_bytes, 48u);
+  EXPECT_EQ(with_boxes->expanded(), lists);
+}
+
 TEST(Packed, a_forced_width_that_cannot_hold_the_rig_is_refused) {
   const auto packed = storage("packed", {{"index_bits", std::string("8")}});
   EXPECT_NO_THROW(packed->start(1, {256, 0}));

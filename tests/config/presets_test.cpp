@@ -163,6 +163,8 @@ TEST(Presets, what_fits_into_a_cell_is_what_the_engines_have_room_for) {
   EXPECT_EQ(std::get<std::string>(resolved("filament").storage->params.values().at("equal_lists")), "shared");
   EXPECT_EQ(std::get<double>(resolved("filament").storage->params.values().at("max_entries")), 65534.0)
       << "of 65535 records the last is never used";
+  for (const char* name : {"bevy", "bevy-gpu"})
+    EXPECT_EQ(std::get<double>(resolved(name).storage->params.values().at("header_size")), 32.0) << name;
   EXPECT_EQ(std::get<std::string>(resolved("just-cause-3").storage->params.values().at("index_bits")), "16");
 }
 

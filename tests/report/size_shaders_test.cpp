@@ -470,6 +470,20 @@ Encoded packed(const CellLists& lists, std::uint32_t bytes, bool is_wide, bool h
   return out;
 }
 
+// The same headers of 8 words, whose last ones are of no light.
+Encoded with_room_in_headers(Encoded wide) {
+  const std::vector<std::uint32_t> tight = wide.buffers[1].second;
+  const std::size_t words = wide.element_bytes[1] / 4;
+  wide.buffers[1].second.clear();
+  for (std::size_t i = 0; i < tight.size(); ++i) {
+    wide.buffers[1].second.push_back(tight[i]);
+    if (i % words + 1 == words) wide.buffers[1].second.insert(wide.buffers[1].second.end(), 8 - words, 77);
+  }
+  wide.element_bytes[1] = 32;
+  wide.name += " in 32 bytes";
+  return wide;
+}
+
 // Appends a number of so many bytes to words that hold `count` of them so far.
 void append_number(std::vector<std::uint32_t>& words, std::uint32_t& count, std::uint32_t bytes, std::uint32_t number) {
   if (count * bytes / 4 >= words.size()) words.push_back(0);
@@ -523,6 +537,8 @@ std::vector<Encoded> encodings(const CellLists& lists, bool has_boxes) {
   for (const std::uint32_t bytes : {1u, 2u, 4u})
     for (const bool is_wide : {false, true})
       for (const bool is_sparse : {false, true}) all.push_back(packed(lists, bytes, is_wide, has_boxes, is_sparse));
+  for (const bool is_sparse : {false, true})
+    all.push_back(with_room_in_headers(packed(lists, 4, true, has_boxes, is_sparse)));
   const auto cells = static_cast<std::uint32_t>(lists.size());
   Encoded fixed{"fixed", "fixed(cap=8)", {}, {1, 4}, {cells * 8, cells}},
       bits{"bits", "bitfield", {}, {4}, {cells * 2}}, linked{"linked", "linked", {}, {8, 4}, {0, cells}};

@@ -18,7 +18,8 @@ namespace {
 
 // offset u32 + point count u16 + spot count u16 per cell; 12 bytes with u32 counts where the rig has lights of one type
 // that 16 bits cannot count: a shader reads one format, so it follows from the lights and not from a frame's lists.
-// Where the rig has boxes one more u32 follows, their count: 12 or 16 bytes. Sparse: only for cells with lights; a
+// Where the rig has boxes one more u32 follows, their count: 12 or 16 bytes. With header_size counts are u32, and what
+// is left of the header is that of other kinds of objects (Bevy's has 32 bytes). Sparse: only for cells with lights; a
 // shader finds them through one block per 32 cells, {mask u32, rank u32}: header rank + the number of mask bits below
 // the cell's. Shared: a list that equals that of the cell before it or of the cell a row before it is not written
 // again. With max_entries the index list begins with all lights that are in any list of the frame, and when a list has
@@ -29,7 +30,8 @@ class Packed final : public Storage {
       : wanted_bits_(params.text("index_bits")),
         is_sparse_(params.text("headers") == "sparse"),
         shares_(params.text("equal_lists") == "shared"),
-        max_entries_(static_cast<std::uint64_t>(params.number("max_entries"))) {}
+        max_entries_(static_cast<std::uint64_t>(params.number("max_entries"))),
+        least_header_size_((static_cast<std::uint32_t>(params.number("header_size")) + 3) / 4 * 4) {}
 
   void start(std::uint32_t cell_count, const view::LightRanges& lights) override {
     lights_ = lights.size();
@@ -50,7 +52,7 @@ class Packed final : public Storage {
     cell_count_ = cell_count;
     is_in_a_list_.assign(has_limit() ? lights_ : 0, false);
     check_memory("headers of packed lists", cell_count, sizeof(Header));
-    is_wide_ = has_wide_counts();
+    is_wide_ = has_wide_counts() || least_header_size_ > 0;
     headers_.resize(is_wide_ ? 0 : cell_count);
     wide_headers_.resize(is_wide_ ? cell_count : 0);
     box_counts_.resize(has_boxes() ? cell_count : 0);
@@ -144,8 +146,9 @@ class Packed final : public Storage {
   bool has_boxes() const { return lights_ > points_ + spots_; }
   // The one source of how wide headers are: of use(), limit(), buffers() and what samples read.
   std::uint32_t header_size() const {
-    return static_cast<std::uint32_t>((is_wide_ ? sizeof(WideHeader) : sizeof(Header)) +
-                                      (has_boxes() ? sizeof(std::uint32_t) : 0));
+    const auto least = static_cast<std::uint32_t>((is_wide_ ? sizeof(WideHeader) : sizeof(Header)) +
+                                                  (has_boxes() ? sizeof(std::uint32_t) : 0));
+    return std::max(least, least_header_size_);
   }
 
   bool has_limit() const { return max_entries_ > 0; }
@@ -269,6 +272,7 @@ class Packed final : public Storage {
   std::vector<Block> blocks_;
   IndexArray indices_;
   std::uint64_t max_entries_;                  // 0: no limit
+  std::uint32_t least_header_size_;            // 0: as wide as needed
   std::vector<std::uint32_t> kept_, kept_at_;  // where lists are chosen: those that are written, and each cell's begin
   std::uint32_t full_from_ = std::numeric_limits<std::uint32_t>::max();  // the first cell whose list has no room
   std::size_t all_lights_ = 0;                                           // entries of the first list; with a limit
@@ -316,6 +320,18 @@ const StorageDescriptor packed_descriptor{
                 .unit = "entries",
                 .min = 0.0,
                 .max = 4294967295.0,
+                .choices = {},
+                .whole = true,
+                .is_late = true},
+               {.name = "header_size",
+                .summary =
+                    "bytes of a cell's header, rounded up to 4; 0: as few as the offset and the counts take. In a "
+                    "header of a given size offset and counts have 32 bits each, and the rest is what an engine "
+                    "keeps there of other objects (Bevy: 32)",
+                .standard = 0.0,
+                .unit = "bytes",
+                .min = 0.0,
+                .max = 256.0,
                 .choices = {},
                 .whole = true,
                 .is_late = true}},
