@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/presets.h"
 #include "report/json_values.h"
 
 namespace clusterbench::report {
@@ -94,50 +95,57 @@ std::optional<std::uint64_t> most_found(const SizedStructure& structure, Needed 
 
 }  // namespace
 
-// From public code and documentation of the versions named.
+// From public code and documentation of the versions that the presets are of.
 const std::vector<EngineRow>& engine_rows() {
   static const std::vector<EngineRow> rows{
       {"godot",
-       "Godot 4, Project Settings",
+       "Project Settings",
        "",
        {{"rendering/limits/cluster_builder/max_clustered_elements", Needed::lights_of_type, 512, 32, 8192, 32}},
        "of each type (omni lights, spot lights, decals, reflection probes) elements beyond it are not drawn"},
       {"playcanvas",
-       "PlayCanvas engine 2, scene.lighting (LightingParams)",
+       "scene.lighting (LightingParams)",
        "scene.lighting.cells = new pc.Vec3(X, Y, Z)",
        {{"scene.lighting.maxLightsPerCell", Needed::longest_list, 255, 1, 255},
         {"lights of a frame, which 8 bits number", Needed::lights_in_view, 255, 1, 255, 1, true}},
        "a full cell takes no more lights, and a frame no more than 255"},
       {"three-js",
-       "three.js r187, examples/jsm/lighting/ClusteredLighting.js",
+       "examples/jsm/lighting/ClusteredLighting.js",
        "new ClusteredLighting(maxLights, tileSize = P, zSlices = Z, maxLightsPerCluster)",
        {{"maxLights", Needed::lights_in_scene, 1024, 1, k_any},
         {"maxLightsPerCluster", Needed::longest_list, 64, 1, k_any}},
        "lights of the scene beyond maxLights are not drawn, in view or not; a full cluster keeps the farthest lights"},
       {"bevy",
-       "Bevy 0.19, GlobalClusterSettings and ClusterConfig of a camera",
+       "GlobalClusterSettings and ClusterConfig of a camera",
        "ClusterConfig::XYZ { dimensions: UVec3::new(X, Y, Z), .. }",
        {{"GlobalClusterSettings::view_cluster_bindings_max_indices", Needed::entries, 16384, 1, k_any}},
-       "with storage buffers lists grow; without, tiles grow in the next frames until lists fit (dynamic_resizing)"},
+       "after a frame with more, tiles grow until lists fit (dynamic_resizing); that frame itself is whole with "
+       "storage buffers, and lacks entries without"},
       {"bevy-gpu",
-       "Bevy 0.19, GlobalClusterGpuSettings",
+       "GlobalClusterGpuSettings",
        "ClusterConfig::XYZ { dimensions: UVec3::new(X, Y, Z), .. }",
        {{"GlobalClusterSettings::gpu_clustering.initial_index_list_capacity", Needed::entries, 0, 1, k_any}},
        "the list grows after a few frames that lack lights"},
       {"ogre-next",
-       "OGRE-Next 2.3 and later, SceneManager",
+       "SceneManager, as since 2.3",
        "setForwardClustered(true, X, Y, Z, lightsPerCell, decalsPerCell, cubemapProbesPerCell, minDistance, "
        "maxDistance)",
        {{"lightsPerCell", Needed::longest_list, 96, 1, k_any}},
        "a full cell takes no more lights"},
       {"unity-urp",
-       "Unity URP 14 and later, package com.unity.render-pipelines.universal-config",
+       "package com.unity.render-pipelines.universal-config, as since URP 14",
        "",
        {{"MAX_VISIBLE_LIGHT_COUNT_DESKTOP (ShaderConfig.cs.hlsl) and k_MaxVisibleLightCountDesktop (ShaderConfig.cs)",
          Needed::lights_in_view, 256, 1, 256}},
        "lights beyond it are not drawn; on mobile platforms the limits are 32 and 16"},
   };
   return rows;
+}
+
+std::string version_text(const EngineRow& row) {
+  const config::Preset& preset = *config::find_preset(row.preset);
+  const std::string engine = preset.engine;
+  return engine.substr(0, engine.find(',')) + " (" + preset.version + "), " + row.settings;
 }
 
 const EngineRow* row_of_engine(const std::string& name) {

@@ -26,7 +26,8 @@ struct LimitSetting {
 };
 
 struct EngineRow {
-  const char *preset, *version;
+  const char* preset;    // of which it is in all else: engine, version
+  const char* settings;  // where they are set
   const char* grid;  // the call or member that the grid is set with: X, Y, Z stand for the cells, P for a tile's pixels
   std::vector<LimitSetting> limits;
   const char* beyond;  // what happens beyond the limit
@@ -35,6 +36,8 @@ struct EngineRow {
 inline constexpr std::uint64_t k_any = 0xffffffff;  // `most` of a setting that takes as much as is asked for
 
 const std::vector<EngineRow>& engine_rows();
+// "Bevy (0.20-dev of August 2026), GlobalClusterGpuSettings": the engine and the version that the preset is of.
+std::string version_text(const EngineRow& row);
 // What a search has to make large for it, by its name in `worst-case --measure`; "": nothing that a search changes.
 std::string measure_of(Needed needed);
 // nullptr: no such row.

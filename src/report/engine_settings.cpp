@@ -224,7 +224,7 @@ std::string engine_settings_text(const std::string& engine, const std::vector<Si
   const EngineRow& row = *row_of_engine(engine);
   std::string out;
   for (const SizedStructure& structure : structures) {
-    out += shown(structure.name) + "\n  " + row.version + "\n";
+    out += shown(structure.name) + "\n  " + version_text(row) + "\n";
     if (const std::string grid = grid_text(row, structure); !grid.empty()) out += "  " + grid + "\n";
     for (const LimitSetting& setting : row.limits)
       out += setting_lines(value_of(setting, structure, rules), structure, rules);
@@ -238,8 +238,10 @@ std::string engine_settings_text(const std::string& engine, const std::vector<Si
 
 Json engine_settings_json(const std::string& engine, const SizedStructure& structure, const AllocationRules& rules) {
   const EngineRow& row = *row_of_engine(engine);
-  Json out{
-      {"engine", engine}, {"version", row.version}, {"grid", grid_text(row, structure)}, {"limits", Json::array()}};
+  Json out{{"engine", engine},
+           {"version", version_text(row)},
+           {"grid", grid_text(row, structure)},
+           {"limits", Json::array()}};
   for (const LimitSetting& setting : row.limits) {
     const SettingValue value = value_of(setting, structure, rules);
     Json entry{{"name", setting.name}, {"needed", unit_of(setting.needed)}};
