@@ -5,7 +5,7 @@ import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case, Run } from "./model.ts";
-import { chart, chartWidth, Plot } from "./plots.ts";
+import { chart, chartWidth, namesAside, Plot } from "./plots.ts";
 import type { Maybe } from "./result.ts";
 import type { Section, View } from "./view.ts";
 
@@ -45,7 +45,7 @@ function ratios(view: View, rows: Both[], first: Run, second: Run): Element {
   return chart(`Frame time of ${second.label} by that of ${first.label}, ${format.plural(timed.length, "case")}`, {
     width: chartWidth(),
     height: 66 + 22 * methods.length,
-    marginLeft: 170,
+    ...namesAside(methods, chartWidth(), "method"),
     x: {
       type: "log",
       domain: [1 / most, most],
@@ -54,7 +54,6 @@ function ratios(view: View, rows: Both[], first: Run, second: Run): Element {
       tickFormat: (value: number) => format.decimal(value),
       grid: true,
     },
-    y: { domain: methods, label: null, tickSize: 0 },
     marks: [
       Plot.ruleX([1], { stroke: "var(--ink-2)" }),
       Plot.dot(timed, {

@@ -3,6 +3,13 @@
 export type Child = Node | string | null | undefined | false;
 type Props = Record<string, string | number | boolean | null | undefined | ((event: Event) => void)>;
 
+// A name of the tool, which may be broken between its parts only: "packed(", "index_bits=", "32)".
+export function breakable(name: string): DocumentFragment {
+  const made = document.createDocumentFragment();
+  for (const part of name.split(/(?<=[(,=_/+|:])/)) made.append(part, document.createElement("wbr"));
+  return made;
+}
+
 // h("button", {class: "quiet", onclick: f, hidden: true}, "Copy"). Functions are listeners, true is a bare attribute,
 // false, null and undefined none.
 export function h<K extends keyof HTMLElementTagNameMap>(

@@ -23,7 +23,7 @@ function saved(label: string, about: string, of: (fit: Fit) => Maybe | undefined
 
 const columns: Column<Row>[] = [
   { label: "method", value: ({ aCase }) => aCase.assigner },
-  { label: "storage", value: ({ aCase }) => aCase.raw.storage },
+  { label: "storage", value: ({ aCase }) => aCase.storage },
   { label: "scene", value: ({ aCase }) => aCase.scene },
   { label: "grid", value: ({ aCase }) => aCase.grid },
   {

@@ -21,8 +21,16 @@ function conclusions(model: Model): HTMLElement[] {
   );
   const more = all.length - most;
   return [...all.slice(0, most), ...(more > 0 ? [`and ${plural(more, "more conclusion")} in the results`] : [])].map(
-    (text) => h("p", { class: "conclusion" }, text),
+    conclusionView,
   );
+}
+
+// One line: what to take. What it costs and how sure that is stands behind it.
+function conclusionView(text: string): HTMLElement {
+  const [, line, rest] = /^(.*?[^.;])[.;] +(.*)$/s.exec(text) ?? [];
+  return line && rest
+    ? h("details", { class: "conclusion" }, h("summary", {}, line), h("p", {}, rest))
+    : h("p", { class: "conclusion" }, text);
 }
 
 export function header(model: Model): HTMLElement {

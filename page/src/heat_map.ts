@@ -6,7 +6,7 @@ import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
 import { meanOf } from "./overall.ts";
-import { chart, multiples, Plot } from "./plots.ts";
+import { chart, columnWidth, multiples, Plot } from "./plots.ts";
 import type { Grid, Maybe } from "./result.ts";
 import type { Section } from "./view.ts";
 
@@ -92,14 +92,14 @@ function map(cells: Cell[], measure: Measure, range: [number, number]): Element 
   return chart(
     `${measure.label} of ${cells.length} combinations of tiling and slicing, the same colours from ${measure.show(range[0])} to ${measure.show(range[1])}`,
     {
-      width: names + 84 * tilings.length + 8,
-      height: 32 + 28 * slicings.length,
+      width: names + columnWidth() * tilings.length + 8,
+      height: 52 + 28 * slicings.length,
       marginLeft: names,
       marginRight: 8,
-      marginTop: 28,
+      marginTop: 48,
       marginBottom: 4,
-      x: { domain: tilings, axis: "top", label: null, tickSize: 0 },
-      y: { domain: slicings, label: null, tickSize: 0 },
+      x: { domain: tilings, axis: "top", label: "tiling", labelArrow: "none", tickSize: 0 },
+      y: { domain: slicings, label: "slicing", labelAnchor: "top", labelArrow: "none", tickSize: 0 },
       marks: [
         Plot.cell(cells, {
           x: "tiling",

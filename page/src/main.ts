@@ -12,6 +12,7 @@ import { heatMapSection } from "./heat_map.ts";
 import { modelOf } from "./model.ts";
 import { paletteOf } from "./palette.ts";
 import { picturesSection } from "./pictures.ts";
+import { drawForPaper } from "./plots.ts";
 import { precisionSection } from "./precision.ts";
 import { presetsSection } from "./presets.ts";
 import { rankingSection } from "./ranking.ts";
@@ -53,6 +54,16 @@ function redrawOnResize(view: View): void {
   });
 }
 
+function redrawForPrint(view: View): void {
+  const draw = (isPaper: boolean) => {
+    drawForPaper(isPaper);
+    for (const details of document.querySelectorAll<HTMLDetailsElement>("details.conclusion")) details.open = isPaper;
+    view.redraw();
+  };
+  window.addEventListener("beforeprint", () => draw(true));
+  window.addEventListener("afterprint", () => draw(false));
+}
+
 function show(data: PageData): void {
   const model = modelOf(data);
   const view = new View(model, paletteOf(model));
@@ -68,6 +79,7 @@ function show(data: PageData): void {
   main.append(...sections.map((section) => mount(section, view)));
   main.before(contents(main));
   redrawOnResize(view);
+  redrawForPrint(view);
 }
 
 show(JSON.parse(document.getElementById("results")!.textContent!) as PageData);

@@ -6,12 +6,38 @@ import { h } from "./dom.ts";
 export { Plot };
 
 const fewestPixels = 280;
+const paper = 680; // of A4 between the margins of style.css
+let isOnPaper = false;
+
+// Charts are drawn anew for paper: those of a wide screen would be too small to read there.
+export function drawForPaper(isPaper: boolean): void {
+  isOnPaper = isPaper;
+}
+
+// Pixels that one column of a map takes.
+export const columnWidth = () => (isOnPaper ? 40 : 84);
 
 // Room for one of `columns` charts side by side, as style.css lays them out.
 export function chartWidth(columns = 1): number {
-  const page = Math.min(document.documentElement.clientWidth - 48, 1432) - 34; // less a figure's own frame
-  const most = Math.max(1, Math.min(columns, Math.floor(page / 360)));
+  const page = isOnPaper ? paper : Math.min(document.documentElement.clientWidth - 48, 1432) - 34; // less a figure's frame
+  const most = Math.max(1, Math.min(columns, Math.floor(page / (isOnPaper ? 300 : 360))));
   return Math.max(fewestPixels, Math.floor((page - 24 * (most - 1)) / most));
+}
+
+// The scale of names to the left of a chart, with as much of them as half of its width holds, under the axis' label.
+export function namesAside(
+  names: string[],
+  width: number,
+  label: string,
+): { y: Plot.ScaleOptions; marginLeft: number } {
+  const letter = 6.6;
+  const longest = names.reduce((most, name) => Math.max(most, name.length), 0);
+  const most = Math.min(longest, Math.floor(width / 2 / letter) - 2);
+  const tickFormat = (name: string) => (name.length > most ? `…${name.slice(1 - most)}` : name);
+  return {
+    y: { domain: names, label, labelAnchor: "top", labelArrow: "none", tickSize: 0, tickFormat },
+    marginLeft: Math.max(60, 14 + letter * most),
+  };
 }
 
 // One chart. `says` is what it would say to someone who cannot see it.

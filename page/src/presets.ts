@@ -53,12 +53,14 @@ const columns: Column<Row>[] = [
   },
   {
     label: "upload µs",
+    isScreenOnly: true,
     about: "Of the lists, where the engine makes them on the CPU",
     value: ({ line }) => line.upload_ns ?? null,
     show: ({ line }) => format.microseconds(line.upload_ns ?? null),
   },
   {
     label: "read µs",
+    isScreenOnly: true,
     about: "What samples read to know their lights",
     value: ({ line }) => line.read_ns ?? null,
     show: ({ line }) => format.microseconds(line.read_ns ?? null),
@@ -71,6 +73,7 @@ const columns: Column<Row>[] = [
   },
   {
     label: "longest",
+    isScreenOnly: true,
     about: "List, in any cell and frame",
     value: ({ aCase }) => aCase.longest,
     show: ({ aCase }) => format.whole(aCase.longest),
@@ -83,12 +86,14 @@ const columns: Column<Row>[] = [
   },
   {
     label: "dropped",
+    isScreenOnly: true,
     about: "Pairs that its storage has no room for, seen or not",
     value: ({ aCase }) => aCase.dropped,
     show: ({ aCase }) => format.short(aCase.dropped),
   },
   {
     label: "missed",
+    isScreenOnly: true,
     about: "True pairs that its method or a limit of lights leaves out, seen or not; without lights beside the view",
     value: ({ line }) => line.missed_in_view ?? null,
     show: ({ line }) => format.whole(line.missed_in_view ?? null),
@@ -101,6 +106,7 @@ const columns: Column<Row>[] = [
   },
   {
     label: "assign µs",
+    isScreenOnly: true,
     about: "On one core of this machine, of engines that assign on the CPU: of others a time here would not be theirs",
     value: ({ aCase, facts }) => (facts?.assigns_on === "gpu" ? null : aCase.assignNs),
     show: ({ aCase, facts }) => (facts?.assigns_on === "gpu" ? "GPU" : format.microseconds(aCase.assignNs)),
@@ -121,8 +127,8 @@ const factColumns: Column<Facts>[] = [
   { label: "engine", value: (facts) => facts.engine },
   { label: "version", about: "Of the engine, that the preset follows", value: (facts) => facts.version ?? null },
   { label: "evidence", about: "How its scheme is known", value: evidenceText },
-  { label: "scheme", value: (facts) => facts.summary },
-  { label: "read in", value: (facts) => facts.source },
+  { label: "scheme", isScreenOnly: true, value: (facts) => facts.summary },
+  { label: "read in", isScreenOnly: true, value: (facts) => facts.source },
   { label: "approximated here", value: (facts) => facts.approximated || null },
   { label: "unverified", value: (facts) => facts.unverified || null },
 ];

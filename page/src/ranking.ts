@@ -1,6 +1,6 @@
 // The ranking: of one scene every case, over all scenes every method on every grid.
 
-import { h } from "./dom.ts";
+import { breakable, h } from "./dom.ts";
 import * as format from "./format.ts";
 import { copyButton, csv, downloadButton } from "./handover.ts";
 import { type Case, isRankedByCost } from "./model.ts";
@@ -11,7 +11,7 @@ import { type Column, type Table, tableView } from "./table.ts";
 import type { Section, View } from "./view.ts";
 
 function method(view: View, row: Pick<Case, "assigner" | "family" | "isFast">): HTMLElement {
-  return h("span", { class: "method" }, icon(view.palette(row)), row.assigner);
+  return h("span", { class: "method" }, icon(view.palette(row)), h("span", {}, breakable(row.assigner)));
 }
 
 function interval(row: Case): string {
@@ -88,6 +88,7 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     },
     rows.some((row) => row.dropped > 0) && {
       label: "lost lx",
+      isScreenOnly: true,
       about: "Irradiance that samples lack, mean; of the one that lacks most at the pointer",
       value: (row) => row.lostLux,
       show: (row) => lost(format.decimal(row.lostLux), !!row.lostLux, `at most ${format.decimal(row.worstLux)} lx`),
@@ -106,6 +107,7 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     },
     rows.some((row) => row.isSearched) && {
       label: "read",
+      isScreenOnly: true,
       about:
         "Bytes of the light structure that a sample reads to know its lights. Structures that samples search (a hierarchy, masks of bits) have no rank and are on no front: no GPU has measured the search",
       value: (row) => row.readBytes,
@@ -126,12 +128,14 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     },
     measured((row) => row.rank) && {
       label: "rank",
+      isScreenOnly: true,
       about:
         "By frame time, or cost where the result is ranked by it, among all cases of its scene, camera and viewport, those that are filtered out as well",
       value: (row) => row.rank,
     },
     measured((row) => row.ranked?.fastest?.ratio ?? null) && {
       label: "/ fastest",
+      isScreenOnly: true,
       about:
         "Frame time by that of the fastest case of its scene, camera and viewport, measured beside it, as clusterbench ratio --across-grids has it; its interval at the pointer",
       value: (row) => row.ranked?.fastest?.ratio ?? null,
@@ -154,12 +158,14 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     },
     measured((row) => row.worstNs) && {
       label: "worst µs",
+      isScreenOnly: true,
       about: "The slowest of the timed frames; its number at the pointer",
       value: (row) => row.worstNs,
       show: (row) => h("span", { title: worst(row) }, format.microseconds(row.worstNs)),
     },
     measured((row) => row.assignNs) && {
       label: "assign µs",
+      isScreenOnly: true,
       isDetail: true,
       about: "Of the frame's time: assignment, lists included",
       value: (row) => row.assignNs,
@@ -167,6 +173,7 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     },
     measured((row) => row.convertNs) && {
       label: "convert µs",
+      isScreenOnly: true,
       isDetail: true,
       about: "Of the frame's time: from lists to the storage's layout",
       value: (row) => row.convertNs,
@@ -174,12 +181,14 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     },
     measured((row) => row.instructions) && {
       label: "instr",
+      isScreenOnly: true,
       about: "Instructions of one frame's assignment",
       value: (row) => row.instructions,
       show: (row) => format.short(row.instructions),
     },
     measured((row) => row.nsPerPair) && {
       label: "ns/pair",
+      isScreenOnly: true,
       isDetail: true,
       about: "Frame time by pairs",
       value: (row) => row.nsPerPair,
@@ -215,6 +224,7 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     },
     {
       label: "longest",
+      isScreenOnly: true,
       about: "Longest list of the path",
       value: (row) => row.longest,
       show: (row) => format.whole(row.longest),
@@ -309,6 +319,7 @@ function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
     },
     timed && {
       label: "rank",
+      isScreenOnly: true,
       about: "By time / best among all methods and grids, those that are filtered out as well",
       value: (row) => row.rank,
     },
@@ -317,23 +328,27 @@ function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
     differ(rows, (row) => row.storage) && { label: "storage", value: (row) => row.storage },
     differ(rows, (row) => row.scenes) && {
       label: "scenes",
+      isScreenOnly: true,
       about: "That the figures are of",
       value: (row) => row.scenes,
     },
     timed && {
       label: "worst",
+      isScreenOnly: true,
       about: "Time / best in the scene where it is largest",
       value: (row) => row.worstTimeByBest,
       show: (row) => format.factor(row.worstTimeByBest),
     },
     {
       label: "longest",
+      isScreenOnly: true,
       about: "Longest list: geometric mean over the scenes",
       value: (row) => row.longest.value,
       show: (row) => mean(row.longest, row, format.whole),
     },
     {
       label: "most bytes",
+      isScreenOnly: true,
       about: "Largest high-water mark of any scene",
       value: (row) => row.mostBytes,
       show: (row) => format.short(row.mostBytes),

@@ -14,7 +14,7 @@ type Of<Part> = { aCase: Case; part: Part };
 function names<Part>(): Column<Of<Part>>[] {
   return [
     { label: "method", value: ({ aCase }) => aCase.assigner },
-    { label: "storage", value: ({ aCase }) => aCase.raw.storage },
+    { label: "storage", value: ({ aCase }) => aCase.storage },
     { label: "scene", value: ({ aCase }) => aCase.scene },
     { label: "grid", value: ({ aCase }) => aCase.grid },
   ];

@@ -66,7 +66,7 @@ export function points(cases: Case[], measure: Measure): Point[] {
   });
 }
 
-// Fastest first, and of those only the ones with less error than all that are faster.
+// Of the cases that the table marks, fastest first, and of those only the ones with less error than all that are faster.
 function front<T extends { us: number; error: number }>(all: T[]): T[] {
   let least = Infinity;
   return [...all]
@@ -114,7 +114,7 @@ function names(best: Point[], all: Point[], { x, y }: Scales, width: number, hei
     y: room.y * (1 - (point.error - y[0]) / (y[1] - y[0])),
   });
   const bar = (point: Point) => ({ from: across(ends(point)[0]), to: across(ends(point)[1]), y: at(point).y });
-  const found = placed(best.map(at), all.map(at), all.map(bar), room.x + margin.marginRight);
+  const found = placed(best.map(at), all.map(at), best.map(bar), room.x + margin.marginRight);
   return placements.map((wanted) =>
     Plot.text(
       found.filter(({ placement }) => placement === wanted).map(({ name }) => name.point),
@@ -132,9 +132,18 @@ function names(best: Point[], all: Point[], { x, y }: Scales, width: number, hei
 }
 
 export function panel(view: View, all: Point[], measure: Measure, scales: Scales, width: number): Element {
-  const best = front(all.filter(({ aCase }) => aCase.isEligible));
+  const best = all.filter(({ aCase }) => aCase.isOnFront);
+  const others = all.filter(({ aCase }) => !aCase.isOnFront);
   const look = (point: Point) => view.palette(point.aCase);
   const height = Math.round(Math.min(420, Math.max(230, width * 0.5)));
+  const interval = {
+    x1: (point: Point) => ends(point)[0],
+    x2: (point: Point) => ends(point)[1],
+    y: "error",
+    stroke: (point: Point) => look(point).colour,
+    strokeOpacity: 0.6,
+    strokeWidth: 3,
+  };
   return chart(
     `Frame time against ${measure.label} of ${format.plural(all.length, "case")}; on the front: ${best.map(({ aCase }) => aCase.assigner).join(", ")}`,
     {
@@ -145,7 +154,7 @@ export function panel(view: View, all: Point[], measure: Measure, scales: Scales
         domain: scales.x,
         label: "frame µs",
         ticks: width < 500 ? 4 : 8,
-        tickFormat: format.short,
+        tickFormat: (us: number) => (/^[125]/.test(us.toExponential()) ? format.short(us) : ""), // others would touch
         grid: true,
       },
       y: {
@@ -157,16 +166,11 @@ export function panel(view: View, all: Point[], measure: Measure, scales: Scales
       },
       ...margin,
       marks: [
-        Plot.line(best, { x: "us", y: "error", curve: "step-after", stroke: "var(--front)", strokeWidth: 1.5 }),
+        Plot.line(front(best), { x: "us", y: "error", curve: "step-after", stroke: "var(--front)", strokeWidth: 1.5 }),
         ...names(best, all, scales, width, height),
-        Plot.ruleY(all, {
-          x1: (point: Point) => ends(point)[0],
-          x2: (point: Point) => ends(point)[1],
-          y: "error",
-          stroke: (point: Point) => look(point).colour,
-          strokeOpacity: 0.6,
-          strokeWidth: 3,
-        }),
+        Plot.ruleY(best, interval),
+        Plot.ruleY(others, Plot.pointer({ ...interval, px: "us", py: "error" })),
+        Plot.dot(best, { x: "us", y: "error", r: 8, stroke: "var(--accent)", strokeWidth: 1.2 }),
         Plot.dot(all, {
           x: "us",
           y: "error",
@@ -228,7 +232,7 @@ export const speedErrorSection: Section = (view, redraw) => {
     figureView({
       id: "speed-error",
       title: `Frame time against ${measure.label}`,
-      lead: `Down and left is better. ${measure.label[0]!.toUpperCase()}${measure.label.slice(1)}: ${measure.about}. The line joins what nothing beats in both; bars are 95 % intervals of the median time. Each panel has its own scale upwards.${more}`,
+      lead: `Down and left is better. ${measure.label[0]!.toUpperCase()}${measure.label.slice(1)}: ${measure.about}. Ringed: on the front, as in the ranking; the line joins those of them that none of them beats in both. Bars are 95 % intervals of the median time, of the ringed ones; of others at the pointer. Each panel has its own scale upwards.${more}`,
       controls: [control],
       chart: multiples(panels),
       table: () => ({

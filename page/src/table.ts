@@ -1,6 +1,6 @@
 // A table that sorts by any of its columns, by mouse and keyboard.
 
-import { type Child, h } from "./dom.ts";
+import { breakable, type Child, h } from "./dom.ts";
 
 export type Value = number | string | null;
 
@@ -10,6 +10,7 @@ export interface Column<Row> {
   value: (row: Row) => Value; // sorted by, copied and downloaded
   show?: (row: Row) => Child; // displayed in place of the value
   isDetail?: boolean; // shown on request
+  isScreenOnly?: boolean; // paper has no room for it
 }
 
 export interface Table<Row> {
@@ -37,10 +38,14 @@ function sorted<Row>(rows: Row[], column: Column<Row>, descending: boolean): Row
   return [...known, ...unknown];
 }
 
+const classesOf = <Row>(column: Column<Row>, numeric: boolean) =>
+  [numeric && "number", column.isScreenOnly && "screen-only"].filter(Boolean).join(" ") || null;
+
 function cell<Row>(column: Column<Row>, row: Row, isHeader: boolean, numeric: boolean): HTMLElement {
   const shown = column.show ? column.show(row) : column.value(row);
-  const content = shown === null || shown === undefined ? "–" : typeof shown === "number" ? String(shown) : shown;
-  return isHeader ? h("th", { scope: "row" }, content) : h("td", { class: numeric && "number" }, content);
+  const text = shown === null || shown === undefined ? "–" : shown;
+  const content = typeof text === "object" ? text : numeric ? String(text) : breakable(String(text));
+  return isHeader ? h("th", { scope: "row" }, content) : h("td", { class: classesOf(column, numeric) }, content);
 }
 
 export function tableView<Row>(table: Table<Row>): HTMLElement {
@@ -54,7 +59,7 @@ export function tableView<Row>(table: Table<Row>): HTMLElement {
   const heads = columns.map((column, at) =>
     h(
       "th",
-      { scope: "col", class: numeric[at] && "number", title: column.about },
+      { scope: "col", class: classesOf(column, numeric[at]!), title: column.about },
       h("button", { onclick: () => sortBy(at) }, column.label),
     ),
   );

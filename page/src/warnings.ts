@@ -111,7 +111,7 @@ export const warningsSection: Section = ({ model }) => {
           "ul",
           { class: "warnings" },
           ...all.map(({ isFailure, text }) =>
-            h("li", { class: isFailure && "failure" }, h("strong", {}, isFailure ? "Failed. " : "Note. "), text),
+            h("li", { class: isFailure && "failure" }, h("strong", {}, isFailure ? "Failed. " : "Warning. "), text),
           ),
         ),
     skippedView(model),
