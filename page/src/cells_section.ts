@@ -5,7 +5,8 @@ import { type Space, space } from "./cells/space.ts";
 import { cellsView } from "./cells_view.ts";
 import { choice } from "./controls.ts";
 import { h } from "./dom.ts";
-import type { Case } from "./model.ts";
+import { lightsByDepth } from "./lights_by_depth.ts";
+import { type Case, seenBy } from "./model.ts";
 import type { Section, View } from "./view.ts";
 
 const nameOf = (view: View, aCase: Case) =>
@@ -36,6 +37,10 @@ export function cellsSection(): Section {
       { id: "cells" },
       h("h2", {}, "Cell by cell"),
       h("figure", {}, h("div", { class: "controls" }, control), shown.element),
+      lightsByDepth(
+        view,
+        cases.filter((other) => seenBy(other) === seenBy(aCase)),
+      ),
     );
   };
 }

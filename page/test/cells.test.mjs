@@ -97,7 +97,9 @@ async function changes(page, deed, selector) {
 
 // The page's own modules, outside of a browser.
 async function modules() {
-  const contents = ["details", "geometry"].map((name) => `export * from "./src/cells/${name}.ts";`).join("\n");
+  const contents = ["details", "geometry", "numbers"]
+    .map((name) => `export * from "./src/cells/${name}.ts";`)
+    .join("\n");
   const resolveDir = join(dirname(fileURLToPath(import.meta.url)), "..");
   const made = await build({
     stdin: { contents, resolveDir, loader: "ts" },
@@ -107,6 +109,23 @@ async function modules() {
   });
   return import(`data:text/javascript;base64,${Buffer.from(made.outputFiles[0].text).toString("base64")}`);
 }
+
+describe("the most lights over depth", () => {
+  it("are those of the fullest cells of each case, but of world grids", async () => {
+    const page = await open(without, pages.cells);
+    await page.locator("#lights-by-depth summary").click();
+    const rows = await page
+      .locator("#lights-by-depth tbody tr")
+      .evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.innerText)));
+    const { numbers } = await modules();
+    for (const { assigner, grid, details } of result.cases) {
+      const own = rows.filter(([, name]) => name === grid.name);
+      const most = Math.max(...details.frames.flatMap(({ cells }) => [...numbers(cells.reported)]));
+      if (grid.kind === "world") assert.equal(own.length, 0);
+      else assert.equal(Math.max(...own.map((row) => Number(row[4]))), most, assigner.name);
+    }
+  });
+});
 
 describe("the view of cells", () => {
   it("puts cells where their lights reach them, on every kind of grid", async () => {

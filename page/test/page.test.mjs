@@ -417,10 +417,10 @@ describe("times", () => {
 
   it("have the terminal's warnings, of each result by its name", async () => {
     const texts = async (name) => (await textsOf(await open(pages[name]), "#warnings li")).join("\n");
-    assert.match(await texts("wide"), /Note\. Times: \d+ of \d+ times with intervals wider than ±10 %/);
+    assert.match(await texts("wide"), /Warning\. Times: \d+ of \d+ times with intervals wider than ±10 %/);
     assert.match(await texts("wide"), /--launches \d+/);
     const two = await texts("two");
-    assert.match(two, /Note\. (quick|.*\/quick): Times: /);
+    assert.match(two, /Warning\. (quick|.*\/quick): Times: /);
   });
 
   it("that are known to a half and twice show both sides", async () => {
@@ -503,10 +503,10 @@ describe("what a case loses", () => {
   it("is a warning", async () => {
     const page = await open(pages.lossy);
     const text = (await textsOf(page, "#warnings li")).join("\n");
-    assert.match(text, /Note\. 4 cases dropped lights because the storage was full/);
+    assert.match(text, /Warning\. 4 cases dropped lights because the storage was full/);
     assert.match(
       text,
-      /Note\. 6 cases left more of the lights that random points in the view need unlit than rounding does/,
+      /Warning\. 6 cases left more of the lights that random points in the view need unlit than rounding does/,
     );
     assert.doesNotMatch(text, /Failed/);
   });
@@ -579,9 +579,128 @@ describe("charts", () => {
     );
   });
 
-  it("fit a narrow screen without scrolling the page sideways", async () => {
-    const page = await open(pages.sweep, { viewport: { width: 390, height: 800 } });
-    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth));
+  it("ring what the ranking marks, draw the intervals of those alone, and end their line there", async () => {
+    const page = await open(pages.quick);
+    for (const scene of ["street", "jam"]) {
+      await page.getByRole("radio", { name: scene }).check();
+      const marked = await page.locator("#ranking [aria-label=yes]").count();
+      const rings = page.locator("#speed-error circle[r='8']");
+      assert.ok(marked > 1, scene);
+      assert.equal(await rings.count(), marked, scene);
+      assert.equal(await page.locator("#speed-error g[stroke-width='3'] line").count(), marked, scene);
+    }
+  });
+
+  it("name all of their axes", async () => {
+    for (const name of ["quick", "sweep", "against"]) {
+      const page = await open(pages[name]);
+      const labels = await page
+        .locator(".chart svg[role=img]")
+        .evaluateAll((charts) =>
+          charts.map((svg) => [...svg.querySelectorAll("text")].map((text) => text.textContent)),
+        );
+      assert.ok(labels.length > 3);
+      const isName = (text) => /^(↑ )?\p{L}{3,}/u.test(text) || /µs/.test(text);
+      for (const texts of labels) assert.ok(texts.filter(isName).length >= 2, texts.join(" | "));
+    }
+  });
+});
+
+// Elements that reach over the page's right edge, unless a box of theirs scrolls; words of tables that lines break.
+const overflowing = (page) =>
+  page.evaluate(() => {
+    const scrolls = (element) =>
+      element &&
+      element !== document.body &&
+      (getComputedStyle(element).overflowX !== "visible" || scrolls(element.parentElement));
+    return [...document.body.querySelectorAll("*")]
+      .filter((element) => !element.closest(".skip, legend, caption, option"))
+      .filter((element) => element.getBoundingClientRect().right > innerWidth + 1 && !scrolls(element.parentElement))
+      .map((element) => `${element.tagName}: ${element.textContent.slice(0, 40)}`);
+  });
+const brokenWords = (page) =>
+  page.evaluate(() => {
+    const broken = [];
+    for (const cell of document.querySelectorAll("#ranking :is(th, td), #presets :is(th, td)")) {
+      const walker = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT);
+      while (walker.nextNode())
+        for (const word of walker.currentNode.data.matchAll(/[^\s\p{P}]+/gu)) {
+          const range = document.createRange();
+          range.setStart(walker.currentNode, word.index);
+          range.setEnd(walker.currentNode, word.index + word[0].length);
+          if (new Set([...range.getClientRects()].map(({ top }) => top)).size > 1) broken.push(word[0]);
+        }
+    }
+    return broken;
+  });
+
+const paper = { width: 703, height: 1032 }; // A4 between the margins
+
+describe("on paper", () => {
+  for (const [name, scene] of [
+    ["quick", null],
+    ["quick", "street"],
+    ["lossy", null],
+    ["presets", null],
+    ["sweep", "street"],
+    ["against", null],
+    ["two", "street"],
+  ])
+    it(`${name}${scene ? `, ${scene}` : ""} cuts nothing and breaks no word of its tables`, async () => {
+      const page = await open(pages[name]);
+      if (scene) await page.getByRole("radio", { name: scene }).check();
+      await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+      await page.emulateMedia({ media: "print" });
+      await page.setViewportSize(paper);
+      assert.deepEqual(await overflowing(page), []);
+      assert.deepEqual(await brokenWords(page), []);
+    });
+
+  it("takes few pages, with charts drawn for their width", async () => {
+    const page = await open(pages.quick, { viewport: { width: 1400, height: 900 } });
+    const pdf = (await page.pdf({ preferCSSPageSize: true })).toString("latin1");
+    const count = pdf.match(/\/Type\s*\/Page\b/g).length;
+    assert.ok(count > 1 && count <= 6, `${count} pages`);
+    const width = () => page.locator("#list-lengths svg[role=img]").getAttribute("width").then(Number);
+    assert.ok((await width()) > 1000, "afterwards charts are those of the screen again");
+    await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+    assert.ok((await width()) < 700);
+  });
+
+  it("opens what stands behind the conclusions, which are a line each on the screen", async () => {
+    const page = await open(pages.sweep);
+    const lines = await textsOf(page, "details.conclusion summary");
+    assert.ok(lines.length > 0 && lines.every((line) => /: take /.test(line) && !/;/.test(line)), lines.join("\n"));
+    const opened = () => page.locator("details.conclusion[open]").count();
+    assert.equal(await opened(), 0);
+    await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+    assert.equal(await opened(), lines.length);
+  });
+});
+
+describe("a screen of 400 pixels", () => {
+  for (const name of ["quick", "sweep", "lossy", "presets", "pictures", "against"])
+    it(`holds ${name}, whose tables scroll in their boxes`, async () => {
+      const page = await open(pages[name], { viewport: { width: 400, height: 800 } });
+      for (const summary of await page.locator("main figure summary").all()) await summary.click();
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth));
+      assert.deepEqual(await overflowing(page), []);
+    });
+});
+
+describe("pictures in the dark", () => {
+  it("are dimmed, whoever chose the dark", async () => {
+    const filterOf = async (options, theme) => {
+      const page = await open(pages.pictures, options);
+      if (theme) await page.getByLabel("Theme").selectOption(theme);
+      return page
+        .locator("#pictures img")
+        .first()
+        .evaluate((image) => getComputedStyle(image).filter);
+    };
+    assert.match(await filterOf({ colorScheme: "dark" }), /brightness/);
+    assert.match(await filterOf({ colorScheme: "light" }, "dark"), /brightness/);
+    assert.equal(await filterOf({ colorScheme: "dark" }, "light"), "none");
   });
 });
 

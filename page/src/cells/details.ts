@@ -69,9 +69,11 @@ function listsOf(packed: DetailsFrame, frame: Omit<Frame, "listOf">): Frame["lis
   };
 }
 
-export function unpacked(packed: DetailsFrame, grid: CaseResult["grid"]): Frame {
+export type Cells = Omit<Frame, "lights" | "listOf">;
+
+export function unpackedCells(packed: DetailsFrame, grid: CaseResult["grid"]): Cells {
   const { cells } = packed;
-  const frame = {
+  return {
     camera: packed.camera,
     boundaries: packed.boundaries
       ? [...numbers(packed.boundaries)]
@@ -83,8 +85,11 @@ export function unpacked(packed: DetailsFrame, grid: CaseResult["grid"]): Frame 
     truth: numbers(cells.true),
     falsePositives: numbers(cells.false_positives),
     falseNegatives: numbers(cells.false_negatives),
-    lights: lightsOf(packed.lights),
   };
+}
+
+export function unpacked(packed: DetailsFrame, grid: CaseResult["grid"]): Frame {
+  const frame = { ...unpackedCells(packed, grid), lights: lightsOf(packed.lights) };
   return { ...frame, listOf: listsOf(packed, frame) };
 }
 

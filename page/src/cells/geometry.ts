@@ -1,7 +1,7 @@
 // Where cells lie: each is a block lo..hi of three parameters, which its grid's kind turns into points in view space.
 
 import type { CaseResult } from "../result.ts";
-import type { Frame, Vec3 } from "./details.ts";
+import type { Cells, Vec3 } from "./details.ts";
 
 // "slopes": x/depth, y/depth, depth. "shells": x/depth, y/depth, distance. "box": x, y, z of view space or the world.
 export type Shape = "slopes" | "shells" | "box";
@@ -34,7 +34,7 @@ const identity: [Vec3, Vec3, Vec3] = [
 export const metres = (value: number) => `${Number(value.toPrecision(3))}`;
 const mix = (a: number, b: number, t: number) => a + (b - a) * t;
 
-function screen(aCase: CaseResult, frame: Frame, grid: FullGrid): Geometry {
+function screen(aCase: CaseResult, frame: Cells, grid: FullGrid): Geometry {
   const [columns, rows] = frame.tiles?.count ?? aCase.grid.cells;
   const size: Vec3 = [columns!, rows!, aCase.grid.cells[2]];
   const [left, right, bottom, top] = frame.camera.sides;
@@ -86,7 +86,7 @@ function cascades(aCase: CaseResult, grid: FullGrid): Geometry {
   };
 }
 
-function world(aCase: CaseResult, frame: Frame, grid: FullGrid): Geometry {
+function world(aCase: CaseResult, frame: Cells, grid: FullGrid): Geometry {
   const size = aCase.grid.cells,
     { origin, min, max } = frame.box ?? { origin: grid.origin, ...grid.bounds };
   const at = (axis: 0 | 1 | 2, i: number) => mix(min[axis], max[axis], i / size[axis]);
@@ -102,7 +102,7 @@ function world(aCase: CaseResult, frame: Frame, grid: FullGrid): Geometry {
   };
 }
 
-export function geometryOf(aCase: CaseResult, frame: Frame): Geometry {
+export function geometryOf(aCase: CaseResult, frame: Cells): Geometry {
   const grid = aCase.grid as unknown as FullGrid;
   if (aCase.grid.kind === "cascades") return cascades(aCase, grid);
   if (aCase.grid.kind === "world") return world(aCase, frame, grid);
