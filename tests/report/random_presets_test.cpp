@@ -26,11 +26,12 @@ using Json = nlohmann::ordered_json;
 // both, or between the eyes and near planes of 5 m, or beyond far planes of 40 m, or far behind both.
 struct PresetLevel {
   std::uint64_t seen = 0, spots = 0, behind = 0;  // spots: in view, beside `seen` points
-  std::uint64_t near = 0, beyond = 0;             // 0.5 to 2.5 m and 60 to 90 m deep
+  std::uint64_t near = 0, beyond = 0;             // 0.5 to 2.5 m and `beyond_m` to 30 m more deep
   std::uint64_t aside = 0;                        // spots that shine away from the view, into which their ranges reach
   double near_m = 0.1;                            // of both cameras; below 1 m the orthographic view begins at 0
   bool is_endless = false;                        // the perspective has no far plane
   bool are_dark = false;
+  double beyond_m = 60.0;
   double deepest_m = 30.0;  // of those well in view
   bool has_wall = false;    // before which all of them are
 
@@ -83,7 +84,8 @@ Json preset_level_json(const PresetLevel& level, SplitMix64& random) {
         i < level.seen ? 0 : 1);
   for (std::uint64_t i = 0; i < level.near; ++i)
     add(random.between(-0.2, 0.2), random.between(-0.2, 0.2), random.between(-2.5, -0.5));
-  for (std::uint64_t i = 0; i < level.beyond; ++i) add(random.between(-5.0, 5.0), 0.0, random.between(-90.0, -60.0));
+  for (std::uint64_t i = 0; i < level.beyond; ++i)
+    add(random.between(-5.0, 5.0), 0.0, random.between(-level.beyond_m - 30.0, -level.beyond_m));
   for (std::uint64_t i = 0; i < level.aside; ++i) {
     add(random.between(10.5, 10.7), 0.0, -10.0, 1);
     out["nodes"].back()["rotation"] = {0.0, -std::sqrt(0.5), 0.0, std::sqrt(0.5)};  // along +x
@@ -155,20 +157,23 @@ PresetLevel preset_level(SplitMix64& random) {
   return level;
 }
 
-// So many that some engine's limit of all, of one type, or of the scene is met, or exceeded by one, or one remains.
-PresetLevel level_at_limits(SplitMix64& random) {
+// So many that each limit of an engine is met, or exceeded by one, or one remains: of all lights that the orthographic
+// camera sees, or of the points. In every second half of 30 rounds there are no others, so that limits of the scene
+// are.
+PresetLevel level_at_limits(std::uint64_t round, SplitMix64& random) {
   constexpr std::uint64_t k_limits[] = {128, 255, 256, 512, 1024};
+  const std::uint64_t count = k_limits[round % 5] - 1 + round / 5 % 3, others = round / 15 % 2 == 0 ? 300 : 1;
   PresetLevel level;
-  const std::uint64_t count = k_limits[random.below(std::size(k_limits))] - 1 + random.below(3);
-  level.spots = random.below(3) == 0 ? random.below(count) : 0;
-  level.seen = count - (random.below(2) == 0 ? level.spots : 0);  // together, or by type
-  level.near = random.below(2) * random.below(300);
-  level.beyond = random.below(2) * random.below(300);
-  level.behind = random.below(2) * random.below(300);
-  level.aside = random.below(2) * random.below(300);
+  level.near = random.below(2) * random.below(others);
+  level.beyond = random.below(2) * random.below(others);
+  level.behind = random.below(2) * random.below(others);
+  level.aside = random.below(2) * random.below(others);
   level.near_m = random.below(2) == 0 ? 0.1 : 5.0;
   level.is_endless = random.below(3) == 0;
   level.has_wall = true;
+  if (random.below(2) == 0) level.spots = random.below(count);
+  const std::uint64_t counted = random.below(3) == 0 ? level.points_in_view(true) : level.in_view(true);
+  level.seen = count - std::min(count, counted);
   return level;
 }
 
@@ -246,7 +251,7 @@ TEST_F(RandomPresets, all_say_so_exactly_where_there_are_more_lights_in_view_tha
   SplitMix64 random(12);
   std::set<std::string> beyond, at_limit, below;
   for (int round = 0; round < (test::k_sanitized ? 2 : 30); ++round) {
-    const PresetLevel level = level_at_limits(random);
+    const PresetLevel level = level_at_limits(static_cast<std::uint64_t>(round), random);
     const Json result = measured(level, random, k_all_presets);
     for (const Json& one : result["cases"]) {
       const bool is_flat = one["camera"] == "flat";
@@ -268,7 +273,7 @@ TEST_F(RandomPresets, all_say_so_exactly_where_there_are_more_lights_in_view_tha
   if (test::k_sanitized) return;
   EXPECT_GE(beyond.size(), 12u);
   EXPECT_EQ(below.size(), beyond.size());
-  EXPECT_GE(at_limit.size(), 9u);
+  EXPECT_EQ(at_limit.size(), beyond.size());
 }
 
 TEST_F(RandomPresets, lights_before_a_near_plane_of_metres_are_in_no_limit) {
@@ -290,15 +295,16 @@ TEST_F(RandomPresets, lights_before_a_near_plane_of_metres_are_in_no_limit) {
 TEST_F(RandomPresets, few_samples_acquit_those_whose_cells_hold_all_that_lights_reach_and_no_others) {
   SplitMix64 random(15);
   int acquitted = 0, beyond_cells = 0, open = 0;
-  for (int round = 0; round < (test::k_sanitized ? 2 : 16); ++round) {
+  for (int round = 0; round < (test::k_sanitized ? 2 : 12); ++round) {
     PresetLevel level;
     level.seen = 20 + random.below(30);
     level.spots = random.below(20);
     level.beyond = random.below(2) * random.below(20);
+    level.beyond_m = 120.0;  // Filament's froxels end at 100 m
     level.is_endless = random.below(2) == 0;
     level.deepest_m = random.between(12.0, 34.0);
     const Json scene = preset_level_json(level, random);
-    const Json few = measured(scene, settings_with(120)), many = measured(scene, settings_with(60000));
+    const Json few = measured(scene, settings_with(120)), many = measured(scene, settings_with(20000));
     for (const Json& ranking : few["preset_rankings"])
       for (const Json& line : ranking["cases"]) {
         const Json &one = case_of(few, line["id"]), &same = *std::ranges::find_if(many["cases"], [&](const Json&other) {
@@ -320,7 +326,7 @@ TEST_F(RandomPresets, few_samples_acquit_those_whose_cells_hold_all_that_lights_
   if (test::k_sanitized) return;
   EXPECT_GT(acquitted, 50);
   EXPECT_GT(beyond_cells, 20);
-  EXPECT_GT(open, 10);
+  EXPECT_GT(open, 1);
 }
 
 TEST_F(RandomPresets, where_no_light_that_shines_is_in_view_nothing_is_taken_or_ranked) {
