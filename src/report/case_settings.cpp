@@ -45,7 +45,9 @@ std::vector<std::string> differing_settings(const Json& base, const Json& base_c
     if (const std::string lights = lights_that_changed(base_scene, next_scene); !lights.empty()) out.push_back(lights);
   tell(base_scene, next_scene, "range_rule", "/range_rule/cutoff_lux");
   tell(base_scene, next_scene, "range_rule", "/range_rule/max_range");
-  for (const char* key : {"camera", "viewport", "frames", "grid", "storage"})
+  if (const Json& frames = base_case["frames"], &now = next_case["frames"]; frames != now)
+    out.push_back("frames (" + frames.dump() + ", now " + now.dump() + ")");
+  for (const char* key : {"camera", "viewport", "grid", "storage"})
     tell(base_case, next_case, key, (std::string("/") + key).c_str());
   tell(base_case, next_case, "the assigner's parameters", "/assigner/params");
   tell(base_case, next_case, "precision", "/precision/label");

@@ -207,12 +207,16 @@ std::string whole_cost_text(const WeighedCase& take) {
 // "10 % more", "2.71 times as much"; in brackets what it can be by times and by prices, where that is known.
 std::string more_text(double ratio, const measure::Interval& by_times, const measure::Interval& by_prices) {
   const bool is_share = ratio < 2.0;
-  const auto amount = [&](double of) { return is_share ? text("%.2g %%", 100.0 * (of - 1.0)) : text("%.3g", of); };
+  const auto amount = [&](double of) {
+    const double percent = 100.0 * (of - 1.0);
+    return !is_share ? text("%.3g", of) : text(std::abs(percent) < 99.5 ? "%.2g %%" : "%.0f %%", percent);
+  };
   const auto range = [&](const measure::Interval& of) { return amount(of.low) + " to " + amount(of.high); };
   std::vector<std::string> ranges;
   if (by_times.is_known() && std::isfinite(by_times.high)) ranges.push_back("95 % of the times: " + range(by_times));
   if (by_prices.is_known() && std::isfinite(by_prices.high))
-    ranges.push_back("with prices half or twice those of the key cost: " + range(by_prices));
+    ranges.push_back("with prices half or twice those of the key cost: " + range(by_prices) +
+                     (by_prices.low < 1.0 ? ", so it may cost less on another GPU" : ""));
   return amount(ratio) + (is_share ? " more" : " times as much") +
          (ranges.empty() ? "" : " (" + joined(ranges, "; ") + ")");
 }

@@ -51,6 +51,24 @@ std::string lost_pairs_text(std::uint64_t lost, const PresetLosses& losses) {
   return number_of(lost, "pair") + " of " + std::to_string(losses.true_pairs);
 }
 
+// A method that itself leaves out what is too much for a cell does not tell that from what its test misses.
+std::string full_cells(const Json& result_case) {
+  const auto most = number_at(result_case, "/assigner/params/most");
+  const auto longest = number_at(result_case, "/occupancy/lights_per_cell/max");
+  if (!most || !longest || *longest < *most) return "";
+  return ", or cells are full (room for " + number_of(static_cast<std::uint64_t>(*most), "light") + " per cell)";
+}
+
+// Of tiles that react and whose lists do not fit even so: the engine has room for them with storage buffers alone.
+std::string room_text(const RankedPreset& row) {
+  const auto over = number_at(*row.result_case, "/react/frames/over");
+  if (!over || *over == 0.0 || (*row.result_case)["react"]["to"] != "entries") return "";
+  return "where its lists may grow (storage buffers): with room for " +
+         text("%.0f entries ", *number_at(*row.result_case, "/react/most")) +
+         number_of(static_cast<std::uint64_t>(*over), "frame") + " of " + (*row.result_case)["frames"].dump() +
+         " do not fit, and lack lights";
+}
+
 // What is lost to a limit of lights; "" where nothing in view is.
 std::string limit_loss(const RankedPreset& row) {
   std::string out;
@@ -70,7 +88,7 @@ std::vector<std::string> loss_texts(const RankedPreset& row) {
     ways.push_back("drops " + number_of(overflow["lights"].size(), "light") + " in some cells of " +
                    number_of(overflow["frames"].get<std::uint64_t>(), "frame") + shortage(row));
   if (row.losses.by_method > 0)
-    ways.push_back("its test misses cells that the light reaches: " +
+    ways.push_back("its test misses cells that the light reaches" + full_cells(result_case) + ": " +
                    lost_pairs_text(row.losses.by_method, row.losses));
   if (const double outside = sum_at_samples(result_case, "missed_outside"); outside > 0.0)
     ways.push_back(percent(outside / row.losses.needed) + " of the lights that samples need lie beyond its grid");
@@ -121,7 +139,9 @@ std::string light_text(const RankedPreset& row) {
   if (row.standing == PresetStanding::unknown && row.losses.has_few_samples()) return undecided_loss(row) + causes;
   if (row.losses.unlit.value_or(0.0) > 0.0)
     return samples_words(row) + " lack " + percent(*row.losses.unlit) + " of the lights that they need" + causes;
-  return ways.empty() ? "loses nothing" : "loses nothing that a sample needs" + causes;
+  const std::string room = room_text(row);
+  return (ways.empty() ? "loses nothing" : "loses nothing that a sample needs" + causes) +
+         (room.empty() ? "" : (ways.empty() ? " " : "; ") + room);
 }
 
 // Without what it costs beside others.
@@ -185,12 +205,21 @@ std::string or_text(const std::vector<const RankedPreset*>& rows) {
   return out;
 }
 
+// The first of those that lack lights, and those that lack as many.
+std::vector<const RankedPreset*> lacking_least(const std::vector<const RankedPreset*>& lacking) {
+  std::vector<const RankedPreset*> least;
+  for (const RankedPreset* row : lacking)
+    if (row->losses.unlit == lacking.front()->losses.unlit) least.push_back(row);
+  return least;
+}
+
 // What is lost by a preset that may be taken all the same; "" where nothing is.
 std::string own_loss_text(const RankedPreset& row) {
   std::vector<std::string> losses;
   if (row.losses.unlit.value_or(0.0) > 0.0)
     losses.push_back("samples lack " + percent(*row.losses.unlit) + " of the lights that they need");
   if (const std::string limit = limit_loss(row); !limit.empty()) losses.push_back(limit);
+  if (const std::string room = room_text(row); !room.empty()) losses.push_back("loses nothing " + room);
   return losses.empty() ? "" : "; " + name(row) + ": " + joined(losses);
 }
 
@@ -289,8 +318,9 @@ std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
   else if (!lacking.empty())
     return "no preset that was measured is known to give samples all lights; " +
            (unknown.empty() ? "" : "whether " + or_text(unknown) + " does is not known; ") + "of those that do not " +
-           name(*lacking.front()) + " lacks least, " + percent(*lacking.front()->losses.unlit) +
-           " of those that they need" + (doubt.empty() ? "" : "; " + doubt);
+           names_text(lacking_least(lacking)) +
+           (lacking_least(lacking).size() == 1 ? " lacks least, " : " lack least, ") +
+           percent(*lacking.front()->losses.unlit) + " of those that they need" + (doubt.empty() ? "" : "; " + doubt);
   else
     return "which preset suits is not known" + (doubt.empty() ? "" : ": " + doubt);
   const RankedPreset& first = lists.empty() ? *searched.front() : *lists.front();

@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "report/columns.h"
+#include "report/json_values.h"
 #include "report/size_words.h"
 
 namespace clusterbench::report {
@@ -89,6 +90,14 @@ std::string worst_lines(const SizedStructure& structure) {
   return out;
 }
 
+// Of all cameras; "" of a structure without lists.
+std::string longest_line(const SizedStructure& structure) {
+  double longest = 0.0;
+  for (const Json* result_case : structure.cases)
+    longest = std::max(longest, number_at(*result_case, "/occupancy/lights_per_cell/max").value_or(0.0));
+  return longest == 0.0 ? "" : "  longest list: " + number_of(static_cast<std::uint64_t>(longest), "light") + "\n";
+}
+
 std::string marks_text(const SizedStructure& structure, const AllocationRules& rules) {
   std::string out;
   for (const SizedBuffer& buffer : structure.buffers) {
@@ -130,7 +139,7 @@ std::string structure_text(const SizedStructure& structure, const AllocationRule
   out += aligned_rows(table_rows(structure));
   if (structure.buffers.front().groups.size() > 1) out += aligned_rows(group_rows(structure));
   if (const std::string unseen = nothing_seen_text(structure); !unseen.empty()) out += "  " + unseen + "\n";
-  out += worst_lines(structure);
+  out += worst_lines(structure) + longest_line(structure);
   out += note_lines(structure);
   out += marks_text(structure, rules);
   for (const std::string& line : guest_lines(structure)) out += "  " + shown(line) + "\n";

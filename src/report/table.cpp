@@ -272,7 +272,7 @@ std::string legend(const Json& cases, const Extras& extras, RankBy by, bool has_
   std::string out;
   const std::string interval = extras.times ? " (beyond the interval of their ratio)" : "";
   if (has_front)
-    out += "* no other case of its scene, camera and viewport is better in " +
+    out += "* no other case with lists of its scene, camera and viewport is better in " +
            (by == RankBy::frame_cost ? "cost" + interval + " and bytes.\n"
                                      : (extras.times ? "time" + interval + ", " : "") + "bytes and overshade.\n");
   if (extras.times)
@@ -299,8 +299,9 @@ std::string legend(const Json& cases, const Extras& extras, RankBy by, bool has_
   if (extras.searched)
     out +=
         "structures that samples search: no lists; each sample finds its lights in a hierarchy or in masks of bits, "
-        "and "
-        "the times above\nare without that. They have no star: no GPU has measured the search (the key `cost` has a "
+        "and\n" +
+        std::string(extras.times ? "the times above are without that" : "that is not in their bytes") +
+        ". They have no star: no GPU has measured the search (the key `cost` has a "
         "model "
         "of it). read: bytes that a\nsample reads to know its lights.\n";
   return out + "bytes: headers and indices, largest of all frames.\n";

@@ -23,12 +23,14 @@ Json lookup_facts(const grid::SliceLookup& lookup) {
   return facts;
 }
 
-std::string end_text(double far_m) {
-  char text[160];
+std::string end_text(double far_m, bool is_cut) {
+  char text[200];
   std::snprintf(
       text, sizeof text,
-      "the camera has no far plane and slices.far is not set: the grid ends at %.4g m, beyond which no light of "
-      "the path reaches",
+      is_cut
+          ? "the grid ends at %.4g m, its slices' far_at_most, whether lights of the path reach farther or not"
+          : "the camera has no far plane and slices.far is not set: the grid ends at %.4g m, beyond which no light of "
+            "the path reaches",
       far_m);
   return text;
 }
@@ -74,7 +76,9 @@ void add_facts(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid& 
   else if (spec.slices.fit)
     facts["note"] = note_of_fit(*spec.slices.fit);
   else if (std::isinf(camera_far_m) && spec.slices.scheme != grid::Scheme::list && spec.slices.far_m == 0.0)
-    facts["note"] = end_text(grid.slices.boundaries.back());
+    facts["note"] =
+        end_text(grid.slices.boundaries.back(),
+                 spec.slices.far_at_most_m > 0.0 && grid.slices.boundaries.back() >= spec.slices.far_at_most_m);
   if (!spec.reaction) return;
   const std::string other = facts.value("note", "");
   facts["note"] = note_of_reaction(*spec.reaction) + (other.empty() ? "" : "; " + other);

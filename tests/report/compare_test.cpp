@@ -207,7 +207,7 @@ TEST(Compare, cases_of_one_name_that_are_not_the_same_are_told_with_what_differs
   next["cases"][1]["frames"] = 7;
   const Json comparison = compared(base, next, 0.02);
   EXPECT_EQ(comparison["renamed"][0]["differs_in"], (Json{"the scene itself (sha256)", "seed"}));
-  EXPECT_EQ(comparison["renamed"][1]["differs_in"], (Json{"the scene itself (sha256)", "frames", "seed"}));
+  EXPECT_EQ(comparison["renamed"][1]["differs_in"], (Json{"the scene itself (sha256)", "frames (2, now 7)", "seed"}));
   EXPECT_TRUE(holds(comparison["warnings"], "differ in the scene itself (sha256), seed: hall/walk/frustum 64px/brute"));
   EXPECT_EQ(outcome(comparison, false), ExitCode::nothing_comparable);
   const std::string text = comparison_text(comparison);
