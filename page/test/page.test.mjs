@@ -685,6 +685,14 @@ describe("a screen of 400 pixels", () => {
       for (const summary of await page.locator("main figure summary").all()) await summary.click();
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth));
       assert.deepEqual(await overflowing(page), []);
+      const cut = await page
+        .locator(".chart svg[role=img] text")
+        .evaluateAll((texts) =>
+          texts
+            .filter((text) => text.getBoundingClientRect().left < text.ownerSVGElement.getBoundingClientRect().left - 1)
+            .map((text) => text.textContent),
+        );
+      assert.deepEqual(cut, [], "names that charts have no room for");
     });
 });
 
