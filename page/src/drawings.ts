@@ -6,7 +6,7 @@ import { type Case, type Model, modelOf } from "./model.ts";
 import { icon, paletteOf } from "./palette.ts";
 import { chart, Plot } from "./plots.ts";
 import type { Result } from "./result.ts";
-import { extent, logExtent, measures, panel, points } from "./speed_error.ts";
+import { extent, logExtent, measures, panel, points, timeExtent } from "./speed_error.ts";
 import { View } from "./view.ts";
 
 const gap = 36;
@@ -83,7 +83,7 @@ function speedError(result: Result): string {
   const view = viewOf(result),
     measure = measures["excess"]!;
   const all = points(view.model.cases, measure);
-  const x = logExtent(all.map(({ us }) => us));
+  const x = timeExtent(all);
   const panels = [...Map.groupBy(all, ({ aCase }) => aCase.scene)].map(([title, some]) => ({
     title,
     chart: panel(view, some, measure, { x, y: extent(some.map(({ error }) => error)) }, 470),

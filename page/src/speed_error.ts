@@ -169,7 +169,7 @@ export function panel(view: View, all: Point[], measure: Measure, scales: Scales
         Plot.line(front(best), { x: "us", y: "error", curve: "step-after", stroke: "var(--front)", strokeWidth: 1.5 }),
         ...names(best, all, scales, width, height),
         Plot.ruleY(best, interval),
-        Plot.ruleY(others, Plot.pointer({ ...interval, px: "us", py: "error" })),
+        Plot.ruleY(others, { ...Plot.pointer({ ...interval, px: "us", py: "error" }), clip: true }),
         Plot.dot(best, { x: "us", y: "error", r: 8, stroke: "var(--accent)", strokeWidth: 1.2 }),
         Plot.dot(all, {
           x: "us",
@@ -195,6 +195,10 @@ export function logExtent(values: number[]): [number, number] {
   return [low / 1.3, high * 1.8];
 }
 
+// With the intervals that are always drawn.
+export const timeExtent = (all: Point[]) =>
+  logExtent(all.flatMap((point) => (point.aCase.isOnFront ? [point.us, ...ends(point)] : [point.us])));
+
 // With room below for names.
 export function extent(values: number[]): [number, number] {
   const [low, high] = limits(values);
@@ -211,7 +215,7 @@ export const speedErrorSection: Section = (view, redraw) => {
   const [key, control] = choice(view, redraw, "speed-error-measure", "Error", options);
   const measure = measures[key]!;
   const all = points(cases, measure);
-  const x = logExtent(all.map(({ us }) => us)); // the same in all panels
+  const x = timeExtent(all); // the same in all panels
   // No front runs across results, which can be of different machines.
   const scenes = [
     ...Map.groupBy(all, ({ aCase }) => (view.hasRuns ? `${aCase.scene} · ${aCase.run.label}` : aCase.scene)),
