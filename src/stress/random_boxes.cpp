@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <glm/geometric.hpp>
+#include <memory>
 
 #include "stress/contact.h"
 #include "stress/random_setting.h"
