@@ -39,6 +39,16 @@ const middle = ({ near, far }: Slice, first: number) => Math.sqrt(Math.max(near,
 const metres = (value: number) => `${Number(value.toPrecision(3))}`;
 const range = (slice: Slice) => `${metres(slice.near)} to ${metres(slice.far)} m`;
 
+// Details are of some frames, and the path's longest list can be in another.
+function limitOf(each: Slice[][]): string {
+  const { frames, details } = each[0]![0]!.aCase.raw;
+  if (details!.frames.length === frames) return "";
+  const longer = each.map(fullest).filter(({ aCase, lights }) => (aCase.longest ?? 0) > lights);
+  const longest = longer.reduce((most, { aCase }) => Math.max(most, aCase.longest!), 0);
+  const more = longer.length > 0 ? `; in others a cell has up to ${format.plural(longest, "light")}` : "";
+  return ` Details are of ${details!.frames.length} of ${frames} frames${more}.`;
+}
+
 export function lightsByDepth(view: View, cases: Case[]): HTMLElement | null {
   const each = cases.map(slicesOf).filter((slices) => slices.length > 0);
   const all = each.flat();
@@ -50,7 +60,7 @@ export function lightsByDepth(view: View, cases: Case[]): HTMLElement | null {
   return figureView({
     id: "lights-by-depth",
     title: "Most lights in a cell over depth",
-    lead: "A bar is a slice, as high as its fullest cell in any frame with details; the mark is at the fullest of all. Of distance grids it is the distance from the eye. Slices without lights have no bar.",
+    lead: `A bar is a slice, as high as its fullest cell in any frame with details; the mark is at the fullest of all. Of distance grids it is the distance from the eye. Slices without lights have no bar.${limitOf(each)}`,
     chart: chart(`Most lights in a cell by depth of ${each.map((slices) => named(slices[0]!)).join("; ")}`, {
       width: chartWidth(),
       height: 280,

@@ -113,6 +113,14 @@ async function modules() {
 describe("the most lights over depth", () => {
   it("are those of the fullest cells of each case, but of world grids", async () => {
     const page = await open(without, pages.cells);
+    const lead = await page.locator("#lights-by-depth figcaption").innerText();
+    const longest = result.cases
+      .filter(({ grid }) => grid.kind !== "world")
+      .map((one) => one.occupancy.lights_per_cell.max);
+    assert.match(
+      lead,
+      new RegExp(`Details are of 3 of 24 frames; in others a cell has up to ${Math.max(...longest)} lights`),
+    );
     await page.locator("#lights-by-depth summary").click();
     const rows = await page
       .locator("#lights-by-depth tbody tr")
