@@ -272,7 +272,7 @@ std::string legend(const Json& cases, const Extras& extras, RankBy by, bool has_
   std::string out;
   const std::string interval = extras.times ? " (beyond the interval of their ratio)" : "";
   if (has_front)
-    out += "* no other case with lists of its scene, camera and viewport is better in " +
+    out += "* no other case with lists of its camera and viewport is better in " +
            (by == RankBy::frame_cost ? "cost" + interval + " and bytes.\n"
                                      : (extras.times ? "time" + interval + ", " : "") + "bytes and overshade.\n");
   if (extras.times)
