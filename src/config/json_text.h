@@ -34,7 +34,8 @@ struct JsonText {
   std::string flag_of(std::string pointer) const;
 };
 
-// Throws Error (file, "line:column /pointer") for broken syntax, a duplicate key, or what core/json_document.h allows none of.
+// Throws Error (file, "line:column /pointer") for broken syntax, a duplicate key, or what core/json_document.h allows
+// none of.
 JsonText parse_json_text(const std::string& text, const std::string& file);
 
 // pointer + "/" + key with ~ and / escaped (RFC 6901).
