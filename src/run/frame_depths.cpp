@@ -14,7 +14,7 @@ std::shared_ptr<const depth::DepthImage> FrameDepths::thinned(const view::Frame&
   if (const std::shared_ptr<const depth::DepthImage> all = kept(shot))
     return divisor == 1 ? all : std::make_shared<const depth::DepthImage>(depth::thinned(*all, pixels));
   shot.divisor = divisor;
-  if (const std::shared_ptr<const depth::DepthImage> image = kept(shot)) return image;
+  if (std::shared_ptr<const depth::DepthImage> image = kept(shot)) return image;
   caster_.pose(frame);
   Kept now{shot, std::make_shared<const depth::DepthImage>(caster_.depths(frame, pixels, threads))};
   ++images_cast_;
