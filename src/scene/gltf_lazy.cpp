@@ -140,7 +140,7 @@ class LazyReader {
   // A key that is there twice is left to the parser.
   bool take(std::vector<LazyArray::Range>& array, std::size_t begin, std::size_t end) {
     if (!walker_.is(begin, '[')) return true;
-    if (array.size() > 0) return false;
+    if (!array.empty()) return false;
     cuts_.emplace_back(begin + 1, end - 1);
     return walker_.elements(begin, [&](std::size_t at, std::size_t behind) {
       constexpr std::size_t k_longest = std::size_t{1} << 24, k_farthest = std::size_t{1} << 40;
