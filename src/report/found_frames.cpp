@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json read_worst_case(const std::string& path) {
-  const Json json = read_json<Json>(file_text(path), path);
+  Json json = read_json<Json>(file_text(path), path);
   const config::DocumentRow& row = config::row_of(config::Document::worst_case);
   if (config::document_of(json) != config::Document::worst_case)
     throw Error(path, "", "is not what `clusterbench worst-case -o FILE` writes");
