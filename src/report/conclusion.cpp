@@ -255,7 +255,10 @@ std::string doubts_text(const Choice& choice) {
     out += ". " + case_title(*choice.searched->result_case) + ", which samples search, would cost " +
            ns_text(choice.searched->ns()) + " by the model; no GPU has measured such a search";
   if (take.has_random_depths)
-    out += std::string(". Its samples are at random depths, where no surface is; ") + k_remedy;
+    out += std::string(". Its samples are at random depths, where no surface is; ") + k_remedy +
+           (take.is_modelled && !take.result_case->contains("cost")
+                ? "; --set cost.weights.volume=pixels shows each case's cost at random depths"
+                : "");
   return out;
 }
 
