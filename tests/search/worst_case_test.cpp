@@ -61,7 +61,7 @@ TEST(WorstCase, finds_where_most_lights_are_in_view_and_where_most_of_one_type) 
   EXPECT_EQ(all.frames.front().value, 32.0);
   EXPECT_EQ(all.theoretical_max, 42.0);
   EXPECT_EQ(all.recorded.max, 0.0);
-  EXPECT_EQ(all.buffers.front().name, "indices") << "also of a search that assigns nothing";
+  EXPECT_STREQ(all.buffers.front().name, "indices") << "also of a search that assigns nothing";
   EXPECT_GT(all.buffers.front().elements, 0u);
   request.measure = Measure::lights_of_type;
   const WorstCase of_type = crowds.search(request);
