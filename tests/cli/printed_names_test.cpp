@@ -121,10 +121,12 @@ TEST_F(PrintedNames, select_their_case_in_every_command_on_random_grids) {
     EXPECT_GE(names.size(), 4u) << table_;
     const Outcome sized = tool("size --all --format json " + result_);
     ASSERT_EQ(sized.code, 0) << sized.err;
-    for (const NamesJson& structure : NamesJson::parse(sized.out)["structures"])
+    for (const NamesJson structures = NamesJson::parse(sized.out);
+         const NamesJson& structure : structures["structures"])
       names.insert(structure["name"].get<std::string>());
     const Outcome one_for_all = tool("size --all --one-for-viewports --format json " + result_);
-    for (const NamesJson& structure : NamesJson::parse(one_for_all.out)["structures"])
+    for (const NamesJson structures = NamesJson::parse(one_for_all.out);
+         const NamesJson& structure : structures["structures"])
       names.insert(structure["name"].get<std::string>());
     const NamesJson result = NamesJson::parse(test::file_text(result_));
     names.insert(result["cases"][0]["name"].get<std::string>());
