@@ -3,9 +3,10 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <vector>
+
+#include "core/sha256.h"
 
 namespace clusterbench {
 namespace {
@@ -167,16 +168,9 @@ std::optional<std::string> base64_decoded(std::string_view text) {
 }
 
 std::string sha256_hex(std::string_view bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int size = 0;
-  EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr);
-  constexpr char k_digits[] = "0123456789abcdef";
-  std::string text;
-  for (unsigned int i = 0; i < size; ++i) {
-    text += k_digits[digest[i] >> 4];
-    text += k_digits[digest[i] & 15];
-  }
-  return text;
+  Sha256 sum;
+  sum.add(bytes);
+  return sum.hex();
 }
 
 }  // namespace clusterbench
