@@ -211,6 +211,24 @@ TEST(Conclusion, says_from_and_to_what_prices_change_the_difference) {
       << conclusion["text"];
 }
 
+TEST(Conclusion, says_where_other_prices_turn_the_difference) {
+  run::Result result = result_by_hand();
+  result.config["cost"] = k_usual_model;
+  for (run::CaseResult& one : result.cases) one.timing.reset();
+  shade_surfaces(result.cases[0], 50);
+  shade_surfaces(result.cases[1], 5);
+  Json conclusion;
+  for (std::uint64_t reads = 1; reads < 1'000'000'000'000; reads = reads * 5 / 4 + 1) {  // until it is somewhat dearer
+    result.cases[1].samples[0].counts.reads = assign::Reads::of(reads, 4 * reads);
+    conclusion = only_conclusion(result);
+    if (conclusion["take"] == "slow" && conclusion.value("ratio", 0.0) > 1.06) break;
+  }
+  ASSERT_GT(conclusion.value("ratio", 0.0), 1.06) << conclusion["text"];
+  ASSERT_LT(conclusion["by_prices"][0].get<double>(), 1.0) << conclusion["text"];
+  EXPECT_TRUE(has_words(conclusion, ", so it may cost less on another GPU)")) << conclusion["text"];
+  EXPECT_FALSE(has_words(conclusion, "e+0")) << conclusion["text"];
+}
+
 TEST(Conclusion, where_nothing_is_seen_no_case_has_a_star) {
   run::Result away = result_by_hand(), dark = result_by_hand();
   for (run::CaseResult& one : away.cases) one.lights_in_view.sum = one.lights_in_view.most = 0;

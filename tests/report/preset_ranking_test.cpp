@@ -371,6 +371,38 @@ TEST(PresetRanking, the_one_to_take_names_what_it_loses_itself) {
   EXPECT_EQ(ranking["cases"][0]["unlit"], 0.0005);
 }
 
+TEST(PresetRanking, those_that_lack_equally_many_lights_are_named_together) {
+  const Json as_many = lacking(preset_case("unreal", 1e3, 1e4, 1e5), 800);
+  const std::string two = ranking_of_cases({lacking(preset_case("filament", 1e3, 1e4, 1e5), 800), as_many})["text"];
+  EXPECT_NE(two.find("filament, unreal lack least, 10 %"), std::string::npos) << two;
+  const std::string one = ranking_of_cases({lacking(preset_case("filament", 1e3, 1e4, 1e5), 700), as_many})["text"];
+  EXPECT_NE(one.find("filament lacks least, "), std::string::npos) << one;
+}
+
+TEST(PresetRanking, cells_that_a_method_fills_itself_are_told_beside_what_its_test_misses) {
+  Json boxes = lacking(preset_case("three-js", 0, 1e4, 1e5), 800);
+  boxes["error"] = {{"false_negatives", 7}, {"true_pairs", 3000}};
+  boxes["assigner"]["params"]["most"] = 64;
+  boxes["occupancy"]["lights_per_cell"]["max"] = 64;
+  const auto why = [&] { return ranking_of_cases(Json::array({boxes}))["cases"][0]["why"].get<std::string>(); };
+  EXPECT_NE(why().find("or cells are full (room for 64 lights per cell): 7 pairs"), std::string::npos) << why();
+  boxes["occupancy"]["lights_per_cell"]["max"] = 63;
+  EXPECT_EQ(why().find("full"), std::string::npos) << why();
+}
+
+TEST(PresetRanking, lists_that_do_not_fit_lose_nothing_only_where_they_may_grow) {
+  Json bevy = preset_case("bevy", 1e3, 1e4, 4e5);
+  bevy["react"] = {{"to", "entries"}, {"most", 16384}, {"frames", {{"reacted", 5}, {"over", 6}}}};
+  const std::string room =
+      "loses nothing where its lists may grow (storage buffers): with room for 16384 entries 6 frames of 30 do not fit";
+  Json ranking = ranking_of_cases(Json::array({bevy}));
+  EXPECT_NE(ranking["cases"][0]["why"].get<std::string>().find(room), std::string::npos) << ranking["cases"][0]["why"];
+  EXPECT_NE(ranking["text"].get<std::string>().find(room), std::string::npos) << ranking["text"];
+  bevy["react"]["frames"]["over"] = 0;
+  ranking = ranking_of_cases(Json::array({bevy}));
+  EXPECT_EQ(ranking["text"].get<std::string>().find("may grow"), std::string::npos) << ranking["text"];
+}
+
 TEST(PresetRanking, older_results_have_no_places_and_are_shown) {
   const Json cases = Json::array({preset_case("filament", 1e3, 1e4, 1e5)});
   Json ranking{{"scene", "level"},

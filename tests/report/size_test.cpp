@@ -111,6 +111,11 @@ TEST(Size, without_times_the_smallest_structure_is_shown_and_called_so) {
       << best_of(result);
 }
 
+TEST(Size, the_table_has_the_longest_list_of_all_cameras) {
+  EXPECT_NE(best_of(result_by_hand(), "table").find("  longest list: 7 lights\n"), std::string::npos)
+      << best_of(result_by_hand(), "table");
+}
+
 TEST(Size, the_table_tells_what_is_noted_of_a_grid_once) {
   run::Result result = result_by_hand();
   for (run::CaseResult& one : result.cases) one.grid["note"] = "the camera has no far plane";
