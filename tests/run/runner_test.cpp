@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "run/gate.h"
 #include "run/walk.h"
@@ -255,6 +256,20 @@ TEST(Runner, slices_that_follow_the_lights_count_like_fixed_ones_of_the_same_fra
   EXPECT_EQ(case_result.error->false_negatives, 0u);
   EXPECT_GT(case_result.error->true_pairs, 0u);
   EXPECT_TRUE(case_result.grid.contains("note"));
+}
+
+TEST(Runner, a_grid_that_far_at_most_cuts_does_not_say_that_no_light_lies_beyond) {
+  Walk walk(
+      R"("grids": [{"tiles": {"count": [4, 4]}, "slices": {"scheme": "exponential", "count": 8, "far_at_most": 20}}],
+         "assigners": ["aabb"])");
+  for (scene::Shot& shot : walk.plan.scenes[0].paths[0].shots)
+    shot.projection.far_m = std::numeric_limits<double>::infinity();
+  walk.add_light({0, 0, -50}, 2);
+  const std::string cut = walk.run().cases.at(0).grid["note"];
+  EXPECT_NE(cut.find("the grid ends at 20 m, its slices' far_at_most"), std::string::npos) << cut;
+  walk.config.grids[0].slices.far_at_most_m = 0.0;
+  const std::string note = walk.run().cases.at(0).grid["note"];
+  EXPECT_NE(note.find("beyond which no light of the path reaches"), std::string::npos) << note;
 }
 
 TEST(Runner, a_grid_is_told_with_the_constants_of_its_lookup) {
