@@ -5,8 +5,7 @@ import { type Space, space } from "./cells/space.ts";
 import { cellsView } from "./cells_view.ts";
 import { choice } from "./controls.ts";
 import { h } from "./dom.ts";
-import { lightsByDepth } from "./lights_by_depth.ts";
-import { type Case, seenBy } from "./model.ts";
+import type { Case } from "./model.ts";
 import type { Section, View } from "./view.ts";
 
 const nameOf = (view: View, aCase: Case) =>
@@ -37,10 +36,6 @@ export function cellsSection(): Section {
       { id: "cells" },
       h("h2", {}, "Cell by cell"),
       h("figure", {}, h("div", { class: "controls" }, control), shown.element),
-      lightsByDepth(
-        view,
-        cases.filter((other) => seenBy(other) === seenBy(aCase)),
-      ),
     );
   };
 }

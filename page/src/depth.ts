@@ -4,6 +4,7 @@ import { cameraPath } from "./camera_path.ts";
 import { choice } from "./controls.ts";
 import { costs } from "./costs.ts";
 import { h } from "./dom.ts";
+import { lightsByDepth } from "./lights_by_depth.ts";
 import { listLengths } from "./list_lengths.ts";
 import type { Case } from "./model.ts";
 import type { Section, View } from "./view.ts";
@@ -42,6 +43,7 @@ export const depthSection: Section = (view, redraw) => {
     h("div", { class: "controls" }, control),
     cameraPath(view, cases),
     listLengths(view, cases),
+    lightsByDepth(view, cases),
     costs(view, cases),
   );
 };

@@ -322,6 +322,7 @@ export type Result = {
       occupied_fraction: Spread; // Share of the cells with a light [share of 1, over all frames]
       worst_frame: number; // Frame with the longest list [frame, over the path]
       worst_cell: Cell; // Cell with the longest list
+      longest_by_slice?: number[]; // [z]: in the fullest cell of that slice, in cascades of that layer of cells of a level; absent in world grids, where slices move along the path, and for methods with cells of their own [lights, over all frames]
       along_path: {
         frames_per_entry: FramesPerEntry;
         pairs: number[]; // Pairs (cell, light) of each frame [pairs]

@@ -111,27 +111,67 @@ async function modules() {
 }
 
 describe("the most lights over depth", () => {
-  it("are those of the fullest cells of each case, but of world grids", async () => {
-    const page = await open(without, pages.cells);
-    const lead = await page.locator("#lights-by-depth figcaption").innerText();
-    const longest = result.cases
-      .filter(({ grid }) => grid.kind !== "world")
-      .map((one) => one.occupancy.lights_per_cell.max);
-    assert.match(
-      lead,
-      new RegExp(`Details are of 3 of 24 frames; in others a cell has up to ${Math.max(...longest)} lights`),
-    );
-    await page.locator("#lights-by-depth summary").click();
-    const rows = await page
-      .locator("#lights-by-depth tbody tr")
-      .evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.innerText)));
-    const { numbers } = await modules();
-    for (const { assigner, grid, details } of result.cases) {
-      const own = rows.filter(([, name]) => name === grid.name);
-      const most = Math.max(...details.frames.flatMap(({ cells }) => [...numbers(cells.reported)]));
-      if (grid.kind === "world") assert.equal(own.length, 0);
-      else assert.equal(Math.max(...own.map((row) => Number(row[4]))), most, assigner.name);
+  it("are those of the fullest cells of each slice, on every kind of grid with slices", async () => {
+    const { geometryOf, unpacked } = await modules();
+    for (const one of result.cases) {
+      const longest = one.occupancy.longest_by_slice;
+      if (one.grid.kind === "world") {
+        assert.equal(longest, undefined);
+        continue;
+      }
+      assert.equal(Math.max(...longest), one.occupancy.lights_per_cell.max, one.name);
+      for (const frame of one.details.frames) {
+        const cells = unpacked(frame, one.grid);
+        const { size } = geometryOf(one, cells);
+        cells.cells.forEach((index, row) => {
+          const slice = Math.floor(index / (size[0] * size[1]));
+          assert.ok(cells.reported[row] <= longest[slice], `${one.name}: slice ${slice}`);
+        });
+      }
     }
+  });
+
+  it("stand in the chart's table with from where to where each slice reaches", async () => {
+    const page = await open(without, pages.cells);
+    const options = await page
+      .locator("#depth select")
+      .first()
+      .locator("option")
+      .evaluateAll((all) => all.map((one) => one.value));
+    let seen = 0;
+    for (const option of options) {
+      await page.locator("#depth select").first().selectOption(option);
+      const text = await page
+        .locator("#depth select")
+        .first()
+        .evaluate((list) => list.selectedOptions[0].innerText);
+      const one = result.cases.find(({ grid, camera }) => text.includes(grid.name) && text.includes(camera));
+      if (one.grid.kind === "world") {
+        assert.equal(await page.locator("#lights-by-depth").count(), 0);
+        continue;
+      }
+      await page.locator("#lights-by-depth summary").click();
+      const rows = await page
+        .locator("#lights-by-depth tbody tr")
+        .evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.innerText)));
+      const cases = result.cases.filter(({ grid, camera }) => grid.name === one.grid.name && camera === one.camera);
+      for (const { occupancy } of cases) {
+        const lights = occupancy.longest_by_slice.filter((most) => most > 0);
+        assert.ok(rows.length >= lights.length);
+        for (const most of lights) assert.ok(rows.some((row) => Number(row[3]) === most));
+      }
+      if (one.grid.slices) {
+        const metres = (value) => `${Number(value.toPrecision(3))}`;
+        const slice = one.occupancy.longest_by_slice.findIndex((most) => most > 0);
+        const [near, far] = one.grid.slices.boundaries.slice(slice, slice + 2).map(metres);
+        assert.ok(
+          rows.some((row) => row[1] === near && row[2] === far),
+          `${near} to ${far}`,
+        );
+      }
+      ++seen;
+    }
+    assert.ok(seen > 1);
   });
 });
 

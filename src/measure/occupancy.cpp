@@ -80,6 +80,25 @@ Occupancy OccupancyMeter::result() const {
   return out;
 }
 
+void LongestBySlice::add_frame(const grid::Grid& grid, const assign::Lists& lists) {
+  if (grid.kind() == grid::Kind::world) return;
+  const std::vector<float> boundaries = grid.has_tiles() ? grid.screen().slices.boundaries : std::vector<float>{};
+  const Vec3i cells = grid.cells();
+  if (longest_.empty()) {
+    boundaries_ = boundaries;
+    longest_.resize(static_cast<std::size_t>(cells.z));
+  }
+  stay_ = stay_ && boundaries == boundaries_;
+  if (!stay_) return;
+  const auto cells_of_slice = static_cast<std::uint32_t>(cells.x * cells.y);
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+    std::uint32_t& longest = longest_[cell / cells_of_slice];
+    longest = std::max(longest, lists.begin[cell + 1] - lists.begin[cell]);
+  }
+}
+
+std::vector<std::uint32_t> LongestBySlice::result() const { return stay_ ? longest_ : std::vector<std::uint32_t>{}; }
+
 Histogram short_histogram(std::vector<std::uint64_t> cells_by_lights) {
   constexpr std::size_t k_most_entries = 256;
   Histogram out{1, std::move(cells_by_lights)};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "assign/contract/lists.h"
+#include "grid/grid.h"
 #include "measure/path_series.h"
 
 namespace clusterbench::measure {
@@ -27,6 +28,7 @@ struct Occupancy {
   std::uint32_t worst_count = 0;
   int fullest_frame = 0;                            // with the most pairs; the first of several
   PathSeries pairs_along_path, longest_along_path;  // longest: the frame's longest list
+  std::vector<std::uint32_t> longest_by_slice;      // LongestBySlice
 };
 
 // A histogram of at most 256 entries, each of so many successive lengths, a power of two.
@@ -52,6 +54,19 @@ class OccupancyMeter {
   std::uint32_t worst_cell_ = 0, worst_count_ = 0;
   std::uint64_t most_pairs_ = 0;
   PathSeries pairs_along_path_, longest_along_path_;
+};
+
+// The longest list among the cells of each slice, over all frames: how many lights there are at which depth. None in a
+// world grid, which has no slices, and where slices move along the path.
+class LongestBySlice {
+ public:
+  void add_frame(const grid::Grid& grid, const assign::Lists& lists);  // lists: one per cell of the grid
+  std::vector<std::uint32_t> result() const;
+
+ private:
+  std::vector<std::uint32_t> longest_;
+  std::vector<float> boundaries_;
+  bool stay_ = true;
 };
 
 }  // namespace clusterbench::measure

@@ -76,15 +76,17 @@ Json occupancy(const run::CaseResult& case_result) {
   Json lights = to_json(o.lights_per_cell);
   const measure::Histogram histogram = measure::short_histogram(o.histogram);
   lights["histogram"] = {{"lights_per_entry", histogram.lights_per_entry}, {"cells", histogram.cells}};
-  return {{"pairs", to_json(o.pairs)},
-          {"lights_per_cell", lights},
-          {"occupied_fraction", to_json(o.occupied_fraction)},
-          {"worst_frame", o.worst_frame},
-          {"worst_cell", cell_coordinates(o.worst_cell, case_result, o.worst_frame)},
-          {"along_path",
-           {{"frames_per_entry", o.pairs_along_path.frames_per_entry()},
-            {"pairs", o.pairs_along_path.entries()},
-            {"longest_list", o.longest_along_path.entries()}}}};
+  Json out{{"pairs", to_json(o.pairs)},
+           {"lights_per_cell", lights},
+           {"occupied_fraction", to_json(o.occupied_fraction)},
+           {"worst_frame", o.worst_frame},
+           {"worst_cell", cell_coordinates(o.worst_cell, case_result, o.worst_frame)},
+           {"along_path",
+            {{"frames_per_entry", o.pairs_along_path.frames_per_entry()},
+             {"pairs", o.pairs_along_path.entries()},
+             {"longest_list", o.longest_along_path.entries()}}}};
+  if (!o.longest_by_slice.empty()) out["longest_by_slice"] = o.longest_by_slice;
+  return out;
 }
 
 // Along the path only where frames differ: of the others high_water says all.

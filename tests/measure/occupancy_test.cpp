@@ -90,5 +90,33 @@ TEST(Occupancy, holes_are_no_cells) {
   EXPECT_EQ(o.lights_per_cell.p50, 1.0);
 }
 
+// 2 x 1 tiles, slices from 1 to 2, 4 and 8 m.
+grid::Grid three_slices(float far) {
+  grid::ScreenGrid out;
+  out.tiles.count = {2, 1};
+  out.slices.boundaries = {1.0f, 2.0f, 4.0f, far};
+  return {out};
+}
+
+TEST(LongestBySlice, is_of_the_fullest_cell_of_each_slice_over_all_frames) {
+  LongestBySlice meter;
+  meter.add_frame(three_slices(8.0f), {{0, 1, 3, 3, 3, 3, 4}, {0, 0, 1, 2}});
+  meter.add_frame(three_slices(8.0f), {{0, 3, 3, 3, 3, 3, 3}, {0, 1, 2}});
+  EXPECT_EQ(meter.result(), (std::vector<std::uint32_t>{3, 0, 1}));
+}
+
+TEST(LongestBySlice, is_of_no_depth_where_slices_move) {
+  LongestBySlice meter;
+  meter.add_frame(three_slices(8.0f), {{0, 1, 3, 3, 3, 3, 4}, {0, 0, 1, 2}});
+  meter.add_frame(three_slices(9.0f), {{0, 1, 3, 3, 3, 3, 4}, {0, 0, 1, 2}});
+  EXPECT_TRUE(meter.result().empty());
+}
+
+TEST(LongestBySlice, is_not_of_world_grids) {
+  LongestBySlice meter;
+  meter.add_frame({grid::WorldGrid{}}, {{0, 1}, {0}});
+  EXPECT_TRUE(meter.result().empty());
+}
+
 }  // namespace
 }  // namespace clusterbench::measure

@@ -68,6 +68,7 @@ class MethodMeter {
     if (now.is_new_grid)
       occupancy_->set_real_cells(run_.has_occupied_cells() ? lists_->cell_count() : real_cells(grid));
     occupancy_->add_frame(now.frame.index, *lists_);
+    if (measures_.has_grid_cells) longest_by_slice_.add_frame(grid, *lists_);
     if (list_changes_) list_changes_->add(*lists_);
     if (compares_) compare(now, grid);
     for (ShadowCullMeter& cull : shadow_culls_)
@@ -97,6 +98,7 @@ class MethodMeter {
   MethodMeasures result() const {
     MethodMeasures out = measures_;
     if (occupancy_) out.occupancy = occupancy_->result();
+    out.occupancy.longest_by_slice = longest_by_slice_.result();
     if (list_changes_) out.list_changes = list_changes_->result();
     if (cull_meter_) out.pre_cull = cull_meter_->result();
     for (const ShadowCullMeter& cull : shadow_culls_) out.shadow_culls.push_back(cull.result(*shadows_));
@@ -130,6 +132,7 @@ class MethodMeter {
   std::vector<ShadowCullMeter> shadow_culls_;  // one per way, of lists alone
   const assign::Lists* lists_ = nullptr;       // of the cells, in the current frame
   std::optional<measure::OccupancyMeter> occupancy_;
+  measure::LongestBySlice longest_by_slice_;
   std::optional<ListChangeMeter> list_changes_;
   MethodMeasures measures_;
 };
