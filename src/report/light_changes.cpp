@@ -23,7 +23,7 @@ std::uint64_t lights_of_kind(const Json& scene, const char* kind) {
 }
 
 bool are_as_many(const Json& a, const Json& b) {
-  return std::ranges::all_of(std::initializer_list<const char*>{"point", "spot", "box"},
+  return std::ranges::all_of(std::initializer_list<const char*>{"point", "spot", "box", "directional"},
                              [&](const char* kind) { return lights_of_kind(a, kind) == lights_of_kind(b, kind); });
 }
 

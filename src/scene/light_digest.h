@@ -8,9 +8,11 @@
 namespace clusterbench::scene {
 
 // 16 hexadecimal digits from the lights that are assigned: how many there are, and kind, position, range, direction and
-// angle of each, and whether it is dark, at the beginning, the middle and the end of the animations. Names, order,
-// other colours and brightness, surfaces and cameras do not count. All numbers are rounded to single precision, so that
-// it does not count either whether a file writes them with more digits, or a node's transform as a matrix.
+// angle of each, and whether it is dark, at every key of the animations that lights follow and in the middles between
+// keys; and from how many directional lights there are. Names, order, other colours and brightness, surfaces and
+// cameras do not count, nor what moves these. All numbers are rounded to single precision, so that it does not count
+// either whether a file writes them with more digits, or a node's transform as a matrix. The same motion with other
+// keys counts as another one.
 std::string light_digest(const Scene& scene);
 
 // Whether nothing would look other without it: a light of intensity 0, black, or of range 0. A box lights nothing and

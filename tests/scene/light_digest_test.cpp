@@ -92,6 +92,90 @@ TEST(LightDigest, is_another_where_a_light_is_switched_off_and_counts_these) {
   EXPECT_EQ(count_dark_lights(dim), 20);
 }
 
+Channel channel_of(const Scene& scene, std::size_t light, ChannelPath path, std::vector<double> times_s,
+                   std::vector<Vec4d> values) {
+  Channel channel;
+  if (path == ChannelPath::translation)
+    channel.node = scene.lights[light].node;
+  else
+    channel.definition = scene.lights[light].definition;
+  channel.path = path;
+  channel.times_s = std::move(times_s);
+  channel.values = std::move(values);
+  return channel;
+}
+
+Vec4d at(double x, double y, double z) { return {x, y, z, 0.0}; }
+
+Scene with_motion(Scene scene, std::size_t light, std::vector<double> times_s, std::vector<Vec4d> values) {
+  scene.channels.push_back(channel_of(scene, light, ChannelPath::translation, times_s, std::move(values)));
+  scene.duration_s = std::max(scene.duration_s, times_s.back());
+  return scene;
+}
+
+TEST(LightDigest, is_another_where_a_light_goes_elsewhere_between_the_ends_and_the_middle) {
+  const Scene scene = rig_of(5);
+  const std::vector<double> times{0.0, 1.0, 2.0, 3.0, 4.0};
+  const Scene stays = with_motion(scene, 2, times, {at(1, 1, 1), at(1, 1, 1), at(1, 1, 1), at(1, 1, 1), at(1, 1, 1)});
+  const Scene goes = with_motion(scene, 2, times, {at(1, 1, 1), at(500, 1, 1), at(1, 1, 1), at(9, 1, 1), at(1, 1, 1)});
+  EXPECT_NE(light_digest(stays), light_digest(goes));
+}
+
+TEST(LightDigest, is_another_where_two_lights_exchange_places) {
+  Scene scene = rig_of(6);
+  for (Light& light : scene.lights) light.range_m = 3.0;
+  node_of(scene, 0).translation = {0.0, 0.0, 0.0};
+  node_of(scene, 1).translation = {8.0, 0.0, 0.0};
+  const Scene moving = with_motion(with_motion(scene, 0, {0.0, 1.0}, {at(0, 0, 0), at(8, 0, 0)}), 1, {0.0, 1.0},
+                                   {at(8, 0, 0), at(0, 0, 0)});
+  EXPECT_NE(light_digest(moving), light_digest(scene));
+}
+
+TEST(LightDigest, of_moving_lights_does_not_depend_on_how_long_a_camera_moves) {
+  const Scene scene = with_motion(rig_of(5), 2, {0.0, 1.0}, {at(0, 0, 0), at(8, 0, 0)});
+  Scene longer = scene;
+  longer.duration_s = 20.0;
+  EXPECT_EQ(light_digest(longer), light_digest(scene));
+}
+
+TEST(LightDigest, is_another_for_each_of_more_keys_than_are_asked_for) {
+  std::vector<double> times;
+  std::vector<Vec4d> values;
+  for (int i = 0; i < 5000; ++i) {
+    times.push_back(0.01 * i);
+    values.push_back(at(0.001 * i, 0, 0));
+  }
+  const Scene scene = with_motion(rig_of(5), 2, times, values);
+  for (const std::size_t key : {std::size_t{1}, std::size_t{2501}, std::size_t{4997}}) {
+    values[key].y = 40.0;
+    EXPECT_NE(light_digest(with_motion(rig_of(5), 2, times, values)), light_digest(scene));
+    values[key].y = 0.0;
+  }
+}
+
+TEST(LightDigest, a_light_that_shines_at_some_time_is_not_dark) {
+  Scene scene = rig_of(1);
+  scene.lights[0].definition = 0;
+  const auto flashes = [&](std::vector<Vec4d> values) {
+    Scene out = scene;
+    out.light_channels = {channel_of(scene, 0, ChannelPath::intensity, {0.0, 1.0, 2.0, 3.0, 4.0}, std::move(values))};
+    return out;
+  };
+  const Scene flashing = flashes({at(0, 0, 0), at(100, 0, 0), at(0, 0, 0), at(100, 0, 0), at(0, 0, 0)});
+  const Scene dark = flashes({at(0, 0, 0), at(0, 0, 0), at(0, 0, 0), at(0, 0, 0), at(0, 0, 0)});
+  EXPECT_EQ(count_dark_lights(flashing), 0);
+  EXPECT_EQ(count_dark_lights(dark), 1);
+  EXPECT_NE(light_digest(flashing), light_digest(dark));
+}
+
+TEST(LightDigest, is_another_where_a_directional_light_is_gone) {
+  Scene scene = rig_of(5);
+  const std::string without = light_digest(scene);
+  scene.lights.push_back(scene.lights[0]);
+  scene.lights.back().type = LightType::directional;
+  EXPECT_NE(light_digest(scene), without);
+}
+
 TEST(LightDigest, of_no_lights_is_not_that_of_a_light) {
   Scene none = rig_of(1);
   const std::string one = light_digest(none);
