@@ -201,7 +201,7 @@ export type Result = {
       box: number; // Oriented boxes, from extras
       dark?: number; // Of the points and spots those that light nothing: of intensity 0, black, or of range 0, at the beginning, the middle and the end of the animations. Methods get them all the same. Absent in older results
     }; // By type [lights, over the scene]
-    light_digest?: string; // The same for the same assigned lights (kinds, positions, ranges, directions, angles, whether they are dark), whatever their names, order and file are; absent in older results
+    light_digest?: string; // The same for the same assigned lights (kinds, positions, ranges, directions, angles, whether they are dark, along their animations, and how many directional ones), whatever their names, order and file are; absent in older results
     frames: number; // Frames of all camera paths together [frames, over the scene]
     range_rule: {
       cutoff_lux: number | null; // A light without a range ends where its illuminance falls to this [lux, over each light]
@@ -231,6 +231,11 @@ export type Result = {
     name: string; // scene/camera/grid/assigner/storage, then the pre-cull where there is one, and the precision where it is not float32
     scene: string; // Name of one of scenes
     camera: string; // Name in the scene, or of the path that was made because the scene has no camera
+    camera_path?: {
+      from_s: number; // Time of the first frame [s, over the path]
+      to_s: number; // Time of the last frame [s, over the path]
+      digest?: string; // The same for the same motion and projection, whatever the file is and in however many frames it is measured; absent for a path that was made for a scene without cameras
+    }; // Along which the camera is measured; absent in older results
     viewport: [number, number]; // [width, height] [pixels, over the case]
     frames: number; // Frames of the camera's path [frames, over the case]
     grid: {
@@ -284,7 +289,7 @@ export type Result = {
       kind: "dropped_pairs" | "unlit" | "undecided" | "lost_pairs" | "unchecked" | "too_many_lights"; // dropped_pairs: the storage was full. unlit: more than 0.001 of the lights that samples need are not given. undecided: pairs that exact arithmetic left open. lost_pairs: of a method that is not conservative. unchecked: no truth to hold the lists against. too_many_lights: frames have more lights than a limit lets in
       text: string; // The same for people, without the case's name
     }>; // What to know about the case before believing its figures, beside its failures
-    loses_lights: boolean; // Whether a shader lacks lights: pairs that are not listed or were dropped, lights that samples of a structure without cells miss, or more than 0.001 of those that samples need
+    loses_lights: boolean; // Whether a shader lacks lights: pairs that are not listed or were dropped, lights that samples of a structure without cells miss, or more than 0.001 of those that visible surfaces need; without samples of surfaces, of those that random points in the view need
     eligible: boolean; // Whether it may stand on the Pareto front, and be the best that others are measured by: it fails nothing and loses no lights (loses_lights)
     tests_done: number; // Over all frames: cells, rows of cells, lights or planes, whichever a method looks at one by one; a method that looks at many at a time counts otherwise than its scalar reference [tests, over all frames]
     fallbacks: number; // Pairs that the method could not decide in single precision and decided at greater cost [pairs, over all frames]
@@ -547,7 +552,7 @@ export type Result = {
       read_ns?: number | null; // Sum over the sets: samples x divergence x (reads x ns_per_read + read_bytes / read_gb_per_s). Absent in older results, where reading was free [ns]
       shade_ns: number | null; // Sum over the sets: samples x lights x divergence x ns_per_light [ns]
       lights?: number | null; // Looped over at a sample of these sets, mean [lights]
-      overshade?: number | null; // Lights given at the samples of these sets / lights that reach them: the overshade that a rank by cost rests on. null where none reaches them [ratio]
+      overshade?: number | null; // Lights given at the samples of these sets / lights that reach them: the overshade that a rank by cost rests on. null where none reaches them, or where one of the sets lacks more than 0.001 of them [ratio]
       sets: Record<string, {
         samples: number | null; // That a frame shades: weight x samples, each of which stands for its block of pixels [samples]
         lights: number | null; // Looped over at one of them, mean [lights]

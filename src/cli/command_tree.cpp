@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "assign/contract/assigner.h"
+#include "config/documents.h"
 #include "config/presets.h"
 #include "grid/grid.h"
 #include "report/exports/exports.h"
@@ -50,6 +51,13 @@ Values grid_kinds() {
     values.words.emplace_back(grid::kind_name(static_cast<grid::Kind>(kind)));
   return values;
 }
+Values slicing_schemes() {
+  Values values{Kind::words, {}};
+  const nlohmann::json schema = config::config_schema();
+  for (const auto& name : schema["definitions"]["slices"]["properties"]["scheme"]["enum"])
+    values.words.push_back(name.get<std::string>());
+  return values;
+}
 Values generators() {
   Values values{Kind::words, {}};
   for (const scene::GeneratorRow& row : scene::generators()) values.words.push_back(row.name);
@@ -73,6 +81,7 @@ constexpr WordsRow k_words[] = {
     {"run", "--preset", preset_words},
     {"run", "--tiles", anything},
     {"run", "--slices", anything},
+    {"run", "--scheme", slicing_schemes},
     {"run", "--viewport", anything},
     {"run", "--rounds", anything},
     {"run", "--threads", anything},
@@ -90,6 +99,7 @@ constexpr WordsRow k_words[] = {
     {"worst-case", "--preset", preset_words},
     {"worst-case", "--tiles", anything},
     {"worst-case", "--slices", anything},
+    {"worst-case", "--scheme", slicing_schemes},
     {"worst-case", "--viewport", anything},
     {"worst-case", "--threads", anything},
     {"worst-case", "--set", anything},

@@ -1,5 +1,7 @@
 // `clusterbench history add` and `clusterbench history show`: results over commits.
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "cli/commands.h"
@@ -37,6 +39,7 @@ ExitCode add(const AddFlags& flags) {
          (flags.allows_changed_lights ? ""
           : addition.is_added         ? " (it was added; --allow-changed-lights if that is meant)"
                                       : " (--allow-changed-lights if that is meant)"));
+  for (const std::string& change : addition.path_changes) tell("warning: " + change);
   for (const std::string& scene : addition.new_scenes)
     tell("warning: " + flags.file + " has no earlier lights of " + scene + " to hold these against");
   return addition.light_changes.empty() || flags.allows_changed_lights ? ExitCode::ok : ExitCode::gate_failed;
@@ -47,9 +50,10 @@ ExitCode show(const ShowFlags& flags) {
   const std::vector<report::HistoryEntry> history = report::read_history(flags.file);
   const measure::ChangeRule rule{flags.max_p, flags.min_change_percent / 100.0};
   const std::vector<report::Series> series = report::series_of(history, rule);
-  const std::vector<std::string> lights = report::light_changes_in(history);
-  if (!flags.page.empty()) write_text(flags.page, report::history_page(series, history.size(), lights));
-  if (flags.page != "-") write_text("-", report::history_text(series, history.size(), flags.all, rule, lights));
+  std::vector<std::string> changes = report::light_changes_in(history);
+  std::ranges::copy(report::path_changes_in(history), std::back_inserter(changes));
+  if (!flags.page.empty()) write_text(flags.page, report::history_page(series, history.size(), changes));
+  if (flags.page != "-") write_text("-", report::history_text(series, history.size(), flags.all, rule, changes));
   return ExitCode::ok;
 }
 

@@ -167,12 +167,25 @@ void choose_tiles(FlaggedConfig& document, const FlagValue& flag) {
   document["grids"] = grids;
 }
 
-void choose_slices(FlaggedConfig& document, const FlagValue& flag) {
+void set_of_slices(FlaggedConfig& document, const char* key, const FlagValue& flag) {
   Json& grids = document["grids"];
   if (std::none_of(grids.begin(), grids.end(), has_tiles)) refuse(flag, "no grid has slices; add --grid frustum");
-  const std::string steps[] = {"slices", "count"};
+  const std::string steps[] = {"slices", key};
   for (std::size_t i = 0; i < grids.size(); ++i)
     if (has_tiles(grids[i])) document.set(grids[i], child_pointer("/grids", i), steps, flag, value_of(flag.value));
+}
+
+void choose_slices(FlaggedConfig& document, const FlagValue& flag) {
+  set_of_slices(document, "count", flag);
+}
+
+void choose_scheme(FlaggedConfig& document, const FlagValue& flag) {
+  set_of_slices(document, "scheme", flag);
+}
+
+// Flags that change the grids that are there.
+bool shapes_grids(const FlagValue& flag) {
+  return flag.name == "--tiles" || flag.name == "--slices" || flag.name == "--scheme";
 }
 
 void choose_viewports(FlaggedConfig& document, const FlagValue& flag) {
@@ -312,6 +325,8 @@ constexpr FlagRow k_rows[] = {
      choose_grids},
     {{"--tiles", "SIZE[,SIZE]: pixels of a tile, 64 or 64x32; or tiles across and down, 16x9t"}, choose_tiles},
     {{"--slices", "N[,N]: how many slices depth or distance is cut into"}, choose_slices},
+    {{"--scheme", "NAME[,NAME]: how it is cut: exponential, exponential-first, linear, ...; docs/grids-and-lookups.md"},
+     choose_scheme},
     {{"--viewport", "WxH[,WxH]: image sizes in pixels, as 1920x1080"}, choose_viewports},
     {{"--assigner", "NAME[,NAME]: only these assigners; * and ? stand for any letters, as in '*-fast'"},
      choose_assigners},
@@ -404,7 +419,7 @@ bool names_key(std::span<const FlagValue> values, const std::string& key) {
 
 bool name_clusterings(std::span<const FlagValue> values) {
   const auto is_own = [](const FlagValue& flag) {
-    return flag.name == "--grid" || flag.name == "--tiles" || flag.name == "--slices" || flag.name == "--assigner";
+    return flag.name == "--grid" || flag.name == "--assigner" || shapes_grids(flag);
   };
   return std::ranges::any_of(values, is_own) || names_key(values, "(grids|assigners|storages)");
 }
@@ -415,7 +430,6 @@ JsonText changed_by_flags(const Json& document, GridsFrom grids, const std::stri
   text.file = file;
   text.value = document;
   FlaggedConfig changed(text);
-  const auto shapes_grids = [](const FlagValue& flag) { return flag.name == "--tiles" || flag.name == "--slices"; };
   if (grids == GridsFrom::defaults && std::any_of(values.begin(), values.end(), shapes_grids))
     keep_one_of_each_kind(text.value["grids"]);
   for (const FlagRow& row : k_rows)

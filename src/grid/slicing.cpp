@@ -71,8 +71,9 @@ void check(const Slicing& slicing, const Reach& reach, bool orthographic) {
   require(orthographic || reach.near >= 0.0, "slices.near", "must not be negative for a perspective camera");
   if (slicing.scheme == Scheme::exponential_first) {
     require(reach.near < slicing.first_m && slicing.first_m < reach.far, "slices.first",
-            "is " + metres(slicing.first_m) + "; it must lie between near, " + metres(reach.near) + ", and far, " +
-                metres(reach.far));
+            "is " + metres(slicing.first_m) + (slicing.first_m == Slicing{}.first_m ? " where none is given" : "") +
+                "; it must lie between near, " + metres(reach.near) + ", and far, " + metres(reach.far) +
+                ": name one (grids.*.slices.first), or another scheme (grids.*.slices.scheme)");
     require(slicing.first_m > 0.0, "slices.first",
             "is " + metres(slicing.first_m) + "; exponential slices begin there and need a number above 0");
     require(slicing.count >= 2, "slices.count", "must be at least 2 for exponential-first");

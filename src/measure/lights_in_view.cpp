@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "grid/lights_in_view.h"
-#include "scene/light_digest.h"
+#include "scene/digests.h"
 
 namespace clusterbench::measure {
 

@@ -17,7 +17,7 @@ struct LightsInView {
   std::uint64_t most = 0, frames_with_most = 0;
   int worst_frame = 0;                                            // the first with most
   std::array<std::uint64_t, view::k_light_types> most_of_type{};  // points, spots, boxes: each in a frame of its own
-  // By index of a frame's lights: those that shine in some frame (scene/light_digest.h), and those that are in view in
+  // By index of a frame's lights: those that shine in some frame (scene/digests.h), and those that are in view in
   // a frame in which they shine. Lights that are dark are in view like others.
   std::vector<bool> is_lit, is_seen;
 

@@ -121,7 +121,7 @@ Json cost_of(const Json& result_case, const std::vector<WeightedSet>& sets, cons
           {"read_ns", number_or_null(cost.read_ns)},
           {"shade_ns", number_or_null(cost.shade_ns)},
           {"lights", number_or_null(given / samples)},
-          {"overshade", number_or_null(given / needed)},
+          {"overshade", is_lit ? number_or_null(given / needed) : Json()},
           {"sets", sets_json},
           {"lit", is_lit}};
 }

@@ -69,6 +69,9 @@ Json history_line(const Json& result, const std::string& commit) {
                              {"name", result_case.at("name")},
                              {"scene", result_case.at("scene")},
                              {"figures", figures}});
+    if (!result_case.contains("camera_path")) continue;
+    line["cases"].back()["camera"] = result_case.at("camera");
+    line["cases"].back()["camera_path"] = result_case["camera_path"];
   }
   return line;
 }
@@ -79,6 +82,9 @@ HistoryEntry::Case parsed_case(const Json& stored) {
                          {},
                          stored.value("scene", std::string())};
   for (const auto& [name, value] : stored.at("figures").items()) out.figures.emplace_back(name, value.get<double>());
+  if (const Json path = stored.value("camera_path", Json()); !path.is_null())
+    out.path = {stored.at("camera").get<std::string>(), path.value("digest", std::string()),
+                path.at("from_s").get<double>(), path.at("to_s").get<double>()};
   return out;
 }
 
@@ -227,20 +233,43 @@ std::vector<std::string> changed_lights(std::span<const HistoryEntry> before, co
   return lines;
 }
 
-// Whether what a change lies between has the same lights, as far as is known: of what is counted the two results beside
-// it, of times, whose changes are found by many results, all up to the neighbouring changes.
-enum class LightsAround { same, others, unknown };
-LightsAround lights_around(const Series& series, const measure::ChangePoint& change) {
+const CameraPath* path_in(const HistoryEntry& entry, const std::string& scene, const std::string& camera) {
+  const auto found = std::ranges::find_if(entry.cases, [&](const HistoryEntry::Case& other) {
+    return other.scene == scene && other.path.camera == camera && !other.path.digest.empty();
+  });
+  return found == entry.cases.end() ? nullptr : &found->path;
+}
+
+// What `entry` has changed against the last results of each of its cameras before it.
+std::vector<std::string> changed_paths(std::span<const HistoryEntry> before, const HistoryEntry& entry) {
+  std::vector<std::string> lines;
+  for (const HistoryEntry::Case& now : entry.cases) {
+    if (now.path.digest.empty()) continue;
+    const CameraPath* then = nullptr;
+    for (auto earlier = before.rbegin(); earlier != before.rend() && then == nullptr; ++earlier)
+      then = path_in(*earlier, now.scene, now.path.camera);
+    if (then == nullptr || then->digest == now.path.digest) continue;
+    const std::string line =
+        path_change_text(now.scene, now.path.camera, {then->from_s, then->to_s}, {now.path.from_s, now.path.to_s});
+    if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+  }
+  return lines;
+}
+
+// Whether what a change lies between has the same lights or camera path, as far as is known: of what is counted the two
+// results beside it, of times, whose changes are found by many results, all up to the neighbouring changes.
+enum class Around { same, others, unknown };
+Around digests_around(const Series& series, const std::vector<std::string>& all, const measure::ChangePoint& change) {
   const bool is_counted = change.p == 0.0;
-  std::size_t begin = is_counted ? change.index - 1 : 0, end = is_counted ? change.index + 1 : series.lights.size();
+  std::size_t begin = is_counted ? change.index - 1 : 0, end = is_counted ? change.index + 1 : all.size();
   for (const measure::ChangePoint& other : series.changes) {
     if (other.index < change.index) begin = std::max(begin, other.index);
     if (other.index > change.index) end = std::min(end, other.index);
   }
-  const std::set<std::string> digests(series.lights.begin() + static_cast<std::ptrdiff_t>(begin),
-                                      series.lights.begin() + static_cast<std::ptrdiff_t>(end));
-  if (digests.size() <= 1) return LightsAround::same;  // or none is known: lines of an older version
-  return digests.contains("") ? LightsAround::unknown : LightsAround::others;
+  const std::set<std::string> digests(all.begin() + static_cast<std::ptrdiff_t>(begin),
+                                      all.begin() + static_cast<std::ptrdiff_t>(end));
+  if (digests.size() <= 1) return Around::same;  // or none is known: lines of an older version
+  return digests.contains("") ? Around::unknown : Around::others;
 }
 
 // "all 140,258", "140,258 to 151,000".
@@ -292,6 +321,7 @@ Addition add_to_history(const std::string& path, const Json& result, const std::
   std::vector<HistoryEntry> others;
   std::ranges::copy_if(history, std::back_inserter(others),
                        [&](const HistoryEntry& entry) { return entry.commit != commit; });
+  addition.path_changes = changed_paths(others, fresh);
   addition.light_changes = missing_scenes(others, history, fresh);
   std::ranges::copy(changed_lights(others, fresh), std::back_inserter(addition.light_changes));
   for (const SceneLights& scene : fresh.scenes)
@@ -342,10 +372,12 @@ std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const me
                          {},
                          {},
                          {},
+                         {},
                          false,
                          {}});
         const SceneLights* lights = lights_of_scene(entry, history_case.scene);
         all[found->second].lights.push_back(lights == nullptr ? "" : lights->digest);
+        all[found->second].paths.push_back(history_case.path.digest);
         all[found->second].commits.push_back(entry.commit);
         all[found->second].values.push_back(value);
       }
@@ -370,22 +402,30 @@ std::vector<std::string> light_changes_in(const std::vector<HistoryEntry>& histo
   return lines;
 }
 
+std::vector<std::string> path_changes_in(const std::vector<HistoryEntry>& history) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 1; i < history.size(); ++i)
+    for (const std::string& change : changed_paths(std::span(history).first(i), history[i]))
+      lines.push_back("at " + history[i].commit + ": " + change + "; figures from there on are of other views");
+  return lines;
+}
+
 std::string direction(const Series& series, const measure::ChangePoint& change) {
   const Metric& metric = *series.metric;
-  if (metric.better == Better::neither || lights_around(series, change) != LightsAround::same) return "";
+  if (metric.better == Better::neither || digests_around(series, series.lights, change) != Around::same ||
+      digests_around(series, series.paths, change) != Around::same)
+    return "";
   return (change.after < change.before) == (metric.better == Better::smaller) ? "better" : "worse";
 }
 
 std::string direction_text(const Series& series, const measure::ChangePoint& change) {
   if (series.metric->better == Better::neither) return "";
-  switch (lights_around(series, change)) {
-    case LightsAround::others:
-      return "of other lights";
-    case LightsAround::unknown:
-      return "perhaps of other lights, which older lines do not tell";
-    case LightsAround::same:
-      break;
-  }
+  const Around lights = digests_around(series, series.lights, change),
+               paths = digests_around(series, series.paths, change);
+  if (lights == Around::others) return "of other lights";
+  if (paths == Around::others) return "of another camera path";
+  if (lights == Around::unknown) return "perhaps of other lights, which older lines do not tell";
+  if (paths == Around::unknown) return "perhaps of another camera path, which older lines do not tell";
   return direction(series, change);
 }
 

@@ -17,6 +17,12 @@ struct SceneLights {
   std::string counts;  // "248 points, 52 spots"
 };
 
+// Along which a case was measured; of older versions all is empty, of a path that was made the digest.
+struct CameraPath {
+  std::string camera, digest;
+  double from_s = 0.0, to_s = 0.0;
+};
+
 struct HistoryEntry {
   std::string commit;   // as it was given
   std::string machine;  // processor and instruction set
@@ -26,6 +32,7 @@ struct HistoryEntry {
     std::string settings, name;                           // the first is "" in lines of older versions
     std::vector<std::pair<std::string, double>> figures;  // by the metric's name
     std::string scene = {};                               // "" in lines of older versions
+    CameraPath path = {};
   };
   std::vector<Case> cases;
   std::vector<SceneLights> scenes = {};  // none in lines of older versions
@@ -36,6 +43,8 @@ struct HistoryEntry {
 // missing, which 1b90 has" where an earlier commit has a scene beside others of the result and no result of this commit
 // does.
 std::vector<std::string> light_changes_in(const std::vector<HistoryEntry>& history);
+// "at 3f2a: the path of camera walk in level has changed: 0 to 15 s, now 0 to 7.5 s", likewise.
+std::vector<std::string> path_changes_in(const std::vector<HistoryEntry>& history);
 
 // One figure of one case, in the order of the file.
 struct Series {
@@ -46,8 +55,9 @@ struct Series {
   const Metric* metric;
   std::vector<std::string> commits;
   std::vector<double> values;
-  std::vector<std::string> lights;  // the digest of the scene's lights, for each value; "" where it is not known
-  bool is_too_short = false;        // for any change to be told from noise
+  // The digests of the scene's lights and of the camera's path, for each value; "" where it is not known.
+  std::vector<std::string> lights, paths;
+  bool is_too_short = false;  // for any change to be told from noise
   std::vector<measure::ChangePoint> changes;
 };
 
@@ -59,6 +69,7 @@ struct Addition {
   std::size_t earlier = 0;  // lines of this commit that were there
   // Like light_changes_in(): against the last lines of other commits.
   std::vector<std::string> light_changes = {};
+  std::vector<std::string> path_changes = {};
   std::vector<std::string> new_scenes = {};  // that no line of another commit has, where there are such lines
 };
 // Adds the result as the file's last line, or behind those of its commit where a job runs again; makes the file if
@@ -74,9 +85,10 @@ std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const me
 std::string history_text(const std::vector<Series>& series, std::size_t entries, bool all,
                          const measure::ChangeRule& rule = {}, const std::vector<std::string>& light_changes = {});
 
-// "better", "worse", or "" where the metric has no direction. A figure of other lights is neither.
+// "better", "worse", or "" where the metric has no direction. A figure of other lights or another camera path is
+// neither.
 std::string direction(const Series& series, const measure::ChangePoint& change);
-// That direction in words, "of other lights" where this is why there is none.
+// That direction in words, "of other lights", "of another camera path" where this is why there is none.
 std::string direction_text(const Series& series, const measure::ChangePoint& change);
 
 // "+3.3 %"; from nothing: "from 0".

@@ -184,7 +184,40 @@ void add_changed_lights(const Json& result, const LightGate& gate, LimitFindings
   }
 }
 
+PathSpan span_of(const Json& path) {
+  return {path["from_s"].get<double>(), path["to_s"].get<double>()};
+}
+
+// Figures of other frames do not compare with the baseline's, whatever the lights are.
+void add_changed_paths(const Json& result, const LightGate& gate, LimitFindings& findings) {
+  for (const Json& result_case : result["cases"]) {
+    const auto scene = std::ranges::find_if(
+        result["scenes"], [&](const Json& candidate) { return candidate["name"] == result_case["scene"]; });
+    const Json* before = scene == result["scenes"].end() ? nullptr : scene_before(*gate.base, result, *scene);
+    const Json* now = value_at(result_case, "/camera_path/digest");
+    if (before == nullptr || now == nullptr) continue;
+    const auto base_case = std::ranges::find_if((*gate.base)["cases"], [&](const Json& candidate) {
+      return candidate["scene"] == (*before)["name"] && candidate["camera"] == result_case["camera"];
+    });
+    if (base_case == (*gate.base)["cases"].end()) continue;
+    const Json* then = value_at(*base_case, "/camera_path/digest");
+    if (then == nullptr || *then == *now) continue;
+    add_once(path_change_text(shown(result_case["scene"]), shown(result_case["camera"]),
+                              span_of((*base_case)["camera_path"]), span_of(result_case["camera_path"])) +
+                 ", so budgets against " + gate.base_name + " compare other views",
+             findings.warnings);
+  }
+}
+
 }  // namespace
+
+std::string path_change_text(const std::string& scene, const std::string& camera, const PathSpan& before,
+                             const PathSpan& now) {
+  const auto words = [](const PathSpan& span) { return text("%g to ", span.from_s) + text("%g s", span.to_s); };
+  const bool is_as_long = before.from_s == now.from_s && before.to_s == now.to_s;
+  return "the path of camera " + camera + " in " + scene + " has changed: " +
+         (is_as_long ? "as long (" + words(now) + "), and another way or lens" : words(before) + ", now " + words(now));
+}
 
 std::string lights_text(const Json& scene) {
   std::string text;
@@ -216,6 +249,7 @@ LimitFindings light_findings(const Json& result, const LightGate& gate) {
   add_not_measured(result, gate.allows_no_lights, findings);
   if (gate.base == nullptr) return findings;
   add_changed_lights(result, gate, findings);
+  add_changed_paths(result, gate, findings);
   add_gone_views(result, gate, findings);
   return findings;
 }

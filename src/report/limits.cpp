@@ -117,12 +117,17 @@ const FigureRow* row_at_samples(const std::string& figure) {
 std::optional<Found> found_at_samples(const Json& result_case, const FigureRow& row,
                                       const std::vector<std::string>& sets, bool is_of_ranking) {
   std::optional<Found> most;
-  const std::optional<double> weighted = number_at(result_case, "/cost/overshade");
-  if (is_of_ranking && weighted && row.name == std::string_view("overshade"))
+  if (is_of_ranking && row.name == std::string_view("overshade") &&
+      value_at(result_case, "/cost/overshade") != nullptr) {
+    const std::optional<double> weighted = number_at(result_case, "/cost/overshade");
+    const Json* is_lit = value_at(result_case, "/cost/lit");  // older results have the ratio beside a false one
+    if (!weighted || (is_lit != nullptr && *is_lit == false)) return {};
     return Found{{*weighted, 1.0}, words_of_sets(sets), joined(sets)};
+  }
   for (const std::string& set : sets) {
     const Json* counts = samples_of_set(result_case, set);
-    std::optional<Found> found = counts != nullptr ? found_by(row, *counts) : std::nullopt;
+    if (counts == nullptr || number_at(*counts, "/needed") == 0.0) continue;
+    std::optional<Found> found = found_by(row, *counts);
     if (!found || (most && most->value() >= found->value())) continue;
     found->location = words_of_set(set) + (found->location.empty() ? "" : ", ") + found->location;
     found->samples = joined(sets);

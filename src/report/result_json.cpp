@@ -71,6 +71,12 @@ Json to_json(const measure::LightsInView& lights) {
            {{"point", lights.most_of_type[0]}, {"spot", lights.most_of_type[1]}, {"box", lights.most_of_type[2]}}}};
 }
 
+Json camera_path(const run::CameraPathFacts& path) {
+  Json out{{"from_s", number_or_null(path.from_s)}, {"to_s", number_or_null(path.to_s)}};
+  if (!path.digest.empty()) out["digest"] = path.digest;
+  return out;
+}
+
 Json occupancy(const run::CaseResult& case_result) {
   const measure::Occupancy& o = *case_result.occupancy;
   Json lights = to_json(o.lights_per_cell);
@@ -159,7 +165,7 @@ Json shading(const measure::ShadingCounts& s) {
            {"missed_in_cells", s.missed - s.missed_outside},
            {"missed_outside", s.missed_outside},
            {"unlit", number_or_null(s.unlit())},
-           {"lost_irradiance", number_or_null(s.lost_irradiance())},
+           {"lost_irradiance", s.needed == 0 ? Json() : number_or_null(s.lost_irradiance())},
            {"lost_lux", number_or_null(s.lost_lux / static_cast<double>(s.samples))},
            {"overshade", number_or_null(s.comparable_overshade())},
            {"reads", s.reads.elements},
@@ -456,6 +462,7 @@ Json case_to_json(const run::CaseResult& case_result) {
            {"name", case_result.name},
            {"scene", case_result.scene},
            {"camera", case_result.camera},
+           {"camera_path", camera_path(case_result.camera_path)},
            {"viewport", {case_result.viewport.x, case_result.viewport.y}},
            {"frames", case_result.frames},
            {"grid", case_result.grid},

@@ -86,9 +86,8 @@ std::string lost_lux_text(const Json& result_case, const char* what) {
 
 // What the star goes by; lists that leave lights out are short.
 std::string overshade_text(const Json& result_case) {
-  const Json* is_lit = value_at(result_case, "/cost/lit");
   const std::optional<double> overshade = limit_figure(result_case, "overshade");
-  return overshade && (is_lit == nullptr || *is_lit == true) ? text("%.2f", *overshade) : "-";
+  return overshade ? text("%.2f", *overshade) : "-";
 }
 
 // Bytes of the structure that a sample reads to know its lights.

@@ -54,11 +54,12 @@ CaseResult case_result(const config::Config& config, const Plan& whole, const Ca
   out.settings = plan.settings;
   out.name = plan.name;
   out.scene = scene.name;
-  out.camera = whole.scenes[plan.scene].paths[plan.camera].camera;
+  const scene::CameraPath& path = whole.scenes[plan.scene].paths[plan.camera];
+  out.camera = path.camera;
+  out.camera_path = {path.shots.front().time_s, path.shots.back().time_s, path.digest};
   out.viewport = config.viewports[plan.viewport];
   out.frames = frames;
-  out.grid = grid_facts(config.grids[plan.grid], counted.last_grid,
-                        whole.scenes[plan.scene].paths[plan.camera].shots.front().projection.far_m);
+  out.grid = grid_facts(config.grids[plan.grid], counted.last_grid, path.shots.front().projection.far_m);
   out.assigner = assigner.name;
   out.assigner_label = assigner.label();
   out.assigner_params = params_to_json(assigner.params);

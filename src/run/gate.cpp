@@ -168,8 +168,15 @@ SeenSamples seen_samples(const CaseResult& result) {
   return {result.shading ? &*result.shading : nullptr, "random points in the view"};
 }
 
+bool is_unlit(const measure::ShadingCounts& counts) {
+  return counts.needed > 0 && counts.unlit() > measure::k_most_unlit;
+}
+
+// At the samples that say what is lost; where they need no light, at those of the whole view.
 bool is_unlit(const CaseResult& result) {
-  return result.shading && result.shading->needed > 0 && result.shading->unlit() > measure::k_most_unlit;
+  const measure::ShadingCounts* seen = seen_samples(result).counts;
+  if (seen != nullptr && seen->needed == 0 && result.shading) seen = &*result.shading;
+  return seen != nullptr && is_unlit(*seen);
 }
 
 std::string dropped_text(const CaseResult& result) {
@@ -201,11 +208,18 @@ std::string unlit_text(const CaseResult& result) {
 }
 
 // A limit of lights that removed some in a frame; null if none did.
-const PreCullCounts::Step* exceeded_limit(const CaseResult& result) {
-  if (!result.pre_cull) return nullptr;
-  for (const PreCullCounts::Step& step : result.pre_cull->counts.steps)
-    if (step.limit && step.frames > 0) return &step;
-  return nullptr;
+struct ExceededLimit {
+  const PreCullCounts::Step* step = nullptr;
+  bool is_of_view = false;  // else of the whole scene: no step before it removes what is beside the view
+};
+ExceededLimit exceeded_limit(const CaseResult& result) {
+  if (!result.pre_cull) return {};
+  bool is_of_view = false;
+  for (const PreCullCounts::Step& step : result.pre_cull->counts.steps) {
+    is_of_view = is_of_view || step.label == cull::label_of(cull::FrustumStep{});
+    if (step.limit && step.frames > 0) return {&step, is_of_view};
+  }
+  return {};
 }
 
 bool misses_dropped_lights(const PreCullCounts& counts) {
@@ -213,14 +227,15 @@ bool misses_dropped_lights(const PreCullCounts& counts) {
          std::ranges::any_of(counts.samples, [](const LostAtSamples& set) { return set.lost > 0; });
 }
 
-std::string limit_text(const CaseResult& result, const PreCullCounts::Step& step) {
+std::string limit_text(const CaseResult& result, const ExceededLimit& limit) {
+  const PreCullCounts::Step& step = *limit.step;
   const PreCullCounts& counts = result.pre_cull->counts;
-  std::string text = "limit: " + number_of(static_cast<std::uint64_t>(*step.limit), "light") +
-                     (step.label.ends_with(",type)") ? " of each type in view; " : " in view; ") +
-                     number_of(static_cast<std::uint64_t>(step.frames), "frame") + " of " +
-                     std::to_string(result.frames) + (step.frames == 1 ? " has" : " have") +
-                     " more: " + std::to_string(static_cast<std::uint64_t>(step.removed.max)) + " too many at most, " +
-                     number_of(counts.dropped.size(), "light") + " lost in some frame";
+  std::string text =
+      "limit: " + number_of(static_cast<std::uint64_t>(*step.limit), "light") +
+      (step.label.ends_with(",type)") ? " of each type" : "") + (limit.is_of_view ? " in view; " : " in the scene; ") +
+      number_of(static_cast<std::uint64_t>(step.frames), "frame") + " of " + std::to_string(result.frames) +
+      (step.frames == 1 ? " has" : " have") + " more: " + std::to_string(static_cast<std::uint64_t>(step.removed.max)) +
+      " too many at most, " + number_of(counts.dropped.size(), "light") + " lost in some frame";
   for (const LostAtSamples& set : counts.samples)
     if (set.is_asked && set.needed > 0 && set.lost > 0)
       text += ", " + percent(static_cast<double>(set.lost) / static_cast<double>(set.needed)) + " of those that " +
@@ -272,9 +287,9 @@ std::vector<Warning> warnings_of(const CaseResult& result) {
   std::vector<Warning> warnings;
   if (result.buffers.dropped_pairs > 0)
     warnings.push_back({Kind::dropped_pairs, dropped_text(result) + lost_light_text(result)});
-  if (const PreCullCounts::Step* limit = exceeded_limit(result))
-    warnings.push_back({Kind::too_many_lights, limit_text(result, *limit)});
-  if (is_unlit(result)) warnings.push_back({Kind::unlit, unlit_text(result)});
+  if (const ExceededLimit limit = exceeded_limit(result); limit.step != nullptr)
+    warnings.push_back({Kind::too_many_lights, limit_text(result, limit)});
+  if (result.shading && is_unlit(*result.shading)) warnings.push_back({Kind::unlit, unlit_text(result)});
   if (result.error && result.error->undecided > 0)
     warnings.push_back({Kind::undecided, undecided_text("error", result.error->undecided)});
   if (result.stability && result.stability->undecided > 0)
@@ -289,7 +304,7 @@ std::vector<Warning> warnings_of(const CaseResult& result) {
 }
 
 bool loses_lights(const CaseResult& result) {
-  const bool loses_to_limit = exceeded_limit(result) != nullptr && misses_dropped_lights(result.pre_cull->counts);
+  const bool loses_to_limit = exceeded_limit(result).step != nullptr && misses_dropped_lights(result.pre_cull->counts);
   return pairs_lost(result) > 0 || result.buffers.dropped_pairs > 0 || loses_to_limit || misses_without_cells(result) ||
          lacking_samples(result).counts != nullptr || is_unlit(result);
 }

@@ -25,8 +25,8 @@ std::vector<Failure> failures_of(const CaseResult& result, const config::LimitsR
 std::vector<Warning> warnings_of(const CaseResult& result);
 
 // Whether a shader that loops over what the case gives lacks lights: pairs that are not listed or were dropped, lights
-// that are missed at samples though the structure has no cells to look up, or more than measure::k_most_unlit of them
-// wherever they are.
+// that are missed at samples though the structure has no cells to look up, or more than measure::k_most_unlit of those
+// that visible surfaces need; without surfaces, of those that random points in the view need.
 bool loses_lights(const CaseResult& result);
 
 // Whether a case may stand on a front, and be the best that others are measured by: it fails nothing and loses no

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "grid/lights_in_view.h"
+
 namespace clusterbench::run {
 
 void PreCullMeter::Sum::add(std::uint64_t value) {
@@ -30,7 +32,8 @@ PreCullMeter::PreCullMeter(const cull::PreCull& pre_cull, const std::vector<meas
   counts_.build_ns = pre_cull.build_ns();
 }
 
-void PreCullMeter::add_frame(const cull::FrameCull& cull, std::uint32_t all_lights, bool is_conservative) {
+void PreCullMeter::add_frame(const cull::FrameCull& cull, const view::Frame& frame, bool is_conservative) {
+  const std::size_t all_lights = frame.lights.size();
   is_kept_.assign(all_lights, false);
   for (const std::uint32_t light : cull.kept) is_kept_[light] = true;
   std::uint64_t distant = 0;
@@ -43,7 +46,7 @@ void PreCullMeter::add_frame(const cull::FrameCull& cull, std::uint32_t all_ligh
   is_undropped_.assign(all_lights, true);
   for (const std::uint32_t light : cull.dropped) {
     is_ever_dropped_[light] = true;
-    is_undropped_[light] = false;
+    is_undropped_[light] = !grid::is_in_view(frame, frame.lights[light]);
   }
   kept_.add(cull.kept.size());
   removed_.add(all_lights - cull.kept.size());

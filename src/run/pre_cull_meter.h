@@ -33,7 +33,7 @@ struct PreCullCounts {
   std::vector<Step> steps;
   std::vector<std::uint32_t> dropped;  // the rig's indices of lights that limits removed in some frame, ascending
   std::uint64_t lost_pairs = 0;        // true pairs of lights that are removed
-  std::uint64_t lost_to_limits = 0;    // of these, of lights that limits remove
+  std::uint64_t lost_to_limits = 0;    // of these, of lights in view that limits remove
   std::vector<LostAtSamples> samples;
   std::uint64_t bytes = 0;  // of visible sets
   std::uint64_t view_cells = 0;
@@ -44,7 +44,7 @@ class PreCullMeter {
  public:
   PreCullMeter(const cull::PreCull& pre_cull, const std::vector<measure::SampleSet>& sets);
 
-  void add_frame(const cull::FrameCull& cull, std::uint32_t all_lights, bool is_conservative);
+  void add_frame(const cull::FrameCull& cull, const view::Frame& frame, bool is_conservative);
   // In the frame that was added last.
   void add_truth(const assign::Lists& truth);
   void add_samples(std::size_t set, const assign::Lists& needed);
@@ -63,7 +63,7 @@ class PreCullMeter {
   static std::uint64_t entries_beside(const assign::Lists& lists, const std::vector<bool>& is_in);
 
   PreCullCounts counts_;
-  std::vector<bool> is_kept_, is_undropped_;  // of the last frame's lights; undropped: by no limit
+  std::vector<bool> is_kept_, is_undropped_;  // of the last frame's lights; undropped: not in view, or by no limit
   std::vector<bool> is_ever_dropped_;
   int frames_ = 0;
   Sum kept_, removed_, distant_;

@@ -68,8 +68,8 @@ std::string date_now();  // UTC, ISO 8601
 struct SceneResult {
   std::string name, sha256;
   int points = 0, spots = 0, directionals = 0, boxes = 0;
-  int dark = 0;              // of the points and spots those that light nothing (scene/light_digest.h)
-  std::string light_digest;  // scene/light_digest.h
+  int dark = 0;              // of the points and spots those that light nothing (scene/digests.h)
+  std::string light_digest;  // scene/digests.h
   int frames = 0;
   nlohmann::json rig;         // {lights, spots, range, size, seed} of one that was made; else null
   nlohmann::json range_rule;  // {cutoff_lux, max_range, given, from_intensity, clamped}
@@ -217,8 +217,15 @@ struct Warning {
   std::string text;  // without the case's name
 };
 
+// Along which the camera is measured.
+struct CameraPathFacts {
+  double from_s = 0.0, to_s = 0.0;
+  std::string digest;  // scene/digests.h; "" of a path that was made
+};
+
 struct CaseResult {
   std::string id, settings, name, scene, camera;  // the first two: of CasePlan
+  CameraPathFacts camera_path;
   Vec2i viewport{0, 0};
   int frames = 0;
   nlohmann::json grid;  // {kind, cells, ... boundaries, lookup constants}

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "core/text.h"
 #include "scene/camera_path.h"
-#include "scene/light_digest.h"
+#include "scene/digests.h"
 #include "view/frame.h"
 
 namespace clusterbench::run {
@@ -39,6 +40,25 @@ std::string first_names(std::vector<std::string> names) {
   const std::size_t more = names.size() - k_most;
   names.resize(k_most);
   return joined(names) + " and " + std::to_string(more) + " more";
+}
+
+// Frames end with the camera's last key.
+std::string lights_after_path(const SceneData& data) {
+  const std::optional<double> last_s = scene::last_change_of_lights_s(data.scene);
+  std::string text;
+  for (const scene::CameraPath& path : data.paths) {
+    const double end_s = path.shots.back().time_s;
+    const double step_s = path.shots.size() < 2 ? 0.0 : end_s - path.shots[path.shots.size() - 2].time_s;
+    if (!last_s || path.made || *last_s <= end_s + step_s) continue;  // frames of a rate end less than a step before
+    char line[160];
+    std::snprintf(line, sizeof line, "%s '%.60s' at %g s", text.empty() ? "" : ",", path.camera.c_str(), end_s);
+    text += line;
+  }
+  if (text.empty()) return "";
+  char last[48];
+  std::snprintf(last, sizeof last, "%g s", *last_s);
+  return std::string("lights move or change until ") + last + ", and camera paths end before:" + text +
+         "; what comes later is not measured (a key at the end of the camera's animation adds it)";
 }
 
 // What is measured is then the rule's longest range more than the file's lights.
@@ -87,7 +107,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
                            "; \"camera\": \"*\" measures all");
   if (const std::string why = scene::why_no_lights(scene); !request.rig && !why.empty()) out.warnings.push_back(why);
   if (!request.camera.field_of_view) add_fit_warnings(data, viewports, out.warnings);
-  for (const std::string& text : {without_field_of_view(data, request), fewer_frames(data)})
+  for (const std::string& text : {lights_after_path(data), without_field_of_view(data, request), fewer_frames(data)})
     if (!text.empty()) out.warnings.push_back(text);
   if (2 * clamped > given + from_intensity + clamped)
     out.warnings.push_back(most_clamped(clamped, given + from_intensity + clamped, request.range_rule));

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "scene/digests.h"
 
 namespace clusterbench::scene {
 namespace {
@@ -47,19 +48,24 @@ class KeysOf {
   std::vector<bool> is_wanted_;
 };
 
+std::set<double> keys_of_lights(const Scene& scene, bool all) {
+  KeysOf lights(scene);
+  for (const Light& light : scene.lights) lights.add(light.node);
+  std::set<double> keys = lights.keys(all, true);
+  for (const Channel& channel : scene.light_channels) KeysOf::add_keys(channel, all, keys);
+  return keys;
+}
+
 // The keys that move the camera; a camera that stands still sees the lights move and change. `all`, or at least the
 // first and the last.
 std::set<double> keys_seen(const Scene& scene, const Camera& camera, bool all) {
-  KeysOf eye(scene), lights(scene);
+  KeysOf eye(scene);
   eye.add(camera.node);
   std::set<double> keys = eye.keys(all, false);
   for (const Channel& channel : scene.camera_channels)
     if (channel.definition == camera.definition) KeysOf::add_keys(channel, all, keys);
   if (!keys.empty()) return keys;
-  for (const Light& light : scene.lights) lights.add(light.node);
-  keys = lights.keys(all, true);
-  for (const Channel& channel : scene.light_channels) KeysOf::add_keys(channel, all, keys);
-  return keys;
+  return keys_of_lights(scene, all);
 }
 
 CameraMoments equal_steps(double from, double to, int count) {
@@ -101,7 +107,7 @@ void set_field_of_view(CameraProjection& projection, const PathRequest& request)
 
 CameraPath path_of(const Scene& scene, const Camera& camera, const PathRequest& request) {
   const CameraMoments moments = camera_moments(scene, camera, request);
-  CameraPath path{camera.name, false, moments.how, {}};
+  CameraPath path{camera.name, false, moments.how, {}, camera_digest(scene, camera)};
   for (const double time : moments.times_s) {
     path.shots.push_back({time, camera_pose(scene, camera, time), projection_at(scene, camera, time)});
     path.shots.back().projection.fit = request.fit;
@@ -214,6 +220,11 @@ std::vector<std::string> cameras_left_out(const Scene& scene, const PathRequest&
   for (auto camera = scene.cameras.begin(); camera != scene.cameras.end(); ++camera)
     if (camera != first) names.push_back(camera->name + (camera->animated ? "" : " (static)"));
   return names;
+}
+
+std::optional<double> last_change_of_lights_s(const Scene& scene) {
+  const std::set<double> keys = keys_of_lights(scene, false);
+  return keys.empty() ? std::nullopt : std::optional(*keys.rbegin());
 }
 
 std::optional<FieldOfView> field_of_view(const std::string& text) {

@@ -48,6 +48,7 @@ struct CameraPath {
   bool made = false;   // made by the tool, not in the file
   std::string how;     // one line for the result: "animated camera 'walk', 60 equal steps over 12 s"
   std::vector<Shot> shots;
+  std::string digest = {};  // digests.h; "" of a made one
 };
 
 // When a camera is looked through: times, and one line that says which.
@@ -62,6 +63,9 @@ CameraMoments camera_moments(const Scene& scene, const Camera& camera, const Pat
 std::vector<CameraPath> camera_paths(const Scene& scene, const PathRequest& request);
 // Cameras that the default leaves out, by name; static ones say so.
 std::vector<std::string> cameras_left_out(const Scene& scene, const PathRequest& request);
+
+// When lights last move or change; none where they never do.
+std::optional<double> last_change_of_lights_s(const Scene& scene);
 
 // So many points of the Halton sequence in bases 2 and 3, from its first, less a half: offsets within a pixel.
 std::vector<Vec2d> halton_jitter(int count);

@@ -65,6 +65,13 @@ TEST(ConfigFlags, slices_are_counted_in_every_grid_that_has_them) {
             (Names{"distance 64px x 4 exponential-first first 5"}));
 }
 
+TEST(ConfigFlags, a_scheme_is_that_of_every_grid_with_slices) {
+  EXPECT_EQ(grid_names({{"--grid", "frustum"}, {"--tiles", "16x9t"}, {"--slices", "24"}, {"--scheme", "exponential"}}),
+            (Names{"frustum 16x9 x 24 exponential 0.1..90"}));
+  EXPECT_EQ(grid_names({{"--grid", "distance"}, {"--scheme", "linear,exponential"}}).size(), 2u);
+  EXPECT_NE(refusal_of({{"--scheme", "logarithmic"}}).find("--scheme=logarithmic"), std::string::npos);
+}
+
 TEST(ConfigFlags, chosen_assigners_keep_the_parameters_of_the_configuration) {
   EXPECT_EQ(assigner_labels({{"--assigner", "exact-fast,bounds,bounds"}}), (Names{"exact-fast(threads=2)", "bounds"}));
   EXPECT_EQ(assigner_labels({{"--assigner", "exact*"}}), (Names{"exact", "exact-fast(threads=2)"}));

@@ -144,6 +144,23 @@ TEST(LightGate, tells_moved_lights_by_their_digest_and_older_results_by_their_nu
   EXPECT_EQ(light_findings(next, gate()).broken.size(), 1u);
 }
 
+TEST(LightGate, tells_a_camera_that_has_another_path) {
+  const auto with_path = [](double to_s, const char* digest) {
+    Json json = baseline_json();
+    for (Json& result_case : json["cases"])
+      result_case["camera_path"] = {{"from_s", 0}, {"to_s", to_s}, {"digest", digest}};
+    return json;
+  };
+  const Json base = with_path(15.0, "a");
+  const LightGate gate{.base = &base, .base_name = "base.json"};
+  EXPECT_EQ(light_findings(with_path(15.0, "a"), gate).warnings, Lines{});
+  EXPECT_EQ(light_findings(with_path(7.5, "b"), gate).warnings,
+            (Lines{"the path of camera walk in hall has changed: 0 to 15 s, now 0 to 7.5 s, so budgets against "
+                   "base.json compare other views"}));
+  EXPECT_EQ(light_findings(with_path(15.0, "b"), gate).warnings.size(), 1u) << "as long, and another way";
+  EXPECT_EQ(light_findings(with_path(7.5, "b"), gate).broken, Lines{});
+}
+
 TEST(LightGate, fails_where_there_are_no_lights_or_none_is_ever_in_view) {
   Json result = baseline_json();
   EXPECT_EQ(light_findings(result, {}).broken, Lines{});

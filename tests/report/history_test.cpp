@@ -99,6 +99,28 @@ TEST_F(History, of_the_same_lights_fewer_bytes_are_better) {
   EXPECT_NE(history_text(series_of(history, {}), 2, false).find("232 to 200, -13.8 %, better"), std::string::npos);
 }
 
+// A shorter walk sees less; that is no better clustering.
+TEST_F(History, figures_of_another_camera_path_are_neither_better_nor_worse) {
+  const auto walk = [](double to_s, const char* digest, std::uint64_t bytes) {
+    run::Result result = hall_with(9, bytes);
+    for (run::CaseResult& walked : result.cases) walked.camera_path = {0.0, to_s, digest};
+    return result_to_json(result, {});
+  };
+  add_to_history(file_, walk(15.0, "a", 232), "a");
+  const Addition addition = add_to_history(file_, walk(7.5, "b", 200), "b");
+  EXPECT_EQ(addition.path_changes,
+            std::vector<std::string>{"the path of camera walk in hall has changed: 0 to 15 s, now 0 to 7.5 s"});
+  EXPECT_EQ(addition.light_changes, std::vector<std::string>{});
+  const std::vector<HistoryEntry> history = read_history(file_);
+  EXPECT_EQ(path_changes_in(history), std::vector<std::string>{"at b: " + addition.path_changes[0] +
+                                                               "; figures from there on are of other views"});
+  const std::string text = history_text(series_of(history, {}), 2, false);
+  EXPECT_NE(text.find("232 to 200, -13.8 %, of another camera path"), std::string::npos) << text;
+  add_to_history(file_, walk(7.5, "b", 180), "c");
+  EXPECT_NE(history_text(series_of(read_history(file_), {}), 3, false).find("200 to 180, -10 %, better"),
+            std::string::npos);
+}
+
 TEST_F(History, a_job_that_runs_again_is_held_against_the_commit_before) {
   add_to_history(file_, result_to_json(hall_with(9, 232), {}), "a");
   const Json gone = result_to_json(hall_with(0, 16), {});

@@ -107,6 +107,25 @@ TEST(Limits, what_no_case_has_fails) {
              "the lights are unlit or fewer than 100 reach the samples; shading.samples: 0 leaves them out)"}));
 }
 
+// Lists that lack lights are short; their overshade would pass any budget.
+TEST(Limits, the_overshade_of_samples_that_lack_lights_is_none) {
+  Json lacking = case_with_budget_figures();
+  lacking["samples"]["opaque"] = {{"missed", 412}, {"needed", 1000}, {"overshade", nullptr}, {"unlit", 0.412}};
+  lacking["cost"] = {{"overshade", nullptr}, {"lit", false}, {"sets", {{"opaque", Json::object()}}}};
+  EXPECT_EQ(findings_of("overshade > 3", lacking).broken.size(), 1u);
+  lacking["cost"]["overshade"] = 1.25;  // as older results have it
+  EXPECT_EQ(findings_of("overshade > 3", lacking).broken.size(), 1u);
+  lacking["cost"]["lit"] = true;
+  EXPECT_EQ(findings_of("overshade > 3", lacking).broken, Lines{});
+}
+
+TEST(Limits, samples_that_need_no_light_say_nothing_of_lost_irradiance) {
+  Json unseen = case_with_budget_figures();
+  unseen["samples"]["opaque"] = {{"samples", 0}, {"missed", 0}, {"needed", 0}, {"lost_irradiance", 0}};
+  EXPECT_EQ(findings_of("opaque.lost_irradiance > 0", unseen).broken.size(), 1u);
+  EXPECT_EQ(findings_of("lost_irradiance > 0", unseen).broken.size(), 1u) << "they rank it";
+}
+
 TEST(Limits, what_some_cases_have_is_held_there_and_the_others_are_named) {
   const Json cases = Json::array({Json{{"name", "a"}}, case_with_budget_figures(), Json{{"name", "c"}}});
   const config::LimitRule rules[] = {config::limit_rule("pairs > 9000", "", "--fail-if")};

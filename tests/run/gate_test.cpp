@@ -155,6 +155,37 @@ TEST(Gate, what_lies_outside_of_the_grid_loses_lights_and_is_told_with_its_frame
   EXPECT_EQ(text, "lost 100 of 1000 lights that random points in the view need; most in frame 7, 100 of 140");
 }
 
+// A ranking by surfaces does not suffer from what no surface is at.
+TEST(Gate, lights_unlit_at_random_points_are_told_and_visible_surfaces_decide) {
+  CaseResult case_result = with_cells();
+  miss(case_result, 100, 90);
+  SampleSetResult opaque;
+  opaque.set = measure::SampleSet::opaque;
+  opaque.counts.samples = opaque.counts.needed = 1000;
+  case_result.samples = {opaque};
+  EXPECT_FALSE(loses_lights(case_result));
+  EXPECT_EQ(warnings_of(case_result)[0].kind, Warning::Kind::unlit);
+  case_result.samples[0].counts.missed = 2;
+  EXPECT_TRUE(loses_lights(case_result));
+  case_result.samples[0].counts.needed = case_result.samples[0].counts.missed = 0;
+  EXPECT_TRUE(loses_lights(case_result)) << "surfaces that no light reaches say nothing";
+}
+
+TEST(Gate, a_limit_is_one_of_lights_in_view_only_behind_a_cull_by_the_view) {
+  CaseResult case_result = with_cells();
+  PreCullResult cull;
+  cull.counts.steps.resize(1);
+  cull.counts.steps[0].label = "most(128,first)";
+  cull.counts.steps[0].limit = 128;
+  cull.counts.steps[0].frames = 1;
+  case_result.pre_cull = cull;
+  const auto text = [&] { return warnings_of(case_result)[0].text; };
+  EXPECT_TRUE(text().starts_with("limit: 128 lights in the scene; ")) << text();
+  case_result.pre_cull->counts.steps.insert(case_result.pre_cull->counts.steps.begin(), PreCullCounts::Step{});
+  case_result.pre_cull->counts.steps[0].label = "frustum";
+  EXPECT_TRUE(text().starts_with("limit: 128 lights in view; ")) << text();
+}
+
 std::vector<Warning::Kind> warned(const CaseResult& case_result) {
   std::vector<Warning::Kind> out;
   for (const Warning& warning : warnings_of(case_result)) out.push_back(warning.kind);

@@ -58,7 +58,7 @@ class MethodMeter {
     const view::LightArrays& lights = now.lights.in_precision(measures_.method.precision);
     if (now.is_new_grid) run_.build(grid, assign::kinds_of(lights));
     run_.assign(now.frame, lights, now.depth.get());
-    if (cull_meter_) cull_meter_->add_frame(*run_.cull(), lights.size(), run_.cull_is_conservative(now.frame, lights));
+    if (cull_meter_) cull_meter_->add_frame(*run_.cull(), now.frame, run_.cull_is_conservative(now.frame, lights));
     measures_.tests_done += run_.tests_done();
     measures_.fallbacks += run_.fallbacks();
     if (!measures_.has_cells) return;

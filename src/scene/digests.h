@@ -1,5 +1,5 @@
 #pragma once
-// Whether two scenes have the same lights, however their files are written.
+// Whether two scenes have the same lights, and a camera the same path, however their files are written.
 
 #include <string>
 
@@ -14,6 +14,10 @@ namespace clusterbench::scene {
 // either whether a file writes them with more digits, or a node's transform as a matrix. The same motion with other
 // keys counts as another one.
 std::string light_digest(const Scene& scene);
+
+// 16 hexadecimal digits from what a camera shows: where it stands, how it looks and its projection, at every key of the
+// animations that it follows and in the middles between keys. At how many moments it is measured does not count.
+std::string camera_digest(const Scene& scene, const Camera& camera);
 
 // Whether nothing would look other without it: a light of intensity 0, black, or of range 0. A box lights nothing and
 // is dark only without a range, as one that is hidden.

@@ -1,6 +1,6 @@
 // The same lights have the same digest, however they are written; others have another.
 
-#include "scene/light_digest.h"
+#include "scene/digests.h"
 
 #include <gtest/gtest.h>
 
@@ -105,7 +105,9 @@ Channel channel_of(const Scene& scene, std::size_t light, ChannelPath path, std:
   return channel;
 }
 
-Vec4d at(double x, double y, double z) { return {x, y, z, 0.0}; }
+Vec4d at(double x, double y, double z) {
+  return {x, y, z, 0.0};
+}
 
 Scene with_motion(Scene scene, std::size_t light, std::vector<double> times_s, std::vector<Vec4d> values) {
   scene.channels.push_back(channel_of(scene, light, ChannelPath::translation, times_s, std::move(values)));
@@ -174,6 +176,42 @@ TEST(LightDigest, is_another_where_a_directional_light_is_gone) {
   scene.lights.push_back(scene.lights[0]);
   scene.lights.back().type = LightType::directional;
   EXPECT_NE(light_digest(scene), without);
+}
+
+Scene with_camera(Scene scene) {
+  Camera camera;
+  camera.name = "walk";
+  camera.node = static_cast<int>(scene.nodes.size());
+  camera.projection.yfov_rad = 1.0;
+  camera.projection.far_m = 100.0;
+  scene.nodes.emplace_back();
+  scene.cameras = {camera};
+  return scene;
+}
+
+Scene walking(std::vector<double> times_s, std::vector<Vec4d> values) {
+  Scene scene = with_camera(rig_of(2));
+  Channel channel;
+  channel.node = scene.cameras[0].node;
+  channel.times_s = std::move(times_s);
+  channel.values = std::move(values);
+  scene.channels = {channel};
+  scene.duration_s = channel.times_s.back();
+  return scene;
+}
+
+TEST(CameraDigest, is_another_where_the_path_is_shorter_or_goes_another_way) {
+  const auto digest = [](const Scene& scene) { return camera_digest(scene, scene.cameras[0]); };
+  const Scene scene = walking({0.0, 1.0, 2.0}, {at(0, 0, 0), at(5, 0, 0), at(5, 0, 5)});
+  Scene with_lights = scene;
+  with_lights.lights.pop_back();
+  with_lights.duration_s = 9.0;
+  EXPECT_EQ(digest(with_lights), digest(scene));
+  EXPECT_NE(digest(walking({0.0, 1.0}, {at(0, 0, 0), at(5, 0, 0)})), digest(scene));
+  EXPECT_NE(digest(walking({0.0, 1.0, 2.0}, {at(0, 0, 0), at(6, 0, 0), at(5, 0, 5)})), digest(scene));
+  Scene wider = scene;
+  wider.cameras[0].projection.yfov_rad = 1.1;
+  EXPECT_NE(digest(wider), digest(scene));
 }
 
 TEST(LightDigest, of_no_lights_is_not_that_of_a_light) {

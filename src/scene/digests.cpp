@@ -1,0 +1,222 @@
+#include "scene/digests.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/sha256.h"
+
+namespace clusterbench::scene {
+namespace {
+
+// Bits of single-precision numbers: of a light, or a part of a camera's.
+using Numbers = std::array<std::uint32_t, 18>;
+using State = std::vector<Numbers>;
+
+double size_of(const std::vector<WorldLight>& lights) {
+  double size = 0.0;
+  for (const WorldLight& light : lights) {
+    for (int axis = 0; axis < 3; ++axis) size = std::max(size, std::abs(light.position[axis]));
+    if (std::isfinite(light.range_m)) size = std::max(size, light.range_m);
+  }
+  return size;
+}
+
+// The bits of the number in single precision. What is far below the roundoffs of numbers of this size is nothing.
+std::uint32_t bits_of(double value, double size) {
+  if (!std::isfinite(value)) return std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity());
+  return std::abs(value) <= 0x1p-40 * size ? 0 : std::bit_cast<std::uint32_t>(static_cast<float>(value));
+}
+
+bool is_black(const WorldLight& light) {
+  return light.type != LightType::box && !(light.luminous_intensity_cd > 0.0);
+}
+
+using Channels = std::vector<const Channel*>;
+
+// Of these nodes and all above them.
+Channels channels_of_nodes(const Scene& scene, const std::vector<int>& nodes) {
+  std::vector<bool> is_followed(scene.nodes.size(), false);
+  for (int node : nodes)
+    for (; node >= 0 && !is_followed[static_cast<std::size_t>(node)];
+         node = scene.nodes[static_cast<std::size_t>(node)].parent)
+      is_followed[static_cast<std::size_t>(node)] = true;
+  Channels found;
+  for (const Channel& channel : scene.channels)
+    if (is_followed[static_cast<std::size_t>(channel.node)]) found.push_back(&channel);
+  return found;
+}
+
+Channels channels_of_lights(const Scene& scene) {
+  std::vector<int> nodes;
+  for (const Light& light : scene.lights) nodes.push_back(light.node);
+  Channels found = channels_of_nodes(scene, nodes);
+  for (const Channel& channel : scene.light_channels) found.push_back(&channel);
+  return found;
+}
+
+Channels channels_of_camera(const Scene& scene, const Camera& camera) {
+  Channels found = channels_of_nodes(scene, {camera.node});
+  std::erase_if(found, [](const Channel* channel) { return channel->path == ChannelPath::visible; });
+  for (const Channel& channel : scene.camera_channels)
+    if (channel.definition == camera.definition) found.push_back(&channel);
+  return found;
+}
+
+struct Moments {
+  std::vector<double> times_s;  // ascending, at least one
+  bool are_all = true;          // false: something may happen between them
+};
+
+// Keys, and the middles between them, where a cubic spline or a turn differs from a line. Of more than can be asked for
+// in a moment some.
+Moments moments_of(const Scene& scene, const Channels& channels) {
+  constexpr std::size_t k_most_nodes = std::size_t{1} << 21, k_most_moments = 512, k_least_moments = 9;
+  std::set<double> keys;
+  for (const Channel* channel : channels) keys.insert(channel->times_s.begin(), channel->times_s.end());
+  if (keys.empty()) return {{0.0}};
+  Moments all;
+  for (const double key : keys) {
+    if (!all.times_s.empty()) all.times_s.push_back(0.5 * (all.times_s.back() + key));
+    all.times_s.push_back(key);
+  }
+  const std::size_t most =
+      std::clamp(k_most_nodes / std::max<std::size_t>(scene.nodes.size(), 1), k_least_moments, k_most_moments);
+  if (all.times_s.size() <= most) return all;
+  Moments some{{}, false};
+  for (std::size_t i = 0; i < most; ++i) some.times_s.push_back(all.times_s[i * (all.times_s.size() - 1) / (most - 1)]);
+  return some;
+}
+
+void add_state(const State& state, Sha256& digest) {
+  digest.add(std::to_string(state.size()) + ":");
+  for (const Numbers& numbers : state) {
+    std::string text;
+    for (const std::uint32_t number : numbers) text += std::to_string(number) + " ";
+    digest.add(text);
+  }
+}
+
+// What the channels make of something, moment by moment.
+void add_states(const Scene& scene, const Channels& channels, const std::function<State(double time_s)>& state_at,
+                Sha256& digest) {
+  const Moments moments = moments_of(scene, channels);
+  State last = state_at(moments.times_s.front());
+  for (int i = 0; i < 3; ++i) add_state(last, digest);  // as older results have it of lights that stand still
+  for (const double time_s : std::span(moments.times_s).subspan(1)) {
+    State now = state_at(time_s);
+    if (now == last) continue;
+    digest.add("at " + std::to_string(bits_of(time_s, 0.0)) + " ");
+    add_state(now, digest);
+    last = std::move(now);
+  }
+  if (moments.are_all) return;
+  for (const Channel* channel : channels) {
+    std::string text = std::to_string(static_cast<int>(channel->path));
+    for (const double time_s : channel->times_s) text += " " + std::to_string(bits_of(time_s, 0.0));
+    for (const Vec4d& value : channel->values)
+      for (int axis = 0; axis < 4; ++axis) text += " " + std::to_string(bits_of(value[axis], 0.0));
+    digest.add(text);
+  }
+}
+
+std::string first_digits(Sha256& digest) {
+  constexpr std::size_t k_digits = 16;
+  return digest.hex().substr(0, k_digits);
+}
+
+Numbers numbers_of(const WorldLight& light, double size) {
+  Numbers numbers{};
+  std::size_t next = 0;
+  const auto add = [&](const Vec3d& vector, double of_size) {
+    for (int axis = 0; axis < 3; ++axis) numbers[next++] = bits_of(vector[axis], of_size);
+  };
+  numbers[next++] = static_cast<std::uint32_t>(light.type);
+  numbers[next++] = bits_of(light.range_m, 0.0);
+  numbers.back() = is_black(light) ? 1 : 0;  // not where another number is: of lights that shine it is 0
+  add(light.position, size);
+  if (light.type == LightType::spot) {
+    add(light.direction, 1.0);
+    numbers[next++] = bits_of(light.outer_cone_rad, 1.0);
+  }
+  if (light.type == LightType::box)
+    for (const Vec3d& half_axis : light.half_axes_m) add(half_axis, light.range_m);
+  return numbers;
+}
+
+// Of all lights, in an order of their own.
+State lights_at(const Scene& scene, double time_s) {
+  const std::vector<WorldLight> lights = world_lights(scene, time_s);
+  const double size = size_of(lights);
+  State all;
+  all.reserve(lights.size());
+  for (const WorldLight& light : lights) all.push_back(numbers_of(light, size));
+  std::ranges::sort(all);
+  return all;
+}
+
+State camera_at(const Scene& scene, const Camera& camera, double time_s) {
+  const CameraPose pose = camera_pose(scene, camera, time_s);
+  const CameraProjection projection = projection_at(scene, camera, time_s);
+  const double size = std::max({std::abs(pose.eye.x), std::abs(pose.eye.y), std::abs(pose.eye.z)});
+  Numbers stand{}, lens{};
+  std::size_t next = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    stand[next++] = bits_of(pose.eye[axis], size);
+    for (int row = 0; row < 3; ++row) stand[next++] = bits_of(pose.view_from_world[axis][row], 1.0);
+  }
+  next = 0;
+  lens[next++] = projection.orthographic ? 1 : 0;
+  for (const double value : {projection.yfov_rad, projection.aspect_ratio.value_or(0.0), projection.xmag_m,
+                             projection.ymag_m, projection.near_m, projection.far_m})
+    lens[next++] = bits_of(value, 0.0);
+  if (const auto& sides = projection.sides)
+    for (const double side : {sides->left, sides->right, sides->bottom, sides->top}) lens[next++] = bits_of(side, 0.0);
+  return {stand, lens};
+}
+
+}  // namespace
+
+std::string light_digest(const Scene& scene) {
+  Sha256 digest;
+  add_states(
+      scene, channels_of_lights(scene), [&](double time_s) { return lights_at(scene, time_s); }, digest);
+  if (const auto directionals = std::ranges::count(scene.lights, LightType::directional, &Light::type);
+      directionals > 0)
+    digest.add("directional " + std::to_string(directionals));
+  return first_digits(digest);
+}
+
+std::string camera_digest(const Scene& scene, const Camera& camera) {
+  Sha256 digest;
+  add_states(
+      scene, channels_of_camera(scene, camera), [&](double time_s) { return camera_at(scene, camera, time_s); },
+      digest);
+  return first_digits(digest);
+}
+
+bool is_dark(const WorldLight& light) {
+  return is_black(light) || !(light.range_m > 0.0);
+}
+
+int count_dark_lights(const Scene& scene) {
+  std::map<int, bool> always_dark;  // by index in the scene
+  for (const double time_s : moments_of(scene, channels_of_lights(scene)).times_s)
+    for (const WorldLight& light : world_lights(scene, time_s)) {
+      if (light.type == LightType::box) continue;
+      bool& is_always = always_dark.try_emplace(light.rig_index, true).first->second;
+      is_always = is_always && is_dark(light);
+    }
+  return static_cast<int>(std::ranges::count_if(always_dark, [](const auto& light) { return light.second; }));
+}
+
+}  // namespace clusterbench::scene
