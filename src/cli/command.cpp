@@ -107,6 +107,13 @@ Option& Option::positive() {
   return *this;
 }
 
+Option& Option::positive_to(double most) {
+  char allowed[64];
+  std::snprintf(allowed, sizeof allowed, "above 0, at most %g", most);
+  limit(*option_, std::numeric_limits<double>::min(), most, allowed);
+  return *this;
+}
+
 Option& Option::non_negative() {
   limit(*option_, 0.0, k_largest<double>, "of at least 0");
   return *this;

@@ -25,6 +25,7 @@ class Option {
   Option& range(double least, double most);
   Option& at_least(std::uint64_t least);
   Option& positive();
+  Option& positive_to(double most);
   Option& non_negative();
   Option& one_of(std::vector<std::string> words);
   Option& may_be_empty();  // a text, which else may not

@@ -1,9 +1,5 @@
 #include "cli/export_files.h"
 
-#include <filesystem>
-#include <fstream>
-
-#include "cli/output.h"
 #include "core/error.h"
 
 namespace clusterbench::cli {
@@ -25,26 +21,23 @@ std::vector<ExportTarget> export_targets(const std::vector<std::string>& texts) 
   return targets;
 }
 
-void probe_exports(const std::vector<ExportTarget>& targets, bool are_times_measured) {
+ExportFiles::ExportFiles(const std::vector<ExportTarget>& targets, bool are_times_measured) : targets_(targets) {
   for (const ExportTarget& target : targets)
     if (target.format->needs_times && !are_times_measured)
       throw Error(
           "", "--export",
           std::string(target.format->name) + " takes times, which --no-timing (timing.measure: false) leaves out");
   for (const ExportTarget& target : targets) {
-    if (target.file == "-") continue;
-    std::error_code unknown;
-    const bool is_new = !std::filesystem::exists(target.file, unknown);
-    if (!std::ofstream(target.file, std::ios::app)) throw Error(target.file, "", errno_says("cannot be written"));
-    if (is_new) std::filesystem::remove(target.file, unknown);
+    files_.push_back(std::make_unique<OutputFile>(target.file));
+    files_.back()->probe();
   }
 }
 
-void write_exports(const std::vector<ExportTarget>& targets, const nlohmann::ordered_json& result) {
+void ExportFiles::write(const nlohmann::ordered_json& result) const {
   std::vector<std::string> texts;
-  texts.reserve(targets.size());
-  for (const ExportTarget& target : targets) texts.push_back(report::exported(result, *target.format, false));
-  for (std::size_t i = 0; i < targets.size(); ++i) write_text(targets[i].file, texts[i]);
+  texts.reserve(targets_.size());
+  for (const ExportTarget& target : targets_) texts.push_back(report::exported(result, *target.format, false));
+  for (std::size_t i = 0; i < files_.size(); ++i) files_[i]->write(texts[i]);
 }
 
 std::string export_formats_text() {

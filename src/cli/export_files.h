@@ -1,10 +1,12 @@
 #pragma once
 // --export FORMAT=FILE: where a result goes beside its own file.
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "core/output_file.h"
 #include "report/exports/exports.h"
 
 namespace clusterbench::cli {
@@ -17,12 +19,19 @@ struct ExportTarget {
 // From "FORMAT=FILE" each. Throws Error for what is not that, and for an unknown format.
 std::vector<ExportTarget> export_targets(const std::vector<std::string>& texts);
 
-// Throws Error for a file that cannot be written, or a format that takes what is not to be measured, so that it is
-// known before minutes go into measuring. Files that are not there yet are not there afterwards.
-void probe_exports(const std::vector<ExportTarget>& targets, bool are_times_measured);
+class ExportFiles {
+ public:
+  // Throws Error for a file that cannot be written, or a format that takes what is not to be measured, so that it is
+  // known before minutes go into measuring. Files that are not there yet are not there afterwards.
+  ExportFiles(const std::vector<ExportTarget>& targets, bool are_times_measured);
 
-// All formats are made before the first file is written.
-void write_exports(const std::vector<ExportTarget>& targets, const nlohmann::ordered_json& result);
+  // All formats are made before the first file is written.
+  void write(const nlohmann::ordered_json& result) const;
+
+ private:
+  std::vector<ExportTarget> targets_;
+  std::vector<std::unique_ptr<OutputFile>> files_;
+};
 
 // "google-benchmark  Google ..." a line each, for help texts.
 std::string export_formats_text();

@@ -26,6 +26,7 @@ struct ShowFlags {
 };
 
 ExitCode add(const AddFlags& flags) {
+  refuse_overwriting({flags.file}, {flags.result});
   const nlohmann::ordered_json result = report::read_result(flags.result);
   const std::string commit = flags.commit.empty() ? result["tool"]["git_sha"].get<std::string>() : flags.commit;
   const report::Addition addition = report::add_to_history(flags.file, result, commit);
@@ -34,6 +35,9 @@ ExitCode add(const AddFlags& flags) {
     tell(flags.file + " has this result of " + commit + " already; nothing was added");
   else if (addition.earlier > 0)
     tell(flags.file + " had " + before + " already; added behind it as one more");
+  if (addition.is_added && addition.other_names > 0)
+    tell("warning: " + flags.file + " has " + number_of(addition.other_names, "other name") +
+         " (hard links), which keep the history without this line");
   for (const std::string& change : addition.light_changes)
     tell((flags.allows_changed_lights ? "warning: " : "FAILED ") + change +
          (flags.allows_changed_lights ? ""

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "cli/run_inputs.h"
 #include "core/text.h"
 #include "report/light_map_report.h"
 
@@ -51,6 +52,7 @@ report::LightMapScene light_maps_of(const std::string& path, const LightMapFlags
                                     const measure::LightMapRequest& request) {
   report::LightMapScene out;
   out.scene = scene::load_gltf(path, flags.choice);
+  refuse_overwriting({flags.output}, files_of_scene(path));
   scene::resolve_ranges(out.scene, flags.rule);
   const scene::Geometry geometry = load_geometry(
       out.scene, request.unwrap ? scene::GeometryParts::positions : scene::GeometryParts::positions_and_uvs);
@@ -65,10 +67,10 @@ ExitCode light_map(const LightMapFlags& flags) {
   const measure::LightMapRequest request = light_map_request(flags);
   refuse_overwriting({flags.output}, flags.scenes);
   const bool for_reading = is_for_reading(flags.output);
-  if (!for_reading) probe_output(flags.output);
+  LaterOutput output(flags.output, for_reading);
   std::vector<report::LightMapScene> scenes;
   for (const std::string& path : flags.scenes) scenes.push_back(light_maps_of(path, flags, request));
-  if (!for_reading) write_output(flags.output, report::light_maps_to_json(scenes, request));
+  output.write(report::light_maps_to_json(scenes, request));
   if (!flags.quiet)
     (for_reading ? std::cout : std::cerr) << printable_lines(report::light_maps_text(scenes, request)) << std::flush;
   if (for_reading) tell_of_keeping();
@@ -115,10 +117,10 @@ void add_light_map(Command& program, Action& action) {
   command.add_option("--animation", flags->choice.animation, "Name or number of the only animation that plays");
   command.add_option("--cutoff-lux", flags->rule.cutoff_lux, "Illuminance at which a light without range ends")
       .shows_standard()
-      .positive();
+      .positive_to(1e9);
   command.add_option("--max-range", flags->rule.max_range_m, "Longest range given to such a light, metres")
       .shows_standard()
-      .positive();
+      .positive_to(1e9);
   command.add_option("--threads", flags->request.threads, "Threads; results do not depend on it")
       .range(1, 1024)
       .shows_standard();

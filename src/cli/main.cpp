@@ -9,6 +9,7 @@
 int main(int argc, char** argv) {
   using clusterbench::ExitCode;
   clusterbench::cli::keep_standard_streams();
+  clusterbench::cli::tell_of_size_limits();
   try {
     const int code = clusterbench::cli::run_command_line(argc, argv);
     clusterbench::cli::check_standard_output();

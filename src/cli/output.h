@@ -1,9 +1,12 @@
 #pragma once
 // Where results go: standard output, a device or pipe, or a file; and where messages go.
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "core/output_file.h"
 
 namespace clusterbench::cli {
 
@@ -16,6 +19,9 @@ bool is_stream(const std::string& output);
 // A standard stream that is closed would give its number to the next file that is opened, and what is printed would go
 // there: in its place stands what can be neither read nor written, and of standard error what takes all.
 void keep_standard_streams();
+// A file that gets larger than the system allows (`ulimit -f`) is an error of the write that says so, and not the end
+// of the process.
+void tell_of_size_limits();
 // Throws Error if standard output has not taken all that was printed.
 void check_standard_output();
 
@@ -24,15 +30,22 @@ bool is_for_reading(const std::string& output);
 // Then it is said how the result is kept.
 void tell_of_keeping();
 
-// Throws Error if nothing can be written there. A stream is tried with a space, which JSON ignores, before minutes go
-// into measuring.
-void probe_output(const std::string& output);
-
 // Throws Error if an output is one of the inputs, which would be lost, or is another output, too. "" is none.
 void refuse_overwriting(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
-// Throws Error if it could not be written whole.
+// core/output_file.h; "" and "-" are standard output. Throws Error if it could not be written whole.
 void write_text(const std::string& output, const std::string& text);
 void write_output(const std::string& output, const nlohmann::ordered_json& result);
+
+// An output that is written after minutes of measuring: tried before them, and a pipe stays open between.
+class LaterOutput {
+ public:
+  // Throws Error if nothing can be written there. `is_none`: nothing is written.
+  explicit LaterOutput(const std::string& output, bool is_none = false);
+  void write(const nlohmann::ordered_json& result);
+
+ private:
+  std::unique_ptr<OutputFile> file_;
+};
 
 }  // namespace clusterbench::cli

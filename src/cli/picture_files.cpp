@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
 
 #include "cli/output.h"
 #include "core/error.h"
+#include "core/output_file.h"
 #include "core/text.h"
 #include "geom/shapes/domain.h"
 
@@ -91,20 +91,6 @@ void check_count(const run::Plan& plan, const pictures::Request& request) {
                     ": choose cases (--filter), kinds (--image-kinds) or frames (--image-frames)");
 }
 
-// A run that is killed leaves no half of a picture.
-void write_in_one_step(const fs::path& file, const std::string& bytes) {
-  make_folder(file.parent_path());
-  const fs::path fresh = file.string() + ".new";
-  {
-    std::ofstream out(fresh, std::ios::binary | std::ios::trunc);
-    out << bytes << std::flush;
-    if (!out) throw Error(file.string(), "", errno_says("could not be written whole"), ExitCode::internal);
-  }
-  std::error_code failed;
-  fs::rename(fresh, file, failed);
-  if (failed) throw Error(file.string(), "", "cannot be replaced: " + failed.message(), ExitCode::internal);
-}
-
 // A method without cells has no longest list.
 pictures::LongestLists longest_lists(const nlohmann::ordered_json& result) {
   pictures::LongestLists longest;
@@ -146,8 +132,9 @@ void add_image_options(Command& command, ImageFlags& flags) {
       .needs(images);
 }
 
-PictureFiles::PictureFiles(const ImageFlags& flags, const config::Config& config, const run::Plan& plan)
-    : config_(config), plan_(plan), folder_(flags.folder), request_(request_of(flags)) {
+PictureFiles::PictureFiles(const ImageFlags& flags, const config::Config& config, const run::Plan& plan,
+                           std::vector<std::string> inputs)
+    : config_(config), plan_(plan), folder_(flags.folder), inputs_(std::move(inputs)), request_(request_of(flags)) {
   check_count(plan, request_);
   make_folder(folder_);
   if (::access(folder_.c_str(), W_OK | X_OK) != 0) throw Error(folder_, "", errno_says("cannot be written to"));
@@ -155,6 +142,16 @@ PictureFiles::PictureFiles(const ImageFlags& flags, const config::Config& config
   for (std::size_t i = 0; i < geometries_.size(); ++i)
     for (const std::string& warning : geometries_[i] ? geometries_[i]->warnings : std::vector<std::string>{})
       tell("warning: " + plan.scenes[i].scene.name + ": " + warning);
+}
+
+std::string PictureFiles::index_path(const std::string& folder) {
+  return (fs::path(folder) / "pictures.json").string();
+}
+
+void PictureFiles::write_picture(const fs::path& file, const std::string& bytes) const {
+  make_folder(file.parent_path());
+  refuse_overwriting({file.string()}, inputs_);
+  write_file(file, bytes);
 }
 
 bool PictureFiles::write(const nlohmann::ordered_json& result, Terminal screen, bool quiet,
@@ -165,7 +162,7 @@ bool PictureFiles::write(const nlohmann::ordered_json& result, Terminal screen, 
   pictures::Listener listener;
   nlohmann::ordered_json index{{"pictures", nlohmann::ordered_json::array()}};
   listener.on_picture = [&](const pictures::Picture& picture) {
-    write_in_one_step(fs::path(folder_) / picture.file, picture.png);
+    write_picture(fs::path(folder_) / picture.file, picture.png);
     index["pictures"].push_back({{"file", picture.file.generic_string()},
                                  {"kind", pictures::name_of(picture.kind)},
                                  {"frame", picture.frame ? nlohmann::ordered_json(*picture.frame) : nullptr},
@@ -185,7 +182,7 @@ bool PictureFiles::write(const nlohmann::ordered_json& result, Terminal screen, 
   };
   pictures::draw_pictures(config_, plan_, geometries_, request_, longest_lists(result), listener, stop);
   progress.clear();
-  write_in_one_step(fs::path(folder_) / "pictures.json", index.dump(1) + "\n");
+  write_picture(fs::path(index_path(folder_)), index.dump(1) + "\n");
   if (skipped > 0) tell("no pictures of " + number_of(skipped, "case") + "; the first is " + first_skipped);
   if (!quiet) tell(number_of(written, "picture") + " in " + folder_);
   return !stop;

@@ -3,8 +3,10 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/terminal.h"
@@ -28,15 +30,23 @@ class PictureFiles {
  public:
   // Throws Error for what is no frame or kind, for more pictures than pictures::k_most_pictures, for a folder that
   // cannot be made or written to, and for triangles that cannot be read.
-  PictureFiles(const ImageFlags& flags, const config::Config& config, const run::Plan& plan);
+  // `inputs`: files that no picture may replace.
+  PictureFiles(const ImageFlags& flags, const config::Config& config, const run::Plan& plan,
+               std::vector<std::string> inputs);
+
+  // What lists them.
+  static std::string index_path(const std::string& folder);
 
   // Makes them, of what the run has found. A picture of the same name is replaced. False if stopped before the end.
   bool write(const nlohmann::ordered_json& result, Terminal screen, bool quiet, const std::atomic<bool>& stop) const;
 
  private:
+  void write_picture(const std::filesystem::path& file, const std::string& bytes) const;
+
   const config::Config& config_;
   const run::Plan& plan_;
   std::string folder_;
+  std::vector<std::string> inputs_;
   pictures::Request request_;
   pictures::Geometries geometries_;
 };

@@ -251,6 +251,9 @@ ExitCode recommend(const RecommendFlags& flags) {
   config.timing.measure = is_timed;
   config.resolved["timing"]["measure"] = is_timed;
   run::Plan plan = run::make_plan(config, flags.filter);
+  refuse_overwriting({flags.output, flags.written}, files_of(flags.inputs, config));
+  for (const std::string& output : {flags.output, flags.written})
+    if (!output.empty() && !is_stream(output)) OutputFile(output).probe();
   const bool has_random_depths = asks_for_cost(question) && weigh_samples(config, plan);
   Searches searches{search::views_of(config, plan), {}};
   searches.costs.resize(searches.views.size());

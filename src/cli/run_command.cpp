@@ -66,8 +66,9 @@ struct RunFlags {
 };
 
 config::Config read_config(const RunFlags& flags) {
+  std::error_code none;
   for (const char* way : {"perf", "callgrind", "auto"})
-    if (!flags.count.empty() && flags.inputs.paths.back() == way && !fs::exists(way))
+    if (!flags.count.empty() && flags.inputs.paths.back() == way && !fs::exists(way, none))
       throw Error("", "--count", std::string("takes its value with an equals sign: --count=") + way);
   return read_inputs(flags.inputs);
 }
@@ -371,24 +372,25 @@ std::string own_command_line() {
 }
 
 // Before minutes go into measuring.
-void refuse_losses(const RunFlags& flags, const config::Config& config) {
+void refuse_losses(const RunFlags& flags, const std::vector<std::string>& inputs) {
   const bool is_printed = flags.output.empty() && !is_for_reading(flags.output);
-  std::vector<std::string> outputs{is_printed ? "-" : flags.output}, inputs = flags.inputs.paths;
-  if (!is_stream(flags.output)) outputs.push_back(flags.output + ".partial");  // report/journal.h
+  std::vector<std::string> outputs{is_printed ? "-" : flags.output};
+  if (!is_stream(flags.output)) outputs.push_back(report::partial_of(flags.output).string());
+  std::error_code none;
+  if (fs::is_directory(flags.images.folder, none)) outputs.push_back(PictureFiles::index_path(flags.images.folder));
   for (const std::string& text : flags.exports) outputs.push_back(text.substr(text.find('=') + 1));
-  for (const config::SceneRequest& scene : config.scenes) inputs.push_back(scene.path.string());
-  inputs.push_back(config.limits.baseline.string());
   refuse_overwriting(outputs, inputs);
 }
 
 ExitCode measure(const RunFlags& flags, const config::Config& config, const run::Plan& plan, CountWay way,
                  const std::vector<ExportTarget>& exports) {
   const Gates own_gates(config, flags.filter);
-  refuse_losses(flags, config);
-  if (is_stream(flags.output)) probe_output(flags.output);
-  probe_exports(exports, config.timing.measure);
+  const std::vector<std::string> inputs = files_of(flags.inputs, config);
+  refuse_losses(flags, inputs);
+  LaterOutput output(flags.output, !is_stream(flags.output) || is_for_reading(flags.output));  // else the journal
+  const ExportFiles export_files(exports, config.timing.measure);
   std::optional<PictureFiles> images;
-  if (!flags.images.folder.empty()) images.emplace(flags.images, config, plan);
+  if (!flags.images.folder.empty()) images.emplace(flags.images, config, plan, inputs);
   const std::atomic<bool>& stop = stop_on_signals();  // before there is anything to keep
   const std::unique_ptr<report::Journal> journal = open_journal(flags, config, plan);
   const std::vector<Json> earlier = journal ? journal->earlier_cases() : std::vector<Json>{};
@@ -425,11 +427,9 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   if (!flags.baseline.binary.empty() && !add_baseline(flags, config, plan, progress, journal.get(), stop, result))
     return interrupted(journal.get());
   const Verdicts verdicts = judge(flags, own_gates, result);
-  if (journal)
-    journal->finish(result);
-  else if (!is_for_reading(flags.output))
-    write_output(flags.output, result);
-  write_exports(exports, result);
+  if (journal) journal->finish(result);
+  output.write(result);
+  export_files.write(result);
   show_table(flags, result);
   if (images && !images->write(result, screen, flags.quiet, stop)) {
     tell("interrupted; the result is complete, its pictures are not");
@@ -441,8 +441,9 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
 }
 
 void check_baseline(const RunFlags& flags) {
+  std::error_code none;
   for (const std::string& input : flags.inputs.paths)
-    if (is_stream_name(input) || !fs::is_regular_file(input))
+    if (is_stream_name(input) || !fs::is_regular_file(input, none))
       throw Error(input, "--baseline-binary", "is no file that the other program could read, too; save it to one");
   if (flags.no_timing)
     throw Error("", "--baseline-binary", "measures times, which --no-timing leaves out; take one of the two");

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "cli/output.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "run/scene_facts.h"
 #include "scene/exporters.h"
+#include "scene/gltf_files.h"
 
 namespace clusterbench::cli {
 
@@ -57,6 +59,20 @@ config::Config read_inputs(const RunInputs& inputs, const std::vector<config::Fl
   if (scenes == 0 && inputs.paths.size() == 1) return config::load_config(inputs.paths.front(), flags, standard);
   throw Error("", "command line",
               "takes one configuration (.json), or one or more scenes (.glb, .gltf), not " + joined(inputs.paths));
+}
+
+std::vector<std::string> files_of_scene(const std::filesystem::path& scene) {
+  std::vector<std::string> files{scene.string()};
+  for (const std::filesystem::path& file : scene::files_named_in(scene)) files.push_back(file.string());
+  return files;
+}
+
+std::vector<std::string> files_of(const RunInputs& inputs, const config::Config& config) {
+  std::vector<std::string> files = inputs.paths;
+  for (const config::SceneRequest& scene : config.scenes)
+    if (!scene.path.empty()) std::ranges::move(files_of_scene(scene.path), std::back_inserter(files));
+  files.push_back(config.limits.baseline.string());
+  return files;
 }
 
 void tell_of_cameras(const config::Config& config, const run::Plan& plan) {

@@ -1,6 +1,7 @@
 #pragma once
 // What a command measures: a configuration or scenes, and the flags that change it.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,11 @@ bool is_scene(const std::string& path);  // by its ending or its content (scene/
 // defaults. Throws Error.
 config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first = {},
                            const nlohmann::json& standard = {});
+
+// A scene's file and those that it names, which a command that reads the scene must not write.
+std::vector<std::string> files_of_scene(const std::filesystem::path& scene);
+// All that a configuration names, its baseline included.
+std::vector<std::string> files_of(const RunInputs& inputs, const config::Config& config);
 
 // For what searches along one camera or some of a scene: which others there are, and which a field of view that is
 // asked for does not change.

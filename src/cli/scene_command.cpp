@@ -3,12 +3,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "cli/run_inputs.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "scene/add_views.h"
@@ -125,10 +127,10 @@ void add_info(Command& parent, Action& action) {
                      "Name or number of the only animation that plays; without, all together");
   command.add_option("--cutoff-lux", flags->rule.cutoff_lux, "Illuminance at which a light without range ends")
       .shows_standard()
-      .positive();
+      .positive_to(1e9);
   command.add_option("--max-range", flags->rule.max_range_m, "Longest range given to such a light, metres")
       .shows_standard()
-      .positive();
+      .positive_to(1e9);
   command.add_flag("--json", flags->as_json, "As JSON");
   command.when_named(
       [flags, &action] { action = [flags] { return info(flags->file, flags->choice, flags->rule, flags->as_json); }; });
@@ -146,7 +148,9 @@ void add_generate(Command& parent, Action& action) {
   command.when_named([flags, &action] {
     action = [flags] {
       const std::string out = flags->out.empty() ? flags->name + ".glb" : flags->out;
-      scene::generate_scene(flags->name, flags->seed, flags->lights, out);
+      if (std::filesystem::path(out).extension() != ".glb") throw Error(out, "", "scenes are written as .glb files");
+      require_folder_of(out);
+      write_text(out, scene::make_scene(flags->name, flags->seed, flags->lights));
       std::cerr << "wrote " << out << "\n";
       return ExitCode::ok;
     };
@@ -194,7 +198,10 @@ ExitCode views(ViewsFlags flags) {
   if (request.views.empty() && !request.faces_at_m)
     throw Error("", "scene views", "adds nothing: give --eyes, --add or --faces");
   refuse_overwriting({flags.out}, {flags.file});
-  scene::write_with_views(flags.file, request, flags.out);
+  const scene::Scene scene = scene::load_gltf(flags.file);
+  refuse_overwriting({flags.out}, files_of_scene(flags.file));
+  write_text(flags.out, scene::with_views(scene, request, flags.out));
+  if (!is_stream(flags.out)) scene::load_gltf(flags.out);  // what cannot be read again is told now
   std::cerr << "wrote " << flags.out << "\n";
   return ExitCode::ok;
 }

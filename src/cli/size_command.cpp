@@ -43,7 +43,8 @@ struct SizeFlags {
 
 // A configuration may have comments, and need not be JSON to be told apart: what is wrong with it, its own reader says.
 bool is_config(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) return false;
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return false;
   const Json value = json_or_discarded<Json>(file_text(path), JsonComments::allowed);
   return value.is_object() && !value.empty() && config::document_of(value) == config::Document::config &&
          !value.contains("schema_version") && !value.contains("header");

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -83,7 +82,7 @@ class AtWork {
   AtWork& operator=(const AtWork&) = delete;
 
   void write(const std::string& doing) const {
-    if (!path_.empty()) std::ofstream(path_) << doing << "\n";
+    if (!path_.empty()) write_file(path_, doing + "\n");
   }
 
  private:
@@ -94,7 +93,7 @@ ExitCode stress(const StressFlags& flags) {
   stress::StressRequest request = flags.request;
   request.cases = Pattern(cases_of(flags), "--cases");
   request.methods = Pattern(flags.methods, "--methods");
-  if (!is_for_reading(flags.output)) probe_output(flags.output);
+  LaterOutput output(flags.output, is_for_reading(flags.output));
   const std::atomic<bool>& stop = stop_on_signals();
   ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
   const AtWork at_work(flags);
@@ -112,7 +111,7 @@ ExitCode stress(const StressFlags& flags) {
     throw Error("", "--cases",
                 "'" + flags.cases + "' names none" + pattern_hint(flags.cases) + "; there are H1 to H35");
   const bool for_reading = is_for_reading(flags.output);
-  if (!for_reading) write_output(flags.output, report::stress_to_json(result, request));
+  output.write(report::stress_to_json(result, request));
   if (!flags.quiet) report::print_stress(for_reading ? std::cout : std::cerr, result);
   if (for_reading) tell_of_keeping();
   if (!flags.failures.empty()) write_replays(flags.failures, result);

@@ -49,15 +49,15 @@ std::string config_path(const std::string& scene_path) {
   return scene_path.empty() ? "" : fs::path(scene_path).replace_extension(".json").string();
 }
 
-void check_outputs(const WorstCaseFlags& flags, const config::Config& config) {
+// The path's files come first, and then what tells of them.
+LaterOutput checked_output(const WorstCaseFlags& flags, const config::Config& config) {
   if (!flags.path.empty() && fs::path(flags.path).extension() != ".gltf")
     throw Error(flags.path, "--path", "must end in .gltf");
-  std::vector<std::string> inputs = flags.inputs.paths;
-  for (const config::SceneRequest& scene : config.scenes) inputs.push_back(scene.path.string());
   const std::vector<std::string> outputs{flags.output, flags.path, config_path(flags.path)};
-  refuse_overwriting({outputs.begin(), outputs.begin() + (flags.path.empty() ? 1 : 3)}, inputs);
-  for (const std::string& output : outputs)
-    if (!is_for_reading(output)) probe_output(output);
+  refuse_overwriting({outputs.begin(), outputs.begin() + (flags.path.empty() ? 1 : 3)}, files_of(flags.inputs, config));
+  for (const std::string& output : {flags.path, config_path(flags.path)})
+    if (!output.empty()) OutputFile(output).probe();
+  return LaterOutput(flags.output, is_for_reading(flags.output));
 }
 
 // Before a search that somebody waits for.
@@ -99,7 +99,7 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   const run::CasePlan& case_plan = search::case_to_search(config, plan);
   search::fix_grid(config, plan, case_plan);
   if (!flags.quiet) tell_of_cameras(config, plan);
-  check_outputs(flags, config);
+  LaterOutput output = checked_output(flags, config);
   if (!config.limits.fail_if.empty())
     tell("warning: limits.fail_if is not looked at: `clusterbench run` and `size` do");
   if (!flags.quiet) tell_of_work(config, plan, case_plan, request);
@@ -113,7 +113,7 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
       config, plan, case_plan, request, has_frames ? flags.path : "", has_frames ? config_path(flags.path) : ""};
   if (!facts.scene_file.empty()) write_path(found, facts);
   const bool for_reading = is_for_reading(flags.output);
-  if (!for_reading) write_output(flags.output, report::worst_case_to_json(found, facts));
+  output.write(report::worst_case_to_json(found, facts));
   if (!facts.scene_file.empty()) check_path(found, facts);
   if (!flags.quiet)
     (for_reading ? std::cout : std::cerr) << printable_lines(report::worst_case_text(found, facts)) << std::flush;

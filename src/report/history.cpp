@@ -1,14 +1,8 @@
 #include "report/history.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
@@ -18,8 +12,10 @@
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/json_document.h"
+#include "core/output_file.h"
 #include "core/text.h"
 #include "report/light_changes.h"
+#include "report/locked_file.h"
 #include "report/machine.h"
 #include "run/case_names.h"
 
@@ -76,42 +72,93 @@ Json history_line(const Json& result, const std::string& commit) {
   return line;
 }
 
-HistoryEntry::Case parsed_case(const Json& stored) {
-  HistoryEntry::Case out{stored.value("settings", ""),
-                         run::current_name(stored.at("name").get<std::string>()),
+[[noreturn]] void refuse_value(const std::string& pointer, const std::string& found, const std::string& allowed) {
+  throw Error("", pointer, "found " + found + ", allowed: " + allowed);
+}
+
+const Json& checked(const Json& value, const std::string& pointer, bool is_allowed, const std::string& allowed) {
+  if (is_allowed) return value;
+  const bool is_short = value.is_primitive();
+  refuse_value(pointer, is_short ? value.dump() : value.is_array() ? "a list" : "an object", allowed);
+}
+
+const Json& member(const Json& object, const std::string& pointer, const std::string& key) {
+  if (const auto found = object.find(key); found != object.end()) return *found;
+  refuse_value(pointer, "no key '" + key + "'", "a line that `clusterbench history add` wrote");
+}
+
+const Json& list_in(const Json& object, const std::string& pointer, const std::string& key) {
+  const Json& list = member(object, pointer, key);
+  return checked(list, pointer + "/" + key, list.is_array(), "a list");
+}
+
+std::string text_in(const Json& object, const std::string& pointer, const std::string& key) {
+  const Json& text = member(object, pointer, key);
+  return checked(text, pointer + "/" + key, text.is_string(), "a text").get<std::string>();
+}
+
+// Lines of older versions lack some.
+std::string text_or_none(const Json& object, const std::string& pointer, const std::string& key) {
+  return object.contains(key) ? text_in(object, pointer, key) : "";
+}
+
+HistoryEntry::Case parsed_case(const Json& stored, const std::string& at) {
+  checked(stored, at, stored.is_object(), "an object");
+  HistoryEntry::Case out{text_or_none(stored, at, "settings"),
+                         run::current_name(text_in(stored, at, "name")),
                          {},
-                         stored.value("scene", std::string())};
-  for (const auto& [name, value] : stored.at("figures").items()) out.figures.emplace_back(name, value.get<double>());
-  if (const Json path = stored.value("camera_path", Json()); !path.is_null())
-    out.path = {stored.at("camera").get<std::string>(), path.value("digest", std::string()),
-                path.at("from_s").get<double>(), path.at("to_s").get<double>()};
+                         text_or_none(stored, at, "scene")};
+  const Json& figures = member(stored, at, "figures");
+  checked(figures, at + "/figures", figures.is_object(), "an object");
+  for (const auto& [name, value] : figures.items())
+    out.figures.emplace_back(name,
+                             checked(value, at + "/figures/" + name, value.is_number(), "a number").get<double>());
+  if (stored.contains("camera_path")) {
+    const Json& path = stored["camera_path"];
+    const std::string in_path = at + "/camera_path";
+    checked(path, in_path, path.is_object(), "an object");
+    const auto seconds = [&](const char* key) {
+      const Json& value = member(path, in_path, key);
+      return checked(value, in_path + "/" + key, value.is_number(), "a number").get<double>();
+    };
+    out.path = {text_in(stored, at, "camera"), text_or_none(path, in_path, "digest"), seconds("from_s"),
+                seconds("to_s")};
+  }
   return out;
+}
+
+SceneLights parsed_scene(const Json& stored, const std::string& at) {
+  checked(stored, at, stored.is_object(), "an object");
+  return {text_in(stored, at, "name"), text_or_none(stored, at, "light_digest"), text_in(stored, at, "lights")};
 }
 
 HistoryEntry parsed(const std::string& line) {
   const Json json = read_json<Json>(line, "");
-  if (json.at("history_version") != k_history_version)
-    throw Error("", "", "history_version is " + json["history_version"].dump() + "; this version reads 1");
-  HistoryEntry entry{json.at("commit").get<std::string>(),
-                     json.at("cpu").get<std::string>() + ", " + json.at("simd_target").get<std::string>(),
-                     json.value("counter", std::string()),
-                     json.value("caches", std::string()),
+  checked(json, "", json.is_object(), "an object");
+  const Json& version = member(json, "", "history_version");
+  if (version != k_history_version)
+    throw Error("", "", "history_version is " + version.dump() + "; this version reads 1");
+  HistoryEntry entry{text_in(json, "", "commit"),
+                     text_in(json, "", "cpu") + ", " + text_in(json, "", "simd_target"),
+                     text_or_none(json, "", "counter"),
+                     text_or_none(json, "", "caches"),
                      {}};
-  for (const Json& stored : json.at("cases")) entry.cases.push_back(parsed_case(stored));
-  for (const Json& stored : json.value("scenes", Json::array()))
-    entry.scenes.push_back({stored.at("name").get<std::string>(), stored.value("light_digest", std::string()),
-                            stored.at("lights").get<std::string>()});
+  std::size_t number = 0;
+  for (const Json& stored : list_in(json, "", "cases"))
+    entry.cases.push_back(parsed_case(stored, "/cases/" + std::to_string(number++)));
+  number = 0;
+  if (json.contains("scenes"))
+    for (const Json& stored : list_in(json, "", "scenes"))
+      entry.scenes.push_back(parsed_scene(stored, "/scenes/" + std::to_string(number++)));
   return entry;
 }
 
 HistoryEntry parsed_at(const std::string& path, const std::string& line, std::size_t number) {
-  const std::string where = "line " + std::to_string(number);
   try {
     return parsed(line);
-  } catch (const nlohmann::json::exception&) {
-    throw Error(path, where, "is not a line of `clusterbench history add`");
   } catch (const Error& error) {
-    throw Error(path, where, error.message());
+    const std::string within = error.where().empty() ? "" : ": " + error.where();
+    throw Error(path, "line " + std::to_string(number) + within, error.message());
   }
 }
 
@@ -127,25 +174,11 @@ std::vector<HistoryEntry> parsed_file(const std::string& path, const std::string
   return history;
 }
 
-// All bytes on the disk before the file takes its name.
-void replace_file(const std::string& path, const std::string& text) {
-  const std::string fresh = path + ".new";
-  const int file = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (file < 0)
-    throw Error(fresh, "",
-                errno == EEXIST ? "exists: another `history add` is at work, or one was interrupted; then remove it"
-                                : errno_says("cannot be written"));
-  std::size_t written = 0;
-  while (written < text.size()) {
-    const ssize_t now = ::write(file, text.data() + written, text.size() - written);
-    if (now <= 0) break;
-    written += static_cast<std::size_t>(now);
-  }
-  const bool is_whole = written == text.size() && ::fsync(file) == 0;
-  if (::close(file) == 0 && is_whole && std::rename(fresh.c_str(), path.c_str()) == 0) return;
-  const std::string why = errno_says("could not be replaced");
-  ::unlink(fresh.c_str());
-  throw Error(path, "", why, ExitCode::internal);
+// A pipe or a device is no history: what is added later would have nothing to be added to.
+fs::path history_path(const std::string& path) {
+  const OutputTarget target = output_target(path);
+  if (target.is_stream) throw Error(path, "", "is no regular file; a history is one");
+  return target.path;
 }
 
 const Metric* metric_named(const std::string& name) {
@@ -308,14 +341,17 @@ std::string least_text(const measure::ChangeRule& rule) {
 }  // namespace
 
 std::vector<HistoryEntry> read_history(const std::string& path) {
-  return parsed_file(path, file_text(path));
+  return parsed_file(path, file_text(history_path(path)));
 }
 
 Addition add_to_history(const std::string& path, const Json& result, const std::string& commit) {
-  std::string text = fs::exists(path) ? file_text(path) : "";
+  require_folder_of(path);
+  LockedFile file(history_path(path), LockedFile::Held::wait);
+  std::string text = file.text();
   const std::vector<HistoryEntry> history = parsed_file(path, text);
   const std::string line = history_line(result, commit).dump() + "\n";
   Addition addition;
+  addition.other_names = file.other_names();
   std::size_t begin = 0, insert_at = text.size();
   const HistoryEntry fresh = parsed(line);
   std::vector<HistoryEntry> others;
@@ -339,7 +375,7 @@ Addition add_to_history(const std::string& path, const Json& result, const std::
     begin = end;
   }
   if (!addition.is_added) return addition;
-  replace_file(path, text.insert(insert_at, line));
+  file.replace(text.insert(insert_at, line));
   return addition;
 }
 

@@ -71,10 +71,12 @@ struct Addition {
   std::vector<std::string> light_changes = {};
   std::vector<std::string> path_changes = {};
   std::vector<std::string> new_scenes = {};  // that no line of another commit has, where there are such lines
+  std::uint64_t other_names = 0;             // hard links of the file, which stay as they were
 };
 // Adds the result as the file's last line, or behind those of its commit where a job runs again; makes the file if
-// there is none. The file is replaced at once by one that has all lines, so that no crash can leave half of one. Throws
-// Error for a file that is no history, and on a failed write.
+// there is none. One process at a time: others wait. The file, or the one that a link leads to, is replaced at once by
+// one that has all lines, so that no crash can leave half of one. Throws Error for a file that is no history, and on a
+// failed write.
 Addition add_to_history(const std::string& path, const nlohmann::ordered_json& result, const std::string& commit);
 
 // By case in order of first appearance, then by metric, without those that say another in another way; the changes

@@ -1,8 +1,5 @@
 #include "report/journal.h"
 
-#include <unistd.h>
-
-#include <fstream>
 #include <functional>
 
 #include "config/documents.h"
@@ -10,6 +7,7 @@
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/json_document.h"
+#include "core/output_file.h"
 #include "core/text.h"
 #include "report/compact_json.h"
 #include "report/json_values.h"
@@ -20,27 +18,30 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// The first name of "PATH.1", "PATH.2" ... that is free.
-fs::path free_name(const fs::path& path) {
-  for (int number = 1;; ++number)
-    if (fs::path name = path.string() + "." + std::to_string(number); !fs::exists(name)) return name;
+// The lines of a run begin so; what a program that died has left of one, too.
+bool begins_as_an_entry(std::string_view line) {
+  for (const std::string_view start : {R"({"case":)", R"({"request":)"})
+    if (line.starts_with(start) || start.starts_with(line)) return true;
+  return line.find_first_not_of('\0') == std::string_view::npos;  // a disk that lost its power
 }
 
-// Where links lead; the file itself need not be there.
-fs::path target_of(fs::path file) {
-  constexpr int k_most_links = 40;  // as the system follows
-  std::error_code failed;
-  for (int count = 0; fs::is_symlink(file, failed); ++count) {
-    if (count == k_most_links) throw Error(file.string(), "", "is a circle of links");
-    const fs::path next = fs::read_symlink(file);
-    file = next.is_absolute() ? next : file.parent_path() / next;
-  }
-  return file;
+std::string header_line(const Json& header) {
+  return Json{{"header", header}}.dump() + '\n';
 }
 
-fs::path partial_of(const fs::path& file) {
-  if (fs::is_directory(file)) throw Error(file.string(), "", "is a directory; name a file for the result");
-  return file.string() + ".partial";
+// Of this program or an older one, and nothing behind it.
+bool is_header_alone(std::string_view text) {
+  if (!text.ends_with('\n') || text.find('\n') + 1 != text.size()) return false;
+  const Json line = json_or_discarded<Json>(text);
+  return line.is_object() && line.size() == 1 && line.contains("header") && line["header"].is_object() &&
+         line["header"].contains("config");
+}
+
+// Whether a line holds a case as it was measured, and one that is not among `ids`, as JSON, to which it is added.
+bool takes_case(const Json& entry, std::set<std::string>& ids) {
+  const Json* id = value_at(entry, "/case/id");
+  return id != nullptr && entry.value("sha256", Json()) == sha256_hex(entry["case"].dump()) &&
+         ids.insert(id->dump()).second;
 }
 
 // Calls take(entry) for each line behind the header, which returns whether it is one that a run writes. Returns where
@@ -50,12 +51,15 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
   std::size_t begin = 0;
   for (int number = 1; begin < text.size(); ++number) {
     const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos) break;  // the line that was being written when the run ended
+    const bool is_cut = end == std::string::npos;  // the line that was being written when the run ended
+    if (is_cut && number > 1 && begins_as_an_entry(std::string_view(text).substr(begin))) break;
+    if (is_cut && number == 1 && header_line(header).starts_with(text)) break;
     Json entry = json_or_discarded<Json>(std::string_view(text).substr(begin, end - begin));
     const auto refuse = [&](const std::string& what) {
       throw Error(path.string(), "line " + std::to_string(number),
                   what + "; without --resume the run begins anew and the file is kept under another name");
     };
+    if (is_cut) refuse("is not what a run writes");
     if (number == 1 && (!entry.is_object() || !entry.contains("header"))) refuse("does not say what was run");
     if (number == 1 && entry["header"] != header)
       refuse("is an interrupted run of another configuration, --count, scene or build");
@@ -67,48 +71,64 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
 
 }  // namespace
 
+fs::path partial_of(const fs::path& file) {
+  const fs::path target = output_target(file).path;
+  std::error_code none;
+  if (fs::is_directory(target, none)) throw Error(file.string(), "", "is a directory; name a file for the result");
+  return target.string() + ".partial";
+}
+
 std::vector<std::string> finished_ids(const fs::path& file, const Json& header) {
-  const fs::path partial = partial_of(target_of(file));
+  const fs::path partial = partial_of(file);
   std::vector<std::string> ids;
-  if (!fs::exists(partial)) return ids;
+  std::error_code none;
+  if (!fs::exists(fs::symlink_status(partial, none))) return ids;
+  if (!fs::is_regular_file(fs::symlink_status(partial, none)))
+    throw Error(partial.string(), "", "is no regular file, and a run leaves no other");
+  std::set<std::string> known;
   each_entry(file_text(partial.string()), partial, header, [&](const Json& entry) {
-    if (const Json* id = value_at(entry, "/case/id"); id != nullptr && id->is_string()) ids.push_back(*id);
+    if (!entry.contains("case")) return true;
+    if (!takes_case(entry, known)) return false;
+    if (const Json& id = entry["case"]["id"]; id.is_string()) ids.push_back(id);
     return true;
   });
   return ids;
 }
 
 Journal::Journal(const fs::path& file, const Json& header, bool resume, std::uint64_t expected_bytes)
-    : file_(target_of(file)), partial_(partial_of(file_)) {
+    : file_(file), partial_(partial_of(file)) {
+  OutputFile(file_).probe();
   if (resume)
     read_earlier(header);
   else
-    set_earlier_aside();
+    set_earlier_aside(header_line(header));
   partial_.check_room(expected_bytes);
-  if (fs::exists(file_) && ::access(file_.c_str(), W_OK) != 0)
-    throw Error(file_.string(), "", errno_says("cannot be written"));
-  if (partial_.text().empty()) partial_.append(Json{{"header", header}}.dump() + '\n');
+  if (!partial_.text().empty()) return;
+  try {
+    partial_.append(header_line(header));
+  } catch (const Error&) {
+    partial_.empty();
+    throw;
+  }
 }
 
-// A header alone holds nothing that was measured.
-void Journal::set_earlier_aside() {
+Journal::~Journal() {
+  if (!is_finished_ && is_empty()) partial_.remove();
+}
+
+// A header alone, or its beginning, holds nothing that was measured.
+void Journal::set_earlier_aside(const std::string& header) {
   const std::string text = partial_.text();
-  const std::size_t header_end = text.find('\n');
-  const bool is_header = json_or_discarded<Json>(std::string_view(text).substr(0, header_end)).contains("header");
-  const bool has_more = header_end != std::string::npos && header_end + 1 < text.size();
-  if (text.empty() || (is_header && !has_more)) {
-    partial_.cut_to(0);
-    return;
-  }
-  set_aside_ = free_name(partial_path());
-  partial_.move_text_to(set_aside_);
+  if (text.empty()) return;
+  if (header.starts_with(text) || is_header_alone(text))
+    partial_.empty();
+  else
+    set_aside_ = partial_.move_text_beside();
 }
 
 void Journal::read_earlier(const Json& header) {
   const std::size_t end = each_entry(partial_.text(), partial_path(), header, [&](Json& entry) {
-    if (!entry.contains("case")) return take_answer(entry);
-    earlier_cases_.push_back(std::move(entry["case"]));
-    return true;
+    return entry.contains("case") ? take_case(entry) : take_answer(entry);
   });
   check_earlier();
   partial_.cut_to(end);
@@ -129,9 +149,15 @@ std::vector<std::string> Journal::earlier_ids() const {
   return ids;
 }
 
+bool Journal::take_case(Json& entry) {
+  if (!takes_case(entry, earlier_ids_)) return false;
+  earlier_cases_.push_back(std::move(entry["case"]));
+  return true;
+}
+
 // The digest: what launches answer has no schema that could be checked.
 bool Journal::take_answer(Json& entry) {
-  if (!entry.is_object() || !entry.contains("request") || !entry.contains("answer")) return false;
+  if (!entry.contains("request") || !entry.contains("answer")) return false;
   if (entry.value("sha256", Json()) != sha256_hex(entry["request"].dump() + entry["answer"].dump())) return false;
   earlier_answers_[entry["request"].dump()] = std::move(entry["answer"]);
   return true;
@@ -153,21 +179,18 @@ void Journal::add(const Json& entry) {
 }
 
 void Journal::add_case(const Json& finished) {
-  add({{"case", finished}});
+  add({{"case", finished}, {"sha256", sha256_hex(finished.dump())}});
 }
 
 void Journal::finish(const Json& result) {
-  const fs::path fresh = file_.string() + ".new";
-  {
-    std::ofstream whole(fresh, std::ios::binary | std::ios::trunc);
-    whole << compact_json(result) << std::flush;
-    if (!whole)
-      throw Error(fresh.string(), "",
-                  errno_says("cannot be written") + "; the cases are kept in " + partial_path().string());
+  try {
+    write_file(file_, compact_json(result));
+  } catch (const Error& error) {
+    throw Error(error.file(), "",
+                error.message() + (is_empty() ? "" : "; the cases are kept in " + partial_path().string()),
+                error.code());
   }
-  std::error_code failed;
-  fs::rename(fresh, file_, failed);
-  if (failed) throw Error(file_.string(), "", "cannot be replaced: " + failed.message());
+  is_finished_ = true;
   partial_.remove();
 }
 

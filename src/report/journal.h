@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@
 #include "report/locked_file.h"
 
 namespace clusterbench::report {
+
+// FILE.partial, beside what FILE leads to. Throws Error for a folder.
+std::filesystem::path partial_of(const std::filesystem::path& file);
 
 // The ids of the cases that an interrupted run has finished, as Journal with `resume` finds them; nothing is written.
 std::vector<std::string> finished_ids(const std::filesystem::path& file, const nlohmann::ordered_json& header);
@@ -28,6 +32,10 @@ class Journal {
   // run writes but for its last line.
   Journal(const std::filesystem::path& file, const nlohmann::ordered_json& header, bool resume,
           std::uint64_t expected_bytes);
+  // Removes FILE.partial if nothing that was measured is in it.
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
 
   // Cases that an interrupted run had finished.
   const std::vector<nlohmann::ordered_json>& earlier_cases() const { return earlier_cases_; }
@@ -51,16 +59,18 @@ class Journal {
   const std::filesystem::path& partial_path() const { return partial_.path(); }
 
  private:
-  void set_earlier_aside();
+  void set_earlier_aside(const std::string& header);
   void read_earlier(const nlohmann::ordered_json& header);
   void check_earlier() const;
   void add(const nlohmann::ordered_json& entry);
+  bool take_case(nlohmann::ordered_json& entry);
   bool take_answer(nlohmann::ordered_json& entry);
 
   std::filesystem::path file_, set_aside_;
   LockedFile partial_;
-  bool has_added_ = false;
+  bool has_added_ = false, is_finished_ = false;
   std::vector<nlohmann::ordered_json> earlier_cases_;
+  std::set<std::string> earlier_ids_;                              // as JSON
   std::map<std::string, nlohmann::ordered_json> earlier_answers_;  // by their requests
 };
 

@@ -8,31 +8,60 @@
 #include <cerrno>
 
 #include "core/error.h"
+#include "core/output_file.h"
 
 namespace clusterbench::report {
 
 namespace fs = std::filesystem;
 
-LockedFile::LockedFile(fs::path path) : path_(std::move(path)) {
-  open(0);
+LockedFile::LockedFile(fs::path path, Held held) : path_(std::move(path)), held_(held) {
+  open();
 }
 
 LockedFile::~LockedFile() {
+  struct stat opened {};
+  if (is_made_ && file_ >= 0 && ::fstat(file_, &opened) == 0 && opened.st_size == 0 && is_still_at_path())
+    ::unlink(path_.c_str());
   close();
 }
 
-void LockedFile::open(int more_flags) {
+void LockedFile::open() {
   do {
     close();
-    file_ = ::open(path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | more_flags, 0644);
-    if (file_ < 0 && errno != EEXIST) fail("cannot be written");
-    // A file system without locks (EOPNOTSUPP, ENOLCK) is no reason not to measure.
-    const bool is_held = file_ < 0 || (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK);
-    if (is_held) {
-      close();
-      throw Error(path_.string(), "", "another run is writing here; wait for its end, or name another file");
+    while (!has_opened()) {
     }
+    lock();
   } while (!is_still_at_path());
+}
+
+// False where another process has made or removed it meanwhile.
+bool LockedFile::has_opened() {
+  constexpr int k_way = O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+  file_ = ::open(path_.c_str(), k_way);
+  is_made_ = false;
+  if (file_ < 0 && errno == ENOENT) {
+    file_ = ::open(path_.c_str(), k_way | O_CREAT | O_EXCL, 0666);
+    is_made_ = file_ >= 0;
+    if (file_ < 0 && errno == EEXIST) return false;
+  }
+  if (file_ < 0 && errno == ELOOP)
+    throw Error(path_.string(), "", "is a symbolic link, through which nothing is written; remove it");
+  struct stat opened {};
+  if (file_ < 0 || ::fstat(file_, &opened) != 0) fail("cannot be written");
+  if (S_ISREG(opened.st_mode)) return true;
+  close();
+  throw Error(path_.string(), "", "is no regular file, and only such a one is written here");
+}
+
+// A file system without locks (EOPNOTSUPP, ENOLCK) is no reason not to measure.
+void LockedFile::lock() {
+  int failed = 0;
+  do failed = ::flock(file_, held_ == Held::wait ? LOCK_EX : LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+  while (failed == EINTR);
+  if (failed != EWOULDBLOCK) return;
+  is_made_ = false;
+  close();
+  throw Error(path_.string(), "", "another run is writing here; wait for its end, or name another file");
 }
 
 void LockedFile::close() {
@@ -43,12 +72,13 @@ void LockedFile::close() {
 bool LockedFile::is_still_at_path() const {
   struct stat opened {};
   struct stat named {};
-  return ::fstat(file_, &opened) == 0 && ::stat(path_.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+  return ::fstat(file_, &opened) == 0 && ::lstat(path_.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
          opened.st_ino == named.st_ino;
 }
 
 void LockedFile::fail(const std::string& what) const {
-  throw Error(path_.string(), "", errno_says(what));
+  const ExitCode code = code_of_failed_write(errno);
+  throw Error(path_.string(), "", errno_says(what), code);
 }
 
 std::string LockedFile::text() const {
@@ -67,7 +97,7 @@ void LockedFile::append(std::string_view text) {
   while (!text.empty()) {
     const ssize_t put = ::write(file_, text.data(), text.size());
     if (put < 0 && errno == EINTR) continue;
-    if (put < 0) throw Error(path_.string(), "", errno_says("cannot be written"), ExitCode::interrupted);
+    if (put < 0) fail("cannot be written");
     text.remove_prefix(static_cast<std::size_t>(put));
   }
 }
@@ -76,20 +106,38 @@ void LockedFile::cut_to(std::size_t bytes) {
   if (::ftruncate(file_, static_cast<off_t>(bytes)) != 0) fail("cannot be cut");
 }
 
+void LockedFile::empty() {
+  cut_to(0);
+  is_made_ = true;
+}
+
 // Reserves the room and gives it back.
 void LockedFile::check_room(std::uint64_t bytes) const {
   const off_t size = ::lseek(file_, 0, SEEK_END);
   const int failed = ::posix_fallocate(file_, size, static_cast<off_t>(bytes));
   const bool restored = ::ftruncate(file_, size) == 0;
   if (failed == ENOSPC || failed == EDQUOT || failed == EFBIG || !restored)
-    throw Error(path_.string(), "",
-                "no room on the disk for a result of about " + std::to_string(bytes >> 10) + " KiB");
+    throw Error(path_.string(), "", "no room on the disk for a result of about " + std::to_string(bytes >> 10) + " KiB",
+                ExitCode::internal);
 }
 
-// Who opens the path between the two steps has the new file: then this is an Error, and the text is kept all the same.
-void LockedFile::move_text_to(const fs::path& other) {
-  if (::rename(path_.c_str(), other.c_str()) != 0) fail("cannot be renamed to " + other.string());
-  open(O_EXCL);
+// Who opens the path between the last two steps has the new file: then this is an Error, and the text is kept all the
+// same.
+fs::path LockedFile::move_text_beside() {
+  fs::path name = reserve_name(path_);
+  if (::rename(path_.c_str(), name.c_str()) != 0) fail("cannot be renamed to " + name.string());
+  open();
+  return name;
+}
+
+void LockedFile::replace(std::string_view text) {
+  write_file(path_, text);
+  close();
+}
+
+std::uint64_t LockedFile::other_names() const {
+  struct stat opened {};
+  return ::fstat(file_, &opened) == 0 && opened.st_nlink > 1 ? opened.st_nlink - 1 : 0;
 }
 
 void LockedFile::remove() {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "scene/gltf_container.h"
+#include "scene/gltf_files.h"
 #include "scene/scene.h"
 
 namespace clusterbench::scene {
@@ -91,13 +91,6 @@ void add_faces(Json& json, const Scene& scene, const ViewsRequest& request) {
     json["scenes"][root]["nodes"].push_back(add_node(json, face.name, *request.faces_at_m, face.rotation, camera));
 }
 
-bool refers_to_files(const Json& json) {
-  for (const char* list : {"buffers", "images"})
-    for (const Json& entry : json.value(list, Json::array()))
-      if (entry.contains("uri") && !entry["uri"].get_ref<const std::string&>().starts_with("data:")) return true;
-  return false;
-}
-
 std::string word(std::size_t value) {
   std::string bytes;
   for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift & 0xffu);
@@ -117,9 +110,8 @@ std::string as_glb(const Json& json, const std::optional<std::string_view>& bina
 
 }  // namespace
 
-void write_with_views(const std::filesystem::path& path, const ViewsRequest& request,
-                      const std::filesystem::path& out) {
-  const Scene scene = load_gltf(path);
+std::string with_views(const Scene& scene, const ViewsRequest& request, const std::filesystem::path& out) {
+  const std::filesystem::path& path = scene.path;
   check_names(scene, request);
   GltfFile file;
   read_gltf_file(path, file);
@@ -129,10 +121,9 @@ void write_with_views(const std::filesystem::path& path, const ViewsRequest& req
   if ((out.extension() == ".glb") != is_glb)
     throw Error(out.string(), "",
                 std::string("must end in ") + (is_glb ? ".glb" : ".gltf") + ", as what it is made of");
-  if (!is_glb && refers_to_files(file.json) && absolute(out).parent_path() != absolute(path).parent_path())
+  if (!is_glb && !files_named(file.json, path).empty() && absolute(out).parent_path() != absolute(path).parent_path())
     throw Error(out.string(), "", "must be in the folder of " + path.string() + ", which refers to files beside it");
-  std::ofstream(out, std::ios::binary) << (is_glb ? as_glb(file.json, file.binary) : file.json.dump(1) + "\n");
-  load_gltf(out);  // what cannot be read again is told now
+  return is_glb ? as_glb(file.json, file.binary) : file.json.dump(1) + "\n";
 }
 
 }  // namespace clusterbench::scene

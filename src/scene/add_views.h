@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geom/shapes/vec.h"
+#include "scene/scene.h"
 
 namespace clusterbench::scene {
 
@@ -24,8 +25,9 @@ struct ViewsRequest {
       faces_at_m;  // six square cameras of 90 degrees that look along the world's axes: face-px ... face-nz
 };
 
-// Copies the file with these cameras added; nothing else is changed. `out` is of the same kind as `path` (.gltf, .glb).
-// Throws Error for a camera or a name that cannot be, and where a .gltf would lose files that it refers to.
-void write_with_views(const std::filesystem::path& path, const ViewsRequest& request, const std::filesystem::path& out);
+// The bytes of the scene's file with these cameras added; nothing else is changed. `out`, which is to hold them, is of
+// the same kind (.gltf, .glb). Throws Error for a camera or a name that cannot be, and where a .gltf would lose files
+// that it refers to.
+std::string with_views(const Scene& scene, const ViewsRequest& request, const std::filesystem::path& out);
 
 }  // namespace clusterbench::scene

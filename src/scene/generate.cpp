@@ -1,8 +1,6 @@
 #include "scene/generate.h"
 
 #include <array>
-#include <cerrno>
-#include <fstream>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -51,16 +49,11 @@ std::string make_scene(const GeneratorRow& row, std::uint64_t seed, int lights) 
   return stage.glb("clusterbench scene generate " + row.name + " --seed " + std::to_string(seed));
 }
 
-void generate_scene(const std::string& name, std::uint64_t seed, int lights, const std::filesystem::path& out) {
+std::string make_scene(const std::string& name, std::uint64_t seed, int lights) {
   std::vector<std::string> names;
   for (const GeneratorRow& row : generators()) {
     names.push_back(row.name);
-    if (row.name != name) continue;
-    if (out.extension() != ".glb") throw Error(out.string(), "", "scenes are written as .glb files");
-    std::ofstream file(out, std::ios::binary);
-    file << make_scene(row, seed, lights) << std::flush;
-    if (!file) throw Error(out.string(), "", errno_says("cannot be written"));
-    return;
+    if (row.name == name) return make_scene(row, seed, lights);
   }
   throw Error("", "scene",
               "there is no scene '" + name + "'" + did_you_mean(name, names) + "; there are: " + joined(names));

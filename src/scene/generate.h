@@ -2,7 +2,6 @@
 // Seeded scenes of the project's own: light rigs with an animated camera, written as binary glTF.
 
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 
@@ -23,8 +22,7 @@ std::span<const GeneratorRow> generators();
 // The bytes of a .glb file: the same for the same seed on every machine. `lights` = 0: the scene's own number.
 std::string make_scene(const GeneratorRow& row, std::uint64_t seed, int lights);
 
-// Throws Error for an unknown name (with did-you-mean), a path that does not end in .glb, and one that cannot be
-// written.
-void generate_scene(const std::string& name, std::uint64_t seed, int lights, const std::filesystem::path& out);
+// Throws Error for an unknown name (with did-you-mean).
+std::string make_scene(const std::string& name, std::uint64_t seed, int lights);
 
 }  // namespace clusterbench::scene

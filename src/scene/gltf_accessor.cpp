@@ -1,4 +1,5 @@
 #include "scene/gltf_accessor.h"
+#include "scene/gltf_files.h"
 
 #include <algorithm>
 #include <bit>
@@ -75,31 +76,6 @@ std::string decoded(std::string_view base64, const JsonLocation& location) {
   return std::move(*bytes);
 }
 
-// "%20" and its like become characters again.
-std::string percent_decoded(const std::string& text) {
-  const auto hex = [](char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-  };
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '%' && i + 2 < text.size() && hex(text[i + 1]) >= 0 && hex(text[i + 2]) >= 0) {
-      out += static_cast<char>(hex(text[i + 1]) * 16 + hex(text[i + 2]));
-      i += 2;
-    } else {
-      out += text[i];
-    }
-  }
-  return out;
-}
-
-// A scheme such as "http:" stands before any slash.
-bool has_scheme(const std::string& uri) {
-  const std::size_t colon = uri.find(':');
-  return colon != std::string::npos && colon < uri.find('/');
-}
-
 // A scene that somebody sends may name no file outside of its own folder.
 bool stays_in_folder(const std::filesystem::path& path) {
   const std::filesystem::path plain = path.lexically_normal();
@@ -145,12 +121,18 @@ std::size_t stride_of(const JsonLocation& location, AccessorUse use) {
   return stride;
 }
 
-// `count` elements of `element` bytes from byteOffset of `object` on; refuses what does not lie inside `view`.
-Elements elements_of(std::string_view view, std::size_t stride, const JsonLocation& object, std::size_t count,
-                     std::size_t element, std::size_t alignment) {
+// `count` elements of `element` bytes from byteOffset of `object` on; refuses what does not lie inside `view`, which
+// begins at byte `start` of its buffer.
+Elements elements_of(std::string_view view, std::size_t start, std::size_t stride, const JsonLocation& object,
+                     std::size_t count, std::size_t element, std::size_t alignment) {
   const std::size_t offset = whole_or(object, "byteOffset", 0), step = stride == 0 ? element : stride;
   if (offset % alignment != 0) {
     object.at("byteOffset").refuse("must be a multiple of the component's " + std::to_string(alignment) + " bytes");
+  }
+  if ((start + offset) % alignment != 0) {
+    object.at("bufferView")
+        .refuse("begins at byte " + std::to_string(start) + " of its buffer, where components of " +
+                std::to_string(alignment) + " bytes must begin at a multiple of that");
   }
   if (step < element)
     object.refuse("elements of " + std::to_string(element) + " bytes do not fit into a byteStride of " +
@@ -228,7 +210,8 @@ void AccessorReader::read_dense(const JsonLocation& accessor, const AccessorHead
   }
   const View from = view(accessor.at("bufferView"));
   const std::size_t size = size_of(head.component);
-  const Elements elements = elements_of(from.bytes, from.stride, accessor, head.count, size * components, size);
+  const Elements elements =
+      elements_of(from.bytes, from.offset, from.stride, accessor, head.count, size * components, size);
   out.reserve(head.count * components);
   for (std::size_t i = 0; i < head.count; ++i) {
     const std::string_view element = elements.at(i);
@@ -247,9 +230,10 @@ void AccessorReader::read_sparse(const JsonLocation& accessor, const AccessorHea
     indices.at("componentType").refuse("indices must be 5121, 5123 or 5125");
   }
   const std::size_t index_size = size_of(index_component), size = size_of(head.component);
+  const View of_indices = view(indices.at("bufferView")), of_values = view(values.at("bufferView"));
   const Elements locations =
-      elements_of(view(indices.at("bufferView")).bytes, 0, indices, count, index_size, index_size);
-  const Elements replaced = elements_of(view(values.at("bufferView")).bytes, 0, values, count, size * components, size);
+      elements_of(of_indices.bytes, of_indices.offset, 0, indices, count, index_size, index_size);
+  const Elements replaced = elements_of(of_values.bytes, of_values.offset, 0, values, count, size * components, size);
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t index = little_endian(locations.at(i));
@@ -308,7 +292,7 @@ AccessorReader::View AccessorReader::plain_view(const JsonLocation& view, std::s
     view.refuse("bytes " + std::to_string(offset) + " to " + std::to_string(offset + length) +
                 " do not fit into buffer " + std::to_string(index) + " of " + std::to_string(bytes.size()) + " bytes");
   }
-  return {bytes.substr(offset, length), stride};
+  return {bytes.substr(offset, length), stride, offset};
 }
 
 std::string_view AccessorReader::buffer(std::size_t index) {

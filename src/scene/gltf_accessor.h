@@ -56,6 +56,7 @@ class AccessorReader {
   struct View {
     std::string_view bytes;
     std::size_t stride = 0;  // 0: elements lie close together
+    std::size_t offset = 0;  // of the first byte in its buffer
   };
   View view(const JsonLocation& reference);
   bool has_fallback(const JsonLocation& view) const;

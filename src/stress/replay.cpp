@@ -1,8 +1,8 @@
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "config/grid_json.h"
 #include "core/error.h"
+#include "core/output_file.h"
 #include "scene/write_gltf.h"
 #include "stress/stress_run.h"
 
@@ -17,12 +17,6 @@ OrderedJson assigner_json(const StressMethod& method) {
   for (const auto& [key, value] : method.params.values())
     std::visit([&, &name_of = key](const auto& number) { assigner[name_of] = number; }, value);
   return assigner;
-}
-
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text << std::flush;
-  if (!file) throw Error(path.string(), "", "cannot be written");
 }
 
 }  // namespace
@@ -47,8 +41,8 @@ void write_replay(const fs::path& folder, const std::string& name, const Trial& 
                            {"grids", OrderedJson::array({config::grid_request(trial.grid)})},
                            {"assigners", assigners},
                            {"timing", {{"measure", false}}}};
-  write(folder / (name + ".gltf"), scene::to_gltf(trial.scene, "clusterbench stress"));
-  write(folder / (name + ".json"), config.dump(1) + "\n");
+  write_file(folder / (name + ".gltf"), scene::to_gltf(trial.scene, "clusterbench stress"));
+  write_file(folder / (name + ".json"), config.dump(1) + "\n");
 }
 
 }  // namespace clusterbench::stress

@@ -78,6 +78,12 @@ TEST(SceneFiles, the_range_rule_has_the_same_flags_everywhere) {
   EXPECT_EQ(run["cutoff_lux"], 0.5);
   EXPECT_EQ(run["max_range"], 20.0);
   EXPECT_DOUBLE_EQ(run["ranges"]["greatest"].get<double>(), info["ranges"]["max_m"].get<double>());
+  for (const char* flag : {" --cutoff-lux ", " --max-range "})
+    for (const char* command : {"scene info ", "light-map ", "run -q --no-timing "}) {
+      const Outcome refused = tool(command + file.substr(0, file.find(" --")) + flag + "1e300");
+      EXPECT_EQ(refused.code, 2) << command << flag << refused.err;
+      EXPECT_NE(refused.err.find("at most 1"), std::string::npos) << refused.err;
+    }
   const Outcome clamped = tool("run " + folder.write("one.gltf", k_level).string() +
                                " --scene Level --max-range 2 --grid frustum --assigner exact-fast --no-timing");
   EXPECT_NE((clamped.out + clamped.err).find("1 of 1 lights have no range and shine farther than 2 m"),

@@ -7,8 +7,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/text.h"
 #include "places.h"
 
 namespace clusterbench::test {
@@ -68,6 +70,11 @@ inline Outcome tool_on_terminal(const std::string& arguments) {
       "script -qec '" + test::program() + " " + arguments + "' /dev/null >" + (folder / "out").string() + " </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, file_text(folder / "out"), ""};
+}
+
+// What a run keeps of a finished case.
+inline std::string journal_line(const nlohmann::ordered_json& finished) {
+  return nlohmann::ordered_json{{"case", finished}, {"sha256", sha256_hex(finished.dump())}}.dump();
 }
 
 inline std::string source_file(const std::string& name) {

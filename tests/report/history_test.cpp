@@ -1,6 +1,7 @@
 #include "report/history.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -340,20 +341,72 @@ TEST_F(History, the_same_commit_again_stands_beside_itself_and_the_same_result_o
   EXPECT_EQ(history[1].commit + history[2].commit + history[3].commit, "c2c2c3") << "not as the newest";
 }
 
-TEST_F(History, a_failed_addition_leaves_the_file_as_it_was) {
+TEST_F(History, files_beside_it_stay_as_they_are) {
   add("c1", 3000.0);
-  const std::string before = text();
   std::ofstream(file_ + ".new") << "another writer's";
-  EXPECT_THROW(add("c2", 3000.0), Error);
-  EXPECT_EQ(text(), before);
-  EXPECT_TRUE(fs::exists(file_ + ".new"));
+  add("c2", 3000.0);
+  EXPECT_EQ(read_history(file_).size(), 2u);
+  std::ifstream beside(file_ + ".new");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(beside), {}), "another writer's");
+}
+
+TEST_F(History, a_link_stays_and_its_target_gets_the_line) {
+  const fs::path target = fs::path(folder_) / "shared.jsonl";
+  fs::create_symlink("shared.jsonl", file_);
+  for (const std::string commit : {"c1", "c2"}) {  // it is made, and added to
+    add(commit, 3000.0);
+    EXPECT_TRUE(fs::is_symlink(file_));
+    EXPECT_EQ(read_history(target.string()).back().commit, commit);
+  }
+  EXPECT_EQ(read_history(target.string()).size(), 2u);
+}
+
+TEST_F(History, what_is_no_regular_file_is_refused_and_stays) {
+  ASSERT_EQ(mkfifo(file_.c_str(), 0600), 0);
+  for (const std::string& path : {file_, std::string("/dev/null"), std::string("/dev/stdout")}) {
+    EXPECT_THROW(add_to_history(path, result_to_json(testing::result_by_hand(), {}), "c1"), Error) << path;
+    EXPECT_THROW(read_history(path), Error) << path;
+  }
+  EXPECT_TRUE(fs::is_fifo(file_));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  fs::remove(file_);
+  fs::create_symlink(fs::path(file_).filename(), file_);
+  EXPECT_THROW(add("c1", 3000.0), Error) << "a circle";
+}
+
+TEST_F(History, a_value_that_is_no_text_list_or_number_is_named) {
+  add("c1", 3000.0);
+  const Json good = Json::parse(text());
+  const auto refusal = [&](const char* pointer, const Json& value) -> std::string {
+    Json line = good;
+    line[Json::json_pointer(pointer)] = value;
+    write(line.dump() + "\n");
+    try {
+      read_history(file_);
+    } catch (const Error& error) {
+      return error.where() + ": " + error.message();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal("/cases", nullptr), "line 1: /cases: found null, allowed: a list");
+  EXPECT_EQ(refusal("/scenes", nullptr), "line 1: /scenes: found null, allowed: a list");
+  EXPECT_EQ(refusal("/cases/0", 7), "line 1: /cases/0: found 7, allowed: an object");
+  EXPECT_EQ(refusal("/cases/0/figures", Json::array()), "line 1: /cases/0/figures: found a list, allowed: an object");
+  EXPECT_EQ(refusal("/cases/0/figures/x", "2"), "line 1: /cases/0/figures/x: found \"2\", allowed: a number");
+  EXPECT_EQ(refusal("/cases/0/name", nullptr), "line 1: /cases/0/name: found null, allowed: a text");
+  EXPECT_EQ(refusal("/commit", 3), "line 1: /commit: found 3, allowed: a text");
+  EXPECT_EQ(refusal("/counter", nullptr), "line 1: /counter: found null, allowed: a text");
+  Json line = good;
+  line.erase("cases");
+  write(line.dump() + "\n");
+  EXPECT_EQ(where_refused(), "line 1");
 }
 
 TEST_F(History, a_corrupt_line_is_named_by_its_number) {
   add("c1", 3000.0);
   const std::string good = text();
   write(good + "{\"history_version\": 1, \n");
-  EXPECT_EQ(where_refused(), "line 2");
+  EXPECT_EQ(where_refused(), "line 2: byte 23");
   write(good + good + "{}\n");
   EXPECT_EQ(where_refused(), "line 3");
   write(good + good.substr(0, good.size() / 2));  // cut off

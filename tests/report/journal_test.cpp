@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"
 
@@ -22,6 +23,11 @@ Json case_named(const std::string& id) {
   Json entry = case_to_json(testing::result_by_hand().cases[0]);
   entry["id"] = id;
   return entry;
+}
+
+// As a run writes it.
+std::string line_of(const Json& finished) {
+  return Json{{"case", finished}, {"sha256", sha256_hex(finished.dump())}}.dump();
 }
 
 std::string text_of(const fs::path& path) {
@@ -88,8 +94,7 @@ TEST_F(JournalTest, another_broken_line_is_an_error_that_names_it) {
   const auto refusal_with = [&](const std::string& line) -> std::string {
     fs::remove(file_.string() + ".partial");
     leave_one_case();
-    std::ofstream(file_.string() + ".partial", std::ios::app) << line << "\n"
-                                                              << Json{{"case", case_named("third")}}.dump() << "\n";
+    std::ofstream(file_.string() + ".partial", std::ios::app) << line << "\n" << line_of(case_named("third")) << "\n";
     try {
       Journal(file_, k_header, true, 100);
     } catch (const Error& error) {
@@ -97,10 +102,10 @@ TEST_F(JournalTest, another_broken_line_is_an_error_that_names_it) {
     }
     return "";
   };
-  EXPECT_EQ(refusal_with(Json{{"case", case_named("second")}}.dump()), "");
+  EXPECT_EQ(refusal_with(line_of(case_named("second"))), "");
   EXPECT_NE(refusal_with(R"({"case": {"id": "seco)").find("line 3: is not what a run writes"), std::string::npos);
   EXPECT_NE(refusal_with("7").find("line 3: is not what a run writes"), std::string::npos);
-  EXPECT_NE(refusal_with(R"({"case": {"id": 7}})").find("does not hold the cases of a run: /1"), std::string::npos);
+  EXPECT_NE(refusal_with(line_of({{"id", 7}})).find("does not hold the cases of a run: /1"), std::string::npos);
 }
 
 TEST_F(JournalTest, a_new_start_sets_finished_cases_aside_under_a_name_that_is_free) {
@@ -121,11 +126,71 @@ TEST_F(JournalTest, a_new_start_sets_aside_what_no_run_wrote_too) {
 }
 
 TEST_F(JournalTest, a_run_that_died_before_its_first_case_leaves_nothing_to_keep) {
-  Journal(file_, Json{{"config", "b"}}, false, 100);
+  std::ofstream(file_.string() + ".partial") << R"({"header":{"config":"b"}})"
+                                             << "\n";
   const Journal fresh(file_, k_header, false, 100);
   EXPECT_EQ(fresh.set_aside(), "");
   EXPECT_EQ(text_of(fresh.partial_path()), R"({"header":{"config":"a"}})"
                                            "\n");
+}
+
+TEST_F(JournalTest, a_line_that_was_edited_and_a_case_twice_are_not_gone_on_with) {
+  leave_one_case();
+  const std::string partial = file_.string() + ".partial", kept = text_of(partial);
+  const auto is_refused = [&](const std::string& text) {
+    std::ofstream(partial, std::ios::binary) << text;
+    EXPECT_THROW(Journal(file_, k_header, true, 100), Error);
+    EXPECT_THROW(finished_ids(file_, k_header), Error);
+    EXPECT_EQ(text_of(partial), text);
+  };
+  std::string edited = kept;
+  const std::size_t digit = edited.find_last_of("123456789", edited.find("sha256"));
+  edited[digit] = static_cast<char>(edited[digit] == '9' ? '1' : edited[digit] + 1);
+  is_refused(edited);
+  is_refused(kept + kept.substr(kept.find('\n') + 1));
+}
+
+// Texts that no run has left, with and without an end of line.
+TEST_F(JournalTest, what_is_no_journal_is_neither_cut_nor_removed) {
+  const std::string partial = file_.string() + ".partial";
+  leave_one_case();
+  const std::string whole = text_of(partial);
+  for (const std::string& text : {std::string("garbage"), std::string("notes\n"), std::string(R"({"header": 1)"),
+                                  std::string("{\"header\": 1}\n"), std::string("{\"header\":{\"config\":\"b\""),
+                                  whole + "my notes", whole + "{\"cases"}) {
+    std::ofstream(partial, std::ios::binary) << text;
+    EXPECT_THROW(Journal(file_, k_header, true, 100), Error) << text;
+    EXPECT_EQ(text_of(partial), text);
+    const fs::path aside = Journal(file_, k_header, false, 100).set_aside();
+    EXPECT_EQ(text_of(aside), text);
+    fs::remove(aside);
+  }
+}
+
+TEST_F(JournalTest, the_beginning_of_a_header_is_begun_anew) {
+  for (const bool resume : {false, true}) {
+    std::ofstream(file_.string() + ".partial") << R"({"header":{"con)";
+    EXPECT_EQ(Journal(file_, k_header, resume, 100).set_aside(), "");
+    EXPECT_FALSE(fs::exists(file_.string() + ".partial"));
+  }
+}
+
+TEST_F(JournalTest, nothing_is_written_through_a_link_in_its_place) {
+  const fs::path partial = file_.string() + ".partial", victim = folder_ / "victim";
+  fs::create_symlink("victim", partial);
+  for (const bool is_there : {false, true}) {
+    if (is_there) std::ofstream(victim) << "";
+    for (const bool resume : {false, true}) EXPECT_THROW(Journal(file_, k_header, resume, 100), Error);
+    EXPECT_EQ(fs::exists(victim), is_there);
+    EXPECT_TRUE(fs::is_symlink(partial));
+  }
+}
+
+TEST_F(JournalTest, a_start_that_is_refused_and_one_that_measures_nothing_leave_no_file) {
+  EXPECT_THROW(Journal(file_, k_header, false, std::uint64_t{1} << 62), Error);
+  EXPECT_TRUE(fs::is_empty(folder_));
+  Journal(file_, k_header, false, 100);
+  EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(JournalTest, a_second_run_to_the_same_file_is_refused_while_the_first_goes_on) {
@@ -176,7 +241,7 @@ TEST_F(JournalTest, a_folder_that_does_not_exist_is_an_error_at_the_start) {
 
 TEST_F(JournalTest, a_disk_without_room_is_an_error_at_the_start) {
   EXPECT_THROW(Journal(file_, k_header, false, std::uint64_t{1} << 62), Error);
-  EXPECT_LE(fs::exists(file_.string() + ".partial") ? fs::file_size(file_.string() + ".partial") : 0, 0u);
+  EXPECT_FALSE(fs::exists(file_.string() + ".partial"));
 }
 
 TEST_F(JournalTest, what_is_left_is_told_without_a_change_on_disk) {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/output_file.h"
 #include "places.h"
 #include "scene/scene.h"
 
@@ -21,7 +22,8 @@ class AddViews : public ::testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   Scene with(const ViewsRequest& request, const std::string& name = "views.glb") const {
-    write_with_views(street_, request, folder_ / name);
+    const Scene street = load_gltf(street_);
+    write_file(folder_ / name, with_views(street, request, folder_ / name));
     return load_gltf(folder_ / name);
   }
   static const Camera& named(const Scene& scene, const std::string& name) {

@@ -1,0 +1,275 @@
+#include "core/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <thread>
+
+namespace clusterbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A number below /dev/fd or /proc/self/fd; -1 where it is none.
+int number_in(std::string_view name) {
+  int number = -1;
+  const auto [end, failed] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return failed == std::errc() && end == name.data() + name.size() ? number : -1;
+}
+
+int own_descriptor(const fs::path& path) {
+  const std::string name = path.lexically_normal().string();
+  constexpr std::pair<const char*, int> k_names[] = {
+      {"/dev/stdin", STDIN_FILENO}, {"/dev/stdout", STDOUT_FILENO}, {"/dev/stderr", STDERR_FILENO}};
+  for (const auto& [known, descriptor] : k_names)
+    if (name == known) return descriptor;
+  for (const std::string& folder :
+       {std::string("/dev/fd/"), std::string("/proc/self/fd/"), "/proc/" + std::to_string(::getpid()) + "/fd/"})
+    if (name.starts_with(folder)) return number_in(std::string_view(name).substr(folder.size()));
+  return -1;
+}
+
+// Links there name what is open, and not always a file.
+bool is_descriptor_of_a_process(const fs::path& path) {
+  const std::string folder = path.lexically_normal().parent_path().string();
+  return folder.starts_with("/proc/") && folder.ends_with("/fd");
+}
+
+constexpr std::array k_ending_signals{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+
+// A signal handler can reach nothing but what is outside of functions.
+std::atomic<int> g_held_signal{0};
+
+void hold_signal(int number) {
+  g_held_signal = number;
+}
+
+void end_process(int number) {
+  std::_Exit(static_cast<int>(number == SIGINT ? ExitCode::sigint : ExitCode::interrupted));
+}
+
+// What ends the process is handled otherwise for a while. In one thread at a time. Ignored signals stay ignored.
+class SignalsHandled {
+ public:
+  explicit SignalsHandled(void (*handler)(int)) {
+    for (std::size_t i = 0; i < k_ending_signals.size(); ++i) {
+      struct sigaction action {};
+      action.sa_handler = handler;
+      ::sigaction(k_ending_signals[i], nullptr, &before_[i]);
+      const bool ends_already = handler == end_process && before_[i].sa_handler == SIG_DFL;
+      if (before_[i].sa_handler != SIG_IGN && !ends_already) ::sigaction(k_ending_signals[i], &action, nullptr);
+    }
+  }
+  ~SignalsHandled() {
+    for (std::size_t i = 0; i < k_ending_signals.size(); ++i) ::sigaction(k_ending_signals[i], &before_[i], nullptr);
+    if (const int number = g_held_signal.exchange(0); number != 0) ::raise(number);
+  }
+  SignalsHandled(const SignalsHandled&) = delete;
+  SignalsHandled& operator=(const SignalsHandled&) = delete;
+
+ private:
+  std::array<struct sigaction, k_ending_signals.size()> before_{};
+};
+
+// False with errno where not all is written.
+bool write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t put = ::write(file, text.data(), text.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(put));
+  }
+  return true;
+}
+
+// Some file systems and devices know no such thing.
+bool is_on_disk(int file) {
+  return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP;
+}
+
+struct MadeFile {
+  fs::path path;
+  int descriptor = -1;  // -1: errno says why
+};
+
+// The first free name of PATH.NUMBER and those behind it (0 is PATH itself), cut so that no folder refuses it for its
+// length.
+MadeFile made_file(const fs::path& path, int number) {
+  constexpr std::size_t k_longest_name = 220;
+  const std::string name = path.filename().string();
+  const fs::path first = path.parent_path() / (name.size() > k_longest_name ? name.substr(0, k_longest_name) : name);
+  for (;; ++number) {
+    MadeFile made{number == 0 ? first : fs::path(first.string() + "." + std::to_string(number))};
+    made.descriptor = ::open(made.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (made.descriptor >= 0 || errno != EEXIST) return made;
+  }
+}
+
+// Has a name that nobody asked for, and so removes itself unless it takes the other file's.
+class NewFile {
+ public:
+  explicit NewFile(const fs::path& beside) : made_(made_file(beside.string() + ".new", 0)) {}
+  ~NewFile() {
+    if (made_.descriptor < 0) return;
+    ::close(made_.descriptor);
+    if (!is_renamed_) ::unlink(made_.path.c_str());
+  }
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  bool is_made() const { return made_.descriptor >= 0; }
+
+  void look_like(const fs::path& old) const {
+    struct stat status {};
+    if (::stat(old.c_str(), &status) != 0) return;
+    if (::fchown(made_.descriptor, status.st_uid, status.st_gid) != 0) errno = 0;  // only root may
+    if (::fchmod(made_.descriptor, status.st_mode & 07777) != 0) errno = 0;
+  }
+  bool fill(std::string_view text) const { return write_all(made_.descriptor, text) && is_on_disk(made_.descriptor); }
+  bool take_name(const fs::path& path) {
+    is_renamed_ = ::rename(made_.path.c_str(), path.c_str()) == 0;
+    return is_renamed_;
+  }
+
+ private:
+  MadeFile made_;
+  bool is_renamed_ = false;
+};
+
+constexpr const char* k_no_file_beside = "cannot be written, as no file can be made in its folder";
+
+std::string shown(const fs::path& name) {
+  return name.empty() || name == "-" ? "standard output" : name.string();
+}
+
+}  // namespace
+
+OutputTarget output_target(const fs::path& name) {
+  if (name.empty() || name == "-") return {"/dev/stdout", true, STDOUT_FILENO};
+  OutputTarget target{name};
+  constexpr int k_most_links = 40;  // as the system follows
+  std::error_code failed;
+  for (int count = 0;; ++count) {
+    target.descriptor = own_descriptor(target.path);
+    target.is_stream = target.descriptor >= 0 || is_descriptor_of_a_process(target.path);
+    if (target.is_stream || !fs::is_symlink(fs::symlink_status(target.path, failed))) break;
+    if (count == k_most_links) throw Error(name.string(), "", "is a circle of links");
+    const fs::path next = fs::read_symlink(target.path, failed);
+    target.path = next.is_absolute() ? next : target.path.parent_path() / next;
+  }
+  const fs::file_status status = fs::status(target.path, failed);
+  if (status.type() == fs::file_type::block) throw Error(name.string(), "", "is a disk or a part of one; name a file");
+  target.is_stream |= fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+  return target;
+}
+
+void require_folder_of(const fs::path& name) {
+  const OutputTarget target = output_target(name);
+  if (target.is_stream) return;
+  std::error_code none;
+  const fs::path folder = target.path.parent_path();
+  if (folder.empty() || fs::is_directory(folder, none)) return;
+  throw Error(name.string(), "",
+              "cannot be written: " + (fs::exists(folder, none)
+                                           ? "'" + folder.string() + "' is no folder"
+                                           : "there is no folder '" + folder.string() + "'; make it first (mkdir -p)"));
+}
+
+ExitCode code_of_failed_write(int error) {
+  for (const int known : {ENOSPC, EDQUOT, EFBIG, EIO, EBADF, EPIPE})
+    if (error == known) return ExitCode::internal;
+  return ExitCode::usage;
+}
+
+OutputFile::OutputFile(const fs::path& name) : name_(name), target_(output_target(name)) {
+  if (target_.is_stream) {
+    open_stream();
+    return;
+  }
+  require_folder_of(name_);
+  std::error_code none;
+  if (fs::is_directory(target_.path, none))
+    throw Error(shown(name_), "", "cannot be written: is a folder; name a file in it");
+  if (::access(target_.path.c_str(), W_OK) != 0 && errno != ENOENT) fail("cannot be written");
+}
+
+OutputFile::~OutputFile() {
+  if (stream_ >= 0 && target_.descriptor < 0) ::close(stream_);
+}
+
+void OutputFile::fail(const std::string& what) const {
+  const ExitCode code = code_of_failed_write(errno);
+  throw Error(shown(name_), "", errno_says(what), code);
+}
+
+void OutputFile::open_stream() {
+  using namespace std::chrono_literals;
+  constexpr std::chrono::milliseconds k_patience = 10s, k_pause = 20ms;
+  stream_ = target_.descriptor;
+  if (stream_ >= 0) return;
+  std::error_code none;
+  const bool is_pipe = fs::is_fifo(target_.path, none);
+  for (std::chrono::milliseconds waited = 0ms;; waited += k_pause) {
+    stream_ = ::open(target_.path.c_str(), O_WRONLY | O_APPEND | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (stream_ >= 0) break;
+    if (!is_pipe || errno != ENXIO) fail("cannot be written");
+    if (waited >= k_patience)
+      throw Error(shown(name_), "", "cannot be written: is a pipe that no program reads; start its reader first");
+    std::this_thread::sleep_for(k_pause);
+  }
+  ::fcntl(stream_, F_SETFL, ::fcntl(stream_, F_GETFL) & ~O_NONBLOCK);
+}
+
+void OutputFile::probe() {
+  if (target_.is_stream) {
+    struct stat status {};
+    const bool is_printed = name_.empty() || name_ == "-";  // where a person reads, and other text may stand before
+    const bool takes_space = !is_printed && ::fstat(stream_, &status) == 0 && S_ISCHR(status.st_mode);
+    if (::fcntl(stream_, F_GETFD) < 0 || (takes_space && !write_all(stream_, " "))) fail("cannot be written");
+    return;
+  }
+  const SignalsHandled held(hold_signal);
+  const NewFile fresh(target_.path);
+  if (!fresh.is_made()) fail(k_no_file_beside);
+  if (!fresh.fill(" ")) fail("cannot be written");
+}
+
+void OutputFile::write(std::string_view text) {
+  if (!target_.is_stream) return replace(text);
+  std::cout << std::flush;
+  std::fflush(stdout);
+  const SignalsHandled ending(end_process);  // a reader that takes nothing holds nobody up
+  if (!write_all(stream_, text)) fail("could not be written whole");
+}
+
+void OutputFile::replace(std::string_view text) const {
+  const SignalsHandled held(hold_signal);
+  NewFile fresh(target_.path);
+  if (!fresh.is_made()) fail(k_no_file_beside);
+  fresh.look_like(target_.path);
+  if (!fresh.fill(text)) fail("could not be written whole");
+  if (!fresh.take_name(target_.path)) fail("cannot be replaced");
+}
+
+void write_file(const fs::path& name, std::string_view text) {
+  OutputFile(name).write(text);
+}
+
+fs::path reserve_name(const fs::path& path) {
+  const MadeFile made = made_file(path, 1);
+  if (made.descriptor < 0) throw Error(path.string(), "", errno_says("cannot be written"));
+  ::close(made.descriptor);
+  return made.path;
+}
+
+}  // namespace clusterbench
