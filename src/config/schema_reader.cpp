@@ -128,7 +128,9 @@ class Reader {
 
   Json read_array(const Json& schema, const Json& value, const std::string& pointer) const {
     if (value.empty() && schema.value("minItems", 0U) > 0)
-      throw Error(text_.file, text_.where(pointer), "found an empty list, allowed: " + describe_allowed(root_, schema));
+      throw Error(text_.file, text_.where(pointer),
+                  "found an empty list, allowed: " + describe_allowed(root_, schema) + "; at least " +
+                      schema["minItems"].dump());
     if (value.size() < schema.value("minItems", std::size_t{0}) ||
         value.size() > schema.value("maxItems", value.size()))
       fail(schema, value, pointer);

@@ -27,6 +27,7 @@ std::pair<long, long> version_of(const JsonLocation& location) {
 }
 
 void check_asset(const JsonLocation& root) {
+  if (!root.has("asset")) root.refuse("is JSON, but no glTF, which has an object 'asset'");
   const JsonLocation asset = root.at("asset");
   const auto version = version_of(asset.at("version"));
   if (version.first != 2) {

@@ -27,19 +27,25 @@ JsonLocation spot_of(const JsonLocation& light) {
   return light;
 }
 
+// As the file has it.
+std::string angle_text(const JsonLocation& spot, const char* key, const char* otherwise) {
+  return spot.has(key) ? spot.at(key).value().dump() : otherwise;
+}
+
 void read_cone(const JsonLocation& spot, Light& out) {
   const double inner = spot.has("innerConeAngle") ? spot.at("innerConeAngle").number() : 0.0;
   const double outer = spot.has("outerConeAngle") ? spot.at("outerConeAngle").number() : std::numbers::pi / 4.0;
-  if (inner < 0.0) spot.at("innerConeAngle").refuse("found " + std::to_string(inner) + ", 0 or more is needed");
+  const std::string inner_text = angle_text(spot, "innerConeAngle", "0");
+  const std::string outer_text = angle_text(spot, "outerConeAngle", "pi/4, as none is given");
+  if (inner < 0.0) spot.at("innerConeAngle").refuse("found " + inner_text + ", 0 or more is needed");
   if (outer > std::numbers::pi / 2.0 + k_angle_slack_rad || outer <= 0.0) {
-    spot.at("outerConeAngle").refuse("found " + std::to_string(outer) + ", more than 0 and at most pi/2 is needed");
+    spot.at("outerConeAngle").refuse("found " + outer_text + ", more than 0 and at most pi/2 is needed");
   }
   const JsonLocation blamed = spot.has("outerConeAngle")   ? spot.at("outerConeAngle")
                               : spot.has("innerConeAngle") ? spot.at("innerConeAngle")
                                                            : spot;
   if (inner > outer + k_angle_slack_rad) {
-    blamed.refuse("innerConeAngle " + std::to_string(inner) + " must not be more than outerConeAngle " +
-                  std::to_string(outer));
+    blamed.refuse("innerConeAngle " + inner_text + " must not be more than outerConeAngle " + outer_text);
   }
   // Exporters write it for a spot with a hard edge; it changes no cluster.
   if (inner >= outer)

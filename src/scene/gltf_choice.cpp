@@ -28,7 +28,12 @@ std::optional<std::size_t> number_in(const std::string& text) {
   return number;
 }
 
-// A name goes before a number.
+std::optional<std::size_t> index_in(const std::string& text, std::size_t count) {
+  const std::optional<std::size_t> number = number_in(text);
+  return number && *number < count ? number : std::nullopt;
+}
+
+// A name, or a number, or a number behind a # where one has the other's number for its name.
 std::optional<std::size_t> chosen(const JsonLocation& root, const char* key, const std::string& word,
                                   const std::string& wanted) {
   if (wanted.empty()) return std::nullopt;
@@ -36,11 +41,21 @@ std::optional<std::size_t> chosen(const JsonLocation& root, const char* key, con
   const auto count = std::count(names.begin(), names.end(), wanted);
   if (count > 1)
     root.refuse(std::to_string(count) + " of its " + key + " are called '" + wanted +
-                "'; choose one by its number: " + numbered(names));
-  if (count == 1) return static_cast<std::size_t>(std::find(names.begin(), names.end(), wanted) - names.begin());
-  const std::optional<std::size_t> number = number_in(wanted);
-  if (number && *number < names.size()) return number;
-  root.refuse("has no " + word + " '" + wanted + "'" + did_you_mean(wanted, names) +
+                "'; choose one by its number, with a #, as in #0: " + numbered(names));
+  const std::optional<std::size_t> number = index_in(wanted, names.size());
+  if (count == 1) {
+    const auto named = static_cast<std::size_t>(std::find(names.begin(), names.end(), wanted) - names.begin());
+    if (number && *number != named)
+      root.refuse("'" + wanted + "' is the name of one of its " + key +
+                  " and the number of another; choose one by its " + "number, with a #: #" + std::to_string(named) +
+                  " is the one of this name, #" + wanted + " the other");
+    return named;
+  }
+  if (number) return number;
+  if (wanted.starts_with('#'))
+    if (const std::optional<std::size_t> marked = index_in(wanted.substr(1), names.size())) return marked;
+  const std::string hint = number_in(wanted) ? "" : did_you_mean(wanted, names);
+  root.refuse("has no " + word + " '" + wanted + "'" + hint +
               (names.empty() ? "; it has none" : "; it has: " + numbered(names)));
 }
 

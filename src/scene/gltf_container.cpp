@@ -104,6 +104,8 @@ std::string read_bytes(const std::filesystem::path& path, const std::string& fil
                        std::size_t at_most) {
   std::error_code failed;
   const auto status = std::filesystem::status(path, failed);
+  if (status.type() == std::filesystem::file_type::none)
+    throw Error(file, where, "'" + path.string() + "' cannot be read: " + failed.message());
   if (!std::filesystem::exists(status)) throw Error(file, where, "'" + path.string() + "' does not exist");
   if (!std::filesystem::is_regular_file(status))
     throw Error(file, where, "'" + path.string() + "' is not a regular file; it is read more than once");
@@ -122,6 +124,9 @@ void read_gltf_file(const std::filesystem::path& path, GltfFile& file, std::size
   if (file.bytes.empty()) refuse_at(file, 0, "the file is empty; glTF JSON or a GLB is needed");
   if (const std::string other = other_format(file.bytes, path); !other.empty())
     refuse_at(file, 0, "is " + other + "; glTF is read");
+  const std::size_t first = file.bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+  if (!file.bytes.starts_with("glTF") && (first == std::string::npos || file.bytes[first] != '{'))
+    refuse_at(file, 0, "is neither a glb, which begins with 'glTF', nor glTF JSON, which is an object in braces");
   const bool binary = file.bytes.size() >= 4 && little_endian(file.bytes, 0) == k_magic;
 
   file.hash.add(file.bytes);

@@ -42,7 +42,7 @@ struct Broken {
 const Broken k_broken[] = {
     {"[1]", "1:1 /: found a list of 1, allowed: an object"},
     {"{}", "1:1 /: lacks the key 'scenes'"},
-    {R"({"scenes": []})", "1:12 /scenes: found an empty list, allowed: a list, each text or an object"},
+    {R"({"scenes": []})", "1:12 /scenes: found an empty list, allowed: a list, each text or an object; at least 1"},
     {R"({"scenes": [""]})", "1:13 /scenes/0: found an empty text, allowed: a text that is not empty"},
     {R"({"scenes": [7]})", "1:13 /scenes/0: found 7, allowed: text or an object"},
     {R"({"scenes": [{"frames": 3}]})", "1:13 /scenes/0: a scene takes exactly one of path, paths, rig"},
@@ -102,7 +102,7 @@ const Broken k_broken[] = {
     {R"({"scenes": ["a.glb"], "precision": "half"})",
      "1:36 /precision: found 'half', allowed: a list, each float32, half, unorm16 or an object"},
     {R"({"scenes": ["a.glb"], "precision": []})",
-     "1:36 /precision: found an empty list, allowed: a list, each float32, half, unorm16 or an object"},
+     "1:36 /precision: found an empty list, allowed: a list, each float32, half, unorm16 or an object; at least 1"},
     {R"({"scenes": ["a.glb"], "precision": ["float16"]})",
      "1:37 /precision/0: found 'float16' (did you mean 'float32'?), allowed: float32, half, unorm16"},
     {R"({"scenes": ["a.glb"], "precision": [{"inflate": true}]})", "1:37 /precision/0: lacks the key 'packing'"},

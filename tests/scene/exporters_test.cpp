@@ -53,7 +53,7 @@ TEST(FileKinds, of_other_programs_are_named_with_the_way_to_gltf) {
   }
   // A renamed one, too; and bytes that nobody knows are no JSON.
   EXPECT_NE(refusal("BLENDER-v300", "level.glb").find("a Blender file"), std::string::npos);
-  EXPECT_EQ(refusal("\x01\x02", "a.glb").find("byte 0: is not JSON"), 0U);
+  EXPECT_EQ(refusal("\x01\x02", "a.glb").find("byte 0: is neither a glb, which begins with 'glTF', nor glTF JSON"), 0U);
 }
 
 }  // namespace

@@ -50,7 +50,22 @@ TEST(GltfChoices, a_scene_is_chosen_by_its_name_or_its_number) {
   EXPECT_EQ(refusal_of(two_scenes(), {"2", ""}), "/: has no scene '2'; it has: 0 'Assets', 1 'Level'");
   EXPECT_EQ(refusal_of(document("\"nodes\": [{}]"), {"0", ""}), "/: has no scene '0'; it has none");
   EXPECT_EQ(refusal_of(document(R"("nodes": [{}], "scenes": [{"name": "a"}, {"name": "a"}])"), {"a", ""}),
-            "/: 2 of its scenes are called 'a'; choose one by its number: 0 'a', 1 'a'");
+            "/: 2 of its scenes are called 'a'; choose one by its number, with a #, as in #0: 0 'a', 1 'a'");
+}
+
+TEST(GltfChoices, a_name_that_is_the_number_of_another_scene_takes_neither_without_a_word) {
+  const std::string crossed = document(R"("nodes": [{}], "scenes": [{"name": "1"}, {"name": "0"}, {"name": "2"}])");
+  EXPECT_EQ(
+      refusal_of(crossed, {"0", ""}),
+      "/: '0' is the name of one of its scenes and the number of another; choose one by its number, with a #: #1 is "
+      "the one of this name, #0 the other");
+  EXPECT_EQ(chosen(crossed, {"#0", ""}).contents.scene, 0U);
+  EXPECT_EQ(chosen(crossed, {"#1", ""}).contents.scene, 1U);
+  EXPECT_EQ(chosen(crossed, {"2", ""}).contents.scene, 2U);
+  const std::string twins = document(R"("nodes": [{}], "scenes": [{"name": "1"}, {"name": "1"}])");
+  EXPECT_EQ(chosen(twins, {"#1", ""}).contents.scene, 1U);
+  EXPECT_EQ(refusal_of(crossed, {"4", ""}), "/: has no scene '4'; it has: 0 '1', 1 '0', 2 '2'");
+  EXPECT_EQ(refusal_of(twins, {"#2", ""}), "/: has no scene '#2'; it has: 0 '1', 1 '1'");
 }
 
 TEST(GltfChoices, without_one_a_warning_names_the_scenes_and_counts_the_lights_of_others) {

@@ -73,6 +73,7 @@ TEST(GltfRefusals, a_broken_light_names_its_pointer) {
       {R"({"type": "spot", "spot": {"innerConeAngle": -0.1}})", "/spot/innerConeAngle", "0 or more"},
       {R"({"type": "spot", "spot": {"outerConeAngle": 1.6}})", "/spot/outerConeAngle", "pi/2"},
       {R"({"type": "spot", "spot": {"outerConeAngle": 0}})", "/spot/outerConeAngle", "more than 0"},
+      {R"({"type": "spot", "spot": {"outerConeAngle": -1e-30}})", "/spot/outerConeAngle", "found -1e-30,"},
       {R"({"type": "spot", "spot": {"innerConeAngle": 0.51, "outerConeAngle": 0.5}})", "/spot/outerConeAngle",
        "not be more than"},
       {R"({"type": "spot", "spot": {"innerConeAngle": 0.9}})", "/spot/innerConeAngle", "not be more than"},
@@ -134,6 +135,7 @@ TEST(GltfRefusals, a_broken_animation_names_its_pointer) {
       {R"("byteLength": 8)", R"("byteLength": 4)", "/accessors/0", "do not fit"},
       {R"("byteLength": 8)", R"("byteStride": 256, "byteLength": 8)", "/bufferViews/0/byteStride", "4 to 252"},
       {R"("byteOffset": 8)", R"("byteOffset": 9)", "/bufferViews/1", "do not fit"},
+      {R"("byteOffset": 8)", R"("byteOffset": 6)", "/accessors/1/bufferView", "begins at byte 6"},
       {R"("byteOffset": 8)", R"("byteOffset": 9007199254740992)", "/bufferViews/1", "do not fit"},
       {R"("byteLength": 32)", R"("byteLength": 33)", "/buffers/0", "33"},
       {"base64,", "base64,*", "/buffers/0/uri", "base64"},
@@ -209,7 +211,7 @@ TEST(GltfRefusals, a_broken_container_names_its_byte) {
   EXPECT_EQ(refusal(glb(json_chunk), "a.glb"), "loads");
   EXPECT_TRUE(refusal("", "a.gltf").starts_with("byte 0: "));
   EXPECT_TRUE(refusal("glTF", "a.glb").starts_with("byte 4: "));
-  EXPECT_TRUE(refusal("{}", "a.glb").starts_with("/: 'asset' is missing"));  // known by its content
+  EXPECT_TRUE(refusal("{}", "a.glb").starts_with("/: is JSON, but no glTF"));  // known by its content
   EXPECT_TRUE(refusal("glTF" + little_endian(1) + little_endian(12), "a.glb").starts_with("byte 4: "));
   EXPECT_TRUE(refusal(glb(json_chunk).substr(0, 30), "a.glb").starts_with("byte 8: "));
   EXPECT_TRUE(refusal(glb(""), "a.glb").starts_with("byte 12: "));
@@ -218,8 +220,8 @@ TEST(GltfRefusals, a_broken_container_names_its_byte) {
   EXPECT_TRUE(refusal(glb(little_endian(0xFFFFFFFF) + "JSON"), "a.glb").starts_with("byte 12: "));
   EXPECT_TRUE(refusal("{\"asset\": }").starts_with("byte 10: is not JSON"));
   EXPECT_TRUE(refusal("{\"asset\": {\"version\": 1e999}}").starts_with("byte 22: "));
-  EXPECT_TRUE(refusal("[]").starts_with("/: "));
-  EXPECT_TRUE(refusal("{}").starts_with("/: 'asset' is missing"));
+  EXPECT_TRUE(refusal("[]").starts_with("byte 0: is neither a glb"));
+  EXPECT_TRUE(refusal("{}").starts_with("/: is JSON, but no glTF"));
   EXPECT_TRUE(refusal(R"({"asset": {"version": "1.0"}})").starts_with("/asset/version: "));
   EXPECT_TRUE(refusal(R"({"asset": {"version": 2}})").starts_with("/asset/version: "));
 }
