@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "report/columns.h"
 #include "report/json_values.h"
+#include "report/result_file.h"
 #include "run/case_names.h"
 #include "scene/camera_path.h"
 
@@ -21,7 +22,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json read_worst_case(const std::string& path) {
-  Json json = read_json<Json>(file_text(path), path);
+  const std::string text = file_text(path);
+  refuse_history(path, text);
+  Json json = read_json<Json>(text, path);
   const config::DocumentRow& row = config::row_of(config::Document::worst_case);
   if (config::document_of(json) != config::Document::worst_case)
     throw Error(path, "", "is not what `clusterbench worst-case -o FILE` writes");

@@ -61,7 +61,7 @@ std::string dark_text(const LightsOfView& lights) {
 // off has as many as before, and nothing is lit.
 std::string why_no_lights(const LightsOfView& lights) {
   const std::string in_camera = lights.scene + ", camera " + lights.camera + ": none of ";
-  if (lights.all == 0.0) return lights.scene + ": has no lights";
+  if (lights.all == 0.0) return lights.scene + ": has no point or spot lights";
   if (lights.lit == 0.0) return lights.scene + ": " + dark_text(lights) + " (" + k_dark + ")";
   if (lights.in_view == 0.0) return in_camera + lights_number(lights.all) + " is ever in view";
   if (lights.seen > 0.0) return "";
@@ -123,7 +123,7 @@ void add_not_measured(const Json& result, bool are_no_lights_allowed, LimitFindi
   for (const View& view : views) {
     const bool is_allowed = view.has_no_lights && are_no_lights_allowed;
     (is_allowed ? findings.warnings : findings.broken)
-        .push_back(view.name + ": " + (view.has_no_lights ? "has no lights, and " : "") + "none of its " +
+        .push_back(view.name + ": " + (view.has_no_lights ? "has no point or spot lights, and " : "") + "none of its " +
                    number_of(view.combinations, "combination") +
                    " could be measured, so budgets say nothing of it: " + view.first_reason);
   }

@@ -61,7 +61,7 @@ std::string why_nothing_is_seen(const std::vector<const Json*>& cases, RankedBy 
   const auto has_none = [&](const char* pointer) {
     return std::ranges::all_of(cases, [&](const Json* one) { return number_at(*one, pointer) == 0.0; });
   };
-  if (has_none("/lights")) return "the scene has no lights";
+  if (has_none("/lights")) return "the scene has no point or spot lights";
   if (has_none("/lights_in_view/max")) return "no light is in view in any frame";
   if (has_none("/lights_seen")) return k_all_dark;
   SeenAtSamples seen;

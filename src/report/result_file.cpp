@@ -20,6 +20,12 @@ bool is_journal(std::string_view text) {
   return first.is_object() && first.contains("header");
 }
 
+// A line per result, which is the same in all of them.
+bool is_history(std::string_view text) {
+  const Json first = json_or_discarded<Json>(text.substr(0, text.find('\n')));
+  return first.is_object() && first.contains("history_version");
+}
+
 // Readers of results rely on the schema.
 void check(const std::string& path, const Json& result) {
   const std::vector<std::string> violations =
@@ -30,11 +36,17 @@ void check(const std::string& path, const Json& result) {
 
 }  // namespace
 
+void refuse_history(const std::string& path, std::string_view text) {
+  if (is_history(text))
+    throw Error(path, "", "is a history of results, which `clusterbench history show` reads; wanted is a single one");
+}
+
 Json read_result(const std::string& path) {
   const std::string text = file_text(path);
   if (text.empty()) throw Error(path, "", "is empty");
   if (is_journal(text))
     throw Error(path, "", "is what an unfinished run left; `clusterbench run` with --resume makes a result of it");
+  refuse_history(path, text);
   Json result = read_json<Json>(text, path);
   if (const config::Document document = config::document_of(result); document != config::Document::result)
     throw Error(path, "",

@@ -40,7 +40,7 @@ TEST(Gates, a_level_without_lights_fails_where_there_is_a_budget) {
   EXPECT_EQ(level.run(corridor(0), "").code, 0) << "nobody asks for anything";
   const Outcome gated = level.run(corridor(0), "--fail-if 'longest > 64'");
   EXPECT_EQ(gated.code, 1);
-  EXPECT_TRUE(says(gated, "FAILED level: has no lights, so budgets say nothing of it")) << gated.err;
+  EXPECT_TRUE(says(gated, "FAILED level: has no point or spot lights, so budgets say nothing of it")) << gated.err;
   EXPECT_EQ(level.run(corridor(0), "--fail-if 'longest > 64' --allow-no-lights").code, 0);
   EXPECT_EQ(level.run(corridor(0), "--fail-if 'longest > 64' --set limits.allow_no_lights=true").code, 0);
   const Outcome behind = level.run(corridor(8, 4.0), "--fail-if 'longest > 64'");
@@ -54,15 +54,15 @@ TEST(Gates, a_level_without_lights_and_without_an_end_fails_beside_others_and_al
   const std::string budgets = " --fail-if 'lights < 1' --fail-if 'longest > 10'";
   const Outcome beside = level.run(corridor(8), empty + budgets);
   EXPECT_EQ(beside.code, 1);
-  EXPECT_TRUE(says(beside, "FAILED empty: has no lights, so budgets say nothing of it")) << beside.err;
+  EXPECT_TRUE(says(beside, "FAILED empty: has no point or spot lights, so budgets say nothing of it")) << beside.err;
   const Outcome alone = level.run(corridor(0, -1.0, true), "--fail-if 'longest > 10'");
   EXPECT_EQ(alone.code, 1);
-  EXPECT_TRUE(says(alone, "FAILED level: has no lights, so budgets say nothing of it")) << alone.err;
+  EXPECT_TRUE(says(alone, "FAILED level: has no point or spot lights, so budgets say nothing of it")) << alone.err;
   EXPECT_EQ(level.run(corridor(0, -1.0, true), "--fail-if 'longest > 10' --allow-no-lights").code, 0);
   level.measure_base(8);
   const Outcome lost = level.run(corridor(0, -1.0, true), "--allow-changed-lights --baseline " + level.base);
   EXPECT_EQ(lost.code, 1);
-  EXPECT_TRUE(says(lost, "FAILED level: has no lights")) << lost.err;
+  EXPECT_TRUE(says(lost, "FAILED level: has no point or spot lights")) << lost.err;
 }
 
 TEST(Gates, a_level_of_the_baseline_that_is_not_there_fails_unless_the_filter_leaves_it_out) {

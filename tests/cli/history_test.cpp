@@ -27,6 +27,25 @@ TEST(HistoryCommand, a_corrupt_line_is_a_usage_error_that_names_it) {
   EXPECT_NE(done.err.find("history.jsonl: line 1: "), std::string::npos) << done.err;
 }
 
+TEST(HistoryCommand, a_history_in_the_place_of_a_result_is_named_with_what_reads_it) {
+  const Folder folder;
+  const std::string result = (folder / "r.json").string(), history = (folder / "h.jsonl").string();
+  const std::string run = "run " + source_file("scenes/street.glb") +
+                          " --grid frustum --assigner aabb-fast --set 'scenes.*.frames=1' --no-timing -q";
+  ASSERT_EQ(tool(run + " -o " + result).code, 0);
+  for (const char* commit : {"c1", "c2"})
+    ASSERT_EQ(tool("history add " + result + " " + history + " --commit " + commit).code, 0);
+  for (const std::string& arguments :
+       {"report " + history, "size " + history, "merge " + history, "compare " + result + " " + history,
+        run + " --fail-if 'longest > +5 %' --baseline " + history, "size " + result + " --found " + history}) {
+    const Outcome refused = tool(arguments);
+    EXPECT_EQ(refused.code, 2) << arguments;
+    EXPECT_NE(refused.err.find("h.jsonl: is a history of results, which `clusterbench history show` reads"),
+              std::string::npos)
+        << arguments << refused.err;
+  }
+}
+
 TEST(MergeCommand, a_merged_result_is_valid_and_one_with_itself_is_refused) {
   const Folder folder;
   const std::string scene = source_file("scenes/mirror.glb"), out = (folder / "all.json").string();

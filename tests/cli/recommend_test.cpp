@@ -273,7 +273,7 @@ TEST(Recommend, recommends_nothing_where_nothing_is_seen) {
     std::string level, flags, why;
   };
   const Row rows[] = {
-      {small_level(0, 0, 0), "", "the scene has no lights"},
+      {small_level(0, 0, 0), "", "the scene has no point or spot lights"},
       {small_level(5, 0, 50), "", "no light is in view in any frame"},
       {small_level(5, 0, 50), "--by bytes", "no light is in view in any frame"},
       {small_level(5, 0, -5), "--set samples.opaque.ground=1e6", "no pixel sees the floor at y = 1e+06 m"},

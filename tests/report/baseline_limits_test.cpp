@@ -169,9 +169,9 @@ TEST(LightGate, fails_where_there_are_no_lights_or_none_is_ever_in_view) {
             (Lines{"hall, camera walk: none of 10 lights is ever in view, so budgets say nothing of it "
                    "(--allow-no-lights, limits.allow_no_lights, if that is meant)"}));
   result["cases"][0]["lights"] = result["cases"][1]["lights"] = 0;
-  EXPECT_EQ(light_findings(result, {}).broken,
-            (Lines{"hall: has no lights, so budgets say nothing of it (--allow-no-lights, limits.allow_no_lights, if "
-                   "that is meant)"}));
+  EXPECT_EQ(light_findings(result, {}).broken, (Lines{"hall: has no point or spot lights, so budgets say nothing of it "
+                                                      "(--allow-no-lights, limits.allow_no_lights, if "
+                                                      "that is meant)"}));
   EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).broken, Lines{});
   EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).warnings.size(), 1u);
 }
@@ -273,7 +273,8 @@ TEST(LightGate, fails_where_nothing_of_a_level_could_be_measured) {
   for (const char* kind : {"point", "spot"}) result["scenes"][1]["lights"][kind] = 0;
   const Lines broken = light_findings(result, {}).broken;
   ASSERT_EQ(broken.size(), 1u);
-  EXPECT_TRUE(broken[0].starts_with("attic/walk: has no lights, and none of its 2 combinations")) << broken[0];
+  EXPECT_TRUE(broken[0].starts_with("attic/walk: has no point or spot lights, and none of its 2 combinations"))
+      << broken[0];
   EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).broken, Lines{});
   Json one_left = with_attic(baseline_json());
   one_left["skipped"].push_back({{"name", "attic/walk/frustum/brute-force/packed"}, {"reason", "too many pairs"}});

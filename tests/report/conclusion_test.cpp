@@ -312,7 +312,7 @@ TEST(Conclusion, where_nothing_is_seen_nothing_is_taken) {
   for (run::CaseResult& one : result.cases) one.lights_in_view.sum = one.lights_in_view.most = 0;
   expect_none(result, "no light is in view in any frame");
   for (run::CaseResult& one : result.cases) one.lights = 0;
-  expect_none(result, "the scene has no lights");
+  expect_none(result, "the scene has no point or spot lights");
 }
 
 TEST(Conclusion, without_samples_it_rests_on_times_where_a_light_is_in_view) {
