@@ -155,6 +155,11 @@ std::string frames_text(const WorstCase& found, const WorstCaseFacts& facts) {
   return out;
 }
 
+// Whether what was searched for is less than a random frame has.
+bool is_random_one(const WorstCase& found) {
+  return !found.stages.empty() && found.random.frames > 0 && found.random.max > found.stages.back().best;
+}
+
 }  // namespace
 
 Json worst_case_to_json(const WorstCase& found, const WorstCaseFacts& facts) {
@@ -208,7 +213,8 @@ std::string worst_case_text(const WorstCase& found, const WorstCaseFacts& facts)
   if (found.frames.empty()) return out + line("worst", "nothing was tried");
   const double worst = found.frames.front().value;
   out += line("worst", figure_text(worst) + " " + row.unit + ", found in " +
-                           number_of(static_cast<std::uint64_t>(found.evaluations), "evaluation") + " (seed " +
+                           number_of(static_cast<std::uint64_t>(found.evaluations), "evaluation") +
+                           (is_random_one(found) ? " and the random frames" : "") + " (seed " +
                            std::to_string(facts.request.seed) + ")");
   if (found.random.frames > 0)
     out += line("random", figure_text(found.random.max) + " at most in " +

@@ -156,9 +156,10 @@ class WorstCaseSearch {
       out_.floor_area_m2 = floor_->area_m2();
     }
     if (best_.frames().empty()) return std::move(out_);
-    make_path();
+    const double searched = best_.frames().front().value;
     compare_with_random();
-    warn_of_better();
+    make_path();
+    warn_of_better(searched);
     return std::move(out_);
   }
 
@@ -417,23 +418,27 @@ class WorstCaseSearch {
     out_.buffers = lists.buffers();
   }
 
+  // What of them is worse than what was searched for is as much found.
   void compare_with_random() {
     progress_.begin("random frames to compare with");
-    BestFrames found(1, 0.0);
+    BestFrames found(kept(), near_m());
     std::vector<double> values(static_cast<std::size_t>(request_.random), 0.0);
     out_.random.frames = rate_each(
         request_.random, found, [this](int i) { return random_frame(i, 1); }, [this] { return stop_.load(); }, &values);
     if (out_.random.frames == 0) return;
     out_.random.max = found.frames().front().value;
+    best_.add_all(found);
     out_.random.mean = std::accumulate(values.begin(), values.end(), 0.0) / out_.random.frames;
   }
 
-  void warn_of_better() {
+  void warn_of_better(double searched) {
     const double worst = out_.frames.front().value;
-    if (out_.random.frames > 0 && out_.random.max >= worst)
-      out_.warnings.emplace_back(out_.random.max > worst
-                                     ? "a random frame is worse than what the search found: allow more --evaluations"
-                                     : "a random frame is as bad as what the search found");
+    const bool is_most = out_.theoretical_max && worst >= *out_.theoretical_max;  // nothing can be worse
+    if (out_.random.frames > 0 && out_.random.max > searched)
+      out_.warnings.emplace_back(
+          "a random frame is worse than what the search found, and is taken in its place: allow more --evaluations");
+    else if (out_.random.frames > 0 && out_.random.max == searched && !is_most)
+      out_.warnings.emplace_back("a random frame is as bad as what the search found");
     if (out_.recorded.max > worst)
       out_.warnings.emplace_back(
           "a recorded frame is worse than what the search found: it may not choose that frame, or needs more "

@@ -78,6 +78,21 @@ TEST(WorstCase, a_light_without_end_is_in_every_cell_of_every_frame) {
   EXPECT_EQ(found.random.max, found.frames.front().value);
   EXPECT_EQ(found.random.mean, found.frames.front().value);
   EXPECT_EQ(found.theoretical_max, found.frames.front().value);
+  EXPECT_TRUE(found.warnings.empty()) << "nothing can be worse than all that there can be";
+}
+
+TEST(WorstCase, a_random_frame_that_is_worse_than_all_that_was_searched_is_what_was_found) {
+  const SearchFolder folder;
+  const Searched one =
+      searched(folder, scene_json({{{0.0, 0.0, 0.0}, 3.0}, {{2.0, 1.0, 4.0}, 3.0}}, {{0.0, 0.0, -20.0}}));
+  WorstCaseRequest request = few(1);  // of the recorded frame, which looks away from the lights
+  request.random = 300;
+  const WorstCase found = one.search(request);
+  ASSERT_GT(found.random.max, found.stages.back().best);
+  EXPECT_EQ(found.frames.front().value, found.random.max);
+  EXPECT_EQ(found.evaluations, 1);
+  ASSERT_EQ(found.warnings.size(), 1u);
+  EXPECT_NE(found.warnings[0].find("is taken in its place"), std::string::npos) << found.warnings[0];
 }
 
 TEST(WorstCase, added_lights_that_hold_the_whole_view_fill_every_cell) {
