@@ -17,7 +17,10 @@ bool dominates(std::span<const Costs> cases, std::size_t a, std::size_t b, const
                a_overshade = known(cases[a].overshade), b_overshade = known(cases[b].overshade);
   if (a_bytes > b_bytes || a_overshade > b_overshade) return false;
   const bool is_better = a_bytes < b_bytes || a_overshade < b_overshade;
-  return is_better ? !takes_longer(a, b) : takes_longer(b, a);
+  if (is_better) return !takes_longer(a, b);
+  const int a_slowness = cases[a].slowness, b_slowness = cases[b].slowness;
+  const bool is_known_slower = a_slowness > 0 && b_slowness > a_slowness && !takes_longer(a, b);
+  return takes_longer(b, a) || is_known_slower;
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "report/conclusion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +13,7 @@
 #include "assign/contract/assigner.h"
 #include "core/text.h"
 #include "measure/side_by_side.h"
+#include "report/case_filter.h"
 #include "report/columns.h"
 #include "report/contender.h"
 #include "report/frame_cost.h"
@@ -52,13 +55,13 @@ struct WeighedCase {
   double bytes() const { return number_at(*result_case, "/buffers/bytes/high_water").value_or(0.0); }
   double ns() const { return cost.assign_ns.value_or(0.0) + cost.gpu_ns(); }
   double weight() const { return is_timed() || is_modelled ? ns() : bytes(); }
+  // The cheapest first; of equal ones that nobody timed what is known to be faster.
+  auto order() const { return std::tuple(weight(), !is_timed() && !has_simd(), is_timed() ? 0 : slowness()); }
   double unlit() const { return unlit_at_samples(*result_case).value_or(0.0); }
-  // Whether its method is the plain form of one that makes the same lists with SIMD.
-  bool is_plain() const {
-    return assign::find_assigner((*result_case)["assigner"]["name"].get<std::string>() + "-fast") != nullptr;
-  }
+  int slowness() const { return slowness_of(*result_case); }
+  bool has_simd() const { return slowness() == 1; }
   // Of cases that cost alike the least is taken.
-  auto rank() const { return std::tuple(unlit() > 0.0, !is_on_front, bytes(), is_plain()); }
+  auto rank() const { return std::tuple(unlit() > 0.0, !is_on_front, bytes(), !has_simd(), slowness()); }
 };
 
 // What is compared with each other: cases that see the same.
@@ -72,14 +75,6 @@ struct SceneView {
 std::string case_title(const Json& result_case) {
   const auto name = result_case["name"].get<std::string>();
   return shown(name.substr(name.find('/', name.find('/') + 1) + 1));
-}
-
-std::string first_titles(const std::vector<const WeighedCase*>& cases) {
-  constexpr std::size_t k_most = 3;
-  std::vector<std::string> names;
-  for (const WeighedCase* weighed : cases)
-    if (names.size() < k_most) names.push_back(case_title(*weighed->result_case));
-  return joined(names) + (cases.size() > k_most ? " and " + std::to_string(cases.size() - k_most) + " more" : "");
 }
 
 std::string ns_text(double ns) {
@@ -125,8 +120,48 @@ std::vector<SceneView> scene_views(const Json& result, const Json& config) {
   }
   for (SceneView& view : views)
     for (std::vector<WeighedCase>* cases : {&view.sound, &view.searched})
-      std::ranges::stable_sort(*cases, {}, &WeighedCase::weight);
+      std::ranges::stable_sort(*cases, {}, &WeighedCase::order);
   return views;
+}
+
+// The same lists in the same cells and storage: of other methods, of which nothing but times is to be told.
+bool has_lists_of(const WeighedCase& a, const WeighedCase& b) {
+  const auto is_equal = [&](const char* pointer) {
+    const Json *of_a = value_at(*a.result_case, pointer), *of_b = value_at(*b.result_case, pointer);
+    return of_a == nullptr ? of_b == nullptr : of_b != nullptr && *of_a == *of_b;
+  };
+  return std::ranges::all_of(std::array{"/grid/name", "/storage", "/precision/label", "/pre_cull/label", "/occupancy",
+                                        "/buffers/index_entries", "/buffers/bytes", "/buffers/each"},
+                             is_equal) &&
+         a.cost.gpu_ns() == b.cost.gpu_ns() && a.unlit() == b.unlit();
+}
+
+// The first ones, of those with the same lists together the one that is known to be fastest.
+std::string first_titles(const std::vector<const WeighedCase*>& cases) {
+  constexpr std::size_t k_most = 3;
+  struct SameLists {
+    const WeighedCase* first;
+    std::size_t count;
+  };
+  std::vector<SameLists> groups;
+  std::size_t left_out = 0;
+  for (const WeighedCase* weighed : cases) {
+    const auto group =
+        std::ranges::find_if(groups, [&](const SameLists& same) { return has_lists_of(*same.first, *weighed); });
+    if (group == groups.end() && groups.size() == k_most) {
+      ++left_out;
+    } else if (group == groups.end()) {
+      groups.push_back({weighed, 1});
+    } else {
+      ++group->count;
+      if (weighed->rank() < group->first->rank()) group->first = weighed;
+    }
+  }
+  std::vector<std::string> names;
+  for (const SameLists& same : groups)
+    names.push_back(case_title(*same.first->result_case) +
+                    (same.count > 1 ? " (the same lists by " + std::to_string(same.count) + " methods)" : ""));
+  return joined(names) + (left_out > 0 ? " and " + std::to_string(left_out) + " more" : "");
 }
 
 bool has_interval(const std::optional<measure::Ratio>& ratio) {
@@ -155,11 +190,13 @@ bool is_known_dearer(const WeighedCase& a, const WeighedCase& b, std::uint64_t s
 // The choice of a view, and what it is held against.
 struct Choice {
   const WeighedCase* take = nullptr;
-  const WeighedCase* against = nullptr;   // the cheapest that is known to be dearer
-  const WeighedCase* fastest = nullptr;   // to make, where that is another one
-  const WeighedCase* searched = nullptr;  // where it would be cheaper
-  std::optional<measure::Ratio> ratio;    // against / take
-  std::vector<const WeighedCase*> alike;
+  const WeighedCase* against = nullptr;    // the cheapest that is known to be dearer
+  const WeighedCase* fastest = nullptr;    // to make, where that is another one
+  const WeighedCase* searched = nullptr;   // where it would be cheaper
+  std::optional<measure::Ratio> ratio;     // against / take
+  std::vector<const WeighedCase*> alike;   // all that are not known to be dearer
+  std::vector<const WeighedCase*> others;  // of them those with other lists
+  std::size_t same_lists() const { return alike.size() - others.size(); }
 
   double times_as_much() const { return ratio ? ratio->ratio : against->weight() / take->weight(); }
 };
@@ -182,6 +219,8 @@ Choice choose_of(const SceneView& view, std::uint64_t seed) {
     else if (choice.against == nullptr)
       choice.against = &weighed;
   }
+  std::ranges::copy_if(choice.alike, std::back_inserter(choice.others),
+                       [&](const WeighedCase* weighed) { return !has_lists_of(*weighed, *choice.take); });
   if (choice.against != nullptr) choice.ratio = measured_ratio(*choice.against, *choice.take, seed);
   if (!view.searched.empty() && view.searched.front().is_modelled && view.searched.front().ns() < choice.take->ns())
     choice.searched = &view.searched.front();
@@ -235,6 +274,17 @@ std::string against_text(const Choice& choice) {
   return out + (is_rough ? ", not measured often enough side by side for an interval" : "");
 }
 
+// Of methods that make the same lists as the choice, and take no longer as far as is known.
+std::string same_lists_text(const Choice& choice) {
+  const std::size_t count = choice.same_lists();
+  if (count == 0) return "";
+  const std::string out =
+      ". " + number_of(count, "other method") + (count == 1 ? " makes" : " make") + " the same lists";
+  if (choice.take->is_timed()) return out + ", in times that these do not tell apart";
+  return out + ": times tell which is fastest (leave --no-timing out)" +
+         (choice.take->has_simd() ? "; a -fast one, as far as is known" : "");
+}
+
 // What limits how far the choice can be trusted.
 std::string doubts_text(const Choice& choice) {
   const WeighedCase& take = *choice.take;
@@ -244,10 +294,11 @@ std::string doubts_text(const Choice& choice) {
            (unlit < 1e-4 ? "less than 0.01 %" : text("%.2g %%", 100.0 * unlit)) + " of the lights that they need";
   if (take.is_modelled)
     out += few_samples_text(sum_at_samples(*take.result_case, "needed"), ranking_set_names(*take.result_case));
-  if (!choice.alike.empty())
+  out += same_lists_text(choice);
+  if (!choice.others.empty())
     out += std::string(". No difference that these ") + (take.is_timed() ? "times" : "figures") + " can show" +
            (take.is_modelled ? " (costs within 5 % are alike: part of them is modelled)" : "") + " to " +
-           first_titles(choice.alike);
+           first_titles(choice.others);
   if (choice.fastest != nullptr && choice.fastest != choice.take && take.is_modelled)
     out += ". Fastest to make: " + case_title(*choice.fastest->result_case) + ", " +
            ns_text(*choice.fastest->cost.assign_ns);
@@ -449,6 +500,17 @@ void conclude_failures(Json& result, const std::vector<std::string>& failures) {
 
 std::string failed_conclusion(const Json& result) {
   return "none, since " + failure_text(result);
+}
+
+std::vector<std::string> taken_names(const Json& result) {
+  std::vector<std::string> names;
+  for (const Json& conclusion : result.value("conclusions", Json::array()))
+    for (const Json& result_case : result["cases"]) {
+      if (conclusion["take"] != result_case["id"]) continue;
+      const std::string name = run::name_without_camera(names_of_case(result_case), true);
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  return names;
 }
 
 std::string conclusions_text(const Json& result) {

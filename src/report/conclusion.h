@@ -26,6 +26,9 @@ void conclude_failures(nlohmann::ordered_json& result, const std::vector<std::st
 // "none, since the run FAILED: ..." of such a result.
 std::string failed_conclusion(const nlohmann::ordered_json& result);
 
+// What its conclusions take, each once and of all cameras: names that --filter takes.
+std::vector<std::string> taken_names(const nlohmann::ordered_json& result);
+
 // Lines that begin with "conclusion: ", the last ones of a run; "" where the result has none.
 std::string conclusions_text(const nlohmann::ordered_json& result);
 

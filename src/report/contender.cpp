@@ -44,6 +44,14 @@ bool loses_nothing_seen(const Json& result_case) {
   return result_case["eligible"] == true && (lit == nullptr || *lit == true);
 }
 
+int slowness_of(const Json& result_case) {
+  const auto name = result_case["assigner"]["name"].get<std::string>();
+  const assign::AssignerDescriptor* assigner = assign::find_assigner(name);
+  if (assigner != nullptr && assigner->all_pairs) return 3;
+  if (assign::find_assigner(name + "-fast") != nullptr) return 2;
+  return name.ends_with("-fast") ? 1 : 0;
+}
+
 bool draws_lights(const Json& result_case) {
   const assign::AssignerDescriptor* assigner =
       assign::find_assigner(result_case["assigner"]["name"].get<std::string>());
@@ -88,7 +96,10 @@ run::Contender contender_of(const Json& result_case, RankBy by) {
     const char* cost = result_case.contains("timing") ? "/cost/frame_ns" : "/cost/gpu_ns";
     out.is_eligible = out.is_eligible && number_at(result_case, cost);
   }
-  if (!result_case.contains("timing")) return out;
+  if (!result_case.contains("timing")) {
+    out.costs.slowness = slowness_of(result_case);
+    return out;
+  }
   out.rounds_ns = frame_rounds(result_case);
   for (double& ns : out.rounds_ns) ns += gpu_ns;
   out.session = result_case["timing"].value("session", "");

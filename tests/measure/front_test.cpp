@@ -39,6 +39,19 @@ TEST(Front, what_is_not_known_counts_as_the_worst) {
   EXPECT_EQ(front_of({{unknown, 1, unknown}, {unknown, 2, unknown}}), (Places{0}));
 }
 
+TEST(Front, of_equal_ones_without_times_those_go_that_are_known_to_be_slower) {
+  const auto front = [](int a, int b, double bytes_b = 2) {
+    std::vector<Costs> costs{{{Costs::k_unknown, Costs::k_unknown}, 2, 3, a},
+                             {{Costs::k_unknown, Costs::k_unknown}, bytes_b, 3, b}};
+    return pareto_front(costs, intervals_apart(costs));
+  };
+  EXPECT_EQ(front(1, 3), (Places{0}));
+  EXPECT_EQ(front(2, 1), (Places{1}));
+  EXPECT_EQ(front(1, 1), (Places{0, 1}));
+  EXPECT_EQ(front(0, 3), (Places{0, 1})) << "of the first nothing is known";
+  EXPECT_EQ(front(1, 3, 1), (Places{1})) << "it is smaller";
+}
+
 TEST(Front, times_whose_intervals_overlap_are_the_same_time) {
   const auto front = [](Interval a, Interval b, double overshade_b) {
     const std::vector<Costs> costs{{a, 1, 2}, {b, 1, overshade_b}};

@@ -353,6 +353,27 @@ TEST(Conclusion, without_times_says_that_nothing_was_timed) {
   EXPECT_TRUE(has_words(conclusion, "and nothing was timed")) << conclusion["text"];
 }
 
+// What three methods leave that make the same lists: every light against every cell, plainly, and with SIMD.
+TEST(Conclusion, of_methods_with_the_same_lists_that_nobody_timed_the_fast_form_is_taken_and_has_the_star) {
+  run::Result result = result_by_hand();
+  result.cases.push_back(testing::case_by_hand("simd", "aabb-fast", 1.0));
+  result.planned_ids.emplace_back("simd");
+  for (run::CaseResult& one : result.cases) one.timing.reset();
+  for (const bool has_samples : {true, false}) {
+    if (!has_samples)
+      for (run::CaseResult& one : result.cases) one.shading.reset();
+    const Json json = valid_json(result), conclusion = json["conclusions"][0];
+    EXPECT_EQ(conclusion["take"], "simd") << conclusion["text"];
+    EXPECT_EQ(conclusion["alike"].size(), 2u);
+    EXPECT_TRUE(has_words(conclusion, "2 other methods make the same lists")) << conclusion["text"];
+    EXPECT_FALSE(has_words(conclusion, "brute-force")) << conclusion["text"];
+    EXPECT_EQ(json["pareto_front"][0]["ids"], Json::array({"simd"}));
+  }
+  result.cases[0].buffers.index_entries.high_water = 39;  // other lists
+  EXPECT_TRUE(has_words(only_conclusion(result), "1 other method makes the same lists"));
+  EXPECT_TRUE(has_words(only_conclusion(result), "can show to frustum 64px/brute-force/packed"));
+}
+
 Json answer_by_hand(double by_choice, const Json& ci95) {
   const auto record = [](const char* name, double objective, double by) {
     return Json{{"name", name}, {"objective", objective}, {"by_choice", by}};
