@@ -1,9 +1,11 @@
 // `clusterbench size INPUT...`: what to allocate, and the code that watches it. From a result, or from what makes one.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/gates.h"
@@ -59,6 +61,11 @@ void choose_engine(SizeFlags& flags) {
   report::check_engine(flags.engine);
   if (flags.request.format != "table" && flags.request.format != "json")
     throw Error("", "--engine", "prints settings, as a table or JSON, not " + flags.request.format);
+  if (!flags.request.scope.views.empty())
+    throw Error(
+        "", "--views",
+        "adds what cameras need of one buffer, and an engine's limits hold for each camera by itself; leave one "
+        "of --views and --engine out");
   flags.request.engine = flags.engine;
   flags.request.all = true;
   if (is_result(flags.inputs)) return;
@@ -86,6 +93,37 @@ void check_for_result(const SizeFlags& flags) {
               "changes what is measured, and a result has been; give a configuration or scenes");
 }
 
+// Budgets hold what frames of the paths have, and what searches found.
+std::vector<report::LimitFindings> findings_with_finds(const Gates& gates, const Json& result,
+                                                       const std::vector<report::FoundFrame>& found) {
+  std::vector<report::LimitFindings> findings = gates.findings(result);
+  const bool is_searched = std::ranges::any_of(found, [](const auto& frame) { return frame.refusal.empty(); });
+  if (findings.empty() || !is_searched) return findings;
+  report::LimitFindings held = gates.findings(report::with_finds(result, found)).back();
+  const report::LimitFindings& seen = findings.back();
+  const auto mark = [](std::vector<std::string>& lines, const std::vector<std::string>& of_seen) {
+    for (std::string& line : lines)
+      if (std::ranges::find(of_seen, line) == of_seen.end()) line += "; found by a search";
+  };
+  mark(held.broken, seen.broken);
+  mark(held.near, seen.near);
+  findings.back() = held;
+  return findings;
+}
+
+// Which budgets hold recorded frames alone.
+void tell_of_held(const config::Config& config, const Json& result, const std::vector<report::FoundFrame>& found) {
+  std::vector<std::string> searched, measures;
+  for (const report::FoundFrame& frame : found) {
+    if (!frame.refusal.empty()) continue;
+    for (auto [list, name] : {std::pair(&searched, &frame.case_name), std::pair(&measures, &frame.measure)})
+      if (std::ranges::find(*list, *name) == list->end()) list->push_back(*name);
+  }
+  if (config.limits.fail_if.empty() || searched.empty()) return;
+  tell("budgets also hold what a search for " + joined(measures) + " found, in " + std::to_string(searched.size()) +
+       " of " + number_of(result["cases"].size(), "case") + "; all else of recorded frames alone");
+}
+
 // Sizes of nothing, and what the configuration's budgets say of what was counted.
 ExitCode judged(const SizeFlags& flags, const SizeCounts* counts, const Json& result,
                 const report::SizeRequest& request) {
@@ -95,7 +133,8 @@ ExitCode judged(const SizeFlags& flags, const SizeCounts* counts, const Json& re
     config::Config config = counts->config;
     config.limits.allows_no_lights = allows_no_lights;
     keep_counted_budgets(config, "size");
-    code = report_findings(Gates(config, request.filter).findings(result));
+    tell_of_held(config, result, request.scope.found);
+    code = report_findings(findings_with_finds(Gates(config, request.filter), result, request.scope.found));
   }
   for (const std::string& name : report::sized_from_nothing(result, request)) {
     if (!allows_no_lights) code = ExitCode::gate_failed;

@@ -102,7 +102,8 @@ void add(SizedBuffer& buffer, std::uint64_t& step, const CaseBuffer& next) {
     buffer.worst_camera = next.path.camera;
     buffer.worst_frame = next.worst_frame;
     buffer.worst_cell = next.worst_cell;
-    buffer.is_sum_of_marks = next.is_sum_of_marks;
+    buffer.why_sum = next.why_sum;
+    buffer.has_times = next.has_times;
     step = next.step;
   }
   buffer.apart = std::max(buffer.apart, next.apart);
@@ -290,6 +291,13 @@ std::optional<GrownTiles> grown_in_result(const Json& result_case) {
                     react["tiles"]["fewest"].get<std::array<int, 2>>()};
 }
 
+std::optional<std::uint64_t> most_of_one_type(const Json& scene) {
+  std::optional<std::uint64_t> most;
+  for (const char* type : {"/lights/point", "/lights/spot", "/lights/box"})
+    if (number_at(scene, type)) most = std::max(most.value_or(0), count_of(scene, type));
+  return most;
+}
+
 bool has_camera(const SizedStructure& structure, const Json& result_case) {
   return std::ranges::any_of(structure.cases, [&](const Json* other) {
     return (*other)["camera"] == result_case["camera"] &&
@@ -375,6 +383,15 @@ void set_views(std::vector<SizedStructure>& structures, const AllocationScope& s
     throw Error("", "--grid-of", "'" + scope.grid_of + "' is none of the cameras of --views");
 }
 
+void set_taken(std::vector<SizedStructure>& structures, const Json& result) {
+  for (const Json& conclusion : result.value("conclusions", Json::array()))
+    for (SizedStructure& structure : structures) {
+      const auto takes = [&](const Json* one) { return one->value("id", Json()) == conclusion["take"]; };
+      if (!conclusion["take"].is_null() && std::ranges::any_of(structure.cases, takes))
+        structure.taken_by.push_back(conclusion["camera"].get<std::string>());
+    }
+}
+
 }  // namespace
 
 std::uint64_t SizedStructure::frames() const {
@@ -410,6 +427,18 @@ bool SizedStructure::is_searched() const {
   return std::ranges::any_of(searches, [](const FoundFrame& found) { return found.refusal.empty(); });
 }
 
+std::string SizedStructure::sought_measure() const {
+  return measure_of_buffers((*cases.front())["storage"].get<std::string>());
+}
+
+bool SizedStructure::is_sought() const {
+  return std::ranges::find(searches, sought_measure(), &FoundFrame::measure) != searches.end();
+}
+
+std::string measure_of_buffers(const std::string& storage) {
+  return storage.starts_with("fixed") ? "longest" : "entries";
+}
+
 std::uint64_t SizedBuffer::double_buffered_bytes() const {
   return times(2, bytes);
 }
@@ -440,9 +469,12 @@ std::vector<SizedStructure> sized_structures(const Json& result, const std::stri
   for (SizedStructure& structure : out) {
     structure.has_grid_cells = !follows_surfaces(*structure.cases.front());
     for (const Json& scene : result.value("scenes", Json::array()))
-      if (scene["name"] == (*structure.cases.front())["scene"])
+      if (scene["name"] == (*structure.cases.front())["scene"]) {
         structure.has_boxes = number_at(scene, "/lights/box").value_or(0.0) > 0.0;
+        structure.lights_of_type = most_of_one_type(scene);
+      }
   }
+  set_taken(out, result);
   set_views(out, scope);
   for (SizedStructure& structure : out) {
     const auto is_mine = [&](const auto& told) {

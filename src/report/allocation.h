@@ -99,7 +99,8 @@ struct SizedBuffer {
   std::optional<std::uint64_t> found;  // elements of the worst frame that a search found
   std::size_t found_by = 0;            // which of the structure's searches
   std::uint64_t apart = 0;             // of cameras in one frame: if each were at its own most at the same time; else 0
-  bool is_sum_of_marks = false;        // their paths have different frames, and high_water is `apart`
+  std::string why_sum;                 // why high_water is `apart`: their paths have different frames; else ""
+  bool has_times = true;               // what is added is known to be of frames at the same time
   std::string worst_camera;            // that made the high-water mark
   std::uint64_t worst_frame = 0;       // of its path
   nlohmann::ordered_json worst_cell;   // [x, y, z], its longest list in that frame; null without cells
@@ -132,19 +133,30 @@ struct SizedStructure {
   std::vector<GuestSamples> guest_samples;
   std::vector<GrownTiles> grown;  // of its cases
   std::vector<FoundFrame> searches;
-  bool has_boxes = false;      // the scene has oriented boxes among its lights
-  bool has_grid_cells = true;  // lists are of the grid's cells, the same in all frames
+  std::vector<std::string> taken_by;            // cameras whose conclusion in the result takes a case of it
+  std::string choice;                           // why it is printed, beside what the conclusion takes; ""
+  bool has_boxes = false;                       // the scene has oriented boxes among its lights
+  std::optional<std::uint64_t> lights_of_type;  // of the scene, of the type that has most; where the result tells
+  bool has_grid_cells = true;                   // lists are of the grid's cells, the same in all frames
 
   // The one with the largest value of the measure, a refused one only if there is no other; nullptr if there was none.
   const FoundFrame* search_for(const std::string& measure) const;
   // The one that made the first buffer's find; a refused one, or nullptr, if none found anything.
   const FoundFrame* main_search() const;
   bool is_searched() const;  // one that was not refused
+  // What a search has to make large for its buffers; and whether one was for that, a refused one, too.
+  std::string sought_measure() const;
+  bool is_sought() const;
+  bool is_taken() const { return !taken_by.empty(); }
   std::uint64_t bytes() const;
   std::uint64_t frames() const;  // of all cameras, or of cameras in one frame, each frame once
   // Of those that a buffer's figures are of.
   std::uint64_t frames_of(const SizedBuffer& buffer) const;
 };
+
+// What makes the buffers of a structure of that storage large, by its name in `worst-case --measure`: the longest list
+// where every cell has room for it, and all entries else.
+std::string measure_of_buffers(const std::string& storage);
 
 // Of all cases whose name matches the regular expression `filter` ("" = all). Results of earlier versions have no
 // single buffers: theirs are called "entries" and "header_bytes". `result` outlives them. Throws Error if the filter is

@@ -33,6 +33,27 @@ std::string chance_text(const measure::Chance& chance) {
   return "at most " + one_in_text(chance.ci95.high) + " frames (by the fit " + estimate + ")";
 }
 
+// Of cameras that stand still, as far as the buffer tells: that they say nothing of other views; "" of others.
+std::string still_text(const SizedBuffer& buffer) {
+  if (buffer.is_all() || buffer.paths.empty()) return "";
+  std::uint64_t frames = 0;
+  for (const PathNeed& path : buffer.paths) {
+    const bool is_merged = path.frames_per_entry > 1 && path.elements.size() > 1;
+    if (path.elements.empty() || is_merged) return "";
+    if (std::ranges::adjacent_find(path.elements, std::ranges::not_equal_to()) != path.elements.end()) return "";
+    frames += path.frames_per_entry * path.elements.size();
+  }
+  const bool is_one = frames == 1, has_cameras = buffer.paths.size() > 1;
+  return std::string(is_one ? "one frame says nothing of other views"
+                     : has_cameras
+                         ? "each camera needs the same in all its frames, as one that stands still: they say nothing "
+                           "of other views"
+                         : "all " + number_of(frames, "frame") +
+                               " need the same, as of a camera that stands still: they say nothing of other views") +
+         (buffer.found ? "; the search looked at some"
+                       : "; animate the camera over what it will show, or search with --worst-case");
+}
+
 }  // namespace
 
 std::string one_in_text(double chance) {
@@ -56,6 +77,7 @@ std::optional<measure::TailEstimate> tail_of(const SizedBuffer& buffer) {
 }
 
 std::string tail_text(const SizedBuffer& buffer) {
+  if (const std::string still = still_text(buffer); !still.empty()) return buffer.name + ": " + still;
   const std::optional<measure::TailEstimate> found = tail_of(buffer);
   if (!found) return "";
   if (!found->tail) return buffer.name + ": no estimate: " + found->refusal;
@@ -68,6 +90,7 @@ std::string tail_text(const SizedBuffer& buffer) {
 }
 
 Json tail_json(const SizedBuffer& buffer) {
+  if (const std::string still = still_text(buffer); !still.empty()) return {{"refusal", still}};
   const std::optional<measure::TailEstimate> found = tail_of(buffer);
   if (!found) return nullptr;
   if (!found->tail) return {{"refusal", found->refusal}};

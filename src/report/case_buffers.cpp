@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
+#include "core/text.h"
+#include "report/columns.h"
 #include "report/json_values.h"
 
 namespace clusterbench::report {
@@ -25,6 +29,9 @@ std::uint64_t count_at(const Json& from, const char* key) {
 
 PathNeed path_need(const Json& result_case, const Json& buffer) {
   PathNeed path{result_case["camera"].get<std::string>(), 1, {}};
+  const std::optional<double> from_s = number_at(result_case, "/camera_path/from_s"),
+                              to_s = number_at(result_case, "/camera_path/to_s");
+  if (from_s && to_s) path.span_s = {*from_s, *to_s};
   if (const Json* along = value_at(buffer, "/along_path")) {
     path.frames_per_entry = std::max<std::uint64_t>(1, count_at(*along, "frames_per_entry"));
     path.elements = (*along)["elements"].get<std::vector<std::uint64_t>>();
@@ -69,6 +76,23 @@ std::size_t common_entries(const std::vector<CaseBuffer>& all) {
     per_entry = one.path.frames_per_entry;
   }
   return entries;
+}
+
+// Of those whose frames differ, in words, why frames of one number cannot be added; "" where they can.
+std::string why_not_by_frame(const std::vector<CaseBuffer>& cameras) {
+  std::vector<std::string> frames, spans;
+  for (const CaseBuffer& one : cameras) {
+    if (one.path.elements.empty()) return "the result has no frames of some";
+    if (one.path.is_same_in_all_frames()) continue;
+    frames.push_back(std::to_string(one.path.elements.size() * one.path.frames_per_entry));
+    if (const auto& span = one.path.span_s)
+      spans.push_back(text("%.6g s", span->first) + text(" to %.6g s", span->second));
+  }
+  const bool differs = std::ranges::adjacent_find(spans, std::ranges::not_equal_to()) != spans.end();
+  const std::string spans_text = differs ? "go from " + joined(spans, " and from ") : "";
+  if (common_entries(cameras) == 0)
+    return "their paths have " + joined(frames, " and ") + " frames" + (differs ? " and " + spans_text : "");
+  return differs ? "their paths " + spans_text : "";
 }
 
 std::uint64_t need_at(const CaseBuffer& one, std::size_t entry) {
@@ -133,13 +157,17 @@ CaseBuffer in_one_frame(const std::vector<CaseBuffer>& cameras) {
   }
   if (std::ranges::all_of(cameras, [](const CaseBuffer& one) { return one.step == 1; })) out.step = 1;
   out.apart = together(cameras, marks);
-  const std::size_t entries = common_entries(cameras);
-  if (entries == 0) {
+  out.why_sum = why_not_by_frame(cameras);
+  if (!out.why_sum.empty()) {
     out.high_water = out.apart;
     out.worst_frame = 0;
-    out.is_sum_of_marks = true;
     return out;
   }
+  const std::size_t entries = common_entries(cameras);
+  const auto is_moving_of_no_time = [](const CaseBuffer& one) {
+    return !one.path.is_same_in_all_frames() && !one.path.span_s;
+  };
+  out.has_times = std::ranges::none_of(cameras, is_moving_of_no_time);
   std::vector<std::uint64_t> elements(entries);
   for (std::size_t entry = 0; entry < entries; ++entry) {
     std::vector<std::uint64_t> needs;

@@ -45,6 +45,12 @@ std::optional<double> entries_in(const Json& result_case) {
   return number_at(result_case, "/buffers/index_entries/high_water");
 }
 
+double per_cell(double entries, const Json& result_case) {
+  double cells = 1.0;
+  for (const Json& axis : result_case["grid"]["cells"]) cells *= std::max(1.0, axis.get<double>());
+  return std::ceil(entries / cells);
+}
+
 std::optional<double> seen_in_case(const Json& result_case, Needed needed) {
   if (is_of_lists(needed) && has_lists_behind_limit(result_case)) return {};
   switch (needed) {
@@ -56,6 +62,9 @@ std::optional<double> seen_in_case(const Json& result_case, Needed needed) {
       return number_at(result_case, "/lights");
     case Needed::longest_list:
       return number_at(result_case, "/occupancy/lights_per_cell/max");
+    case Needed::entries_per_cell:
+      if (const std::optional<double> entries = entries_in(result_case)) return per_cell(*entries, result_case);
+      return {};
     case Needed::entries:
       break;
   }
@@ -73,16 +82,20 @@ std::optional<std::uint64_t> most_seen(const SizedStructure& structure, Needed n
   return most;
 }
 
-// Of the level: no list and no view has more.
-std::optional<std::uint64_t> most_lights(const SizedStructure& structure) {
+// Of the level: no list and no view has more; of one type where a setting is of that. Lights that a search adds can be
+// of any.
+std::optional<std::uint64_t> most_lights(const SizedStructure& structure, Needed needed) {
   std::uint64_t most = 0;
   for (const Json* result_case : structure.cases) {
     const std::optional<double> lights = number_at(*result_case, "/lights");
     if (!lights) return {};
     most = std::max(most, static_cast<std::uint64_t>(*lights));
   }
-  for (const FoundFrame& found : structure.searches) most = std::max(most, found.lights);
-  return most;
+  std::uint64_t added = 0;
+  for (const FoundFrame& found : structure.searches)
+    added = std::max(added, found.lights - std::min(most, found.lights));
+  const bool is_of_type = needed == Needed::lights_of_type && structure.lights_of_type;
+  return (is_of_type ? *structure.lights_of_type : most) + added;
 }
 
 // The most that a search for it found.
@@ -90,6 +103,8 @@ std::optional<std::uint64_t> most_found(const SizedStructure& structure, Needed 
   std::optional<std::uint64_t> most;
   for (const FoundFrame& found : structure.searches)
     if (found.refusal.empty() && found.measure == measure_of(needed)) most = std::max(most.value_or(0), found.value);
+  if (most && needed == Needed::entries_per_cell)
+    most = static_cast<std::uint64_t>(per_cell(static_cast<double>(*most), *structure.cases.front()));
   return most;
 }
 
@@ -132,6 +147,12 @@ const std::vector<EngineRow>& engine_rows() {
        "maxDistance)",
        {{"lightsPerCell", Needed::longest_list, 96, 1, k_any}},
        "a full cell takes no more lights"},
+      {"unreal",
+       "console variables",
+       "r.Forward.LightGridPixelSize P, r.Forward.LightGridSizeZ Z",
+       {{"r.Forward.MaxCulledLightsPerCell", Needed::entries_per_cell, 32, 1, k_any}},
+       "the pool has room for so many entries times the cells; where a frame needs more, lights are missing in some "
+       "cells. From documentation: versions that cull by depths first need less than is counted here"},
       {"unity-urp",
        "package com.unity.render-pipelines.universal-config, as since URP 14",
        "",
@@ -155,7 +176,7 @@ const EngineRow* row_of_engine(const std::string& name) {
 }
 
 bool is_of_lists(Needed needed) {
-  return needed == Needed::longest_list || needed == Needed::entries;
+  return needed == Needed::longest_list || needed == Needed::entries || needed == Needed::entries_per_cell;
 }
 
 std::string measure_of(Needed needed) {
@@ -167,6 +188,7 @@ std::string measure_of(Needed needed) {
     case Needed::longest_list:
       return "longest";
     case Needed::entries:
+    case Needed::entries_per_cell:
       return "entries";
     case Needed::lights_in_scene:
       break;
@@ -183,8 +205,8 @@ SettingValue value_of(const LimitSetting& setting, const SizedStructure& structu
   SettingValue out{&setting, most_seen(structure, setting.needed), most_found(structure, setting.needed)};
   auto with_margin = static_cast<std::uint64_t>(std::ceil(static_cast<double>(out.needed()) * rules.margin));
   if (setting.needed == Needed::lights_in_scene)
-    with_margin = std::max(with_margin, most_lights(structure).value_or(0));
-  if (const auto lights = most_lights(structure);
+    with_margin = std::max(with_margin, most_lights(structure, setting.needed).value_or(0));
+  if (const auto lights = most_lights(structure, setting.needed);
       lights && setting.needed != Needed::entries && with_margin >= *lights) {
     with_margin = *lights;
     out.is_all = true;

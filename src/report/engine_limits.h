@@ -12,7 +12,14 @@
 namespace clusterbench::report {
 
 // What a setting has to have room for.
-enum class Needed : std::uint8_t { lights_in_view, lights_of_type, lights_in_scene, longest_list, entries };
+enum class Needed : std::uint8_t {
+  lights_in_view,
+  lights_of_type,
+  lights_in_scene,
+  longest_list,
+  entries,
+  entries_per_cell  // all entries / cells, rounded up: a pool that is so many times as large as there are cells
+};
 
 // What a limit on lights changes.
 bool is_of_lists(Needed needed);

@@ -28,6 +28,8 @@ const char* unit_of(Needed needed) {
       return "lights in the scene";
     case Needed::longest_list:
       return "lights in the longest list";
+    case Needed::entries_per_cell:
+      return "entries per cell on average";
     case Needed::entries:
       break;
   }
@@ -85,11 +87,17 @@ std::string search_text(const SettingValue& value, const SizedStructure& structu
   return "not searched (--worst-case)";
 }
 
+std::string of_type_text(Needed needed) {
+  return needed == Needed::lights_of_type ? ", of the type that has most" : "";
+}
+
 // "such a frame loses 44 lights": with room for so many fewer than are needed.
 std::string lost_text(Needed needed, std::uint64_t over) {
   if (needed == Needed::longest_list) return "the longest list loses " + number_of(over, "light");
   if (needed == Needed::lights_in_scene) return "the scene loses " + number_of(over, "light");
   if (needed == Needed::entries) return "such a frame loses " + std::to_string(over) + " entries";
+  if (needed == Needed::entries_per_cell)
+    return "such a frame lacks room for about " + std::to_string(over) + " entries per cell";
   return "such a frame loses " + number_of(over, "light") + (needed == Needed::lights_of_type ? " of that type" : "");
 }
 
@@ -159,7 +167,8 @@ std::string setting_lines(const SettingValue& value, const SizedStructure& struc
   if (setting.needed != Needed::lights_in_scene)
     out += "    the most found by a search: " + search_text(value, structure) + "\n";
   if (!setting.is_constant)
-    out += (value.is_all ? std::string("    all lights of the level") : "    x " + text("%g", rules.margin)) +
+    out += (value.is_all ? "    all lights of the level" + of_type_text(setting.needed)
+                         : "    x " + text("%g", rules.margin)) +
            (setting.multiple > 1 ? ", up to a multiple of " + std::to_string(setting.multiple) : std::string()) +
            (!value.is_too_much() && value.wanted > setting.most
                 ? "; the engine takes at most " + std::to_string(setting.most) + ", less room than asked for"
@@ -175,14 +184,20 @@ std::string setting_lines(const SettingValue& value, const SizedStructure& struc
 std::string advice_text(const EngineRow& row, const std::vector<SizedStructure>& structures,
                         const AllocationRules& rules) {
   bool is_too_much = false, is_known = true;
+  bool is_settable = false;  // to something that the engine does not come with
   for (const SizedStructure& structure : structures)
     for (const LimitSetting& setting : row.limits) {
       const SettingValue value = value_of(setting, structure, rules);
       is_too_much |= value.is_too_much();
+      is_settable |= !setting.is_constant && value.seen && value.value != setting.standard;
       is_known &= value.seen.has_value();
     }
   if (std::ranges::any_of(structures, is_sized_from_nothing))
     return "Do not set these values: they hold for frames without lights. Give cameras that see some.\n";
+  if (is_too_much && !is_settable)
+    return "The engine loses lights where it says TOO MUCH, and has no setting with which it does not: fewer or "
+           "smaller "
+           "lights, or another clustering; `clusterbench run` with the preset says what pixels lose.\n";
   if (is_too_much)
     return "With these values the engine still loses lights, where it says TOO MUCH: fewer or smaller lights, or "
            "another clustering; `clusterbench run` with the preset says what pixels lose.\n";

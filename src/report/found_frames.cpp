@@ -187,6 +187,39 @@ constexpr const char* k_not_compared =
     "an earlier version wrote it, without the field of view, the range rule and the end of the grid: whether they "
     "are those of the case here is not known; search again";
 
+// A figure that a search can make large, and where it stands. The frame that it was seen in is not that of the find.
+struct SoughtFigure {
+  const char *measure, *part, *figure;
+};
+constexpr SoughtFigure k_sought_figures[] = {{"entries", "/buffers", "/index_entries/high_water"},
+                                             {"longest", "/occupancy", "/lights_per_cell/max"},
+                                             {"lights", "/lights_in_view", "/max"}};
+
+void raise_figure(Json& result_case, const std::string& part, const std::string& figure, std::uint64_t found) {
+  const std::optional<double> seen = number_at(result_case, part + figure);
+  if (!seen || static_cast<double>(found) <= *seen) return;
+  result_case[Json::json_pointer(part + figure)] = found;
+  for (const char* key : {"worst_frame", "worst_cell"}) result_case[Json::json_pointer(part)].erase(key);
+}
+
+// Of structures whose size follows from what they hold; "fixed" and "linked" have theirs whatever a frame needs.
+bool has_bytes_of_needs(const Json& result_case) {
+  const Json* each = value_at(result_case, "/buffers/each");
+  double needs = 0.0;
+  for (const Json& buffer : each == nullptr ? Json::array() : *each)
+    needs += buffer["high_water"].get<double>() * buffer["element_bytes"].get<double>();
+  return number_at(result_case, "/buffers/bytes/high_water") == needs;
+}
+
+void raise_to_find(Json& result_case, const FoundFrame& found) {
+  for (const SoughtFigure& row : k_sought_figures)
+    if (found.measure == row.measure) raise_figure(result_case, row.part, row.figure, found.value);
+  if (!has_bytes_of_needs(result_case)) return;
+  std::uint64_t bytes = 0;
+  for (const FoundFrame::Need& need : found.needs) bytes += need.elements * need.element_bytes;
+  raise_figure(result_case, "/buffers", "/bytes/high_water", bytes);
+}
+
 }  // namespace
 
 FoundFrame read_found(const std::string& path, const Json& result) {
@@ -197,6 +230,7 @@ FoundFrame read_found(const std::string& path, const Json& result) {
   out.measure = json["measure"]["name"].get<std::string>();
   out.value = static_cast<std::uint64_t>(std::max(0.0, json["frames"][0]["value"].get<double>()));
   out.evaluations = json["evaluations"].get<int>();
+  if (const auto random = number_at(json, "/random/frames")) out.evaluations += static_cast<int>(*random);
   out.seed = json["seed"].get<std::uint64_t>();
   out.eye_m = json["frames"][0]["eye_m"].get<std::vector<double>>();
   out.lights = json["space"]["lights"].get<std::uint64_t>() + json["space"]["added_ranges_m"].size();
@@ -212,6 +246,13 @@ FoundFrame read_found(const std::string& path, const Json& result) {
                          need["theoretical_max"].get<std::uint64_t>(), need["element_bytes"].get<std::uint64_t>()});
   }
   return out;
+}
+
+Json with_finds(Json result, const std::vector<FoundFrame>& found) {
+  for (Json& result_case : result["cases"])
+    for (const FoundFrame& frame : found)
+      if (frame.refusal.empty() && frame.case_name == result_case["name"]) raise_to_find(result_case, frame);
+  return result;
 }
 
 Json search_json(const FoundFrame& found) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "report/allocation.h"
 
@@ -12,6 +13,10 @@ namespace clusterbench::report {
 // Throws Error for a file that is none of `worst-case`, of a case that the result does not have, of another version of
 // its scene, or of other settings: viewport, field of view, range rule, end of the grid.
 FoundFrame read_found(const std::string& path, const nlohmann::ordered_json& result);
+
+// The result with what searches found in place of what its frames have, where that is more: entries, longest list,
+// lights in view, and the bytes of all buffers, of the cases that were searched. Budgets then hold both.
+nlohmann::ordered_json with_finds(nlohmann::ordered_json result, const std::vector<FoundFrame>& found);
 
 // For the JSON of `size`.
 nlohmann::ordered_json search_json(const FoundFrame& found);

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "measure/side_by_side.h"
 #include "report/buffer_tail.h"
+#include "report/contender.h"
 #include "report/engine_settings.h"
 #include "report/found_frames.h"
 #include "report/json_values.h"
@@ -67,7 +68,7 @@ bool is_slower(const Json& result, const SizedStructure& structure, const SizedS
 }
 
 // Of structures of one grid that lose no light the fastest; of those that may be as fast, the one with the least
-// memory.
+// memory, and of those a method with SIMD.
 const SizedStructure& best_of(const Json& result, std::vector<const SizedStructure*> all) {
   const auto least_rank =
       rank(**std::ranges::min_element(all, {}, [](const auto* structure) { return rank(*structure); }));
@@ -77,19 +78,37 @@ const SizedStructure& best_of(const Json& result, std::vector<const SizedStructu
   std::erase_if(all,
                 [&](const auto* structure) { return structure != &fastest && is_slower(result, *structure, fastest); });
   return **std::ranges::min_element(all, {}, [](const auto* structure) {
-    return std::tuple(structure->bytes(), time_of(*structure), structure->name);
+    const int slowness = slowness_of(*structure->cases.front());
+    return std::tuple(structure->bytes(), time_of(*structure), slowness != 1, slowness, structure->name);
   });
 }
 
-std::vector<SizedStructure> best_of_groups(const Json& result, const std::vector<SizedStructure>& all) {
+// By what was seen alone, which finds do not change: what a search was for is what is printed. Of a group's structures
+// those that a search was for, whatever it found; else the one that the result's conclusion takes.
+std::vector<std::size_t> best_of_groups(const Json& result, const std::vector<SizedStructure>& seen,
+                                        const std::vector<SizedStructure>& with_finds) {
   std::vector<std::string> order;
   std::map<std::string, std::vector<const SizedStructure*>> groups;
-  for (const SizedStructure& structure : all) {
+  for (const SizedStructure& structure : seen) {
     if (!groups.contains(structure.group)) order.push_back(structure.group);
     groups[structure.group].push_back(&structure);
   }
-  std::vector<SizedStructure> best;
-  for (const std::string& group : order) best.push_back(best_of(result, groups[group]));
+  const auto index_of = [&](const SizedStructure* structure) {
+    return static_cast<std::size_t>(structure - seen.data());
+  };
+  const auto is_searched = [&](const SizedStructure* structure) {
+    return !with_finds[index_of(structure)].searches.empty();
+  };
+  const auto is_taken = [](const SizedStructure* structure) { return structure->is_taken(); };
+  std::vector<std::size_t> best;
+  for (const std::string& group : order) {
+    std::vector<const SizedStructure*>& all = groups[group];
+    if (std::ranges::any_of(all, is_searched))
+      std::erase_if(all, [&](const SizedStructure* structure) { return !is_searched(structure); });
+    if (std::ranges::any_of(all, is_taken))
+      std::erase_if(all, [&](const SizedStructure* structure) { return !is_taken(structure); });
+    best.push_back(index_of(&best_of(result, all)));
+  }
   return best;
 }
 
@@ -108,6 +127,7 @@ Json buffer_json(const SizedBuffer& buffer, const std::string& name, const std::
            {"theoretical_max", buffer.theoretical_max},
            {"worst", worst}};
   if (buffer.apart > 0) out["views_apart"] = buffer.apart;
+  if (!buffer.why_sum.empty()) out["views_not_paired"] = buffer.why_sum;
   if (buffer.spread) out["frames"] = spread_json(*buffer.spread);
   for (const FrameGroup& group : buffer.groups)
     out["groups"].push_back({{"cameras", group.cameras},
@@ -154,6 +174,7 @@ Json structure_json(const NamedStructure& named, const std::string& engine, cons
                              {"missed_outside", guest.missed_outside},
                              {"worst_frame", guest.worst_frame}});
   if (const FoundFrame* search = structure.main_search()) out["search"] = search_json(*search);
+  if (!structure.choice.empty()) out["choice"] = structure.choice;
   const std::string unseen = nothing_seen_text(structure);
   out["nothing_seen"] = unseen.empty() ? Json() : Json(unseen);
   std::uint64_t dropped = 0;
@@ -184,19 +205,76 @@ std::string size_json(const std::vector<NamedStructure>& structures, std::size_t
   return out.dump(1) + "\n";
 }
 
-std::string remark(const Json& result, std::size_t shown, std::size_t all) {
-  if (shown == all) return "";
+// By what one structure is chosen.
+std::string best_words(const Json& result) {
   const bool has_times = std::ranges::any_of(result["cases"], [](const Json& one) { return one.contains("timing"); });
-  const std::string best = has_times
-                               ? "the fastest structure that loses no light; of those that may be as fast, the smallest"
-                               : "the smallest structure that loses no light";
-  return "Of each grid " + best + ". --all has all " + std::to_string(all) + ".";
+  return has_times ? "the fastest structure that loses no light, or of those that may be as fast the smallest"
+                   : "the smallest structure that loses no light";
+}
+
+std::string remark(const Json& result, const std::vector<SizedStructure>& shown, std::size_t all) {
+  if (shown.size() == all) return "";
+  const bool has_taken = std::ranges::any_of(shown, &SizedStructure::is_taken);
+  const bool has_searched = std::ranges::any_of(shown, [](const auto& one) { return !one.searches.empty(); });
+  return "Of each grid " + std::string(has_searched ? "what a search was for, else " : "") +
+         (has_taken ? "what the conclusion of the result takes, else " : "") + best_words(result) + ". --all has all " +
+         std::to_string(all) + ".";
+}
+
+std::string method_of(const SizedStructure& structure) {
+  const Json& first = *structure.cases.front();
+  return first["assigner"]["label"].get<std::string>() + "/" + first["storage"].get<std::string>();
+}
+
+// "frustum 16x9 x 24 exponential/exact-fast/packed": a name that --filter takes.
+std::string name_in_scene(const SizedStructure& structure) {
+  const std::string scene = structure.cases.front()->at("scene").get<std::string>() + "/";
+  return structure.name.starts_with(scene) ? structure.name.substr(scene.size()) : structure.name;
+}
+
+// That the conclusion of the result takes it, and for which cameras, where it serves others, too.
+std::string taken_text(const SizedStructure& structure) {
+  const bool serves_others = std::ranges::any_of(structure.cases, [&](const Json* one) {
+    return std::ranges::find(structure.taken_by, one->at("camera").get<std::string>()) == structure.taken_by.end();
+  });
+  return std::string("taken by the conclusion of the result") +
+         (serves_others
+              ? (structure.taken_by.size() == 1 ? " for camera " : " for cameras ") + joined(structure.taken_by)
+              : std::string());
+}
+
+// That the result's conclusion takes another method, and how the same is named here; "" where there is none.
+std::string other_method_text(const Json& result, const SizedStructure& chosen,
+                              const std::vector<SizedStructure>& all) {
+  const auto is_of_its_scene = [&](const SizedStructure& one) {
+    return one.is_taken() && one.cases.front()->at("scene") == chosen.cases.front()->at("scene");
+  };
+  const auto taken = std::ranges::find_if(all, is_of_its_scene);
+  if (taken == all.end() || method_of(*taken) == method_of(chosen) || chosen.cases.front()->contains("preset"))
+    return "";
+  const auto same = std::ranges::find_if(
+      all, [&](const SizedStructure& one) { return one.group == chosen.group && method_of(one) == method_of(*taken); });
+  return "the conclusion of the result takes another method, " + name_in_scene(*taken) + "; this is " +
+         (chosen.searches.empty() ? "of its grid " + best_words(result) : "what a search was for") +
+         (same == all.end() ? "" : "; that method here: --filter '" + name_in_scene(*same) + "'");
 }
 
 std::vector<SizedStructure> chosen_structures(const Json& result, const SizeRequest& request, std::size_t& count) {
-  std::vector<SizedStructure> all = sized_structures(result, request.filter, rules_of(result, request), request.scope);
+  const AllocationRules rules = rules_of(result, request);
+  std::vector<SizedStructure> all = sized_structures(result, request.filter, rules, request.scope);
   count = all.size();
-  return request.all ? std::move(all) : best_of_groups(result, all);
+  for (SizedStructure& structure : all)
+    if (structure.is_taken()) structure.choice = taken_text(structure);
+  if (request.all) return all;
+  AllocationScope seen = request.scope;
+  seen.found.clear();
+  std::vector<SizedStructure> chosen;
+  for (const std::size_t index : best_of_groups(result, sized_structures(result, request.filter, rules, seen), all)) {
+    chosen.push_back(all[index]);
+    if (!chosen.back().is_taken()) chosen.back().choice = other_method_text(result, all[index], all);
+  }
+  std::ranges::stable_partition(chosen, &SizedStructure::is_taken);
+  return chosen;
 }
 
 // Its first buffer whose need is not the same in all frames says it.
@@ -237,7 +315,7 @@ std::vector<std::string> size_roundings() {
 
 std::vector<std::string> sized_measures(const std::string& storage, const std::string& engine) {
   if (!engine.empty()) return measures_of_engine(engine);
-  return {storage.starts_with("fixed") ? "longest" : "entries"};
+  return {measure_of_buffers(storage)};
 }
 
 std::vector<SizedCase> sized_cases(const Json& result, const SizeRequest& request) {
@@ -269,10 +347,10 @@ std::string size_report(const Json& result, const SizeRequest& request) {
   std::size_t count = 0;
   std::vector<SizedStructure> chosen = printed_structures(result, request, count);
   if (!request.engine.empty() && request.format == "table") return engine_settings_text(request.engine, chosen, rules);
+  const std::string left_out = remark(result, chosen, count);
   const std::vector<NamedStructure> named = request.name.empty() ? named_structures(std::move(chosen), request.all)
                                                                  : named_structures(std::move(chosen), request.name);
   if (request.format == "json") return size_json(named, count, request, rules);
-  const std::string left_out = remark(result, named.size(), count);
   if (request.format == "cpp") return size_code(SizeLanguage::cpp, named, left_out, rules);
   if (request.format == "hlsl") return size_code(SizeLanguage::hlsl, named, left_out, rules);
   if (request.format == "glsl") return size_code(SizeLanguage::glsl, named, left_out, rules);

@@ -66,6 +66,7 @@ std::string cameras_text(const SizedStructure& structure) {
 
 std::string structure_comment(const SizedStructure& structure) {
   std::string out = comment_line(structure.name) + comment_line("  " + cameras_text(structure));
+  if (!structure.choice.empty()) out += comment_line("  " + structure.choice);
   if (const std::string unseen = nothing_seen_text(structure); !unseen.empty()) out += comment_line("  " + unseen);
   for (const std::string& note : grid_notes(structure)) out += comment_line("  grid: " + note);
   for (const std::string& note : limit_notes(structure)) out += comment_line("  LIMIT: " + note);

@@ -135,6 +135,7 @@ std::string counted_text(const SizedStructure& structure) {
 
 std::string structure_text(const SizedStructure& structure, const AllocationRules& rules) {
   std::string out = shown(structure.name) + "  (" + counted_text(structure) + ")\n";
+  if (!structure.choice.empty()) out += "  " + shown(structure.choice) + "\n";
   if (structure.buffers.empty()) return out + "  has no buffers\n";
   out += aligned_rows(table_rows(structure));
   if (structure.buffers.front().groups.size() > 1) out += aligned_rows(group_rows(structure));
@@ -164,15 +165,17 @@ std::string size_table(const std::vector<NamedStructure>& structures, const std:
   if (structures.empty()) out += "The result has no cases.\n\n";
   const bool has_views =
       std::ranges::any_of(structures, [](const NamedStructure& named) { return !named.structure.views.empty(); });
+  const bool has_finds =
+      std::ranges::any_of(structures, [](const NamedStructure& named) { return named.structure.is_searched(); });
   out += std::string(has_views ? "Elements over the frames of the cameras that made the high water; one allocation "
                                  "serves all. Capacity: "
                                : "Elements over all frames of all cameras. Capacity: ") +
-         rule_text(rules) + ", at most what is possible. Warn above " + text("%g %%", 100.0 * rules.warn_at) +
-         " of it; \"-\": nothing can overflow. Double: double-buffered.\n";
+         rule_text(rules, has_finds) + ", at most what is possible. Warn above " +
+         text("%g %%", 100.0 * rules.warn_at) + " of it; \"-\": nothing can overflow. Double: double-buffered.\n";
   if (is_bounded(structures)) out += "Of long paths several frames are one number, and percentiles upper bounds.\n";
   if (!remark.empty()) out += remark + "\n";
   const bool is_searched =
-      std::ranges::any_of(structures, [](const NamedStructure& named) { return !named.structure.searches.empty(); });
+      std::ranges::any_of(structures, [](const NamedStructure& named) { return named.structure.is_sought(); });
   const bool is_of_nothing = std::ranges::any_of(
       structures, [](const NamedStructure& named) { return is_sized_from_nothing(named.structure); });
   if (is_of_nothing) return out + "Do not allocate these: give cameras that see lights, or --worst-case.\n";

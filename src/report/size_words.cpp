@@ -41,12 +41,13 @@ std::string growth_text(const SizedBuffer& buffer) {
 std::string seen_text(const SizedBuffer& buffer, const SizedStructure& structure) {
   const std::string of_group = buffer.groups.empty() ? "" : " of " + buffer.worst_camera;
   const std::string frames = number_of(structure.frames_of(buffer), "frame") + of_group;
-  if (buffer.is_sum_of_marks)
-    return std::to_string(buffer.high_water) + " in " + frames +
-           ", if each view needs its most at the same time (their paths have different numbers of frames)";
+  if (!buffer.why_sum.empty())
+    return std::to_string(buffer.high_water) + " in " + frames + ", if each view needs its most at the same time (" +
+           buffer.why_sum + ", so that frames cannot be paired)";
   std::string out = std::to_string(buffer.high_water) + " in " + frames + growth_text(buffer);
   if (buffer.apart > buffer.high_water)
     out += "; " + std::to_string(buffer.apart) + " if each view needed its most at the same time";
+  if (!buffer.has_times) out += " (the result does not tell whether frames of one number are of one time)";
   return out;
 }
 
@@ -55,9 +56,13 @@ std::string found_text(const SizedBuffer& buffer, const SizedStructure& structur
   if (!structure.is_searched()) return "not searched: " + structure.searches.front().refusal;
   if (!buffer.found) return "nothing for this buffer";
   const FoundFrame& found = structure.searches[buffer.found_by];
-  std::string out = std::to_string(*buffer.found) + " in " +
-                    number_of(static_cast<std::uint64_t>(found.evaluations), "frame") + " tried (seed " +
-                    std::to_string(found.seed) + ")";
+  const std::string tried = number_of(static_cast<std::uint64_t>(found.evaluations), "frame") + " tried (seed " +
+                            std::to_string(found.seed) + ")";
+  // What a frame needs that was sought for something else is no less true, but nothing of what others need.
+  std::string out = std::to_string(*buffer.found) +
+                    (found.measure == structure.sought_measure()
+                         ? " in " + tried
+                         : " in the worst frame of a search with --measure " + found.measure + ", of " + tried);
   std::size_t views = 1;
   for (const std::vector<std::string>& view : structure.views) views = std::max(views, view.size());
   if (views > 1) out += ", all " + std::to_string(views) + " views in such a place";
@@ -65,6 +70,9 @@ std::string found_text(const SizedBuffer& buffer, const SizedStructure& structur
     out +=
         text(", %.2f times the most seen", static_cast<double>(*buffer.found) / static_cast<double>(buffer.high_water));
   if (*buffer.found > buffer.capacity) out += ": MORE THAN THE CAPACITY";
+  if (!structure.is_sought())
+    out += "; what this buffer needs was not searched for: --worst-case, or worst-case --measure " +
+           structure.sought_measure();
   return out;
 }
 
@@ -85,8 +93,8 @@ std::string possible_text(const SizedBuffer& buffer) {
 
 }  // namespace
 
-std::string rule_text(const AllocationRules& rules) {
-  return "high water x " + rounding_text(rules);
+std::string rule_text(const AllocationRules& rules, bool is_searched) {
+  return (is_searched ? "the larger of high water and find x " : "high water x ") + rounding_text(rules);
 }
 
 std::string rule_text(const SizedBuffer& buffer, const AllocationRules& rules) {

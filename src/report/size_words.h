@@ -8,8 +8,8 @@
 
 namespace clusterbench::report {
 
-// "high water x 2, rounded up to whole pages of 4 KiB".
-std::string rule_text(const AllocationRules& rules);
+// "high water x 2, rounded up to whole pages of 4 KiB"; with searches "the larger of high water and find x 2, ...".
+std::string rule_text(const AllocationRules& rules, bool is_searched = false);
 // The same of one buffer, which may be sized by what a search found: "found by the search x 2, rounded up ...".
 std::string rule_text(const SizedBuffer& buffer, const AllocationRules& rules);
 // "camera walk, frame 11, cell [8,4,21]"; the cell's list is the longest of that frame.

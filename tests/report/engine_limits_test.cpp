@@ -36,6 +36,8 @@ TEST(EngineLimits, that_an_engine_comes_with_are_those_that_its_preset_has) {
       std::uint64_t has = 0;
       if (setting.needed == Needed::longest_list)
         has = parts.value("/storage/cap"_json_pointer, std::uint64_t{0});
+      else if (setting.needed == Needed::entries_per_cell)
+        has = parts.value("/storage/nodes_per_cell"_json_pointer, std::uint64_t{0});
       else if (setting.needed == Needed::entries)
         has = parts.value("/grid/react/most"_json_pointer, std::uint64_t{0});
       else
@@ -50,7 +52,7 @@ TEST(EngineLimits, that_an_engine_comes_with_are_those_that_its_preset_has) {
         std::ranges::any_of(row.limits, [](const LimitSetting& one) { return one.needed == Needed::lights_in_scene; });
     EXPECT_EQ(limit.find("in the scene") != std::string::npos, counts_scene) << row.preset;
   }
-  EXPECT_GE(compared, 8);
+  EXPECT_GE(compared, 9);
 }
 
 // A preset with a limit of lights is either an engine that can be set, or says why not, or is no engine.

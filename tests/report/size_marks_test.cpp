@@ -378,5 +378,82 @@ TEST(SizeMarks, tiles_of_pixels_in_several_viewports_are_not_said_to_hold_for_th
   EXPECT_FALSE(sized_json(result_of_cameras({small, large}), request).contains("grid_notes"));
 }
 
+// Of two methods with the same lists, what a search found for one of them.
+TEST(SizeMarks, a_find_does_not_change_which_structure_is_printed_and_what_was_searched_is) {
+  run::Result result = testing::result_by_hand();
+  for (run::CaseResult& one : result.cases) one.timing.reset();
+  SizeRequest request{"", false, "json", "none"};
+  const auto printed = [&](const std::string& searched) {
+    request.scope.found = {found_frame(100)};
+    request.scope.found[0].case_name = "hall/walk/frustum 64px/" + searched + "/packed";
+    return sized_json(result, request);
+  };
+  for (const char* searched : {"brute-force", "aabb"}) {
+    const MarksJson structure = printed(searched);
+    EXPECT_EQ(structure["assigner"], searched) << "its capacity is the larger one";
+    EXPECT_EQ(structure["buffers"][0]["capacity"], 200);
+  }
+  request.format = "table";
+  const std::string table = marks_of(result, request);
+  EXPECT_EQ(table.find("not searched"), std::string::npos) << table;
+  EXPECT_NE(table.find("Capacity: the larger of high water and find x 2"), std::string::npos) << table;
+  EXPECT_NE(table.find("Allocate these capacities"), std::string::npos) << table;
+}
+
+TEST(SizeMarks, a_search_for_something_else_says_so_and_does_not_end_the_search) {
+  for (const char* measure : {"lights", "longest"}) {
+    SizeRequest request = marks_request("table");
+    request.scope.found = {found_frame(30)};
+    request.scope.found[0].measure = measure;
+    const std::string table = marks_of(testing::result_by_hand(), request);
+    EXPECT_NE(table.find(std::string("30 in the worst frame of a search with --measure ") + measure), std::string::npos)
+        << table;
+    EXPECT_NE(table.find("was not searched for: --worst-case"), std::string::npos) << table;
+    EXPECT_NE(table.find("Next: --worst-case looks for frames"), std::string::npos) << table;
+  }
+}
+
+TEST(SizeMarks, of_cameras_that_stand_still_it_is_said_that_they_tell_nothing_of_other_views) {
+  const auto table = [](const std::vector<run::CaseResult>& cameras) {
+    return marks_of(result_of_cameras(cameras), marks_request("table"));
+  };
+  const std::string one = table({camera_of_marks("stands", {33})}), same = table({camera_of_marks("stands", {33, 33})}),
+                    two = table({camera_of_marks("here", {33}), camera_of_marks("there", {40, 40})}),
+                    moves = table({camera_of_marks("here", {33}), camera_of_marks("walk", {40, 39})});
+  EXPECT_NE(one.find("beyond the path: indices: one frame says nothing of other views; animate the camera"),
+            std::string::npos)
+      << one;
+  EXPECT_NE(same.find("all 2 frames need the same, as of a camera that stands still"), std::string::npos) << same;
+  EXPECT_NE(two.find("each camera needs the same in all its frames, as one that stands still"), std::string::npos)
+      << two;
+  EXPECT_EQ(moves.find("nothing of other views"), std::string::npos) << moves;
+  const MarksJson tail = sized_json(result_of_cameras({camera_of_marks("stands", {33})}),
+                                    marks_request("json"))["buffers"][0]["beyond_the_path"];
+  EXPECT_TRUE(tail.contains("refusal")) << tail;
+}
+
+TEST(SizeMarks, frames_of_one_number_that_are_at_other_times_are_not_added) {
+  nlohmann::ordered_json result = result_to_json(
+      result_of_cameras({camera_of_marks("one", {10, 40, 20}), camera_of_marks("two", {30, 5, 21})}), {});
+  SizeRequest request = with_views({"one,two"});
+  const auto buffer = [&] { return MarksJson::parse(size_report(result, request))["structures"][0]["buffers"][0]; };
+  const auto table = [&] {
+    SizeRequest asked = request;
+    asked.format = "table";
+    return size_report(result, asked);
+  };
+  const char* untold = "does not tell whether frames of one number are of one time";
+  for (nlohmann::ordered_json& one : result["cases"]) one.erase("camera_path");
+  EXPECT_NE(table().find(untold), std::string::npos) << table();
+  for (nlohmann::ordered_json& one : result["cases"]) one["camera_path"] = {{"from_s", 0.0}, {"to_s", 20.0}};
+  EXPECT_EQ(buffer()["high_water"], 45);
+  EXPECT_EQ(table().find(untold), std::string::npos) << table();
+  result["cases"][1]["camera_path"]["to_s"] = 40.0;
+  EXPECT_EQ(buffer()["high_water"], 70);
+  EXPECT_EQ(buffer()["views_not_paired"], "their paths go from 0 s to 20 s and from 0 s to 40 s");
+  EXPECT_NE(table().find("if each view needs its most at the same time (their paths go from 0 s"), std::string::npos)
+      << table();
+}
+
 }  // namespace
 }  // namespace clusterbench::report
