@@ -354,13 +354,32 @@ void show_table(const RunFlags& flags, const Json& result) {
   if (for_reading) tell_of_keeping();
 }
 
+// "next: clusterbench size result.json --filter '...'": what sizes the buffers of what is taken, from the result where
+// a file keeps it, else from the same scenes. "" where nothing is taken.
+std::string next_text(const RunFlags& flags, const Json& result) {
+  const std::vector<std::string> taken = report::taken_names(result);
+  if (taken.empty()) return "";
+  std::vector<std::string> words{"clusterbench", "size"};
+  const bool is_kept = !is_stream(flags.output);
+  if (is_kept)
+    words.push_back(flags.output);
+  else
+    words.insert(words.end(), flags.inputs.paths.begin(), flags.inputs.paths.end());
+  for (const config::FlagValue& setting : flag_values(flags.inputs))
+    if (!is_kept && setting.name != "--fail-if" && setting.name != "--launches" && setting.name != "--rounds")
+      words.push_back(setting.text());
+  if (!is_kept || taken.size() == 1) words.insert(words.end(), {"--filter", taken.front()});
+  return "next: " + shell_command(words) + "   sizes its buffers\n";
+}
+
 // Last of all, behind what is doubted. What failed is no ground to take anything.
 void show_conclusion(const RunFlags& flags, const Json& result) {
   std::ostream& out = is_for_reading(flags.output) ? std::cout : std::cerr;
   if (!report::run_failures(result).empty())
     out << "conclusion: " << report::failed_conclusion(result) << ".\n" << std::flush;
   else
-    out << report::conclusions_text(result) << report::preset_conclusions(result) << std::flush;
+    out << printable_lines(next_text(flags, result)) << report::conclusions_text(result)
+        << report::preset_conclusions(result) << std::flush;
 }
 
 std::string own_command_line() {
