@@ -6,7 +6,7 @@ import * as format from "./format.ts";
 import type { Case } from "./model.ts";
 import { chart, chartWidth, Plot } from "./plots.ts";
 import type { Maybe } from "./result.ts";
-import { type Series, seriesOf } from "./series.ts";
+import { keysOf, markedAt, markOf, type Series, seriesOf } from "./series.ts";
 import type { View } from "./view.ts";
 
 interface Along {
@@ -43,8 +43,12 @@ function lines(view: View, along: Along, all: Series[], framesPerEntry: number):
   const allocations = along.allocation
     ? all.map((series) => ({ series, value: along.allocation!(series.cases[0]!) }))
     : [];
-  const ends = all.map(
-    (series): Step => ({ series, frame: (series.values.length - 1) * framesPerEntry, value: series.values.at(-1)! }),
+  const marks = all.flatMap((series) =>
+    markedAt(
+      all,
+      series,
+      data.filter((step) => step.series === series),
+    ),
   );
   return chart(`${along.title} frame by frame of ${all.map((series) => series.label).join("; ")}`, {
     width: chartWidth(3),
@@ -68,13 +72,7 @@ function lines(view: View, along: Along, all: Series[], framesPerEntry: number):
         stroke: ({ series }: Step) => colour(series),
         strokeWidth: 1.8,
       }),
-      Plot.dot(ends, {
-        x: "frame",
-        y: "value",
-        symbol: ({ series }: Step) => view.palette(series.cases[0]!).shape,
-        fill: ({ series }: Step) => colour(series),
-        r: 4,
-      }),
+      Plot.dot(marks, { x: "frame", y: "value", ...markOf<Step>(view) }),
       Plot.tip(
         data,
         Plot.pointer({
@@ -106,6 +104,11 @@ export function cameraPath(view: View, cases: Case[]): HTMLElement {
       { class: "multiples" },
       ...drawn.map(({ along, all }) => h("div", {}, h("h4", {}, along.title), lines(view, along, all, framesPerEntry))),
     ),
+    methods: keysOf(
+      view,
+      drawn.flatMap(({ all }) => all),
+    ),
+    hasLines: true,
     table: () => ({
       caption: "Pairs, longest list and bytes frame by frame",
       columns: [

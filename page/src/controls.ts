@@ -20,17 +20,19 @@ export function select(
   return h("label", { class: "control" }, h("span", {}, label), control);
 }
 
-// A select of a section, whose choice the view remembers. Returns the choice, too: the first option where the
-// remembered one is gone.
+// A select of a section, whose choice the view remembers. Returns the choice, too: the `preferred` option, or the first,
+// where the remembered one is gone.
 export function choice(
   view: View,
   redraw: () => void,
   id: string,
   label: string,
   options: Option[],
+  preferred?: string,
 ): [string, HTMLElement] {
   const remembered = view.choices.get(id);
-  const chosen = options.some(([value]) => value === remembered) ? remembered! : (options[0]?.[0] ?? "");
+  const isOffered = (wanted?: string) => options.some(([value]) => value === wanted);
+  const chosen = [remembered, preferred].find(isOffered) ?? options[0]?.[0] ?? "";
   const control = select(id, label, options, chosen, (value) => {
     view.choices.set(id, value);
     redraw();

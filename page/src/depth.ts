@@ -34,12 +34,15 @@ function settingNames(view: View, settings: Map<string, Case[]>): [string, strin
 export const depthSection: Section = (view, redraw) => {
   const settings = Map.groupBy(view.cases(), (aCase) => aCase.setting);
   if (settings.size === 0) return null;
-  const [key, control] = choice(view, redraw, "setting", "Setting", settingNames(view, settings));
+  const taken = view.cases().find((aCase) => aCase.standing === "taken");
+  const [key, control] = choice(view, redraw, "setting", "Setting", settingNames(view, settings), taken?.setting);
   const cases = settings.get(key)!;
   return h(
     "section",
     { id: "depth" },
     h("h2", {}, "One setting in depth"),
+    taken?.setting === key &&
+      h("p", { class: "note" }, "The setting of what the conclusion takes; others in the list."),
     h("div", { class: "controls" }, control),
     cameraPath(view, cases),
     listLengths(view, cases),

@@ -26,3 +26,8 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   element.append(...children.filter((child): child is Node | string => child != null && child !== false));
   return element;
 }
+
+// A text whose names of the tool stand between backticks.
+export function withCode(text: string): Child[] {
+  return text.split("`").map((part, at) => (at % 2 === 1 ? h("code", {}, part) : part));
+}

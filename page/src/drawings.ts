@@ -15,7 +15,7 @@ const titleHeight = 22;
 const viewOf = (result: Result): View => {
   const model = modelOf({
     command: "",
-    results: [{ file: "result.json", result, doubts: [], ratios: [] }],
+    results: [{ file: "result.json", result, doubts: [], ratios: [], costs: [] }],
     pictures: [],
   });
   return new View(model, paletteOf(model));
@@ -86,7 +86,7 @@ function speedError(result: Result): string {
   const x = timeExtent(all);
   const panels = [...Map.groupBy(all, ({ aCase }) => aCase.scene)].map(([title, some]) => ({
     title,
-    chart: panel(view, some, measure, { x, y: extent(some.map(({ error }) => error)) }, 470),
+    chart: panel(view, some, measure, { x, y: { domain: extent(some.map(({ error }) => error)), base: null } }, 470),
   }));
   return picture(
     "frame time in µs (left is faster) against false positives in % of the true pairs (lower is tighter); bars: 95 %",

@@ -3,6 +3,7 @@
 import { type Child, h } from "./dom.ts";
 import { copyButton, csv, downloadButton } from "./handover.ts";
 import type { Case } from "./model.ts";
+import { icon, type Look } from "./palette.ts";
 import { type Table, tableView } from "./table.ts";
 
 export interface Figure<Row> {
@@ -11,9 +12,16 @@ export interface Figure<Row> {
   lead: Child;
   controls?: HTMLElement[];
   legend?: { label: string; colour: string }[]; // of what the methods' own colours do not tell
+  methods?: Key[]; // how methods look in the chart
+  hasLines?: boolean; // methods are lines; else marks, whose legend on a screen is the filter bar's buttons
   chart?: Child; // without one the table stands in its place
   table: () => Table<Row>; // made when it is opened
   cases: Case[]; // that the chart shows
+}
+
+export interface Key {
+  label: string;
+  look: Look;
 }
 
 const quoted = (word: string) => (/^[\w./=:@%+,-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
@@ -72,6 +80,11 @@ function legendView(entries: { label: string; colour: string }[]): HTMLElement {
   return h("ul", { class: "legend" }, ...entries.map(({ label, colour }) => h("li", {}, swatch(colour), label)));
 }
 
+function keysView(keys: Key[], hasLines: boolean): HTMLElement {
+  const items = keys.map(({ label, look }) => h("li", { class: "method" }, icon(look, hasLines), label));
+  return h("ul", { class: hasLines ? "legend" : "legend paper-only" }, ...items);
+}
+
 export function figureView<Row>(figure: Figure<Row>): HTMLElement {
   const details = h(
     "details",
@@ -87,6 +100,7 @@ export function figureView<Row>(figure: Figure<Row>): HTMLElement {
     h("figcaption", {}, h("h3", {}, figure.title), h("p", {}, figure.lead)),
     figure.controls?.length ? h("div", { class: "controls" }, ...figure.controls) : null,
     figure.legend && legendView(figure.legend),
+    figure.methods && keysView(figure.methods, !!figure.hasLines),
     figure.chart ? h("div", { class: "chart" }, figure.chart) : tableView({ most: 200, ...figure.table() }),
     details,
   );

@@ -1,10 +1,13 @@
 // Title, what was measured where, whether to worry, and the way to the sections.
 
-import { h } from "./dom.ts";
+import { h, withCode } from "./dom.ts";
 import { plural } from "./format.ts";
 import type { Model } from "./model.ts";
+import type { Result } from "./result.ts";
 import { themeControl } from "./theme.ts";
 import { warningsOf } from "./warnings.ts";
+
+type PresetRanking = NonNullable<Result["preset_rankings"]>[number];
 
 function verdict(model: Model): HTMLElement {
   const all = warningsOf(model);
@@ -17,7 +20,10 @@ function verdict(model: Model): HTMLElement {
 function conclusions(model: Model): HTMLElement[] {
   const most = 6;
   const all = model.runs.flatMap((run) =>
-    (run.result.conclusions ?? []).map(({ text }) => (model.runs.length > 1 ? `${run.label}: ${text}` : text)),
+    [
+      ...(run.result.preset_rankings ?? []).flatMap(presetsText),
+      ...(run.result.conclusions ?? []).map(({ text }) => text),
+    ].map((text) => (model.runs.length > 1 ? `${run.label}: ${text}` : text)),
   );
   const more = all.length - most;
   return [...all.slice(0, most), ...(more > 0 ? [`and ${plural(more, "more conclusion")} in the results`] : [])].map(
@@ -25,12 +31,16 @@ function conclusions(model: Model): HTMLElement[] {
   );
 }
 
+function presetsText({ scene, camera, viewport, text }: PresetRanking): string[] {
+  return text === undefined ? [] : [`${scene}, camera ${camera}, ${viewport.join("x")}: ${text}.`];
+}
+
 // One line: what to take. What it costs and how sure that is stands behind it.
 function conclusionView(text: string): HTMLElement {
   const [, line, rest] = /^(.*?[^.;])[.;] +(.*)$/s.exec(text) ?? [];
   return line && rest
-    ? h("details", { class: "conclusion" }, h("summary", {}, line), h("p", {}, rest))
-    : h("p", { class: "conclusion" }, text);
+    ? h("details", { class: "conclusion" }, h("summary", {}, ...withCode(line)), h("p", {}, ...withCode(rest)))
+    : h("p", { class: "conclusion" }, ...withCode(text));
 }
 
 export function header(model: Model): HTMLElement {

@@ -92,7 +92,7 @@ function map(cells: Cell[], measure: Measure, range: [number, number]): Element 
   return chart(
     `${measure.label} of ${cells.length} combinations of tiling and slicing, the same colours from ${measure.show(range[0])} to ${measure.show(range[1])}`,
     {
-      width: names + columnWidth() * tilings.length + 8,
+      width: names + columnWidth(cells.map((cell) => measure.show(cell.value))) * tilings.length + 8,
       height: 52 + 28 * slicings.length,
       marginLeft: names,
       marginRight: 8,
@@ -120,6 +120,11 @@ function map(cells: Cell[], measure: Measure, range: [number, number]): Element 
   );
 }
 
+function isHalfFilled(cells: Cell[]): boolean {
+  const [tilings, slicings] = [unique(cells.map((cell) => cell.tiling)), unique(cells.map((cell) => cell.slicing))];
+  return 2 * cells.length >= tilings.length * slicings.length;
+}
+
 export const heatMapSection: Section = (view, redraw) => {
   const cases = view.cases();
   const offered = Object.entries(measures).filter(([, measure]) => cellsOf(cases, measure).length > 0);
@@ -138,8 +143,11 @@ export const heatMapSection: Section = (view, redraw) => {
     positive.reduce((a, b) => Math.min(a, b), Infinity),
     positive.reduce((a, b) => Math.max(a, b), 0),
   ];
-  const maps = [...Map.groupBy(cells, (cell) => cell.method)];
-  const isSweep = positive.length > 0 && maps.some(([, some]) => some.length > 1);
+  const all = [...Map.groupBy(cells, (cell) => cell.method)];
+  const maps = all.filter(([, some]) => some.length > 1 && isHalfFilled(some));
+  const leftOut = all.length - maps.length;
+  const isSweep = positive.length > 0 && maps.length > 0;
+  const isSparse = all.some(([, some]) => some.length > 1);
   return h(
     "section",
     { id: "grids" },
@@ -148,7 +156,7 @@ export const heatMapSection: Section = (view, redraw) => {
       ? figureView({
           id: "heat-map",
           title: `${measure.label} by tiling and slicing`,
-          lead: `One map per method${view.filters.scene === null ? ", the geometric mean of all scenes" : ""}. Dark is less. The same colours in all maps.`,
+          lead: `One map per method${view.filters.scene === null ? ", the geometric mean of all scenes" : ""}. Dark is less. The same colours in all maps.${leftOut > 0 ? ` ${format.plural(leftOut, "map")} less than half filled ${leftOut === 1 ? "is" : "are"} left out; the table has all.` : ""}`,
           controls: [control],
           chart: multiples(maps.map(([title, some]) => ({ title, chart: map(some, measure, range) }))),
           table: () => ({
@@ -167,7 +175,9 @@ export const heatMapSection: Section = (view, redraw) => {
       : h(
           "p",
           { class: "note" },
-          "These cases have one tiling and one slicing, so there is nothing to map. configs/sweep.json measures many.",
+          isSparse
+            ? "No map: less than half of the combinations of tiling and slicing were measured of any method. The ranking has them; configs/sweep.json measures many."
+            : "These cases have one tiling and one slicing, so there is nothing to map. configs/sweep.json measures many.",
         ),
   );
 };

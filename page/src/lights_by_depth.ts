@@ -5,7 +5,7 @@ import * as format from "./format.ts";
 import type { Case } from "./model.ts";
 import { chart, chartWidth, Plot } from "./plots.ts";
 import type { Grid } from "./result.ts";
-import { type Series, seriesOf } from "./series.ts";
+import { keysOf, lookOf, markOf, type Series, seriesOf } from "./series.ts";
 import type { View } from "./view.ts";
 
 interface Slice {
@@ -31,8 +31,11 @@ function slicesOf(series: Series): Slice[] {
   });
 }
 
-const fullest = (slices: Slice[]) => slices.reduce((most, slice) => (slice.lights > most.lights ? slice : most));
-const middle = ({ near, far }: Slice, first: number) => Math.sqrt(Math.max(near, first) * far);
+// Depth at a share of the way through a slice, of which `first` is the nearest that is shown.
+function within({ near, far }: Slice, first: number, share: number): number {
+  const from = Math.max(near, first);
+  return from * (far / from) ** share;
+}
 const metres = (value: number) => `${Number(value.toPrecision(3))}`;
 const range = (slice: Slice) => `${metres(slice.near)} to ${metres(slice.far)} m`;
 
@@ -46,11 +49,11 @@ export function lightsByDepth(view: View, cases: Case[]): HTMLElement | null {
   const isDistance = cases[0]!.raw.grid.kind === "distance";
   const first = all.reduce((least, { far }) => Math.min(least, far), Infinity) / 2; // where the axis begins
   const last = all.reduce((most, { far }) => Math.max(most, far), 0);
-  const look = ({ series }: Slice) => view.palette(series.cases[0]!);
+  const drawn = each.map((slices) => slices[0]!.series);
   return figureView({
     id: "lights-by-depth",
     title: "Most lights in a cell over depth",
-    lead: "A bar is a slice, as high as the longest list in it over all frames; the mark is at the longest of all. Slices without lights have no bar. Methods with the same figures share bars.",
+    lead: "A bar is a slice, as high as the longest list in it over all frames. Slices without lights have no bar. Methods with the same figures share bars.",
     chart: chart(`Most lights in a cell by depth of ${each.map((slices) => slices[0]!.series.label).join("; ")}`, {
       width: chartWidth(),
       height: 280,
@@ -69,22 +72,18 @@ export function lightsByDepth(view: View, cases: Case[]): HTMLElement | null {
           x1: ({ near }: Slice) => Math.max(near, first),
           x2: "far",
           y: "lights",
-          stroke: (slice: Slice) => look(slice).colour,
+          stroke: ({ series }: Slice) => lookOf(view, series).colour,
           strokeWidth: 2.5,
         }),
-        Plot.dot(each.map(fullest), {
-          x: (slice: Slice) => middle(slice, first),
+        Plot.dot(all, {
+          x: (slice: Slice) => within(slice, first, (drawn.indexOf(slice.series) + 0.5) / drawn.length),
           y: "lights",
-          r: 4.5,
-          symbol: (slice: Slice) => look(slice).shape,
-          fill: (slice: Slice) => (look(slice).isFilled ? look(slice).colour : "var(--panel)"),
-          stroke: (slice: Slice) => look(slice).colour,
-          strokeWidth: 1.5,
+          ...markOf<Slice>(view),
         }),
         Plot.tip(
           all,
           Plot.pointer({
-            x: (slice: Slice) => middle(slice, first),
+            x: (slice: Slice) => within(slice, first, 0.5),
             y: "lights",
             title: (slice: Slice) =>
               `${slice.series.label}\n${range(slice)}: ${format.plural(slice.lights, "light")} at most`,
@@ -92,6 +91,8 @@ export function lightsByDepth(view: View, cases: Case[]): HTMLElement | null {
         ),
       ],
     }),
+    methods: keysOf(view, drawn),
+    hasLines: true,
     table: () => ({
       caption: "Most lights in a cell by depth",
       columns: [

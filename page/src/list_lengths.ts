@@ -4,7 +4,7 @@ import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
 import { chart, chartWidth, Plot } from "./plots.ts";
-import { type Series, seriesOf } from "./series.ts";
+import { keysOf, markedAt, markOf, type Series, seriesOf } from "./series.ts";
 import type { View } from "./view.ts";
 
 const mostBins = 80;
@@ -66,18 +66,14 @@ export function listLengths(view: View, cases: Case[]): HTMLElement {
           strokeWidth: 1.6,
         }),
         Plot.dot(
-          all.map((series) => ({
-            series,
-            lights: lengthOf(series) - perEntry(series),
-            cells: bins.filter((bin) => bin.series === series).at(-1)!.cells || 1,
-          })),
-          {
-            x: "lights",
-            y: "cells",
-            symbol: ({ series }: Pick<Bin, "series">) => view.palette(series.cases[0]!).shape,
-            fill: ({ series }: Pick<Bin, "series">) => colour(series),
-            r: 4,
-          },
+          all.flatMap((series) =>
+            markedAt(
+              all,
+              series,
+              bins.filter((bin) => bin.series === series && bin.cells > 0),
+            ),
+          ),
+          { x: "lights", y: "cells", ...markOf<Bin>(view) },
         ),
         Plot.tip(
           bins,
@@ -89,6 +85,8 @@ export function listLengths(view: View, cases: Case[]): HTMLElement {
         ),
       ],
     }),
+    methods: keysOf(view, all),
+    hasLines: true,
     table: () => ({
       caption: "Cells by list length",
       columns: [

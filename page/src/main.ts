@@ -25,8 +25,8 @@ import { mount, View } from "./view.ts";
 import { warningsSection } from "./warnings.ts";
 
 const sections = [
+  presetsSection, // where there are any they are what is asked
   rankingSection,
-  presetsSection,
   againstSection,
   speedErrorSection,
   heatMapSection,
@@ -71,7 +71,7 @@ function show(data: PageData): void {
   document.title = `${model.runs.map((run) => run.result.name).join(", ")} – clusterbench report`;
   const main = h("main", { id: "main" });
   document.body.prepend(
-    h("a", { class: "skip", href: "#ranking" }, "Skip to the ranking"),
+    h("a", { class: "skip", href: view.hasPresets ? "#presets" : "#ranking" }, "Skip to the ranking"),
     header(model),
     filterBar(view),
     main,

@@ -1,7 +1,7 @@
 // The page's own view of its results: every case of every result in one list, with the figures that tables and charts
 // share.
 
-import type { CaseResult, Maybe, PageData, Picture, Ranked, Result } from "./result.ts";
+import type { CaseResult, FrameCost, Maybe, PageData, Picture, Ranked, Result } from "./result.ts";
 import { overshadeAtSets, unlitAtSets } from "./sample_sets.ts";
 
 export interface Run {
@@ -10,6 +10,8 @@ export interface Run {
   result: Result;
   doubts: string[]; // what speaks against its times
 }
+
+export type Standing = "taken" | "alike"; // alike: not known to cost more than what is taken
 
 export interface Case {
   raw: CaseResult;
@@ -28,7 +30,9 @@ export interface Case {
   isUnlit: boolean; // leaves more lights unlit than rounding does
   rank: Maybe; // by frame time, or cost, among all cases that see the same, whatever is filtered out
   frameNs: Maybe; // assignment and conversion
-  costNs: Maybe; // of a frame with its shading; without times what the GPU does
+  costNs: Maybe; // of a frame with its shading; without times what the GPU does. None where lights are lost
+  gpuNs: Maybe; // of it what is modelled
+  standing: Standing | null; // what conclusions say of it
   interval: [Maybe, Maybe]; // of frameNs
   ranked: Ranked | null; // beside the fastest and the next faster one
   worstNs: Maybe; // of the slowest timed frame
@@ -77,7 +81,30 @@ function labels(files: string[]): string[] {
   });
 }
 
-function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | null): Case {
+// What a result's conclusions, and its rankings of presets, say of their cases.
+function standingsOf({ conclusions, preset_rankings }: Result): Map<string, Standing> {
+  const made = new Map<string, Standing>();
+  for (const { take, alike } of conclusions ?? []) {
+    for (const id of alike) made.set(id, "alike");
+    if (take !== null) made.set(take, "taken");
+  }
+  for (const { best, alike } of preset_rankings ?? []) {
+    for (const id of alike ?? []) made.set(id, "alike");
+    if (best !== null) made.set(best, "taken");
+  }
+  return made;
+}
+
+interface Known {
+  front: Set<string>;
+  standings: Map<string, Standing>;
+  ranked: Map<string, Ranked>;
+  costs: Map<string, FrameCost>;
+}
+
+function toCase(raw: CaseResult, run: Run, known: Known): Case {
+  const { front, standings, costs } = known;
+  const ranked = known.ranked.get(raw.id) ?? null;
   const kept = raw.storage === "own" ? "no lists" : raw.storage;
   const packed = raw.precision && raw.precision.packing !== "float32" ? `${kept}, ${raw.precision.label}` : kept;
   const storage = raw.pre_cull ? `${packed}, after ${raw.pre_cull.label}` : packed;
@@ -99,8 +126,9 @@ function toCase(raw: CaseResult, run: Run, front: Set<string>, ranked: Ranked | 
     isUnlit: raw.warnings.some(({ kind }) => kind === "unlit"),
     rank: null,
     frameNs: raw.timing?.frame_ns.median ?? null,
-    // Who leaves out lights that samples need does not pay for the same picture.
-    costNs: raw.cost?.lit ? ((raw.timing ? raw.cost.frame_ns : raw.cost.gpu_ns) ?? null) : null,
+    costNs: costs.get(raw.id)?.ns ?? null,
+    gpuNs: costs.get(raw.id)?.gpu_ns ?? null,
+    standing: standings.get(raw.id) ?? null,
     interval: raw.timing?.frame_ns.ci95 ?? [null, null],
     ranked,
     worstNs: raw.timing?.worst_frame?.ns ?? null,
@@ -148,9 +176,14 @@ export function modelOf(data: PageData): Model {
   const names = labels(data.results.map(({ file }) => file));
   const runs = data.results.map(({ file, result, doubts }, at) => ({ file, label: names[at]!, result, doubts }));
   const cases = runs.flatMap((run, at) => {
-    const ranked = new Map(data.results[at]!.ratios.map((ratio) => [ratio.id, ratio]));
-    const front = new Set(run.result.pareto_front.flatMap(({ ids }) => ids));
-    return run.result.cases.map((raw) => toCase(raw, run, front, ranked.get(raw.id) ?? null));
+    const { ratios, costs } = data.results[at]!;
+    const known: Known = {
+      front: new Set(run.result.pareto_front.flatMap(({ ids }) => ids)),
+      standings: standingsOf(run.result),
+      ranked: new Map(ratios.map((ratio) => [ratio.id, ratio])),
+      costs: new Map(costs.map((cost) => [cost.id, cost])),
+    };
+    return run.result.cases.map((raw) => toCase(raw, run, known));
   });
   rankAll(cases);
   return {

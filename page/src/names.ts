@@ -18,12 +18,16 @@ interface Box {
   bottom: number;
 }
 
-// In the order in which they are tried: below, beside, above, to the left.
+// In the order in which they are tried: below, beside, above, to the left, and the same farther away.
 export const placements: Placement[] = [
   { dx: -5, dy: 13, textAnchor: "start" },
   { dx: 9, dy: 0, textAnchor: "start" },
   { dx: -5, dy: -13, textAnchor: "start" },
   { dx: -9, dy: 0, textAnchor: "end" },
+  { dx: -5, dy: 22, textAnchor: "start" },
+  { dx: -5, dy: -22, textAnchor: "start" },
+  { dx: 5, dy: 13, textAnchor: "end" },
+  { dx: 5, dy: -13, textAnchor: "end" },
 ];
 
 const letter = 6.3;
@@ -45,19 +49,20 @@ export interface Bar {
 
 const along = ({ from, to, y }: Bar): Box => ({ left: from, right: to, top: y - 2, bottom: y + 2 });
 
-// A placement for each name that has one at which it hides no mark, no other name, no bar strikes it and it stays left of
-// `right`.
+// A placement for each name that has one at which it hides no mark, no other name, no bar strikes it and it stays within the
+// chart's room.
 export function placed<T extends Spot & { text: string }>(
   names: T[],
   marks: Spot[],
   bars: Bar[],
-  right: number,
+  room: { right: number; bottom: number },
 ): { name: T; placement: Placement }[] {
   const taken = [...marks.map(around), ...bars.map(along)];
   return names.flatMap((name) => {
     const placement = placements.find((candidate) => {
       const box = boxOf(name, name.text, candidate);
-      return box.left > 0 && box.right < right && !taken.some((other) => overlap(box, other));
+      const isInside = box.left > 0 && box.right < room.right && box.top > 0 && box.bottom < room.bottom;
+      return isInside && !taken.some((other) => overlap(box, other));
     });
     if (!placement) return [];
     taken.push(boxOf(name, name.text, placement));

@@ -19,6 +19,7 @@ export interface Standing {
   cases: Case[];
   scenes: number;
   rank: Maybe; // by timeByBest among the standings of its result, whatever is filtered out
+  costByBest: Mean; // none of what samples search, whose cost no GPU has measured
   timeByBest: Mean; // below 1 where it is faster than all that may stand on a front
   worstTimeByBest: Maybe;
   excess: Mean; // of reported by true pairs, less 1
@@ -33,14 +34,25 @@ export interface Standing {
   fronts: number; // cases that are on their scene's front
 }
 
-// The fastest that is eligible; of all where none is.
-export function bestTimes(cases: Case[]): Map<string, number> {
+// The least that one that is eligible takes; of all where none is.
+function leastOf(cases: Case[], figure: (aCase: Case) => Maybe): Map<string, number> {
   const best = new Map<string, number>();
   const whole = new Set(cases.filter((aCase) => aCase.isEligible).map(seenBy));
-  for (const aCase of cases)
-    if (aCase.frameNs !== null && (aCase.isEligible || !whole.has(seenBy(aCase))))
-      best.set(seenBy(aCase), Math.min(best.get(seenBy(aCase)) ?? Infinity, aCase.frameNs));
+  for (const aCase of cases) {
+    const value = figure(aCase);
+    if (value !== null && (aCase.isEligible || !whole.has(seenBy(aCase))))
+      best.set(seenBy(aCase), Math.min(best.get(seenBy(aCase)) ?? Infinity, value));
+  }
   return best;
+}
+
+const bestTimes = (cases: Case[]) => leastOf(cases, (aCase) => aCase.frameNs);
+
+const rankedCost = (aCase: Case) => (aCase.isSearched ? null : aCase.costNs);
+
+interface Least {
+  times: Map<string, number>;
+  costs: Map<string, number>;
 }
 
 const known = (values: Maybe[]) => values.filter((value): value is number => value !== null);
@@ -61,8 +73,12 @@ function excessOf(cases: Case[]): Mean {
   return { value: value === null ? null : value - 1, scenes };
 }
 
-function standing(cases: Case[], best: Map<string, number>): Standing {
-  const timeByBest = (aCase: Case) => aCase.frameNs && aCase.frameNs / best.get(seenBy(aCase))!;
+function standing(cases: Case[], { times, costs }: Least): Standing {
+  const timeByBest = (aCase: Case) => aCase.frameNs && aCase.frameNs / times.get(seenBy(aCase))!;
+  const costByBest = (aCase: Case) => {
+    const cost = rankedCost(aCase);
+    return cost && cost / costs.get(seenBy(aCase))!;
+  };
   const missed = known(cases.map((aCase) => aCase.missed));
   const first = cases[0]!;
   return {
@@ -75,6 +91,7 @@ function standing(cases: Case[], best: Map<string, number>): Standing {
     cases,
     scenes: new Set(cases.map((aCase) => aCase.scene)).size,
     rank: null,
+    costByBest: meanOf(cases, costByBest),
     timeByBest: meanOf(cases, timeByBest),
     worstTimeByBest: most(cases.map(timeByBest)),
     excess: excessOf(cases),
@@ -92,13 +109,13 @@ function standing(cases: Case[], best: Map<string, number>): Standing {
 
 const keyOf = (aCase: Case) => [aCase.run.label, aCase.assigner, aCase.grid, aCase.storage].join("\n");
 
-function allStandings(cases: Case[], best: Map<string, number>): Map<string, Standing> {
+function allStandings(cases: Case[], best: Least): Map<string, Standing> {
   return new Map([...Map.groupBy(cases, keyOf)].map(([key, group]) => [key, standing(group, best)]));
 }
 
 // `all`: what times are compared with and ranked among, whatever is filtered out.
 export function standings(cases: Case[], all: Case[]): Standing[] {
-  const best = bestTimes(all);
+  const best = { times: bestTimes(all), costs: leastOf(all, rankedCost) };
   const ranked = allStandings(all, best);
   for (const some of Map.groupBy(ranked.values(), (row) => row.run).values())
     some

@@ -34,16 +34,24 @@ export function paletteOf(model: Model): Palette {
   };
 }
 
-export function icon(look: Look): SVGSVGElement {
+// `isLine`: as a line that has such marks.
+export function icon(look: Look, isLine = false): SVGSVGElement {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  svg.setAttribute("viewBox", "-7 -7 14 14");
-  svg.setAttribute("class", "icon");
+  svg.setAttribute("viewBox", isLine ? "-15 -7 30 14" : "-7 -7 14 14");
+  svg.setAttribute("class", isLine ? "icon line" : "icon");
   svg.setAttribute("aria-hidden", "true");
+  if (isLine) {
+    const line = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    line.setAttribute("d", "M-15,0H15");
+    line.setAttribute("stroke", look.colour);
+    line.setAttribute("stroke-width", "1.8");
+    svg.append(line);
+  }
   const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
   path.setAttribute("d", look.shape.path(50));
   path.setAttribute("stroke", look.colour);
   path.setAttribute("stroke-width", "1.5");
-  path.setAttribute("fill", look.isFilled ? look.colour : "none");
+  path.setAttribute("fill", look.isFilled ? look.colour : "var(--panel)");
   svg.append(path);
   return svg;
 }

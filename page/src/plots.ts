@@ -5,7 +5,6 @@ import { h } from "./dom.ts";
 
 export { Plot };
 
-const fewestPixels = 280;
 const paper = 680; // of A4 between the margins of style.css
 let isOnPaper = false;
 
@@ -14,14 +13,18 @@ export function drawForPaper(isPaper: boolean): void {
   isOnPaper = isPaper;
 }
 
-// Pixels that one column of a map takes.
-export const columnWidth = () => (isOnPaper ? 40 : 84);
+// Pixels that one column of a map takes, with room for these texts.
+export function columnWidth(texts: string[]): number {
+  const longest = texts.reduce((most, text) => Math.max(most, text.length), 0);
+  return Math.max(isOnPaper ? 40 : 84, 8 + 6.8 * longest);
+}
 
 // Room for one of `columns` charts side by side, as style.css lays them out.
 export function chartWidth(columns = 1): number {
   const page = isOnPaper ? paper : Math.min(document.documentElement.clientWidth - 48, 1432) - 34; // less a figure's frame
-  const most = Math.max(1, Math.min(columns, Math.floor(page / (isOnPaper ? 300 : 360))));
-  return Math.max(fewestPixels, Math.floor((page - 24 * (most - 1)) / most));
+  const fewest = isOnPaper ? 200 : 280;
+  const most = Math.max(1, Math.min(columns, Math.floor(page / (isOnPaper ? 220 : 360))));
+  return Math.max(fewest, Math.floor((page - 24 * (most - 1)) / most));
 }
 
 // The scale of names to the left of a chart, with as much of them as half of its width holds, under the axis' label.

@@ -1,6 +1,6 @@
 // Which engine's scheme suits this level, and why.
 
-import { h } from "./dom.ts";
+import { type Child, h, withCode } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
@@ -92,9 +92,10 @@ const columns: Column<Row>[] = [
     show: ({ aCase }) => format.short(aCase.dropped),
   },
   {
-    label: "missed",
+    label: "missed in view",
     isScreenOnly: true,
-    about: "True pairs that its method or a limit of lights leaves out, seen or not; without lights beside the view",
+    about:
+      "True pairs that its method or a limit of lights leaves out, without those of lights beside the view, which the table of all figures counts too",
     value: ({ line }) => line.missed_in_view ?? null,
     show: ({ line }) => format.whole(line.missed_in_view ?? null),
   },
@@ -133,6 +134,8 @@ const factColumns: Column<Facts>[] = [
   { label: "unverified", value: (facts) => facts.unverified || null },
 ];
 
+const sentence = (text: string) => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;
+
 function rowsOf(ranking: Ranking, cases: Case[], facts: Facts[]): Row[] {
   return ranking.cases.flatMap((line, at) => {
     const aCase = cases.find(({ raw }) => raw.id === line.id);
@@ -143,15 +146,15 @@ function rowsOf(ranking: Ranking, cases: Case[], facts: Facts[]): Row[] {
 
 const shownColumns = (rows: Row[]) => columns.filter(({ value }) => rows.some((row) => value(row) !== null));
 
-// The conclusion first; then how lines come to their places.
-function leadOf(ranking: Ranking): string {
+// The conclusion first, where the page does not begin with it; then how lines come to their places.
+function leadOf(ranking: Ranking, isAlone: boolean): Child {
   const rule =
     "★ costs the GPU least of the lists whose samples lack at most 0.1 % of the lights that they need. A place is 1 + how many are known to cost less: by over 5 %, and at prices of half and twice those of the key cost too. Those that lack more come last, behind those whose samples need fewer than 1000 lights, too few to say so.";
-  if (ranking.text === undefined) return rule;
   const seen = ranking.lights_in_view;
   const inView =
     seen?.max == null ? "" : ` Lights in view: ${format.decimal(seen.mean)} on average, ${seen.max} at most.`;
-  return `${ranking.text.charAt(0).toUpperCase()}${ranking.text.slice(1)}.${inView} ${rule}`;
+  const text = isAlone || ranking.text === undefined ? "" : `${sentence(ranking.text)} `;
+  return h("span", {}, ...withCode(`${text}${rule}${inView}`));
 }
 
 function rankingFigures(view: View): HTMLElement[] {
@@ -164,7 +167,7 @@ function rankingFigures(view: View): HTMLElement[] {
       return figureView({
         id: `presets-${at}-${index}`,
         title,
-        lead: leadOf(ranking),
+        lead: leadOf(ranking, view.model.runs.length === 1 && run.result.preset_rankings?.length === 1),
         table: () => ({ caption: `Presets: ${title}`, columns: ofRuns(view, shownColumns(rows)), rows }),
         cases: rows.map(({ aCase }) => aCase),
       });

@@ -10,9 +10,28 @@ import { countsThatLackMost, headingOfSets, wordsOfSets } from "./sample_sets.ts
 import { type Column, type Table, tableView } from "./table.ts";
 import type { Section, View } from "./view.ts";
 
-function method(view: View, row: Pick<Case, "assigner" | "family" | "isFast">): HTMLElement {
-  return h("span", { class: "method" }, icon(view.palette(row)), h("span", {}, breakable(row.assigner)));
+// With what the conclusion says of it, and its grid where that has no column beside it.
+function method(
+  view: View,
+  row: Pick<Case, "assigner" | "family" | "isFast" | "grid"> & { standing?: Case["standing"] },
+  hasGrid: boolean,
+): HTMLElement {
+  const { standing } = row;
+  return h(
+    "span",
+    { class: "method" },
+    icon(view.palette(row)),
+    h(
+      "span",
+      {},
+      standing && h("span", { class: standing, role: "img", "aria-label": standingWords[standing] }),
+      breakable(row.assigner),
+      hasGrid && h("span", { class: "under" }, breakable(row.grid)),
+    ),
+  );
 }
+
+const standingWords = { taken: "taken by the conclusion", alike: "as good as what the conclusion takes" };
 
 function interval(row: Case): string {
   const [low, high] = row.interval;
@@ -47,8 +66,16 @@ const kept = <Row>(columns: (Column<Row> | false)[]) =>
 // Method, time and error first: a narrow screen shows no more.
 function caseColumns(view: View, rows: Case[]): Column<Case>[] {
   const measured = (value: (row: Case) => unknown) => rows.some((row) => value(row) !== null);
+  const hasGrids = differ(rows, (row) => row.grid);
   return kept<Case>([
-    { label: "method", value: (row) => row.assigner, show: (row) => method(view, row) },
+    { label: "method", value: (row) => row.assigner, show: (row) => method(view, row, hasGrids) },
+    measured((row) => row.costNs) && {
+      label: "cost µs",
+      about:
+        "What a frame costs, by which the conclusion chooses: making the lists, where that was timed, and upload, reading and shading by the model of the configuration's key cost. None where lights are lost. In brackets and last: samples search the structure, and no GPU has measured such a search",
+      value: (row) => (row.isSearched ? null : row.costNs),
+      show: (row) => h("span", { title: costParts(row) }, cost(row)),
+    },
     measured((row) => row.frameNs) && {
       label: "frame µs",
       about:
@@ -60,13 +87,6 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
           { title: interval(row) },
           `${row.ranked?.is_like_above ? "~" : ""}${format.microseconds(row.frameNs)}`,
         ),
-    },
-    measured((row) => row.costNs) && {
-      label: "cost µs",
-      about:
-        "What a frame costs with its shading, by the model and the constants of the configuration's key cost: frame time where it is measured, bytes to upload, what drawn lights read and write, and what samples read and loop over. None where lights are left out that the samples need",
-      value: (row) => row.costNs,
-      show: (row) => format.microseconds(row.costNs),
     },
     {
       label: "excess",
@@ -127,14 +147,12 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
       show: (row) => front(row.isOnFront),
     },
     measured((row) => row.rank) && {
-      label: "rank",
-      isScreenOnly: true,
-      about:
-        "By frame time, or cost where the result is ranked by it, among all cases of its scene, camera and viewport, those that are filtered out as well",
+      label: rows.every(isRankedByCost) ? "rank by cost" : "rank by time",
+      about: "Among all cases of its scene, camera and viewport, those that are filtered out as well",
       value: (row) => row.rank,
     },
     measured((row) => row.ranked?.fastest?.ratio ?? null) && {
-      label: "/ fastest",
+      label: "time / fastest",
       isScreenOnly: true,
       about:
         "Frame time by that of the fastest case of its scene, camera and viewport, measured beside it, as clusterbench ratio --across-grids has it; its interval at the pointer",
@@ -148,7 +166,7 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
       label: "viewport",
       value: (row) => row.raw.viewport.join("×"),
     },
-    { label: "grid", value: (row) => row.grid },
+    { label: "grid", value: (row) => row.grid, isUnderFirst: hasGrids },
     differ(rows, (row) => row.storage) && { label: "storage", value: (row) => row.storage },
     measured((row) => row.frameNs) && {
       label: "±",
@@ -224,7 +242,6 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     },
     {
       label: "longest",
-      isScreenOnly: true,
       about: "Longest list of the path",
       value: (row) => row.longest,
       show: (row) => format.whole(row.longest),
@@ -236,6 +253,15 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
       show: (row) => format.short(row.recommended),
     },
   ]);
+}
+
+const cost = ({ costNs, isSearched }: Case) =>
+  isSearched && costNs !== null ? `(${format.microseconds(costNs)})` : format.microseconds(costNs);
+
+function costParts({ costNs, gpuNs }: Case): string {
+  if (costNs === null || gpuNs === null) return "";
+  const modelled = `${format.microseconds(gpuNs)} µs of upload, reading and shading`;
+  return costNs > gpuNs ? `${format.microseconds(costNs - gpuNs)} µs to make the lists, ${modelled}` : modelled;
 }
 
 function halfInterval(row: Case): number | null {
@@ -266,8 +292,16 @@ function mean({ value, scenes }: Mean, row: Standing, show: (value: number | nul
 
 function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
   const timed = rows.some((row) => row.timeByBest.value !== null);
+  const hasGrids = differ(rows, (row) => row.grid);
   return kept<Standing>([
-    { label: "method", value: (row) => row.assigner, show: (row) => method(view, row) },
+    { label: "method", value: (row) => row.assigner, show: (row) => method(view, row, hasGrids) },
+    rows.some((row) => row.costByBest.value !== null) && {
+      label: "cost / best",
+      about:
+        "Cost of a frame, by which the conclusions choose, by that of the scene's cheapest case: geometric mean over the scenes",
+      value: (row) => row.costByBest.value,
+      show: (row) => mean(row.costByBest, row, format.factor),
+    },
     timed && {
       label: "time / best",
       about: "Frame time by that of the scene's fastest case that loses no light: geometric mean over the scenes",
@@ -318,13 +352,12 @@ function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
       show: (row) => `${row.fronts} of ${row.cases.length}`,
     },
     timed && {
-      label: "rank",
-      isScreenOnly: true,
+      label: "rank by time",
       about: "By time / best among all methods and grids, those that are filtered out as well",
       value: (row) => row.rank,
     },
     view.hasRuns && { label: "result", value: (row) => row.run },
-    { label: "grid", value: (row) => row.grid },
+    { label: "grid", value: (row) => row.grid, isUnderFirst: hasGrids },
     differ(rows, (row) => row.storage) && { label: "storage", value: (row) => row.storage },
     differ(rows, (row) => row.scenes) && {
       label: "scenes",
@@ -356,15 +389,44 @@ function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
   ]);
 }
 
-// By the first of these columns that the table has.
-function sortedBy<Row>(columns: Column<Row>[], isByCost: boolean): Table<Row>["sort"] {
-  const indices = [...(isByCost ? ["cost µs"] : []), "frame µs", "time / best", "instr", "excess"].map((label) =>
+// By the first of these columns that the table has; what lacks light, last.
+function sortedBy<Row extends { isUnlit: boolean }>(columns: Column<Row>[]): Table<Row>["sort"] {
+  const indices = ["cost µs", "cost / best", "frame µs", "time / best", "instr", "excess"].map((label) =>
     columns.findIndex((column) => column.label === label),
   );
-  return { column: indices.find((index) => index >= 0) ?? 0, descending: false };
+  return { column: indices.find((index) => index >= 0) ?? 0, descending: false, last: (row) => row.isUnlit };
+}
+
+// What of the heads is not understood without being told.
+const words: Record<string, string> = {
+  "cost µs": "making the lists and shading with them, by which the conclusion chooses",
+  "cost / best": "making the lists and shading with them, by which the conclusions choose",
+  excess: "false positives by true pairs of cell and light",
+  missed: "lights that reach a cell and are not in its list",
+  unlit: "lights that samples need and are not given",
+  overshade: "lights that samples are given, by those that they need",
+};
+
+function legend<Row>(view: View, columns: Column<Row>[], rows: Row[]): string {
+  const explained = columns.flatMap(({ label }) => {
+    const [, word] = /^(.*?)(?: \(.*\))?$/.exec(label)!;
+    return words[word!] ? [`${word}: ${words[word!]}`] : [];
+  });
+  const standings = new Set(rows.map((row) => (row as { standing?: Case["standing"] }).standing));
+  const best = view.hasPresets ? "costs least of the presets" : "taken by the conclusion";
+  return [
+    standings.has("taken") && `★ ${best}.`,
+    standings.has("alike") && "≈ as good, as far as these figures can show.",
+    `${explained.join("; ")}.`,
+  ]
+    .filter(Boolean)
+    .join(" ");
 }
 
 const allColumns = "ranking-all";
+
+// Presets have a ranking of their own.
+const titleOf = (view: View) => (view.hasPresets ? "All figures" : "Ranking");
 
 function wholeControl(view: View, redraw: () => void, isWhole: boolean): HTMLElement {
   const input = h("input", { type: "checkbox", id: allColumns, checked: isWhole, onchange: () => change() });
@@ -377,13 +439,12 @@ function wholeControl(view: View, redraw: () => void, isWhole: boolean): HTMLEle
   return h("label", { class: "control check" }, input, h("span", {}, "All columns"));
 }
 
-function ranking<Row>(
+function ranking<Row extends { isUnlit: boolean }>(
   view: View,
   redraw: () => void,
   caption: string,
   all: Column<Row>[],
   rows: Row[],
-  isByCost = false,
 ): HTMLElement {
   const isWhole = view.choices.get(allColumns) === "1";
   const columns = all.filter((column) => isWhole || !column.isDetail);
@@ -391,9 +452,10 @@ function ranking<Row>(
   return h(
     "section",
     { id: "ranking" },
-    h("h2", {}, "Ranking"),
+    h("h2", {}, titleOf(view)),
+    h("p", { class: "note" }, legend(view, columns, rows)),
     all.some((column) => column.isDetail) && h("div", { class: "controls" }, wholeControl(view, redraw, isWhole)),
-    tableView({ caption, columns, rows, sort: sortedBy(columns, isByCost), most: 200 }),
+    tableView({ caption, columns, rows, sort: sortedBy(columns), most: 200 }),
     h(
       "p",
       { class: "tools" },
@@ -407,8 +469,7 @@ export const rankingSection: Section = (view, redraw) => {
   const cases = view.cases();
   if (cases.length === 0) return nothing(view);
   const { scene } = view.filters;
-  if (scene !== null)
-    return ranking(view, redraw, `Cases of ${scene}`, caseColumns(view, cases), cases, cases.every(isRankedByCost));
+  if (scene !== null) return ranking(view, redraw, `Cases of ${scene}`, caseColumns(view, cases), cases);
   const rows = standings(view.casesOfAnyFront(), view.model.cases).filter(
     (row) => !view.filters.frontOnly || row.fronts > 0,
   );
@@ -422,7 +483,7 @@ function nothing(view: View): HTMLElement {
   return h(
     "section",
     { id: "ranking" },
-    h("h2", {}, "Ranking"),
+    h("h2", {}, titleOf(view)),
     h("p", { class: "note", role: "status" }, text, " ", view.model.cases.length > 0 && clear),
   );
 }

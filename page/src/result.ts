@@ -23,8 +23,16 @@ export type WarningKind = CaseResult["warnings"][number]["kind"];
 // What src/report/page.cpp puts into the page.
 export interface PageData {
   command: string;
-  results: { file: string; result: Result; doubts: string[]; ratios: Ranked[] }[];
+  results: { file: string; result: Result; doubts: string[]; ratios: Ranked[]; costs: FrameCost[] }[];
   pictures: Picture[];
+}
+
+// Of a case that loses nothing: making its lists (where timed), upload, reading and shading by the configuration's model.
+// By this the conclusions choose.
+export interface FrameCost {
+  id: string;
+  ns: number;
+  gpu_ns: number; // of it what is modelled
 }
 
 // Of what pixels find in the lists of some cases, in a frame or along the path (null).

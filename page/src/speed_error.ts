@@ -95,7 +95,46 @@ const ends = ({ aCase, us }: Point): [number, number] => [
 
 interface Scales {
   x: [number, number];
-  y: [number, number];
+  y: Upwards;
+}
+
+// The scale of errors: linear, or logarithmic where outliers would press the others together.
+export interface Upwards {
+  domain: [number, number];
+  base: number | null; // linear: null; of a logarithmic one 0, or what stands for 0 where there is nothing to lose
+}
+
+const outlying = 4; // times the least
+
+// With room below for names. Errors that can be 0 are logarithmic from the least that is not, as far as that is known.
+export function upwards(values: number[]): Upwards {
+  const [low, high] = limits(values);
+  const [least] = limits(values.filter((value) => value > 0));
+  if (low < 0 || high <= outlying * least) return { domain: extent(values), base: null };
+  if (low > 0) return { domain: [low / (high / low) ** 0.1, high * (high / low) ** 0.1], base: 0 };
+  const base = Math.max(least, high / 1e4);
+  const room = (high / base) ** 0.12;
+  return { domain: [base * (1 / room - 1), high * room], base };
+}
+
+// How far up an error stands, from 0 to 1.
+function heightOf({ domain, base }: Upwards, value: number): number {
+  const along = (error: number) => (base === null ? error : base === 0 ? Math.log(error) : Math.log1p(error / base));
+  const bend = (error: number) => (error < 0 ? -along(-error) : along(error));
+  return (bend(value) - bend(domain[0])) / (bend(domain[1]) - bend(domain[0]));
+}
+
+// 1, 2 and 5 times the powers of ten, without what would touch; of a linear scale those that the chart finds.
+function ticksOf({ domain, base }: Upwards): number[] | number {
+  if (base === null) return 5;
+  const [low, high] = [base === 0 ? domain[0] : base, domain[1]];
+  const steps = Array.from(
+    { length: Math.ceil(Math.log10(high / low)) + 2 },
+    (_, at) => 10 ** (Math.floor(Math.log10(low)) + at),
+  );
+  const fine = high / low < 1e3 ? [1, 2, 5] : [1];
+  const ticks = steps.flatMap((step) => fine.map((factor) => factor * step));
+  return [...(base > 0 ? [0] : []), ...ticks.filter((tick) => tick >= low && tick <= high)];
 }
 
 const margin = { marginTop: 26, marginRight: 16, marginBottom: 40, marginLeft: 60 };
@@ -111,10 +150,13 @@ function names(best: Point[], all: Point[], { x, y }: Scales, width: number, hei
     point,
     text: point.aCase.assigner,
     x: across(point.us),
-    y: room.y * (1 - (point.error - y[0]) / (y[1] - y[0])),
+    y: room.y * (1 - heightOf(y, point.error)),
   });
   const bar = (point: Point) => ({ from: across(ends(point)[0]), to: across(ends(point)[1]), y: at(point).y });
-  const found = placed(best.map(at), all.map(at), best.map(bar), room.x + margin.marginRight);
+  const found = placed(best.map(at), all.map(at), best.map(bar), {
+    right: room.x + margin.marginRight,
+    bottom: room.y,
+  });
   return placements.map((wanted) =>
     Plot.text(
       found.filter(({ placement }) => placement === wanted).map(({ name }) => name.point),
@@ -132,7 +174,8 @@ function names(best: Point[], all: Point[], { x, y }: Scales, width: number, hei
 }
 
 export function panel(view: View, all: Point[], measure: Measure, scales: Scales, width: number): Element {
-  const best = all.filter(({ aCase }) => aCase.isOnFront);
+  const isTaken = ({ aCase }: Point) => aCase.standing === "taken";
+  const best = all.filter(({ aCase }) => aCase.isOnFront).sort((a, b) => Number(isTaken(b)) - Number(isTaken(a))); // named first
   const others = all.filter(({ aCase }) => !aCase.isOnFront);
   const look = (point: Point) => view.palette(point.aCase);
   const height = Math.round(Math.min(420, Math.max(230, width * 0.5)));
@@ -158,9 +201,11 @@ export function panel(view: View, all: Point[], measure: Measure, scales: Scales
         grid: true,
       },
       y: {
-        domain: scales.y,
+        type: scales.y.base === null ? "linear" : scales.y.base === 0 ? "log" : "symlog",
+        ...(scales.y.base ? { constant: scales.y.base } : {}),
+        domain: scales.y.domain,
         label: measure.label,
-        ticks: 5,
+        ticks: ticksOf(scales.y),
         tickFormat: (value: number) => measure.show(value),
         grid: true,
       },
@@ -223,7 +268,11 @@ export const speedErrorSection: Section = (view, redraw) => {
   const width = chartWidth(Math.min(2, scenes.length));
   const panels = scenes.slice(0, mostPanels).map(([title, some]) => ({
     title,
-    chart: panel(view, some, measure, { x, y: extent(some.map(({ error }) => error)) }, width),
+    chart: panel(view, some, measure, { x, y: upwards(some.map(({ error }) => error)) }, width),
+  }));
+  const keys = [...new Map(all.map(({ aCase }) => [aCase.assigner, view.palette(aCase)]))].map(([label, look]) => ({
+    label,
+    look,
   }));
   const more =
     scenes.length > mostPanels
@@ -236,9 +285,10 @@ export const speedErrorSection: Section = (view, redraw) => {
     figureView({
       id: "speed-error",
       title: `Frame time against ${measure.label}`,
-      lead: `Down and left is better. ${measure.label[0]!.toUpperCase()}${measure.label.slice(1)}: ${measure.about}. Ringed: on the front, as in the ranking; the line joins those of them that none of them beats in both. Bars are 95 % intervals of the median time, of the ringed ones; of others at the pointer. Each panel has its own scale upwards.${more}`,
+      lead: `Down and left is better. ${measure.label[0]!.toUpperCase()}${measure.label.slice(1)}: ${measure.about}. Ringed: on the front, as in the ranking; the line joins those of them that none of them beats in both. Bars are 95 % intervals of the median time, of the ringed ones; of others at the pointer. Each panel has its own scale upwards, logarithmic where some are far from the others.${more}`,
       controls: [control],
       chart: multiples(panels),
+      methods: keys,
       table: () => ({
         caption: "Speed and error",
         columns: [

@@ -10,16 +10,19 @@ export interface Column<Row> {
   value: (row: Row) => Value; // sorted by, copied and downloaded
   show?: (row: Row) => Child; // displayed in place of the value
   isDetail?: boolean; // shown on request
-  isScreenOnly?: boolean; // paper has no room for it
+  isScreenOnly?: boolean; // paper has no room for it, and says so
+  isUnderFirst?: boolean; // stands under the first column where there is no room beside it
 }
 
 export interface Table<Row> {
   caption: string;
   columns: Column<Row>[];
   rows: Row[];
-  sort?: { column: number; descending: boolean };
+  sort?: { column: number; descending: boolean; last?: (row: Row) => boolean }; // last: stands behind the others at first
   most?: number; // rows shown until all are asked for
 }
+
+type Sort<Row> = NonNullable<Table<Row>["sort"]>;
 
 const isNumeric = <Row>(column: Column<Row>, rows: Row[]) => rows.some((row) => typeof column.value(row) === "number");
 
@@ -31,15 +34,17 @@ function compare(a: Value, b: Value): number {
     : String(a).localeCompare(String(b), "en", { numeric: true });
 }
 
-function sorted<Row>(rows: Row[], column: Column<Row>, descending: boolean): Row[] {
-  const known = rows.filter((row) => column.value(row) !== null);
-  const unknown = rows.filter((row) => column.value(row) === null);
-  known.sort((a, b) => (descending ? -1 : 1) * compare(column.value(a), column.value(b)));
-  return [...known, ...unknown];
+function sorted<Row>(rows: Row[], column: Column<Row>, { descending, last = () => false }: Sort<Row>): Row[] {
+  const part = (row: Row) => (last(row) ? 2 : column.value(row) === null ? 1 : 0);
+  return [...rows].sort(
+    (a, b) => part(a) - part(b) || (descending ? -1 : 1) * compare(column.value(a), column.value(b)),
+  );
 }
 
 const classesOf = <Row>(column: Column<Row>, numeric: boolean) =>
-  [numeric && "number", column.isScreenOnly && "screen-only"].filter(Boolean).join(" ") || null;
+  [numeric && "number", column.isScreenOnly && "screen-only", column.isUnderFirst && "under-first"]
+    .filter(Boolean)
+    .join(" ") || null;
 
 function cell<Row>(column: Column<Row>, row: Row, isHeader: boolean, numeric: boolean): HTMLElement {
   const shown = column.show ? column.show(row) : column.value(row);
@@ -51,7 +56,7 @@ function cell<Row>(column: Column<Row>, row: Row, isHeader: boolean, numeric: bo
 export function tableView<Row>(table: Table<Row>): HTMLElement {
   const { columns } = table;
   const numeric = columns.map((column) => isNumeric(column, table.rows));
-  let sort = table.sort ?? null;
+  let sort: Sort<Row> | null = table.sort ?? null;
   let most = table.most ?? Infinity;
 
   const body = h("tbody");
@@ -65,7 +70,7 @@ export function tableView<Row>(table: Table<Row>): HTMLElement {
   );
 
   function draw(): void {
-    const rows = sort ? sorted(table.rows, columns[sort.column]!, sort.descending) : table.rows;
+    const rows = sort ? sorted(table.rows, columns[sort.column]!, sort) : table.rows;
     body.replaceChildren(
       ...rows
         .slice(0, most)
@@ -88,10 +93,17 @@ export function tableView<Row>(table: Table<Row>): HTMLElement {
   }
 
   draw();
+  const leftOut = columns.filter((column) => column.isScreenOnly).map(({ label }) => label);
   return h(
     "div",
     { class: "table", tabindex: 0, role: "region", "aria-label": table.caption },
     h("table", {}, h("caption", {}, table.caption), h("thead", {}, h("tr", {}, ...heads)), body),
     more,
+    leftOut.length > 0 &&
+      h(
+        "p",
+        { class: "note paper-only" },
+        `Paper has no room for ${leftOut.join(", ")}: the page on a screen shows them.`,
+      ),
   );
 }

@@ -42,6 +42,9 @@ export class View {
   get hasRuns(): boolean {
     return this.model.runs.length > 1;
   }
+  get hasPresets(): boolean {
+    return this.model.runs.some(({ result }) => (result.preset_rankings ?? []).length > 0);
+  }
   named(aCase: Case): string {
     return this.hasRuns ? `${aCase.assigner} · ${aCase.run.label}` : aCase.assigner;
   }

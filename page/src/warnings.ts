@@ -40,15 +40,42 @@ const doubts: Record<WarningKind, string> = {
     "left more of the lights that random points in the view need unlit than rounding does, in cells or outside of the grid",
   undecided: "had pairs that stayed undecided, counted as true",
   unchecked: "went without a check against the truth",
-  too_many_lights: "had more lights in view than their engines take, and lost some",
+  too_many_lights: "had more lights in view than their limit lets in, and lost some",
   lost_pairs: "lost lights, as methods that are not conservative may",
 };
 
+// Who has lost lights: the method, or what keeps lights from it.
+function blamed({ raw }: Case): "method" | "limit" | "cull" {
+  const missed = raw.error?.false_negatives ?? 0;
+  const kept = raw.pre_cull?.lost_pairs ?? 0;
+  if (!raw.pre_cull || missed > kept) return "method";
+  return raw.pre_cull.over_limit?.lost_pairs ? "limit" : "cull";
+}
+
+function losing(kind: WarningKind, all: Case[]): Warning[] {
+  const some = all.filter(({ raw }) => raw.warnings.some((warning) => warning.kind === kind));
+  const doubt = (cases: Case[], what: string): Warning[] =>
+    cases.length ? [{ isFailure: false, text: counted(cases, what) }] : [];
+  if (kind !== "lost_pairs") return doubt(some, doubts[kind]);
+  const isLimited = ({ raw }: Case) => raw.warnings.some((warning) => warning.kind === "too_many_lights");
+  return [
+    ...doubt(
+      some.filter((aCase) => blamed(aCase) === "method"),
+      doubts.lost_pairs,
+    ),
+    ...doubt(
+      some.filter((aCase) => blamed(aCase) === "limit" && !isLimited(aCase)), // of others that is said
+      "lost lights to their limit of lights in view",
+    ),
+    ...doubt(
+      some.filter((aCase) => blamed(aCase) === "cull"),
+      "lost lights to what culls them before the method",
+    ),
+  ];
+}
+
 function doubtsOf(cases: Case[]): Warning[] {
-  return Object.entries(doubts).flatMap(([kind, what]) => {
-    const some = cases.filter(({ raw }) => raw.warnings.some((warning) => warning.kind === kind));
-    return some.length ? [{ isFailure: false, text: counted(some, what) }] : [];
-  });
+  return (Object.keys(doubts) as WarningKind[]).flatMap((kind) => losing(kind, cases));
 }
 
 function rangeWarnings({ range_rule }: SceneResult): string[] {

@@ -9,11 +9,13 @@ import { chromiumPath, folder, launch, makePage, open as openPage } from "./brow
 import {
   committedResult,
   historyPage,
+  limited,
   lossy,
   measureSweep,
   onAnotherMachine,
   presets,
   rankedByCost,
+  sparse,
   widened,
   withPictures,
   withTwoCameras,
@@ -35,7 +37,10 @@ before(async () => {
   pages.sweep = makePage(tool, [sweepFile], join(place, "sweep.html"));
   const lossyFile = measureSweep(tool, place, lossy, (table) => (lossyTable = table));
   pages.lossy = makePage(tool, [lossyFile], join(place, "lossy.html"));
-  pages.presets = makePage(tool, [measureSweep(tool, place, presets)], join(place, "presets.html"));
+  const presetsFile = measureSweep(tool, place, presets);
+  pages.presets = makePage(tool, [presetsFile], join(place, "presets.html"));
+  pages.limited = makePage(tool, [limited(presetsFile, place)], join(place, "limited.html"));
+  pages.sparse = makePage(tool, [sparse(sweepFile, place)], join(place, "sparse.html"));
   pages.wide = makePage(tool, [widened(committedResult, place)], join(place, "wide.html"));
   pages.cameras = makePage(tool, [withTwoCameras(committedResult, place)], join(place, "cameras.html"));
   pages.against = makePage(tool, [sweepFile, onAnotherMachine(sweepFile, place)], join(place, "against.html"));
@@ -142,6 +147,43 @@ describe("presets", () => {
     assert.equal(await page.locator("#preset-sources tbody tr").count(), 4);
   });
 
+  it("stand first, with their conclusion as the headline, and all figures below with what lacks light last", async () => {
+    const page = await open(pages.presets);
+    assert.deepEqual((await textsOf(page, "main h2")).slice(0, 2), [
+      "Which engine's scheme suits this level",
+      "All figures",
+    ]);
+    assert.match(await page.locator(".conclusion").first().innerText(), /^street, camera .*: take just-cause-3/);
+    assert.equal(await page.locator(".skip").getAttribute("href"), "#presets");
+    const lacking = (await column(page, "unlit")).map((text) => parseFloat(text) > 0.1);
+    const first = lacking.indexOf(true);
+    assert.ok(first > 0 && lacking.slice(first).every(Boolean), String(lacking));
+    await page.locator("#ranking thead button", { hasText: "excess" }).click();
+    const excess = numbers((await column(page, "excess")).filter((text) => /\d/.test(text)));
+    assert.ok(isAscending(excess), "who sorts gets what is asked for");
+  });
+
+  it("call what they miss in view by another name than what is missed in all cells", async () => {
+    const page = await open(pages.limited);
+    const heads = await textsOf(page, "#presets-0-0 thead th");
+    assert.ok(!heads.includes("missed") && heads.includes("missed in view"), String(heads));
+    assert.ok((await textsOf(page, "#ranking thead th")).includes("missed"));
+  });
+
+  it("that lose lights to their limit alone are not called methods that are not conservative", async () => {
+    const text = (await textsOf(await open(pages.limited), "#warnings li")).join("\n");
+    assert.match(text, /1 case lost lights, as methods that are not conservative may: \S*just-cause-3/);
+    assert.match(text, /2 cases had more lights in view than their limit lets in, and lost some/);
+  });
+
+  it("show where they come from without a cut at 1200 pixels", async () => {
+    const page = await open(pages.presets, { viewport: { width: 1200, height: 900 } });
+    const [whole, seen] = await page
+      .locator("#preset-sources .table")
+      .evaluate((table) => [table.scrollWidth, table.clientWidth]);
+    assert.ok(whole <= seen, `${whole} of ${seen}`);
+  });
+
   it("are not asked about where there are none", async () => {
     const page = await open(pages.quick);
     assert.equal(await page.locator("#presets").count(), 0);
@@ -149,11 +191,29 @@ describe("presets", () => {
 });
 
 describe("the ranking", () => {
-  it("stands first and is sorted by time", async () => {
+  it("stands first and is sorted by cost; what samples search, which no GPU has measured, comes last", async () => {
     const page = await open(pages.quick);
     assert.equal(await page.locator("main h2").first().innerText(), "Ranking");
-    const times = numbers(await column(page, "time / best"));
-    assert.ok(times.length > 5 && isAscending(times), String(times));
+    const costs = (await column(page, "cost / best")).map((text) => (/\d/.test(text) ? parseFloat(text) : Infinity));
+    const whole = costs.slice(0, costs.indexOf(Infinity)); // then come those that lack light
+    assert.ok(whole.length > 5 && whole.length < costs.length && isAscending(whole), String(costs));
+  });
+
+  it("has the cost that the conclusion chooses by, marks what it takes, and one setting in depth opens there", async () => {
+    const result = JSON.parse(readFileSync(committedResult));
+    for (const { scene, take, text } of result.conclusions) {
+      const page = await open(pages.quick);
+      await page.getByRole("radio", { name: scene, exact: true }).check();
+      const taken = result.cases.find(({ id }) => id === take);
+      const row = page.locator("#ranking tbody tr", { has: page.locator(".taken") });
+      assert.equal(await row.count(), 1, scene);
+      assert.equal(await row.locator("th").innerText(), taken.assigner.label);
+      const cost = parseFloat(await row.locator("td").first().innerText());
+      const told = parseFloat(/a frame costs ([\d.]+) us/.exec(text)[1]);
+      assert.ok(Math.abs(cost / told - 1) < 0.01, `${cost} against ${told}: ${text}`);
+      const setting = await page.locator("#setting option:checked").innerText();
+      assert.ok(setting.includes(taken.grid.name), `${setting}: ${text}`);
+    }
   });
 
   it("sorts by any column, up and down, and says so to screen readers", async () => {
@@ -301,7 +361,10 @@ describe("over all scenes", () => {
     await page.check("#filter-front");
     const rows = await inTable(page);
     assert.ok(rows.length > 0 && rows.length < before.size);
-    for (const row of rows) assert.deepEqual(row, before.get(row.method + row.grid + row.storage));
+    for (const row of rows) {
+      const { storage, ...other } = before.get(row.method + row.grid + (row.storage ?? "packed")); // no column of what is the same
+      assert.deepEqual(row, { ...other, ...(row.storage && { storage }) });
+    }
   });
 });
 
@@ -309,16 +372,19 @@ describe("filters", () => {
   it("leave ranks as they are among all", async () => {
     const page = await open(pages.quick);
     await page.getByRole("radio", { name: "street" }).check();
+    await page.locator("#ranking thead button", { hasText: "frame µs" }).click();
+    const rank = "rank by time";
     const all = await inTable(page);
+    const ranked = all.filter((row) => row[rank] !== "–"); // what samples search has none
     assert.deepEqual(
-      all.map((row) => row.rank),
-      all.map((_, at) => String(at + 1)),
+      ranked.map((row) => row[rank]),
+      ranked.map((_, at) => String(at + 1)),
     );
     await page.fill("#filter-words", "world-grid");
     const some = await inTable(page);
-    assert.ok(some.length > 0 && Number(some[0].rank) > 1);
+    assert.ok(some.length > 0 && some.every((row) => Number(row[rank]) > 1));
     for (const row of some)
-      assert.equal(row.rank, all.find((one) => one.method === row.method && one.grid === row.grid).rank);
+      assert.equal(row[rank], all.find((one) => one.method === row.method && one.grid === row.grid)[rank]);
   });
 
   it("that leave nothing say so, and can be cleared", async () => {
@@ -397,7 +463,8 @@ describe("times", () => {
   it("stand beside the fastest of their scene with a ratio and its interval, and a mark where nothing tells them from the next faster one", async () => {
     const page = await open(pages.quick);
     await page.getByRole("radio", { name: "hall-512" }).check();
-    const ratios = await column(page, "/ fastest");
+    await page.locator("#ranking thead button", { hasText: "frame µs" }).click();
+    const ratios = await column(page, "time / fastest");
     const fastest = ratios.lastIndexOf("–"); // before it stand structures that samples search, which have no ratio
     assert.ok(
       ratios.every((text, row) => (row <= fastest ? text === "–" : /^\d+\.\d\d$/.test(text))),
@@ -469,7 +536,6 @@ describe("what a case loses", () => {
         Object.entries(one).map(([label, text]) => [label, parseFloat(String(text).replaceAll(/[,~]/g, ""))]),
       ),
     );
-    assert.ok(isAscending(all.map((one) => one["frame µs"])), JSON.stringify(all));
     let converted = 0;
     for (const one of all) {
       assert.ok(one["worst µs"] >= 0.9 * one["frame µs"], JSON.stringify(one));
@@ -488,7 +554,11 @@ describe("what a case loses", () => {
     const isDark = (one) => /^exact-fast/.test(one.method);
     assert.ok(all.some(isDark) && all.some((one) => !isDark(one)), JSON.stringify(all));
     const first = all.findIndex(isDark);
-    assert.ok(all.slice(first).every(isDark), JSON.stringify(all.map((one) => one.method)));
+    const isSearched = (one) => /^\(/.test(one["cost µs"]);
+    assert.ok(
+      all.slice(first).every((one) => isDark(one) || isSearched(one)),
+      JSON.stringify(all.map((one) => one.method)),
+    );
     for (const one of all) assert.equal(one["cost µs"] === "–", isDark(one), JSON.stringify(one));
   });
 
@@ -528,6 +598,37 @@ describe("charts", () => {
       const rows = await figure.locator("tbody tr").count();
       assert.ok(text.startsWith("method,") && text.trim().split("\n").length >= rows + 1, id);
     }
+  });
+
+  it("of lines have a legend of all methods, whose marks tell those with one colour apart", async () => {
+    const page = await open(pages.sweep);
+    for (const id of ["camera-path", "list-lengths", "lights-by-depth"]) {
+      const keys = page.locator(`#${id} .legend li`);
+      const names = (await keys.allInnerTexts()).flatMap((text) => text.split(/[,()] ?/));
+      for (const method of ["bounds", "aabb", "aabb-fast"])
+        assert.ok(names.includes(method), `${method} of ${id}: ${names}`);
+      const looks = await keys.evaluateAll((all) => all.map((key) => key.querySelector("svg").innerHTML));
+      assert.equal(new Set(looks).size, looks.length, id);
+    }
+  });
+
+  it("show errors that are far apart on a logarithmic scale", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "jam" }).check();
+    await page.selectOption("#speed-error-measure", "excess");
+    const texts = await page.locator("#speed-error svg[role=img] text").allTextContents();
+    const ticks = texts.filter((text) => /^[\d.]+ %$/.test(text)).map(parseFloat);
+    assert.ok(
+      ticks.includes(0) && Math.max(...ticks) >= 100 * Math.min(...ticks.filter((tick) => tick > 0)),
+      String(ticks),
+    );
+  });
+
+  it("leave out maps that are less than half filled, and say so", async () => {
+    const page = await open(pages.sparse);
+    const titles = await textsOf(page, "#heat-map h4");
+    assert.ok(titles.length > 0 && !titles.some((title) => /^bounds( |$)/.test(title)), String(titles));
+    assert.match(await page.locator("#heat-map figcaption").innerText(), /less than half filled (is|are) left out/);
   });
 
   it("keep the focus and opened tables when what they show changes", async () => {
@@ -656,6 +757,41 @@ describe("on paper", () => {
       assert.deepEqual(await brokenWords(page), []);
     });
 
+  it("has the legends of charts, and names the columns that it has no room for", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "street" }).check();
+    const shown = (selector) => page.locator(`${selector}:visible`);
+    assert.equal(await shown("#speed-error .legend li").count(), 0, "on a screen the filters are the legend");
+    await page.emulateMedia({ media: "print" });
+    const names = await shown("#speed-error .legend li").allInnerTexts();
+    assert.ok(names.length > 10 && names.includes("exact-fast"), String(names));
+    const [left] = await shown("#ranking .paper-only").allInnerTexts();
+    const heads = await page.locator("#ranking thead th").evaluateAll((all) =>
+      all.map((head) => ({
+        label: head.textContent,
+        isShown: getComputedStyle(head).display !== "none" || head.classList.contains("under-first"),
+      })),
+    );
+    assert.ok(heads.some((head) => head.label === "rank by time" && head.isShown));
+    for (const { label, isShown } of heads) assert.equal(left.includes(label), !isShown, `${label}: ${left}`);
+  });
+
+  it("writes the figures of maps within their cells", async () => {
+    const page = await open(pages.sweep);
+    await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+    await page.emulateMedia({ media: "print" });
+    await page.setViewportSize(paper);
+    const spilt = await page.locator("#heat-map svg[role=img]").evaluateAll((maps) =>
+      maps.flatMap((map) => {
+        const room = map.querySelector("rect").getBoundingClientRect().width;
+        return [...map.querySelectorAll("text")]
+          .filter((text) => /^[\d.,]+[kM]?$/.test(text.textContent) && text.getBoundingClientRect().width > room)
+          .map((text) => text.textContent);
+      }),
+    );
+    assert.deepEqual(spilt, []);
+  });
+
   it("takes few pages, with charts drawn for their width", async () => {
     const page = await open(pages.quick, { viewport: { width: 1400, height: 900 } });
     const pdf = (await page.pdf({ preferCSSPageSize: true })).toString("latin1");
@@ -694,6 +830,23 @@ describe("a screen of 400 pixels", () => {
         );
       assert.deepEqual(cut, [], "names that charts have no room for");
     });
+});
+
+describe("a narrow ranking", () => {
+  it("has the grid under the method, and its filters on one line", async () => {
+    const page = await open(pages.presets, { viewport: { width: 400, height: 800 } });
+    const grids = new Set(JSON.parse(readFileSync(join(place, "presets.json"))).cases.map((one) => one.grid.name));
+    for (const text of await page.locator("#ranking tbody th").allInnerTexts())
+      assert.ok(
+        [...grids].some((grid) => text.replaceAll("\n", " ").includes(grid)),
+        text,
+      );
+    assert.equal(await page.locator("#ranking thead th", { hasText: "grid" }).isVisible(), false);
+    assert.ok((await page.locator(".chips").boundingBox()).height < 60);
+    const wide = await open(pages.presets);
+    assert.equal(await wide.locator("#ranking .under").first().isVisible(), false);
+    assert.equal(await wide.locator("#ranking thead th", { hasText: "grid" }).isVisible(), true);
+  });
 });
 
 describe("pictures in the dark", () => {
@@ -736,11 +889,11 @@ describe("the layout", () => {
     });
 
   for (const [name, scene, wanted] of [
-    ["quick", null, ["method", "time / best", "excess"]],
-    ["quick", "jam", ["method", "frame µs", "excess"]],
-    ["two", "street", ["method", "frame µs", "excess"]],
+    ["quick", null, ["method", "cost / best", "time / best"]],
+    ["quick", "jam", ["method", "cost µs", "frame µs"]],
+    ["two", "street", ["method", "cost µs", "frame µs"]],
   ])
-    it(`shows method, time and error of ${name}${scene ? `, ${scene}` : ""} first, at 390 pixels`, async () => {
+    it(`shows method, cost and time of ${name}${scene ? `, ${scene}` : ""} first, at 390 pixels`, async () => {
       const page = await open(pages[name], { viewport: { width: 390, height: 800 } });
       if (scene) await page.getByRole("radio", { name: scene }).check();
       const inView = await page

@@ -132,6 +132,31 @@ export const rankedByCost = (file, folder) =>
     }
   });
 
+// One preset that loses pairs to its limit of lights alone, one whose method loses some as well.
+export const limited = (file, folder) =>
+  changed(file, folder, "limited", ({ cases }) => {
+    const named = (name) => cases.find(({ preset }) => preset === name);
+    const { pre_cull } = named("just-cause-2");
+    const lose = (name, missed) => {
+      const one = named(name);
+      one.error = { ...one.error, false_negatives: missed };
+      one.pre_cull = { ...pre_cull, lost_pairs: 10, over_limit: { lights: [1], lost_pairs: 5 } };
+      one.warnings = ["too_many_lights", "lost_pairs"].map((kind) => ({ kind, text: kind }));
+    };
+    lose("just-cause-2", 10);
+    lose("just-cause-3", 15);
+  });
+
+// One method on four of 4 x 4 combinations of tiling and slicing.
+export const sparse = (file, folder) =>
+  changed(file, folder, "sparse", ({ cases }) => {
+    const grids = [...new Set(cases.map(({ grid }) => grid.name))];
+    for (const one of cases.filter(({ assigner }) => assigner.name === "bounds")) {
+      const size = 2 ** grids.indexOf(one.grid.name);
+      one.grid = { ...one.grid, name: `frustum ${8 * size}px x ${size} linear` };
+    }
+  });
+
 // The same, where everything takes twice as long.
 export const onAnotherMachine = (file, folder) =>
   changed(file, folder, "elsewhere", (result) => {

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "report/page_costs.h"
 #include "report/page_template.h"
 #include "report/ratios.h"
 #include "report/timing_warnings.h"
@@ -41,7 +42,8 @@ std::string page(const std::vector<NamedResult>& results, const std::string& com
     data["results"].push_back({{"file", named.file},
                                {"result", named.result},
                                {"doubts", timing_doubts(named.result["cases"])},
-                               {"ratios", ratio_rankings(named.result)}});
+                               {"ratios", ratio_rankings(named.result)},
+                               {"costs", page_costs(named.result)}});
   for (const PagePicture& picture : pictures)
     data["pictures"].push_back({{"kind", picture.kind},
                                 {"frame", picture.frame ? Json(*picture.frame) : nullptr},

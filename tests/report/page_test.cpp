@@ -26,7 +26,8 @@ TEST(Page, holds_the_results_and_the_command_once) {
   const std::string html = page({{"a.json", empty_result("first")}, {"b.json", empty_result("second")}}, "the command");
   EXPECT_NE(html.find(R"({"command":"the command","results":[{"file":"a.json","result":{"name":"first",)"),
             std::string::npos);
-  EXPECT_NE(html.find(R"(,"doubts":[],"ratios":[]},{"file":"b.json","result":{"name":"second",)"), std::string::npos);
+  EXPECT_NE(html.find(R"(,"doubts":[],"ratios":[],"costs":[]},{"file":"b.json","result":{"name":"second",)"),
+            std::string::npos);
   EXPECT_EQ(html.find(k_results_mark), std::string::npos);
 }
 
