@@ -2,7 +2,7 @@
 """Puts measured tables and figures into README.md, docs/results.md and docs/sizing.md: scripts/readme_table.py FOLDER.
 
 FOLDER holds quick.json and quick.txt, result and table of configs/quick.json; street.json and street.txt, those of
-`clusterbench run scenes/street.glb`; and street-size.txt, what `clusterbench size` says of one of its cases. Examples in
+`clusterbench run scenes/street.glb`; and street-size.txt, what `clusterbench size scenes/street.glb` says of one case. Examples in
 docs/results.md whose output is marked are run on street.json, with the program of build/release."""
 import json
 import os
@@ -45,7 +45,7 @@ def best_of_grids(result):
 
 
 def grids(result):
-    rows = ["| grid | fastest method | µs per frame | overshade | needed and missing | KB to allocate |",
+    rows = ["| grid | fastest method | frame us | overshade | unlit | KB to allocate |",
             "|---|---|---:|---:|---:|---:|"]
     for case in best_of_grids(result):
         size = case["buffers"]["bytes"]["recommended"] / 1e3
@@ -100,6 +100,15 @@ def times_as_long(pairs):
     return [frame_us(exact) / frame_us(other) for other, exact in pairs]
 
 
+def few_slices(street):
+    """exact-fast by the two loose methods on grids of at most 4 slices: from, to, and the least number of slices elsewhere."""
+    pairs = with_exact("bounds-fast", street) + with_exact("aabb-fast", street)
+    few = [pair for pair in pairs if pair[0]["grid"]["cells"][2] <= 4]
+    if max(times_as_long([pair for pair in pairs if pair not in few])) > 1.6:
+        sys.exit("exact lists cost more on grids of many slices: write another conclusion below README.md's picture")
+    return times_as_long(few)
+
+
 def excess_percent(pairs):
     return [100 * other["error"]["excess_ratio"] for other, _ in pairs]
 
@@ -115,12 +124,20 @@ def headline(quick, street):
     elsewhere = [pair for pair in with_exact("bounds-fast", street) if pair[0]["grid"]["name"] == GRID]
     if max(times_as_long(loose)) > 1.6 or any(exact["error"]["false_positives"] for _, exact in loose + elsewhere):
         sys.exit("exact lists no longer cost little more than loose ones: write another conclusion below README.md's picture")
-    text = (f"**Exact lists cost little more than loose ones.** On these {len(loose)} levels, with tiles of 64 pixels and 16 "
-            f"slices, `exact-fast` has no false positives. It takes {span(times_as_long(boxes), '.2f')} times as long as `aabb-fast`, "
+    levels = list(dict.fromkeys(case["scene"] for case, _ in loose))
+    text = (f"**With 16 or more slices, exact lists cost little more than loose ones.** On {', '.join(levels[:-1])} and {levels[-1]}, "
+            f"with tiles of 64 pixels and 16 slices, `exact-fast` has no false positives. It takes {span(times_as_long(boxes), '.2f')} times as long as `aabb-fast`, "
             f"which has {span(excess_percent(boxes), '.0f')} % false positives, and {span(times_as_long(loose), '.2f')} times as long as "
             f"`bounds-fast`, which has {span(excess_percent(loose), '.0f')} %; {span(times_as_long(elsewhere), '.1f')} times on the fewer "
-            "cells of the second table below. Filled marks use SIMD, hollow ones plain code.")
+            f"cells of the second table below. With 1 to 4 slices it takes {span(few_slices(street), '.0f')} times as long as either. "
+            "Filled marks use SIMD, hollow ones plain code.")
     return textwrap.fill(text, 130, break_on_hyphens=False)
+
+
+def conclusion(street):
+    """What to take, against what; what it rests on stands behind that and is left out. As lines that a terminal holds."""
+    text = street["conclusions"][0]["text"].split(". ")[0] + "."
+    return "```text\n" + textwrap.fill("conclusion: " + text, 130, break_on_hyphens=False, break_long_words=False) + "\n```"
 
 
 def size(lines):
@@ -158,6 +175,7 @@ def main():
     quick, street = (json.loads((folder / f"{name}.json").read_text()) for name in ("quick", "street"))
     put(readme, "headline", headline(quick, street))
     put(readme, "grids", grids(street))
+    put(readme, "conclusion", conclusion(street))
     put(readme, "methods", methods(table_of(folder / "street.txt")))
     constants = (folder / "street-size.txt").read_text().splitlines()
     put(readme, "size", size(constants))

@@ -142,7 +142,7 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     {
       label: "front",
       about:
-        "On its scene's Pareto front in frame time, bytes and overshade, or in cost and bytes where the result is ranked by cost: nothing that loses no light is better, beyond the interval of the ratio of their times",
+        "On its scene's Pareto front in frame time, bytes and overshade, or in cost and bytes where the result is ranked by cost: no other case that loses no light is as good in all of them (in time, as far as measured) and better in one",
       value: (row) => (row.isOnFront ? "yes" : null),
       show: (row) => front(row.isOnFront),
     },

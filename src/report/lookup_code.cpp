@@ -95,7 +95,7 @@ std::string screen_code(const Json& grid) {
   std::string slice = form == "search" ? k_slice_by_search : k_slice_by_formula;
   if (const std::size_t at = slice.find('@'); at != std::string::npos)
     slice.replace(at, 1, form == "log2" ? "log2(along)" : "along");
-  return std::string("// pixel: from the top left, centres at .5; along: ") +
+  return std::string("// pixel: from the top left (OpenGL's gl_FragCoord: from the bottom), centres at .5; along: ") +
          (by_distance ? "length(view)" : "depth, -view.z") +
          ", in metres. -1: beside the picture, beyond the last slice\n" + k_screen_start + slice + k_screen_end +
          code_of_viewport(grid, slice);

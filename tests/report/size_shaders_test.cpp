@@ -409,6 +409,12 @@ TEST_F(SizeShaders, compile_in_a_fragment_shader_of_opengl_es) {
   EXPECT_TRUE(does("glslangValidator -S frag " + path("x.frag")));
 }
 
+TEST(SizeShaderText, says_from_where_pixels_count_in_opengl_as_well) {
+  const nlohmann::ordered_json json = result_to_json(result_of_lookups(all_lookups()), {});
+  EXPECT_NE(size_report(json, {"", false, "glsl"}).find("from the top left (OpenGL's gl_FragCoord: from the bottom)"),
+            std::string::npos);
+}
+
 // Lists of some cells in one of the forms that buffers have, in words of 32 bits.
 struct Encoded {
   std::string name, storage;
