@@ -16,7 +16,7 @@ export function drawForPaper(isPaper: boolean): void {
 // Pixels that one column of a map takes, with room for these texts.
 export function columnWidth(texts: string[]): number {
   const longest = texts.reduce((most, text) => Math.max(most, text.length), 0);
-  return Math.max(isOnPaper ? 40 : 84, 8 + 6.8 * longest);
+  return Math.max(isOnPaper ? 40 : 84, 14 + 8 * longest); // cells leave a tenth of it free
 }
 
 // Room for one of `columns` charts side by side, as style.css lays them out.

@@ -150,7 +150,9 @@ describe("the most lights over depth", () => {
         assert.equal(await page.locator("#lights-by-depth").count(), 0);
         continue;
       }
-      await page.locator("#lights-by-depth summary").click();
+      const details = page.locator("#lights-by-depth details"); // once opened it stays so
+      if (!(await details.evaluate((one) => one.open))) await details.locator("summary").click();
+      await page.locator("#lights-by-depth tbody tr").first().waitFor();
       const rows = await page
         .locator("#lights-by-depth tbody tr")
         .evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.innerText)));

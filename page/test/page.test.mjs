@@ -778,6 +778,7 @@ describe("on paper", () => {
 
   it("writes the figures of maps within their cells", async () => {
     const page = await open(pages.sweep);
+    await page.selectOption("#heat-map-measure", "pairs"); // as "131.7k"
     await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
     await page.emulateMedia({ media: "print" });
     await page.setViewportSize(paper);
@@ -954,7 +955,7 @@ describe("several results", () => {
       .locator("#speed-error svg g[aria-label=tip] text, #speed-error svg text:has-text('µs') tspan")
       .first()
       .waitFor({ state: "attached" });
-    assert.match(await page.locator("#speed-error svg").first().textContent(), /· (sweep|elsewhere)/);
+    assert.match(await page.locator("#speed-error svg[role=img]").first().textContent(), /· (sweep|elsewhere)/);
   });
 
   it("can be held one against the first, case by case", async () => {
