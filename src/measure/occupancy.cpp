@@ -97,7 +97,9 @@ void LongestBySlice::add_frame(const grid::Grid& grid, const assign::Lists& list
   }
 }
 
-std::vector<std::uint32_t> LongestBySlice::result() const { return stay_ ? longest_ : std::vector<std::uint32_t>{}; }
+std::vector<std::uint32_t> LongestBySlice::result() const {
+  return stay_ ? longest_ : std::vector<std::uint32_t>{};
+}
 
 Histogram short_histogram(std::vector<std::uint64_t> cells_by_lights) {
   constexpr std::size_t k_most_entries = 256;
