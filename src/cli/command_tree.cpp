@@ -5,7 +5,7 @@
 #include <cctype>
 
 #include "assign/contract/assigner.h"
-#include "config/documents.h"
+#include "config/grid_json.h"
 #include "config/presets.h"
 #include "grid/grid.h"
 #include "report/exports/exports.h"
@@ -53,9 +53,8 @@ Values grid_kinds() {
 }
 Values slicing_schemes() {
   Values values{Kind::words, {}};
-  const nlohmann::json schema = config::config_schema();
-  for (const auto& name : schema["definitions"]["slices"]["properties"]["scheme"]["enum"])
-    values.words.push_back(name.get<std::string>());
+  for (int scheme = 0; scheme <= static_cast<int>(grid::Scheme::cubical_first); ++scheme)
+    values.words.emplace_back(config::scheme_name(static_cast<grid::Scheme>(scheme)));
   return values;
 }
 Values generators() {

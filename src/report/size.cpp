@@ -273,7 +273,7 @@ std::vector<SizedStructure> chosen_structures(const Json& result, const SizeRequ
     chosen.push_back(all[index]);
     if (!chosen.back().is_taken()) chosen.back().choice = other_method_text(result, all[index], all);
   }
-  std::ranges::stable_partition(chosen, &SizedStructure::is_taken);
+  std::stable_partition(chosen.begin(), chosen.end(), [](const SizedStructure& one) { return one.is_taken(); });
   return chosen;
 }
 
