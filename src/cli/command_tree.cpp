@@ -52,10 +52,7 @@ Values grid_kinds() {
   return values;
 }
 Values slicing_schemes() {
-  Values values{Kind::words, {}};
-  for (int scheme = 0; scheme <= static_cast<int>(grid::Scheme::cubical_first); ++scheme)
-    values.words.emplace_back(config::scheme_name(static_cast<grid::Scheme>(scheme)));
-  return values;
+  return {Kind::words, config::scheme_names()};
 }
 Values generators() {
   Values values{Kind::words, {}};

@@ -169,6 +169,12 @@ const char* scheme_name(grid::Scheme scheme) {
       ->first;
 }
 
+std::vector<std::string> scheme_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, scheme] : k_schemes) names.emplace_back(name);
+  return names;
+}
+
 double slices_metres(const Json& slices, const char* key) {
   return slices.contains(key) && slices[key].is_number() ? slices[key].get<double>() : 0.0;
 }

@@ -2,12 +2,15 @@
 // A grid's request as JSON and back: with the schema, all that a kind of grid has outside of src/grid.
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "grid/grid_spec.h"
 
 namespace clusterbench::config {
 
 const char* scheme_name(grid::Scheme scheme);
+std::vector<std::string> scheme_names();
 // A length in `slices`; 0 if it is not given or null.
 double slices_metres(const nlohmann::json& slices, const char* key);
 

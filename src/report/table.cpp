@@ -269,11 +269,12 @@ std::string sets_text(const Json& cases) {
 // Of the marks and columns that the table has.
 std::string legend(const Json& cases, const Extras& extras, RankBy by, bool has_front, bool is_complete) {
   std::string out;
-  const std::string interval = extras.times ? " (beyond the interval of their ratio)" : "";
+  const std::string measured = extras.times ? " (as far as measured)" : "";
   if (has_front)
-    out += "* no other case with lists of its camera and viewport is better in " +
-           (by == RankBy::frame_cost ? "cost" + interval + " and bytes.\n"
-                                     : (extras.times ? "time" + interval + ", " : "") + "bytes and overshade.\n");
+    out += "* no other case with lists of its camera and viewport is as good in " +
+           (by == RankBy::frame_cost ? "cost" + measured + " and bytes"
+                                     : (extras.times ? "time" + measured + ", " : "") + "bytes and overshade") +
+           ", and better in one.\n";
   if (extras.times)
     out += std::string("frame: time of a frame") + (extras.cold ? " with cold caches" : "") + ", assign" +
            (extras.conversions ? " + convert" : "") + "; ±: half of its 95 % interval" +

@@ -207,9 +207,9 @@ std::string unlit_text(const CaseResult& result) {
          std::to_string(shading.missed_outside) + " outside of the grid" + worst_text(result);
 }
 
-// A limit of lights that removed some in a frame; null if none did.
+// A limit of lights that removed some in a frame.
 struct ExceededLimit {
-  const PreCullCounts::Step* step = nullptr;
+  const PreCullCounts::Step* step = nullptr;  // null if none did
   bool is_of_view = false;  // else of the whole scene: no step before it removes what is beside the view
 };
 ExceededLimit exceeded_limit(const CaseResult& result) {
