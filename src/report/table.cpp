@@ -269,7 +269,7 @@ std::string sets_text(const Json& cases) {
 // Of the marks and columns that the table has.
 std::string legend(const Json& cases, const Extras& extras, RankBy by, bool has_front, bool is_complete) {
   std::string out;
-  const std::string measured = extras.times ? " (as far as measured)" : "";
+  const std::string measured = extras.times ? " (as measured)" : "";
   if (has_front)
     out += "* no other case with lists of its camera and viewport is as good in " +
            (by == RankBy::frame_cost ? "cost" + measured + " and bytes"
