@@ -49,7 +49,8 @@ report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& s
   search::fix_grid(config, counts.plan, *case_plan);
   try {
     const search::WorstCase found = search::find_worst_case(config, counts.plan, *case_plan, request, listener, stop);
-    if (found.frames.empty()) return out.refusal = "the search was interrupted", out;
+    if (found.frames.empty())
+      return out.refusal = "its seconds were over before its first frame; allow more (--seconds)", out;
     out.value = static_cast<std::uint64_t>(found.frames.front().value);
     out.evaluations = found.evaluations;
     out.seed = request.seed;

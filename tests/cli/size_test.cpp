@@ -473,8 +473,13 @@ TEST(SizeCommand, shares_the_seconds_of_a_search_among_all) {
       street);
   ASSERT_EQ(done.code, 0) << done.err;
   const Json sized = Json::parse(done.out);
-  for (const Json& limit : sized["structures"][0]["settings"]["limits"])
-    EXPECT_LT(limit["search"]["evaluations"], 5000) << limit;
+  for (const Json& limit : sized["structures"][0]["settings"]["limits"]) {
+    const Json& search = limit.at("search");
+    if (search.contains("refusal"))  // on a machine where not one frame takes so little
+      EXPECT_EQ(search["refusal"], "its seconds were over before its first frame; allow more (--seconds)") << limit;
+    else
+      EXPECT_LT(search.at("evaluations"), 5000) << limit;
+  }
 }
 
 TEST(SizeCommand, says_of_a_preset_that_reached_its_own_limit_that_its_buffers_are_of_what_is_left) {

@@ -276,7 +276,7 @@ TEST(SizeMarks, an_engines_setting_names_the_largest_of_several_finds) {
   run::Result result = result_of_cameras({camera_of_marks("walk", {10, 40})});
   FoundFrame less = found_frame(50), more = found_frame(60), refused = found_frame(0);
   less.seed = 3, more.seed = 4;
-  refused.refusal = "the search was interrupted";
+  refused.refusal = "its seconds were over";
   SizeRequest request = marks_request("table");
   request.engine = "bevy";
   request.has_own_grid = true;
