@@ -125,12 +125,21 @@ TEST(LightDigest, is_another_where_a_light_goes_elsewhere_between_the_ends_and_t
 
 TEST(LightDigest, is_another_where_two_lights_exchange_places) {
   Scene scene = rig_of(6);
-  for (Light& light : scene.lights) light.range_m = 3.0;
+  for (Light& light : scene.lights) {
+    light.type = LightType::point;
+    light.range_m = 3.0;
+  }
   node_of(scene, 0).translation = {0.0, 0.0, 0.0};
   node_of(scene, 1).translation = {8.0, 0.0, 0.0};
   const Scene moving = with_motion(with_motion(scene, 0, {0.0, 1.0}, {at(0, 0, 0), at(8, 0, 0)}), 1, {0.0, 1.0},
                                    {at(8, 0, 0), at(0, 0, 0)});
   EXPECT_NE(light_digest(moving), light_digest(scene));
+}
+
+TEST(LightDigest, is_another_where_the_same_motion_is_faster) {
+  const Scene scene = rig_of(5);
+  EXPECT_NE(light_digest(with_motion(scene, 2, {0.0, 1.0}, {at(0, 0, 0), at(8, 0, 0)})),
+            light_digest(with_motion(scene, 2, {0.0, 2.0}, {at(0, 0, 0), at(8, 0, 0)})));
 }
 
 TEST(LightDigest, of_moving_lights_does_not_depend_on_how_long_a_camera_moves) {
