@@ -155,7 +155,7 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
       label: "time / fastest",
       isScreenOnly: true,
       about:
-        "Frame time by that of the fastest case of its scene, camera and viewport, measured beside it, as clusterbench ratio --across-grids has it; its interval at the pointer",
+        "Frame time by that of the fastest case of its scene, camera and viewport, the median of the ratios of times measured side by side, as clusterbench ratio --across-grids has it, and not the quotient of the two times; its interval at the pointer",
       value: (row) => row.ranked?.fastest?.ratio ?? null,
       show: (row) => h("span", { title: ratio(row) }, format.factor(row.ranked?.fastest?.ratio ?? null)),
     },

@@ -628,7 +628,7 @@ export type Result = {
       frame_ns: Time; // Per frame: what a frame takes, pre_cull_ns, assign_ns and convert_ns of the same round together
       worst_frame?: {
         frame: number; // Number of the frame on the camera's path, from 0 [frame, over the path]
-        ns: number | null; // Time of this frame alone, median over the rounds; of warm times its share of a pass over the timed frames [ns, over the rounds]
+        ns: number | null; // Time of this frame: its share of a pass over the timed frames, by the frames' medians over the rounds, of frame_ns [ns, over the rounds]
         ci95: Interval; // 95 % interval of ns [ns, over the rounds]
         pairs?: number; // Pairs (cell, light) of this frame; absent without cells [pairs, over one frame]
       }; // The slowest of the timed frames and of the path's frame with the most pairs, which is timed beside them

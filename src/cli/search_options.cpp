@@ -70,6 +70,11 @@ void add_space_options(Command& command, SearchFlags& flags, const Option* only_
       command.add_option("--eye-height", flags.request.eye_height_m, "With --walkable: so high above them, metres")
           .range(0.0, 1e6)
           .shows_standard(),
+      command.add_flag("--keep-height", flags.request.keep_height,
+                       "The camera stands as high as recorded, from the lowest to the highest"),
+      command.add_flag("--keep-direction", flags.request.keep_direction,
+                       "The camera looks as in one of the recorded frames, as over a strategy game; without: anywhere, "
+                       "upright"),
       command
           .add_option("--add-lights", flags.added,
                       "COUNTxRANGE, repeatable: so many point lights of that range, in metres, stand where they are "

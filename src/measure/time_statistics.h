@@ -60,11 +60,14 @@ std::optional<TwoModes> two_modes(std::span<const double> samples_ns);
 // The frame that takes longest of several.
 struct WorstFrame {
   std::size_t index = 0;
-  double ns = 0.0;  // median over the rounds
+  double ns = 0.0;  // median over the rounds, scaled
   Interval ci95;
 };
-// `frames_ns`: of each round, what each frame took. At least one round.
-WorstFrame worst_frame(std::span<const std::vector<double>> frames_ns, std::uint64_t seed, int launches = 1);
+// `frames_ns`: time of each frame in each round, at least one round. `mean_ns`: the median over the rounds of the mean
+// of the first `mean_frames` frames. What disturbs another frame in each round is in that median and in no frame's own,
+// so the frames' medians are scaled until their mean is `mean_ns`: no worst frame is faster than the mean.
+WorstFrame worst_frame(std::span<const std::vector<double>> frames_ns, std::size_t mean_frames, double mean_ns,
+                       std::uint64_t seed, int launches = 1);
 
 // Of one round: times of single frames, of which only the shares count, scaled so that the first `mean_frames` of them
 // are `mean_ns` in the mean, which was measured over a pass as a whole.

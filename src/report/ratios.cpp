@@ -170,7 +170,7 @@ std::string legend_of(const Json& ratios, bool all_pairs) {
   const std::string unknown = has_unknown ? k_unknown_interval + (": " + what_intervals_take()) + ".\n" : "";
   return unknown + std::string("Ratios of frame times of the same ") +
          (ratios["across_grids"].get<bool>() ? "rounds, or of other grids of the same launches" : "rounds") +
-         ", median and 95 % interval. ~: the interval does not say that " +
+         ", median and 95 % interval; not the quotient of the two times.\n~: the interval does not say that " +
          (all_pairs ? "the first takes longer.\n" : "it takes longer than the row above.\n");
 }
 

@@ -43,6 +43,15 @@ Cells candidate_row(const std::string& mark, const Json& record, const std::stri
           text_at(record, "/overshade", "%.2f")};
 }
 
+// Times are compared within rounds, so that their ratio is known better than either of them.
+std::string worse_by_line(const Json& answer) {
+  for (const Json& record : answer["runners_up"])
+    if (record.contains("ci95") && record["ci95"][0].is_number())
+      return "worse by: than *, median and 95 % interval of ratios measured side by side; not the quotient of the two "
+             "figures\n";
+  return "";
+}
+
 std::string table_of(const std::vector<Cells>& rows) {
   const std::vector<std::size_t> widths = widths_of(rows);
   std::string out;
@@ -127,7 +136,7 @@ std::string answer_text(const Json& answer, const Json& objective) {
     std::vector<Cells> rows{candidate_headings(answer, figure)};
     rows.push_back(candidate_row("*", answer["choice"], figure));
     for (const Json& runner_up : answer["runners_up"]) rows.push_back(candidate_row(" ", runner_up, figure));
-    out += table_of(rows);
+    out += table_of(rows) + worse_by_line(answer);
     const Json& coarsest = answer["coarsest"];
     out += "coarsest grid within " + within_text(answer["within"].get<double>()) + " of the best: " +
            (coarsest.is_null() ? "none other"

@@ -102,6 +102,7 @@ Json case_json(const WorstCaseFacts& facts) {
 Json space_json(const WorstCase& found, const WorstCaseFacts& facts) {
   Json out{{"eyes_m", box_json(found.eyes)},
            {"floor", nullptr},
+           {"directions", found.directions},
            {"moments", found.moments},
            {"lights", found.own_lights},
            {"added_ranges_m", facts.request.extra_ranges_m},

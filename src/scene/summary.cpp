@@ -234,8 +234,9 @@ void look_through(const Scene& scene, double time_s, const std::vector<std::size
   for (const std::size_t index : cameras) {
     const Camera& camera = scene.cameras[index];
     const CameraProjection projection = projection_at(scene, camera, time_s);
-    const CameraPose pose =
-        world.empty() ? camera_pose(scene, camera, time_s) : camera_pose(world[static_cast<std::size_t>(camera.node)]);
+    const Mat4d* transform = world.empty() ? nullptr : &world[static_cast<std::size_t>(camera.node)];
+    const bool is_flat = transform == nullptr || glm::determinant(Mat3d(*transform)) == 0.0;
+    const CameraPose pose = is_flat ? camera_pose(scene, camera, time_s) : camera_pose(*transform);
     const View view{pose, projection, largest_view(projection)};
     check_domain(scene, camera.name, Shot{time_s, view.pose, projection});
     std::erase_if(unseen, [&](const WorldLight& light) {
@@ -258,6 +259,11 @@ void look_along_made_path(const Scene& scene, Summary& summary, Sight& sight) {
   }
 }
 
+// The moments are those of this summary: what `run` and `size` take without a configuration is less and more.
+std::string moments_text(const CameraMoments& moments) {
+  return moments.how + (moments.times_s.size() > 1 ? " (here; run and size choose theirs)" : "");
+}
+
 // Cameras' lines, and what they see.
 Sight look_through_cameras(const Scene& scene, Summary& summary) {
   Sight sight;
@@ -265,7 +271,8 @@ Sight look_through_cameras(const Scene& scene, Summary& summary) {
   std::vector<CameraMoments> moments;
   for (const Camera& camera : scene.cameras) {
     moments.push_back(camera_moments(scene, camera, {}));
-    summary.cameras.push_back(camera.name + ": " + projection_text(camera.projection) + "; " + moments.back().how);
+    summary.cameras.push_back(camera.name + ": " + projection_text(camera.projection) + "; " +
+                              moments_text(moments.back()));
   }
   for (const auto& [time, cameras] : moments_to_look_at(scene, moments, sight))
     look_through(scene, time, cameras, sight);

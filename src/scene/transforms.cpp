@@ -157,14 +157,38 @@ void set_box(WorldLight& out, const Vec3d& half_extents_m, const Mat4d& world) {
   out.range_m = geom::range_in_domain(corner_distance_m(out.half_axes_m));
 }
 
-WorldLight world_light(const Light& light, int rig_index, const Mat4d& world) {
+bool is_flat(const Node& node) {
+  return !node.matrix && (node.scale.x == 0.0 || node.scale.y == 0.0 || node.scale.z == 0.0);
+}
+
+// Axes of a node below one that is scaled to nothing, with ones in place of the zeros: lights and cameras keep their
+// direction however their nodes are scaled, and exporters hide objects by a scale of 0. `node_of(index)`: as posed.
+template <class NodeOf>
+Mat3d unflattened_axes(int index, const NodeOf& node_of) {
+  Mat3d axes(1.0);
+  while (index >= 0) {
+    Node node = node_of(index);
+    for (int axis = 0; axis < 3; ++axis)
+      if (node.scale[axis] == 0.0) node.scale[axis] = 1.0;
+    axes = Mat3d(local_matrix(node)) * axes;
+    index = node.parent;
+  }
+  return axes;
+}
+
+void set_axes(Mat4d& world, const Mat3d& axes) {
+  for (int axis = 0; axis < 3; ++axis) world[axis] = Vec4d(axes[axis], 0.0);
+}
+
+// `back`: the world direction of the node's z axis.
+WorldLight world_light(const Light& light, int rig_index, const Mat4d& world, const Vec3d& back) {
   WorldLight out;
   out.rig_index = rig_index;
   out.type = light.type;
   out.position = Vec3d(world[3]);
   out.range_m = geom::range_in_domain(light.range_m);
-  // A node scaled to nothing has no direction; it keeps glTF's own -Z.
-  out.direction = unit_or(-Vec3d(world[2]), Vec3d(0.0, 0.0, -1.0));
+  // A matrix of zeros has no direction; it keeps glTF's own -Z.
+  out.direction = unit_or(-back, Vec3d(0.0, 0.0, -1.0));
   if (light.type == LightType::spot) {
     out.outer_cone_rad = light.outer_cone_rad;
     out.inner_cone_rad = light.inner_cone_rad;
@@ -188,8 +212,9 @@ Vec3d up_orthogonal_to(const Vec3d& back, const Vec3d& up) {
   return glm::normalize(axis - back * glm::dot(axis, back));
 }
 
-// World transform of one node: what world_transforms() says, from the nodes above it alone.
-Mat4d world_transform(const Scene& scene, int index, double time_s) {
+// World transform of a camera's node: what world_transforms() says, from the nodes above it alone, but for axes that
+// are flattened.
+Mat4d camera_transform(const Scene& scene, int index, double time_s) {
   std::vector<int> chain;
   for (; index >= 0; index = scene.nodes[static_cast<std::size_t>(index)].parent) chain.push_back(index);
   std::reverse(chain.begin(), chain.end());  // parents come first, so it ascends
@@ -202,6 +227,12 @@ Mat4d world_transform(const Scene& scene, int index, double time_s) {
   }
   Mat4d world = local_matrix(posed.front());
   for (std::size_t i = 1; i < posed.size(); ++i) world = world * local_matrix(posed[i]);
+  if (std::ranges::any_of(posed, is_flat)) {
+    const auto node_of = [&](int node) -> const Node& {
+      return posed[static_cast<std::size_t>(std::ranges::lower_bound(chain, node) - chain.begin())];
+    };
+    set_axes(world, unflattened_axes(chain.back(), node_of));
+  }
   return world;
 }
 
@@ -231,6 +262,7 @@ class NodeTransforms {
     std::vector<bool> is_parent(posed.size(), false);
     for (const Node& node : posed)
       if (node.parent >= 0) is_parent[static_cast<std::size_t>(node.parent)] = true;
+    has_flat_ = std::ranges::any_of(posed, is_flat);
     for (std::size_t i = 0; i < posed.size(); ++i) {
       if (!is_parent[i]) continue;
       const Mat4d world = of(i);
@@ -239,6 +271,12 @@ class NodeTransforms {
     }
   }
 
+  // The direction of its z axis.
+  Vec3d back_of(std::size_t node, const Mat4d& world) const {
+    if (!has_flat_) return Vec3d(world[2]);
+    const auto node_of = [&](int index) -> const Node& { return posed_[static_cast<std::size_t>(index)]; };
+    return unflattened_axes(static_cast<int>(node), node_of)[2];
+  }
   Mat4d of(std::size_t node) const {
     const Mat4d local = local_matrix(posed_[node]);
     const int parent = posed_[node].parent;
@@ -250,6 +288,7 @@ class NodeTransforms {
   const std::vector<Node>& posed_;
   std::vector<std::int32_t> kept_at_;
   std::vector<Mat4d> kept_;
+  bool has_flat_ = false;
 };
 
 std::vector<bool> visible_of(const std::vector<Node>& posed) {
@@ -289,8 +328,9 @@ std::vector<WorldLight> world_lights(const Scene& scene, double time_s) {
       if (light.type != type) continue;
       const auto node = static_cast<std::size_t>(light.node);
       const auto channels = channels_of(scene.light_channels, light.definition);
+      const Mat4d transform = world.of(node);
       out.push_back(world_light(channels.empty() ? light : light_at(scene, light, channels, time_s),
-                                static_cast<int>(i), world.of(node)));
+                                static_cast<int>(i), transform, world.back_of(node, transform)));
       if (!visible[node]) out.back().range_m = 0.0;
     }
   }
@@ -311,7 +351,7 @@ CameraPose camera_pose(const Mat4d& world) {
 }
 
 CameraPose camera_pose(const Scene& scene, const Camera& camera, double time_s) {
-  return camera_pose(world_transform(scene, camera.node, time_s));
+  return camera_pose(camera_transform(scene, camera.node, time_s));
 }
 
 CameraProjection projection_at(const Scene& scene, const Camera& camera, double time_s) {

@@ -17,6 +17,21 @@ double share_of(double lo, double hi, double value) {
   return hi > lo ? std::clamp((value - lo) / (hi - lo), 0.0, 1.0) : 0.5;
 }
 
+// One of several by its share of the edge.
+std::size_t index_at(double share, std::size_t count) {
+  return std::min(static_cast<std::size_t>(share * static_cast<double>(count)), count - 1);
+}
+
+double share_of_index(std::size_t index, std::size_t count) {
+  return (static_cast<double>(index) + 0.5) / static_cast<double>(count);
+}
+
+// The one that turns the camera least from another.
+std::size_t nearest_rotation(const std::vector<Vec4d>& rotations, const Vec4d& to) {
+  const auto alike = [&](const Vec4d& rotation) { return std::abs(glm::dot(rotation, to)); };
+  return static_cast<std::size_t>(std::ranges::max_element(rotations, {}, alike) - rotations.begin());
+}
+
 // About the upright axis, and then upward.
 Vec4d turned(double yaw_rad, double pitch_rad) {
   const double cy = std::cos(0.5 * yaw_rad), sy = std::sin(0.5 * yaw_rad);
@@ -36,13 +51,14 @@ void Box::add(const Vec3d& point) {
 }
 
 SearchSpace::SearchSpace(const Box& eyes, const Box& lights, std::size_t moments, std::size_t extra_lights,
-                         const Walkable* floor, double eye_height_m)
+                         const Walkable* floor, double eye_height_m, std::vector<Vec4d> rotations)
     : eyes_(eyes),
       lights_(lights),
       moments_(moments),
       extra_lights_(extra_lights),
       floor_(floor),
-      eye_height_m_(eye_height_m) {}
+      eye_height_m_(eye_height_m),
+      rotations_(std::move(rotations)) {}
 
 FrameChoice SearchSpace::at(std::span<const double> point) const {
   FrameChoice out;
@@ -56,10 +72,12 @@ FrameChoice SearchSpace::at(std::span<const double> point) const {
     eye = floor_->nearest(eye - height) + height;
   }
   out.eye = rounded_to_float(eye);
-  out.rotation = turned(k_turn * (point[3] - 0.5), std::asin(std::clamp(2.0 * point[4] - 1.0, -1.0, 1.0)));
-  std::size_t next = k_pose;
-  if (moments_ > 1)
-    out.moment = std::min(static_cast<std::size_t>(point[next++] * static_cast<double>(moments_)), moments_ - 1);
+  if (rotations_.empty())
+    out.rotation = turned(k_turn * (point[3] - 0.5), std::asin(std::clamp(2.0 * point[4] - 1.0, -1.0, 1.0)));
+  else
+    out.rotation = rotations_[rotations_.size() > 1 ? index_at(point[3], rotations_.size()) : 0];
+  std::size_t next = pose_dimensions();
+  if (moments_ > 1) out.moment = index_at(point[next++], moments_);
   // Relative to the eye, so that lights keep their effect when it moves, and finer near it.
   for (std::size_t light = 0; light < extra_lights_; ++light) {
     Vec3d position = eye;
@@ -78,10 +96,14 @@ std::vector<double> SearchSpace::point_of(const Vec3d& eye, const Vec4d& rotatio
     const auto i = static_cast<int>(axis);
     point[axis] = share_of(eyes_.lo[i], eyes_.hi[i], eye[i]);
   }
-  const Vec3d forward = direction_of(rotation);
-  point[3] = std::clamp(std::atan2(-forward.x, -forward.z) / k_turn + 0.5, 0.0, 1.0);
-  point[4] = std::clamp(0.5 * (forward.y + 1.0), 0.0, 1.0);
-  if (moments_ > 1) point[k_pose] = (static_cast<double>(moment) + 0.5) / static_cast<double>(moments_);
+  if (rotations_.empty()) {
+    const Vec3d forward = direction_of(rotation);
+    point[3] = std::clamp(std::atan2(-forward.x, -forward.z) / k_turn + 0.5, 0.0, 1.0);
+    point[4] = std::clamp(0.5 * (forward.y + 1.0), 0.0, 1.0);
+  } else if (rotations_.size() > 1) {
+    point[3] = share_of_index(nearest_rotation(rotations_, rotation), rotations_.size());
+  }
+  if (moments_ > 1) point[pose_dimensions()] = share_of_index(moment, moments_);
   return point;
 }
 

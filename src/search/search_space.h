@@ -15,28 +15,30 @@ namespace clusterbench::search {
 class SearchSpace {
  public:
   // `eyes`: where the camera may stand. `lights`: where extra lights may. `floor`: the camera stands so high above it
-  // instead, in the part of the floor nearest to a point of `eyes`; must outlive it.
+  // instead, in the part of the floor nearest to a point of `eyes`; must outlive it. `rotations`: the only ones that
+  // the camera has; none: it looks anywhere, upright.
   SearchSpace(const Box& eyes, const Box& lights, std::size_t moments, std::size_t extra_lights,
-              const Walkable* floor = nullptr, double eye_height_m = 0.0);
+              const Walkable* floor = nullptr, double eye_height_m = 0.0, std::vector<Vec4d> rotations = {});
 
-  std::size_t dimensions() const { return k_pose + (moments_ > 1 ? 1 : 0) + 3 * extra_lights_; }
-  // The frame at a point of the cube. The camera's up stays upright. Positions are rounded to single precision, by
+  std::size_t dimensions() const { return pose_dimensions() + (moments_ > 1 ? 1 : 0) + 3 * extra_lights_; }
+  // The frame at a point of the cube. Positions are rounded to single precision, by
   // which they can lie outside of a box.
   FrameChoice at(std::span<const double> point) const;
-  // The point of a camera that looks along the -z of `rotation` (its roll is lost), moved into the cube. Extra lights
-  // stand at the eye.
+  // The point of a camera that looks along the -z of `rotation` (its roll is lost, unless it is one of the only ones),
+  // moved into the cube. Extra lights stand at the eye.
   std::vector<double> point_of(const Vec3d& eye, const Vec4d& rotation, std::size_t moment) const;
   // Eyes evenly in the box, or over the floor's area; directions evenly over the sphere; extra lights as at() has them.
   std::vector<double> random(SplitMix64& random) const;
   const Box& eyes() const { return eyes_; }
 
  private:
-  static constexpr std::size_t k_pose = 5;
+  std::size_t pose_dimensions() const { return 3 + (rotations_.empty() ? 2 : rotations_.size() > 1 ? 1 : 0); }
 
   Box eyes_, lights_;
   std::size_t moments_, extra_lights_;
   const Walkable* floor_;
   double eye_height_m_;
+  std::vector<Vec4d> rotations_;
 };
 
 // The rotation of the camera's node, of single precision, for a pose.

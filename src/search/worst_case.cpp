@@ -1,10 +1,12 @@
 #include "search/worst_case.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <mutex>
 #include <numeric>
+#include <set>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -113,7 +115,7 @@ class WorstCaseSearch {
         scene_box_(box_of(rig_, path_)),
         floor_(floor_of(plan.scenes[case_plan.scene].scene)),
         space_(eye_box(), scene_box_, rig_.moments(), request.extra_ranges_m.size(), floor_ ? &*floor_ : nullptr,
-               request.eye_height_m),
+               request.eye_height_m, rotations_kept()),
         clock_(request.seconds, stop),
         stop_(stop),
         progress_(listener, frames_to_rate()),
@@ -151,6 +153,7 @@ class WorstCaseSearch {
     out_.lights = scene_box_;
     out_.own_lights = rig_.own_lights();
     out_.moments = rig_.moments();
+    out_.directions = rotations_kept().size();
     if (floor_) {
       out_.floor_triangles = floor_->triangles();
       out_.floor_area_m2 = floor_->area_m2();
@@ -180,10 +183,28 @@ class WorstCaseSearch {
     return Walkable(scene, data.geometry ? *data.geometry : scene::load_geometry(scene), within);
   }
   Box eye_box() const {
-    if (request_.within) return *request_.within;
-    if (!floor_) return scene_box_;
-    const Vec3d height{0.0, request_.eye_height_m, 0.0};
-    return {floor_->lo() + height, floor_->hi() + height};
+    if (floor_ && !request_.within) {
+      const Vec3d height{0.0, request_.eye_height_m, 0.0};
+      return {floor_->lo() + height, floor_->hi() + height};
+    }
+    Box box = request_.within ? *request_.within : scene_box_;
+    if (!request_.keep_height) return box;
+    const auto [lowest, highest] =
+        std::ranges::minmax(path_.shots, {}, [](const scene::Shot& shot) { return shot.pose.eye.y; });
+    box.lo.y = lowest.pose.eye.y;
+    box.hi.y = highest.pose.eye.y;
+    return box;
+  }
+  // Each rotation of the recorded path once, in its order; none where the camera may look anywhere.
+  std::vector<Vec4d> rotations_kept() const {
+    std::vector<Vec4d> kept;
+    if (!request_.keep_direction) return kept;
+    std::set<std::array<double, 4>> seen;
+    for (const scene::Shot& shot : path_.shots) {
+      const Vec4d rotation = rotation_of(shot.pose);
+      if (seen.insert({rotation.x, rotation.y, rotation.z, rotation.w}).second) kept.push_back(rotation);
+    }
+    return kept;
   }
   double near_m() const {
     const Vec3d size = space_.eyes().hi - space_.eyes().lo;
@@ -463,6 +484,9 @@ class WorstCaseSearch {
 };
 
 void check_request(const run::SceneData& data, const WorstCaseRequest& request) {
+  if (request.keep_height && (request.walkable || request.within))
+    throw Error("", "--keep-height",
+                "says how high the camera stands, as --walkable and --within do; give one of them");
   if (std::ranges::any_of(data.scene.lights,
                           [](const scene::Light& light) { return light.type == scene::LightType::box; }))
     throw Error(

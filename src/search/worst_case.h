@@ -30,6 +30,8 @@ struct WorstCaseRequest {
   std::optional<Box> within;           // where the eye may be; without: the box of the lights and the recorded eyes
   bool walkable = false;               // the eye stays above the floor
   double eye_height_m = 1.7;
+  bool keep_direction = false;  // the camera looks as it does in one of the recorded frames
+  bool keep_height = false;     // the eye stays between the recorded eyes' least and greatest y
 };
 
 struct WorstCaseListener {
@@ -71,6 +73,7 @@ struct WorstCase {
   std::vector<assign::BufferNeed> buffers;  // of the worst frame
   Box eyes, lights;
   std::size_t own_lights = 0, moments = 1;
+  std::size_t directions = 0;  // that the camera could look along; 0: any
   std::size_t floor_triangles = 0;
   double floor_area_m2 = 0.0;
   std::vector<std::string> warnings;

@@ -100,9 +100,9 @@ TEST(WorstFrame, is_the_frame_with_the_largest_share_of_a_pass) {
   // Rounds of two frames; the second takes three quarters of a pass, whatever the clock adds.
   std::vector<std::vector<double>> frames{scaled_to_mean({100, 300}, 2, 180), scaled_to_mean({110, 330}, 2, 200),
                                           scaled_to_mean({500, 1500}, 2, 190)};
-  EXPECT_FALSE(worst_frame(frames, 1).ci95.is_known());
+  EXPECT_FALSE(worst_frame(frames, 2, 190, 1).ci95.is_known());
   frames.insert(frames.end(), {frames[0], frames[1], frames[2]});
-  const WorstFrame worst = worst_frame(frames, 1);
+  const WorstFrame worst = worst_frame(frames, 2, 190, 1);
   EXPECT_EQ(worst.index, 1u);
   EXPECT_DOUBLE_EQ(worst.ns, 1.5 * 190);
   EXPECT_DOUBLE_EQ(worst.ci95.low, 1.5 * 180);
@@ -112,7 +112,15 @@ TEST(WorstFrame, is_the_frame_with_the_largest_share_of_a_pass) {
 TEST(WorstFrame, of_one_frame_is_the_mean) {
   const std::vector<std::vector<double>> frames{scaled_to_mean({100}, 1, 70), scaled_to_mean({130}, 1, 80),
                                                 scaled_to_mean({90}, 1, 90)};
-  EXPECT_EQ(worst_frame(frames, 1).ns, 80.0);
+  EXPECT_EQ(worst_frame(frames, 1, 80, 1).ns, 80.0);
+}
+
+TEST(WorstFrame, is_never_faster_than_the_mean) {
+  // Another frame is disturbed in each round: no frame's own median has it, the median of the means does.
+  const std::vector<std::vector<double>> frames{{400, 100, 101, 500}, {100, 400, 101, 100}, {100, 100, 401, 100}};
+  const WorstFrame worst = worst_frame(frames, 3, 200, 1);
+  EXPECT_EQ(worst.index, 2u);
+  EXPECT_DOUBLE_EQ(worst.ns, 101.0 * 600.0 / 301.0);
 }
 
 TEST(WorstFrame, a_frame_beyond_the_mean_is_scaled_and_not_in_it) {

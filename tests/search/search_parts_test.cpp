@@ -99,6 +99,30 @@ TEST(SearchSpace, a_recorded_camera_comes_back_but_for_its_roll) {
   }
 }
 
+TEST(SearchSpace, a_camera_that_keeps_its_directions_has_no_other_and_keeps_its_roll) {
+  const std::vector<Vec4d> rotations{rounded_to_float(Vec4d{-0.5, 0.5, 0.5, 0.5}),
+                                     rounded_to_float(Vec4d{-0.6, 0.0, 0.0, 0.8}), Vec4d{0.0, 0.0, 0.0, 1.0}};
+  for (std::size_t count = 1; count <= rotations.size(); ++count) {
+    const std::vector<Vec4d> kept(rotations.begin(), rotations.begin() + static_cast<std::ptrdiff_t>(count));
+    const SearchSpace space({{-10.0, 3.0, -10.0}, {10.0, 3.0, 10.0}}, {}, 2, 1, nullptr, 0.0, kept);
+    std::vector<int> seen(count, 0);
+    SplitMix64 random(3);
+    for (int i = 0; i < 300; ++i) {
+      const std::vector<double> point = space.random(random);
+      ASSERT_EQ(point.size(), space.dimensions());
+      const FrameChoice one = space.at(point);
+      const auto found = std::ranges::find(kept, one.rotation);
+      ASSERT_NE(found, kept.end());
+      ++seen[static_cast<std::size_t>(found - kept.begin())];
+      const FrameChoice again = space.at(space.point_of(one.eye, one.rotation, one.moment));
+      EXPECT_EQ(again.rotation, one.rotation);
+      EXPECT_EQ(again.moment, one.moment);
+      EXPECT_EQ(one.eye.y, 3.0);
+    }
+    for (const int times : seen) EXPECT_GT(times, 300 / static_cast<int>(count) / 2);
+  }
+}
+
 TEST(SearchSpace, random_directions_are_even_over_the_sphere_and_added_lights_stay_in_their_box) {
   const Box lights{{-3.0, 0.0, -2.0}, {3.0, 1.0, 2.0}};
   const SearchSpace space({{-10.0, 0.0, -10.0}, {10.0, 5.0, 10.0}}, lights, 1, 2);

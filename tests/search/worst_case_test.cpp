@@ -69,6 +69,32 @@ TEST(WorstCase, finds_where_most_lights_are_in_view_and_where_most_of_one_type) 
   EXPECT_EQ(of_type.theoretical_max, 22.0) << "points";
 }
 
+TEST(WorstCase, a_camera_that_keeps_direction_and_height_is_never_turned_or_lifted) {
+  const SearchFolder folder;
+  // It looks along -z at the height of no light; the twelve points behind it are in view only of one that turns.
+  const Searched crowds =
+      searched(folder, scene_json(std::vector<TestLight>(12, {{0.0, 0.0, 50.0}, 2.0}), {{0.0, 1.5, 40.0}}));
+  WorstCaseRequest request = few(600);
+  request.frames = 3;
+  request.within = Box{{-10.0, 1.0, 0.0}, {10.0, 3.0, 45.0}};
+  EXPECT_GT(crowds.search(request).frames.front().value, 0.0);
+  request.keep_direction = true;
+  const WorstCase blind = crowds.search(request);
+  EXPECT_EQ(blind.frames.front().value, 0.0) << "all lights are behind it";
+  EXPECT_EQ(blind.random.max, 0.0);
+  EXPECT_EQ(blind.directions, 1u);
+  request.within.reset();
+  request.keep_height = true;
+  const WorstCase found = crowds.search(request);
+  EXPECT_GT(found.frames.front().value, 0.0) << "from further back";
+  EXPECT_EQ(found.eyes.lo.y, 1.5);
+  EXPECT_EQ(found.eyes.hi.y, 1.5);
+  for (const FoundFrame& frame : found.frames) {
+    EXPECT_EQ(direction_of(frame.choice.rotation), Vec3d(0.0, 0.0, -1.0));
+    EXPECT_EQ(frame.choice.eye.y, 1.5);
+  }
+}
+
 TEST(WorstCase, a_light_without_end_is_in_every_cell_of_every_frame) {
   const SearchFolder folder;
   const Searched endless = searched(folder, scene_json({{{0.0, 0.0, 0.0}, 1e16}}, {{0.0, 0.0, 5.0}}));
@@ -302,6 +328,9 @@ TEST(WorstCase, what_cannot_be_searched_is_refused_with_a_reason) {
   request.within.reset();
   request.walkable = true;
   EXPECT_NE(refusal_of(lit, request).find("--walkable: the scene has no triangles"), std::string::npos);
+  request.keep_height = true;
+  EXPECT_NE(refusal_of(lit, request).find("--keep-height: says how high the camera stands, as"), std::string::npos);
+  request.keep_height = false;
   const Searched unsampled = searched(folder, room(), frustum(), "aabb", {{"shading", {{"samples", 0}}}});
   request.walkable = false;
   request.measure = Measure::evaluated;

@@ -264,7 +264,8 @@ class MethodTimes {
       out.warm = std::move(times);
     }
     if (converts && *out.pairs_mean > 0.0) out.ns_per_pair = out.frame_ns.median / *out.pairs_mean;
-    const measure::WorstFrame worst = measure::worst_frame(each, seed_, launch_count());
+    const measure::WorstFrame worst =
+        measure::worst_frame(each, first_.mean_frames, out.frame_ns.median, seed_, launch_count());
     out.worst = {first_.frames[worst.index], worst.ns, worst.ci95, {}};
     if (!first_.pairs.empty()) out.worst.pairs = first_.pairs[worst.index];
     return out;
