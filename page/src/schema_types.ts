@@ -290,7 +290,7 @@ export type Result = {
       text: string; // The same for people, without the case's name
     }>; // What to know about the case before believing its figures, beside its failures
     loses_lights: boolean; // Whether a shader lacks lights: pairs that are not listed or were dropped, lights that samples of a structure without cells miss, or more than 0.001 of those that visible surfaces need; without samples of surfaces, of those that random points in the view need
-    eligible: boolean; // Whether it may stand on the Pareto front, and be the best that others are measured by: it fails nothing and loses no lights (loses_lights)
+    eligible: boolean; // Whether it may stand on the Pareto front, and be the best that others are measured by: it fails nothing, loses no lights (loses_lights), and its method is conservative, exact or of a preset: others can lose lights in frames that were not measured
     tests_done: number; // Over all frames: cells, rows of cells, lights or planes, whichever a method looks at one by one; a method that looks at many at a time counts otherwise than its scalar reference [tests, over all frames]
     fallbacks: number; // Pairs that the method could not decide in single precision and decided at greater cost [pairs, over all frames]
     lights?: number; // Lights of the scene that methods get: points, spots, and boxes where the configuration asks for them. Absent in older results [lights, over the scene]
@@ -552,7 +552,7 @@ export type Result = {
       read_ns?: number | null; // Sum over the sets: samples x divergence x (reads x ns_per_read + read_bytes / read_gb_per_s). Absent in older results, where reading was free [ns]
       shade_ns: number | null; // Sum over the sets: samples x lights x divergence x ns_per_light [ns]
       lights?: number | null; // Looped over at a sample of these sets, mean [lights]
-      overshade?: number | null; // Lights given at the samples of these sets / lights that reach them: the overshade that a rank by cost rests on. null where none reaches them, or where one of the sets lacks more than 0.001 of them [ratio]
+      overshade?: number | null; // Lights given at the samples of these sets / lights that reach them: the overshade that a rank by cost rests on. null where fewer than 100 reach them, or where one of the sets lacks more than 0.001 of them [ratio]
       sets: Record<string, {
         samples: number | null; // That a frame shades: weight x samples, each of which stands for its block of pixels [samples]
         lights: number | null; // Looped over at one of them, mean [lights]

@@ -69,6 +69,14 @@ std::vector<std::string> texts_of(const Json& values) {
   return texts;
 }
 
+// A text that looks like a number is quoted: 8 and "8" are not the same in a configuration.
+std::vector<std::string> shown_texts(const Json& values) {
+  std::vector<std::string> texts = texts_of(values);
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    if (values[i].is_string() && !Json::parse(texts[i], nullptr, false).is_discarded()) texts[i] = values[i].dump();
+  return texts;
+}
+
 std::string list_text(const Json& root, const Json& schema) {
   const std::string items = schema.contains("items") ? describe_allowed(root, schema["items"]) : "values";
   const bool fixed = schema.contains("maxItems") && schema["maxItems"] == schema.value("minItems", Json());
@@ -82,7 +90,7 @@ std::string type_text(const Json& root, const Json& schema, const std::string& t
   if (type == "array") return list_text(root, schema);
   if (type == "object") return "an object";
   if (type == "string" && schema.contains("pattern")) return "a pattern such as " + quoted(schema["examples"][0]);
-  if (type == "string") return schema.contains("enum") ? joined(texts_of(schema["enum"])) : "text";
+  if (type == "string") return schema.contains("enum") ? joined(shown_texts(schema["enum"])) : "text";
   return type;
 }
 

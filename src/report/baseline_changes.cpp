@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "report/baseline_cases.h"
 #include "report/columns.h"
+#include "report/json_values.h"
 #include "report/limits.h"
 #include "report/percent_change.h"
 
@@ -27,6 +28,17 @@ void add_once(const std::string& line, Lines& lines) {
   if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
 }
 
+// With its viewport where the others have the same name, which does not show it.
+std::string names_of(const std::vector<const Json*>& cases, const std::vector<const Json*>& others) {
+  Lines names;
+  for (const Json* one : cases) {
+    const bool is_ambiguous =
+        std::ranges::any_of(others, [&](const Json* other) { return (*other)["name"] == (*one)["name"]; });
+    names.push_back(shown((*one)["name"]) + (is_ambiguous ? " at " + viewport_text(*one) : ""));
+  }
+  return joined(names);
+}
+
 class Changes {
  public:
   Changes(const Json& result, const BaselineCases& baseline) : baseline_(baseline) {
@@ -34,13 +46,12 @@ class Changes {
       if (const Json* before = baseline.case_of(result_case); before != nullptr)
         add(*before, result_case);
       else
-        not_in_base_.push_back(shown(result_case["name"]));
+        not_in_base_.push_back(&result_case);
   }
 
   std::string text() const {
     const std::string begin = "changes since " + baseline_.name() + ":";
-    Lines gone;
-    for (const std::string& name : baseline_.gone()) gone.push_back(shown(name));
+    const std::vector<const Json*>& gone = baseline_.gone_cases();
     const bool is_all_there = not_in_base_.empty() && gone.empty() && not_told_.empty();
     if (views_.empty() && cases_.empty() && is_all_there)
       return begin + " none in " + number_of(unchanged_, "case") + " (lights, " +
@@ -48,8 +59,8 @@ class Changes {
     Lines lines = views_;
     lines.insert(lines.end(), cases_.begin(), cases_.end());
     if (unchanged_ > 0) lines.push_back("none in " + number_of(unchanged_, cases_.empty() ? "case" : "other case"));
-    if (!not_in_base_.empty()) lines.push_back("not in " + baseline_.name() + ": " + joined(not_in_base_));
-    if (!gone.empty()) lines.push_back("only in " + baseline_.name() + ": " + joined(gone));
+    if (!not_in_base_.empty()) lines.push_back("not in " + baseline_.name() + ": " + names_of(not_in_base_, gone));
+    if (!gone.empty()) lines.push_back("only in " + baseline_.name() + ": " + names_of(gone, not_in_base_));
     if (!not_told_.empty()) lines.push_back(baseline_.name() + " does not tell " + joined(not_told_));
     std::string out = begin + "\n";
     for (const std::string& line : lines) out += "  " + line + "\n";
@@ -87,7 +98,8 @@ class Changes {
   }
 
   const BaselineCases& baseline_;
-  Lines views_, cases_, not_in_base_, not_told_;
+  Lines views_, cases_, not_told_;
+  std::vector<const Json*> not_in_base_;
   std::size_t unchanged_ = 0;
 };
 

@@ -128,7 +128,7 @@ std::vector<NamedCase> distinct_cases(const Json& cases, const Json& scene, cons
 }
 
 std::string block_of(const Json& result_case) {
-  const std::string viewport = result_case["viewport"][0].dump() + "x" + result_case["viewport"][1].dump();
+  const std::string viewport = viewport_text(result_case);
   return printable(result_case["grid"]["name"].get_ref<const std::string&>()) + ", camera " +
          printable(result_case["camera"].get_ref<const std::string&>()) + ", " + viewport;
 }

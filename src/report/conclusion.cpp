@@ -315,8 +315,8 @@ std::string doubts_text(const Choice& choice) {
 
 // "street, camera walk, 1920x1080: ", of a conclusion.
 std::string view_text(const Json& conclusion) {
-  return shown(conclusion["scene"]) + ", camera " + shown(conclusion["camera"]) + ", " +
-         conclusion["viewport"][0].dump() + "x" + conclusion["viewport"][1].dump() + ": ";
+  return shown(conclusion["scene"]) + ", camera " + shown(conclusion["camera"]) + ", " + viewport_text(conclusion) +
+         ": ";
 }
 
 // Of a run that failed.
@@ -324,6 +324,16 @@ std::string failure_text(const Json& result) {
   const std::vector<std::string> failures = run_failures(result);
   return "the run FAILED: " + shown(failures.front()) +
          (failures.size() > 1 ? " (and for " + number_of(failures.size() - 1, "other reason") + ")" : "");
+}
+
+// Why none of the cases may be taken.
+std::string unsound_text(const std::vector<const Json*>& cases) {
+  const auto lucky = std::ranges::count_if(cases, [](const Json* one) {
+    return (*one)["loses_lights"] == false && (*one)["failures"].empty() && (*one)["eligible"] == false;
+  });
+  if (lucky == 0) return "each loses lights";
+  return "each loses lights, or (" + std::to_string(lucky) +
+         ") lost none here and is not conservative, so that it can elsewhere";
 }
 
 Json conclusion_of(const SceneView& view, std::uint64_t seed) {
@@ -337,12 +347,12 @@ Json conclusion_of(const SceneView& view, std::uint64_t seed) {
     return out;
   }
   if (choice.take == nullptr) {
-    out["text"] =
-        where +
-        (view.searched.empty() ? "take none of " + number_of(view.cases.size(), "case") + ": each loses lights"
-                               : "nothing to take: only structures that samples search are sound here, and no GPU has "
-                                 "measured such a search") +
-        ".";
+    out["text"] = where +
+                  (view.searched.empty()
+                       ? "take none of " + number_of(view.cases.size(), "case") + ": " + unsound_text(view.cases)
+                       : "nothing to take: only structures that samples search are sound here, and no GPU has "
+                         "measured such a search") +
+                  ".";
     return out;
   }
   out["take"] = (*choice.take->result_case)["id"];
@@ -393,9 +403,13 @@ std::string smallest_text(const Json& answer, const Json& objective) {
   const std::optional<double> bytes = number_at(answer["choice"], "/figures/bytes");
   const std::optional<double> more_bytes = least != nullptr ? number_at(*least, "/figures/bytes") : std::nullopt;
   if (!bytes || !more_bytes || *bytes >= *more_bytes) return "";
-  return "; least is " + objective_text(*least, objective) + " of " + shown((*least)["name"].get<std::string>()) +
-         text(", %.2g %% less, which is no difference here,", 100.0 * (1.0 - (*least)["by_choice"].get<double>())) +
-         " with " + bytes_text(*more_bytes) + " in place of " + bytes_text(*bytes);
+  const std::string name = shown((*least)["name"].get<std::string>()),
+                    less = text("%.2g %% less", 100.0 * (1.0 - (*least)["by_choice"].get<double>()));
+  // The ratio of times that were measured side by side, which the two figures' own does not give.
+  const bool is_measured = interval_at(*least, "/ci95").is_known();
+  return (is_measured ? "; " + name + " has " + less + " where both were measured side by side, "
+                      : "; least is " + objective_text(*least, objective) + " of " + name + ", " + less + ", ") +
+         "which is no difference here, with " + bytes_text(*more_bytes) + " in place of " + bytes_text(*bytes);
 }
 
 // ": bytes <= 1000 rejects all 32 candidates, unlit = 0 rejects 4", those that reject most.
@@ -433,8 +447,7 @@ std::string text_of_nothing_seen(const Json& answer) {
 }
 
 std::string answer_conclusion(const Json& answer, const Json& objective) {
-  std::string out = shown(answer["scene"].get<std::string>()) + ", " + answer["viewport"][0].dump() + "x" +
-                    answer["viewport"][1].dump() + ": ";
+  std::string out = shown(answer["scene"].get<std::string>()) + ", " + viewport_text(answer) + ": ";
   const Json& choice = answer["choice"];
   if (const std::string unseen = text_of_nothing_seen(answer); !unseen.empty()) return out + unseen + ".";
   if (choice.is_null()) return out + none_text(answer, objective) + ".";
@@ -519,7 +532,8 @@ std::string conclusions_text(const Json& result) {
   const Json& all = result["conclusions"];
   std::string out;
   if (all.size() > k_most)
-    out = "(" + std::to_string(all.size() - k_most) + " more conclusions stand in the result and on the page)\n";
+    out = "(" + number_of(all.size() - k_most, "more conclusion") + (all.size() - k_most == 1 ? " stands" : " stand") +
+          " in the result and on the page)\n";
   for (std::size_t i = 0; i < std::min(all.size(), k_most); ++i)
     out += "conclusion: " + all[i]["text"].get<std::string>() + "\n";
   return out;

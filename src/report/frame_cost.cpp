@@ -96,11 +96,12 @@ Json cost_of(const Json& result_case, const std::vector<WeightedSet>& sets, cons
   std::vector<measure::ShadedSamples> shaded;
   Json sets_json = Json::object();
   bool is_lit = true;
-  double samples = 0.0, given = 0.0, needed = 0.0;
+  double samples = 0.0, given = 0.0, needed = 0.0, counted = 0.0;
   for (const WeightedSet& set : sets) {
     samples += set.shaded.samples;
     given += set.shaded.samples * set.shaded.lights;
     needed += set.shaded.samples * mean_per_sample(*set.counts, "needed");
+    counted += number_at(*set.counts, "/needed").value_or(0.0);
     shaded.push_back(set.shaded);
     sets_json[set.name] = {
         {"samples", number_or_null(set.shaded.samples)},       {"lights", number_or_null(set.shaded.lights)},
@@ -112,6 +113,7 @@ Json cost_of(const Json& result_case, const std::vector<WeightedSet>& sets, cons
   const measure::FrameCost cost = measure::frame_cost(
       model, makes_lists_on_gpu(result_case) ? std::nullopt : number_at(result_case, "/timing/frame_ns/median"),
       upload_bytes(result_case), number_at(result_case, "/buffers/traffic_bytes/mean").value_or(0.0), shaded);
+  const bool is_known = is_lit && counted >= static_cast<double>(measure::k_least_needed);
   const auto or_null = [](const std::optional<double>& ns) { return ns ? number_or_null(*ns) : Json(); };
   return {{"frame_ns", or_null(cost.frame_ns())},
           {"assign_ns", or_null(cost.assign_ns)},
@@ -121,7 +123,7 @@ Json cost_of(const Json& result_case, const std::vector<WeightedSet>& sets, cons
           {"read_ns", number_or_null(cost.read_ns)},
           {"shade_ns", number_or_null(cost.shade_ns)},
           {"lights", number_or_null(given / samples)},
-          {"overshade", is_lit ? number_or_null(given / needed) : Json()},
+          {"overshade", is_known ? number_or_null(given / needed) : Json()},
           {"sets", sets_json},
           {"lit", is_lit}};
 }

@@ -305,11 +305,17 @@ Around digests_around(const Series& series, const std::vector<std::string>& all,
   return digests.contains("") ? Around::unknown : Around::others;
 }
 
-// "all 140,258", "140,258 to 151,000".
-std::string values_text(const std::vector<double>& values) {
+// "all 140,258", "140,258 to 151,000"; of what is counted also how far values between these went.
+std::string values_text(const Series& series) {
+  const std::vector<double>& values = series.values;
   const bool is_steady = std::ranges::all_of(values, [&](double value) { return value == values.front(); });
   if (is_steady) return (values.size() > 1 ? "all " : "") + figure_text(values.front());
-  return figure_text(values.front()) + " to " + figure_text(values.back());
+  const auto [least, most] = std::ranges::minmax_element(values);
+  const auto is_end = [&](double value) { return value == values.front() || value == values.back(); };
+  return figure_text(values.front()) + " to " + figure_text(values.back()) +
+         (basis_of(*series.metric) == Basis::time || (is_end(*least) && is_end(*most))
+              ? ""
+              : ", between " + figure_text(*least) + " and " + figure_text(*most));
 }
 
 std::string series_text(const Series& series) {
@@ -319,7 +325,7 @@ std::string series_text(const Series& series) {
       (series.settings_since.empty()
            ? ""
            : "  other settings than before, from " + series.settings_since + " on: a series of its own\n") +
-      "  " + number_of(series.values.size(), "value") + ", " + values_text(series.values) + "\n";
+      "  " + number_of(series.values.size(), "value") + ", " + values_text(series) + "\n";
   for (const measure::ChangePoint& change : series.changes) {
     char p[48];
     std::snprintf(p, sizeof p, " (p %.1g)", change.p);

@@ -13,4 +13,7 @@ const nlohmann::ordered_json* value_at(const nlohmann::ordered_json& from, const
 // Nothing where there is no number.
 std::optional<double> number_at(const nlohmann::ordered_json& from, const std::string& pointer);
 
+// "1920x1080", of what has a viewport.
+std::string viewport_text(const nlohmann::ordered_json& from);
+
 }  // namespace clusterbench::report

@@ -134,7 +134,7 @@ const Json* scene_now(const Json& base, const Json& result, const Json& base_sce
   return scene_before(result, base, base_scene);
 }
 
-// Scenes and cameras of the base of which the result has no case, each once.
+// Scenes, cameras and viewports of the base of which the result has no case, each once.
 void add_gone_views(const Json& result, const LightGate& gate, LimitFindings& findings) {
   const Pattern wanted(gate.filter, "--filter");
   std::vector<std::string> gone;
@@ -143,12 +143,16 @@ void add_gone_views(const Json& result, const LightGate& gate, LimitFindings& fi
     const auto scenes = std::ranges::find_if((*gate.base)["scenes"],
                                              [&](const Json& scene) { return scene["name"] == base_case["scene"]; });
     const Json* now = scenes == (*gate.base)["scenes"].end() ? nullptr : scene_now(*gate.base, result, *scenes);
-    const bool is_there =
-        now != nullptr && std::ranges::any_of(result["cases"], [&](const Json& result_case) {
-          return result_case["scene"] == (*now)["name"] && result_case["camera"] == base_case["camera"];
-        });
-    const std::string view =
-        shown(base_case["scene"]) + (now == nullptr ? "" : ", camera " + shown(base_case["camera"]));
+    const auto is_of_camera = [&](const Json& result_case) {
+      return result_case["scene"] == (*now)["name"] && result_case["camera"] == base_case["camera"];
+    };
+    const auto is_of_view = [&](const Json& result_case) {
+      return is_of_camera(result_case) && result_case["viewport"] == base_case["viewport"];
+    };
+    const bool is_there = now != nullptr && std::ranges::any_of(result["cases"], is_of_view);
+    std::string view = shown(base_case["scene"]);
+    if (now != nullptr) view += ", camera " + shown(base_case["camera"]);
+    if (now != nullptr && std::ranges::any_of(result["cases"], is_of_camera)) view += ", " + viewport_text(base_case);
     if (!is_there && std::ranges::find(gone, view) == gone.end()) gone.push_back(view);
   }
   for (const std::string& view : gone)

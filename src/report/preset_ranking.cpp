@@ -156,8 +156,8 @@ std::string shown_line(const Json& line, const Json& cases, const Json& best, Ce
 }
 
 std::string heading(const Json& ranking, const Json& cases) {
-  std::string out = "\npresets: " + shown(ranking["scene"]) + "/" + shown(ranking["camera"]) + ", " +
-                    ranking["viewport"][0].dump() + "x" + ranking["viewport"][1].dump();
+  std::string out =
+      "\npresets: " + shown(ranking["scene"]) + "/" + shown(ranking["camera"]) + ", " + viewport_text(ranking);
   if (ranking.contains("frames")) out += ", " + number_of(ranking["frames"].get<std::uint64_t>(), "frame");
   if (ranking.contains("lights_in_view"))
     out += "; lights in view: " + text_at(ranking, "/lights_in_view/mean", "%.3g") + " on average, " +

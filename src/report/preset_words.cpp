@@ -140,7 +140,7 @@ std::string light_text(const RankedPreset& row) {
   if (row.losses.unlit.value_or(0.0) > 0.0)
     return samples_words(row) + " lack " + percent(*row.losses.unlit) + " of the lights that they need" + causes;
   const std::string room = room_text(row);
-  return (ways.empty() ? "loses nothing" : "loses nothing that a sample needs" + causes) +
+  return (ways.empty() ? "loses nothing" : "loses nothing that " + samples_words(row) + " need" + causes) +
          (room.empty() ? "" : (ways.empty() ? " " : "; ") + room);
 }
 
@@ -271,7 +271,7 @@ std::string doubt_text(const std::vector<RankedPreset>& rows) {
   const std::string few = "samples need " + needed_lights_text(first);
   const std::vector<const RankedPreset*> open = of_standing(rows, PresetStanding::unknown);
   if (open.empty()) return few + ", so costs are rough; " + remedy(first);
-  return few + ", and fewer than " + text("%.0f", k_least_needed_to_choose) +
+  return few + ", so costs are rough, and fewer than " + text("%.0f", k_least_needed_to_choose) +
          " do not show that lost lights are not seen, so not ranked: " + names_text(open) + "; " + remedy(first);
 }
 

@@ -37,8 +37,7 @@ std::string name_of_case(const Json& result_case, bool across_grids) {
 }
 
 std::string name_of_block(const Json& result_case, bool across_grids) {
-  return across_grids ? "camera " + result_case["camera"].get<std::string>() + ", " +
-                            result_case["viewport"][0].dump() + "x" + result_case["viewport"][1].dump()
+  return across_grids ? "camera " + result_case["camera"].get<std::string>() + ", " + viewport_text(result_case)
                       : block_of(result_case);
 }
 
@@ -94,7 +93,8 @@ Json block_json(const Block& block, std::uint64_t seed, bool across_grids) {
     out["cases"].push_back({{"id", (*timed.result_case)["id"]},
                             {"name", (*timed.result_case)["name"]},
                             {"label", name_of_case(*timed.result_case, across_grids)},
-                            {"frame_ns", six_digits(timed.frame_ns)}});
+                            {"frame_ns", six_digits(timed.frame_ns)},
+                            {"samples_search", samples_search(*timed.result_case)}});
   out["pairs"] = pairs_of(block, seed);
   return out;
 }
@@ -167,11 +167,15 @@ std::string legend_of(const Json& ratios, bool all_pairs) {
   bool has_unknown = false;
   for (const Json& block : ratios["blocks"])
     for (const Json& pair : block["pairs"]) has_unknown |= !interval_of(pair).is_known();
+  const bool has_searched = std::ranges::any_of(ratios["blocks"], [](const Json& block) {
+    return std::ranges::any_of(block["cases"], [](const Json& one) { return one.value("samples_search", false); });
+  });
   const std::string unknown = has_unknown ? k_unknown_interval + (": " + what_intervals_take()) + ".\n" : "";
   return unknown + std::string("Ratios of frame times of the same ") +
          (ratios["across_grids"].get<bool>() ? "rounds, or of other grids of the same launches" : "rounds") +
          ", median and 95 % interval; not the quotient of the two times.\n~: the interval does not say that " +
-         (all_pairs ? "the first takes longer.\n" : "it takes longer than the row above.\n");
+         (all_pairs ? "the first takes longer.\n" : "it takes longer than the row above.\n") +
+         (has_searched ? "Without lists: samples search the structure, which these times leave out.\n" : "");
 }
 
 std::string csv_field(const std::string& words) {
@@ -261,7 +265,9 @@ std::string ratio_markdown(const Json& ratios, bool all_pairs) {
 }
 
 std::string ratio_csv(const Json& ratios) {
-  std::string out = "scene,grid,method,other,ratio,low,high\n";
+  const bool across_grids = ratios["across_grids"].get<bool>();
+  std::string out =
+      across_grids ? "scene,view,case,other,ratio,low,high\n" : "scene,grid,method,other,ratio,low,high\n";
   for (const Json& block : ratios["blocks"]) {
     const PairIndex pairs(block);
     const Json& cases = block["cases"];

@@ -538,10 +538,12 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
     out["samples"] = ranking_set_names(all[0].cases[0]);
     out["random_depths"] = rests_on_samples(question.objective) && ranks_at_random_depths(all[0].cases[0]);
   }
+  const Ranked* best = has_choice ? &all[0] : nullptr;
   for (const Ranked& ranked : apart) {
     if (!unseen.empty() || !ranked.is_feasible()) continue;
+    if (best == nullptr) best = &ranked;
     if (!has_choice) out["samples"] = ranking_set_names(ranked.cases[0]);
-    out["searched"].push_back(ranked_json(config, view, ranked, has_choice ? all[0] : ranked, question));
+    out["searched"].push_back(ranked_json(config, view, ranked, *best, question));
   }
   out["constraints"] = excluded_json(view, found, question);
   out["rungs"] = rungs_json(found.rungs);

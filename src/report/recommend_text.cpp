@@ -20,9 +20,10 @@ std::string within_text(double within) {
 }
 
 // "frustum/exact-fast/packed": one line of the table of candidates.
-Cells candidate_row(const std::string& mark, const Json& record, const std::string& objective) {
+// `is_first`: nothing is better.
+Cells candidate_row(const std::string& mark, const Json& record, const std::string& objective, bool is_first = false) {
   std::string distance;
-  if (const Json& by = record["by_choice"]; by.is_number() && mark != "*") {
+  if (const Json& by = record["by_choice"]; by.is_number() && mark != "*" && !is_first) {
     distance = text("%+.1f %%", 100.0 * (by.get<double>() - 1.0));
     if (record.contains("ci95") && record["ci95"][0].is_number())
       distance += text(" (%+.1f", 100.0 * (record["ci95"][0].get<double>() - 1.0)) +
@@ -116,16 +117,17 @@ std::string searched_text(const Json& answer, const std::string& figure) {
   const Json searched = answer.value("searched", Json::array());
   if (searched.empty()) return "";
   std::vector<Cells> rows{candidate_headings(answer, figure)};
-  for (const Json& record : searched) rows.push_back(candidate_row(" ", record, figure));
+  for (const Json& record : searched)
+    rows.push_back(candidate_row(" ", record, figure, answer["choice"].is_null() && &record == &searched.front()));
   return "structures that samples search, priced by the model (key cost: ns_per_read, read_gb_per_s), which no GPU has "
          "confirmed:\n" +
          table_of(rows);
 }
 
 std::string answer_text(const Json& answer, const Json& objective) {
-  std::string out = shown(answer["scene"].get<std::string>()) + ", " + answer["viewport"][0].dump() + "x" +
-                    answer["viewport"][1].dump() + ", " + number_of(answer["frames"].get<std::uint64_t>(), "frame") +
-                    ": " + number_of(answer["candidates"].get<std::uint64_t>(), "candidate") + "\n";
+  std::string out = shown(answer["scene"].get<std::string>()) + ", " + viewport_text(answer) + ", " +
+                    number_of(answer["frames"].get<std::uint64_t>(), "frame") + ": " +
+                    number_of(answer["candidates"].get<std::uint64_t>(), "candidate") + "\n";
   const auto figure = objective["figure"].get<std::string>();
   const std::string unseen = text_of_nothing_seen(answer);
   if (!unseen.empty()) {

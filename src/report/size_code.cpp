@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/text.h"
+#include "report/json_values.h"
 #include "report/list_code.h"
 #include "report/lookup_code.h"
 #include "report/lookup_constants.h"
@@ -98,7 +99,7 @@ std::string lookup_text(const NamedLookup& lookup, SizeLanguage language, bool i
   if (!is_only_one)
     for (const Json* of_camera : lookup.cases)
       out += comment_line("  lookup of camera " + (*of_camera)["camera"].get<std::string>() + " at " +
-                          (*of_camera)["viewport"][0].dump() + "x" + (*of_camera)["viewport"][1].dump());
+                          viewport_text(*of_camera));
   if (const std::string note = lookup_note(result_case); !note.empty()) out += comment_line("  lookup: " + note);
   const std::vector<LookupConstant> constants = lookup_constants(result_case);
   if (language == SizeLanguage::cpp) return out + lookup_cpp(lookup.name, constants);

@@ -48,16 +48,25 @@ std::vector<Cells> table_rows(const SizedStructure& structure) {
   return rows;
 }
 
+// In every frame of every group, but for what is always full, as headers are: that follows from the grid alone.
+bool is_same_in_all_frames(const SizedBuffer& buffer) {
+  const auto is_constant = [](const std::optional<FrameSpread>& spread) {
+    return spread && spread->min == spread->max;
+  };
+  if (buffer.groups.empty()) return is_constant(buffer.spread);
+  const bool is_full = buffer.high_water == buffer.theoretical_max;
+  return std::ranges::all_of(buffer.groups, [&](const FrameGroup& group) {
+    return is_constant(group.spread) && (is_full || group.high_water == buffer.groups.front().high_water);
+  });
+}
+
 // Cameras that share a buffer in one frame, and those that have it alone, each apart: a row of each, of the buffers
 // that differ between frames.
 std::vector<Cells> group_rows(const SizedStructure& structure) {
   std::vector<Cells> rows{
       {"", "cameras in one frame", "buffer", "frames", "min", "median", "p90", "p99", "high water"}};
   for (const SizedBuffer& buffer : structure.buffers) {
-    const auto is_constant = [](const FrameGroup& group) {
-      return group.spread && group.spread->min == group.spread->max;
-    };
-    if (std::ranges::all_of(buffer.groups, is_constant)) continue;
+    if (is_same_in_all_frames(buffer)) continue;
     for (const FrameGroup& group : buffer.groups) {
       rows.push_back({"", shown(joined(group.cameras, " + ")), shown(buffer.name), std::to_string(group.frames)});
       for (const auto value : {&FrameSpread::min, &FrameSpread::p50, &FrameSpread::p90, &FrameSpread::p99})
@@ -79,7 +88,7 @@ std::string aligned_rows(const std::vector<Cells>& rows) {
 std::string worst_lines(const SizedStructure& structure) {
   std::vector<std::pair<std::string, std::vector<std::string>>> by_frame;
   for (const SizedBuffer& buffer : structure.buffers) {
-    if (!buffer.spread || buffer.spread->min == buffer.spread->max) continue;
+    if (!buffer.spread || is_same_in_all_frames(buffer)) continue;
     const std::string worst = worst_text(buffer);
     const auto known = std::ranges::find_if(by_frame, [&](const auto& entry) { return entry.first == worst; });
     (known == by_frame.end() ? by_frame.insert(known, {worst, {}}) : known)->second.push_back(buffer.name);

@@ -1,6 +1,8 @@
 #include "report/warnings.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -75,11 +77,15 @@ std::string ranges_text(const Json& rule) {
 
 // What is to be known of grids, once for all of whose cases it is so.
 std::string grid_notes(const Json& cases) {
+  std::map<Json, std::set<Json>> cameras_of;  // by scene
+  for (const Json& result_case : cases) cameras_of[result_case["scene"]].insert(result_case["camera"]);
   std::vector<std::pair<std::string, std::vector<std::string>>> notes;  // what, and of which grids
   for (const Json& result_case : cases) {
     if (!result_case["grid"].contains("note")) continue;
     const std::string note = shown(result_case["grid"]["note"]),
-                      grid = shown(result_case["scene"]) + ", " + shown(result_case["grid"]["name"]);
+                      camera = cameras_of[result_case["scene"]].size() > 1 ? ", camera " + shown(result_case["camera"])
+                                                                           : std::string(),
+                      grid = shown(result_case["scene"]) + camera + ", " + shown(result_case["grid"]["name"]);
     auto same = std::ranges::find_if(notes, [&](const auto& had) { return had.first == note; });
     if (same == notes.end()) same = notes.insert(notes.end(), {note, {}});
     if (std::ranges::find(same->second, grid) == same->second.end()) same->second.push_back(grid);

@@ -310,7 +310,8 @@ bool loses_lights(const CaseResult& result) {
 }
 
 bool is_eligible(const CaseResult& result) {
-  return result.failures.empty() && !loses_lights(result);
+  const bool is_sound = result.conservative || result.exact || !result.preset.empty();
+  return is_sound && result.failures.empty() && !loses_lights(result);
 }
 
 std::optional<measure::Ratio> ratio_between(const Contender& numerator, const Contender& denominator,

@@ -30,7 +30,8 @@ std::vector<Warning> warnings_of(const CaseResult& result);
 bool loses_lights(const CaseResult& result);
 
 // Whether a case may stand on a front, and be the best that others are measured by: it fails nothing and loses no
-// lights. Short lists are no merit else.
+// lights, and not by luck: its method is conservative, exact or an engine's as a preset has it. Short lists are no
+// merit else.
 bool is_eligible(const CaseResult& result);
 
 // A case beside others. Results are continued and merged from files, so this is apart from CaseResult.

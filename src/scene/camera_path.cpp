@@ -71,7 +71,7 @@ std::set<double> keys_seen(const Scene& scene, const Camera& camera, bool all) {
 CameraMoments equal_steps(double from, double to, int count) {
   CameraMoments moments;
   for (int i = 0; i < count; ++i) moments.times_s.push_back(count == 1 ? from : from + (to - from) * i / (count - 1));
-  moments.how = std::to_string(count) + " equal steps over " + number(to - from) + " s";
+  moments.how = number_of(static_cast<std::uint64_t>(count), "equal step") + " over " + number(to - from) + " s";
   return moments;
 }
 

@@ -145,6 +145,20 @@ TEST(Recommend, says_that_depths_are_random_and_what_to_do_and_a_ground_changes_
   EXPECT_EQ(at_random.answer["samples"], Json::array({"volume"}));
 }
 
+TEST(Recommend, what_samples_search_is_held_against_the_first_of_them_where_no_lists_are_chosen) {
+  const Outcome done = tool("recommend -q -o - " + test::source_file("scenes/street.glb") +
+                            " --no-timing --viewport 320x180 --tiles 64 --slices 16 --grid frustum"
+                            " --set scenes.*.frames=1 --bytes 2060");
+  const nlohmann::json answer = nlohmann::json::parse(done.out)["answers"][0], searched = answer["searched"];
+  ASSERT_TRUE(answer["choice"].is_null()) << done.out;
+  ASSERT_GT(searched.size(), 1u);
+  EXPECT_EQ(searched[0]["by_choice"], 1.0);
+  for (const nlohmann::json& one : searched)
+    EXPECT_NEAR(one["by_choice"].get<double>(), one["objective"].get<double>() / searched[0]["objective"].get<double>(),
+                1e-4);
+  EXPECT_GT(searched.back()["by_choice"], 1.0);
+}
+
 TEST(Recommend, an_answer_does_not_depend_on_the_other_viewports) {
   const Folder folder;
   const std::string flags =

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cli/lamps.h"
 #include "cli/tool.h"
 #include "places.h"
 
@@ -278,6 +279,20 @@ TEST(Run, a_run_that_failed_concludes_nothing_on_the_terminal_in_the_result_and_
   EXPECT_EQ(tool("validate " + output).code, 0);
   EXPECT_EQ(tool("report " + output + " -o " + page).code, 0);
   EXPECT_NE(file_text(page).find("nothing to take: the run FAILED: "), std::string::npos);
+}
+
+TEST(Run, a_note_that_differs_between_cameras_names_them) {
+  const Folder folder;
+  nlohmann::json level = nlohmann::json::parse(test::level_of(test::row_of(8), true));
+  level["nodes"].push_back({{"name", "far away"}, {"camera", 0}, {"translation", {0.0, 0.0, 30.0}}});
+  level["scenes"][0]["nodes"].push_back(level["nodes"].size() - 1);
+  const std::string flags = " --grid frustum --tiles 16x9t --slices 4 --assigner exact-fast --no-timing ";
+  const std::string scene = folder.write("level.gltf", level.dump()).string();
+  const std::string one = tool("run " + scene + flags + "--set scenes.*.camera=camera").err,
+                    all = tool("run " + scene + flags).err;
+  EXPECT_NE(one.find("note: level, frustum 16x9"), std::string::npos) << one;
+  for (const char* camera : {"camera", "far away"})
+    EXPECT_NE(all.find("note: level, camera " + std::string(camera) + ", frustum 16x9"), std::string::npos) << all;
 }
 
 TEST(Run, a_field_of_view_that_changes_no_camera_is_told) {

@@ -234,6 +234,17 @@ TEST(SizeCommand, budgets_hold_what_a_search_found) {
   EXPECT_EQ(recorded.code, 1);
 }
 
+TEST(SizeCommand, views_that_stand_still_are_told_apart_all_the_same) {
+  const Folder folder;
+  const std::string scene = folder.write("level.gltf", three_cameras()).string();
+  const Outcome done =
+      tool("size --grid frustum --tiles 120 --slices 8 --assigner exact-fast --views inside,before " + scene);
+  ASSERT_EQ(done.code, 0) << done.err;
+  for (const char* row : {"    inside + before       indices", "    away                  indices"})
+    EXPECT_NE(done.out.find(row), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("most indices in camera"), std::string::npos) << done.out;
+}
+
 TEST(SizeCommand, two_eyes_need_the_sum_of_both_and_one_grid_for_both_lacks_lights_at_its_sides) {
   const Folder folder;
   const std::string eyes = (folder / "eyes.glb").string(), street = test::source_file("scenes/street.glb");

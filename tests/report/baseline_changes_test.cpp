@@ -57,6 +57,16 @@ TEST(BaselineChanges, hold_a_renamed_level_against_the_one_before) {
             "changes since base.json:\n  hall-v2, camera walk: lights 10 -> 11 (+10 %)\n  none in 2 cases\n");
 }
 
+TEST(BaselineChanges, tell_cases_of_one_name_by_their_viewports) {
+  Json base = json_by_hand();
+  for (Json& result_case : base["cases"]) result_case["viewport"] = {640, 360};
+  EXPECT_EQ(changes(base, json_by_hand(), "aabb"),
+            "changes since base.json:\n"
+            "  not in base.json: hall/walk/frustum 64px/brute-force/packed, hall/walk/frustum 64px/aabb/packed at "
+            "1920x1080\n"
+            "  only in base.json: hall/walk/frustum 64px/aabb/packed at 640x360\n");
+}
+
 TEST(BaselineChanges, tell_cases_that_one_of_both_lacks_and_figures_that_the_base_is_too_old_for) {
   Json base = json_by_hand(), now = json_by_hand();
   base["cases"].erase(0);

@@ -257,6 +257,11 @@ TEST(LightGate, fails_where_a_level_or_a_camera_of_the_baseline_is_missing) {
   const Lines broken = light_findings(other_camera, gate).broken;
   ASSERT_EQ(broken.size(), 1u);
   EXPECT_TRUE(broken[0].starts_with("attic, camera walk: was measured in base.json")) << broken[0];
+  Json other_viewport = both;
+  for (Json& result_case : other_viewport["cases"]) result_case["viewport"] = {640, 360};
+  EXPECT_EQ(light_findings(other_viewport, gate).broken.size(), 2u) << "nothing is compared";
+  EXPECT_TRUE(light_findings(other_viewport, gate).broken[0].starts_with("hall, camera walk, 1920x1080: was measured"))
+      << light_findings(other_viewport, gate).broken[0];
 }
 
 TEST(LightGate, fails_where_nothing_of_a_level_could_be_measured) {

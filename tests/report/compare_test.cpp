@@ -303,6 +303,14 @@ TEST(Compare, another_truth_or_another_list_of_the_same_length_fails) {
   }
 }
 
+TEST(Compare, a_scene_of_another_name_counts_the_same) {
+  const Json base = json_of(result_by_hand());
+  Json next = base;
+  for (Json& result_case : next["cases"]) result_case["scene"] = "hall-2";
+  EXPECT_EQ(outcome(compared(base, next, 0.02), false), ExitCode::ok);
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["counts"], "same");
+}
+
 TEST(Compare, a_figure_that_only_one_version_knows_is_passed_over) {
   const Json base = json_of(result_by_hand());
   Json next = base;

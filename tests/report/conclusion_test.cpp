@@ -291,6 +291,18 @@ TEST(Conclusion, of_cases_that_all_lose_lights_none_is_taken) {
   EXPECT_TRUE(has_words(conclusion, "take none of 2 cases: each loses lights.")) << conclusion["text"];
 }
 
+TEST(Conclusion, what_is_not_conservative_is_not_taken_for_having_lost_nothing_here) {
+  run::Result result = result_by_hand();
+  for (run::CaseResult& one : result.cases) one.conservative = one.exact = false;
+  testing::lose_a_light(result.cases[0]);
+  const run::Result judged = testing::judged(result);
+  const Json conclusion = only_conclusion(judged), json = result_to_json(judged, {});
+  EXPECT_TRUE(conclusion["take"].is_null());
+  EXPECT_TRUE(has_words(conclusion, "each loses lights, or (1) lost none here and is not conservative"))
+      << conclusion["text"];
+  EXPECT_TRUE(json["pareto_front"][0]["ids"].empty()) << json["pareto_front"];
+}
+
 TEST(Conclusion, where_nothing_is_seen_nothing_is_taken) {
   const auto expect_none = [](const run::Result& result, const std::string& why) {
     const Json conclusion = only_conclusion(result);
@@ -393,6 +405,14 @@ TEST(Conclusion, of_a_recommendation_names_the_choice_and_the_next_one) {
   EXPECT_EQ(answer_conclusion(answer_by_hand(1.02, {0.98, 1.06}), objective),
             "hall, 640x360: take frustum 64px/exact-fast/packed; frame_cost_us 100. No difference that these times can "
             "show to frustum 32px/aabb/packed.");
+  Json smallest = answer_by_hand(0.95, {0.9, 1.01});
+  smallest["choice"]["figures"]["bytes"] = 1000;
+  smallest["runners_up"][0]["figures"]["bytes"] = 2000;
+  EXPECT_NE(answer_conclusion(smallest, objective)
+                .find("; frustum 32px/aabb/packed has 5 % less where both were measured side by side, which is no "
+                      "difference here, with 2 kB in place of 1 kB"),
+            std::string::npos)
+      << answer_conclusion(smallest, objective);
   Json random = answer_by_hand(1.25, {1.2, 1.3});
   random["random_depths"] = true;
   random["searched"] = {{{"name", "frustum 64px/bvh/own"}, {"objective", 80.0}, {"by_choice", 0.8}}};

@@ -140,6 +140,17 @@ TEST(FrameCosts, say_the_overshade_of_the_samples_that_they_rest_on) {
   EXPECT_NEAR(result["cases"][1]["cost"]["overshade"].get<double>(), 4.0 * 2 * 240 * 135 / 1000, 1e-3);
 }
 
+TEST(FrameCosts, samples_that_need_few_lights_say_no_overshade_anywhere) {
+  for (const std::uint64_t needed : {99u, 100u}) {
+    run::Result result = costly();
+    for (run::CaseResult& one : result.cases) one.samples[0].counts.needed = needed;
+    const Json json = of(result);
+    EXPECT_EQ(limit_figure(json["cases"][1], "overshade").has_value(), needed >= 100u);
+    EXPECT_EQ(limit_figure(json["cases"][1], "opaque.overshade").has_value(), needed >= 100u);
+    EXPECT_EQ(json["cases"][1]["cost"]["overshade"].is_null(), needed < 100u);
+  }
+}
+
 TEST(FrameCosts, lists_of_a_gpu_are_not_uploaded_and_have_no_time_of_this_machine) {
   run::Result result = costly("frame_cost");
   result.cases[0].preset = "three-js";

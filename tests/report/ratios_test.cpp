@@ -123,6 +123,8 @@ TEST(Ratios, of_two_grids_are_those_of_the_same_launches) {
   EXPECT_NEAR(block["pairs"][0]["ratio"].get<double>(), 1.1, 0.01);
   EXPECT_EQ(block["pairs"][0]["takes_longer"], true);
   EXPECT_NE(ratio_table(all, false).find("of other grids of the same launches"), std::string::npos);
+  EXPECT_TRUE(ratio_csv(all).starts_with("scene,view,case,other,ratio,low,high\n"))
+      << "no column named grid holds a view";
   RatioRequest some = over_all_grids();
   some.methods = "^method-[ab]";
   EXPECT_EQ(ratios_of(result, some)["blocks"].at(0)["cases"].size(), 2u) << "a pattern for the methods of one grid";

@@ -217,6 +217,11 @@ TEST(Gate, warns_of_what_fails_nothing_and_takes_a_case_from_the_front_where_its
   EXPECT_EQ(warned(case_result), (std::vector{Of::lost_pairs}));
   EXPECT_FALSE(is_eligible(case_result)) << "a naive method's";
   case_result = with_cells();
+  case_result.conservative = case_result.exact = false;
+  EXPECT_FALSE(is_eligible(case_result)) << "that it lost nothing here is luck";
+  case_result.preset = "engine";
+  EXPECT_TRUE(is_eligible(case_result)) << "presets are judged by what they lose";
+  case_result = with_cells();
   case_result.error.reset();
   EXPECT_EQ(warned(case_result), (std::vector{Of::unchecked}));
   EXPECT_TRUE(warned(without_cells()).empty()) << "nothing to check";
