@@ -20,6 +20,7 @@
 #include "scene/gltf_pointers.h"
 #include "scene/gltf_unread.h"
 #include "scene/scene.h"
+#include "scene/world_check.h"
 
 namespace clusterbench::scene {
 namespace {
@@ -231,19 +232,12 @@ void mark_animated_cameras(Scene& scene) {
     camera.animated = moved[static_cast<std::size_t>(camera.node)] || moved_cameras.contains(camera.definition);
 }
 
-// Numbers that are each fine can multiply to infinity down the tree.
 void check_world(const Scene& scene, const JsonLocation& root) {
-  const std::vector<Mat4d> world = world_transforms(scene, 0.0);
-  for (std::size_t i = 0; i < world.size(); ++i) {
-    for (int column = 0; column < 4; ++column) {
-      for (int row = 0; row < 4; ++row) {
-        if (std::isfinite(world[i][column][row])) continue;
-        root.at("nodes")
-            .at(static_cast<std::size_t>(scene.nodes[i].gltf_index))
-            .refuse("its position in the world is not a number: the transforms above it are too large");
-      }
-    }
-  }
+  const std::optional<std::size_t> node = first_node_without_place(scene);
+  if (node)
+    root.at("nodes")
+        .at(static_cast<std::size_t>(scene.nodes[*node].gltf_index))
+        .refuse("its position in the world is not a number: the transforms above it are too large");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "geom/shapes/domain.h"
 #include "scene/animation.h"
 #include "scene/scene.h"
+#include "scene/world_check.h"
 
 namespace clusterbench::scene {
 namespace {
@@ -37,14 +38,33 @@ Mat3d rotation_matrix(const Vec4d& q) {
                s * (x * z + w * y), s * (y * z - w * x), 1.0 - s * (x * x + y * y));  // third column
 }
 
-Mat4d local_matrix(const Node& node) {
+// What animations move of a node, without its name: of a million nodes a copy is made for each moment.
+struct NodePose {
+  NodePose() = default;
+  explicit NodePose(const Node& node)
+      : parent(node.parent),
+        visible(node.visible),
+        matrix(node.matrix.get()),
+        translation(node.translation),
+        rotation(node.rotation),
+        scale(node.scale) {}
+
+  int parent = -1;
+  bool visible = true;
+  const Mat4d* matrix = nullptr;  // in place of the three below
+  Vec3d translation{0.0};
+  Vec4d rotation{0.0};
+  Vec3d scale{1.0};
+};
+
+Mat4d local_matrix(const NodePose& node) {
   if (node.matrix) return *node.matrix;
   const Mat3d rotation = rotation_matrix(node.rotation);
   return Mat4d(Vec4d(rotation[0] * node.scale.x, 0.0), Vec4d(rotation[1] * node.scale.y, 0.0),
                Vec4d(rotation[2] * node.scale.z, 0.0), Vec4d(node.translation, 1.0));
 }
 
-void apply(const Channel& channel, double time_s, Node& node) {
+void apply(const Channel& channel, double time_s, NodePose& node) {
   const Vec4d value = sample(channel, time_s);
   switch (channel.path) {
     case ChannelPath::translation:
@@ -157,7 +177,7 @@ void set_box(WorldLight& out, const Vec3d& half_extents_m, const Mat4d& world) {
   out.range_m = geom::range_in_domain(corner_distance_m(out.half_axes_m));
 }
 
-bool is_flat(const Node& node) {
+bool is_flat(const NodePose& node) {
   return !node.matrix && (node.scale.x == 0.0 || node.scale.y == 0.0 || node.scale.z == 0.0);
 }
 
@@ -167,7 +187,7 @@ template <class NodeOf>
 Mat3d unflattened_axes(int index, const NodeOf& node_of) {
   Mat3d axes(1.0);
   while (index >= 0) {
-    Node node = node_of(index);
+    NodePose node = node_of(index);
     for (int axis = 0; axis < 3; ++axis)
       if (node.scale[axis] == 0.0) node.scale[axis] = 1.0;
     axes = Mat3d(local_matrix(node)) * axes;
@@ -218,8 +238,8 @@ Mat4d camera_transform(const Scene& scene, int index, double time_s) {
   std::vector<int> chain;
   for (; index >= 0; index = scene.nodes[static_cast<std::size_t>(index)].parent) chain.push_back(index);
   std::reverse(chain.begin(), chain.end());  // parents come first, so it ascends
-  std::vector<Node> posed;
-  for (const int node : chain) posed.push_back(scene.nodes[static_cast<std::size_t>(node)]);
+  std::vector<NodePose> posed;
+  for (const int node : chain) posed.emplace_back(scene.nodes[static_cast<std::size_t>(node)]);
   for (const Channel& channel : scene.channels) {
     const auto link = std::lower_bound(chain.begin(), chain.end(), channel.node);
     if (link != chain.end() && *link == channel.node)
@@ -228,7 +248,7 @@ Mat4d camera_transform(const Scene& scene, int index, double time_s) {
   Mat4d world = local_matrix(posed.front());
   for (std::size_t i = 1; i < posed.size(); ++i) world = world * local_matrix(posed[i]);
   if (std::ranges::any_of(posed, is_flat)) {
-    const auto node_of = [&](int node) -> const Node& {
+    const auto node_of = [&](int node) -> const NodePose& {
       return posed[static_cast<std::size_t>(std::ranges::lower_bound(chain, node) - chain.begin())];
     };
     set_axes(world, unflattened_axes(chain.back(), node_of));
@@ -236,19 +256,31 @@ Mat4d camera_transform(const Scene& scene, int index, double time_s) {
   return world;
 }
 
-// Of a scene whose nodes move; others are not copied.
-std::vector<Node> moved_nodes(const Scene& scene, double time_s) {
-  std::vector<Node> posed = scene.nodes;
-  for (const Channel& channel : scene.channels) {
-    apply(channel, time_s, posed[static_cast<std::size_t>(channel.node)]);
+// Of all nodes at a time; those of a scene in which nothing moves are not copied.
+class Poses {
+ public:
+  explicit Poses(const Scene& scene) : nodes_(scene.nodes) {}  // at rest
+  Poses(const Scene& scene, double time_s) : nodes_(scene.nodes) {
+    if (scene.channels.empty()) return;
+    moved_.reserve(nodes_.size());
+    for (const Node& node : nodes_) moved_.emplace_back(node);
+    for (const Channel& channel : scene.channels)
+      apply(channel, time_s, moved_[static_cast<std::size_t>(channel.node)]);
   }
-  return posed;
-}
 
-std::vector<Mat4d> transforms_of(const std::vector<Node>& posed) {
+  std::size_t size() const { return nodes_.size(); }
+  NodePose operator[](std::size_t node) const { return moved_.empty() ? NodePose(nodes_[node]) : moved_[node]; }
+
+ private:
+  const std::vector<Node>& nodes_;
+  std::vector<NodePose> moved_;
+};
+
+std::vector<Mat4d> transforms_of(const Poses& posed) {
   std::vector<Mat4d> world;
   world.reserve(posed.size());
-  for (const Node& node : posed) {
+  for (std::size_t i = 0; i < posed.size(); ++i) {
+    const NodePose node = posed[i];
     const Mat4d local = local_matrix(node);
     world.push_back(node.parent < 0 ? local : world[static_cast<std::size_t>(node.parent)] * local);
   }
@@ -258,11 +290,13 @@ std::vector<Mat4d> transforms_of(const std::vector<Node>& posed) {
 // World transforms, of which only those of nodes with nodes below them are kept: of a million lamps that is nothing.
 class NodeTransforms {
  public:
-  explicit NodeTransforms(const std::vector<Node>& posed) : posed_(posed), kept_at_(posed.size(), -1) {
+  explicit NodeTransforms(const Poses& posed) : posed_(posed), kept_at_(posed.size(), -1) {
     std::vector<bool> is_parent(posed.size(), false);
-    for (const Node& node : posed)
+    for (std::size_t i = 0; i < posed.size(); ++i) {
+      const NodePose node = posed[i];
       if (node.parent >= 0) is_parent[static_cast<std::size_t>(node.parent)] = true;
-    has_flat_ = std::ranges::any_of(posed, is_flat);
+      has_flat_ = has_flat_ || is_flat(node);
+    }
     for (std::size_t i = 0; i < posed.size(); ++i) {
       if (!is_parent[i]) continue;
       const Mat4d world = of(i);
@@ -274,50 +308,61 @@ class NodeTransforms {
   // The direction of its z axis.
   Vec3d back_of(std::size_t node, const Mat4d& world) const {
     if (!has_flat_) return Vec3d(world[2]);
-    const auto node_of = [&](int index) -> const Node& { return posed_[static_cast<std::size_t>(index)]; };
+    const auto node_of = [&](int index) { return posed_[static_cast<std::size_t>(index)]; };
     return unflattened_axes(static_cast<int>(node), node_of)[2];
   }
   Mat4d of(std::size_t node) const {
-    const Mat4d local = local_matrix(posed_[node]);
-    const int parent = posed_[node].parent;
-    if (parent < 0) return local;
-    return kept_[static_cast<std::size_t>(kept_at_[static_cast<std::size_t>(parent)])] * local;
+    const NodePose pose = posed_[node];
+    const Mat4d local = local_matrix(pose);
+    if (pose.parent < 0) return local;
+    return kept_[static_cast<std::size_t>(kept_at_[static_cast<std::size_t>(pose.parent)])] * local;
   }
 
  private:
-  const std::vector<Node>& posed_;
+  const Poses& posed_;
   std::vector<std::int32_t> kept_at_;
   std::vector<Mat4d> kept_;
   bool has_flat_ = false;
 };
 
-std::vector<bool> visible_of(const std::vector<Node>& posed) {
+std::vector<bool> visible_of(const Poses& posed) {
   std::vector<bool> visible;
   visible.reserve(posed.size());
-  for (const Node& node : posed)
+  for (std::size_t i = 0; i < posed.size(); ++i) {
+    const NodePose node = posed[i];
     visible.push_back(node.visible && (node.parent < 0 || visible[static_cast<std::size_t>(node.parent)]));
+  }
   return visible;
 }
 
 }  // namespace
 
 std::vector<Mat4d> world_transforms(const Scene& scene, double time_s) {
-  if (scene.channels.empty()) return transforms_of(scene.nodes);
-  return transforms_of(moved_nodes(scene, time_s));
+  return transforms_of(Poses(scene, time_s));
 }
 
 std::vector<Mat4d> rest_transforms(const Scene& scene) {
-  return transforms_of(scene.nodes);
+  return transforms_of(Poses(scene));
+}
+
+std::optional<std::size_t> first_node_without_place(const Scene& scene) {
+  const Poses posed(scene, 0.0);
+  const NodeTransforms world(posed);
+  for (std::size_t i = 0; i < posed.size(); ++i) {
+    const Mat4d transform = world.of(i);
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 4; ++row)
+        if (!std::isfinite(transform[column][row])) return i;
+  }
+  return std::nullopt;
 }
 
 std::vector<bool> visible_nodes(const Scene& scene, double time_s) {
-  if (scene.channels.empty()) return visible_of(scene.nodes);
-  return visible_of(moved_nodes(scene, time_s));
+  return visible_of(Poses(scene, time_s));
 }
 
 std::vector<WorldLight> world_lights(const Scene& scene, double time_s) {
-  const std::vector<Node> moved = scene.channels.empty() ? std::vector<Node>() : moved_nodes(scene, time_s);
-  const std::vector<Node>& posed = scene.channels.empty() ? scene.nodes : moved;
+  const Poses posed(scene, time_s);
   const NodeTransforms world(posed);
   const std::vector<bool> visible = visible_of(posed);
   std::vector<WorldLight> out;

@@ -1,0 +1,13 @@
+#pragma once
+// Numbers of nodes that are each fine can multiply to infinity down the tree.
+
+#include <optional>
+
+#include "scene/scene.h"
+
+namespace clusterbench::scene {
+
+// The first node whose world transform at the first moment is not finite. Takes less memory than all transforms.
+std::optional<std::size_t> first_node_without_place(const Scene& scene);
+
+}  // namespace clusterbench::scene
