@@ -4,7 +4,7 @@ import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
-import { chart, chartWidth, Plot } from "./plots.ts";
+import { chart, chartHeight, chartWidth, Plot } from "./plots.ts";
 import type { Maybe } from "./result.ts";
 import { keysOf, markedAt, markOf, type Series, seriesOf } from "./series.ts";
 import type { View } from "./view.ts";
@@ -52,7 +52,7 @@ function lines(view: View, along: Along, all: Series[], framesPerEntry: number):
   );
   return chart(`${along.title} frame by frame of ${all.map((series) => series.label).join("; ")}`, {
     width: chartWidth(3),
-    height: 240,
+    height: chartHeight(240),
     marginLeft: 64,
     marginRight: 20,
     x: { label: "frame", ticks: 6, tickFormat: (frame: number) => (Number.isInteger(frame) ? String(frame) : "") },

@@ -3,7 +3,7 @@
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
-import { chart, chartWidth, namesAside, Plot } from "./plots.ts";
+import { chart, chartHeight, chartWidth, namesAside, Plot } from "./plots.ts";
 import type { View } from "./view.ts";
 
 interface Part {
@@ -42,7 +42,7 @@ export function costs(view: View, cases: Case[]): HTMLElement | null {
     lead: "Write floor: copying the finished lists (or the method's own structure) and headers once, which no method can do without. Conversion: from lists to the storage's layout. Shares are of times with warm caches, as the write floor is; frame times are cold where they were measured. Fastest first.",
     chart: chart(`Shares of write floor, assignment and conversion of ${methods.join(", ")}`, {
       width: chartWidth(),
-      height: 66 + 24 * new Set(methods).size,
+      height: 66 + chartHeight(24) * new Set(methods).size,
       ...namesAside([...new Set(methods)], chartWidth(), "method"),
       marginRight: 90,
       x: { label: "share of assignment and conversion, %", percent: true, ticks: chartWidth() < 500 ? 2 : 5 },

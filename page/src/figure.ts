@@ -4,6 +4,7 @@ import { type Child, h } from "./dom.ts";
 import { copyButton, csv, downloadButton } from "./handover.ts";
 import type { Case } from "./model.ts";
 import { icon, type Look } from "./palette.ts";
+import { scrolled } from "./scrolled.ts";
 import { type Table, tableView } from "./table.ts";
 
 export interface Figure<Row> {
@@ -101,7 +102,7 @@ export function figureView<Row>(figure: Figure<Row>): HTMLElement {
     figure.controls?.length ? h("div", { class: "controls" }, ...figure.controls) : null,
     figure.legend && legendView(figure.legend),
     figure.methods && keysView(figure.methods, !!figure.hasLines),
-    figure.chart ? h("div", { class: "chart" }, figure.chart) : tableView({ most: 200, ...figure.table() }),
+    figure.chart ? scrolled({ class: "chart" }, figure.chart) : tableView({ most: 200, ...figure.table() }),
     details,
   );
 }

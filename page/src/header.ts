@@ -26,10 +26,24 @@ function conclusions(model: Model): HTMLElement[] {
     ].map((text) => (model.runs.length > 1 ? `${run.label}: ${text}` : text)),
   );
   const more = all.length - most;
-  return [...all.slice(0, most), ...(more > 0 ? [`and ${plural(more, "more conclusion")} in the results`] : [])].map(
-    conclusionView,
-  );
+  return [
+    ...[...all.slice(0, most), ...(more > 0 ? [`and ${plural(more, "more conclusion")} in the results`] : [])].map(
+      conclusionView,
+    ),
+    ...(all.some(hasRandomDepths) ? [randomDepths()] : []),
+  ];
 }
+
+// What can turn a choice round is said in the open, and once.
+const hasRandomDepths = (conclusion: string) => /random depths|depths are random/.test(conclusion);
+const randomDepths = () =>
+  h(
+    "p",
+    { class: "caveat" },
+    ...withCode(
+      "Shading is at random depths, where no surface is. Real surfaces can change the choice: `--set 'samples.opaque={}'` takes those of a level with triangles, `--set samples.opaque.ground=lowest` a floor.",
+    ),
+  );
 
 function presetsText({ scene, camera, viewport, text }: PresetRanking): string[] {
   return text === undefined ? [] : [`${scene}, camera ${camera}, ${viewport.join("x")}: ${text}.`];

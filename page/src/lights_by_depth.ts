@@ -3,7 +3,7 @@
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
-import { chart, chartWidth, Plot } from "./plots.ts";
+import { chart, chartHeight, chartWidth, Plot } from "./plots.ts";
 import type { Grid } from "./result.ts";
 import { keysOf, lookOf, markOf, type Series, seriesOf } from "./series.ts";
 import type { View } from "./view.ts";
@@ -56,7 +56,7 @@ export function lightsByDepth(view: View, cases: Case[]): HTMLElement | null {
     lead: "A bar is a slice, as high as the longest list in it over all frames. Slices without lights have no bar. Methods with the same figures share bars.",
     chart: chart(`Most lights in a cell by depth of ${each.map((slices) => slices[0]!.series.label).join("; ")}`, {
       width: chartWidth(),
-      height: 280,
+      height: chartHeight(280),
       marginLeft: 64,
       x: {
         type: "log",

@@ -3,11 +3,12 @@
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
-import { chart, chartWidth, Plot } from "./plots.ts";
+import { chart, chartHeight, chartWidth, Plot } from "./plots.ts";
 import { keysOf, markedAt, markOf, type Series, seriesOf } from "./series.ts";
 import type { View } from "./view.ts";
 
 const mostBins = 80;
+const foot = 0.8; // of the logarithmic axis, where no cells are drawn
 
 interface Bin {
   series: Series;
@@ -31,6 +32,14 @@ function binned(all: Series[], width: number): Bin[] {
   });
 }
 
+// With an end to the last step of each line.
+function ended(all: Series[], bins: Bin[], width: number): Bin[] {
+  return all.flatMap((series) => {
+    const own = bins.filter((bin) => bin.series === series);
+    return [...own, { series, lights: own.length * width, cells: 0 }];
+  });
+}
+
 export function listLengths(view: View, cases: Case[]): HTMLElement {
   const all = seriesOf(view, cases, (aCase) => histogramOf(aCase)?.cells);
   const longest = all.reduce((most, series) => Math.max(most, lengthOf(series)), 1);
@@ -42,10 +51,10 @@ export function listLengths(view: View, cases: Case[]): HTMLElement {
   return figureView({
     id: "list-lengths",
     title: "List lengths",
-    lead: `Cells by the number of lights in their lists, over all frames; logarithmic upwards. Methods with the same lists share a line.${width > 1 ? ` ${width} lengths to a step.` : ""}`,
+    lead: `How many cells have lists of a length, over all frames. The vertical axis is logarithmic; a line at its foot means no cells. Methods with the same lists share a line.${width > 1 ? ` Each step counts ${width} lengths: 0 to ${width - 1}, ${width} to ${2 * width - 1} and so on.` : ""}`,
     chart: chart(`Cells by list length of ${all.map((series) => series.label).join("; ")}`, {
       width: chartWidth(),
-      height: 280,
+      height: chartHeight(280),
       marginLeft: 64,
       x: { label: "lights in the list", domain: [0, longest] },
       y: {
@@ -54,12 +63,12 @@ export function listLengths(view: View, cases: Case[]): HTMLElement {
         grid: true,
         ticks: 5,
         tickFormat: format.short,
-        domain: [0.8, 2 * bins.reduce((most, bin) => Math.max(most, bin.cells), 1)],
+        domain: [foot, 2 * bins.reduce((most, bin) => Math.max(most, bin.cells), 1)],
       },
       marks: [
-        Plot.line(bins, {
+        Plot.line(ended(all, bins, width), {
           x: "lights",
-          y: ({ cells }: Bin) => cells || NaN,
+          y: ({ cells }: Bin) => cells || foot,
           z: ({ series }: Bin) => series.label,
           curve: "step-after",
           stroke: ({ series }: Bin) => colour(series),

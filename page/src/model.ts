@@ -17,7 +17,7 @@ export interface Case {
   raw: CaseResult;
   run: Run;
   scene: string;
-  grid: string;
+  grid: string; // its name, or "no grid"
   assigner: string; // with its preset, and the parameters that differ from their defaults
   family: string; // a method and its fast variant are one family
   isFast: boolean;
@@ -102,6 +102,10 @@ interface Known {
   costs: Map<string, FrameCost>;
 }
 
+// A structure whose samples and lights need no cells, such as a hierarchy. Its result names the grid that it was measured beside.
+const isWithoutGrid = (raw: CaseResult) =>
+  raw.storage === "own" && raw.occupancy === undefined && raw.cells_not_compared === undefined;
+
 function toCase(raw: CaseResult, run: Run, known: Known): Case {
   const { front, standings, costs } = known;
   const ranked = known.ranked.get(raw.id) ?? null;
@@ -109,16 +113,17 @@ function toCase(raw: CaseResult, run: Run, known: Known): Case {
   const packed = raw.precision && raw.precision.packing !== "float32" ? `${kept}, ${raw.precision.label}` : kept;
   const storage = raw.pre_cull ? `${packed}, after ${raw.pre_cull.label}` : packed;
   const seen = raw.samples?.opaque ?? raw.shading;
+  const grid = isWithoutGrid(raw) ? "no grid" : raw.grid.name;
   return {
     raw,
     run,
     scene: raw.scene,
-    grid: raw.grid.name,
+    grid,
     assigner: raw.preset ? `${raw.preset}: ${raw.assigner.label}` : raw.assigner.label,
     family: raw.assigner.name.replace(/-fast$/, ""),
     isFast: raw.assigner.name.endsWith("-fast"),
     storage,
-    setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), raw.grid.name, storage].join(" · "),
+    setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), grid, storage].join(" · "),
     isOnFront: front.has(raw.id),
     isEligible: raw.eligible && !raw.samples_search,
     isSearched: raw.samples_search === true,

@@ -27,6 +27,9 @@ export function chartWidth(columns = 1): number {
   return Math.max(fewest, Math.floor((page - 24 * (most - 1)) / most));
 }
 
+// Lower on paper, so that a page holds more of them: what does not fit leaves the rest of its page empty.
+export const chartHeight = (height: number) => Math.round(isOnPaper ? 0.66 * height : height);
+
 // The scale of names to the left of a chart, with as much of them as half of its width holds, under the axis' label.
 export function namesAside(
   names: string[],

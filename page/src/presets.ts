@@ -36,7 +36,7 @@ const columns: Column<Row>[] = [
   {
     label: "preset",
     value: ({ line }) => line.preset,
-    show: ({ line, isBest, facts }) => h("span", { title: facts?.summary }, isBest ? `★ ${line.preset}` : line.preset),
+    show: ({ line, isBest, facts }) => h("span", { title: facts?.summary }, isBest ? `▶ ${line.preset}` : line.preset),
   },
   {
     label: "place",
@@ -112,7 +112,7 @@ const columns: Column<Row>[] = [
     value: ({ aCase, facts }) => (facts?.assigns_on === "gpu" ? null : aCase.assignNs),
     show: ({ aCase, facts }) => (facts?.assigns_on === "gpu" ? "GPU" : format.microseconds(aCase.assignNs)),
   },
-  { label: "why", value: ({ line }) => line.why },
+  { label: "why", value: ({ line }) => line.why, show: ({ line }) => h("span", {}, line.why) },
 ];
 
 const evidenceTexts: Record<string, string> = {
@@ -149,7 +149,7 @@ const shownColumns = (rows: Row[]) => columns.filter(({ value }) => rows.some((r
 // The conclusion first, where the page does not begin with it; then how lines come to their places.
 function leadOf(ranking: Ranking, isAlone: boolean): Child {
   const rule =
-    "★ costs the GPU least of the lists whose samples lack at most 0.1 % of the lights that they need. A place is 1 + how many are known to cost less: by over 5 %, and at prices of half and twice those of the key cost too. Those that lack more come last, behind those whose samples need fewer than 1000 lights, too few to say so.";
+    "▶ costs the GPU least of the lists whose samples lack at most 0.1 % of the lights that they need. A place is 1 + how many are known to cost less: by over 5 %, and at prices of half and twice those of the key cost too. Those that lack more come last, behind those whose samples need fewer than 1000 lights, too few to say so.";
   const seen = ranking.lights_in_view;
   const inView =
     seen?.max == null ? "" : ` Lights in view: ${format.decimal(seen.mean)} on average, ${seen.max} at most.`;

@@ -58,7 +58,7 @@ function unlit({ raw, unlit, isUnlit }: Case): HTMLElement {
 }
 
 const front = (isOnFront: boolean) =>
-  isOnFront ? h("span", { class: "front", role: "img", "aria-label": "yes" }, "●") : "";
+  isOnFront ? h("span", { class: "front", role: "img", "aria-label": "on the Pareto front" }, "*") : ""; // as in the terminal
 const differ = <Row>(rows: Row[], value: (row: Row) => unknown) => new Set(rows.map(value)).size > 1;
 const kept = <Row>(columns: (Column<Row> | false)[]) =>
   columns.filter((column): column is Column<Row> => column !== false);
@@ -90,7 +90,7 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     },
     {
       label: "excess",
-      about: "False positives by true pairs",
+      about: "False positives / true pairs (cell, light)",
       value: (row) => row.excess,
       show: (row) => format.percent(row.excess),
     },
@@ -398,16 +398,26 @@ function sortedBy<Row extends { isUnlit: boolean }>(columns: Column<Row>[]): Tab
 }
 
 // What of the heads is not understood without being told.
-const words: Record<string, string> = {
-  "cost µs": "making the lists and shading with them, by which the conclusion chooses",
-  "cost / best": "making the lists and shading with them, by which the conclusions choose",
-  excess: "false positives by true pairs of cell and light",
-  missed: "lights that reach a cell and are not in its list",
-  unlit: "lights that samples need and are not given",
-  overshade: "lights that samples are given, by those that they need",
-};
+function wordsOf(isTimed: boolean): Record<string, string> {
+  const model = "upload, reading and shading by the model of the configuration's key cost";
+  const cost = isTimed ? `making the lists, and ${model}` : `${model}; making the lists was not timed`;
+  return {
+    "cost µs": cost,
+    "cost / best": cost,
+    excess: "false positives / true pairs (cell, light)",
+    missed: "lights that reach a cell and are not in its list",
+    unlit: "share of the lights that samples need and do not get",
+    overshade: "lights in the lists of samples / lights that reach the samples; 1 is ideal",
+  };
+}
+
+const frontOf = (view: View) =>
+  view.model.cases.every(isRankedByCost)
+    ? "cost and bytes"
+    : `${view.model.cases.some(({ frameNs }) => frameNs !== null) ? "time, " : ""}bytes and overshade`;
 
 function legend<Row>(view: View, columns: Column<Row>[], rows: Row[]): string {
+  const words = wordsOf(columns.some(({ label }) => label === "frame µs" || label === "time / best"));
   const explained = columns.flatMap(({ label }) => {
     const [, word] = /^(.*?)(?: \(.*\))?$/.exec(label)!;
     return words[word!] ? [`${word}: ${words[word!]}`] : [];
@@ -415,8 +425,9 @@ function legend<Row>(view: View, columns: Column<Row>[], rows: Row[]): string {
   const standings = new Set(rows.map((row) => (row as { standing?: Case["standing"] }).standing));
   const best = view.hasPresets ? "costs least of the presets" : "taken by the conclusion";
   return [
-    standings.has("taken") && `★ ${best}.`,
+    standings.has("taken") && `▶ ${best}.`,
     standings.has("alike") && "≈ as good, as far as these figures can show.",
+    columns.some(({ label }) => label === "front") && `* on the Pareto front of ${frontOf(view)}.`,
     `${explained.join("; ")}.`,
   ]
     .filter(Boolean)

@@ -26,13 +26,17 @@ export function seriesOf(view: View, cases: Case[], values: (aCase: Case) => num
 
 export const lookOf = (view: View, series: Series): Look => view.palette(series.cases[0]!);
 
-// The legend of charts of these lines. A line looks like the first of its methods; others can share it in some charts only.
+// The legend of charts of these lines. A line looks like the first of its methods. A method that shares it in some of the
+// charts only has a line of its own in the others, or is told in brackets.
 export function keysOf(view: View, all: Series[]): Key[] {
+  const leading = new Set(all.map((series) => view.named(series.cases[0]!)));
   return [...Map.groupBy(all, (series) => series.cases[0]!).values()].map((lines) => {
     const names = lines.map((series) => new Set(series.cases.map((aCase) => view.named(aCase))));
     const always = [...names[0]!].filter((name) => names.every((some) => some.has(name)));
-    const sometimes = new Set(names.flatMap((some) => [...some].filter((name) => !always.includes(name))));
-    const more = sometimes.size > 0 ? ` (where they are the same, ${[...sometimes].join(", ")})` : "";
+    const sometimes = new Set(
+      names.flatMap((some) => [...some].filter((name) => !always.includes(name) && !leading.has(name))),
+    );
+    const more = sometimes.size > 0 ? ` (in some charts ${[...sometimes].join(", ")})` : "";
     return { label: always.join(", ") + more, look: lookOf(view, lines[0]!) };
   });
 }

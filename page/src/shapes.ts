@@ -9,12 +9,10 @@ interface Pen {
   closePath(): void;
 }
 
-// Corners around the centre; `inner` shortens every other one to make a star.
-function around(corners: number, turn: number, inner = 1): Point[] {
+function around(corners: number, turn: number): Point[] {
   return Array.from({ length: corners }, (_, at) => {
     const angle = (2 * Math.PI * at) / corners + turn;
-    const radius = at % 2 === 1 ? inner : 1;
-    return [radius * Math.sin(angle), -radius * Math.cos(angle)];
+    return [Math.sin(angle), -Math.cos(angle)];
   });
 }
 
@@ -44,8 +42,21 @@ const upright: Point[] = [
   [0.5, 1.1],
   [-0.5, 1.1],
 ];
+const hourglass: Point[] = [
+  [-1, -1],
+  [1, -1],
+  [0.25, 0],
+  [1, 1],
+  [-1, 1],
+  [-0.25, 0],
+];
+
+// By an eighth of a turn.
+const turned = (points: Point[]) => points.map(([x, y]): Point => [Math.SQRT1_2 * (x - y), Math.SQRT1_2 * (x + y)]);
+
+// None is a star: that would look like the sign of the Pareto front.
 const polygons: Point[][] = [
-  around(10, 0, 0.42), // star
+  around(5, 0), // pentagon
   around(24, 0), // disc
   around(4, Math.PI / 4),
   around(3, 0),
@@ -54,9 +65,9 @@ const polygons: Point[][] = [
   around(6, Math.PI / 6),
   around(3, Math.PI),
   bar,
-  around(5, 0),
+  turned(cross),
   upright,
-  around(8, 0, 0.5),
+  hourglass,
 ];
 
 function area(polygon: Point[]): number {

@@ -285,7 +285,7 @@ export const speedErrorSection: Section = (view, redraw) => {
     figureView({
       id: "speed-error",
       title: `Frame time against ${measure.label}`,
-      lead: `Down and left is better. ${measure.label[0]!.toUpperCase()}${measure.label.slice(1)}: ${measure.about}. Ringed: on the front, as in the ranking; the line joins those of them that none of them beats in both. Bars are 95 % intervals of the median time, of the ringed ones; of others at the pointer. Each panel has its own scale upwards, logarithmic where some are far from the others.${more}`,
+      lead: `Down and left is better. ${measure.label[0]!.toUpperCase()}${measure.label.slice(1)}: ${measure.about}. A ring: on the Pareto front, as * in the ranking. The grey line joins the ringed marks that no other ringed mark beats in both. Bars are 95 % intervals of the median time of ringed marks, hidden where the mark is wider; those of others show at the pointer. Each panel has its own vertical axis, logarithmic where some marks are far from the others.${more}`,
       controls: [control],
       chart: multiples(panels),
       methods: keys,

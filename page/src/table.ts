@@ -1,6 +1,7 @@
 // A table that sorts by any of its columns, by mouse and keyboard.
 
 import { breakable, type Child, h } from "./dom.ts";
+import { scrolled } from "./scrolled.ts";
 
 export type Value = number | string | null;
 
@@ -10,7 +11,7 @@ export interface Column<Row> {
   value: (row: Row) => Value; // sorted by, copied and downloaded
   show?: (row: Row) => Child; // displayed in place of the value
   isDetail?: boolean; // shown on request
-  isScreenOnly?: boolean; // paper has no room for it, and says so
+  isScreenOnly?: boolean; // left out on paper, which says so
   isUnderFirst?: boolean; // stands under the first column where there is no room beside it
 }
 
@@ -94,16 +95,11 @@ export function tableView<Row>(table: Table<Row>): HTMLElement {
 
   draw();
   const leftOut = columns.filter((column) => column.isScreenOnly).map(({ label }) => label);
-  return h(
-    "div",
+  return scrolled(
     { class: "table", tabindex: 0, role: "region", "aria-label": table.caption },
     h("table", {}, h("caption", {}, table.caption), h("thead", {}, h("tr", {}, ...heads)), body),
     more,
     leftOut.length > 0 &&
-      h(
-        "p",
-        { class: "note paper-only" },
-        `Paper has no room for ${leftOut.join(", ")}: the page on a screen shows them.`,
-      ),
+      h("p", { class: "note paper-only" }, `Columns that only the page on a screen shows: ${leftOut.join(", ")}.`),
   );
 }

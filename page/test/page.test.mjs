@@ -130,7 +130,7 @@ describe("presets", () => {
     const page = await open(pages.presets);
     const rows = await page.locator("#presets-0-0 tbody tr").allInnerTexts();
     assert.equal(rows.length, 3);
-    assert.match(rows[0], /^★ just-cause-3.*loses nothing; costs least: [\d.]+ lights per sample/s);
+    assert.match(rows[0], /^▶ just-cause-3.*loses nothing; costs least: [\d.]+ lights per sample/s);
     assert.match(rows[1], /^godot\s+s1.*; costs least of those that samples search: /s);
     assert.match(
       rows[2],
@@ -190,6 +190,31 @@ describe("presets", () => {
   });
 });
 
+describe("a table that is wider than the screen", () => {
+  it("says that it scrolls, until its end is seen", async () => {
+    const page = await open(pages.quick, { viewport: { width: 400, height: 900 } });
+    const hint = page.locator("#ranking .scroll-hint");
+    await hint.waitFor();
+    assert.equal(await hint.innerText(), "scroll sideways for more →");
+    await page.locator("#ranking .table").evaluate((table) => table.scrollTo(table.scrollWidth, 0));
+    await hint.waitFor({ state: "hidden" });
+  });
+
+  it("says nothing where it is not", async () => {
+    const page = await open(pages.presets, { viewport: { width: 1200, height: 900 } });
+    await page.waitForTimeout(100);
+    assert.equal(await page.locator("#presets .scroll-hint:visible").count(), 0);
+  });
+});
+
+describe("the conclusion", () => {
+  it("says in the open that depths are random, where nothing else is shaded", async () => {
+    const page = await open(pages.quick);
+    assert.equal(await page.locator("header .caveat:visible").count(), 1);
+    assert.match(await page.locator("header .caveat").innerText(), /random depths.*can change the choice/s);
+  });
+});
+
 describe("the ranking", () => {
   it("stands first and is sorted by cost; what samples search, which no GPU has measured, comes last", async () => {
     const page = await open(pages.quick);
@@ -231,6 +256,37 @@ describe("the ranking", () => {
     assert.equal(await page.locator("#ranking [aria-sort]").count(), 1);
   });
 
+  it("says of a cost without times that making the lists is not in it", async () => {
+    const [timed, untimed] = [await open(pages.quick), await open(pages.presets)];
+    assert.match(
+      await timed.locator("#ranking > .note").innerText(),
+      /: making the lists, and upload, reading and shading/,
+    );
+    assert.match(
+      await untimed.locator("#ranking > .note").innerText(),
+      /cost µs: upload, reading and shading by the model of .*; making the lists was not timed/s,
+    );
+  });
+
+  it("has the terminal's sign for the Pareto front, and no other star", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "jam" }).check();
+    const signs = new Set((await column(page, "front")).filter(Boolean));
+    assert.deepEqual([...signs], ["*"]);
+    assert.match(
+      await page.locator("#ranking > .note").innerText(),
+      /\* on the Pareto front of time, bytes and overshade\./,
+    );
+    assert.doesNotMatch(await page.locator("body").innerText(), /★/);
+  });
+
+  it("has no grid for a structure that needs no cells", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "street" }).check();
+    await page.selectOption("#filter-grid", "no grid");
+    assert.deepEqual(await methods(page), ["bvh"]);
+  });
+
   it("shows the cases of one scene, of one grid, of some words, of the front", async () => {
     const page = await open(pages.quick);
     const result = JSON.parse(readFileSync(committedResult));
@@ -247,9 +303,10 @@ describe("the ranking", () => {
     );
     await page.selectOption("#filter-grid", { index: 1 });
     const grid = result.cases[0].grid.name;
+    const hasCells = (one) => one.storage !== "own" || one.occupancy;
     assert.deepEqual(
       await shown(),
-      expected((one) => one.scene === "street" && one.grid.name === grid),
+      expected((one) => one.scene === "street" && one.grid.name === grid && hasCells(one)),
     );
     await page.fill("#filter-words", "fast exact");
     assert.deepEqual(await shown(), ["exact-fast"]);
@@ -624,6 +681,21 @@ describe("charts", () => {
     );
   });
 
+  it("are no section where no tiles and slices were swept", async () => {
+    const page = await open(pages.quick);
+    assert.equal(await page.locator("#grids").count(), 0);
+  });
+
+  it("draw list lengths in one piece, down to no cells", async () => {
+    const page = await open(pages.sweep);
+    const paths = await page
+      .locator("#list-lengths svg[role=img] path")
+      .evaluateAll((all) => all.map((path) => path.getAttribute("d")));
+    const steps = paths.filter((path) => !path.endsWith("Z") && path.length > 60); // marks are closed, ticks short
+    assert.ok(steps.length > 0, String(paths));
+    for (const line of steps) assert.equal(line.match(/M/g).length, 1, line);
+  });
+
   it("leave out maps that are less than half filled, and say so", async () => {
     const page = await open(pages.sparse);
     const titles = await textsOf(page, "#heat-map h4");
@@ -684,7 +756,7 @@ describe("charts", () => {
     const page = await open(pages.quick);
     for (const scene of ["street", "jam"]) {
       await page.getByRole("radio", { name: scene }).check();
-      const marked = await page.locator("#ranking [aria-label=yes]").count();
+      const marked = await page.locator("#ranking [aria-label='on the Pareto front']").count();
       const rings = page.locator("#speed-error circle[r='8']");
       assert.ok(marked > 1, scene);
       assert.equal(await rings.count(), marked, scene);
