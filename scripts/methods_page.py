@@ -153,7 +153,7 @@ def row(case, firsts):
             f"{samples['read_bytes'] / samples['samples']:.0f}", f"{100 * unlit:.2g} %" if unlit else "0", f"{case['buffers']['bytes']['high_water'] / 1e3:.1f}", time_of(case, firsts)]
 
 
-HEADS = ["method", "grid", "excess", "missed", "lights per pixel", "bytes read", "unlit", "KB", "frame time"]
+HEADS = ["method", "grid", "excess", "missed", "lights per pixel", "bytes read", "unlit", "kB", "frame time"]
 
 
 def rows_of(name, result):
