@@ -278,6 +278,10 @@ describe("the ranking", () => {
       /\* on the Pareto front of time, bytes and overshade\./,
     );
     assert.doesNotMatch(await page.locator("body").innerText(), /★/);
+    const corners = await page
+      .locator(".chip .icon path")
+      .evaluateAll((all) => all.map((path) => path.getAttribute("d").match(/[ML]/g).length));
+    assert.ok(corners.length > 10 && !corners.includes(10) && !corners.includes(8), String(corners)); // of stars
   });
 
   it("has no grid for a structure that needs no cells", async () => {
@@ -876,6 +880,8 @@ describe("on paper", () => {
     assert.ok((await width()) > 1000, "afterwards charts are those of the screen again");
     await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
     assert.ok((await width()) < 700);
+    const height = await page.locator("#list-lengths svg[role=img]").getAttribute("height");
+    assert.ok(Number(height) < 200, `${height}: three such charts fill a page, two leave half of it empty`);
   });
 
   it("opens what stands behind the conclusions, which are a line each on the screen", async () => {
