@@ -237,10 +237,10 @@ std::string whole_cost_text(const WeighedCase& take) {
   if (!take.is_modelled && !take.is_timed())
     return text("; %.0f bytes, and no times or samples to rank by", take.bytes());
   if (!take.is_modelled) return "; " + ns_text(take.ns()) + " a frame to make on this machine";
-  const std::string model = "upload, reading and shading by the model of the key cost";
+  const std::string model = "upload, reading and shading by the model (configuration key cost)";
   if (!take.is_timed()) return "; " + ns_text(take.ns()) + " a frame of " + model + ", and nothing was timed";
   return "; a frame costs " + ns_text(take.ns()) + ": " + ns_text(*take.cost.assign_ns) +
-         " to make it on this machine, " + ns_text(take.cost.gpu_ns()) + " of " + model;
+         " to make the lists on this machine, " + ns_text(take.cost.gpu_ns()) + " of " + model;
 }
 
 // "10 % more", "2.71 times as much"; in brackets what it can be by times and by prices, where that is known.
@@ -254,7 +254,7 @@ std::string more_text(double ratio, const measure::Interval& by_times, const mea
   std::vector<std::string> ranges;
   if (by_times.is_known() && std::isfinite(by_times.high)) ranges.push_back("95 % of the times: " + range(by_times));
   if (by_prices.is_known() && std::isfinite(by_prices.high))
-    ranges.push_back("with prices half or twice those of the key cost: " + range(by_prices) +
+    ranges.push_back("with the model's prices halved or doubled: " + range(by_prices) +
                      (by_prices.low < 1.0 ? ", so it may cost less on another GPU" : ""));
   return amount(ratio) + (is_share ? " more" : " times as much") +
          (ranges.empty() ? "" : " (" + joined(ranges, "; ") + ")");

@@ -271,12 +271,12 @@ std::string legend(const Json& cases, const Extras& extras, RankBy by, bool has_
   std::string out;
   const std::string measured = extras.times ? " (as measured)" : "";
   if (has_front)
-    out += "* no other case with lists of its camera and viewport is as good in " +
+    out += "* at most 0.1 % unlit, and no other such case of its view is as good in " +
            (by == RankBy::frame_cost ? "cost" + measured + " and bytes"
                                      : (extras.times ? "time" + measured + ", " : "") + "bytes and overshade") +
            ", and better in one.\n";
   if (extras.times)
-    out += std::string("frame: time of a frame") + (extras.cold ? " with cold caches" : "") + ", assign" +
+    out += std::string("frame: time to make a frame's lists") + (extras.cold ? " with cold caches" : "") + ", assign" +
            (extras.conversions ? " + convert" : "") + "; ±: half of its 95 % interval" +
            (extras.launches ? " between launches" : "") + ", both sides where one is above 20 %" +
            ".\nworst: the slowest of the timed frames and the one with most pairs, @ its number.\n";

@@ -60,7 +60,7 @@ TEST(Conclusion, short_lists_pay_for_the_time_to_make_them) {
   const Json conclusion = only_conclusion(result);
   EXPECT_EQ(conclusion["take"], "slow");
   EXPECT_EQ(conclusion["against"], "fast");
-  EXPECT_TRUE(has_words(conclusion, "9.50 us to make it on this machine")) << conclusion["text"];
+  EXPECT_TRUE(has_words(conclusion, "9.50 us to make the lists on this machine")) << conclusion["text"];
   EXPECT_TRUE(has_words(conclusion, "Fastest to make: frustum 64px/aabb/packed, 3.50 us")) << conclusion["text"];
   EXPECT_TRUE(has_words(conclusion, "samples are at random depths")) << conclusion["text"];
   EXPECT_TRUE(has_words(conclusion, "samples.opaque.ground=lowest")) << conclusion["text"];
@@ -206,7 +206,7 @@ TEST(Conclusion, says_from_and_to_what_prices_change_the_difference) {
   ASSERT_EQ(conclusion["by_prices"].size(), 2u) << conclusion["text"];
   EXPECT_LT(conclusion["by_prices"][0].get<double>(), conclusion["ratio"].get<double>());
   EXPECT_GT(conclusion["by_prices"][1].get<double>(), conclusion["ratio"].get<double>());
-  EXPECT_TRUE(has_words(conclusion, "with prices half or twice those of the key cost: ")) << conclusion["text"];
+  EXPECT_TRUE(has_words(conclusion, "with the model's prices halved or doubled: ")) << conclusion["text"];
   EXPECT_TRUE(has_words(conclusion, "Its samples (visible surfaces) need only 999 lights: costs are rough"))
       << conclusion["text"];
 }
