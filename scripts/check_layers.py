@@ -10,7 +10,7 @@ import re
 import sys
 
 # A file includes only its own layer and those before it.
-LAYERS = ["core", "geom", "scene", "view", "depth", "grid", "cull", "assign", "measure", "config", "run", "pictures", "stress",
+LAYERS = ["core", "os", "geom", "scene", "view", "depth", "grid", "cull", "assign", "measure", "config", "run", "pictures", "stress",
           "search", "report", "cli"]
 
 # The same for the folders of a layer. Those that stand side by side do not include each other; files beside the folders
@@ -40,6 +40,20 @@ HOMES = {
     "nlopt": ["search"],
     "valgrind/": ["run"],
     "CLI/": ["cli"],
+    # The operating system: another one is a second file beside each of these.
+    "unistd.h": ["os"],
+    "fcntl.h": ["os"],
+    "poll.h": ["os"],
+    "stdlib.h": ["os"],
+    "signal.h": ["os"],
+    "csignal": ["os"],
+    "pthread.h": ["os"],
+    "sched.h": ["os"],
+    "termios.h": ["os"],
+    "dirent.h": ["os"],
+    "spawn.h": ["os"],
+    "sys/": ["os"],
+    "linux/": ["os"],
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)

@@ -59,10 +59,10 @@ void measure_beside(const BaselineRequest& request, const std::vector<std::strin
                                 tool = program->tool();
                                 return program;
                               },
-                              [&] { return start(k_this_program); }};
+                              [&] { return start(os::k_this_program); }};
   try {
     report::add_baseline(result, tool, run::measure_paired(plan, paired_request(request, config), both, on_round));
-    if (are_same_bytes(other, k_this_program)) result["baseline"]["is_same_program"] = true;
+    if (are_same_bytes(other, os::k_this_program)) result["baseline"]["is_same_program"] = true;
   } catch (const nlohmann::json::exception& error) {
     throw Error(request.binary, "--baseline-binary", std::string("answered what cannot be read: ") + error.what());
   }

@@ -23,8 +23,8 @@ void probe_baseline(const BaselineRequest& request, const std::vector<std::strin
                     const std::atomic<bool>& stop);
 
 // Both programs are started with `arguments`, which make the plan in this one, too. Adds what they measured to the
-// result. Throws Error if the other program cannot do it, breaks down or hangs; with stopped_exit_code() once `stop`
-// is true.
+// result. Throws Error if the other program cannot do it, breaks down or hangs; with os::stopped_exit_code() once
+// `stop` is true.
 void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
                     const config::Config& config, const run::Plan& plan, const run::OnPairedRound& on_round,
                     const std::atomic<bool>& stop, nlohmann::ordered_json& result);

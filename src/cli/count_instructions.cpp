@@ -1,18 +1,16 @@
 #include "cli/count_instructions.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <set>
 #include <sstream>
 
-#include "cli/child.h"
 #include "cli/handover.h"
-#include "cli/temporary_folder.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "os/process.h"
+#include "os/temporary_folder.h"
 #include "run/counters/callgrind_counter.h"
 #include "run/counters/perf_counter.h"
 
@@ -37,7 +35,7 @@ bool is_in_path(const std::string& program) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');)
-    if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
+    if (os::is_executable(fs::path(folder) / program)) return true;
   return false;
 }
 
@@ -55,7 +53,7 @@ std::vector<std::string> callgrind_command(const std::string& dumps, const std::
           "--instr-atstart=no",
           "--dump-line=no",
           "--callgrind-out-file=" + dumps,
-          this_program_for_others(),
+          os::this_program_for_others(),
           "run",
           "--count-dumps=" + dumps,
           "--",
@@ -89,8 +87,8 @@ using OnCase = std::function<void(const std::string&)>;
 
 run::Counts count_under_callgrind(const CountTask& task, const OnCase& on_case, const std::atomic<bool>& stop) {
   run::Counts counts;
-  const TemporaryFolder folder;
-  const Ending ending = run_child(
+  const os::TemporaryFolder folder;
+  const os::Ending ending = os::run_child(
       callgrind_command((folder / "dump").string(), file_argument(task.config)),
       handed_over(task.config, task.plan) + "\n" + nlohmann::json(task.ids).dump() + "\n",
       [&](const std::string& line) {

@@ -28,7 +28,7 @@ ExportFiles::ExportFiles(const std::vector<ExportTarget>& targets, bool are_time
           "", "--export",
           std::string(target.format->name) + " takes times, which --no-timing (timing.measure: false) leaves out");
   for (const ExportTarget& target : targets) {
-    files_.push_back(std::make_unique<OutputFile>(target.file));
+    files_.push_back(std::make_unique<os::OutputFile>(target.file));
     files_.back()->probe();
   }
 }

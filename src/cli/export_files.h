@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/output_file.h"
+#include "os/output_file.h"
 #include "report/exports/exports.h"
 
 namespace clusterbench::cli {
@@ -30,7 +30,7 @@ class ExportFiles {
 
  private:
   std::vector<ExportTarget> targets_;
-  std::vector<std::unique_ptr<OutputFile>> files_;
+  std::vector<std::unique_ptr<os::OutputFile>> files_;
 };
 
 // "google-benchmark  Google ..." a line each, for help texts.

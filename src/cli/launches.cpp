@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "cli/child.h"
 #include "cli/handover.h"
 #include "core/error.h"
 #include "core/json_document.h"
+#include "os/process.h"
 #include "run/passes/timing_pass.h"
 
 namespace clusterbench::cli {
@@ -131,7 +131,7 @@ Json request_for(const run::GroupToTime& group, int launch, int rounds) {
 class Launch {
  public:
   Launch(const config::Config& config, const run::Plan& plan, std::size_t scene, const std::atomic<bool>& stop)
-      : stop_(stop), child_({k_this_program, "run", k_serve_launch, "--", file_argument(config)}) {
+      : stop_(stop), child_({os::k_this_program, "run", k_serve_launch, "--", file_argument(config)}) {
     child_.send_line(handed_over(config, plan, scene));
     if (const std::optional<std::string> line = next_line(); line && *line != k_ready)
       fail("greets with '" + *line + "'");
@@ -151,13 +151,13 @@ class Launch {
   std::optional<std::string> next_line() {
     constexpr double k_no_end_s = 1e9;  // what takes long in a process of its own takes as long here
     std::string line;
-    const Conversation::Received received =
-        stop_ ? Conversation::Received::stop : child_.receive_line(line, k_no_end_s, stop_);
-    if (received == Conversation::Received::line) return line;
+    const os::Conversation::Received received =
+        stop_ ? os::Conversation::Received::stop : child_.receive_line(line, k_no_end_s, stop_);
+    if (received == os::Conversation::Received::line) return line;
     // Ctrl-C signals both processes, and the launch may end before `stop_` is set here.
     for (int i = 0; i < 20 && !stop_; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (stop_) return std::nullopt;
-    const Ending ending = child_.end();
+    const os::Ending ending = child_.end();
     const bool refuses = ending.exit_code == static_cast<int>(ExitCode::usage);
     fail("ended" + (ending.how.empty() ? "" : " (" + ending.how + ")"), refuses ? ExitCode::usage : ExitCode::internal);
   }
@@ -169,7 +169,7 @@ class Launch {
   }
 
   const std::atomic<bool>& stop_;
-  Conversation child_;
+  os::Conversation child_;
 };
 
 }  // namespace

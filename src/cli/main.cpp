@@ -5,11 +5,12 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "core/text.h"
+#include "os/standard_streams.h"
 
 int main(int argc, char** argv) {
   using clusterbench::ExitCode;
-  clusterbench::cli::keep_standard_streams();
-  clusterbench::cli::tell_of_size_limits();
+  clusterbench::os::keep_standard_streams();
+  clusterbench::os::report_size_limits_as_errors();
   try {
     const int code = clusterbench::cli::run_command_line(argc, argv);
     clusterbench::cli::check_standard_output();

@@ -1,15 +1,12 @@
 #include "cli/output.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "os/standard_streams.h"
+#include "os/terminal.h"
 #include "report/compact_json.h"
 
 namespace clusterbench::cli {
@@ -21,17 +18,7 @@ void tell(const std::string& message) {
 }
 
 bool is_stream(const std::string& output) {
-  return output_target(output).is_stream;
-}
-
-void keep_standard_streams() {
-  for (const auto& [stream, way] :
-       {std::pair{STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}})
-    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", way);  // takes the smallest number that is free
-}
-
-void tell_of_size_limits() {
-  std::signal(SIGXFSZ, SIG_IGN);
+  return os::output_target(output).is_stream;
 }
 
 void check_standard_output() {
@@ -40,7 +27,7 @@ void check_standard_output() {
 }
 
 bool is_for_reading(const std::string& output) {
-  return output.empty() && isatty(STDOUT_FILENO) != 0;
+  return output.empty() && os::is_terminal(os::StandardStream::output);
 }
 
 void tell_of_keeping() {
@@ -52,25 +39,17 @@ namespace {
 // The file that a name will be, also where it does not exist yet: absolute, and through links that lead to nothing.
 fs::path file_of(const std::string& name) {
   std::error_code none;
-  return fs::weakly_canonical(fs::absolute(output_target(name).path, none), none);
+  return fs::weakly_canonical(fs::absolute(os::output_target(name).path, none), none);
 }
 
 bool are_one_file(const std::string& a, const std::string& b) {
   std::error_code none;
-  return fs::equivalent(output_target(a).path, output_target(b).path, none) || file_of(a) == file_of(b);
+  return fs::equivalent(os::output_target(a).path, os::output_target(b).path, none) || file_of(a) == file_of(b);
 }
 
 // Two of them in one stream are neither. What throws away all takes any number.
 bool are_mixed(const std::string& a, const std::string& b) {
   return !a.empty() && !b.empty() && are_one_file(a, b) && !are_one_file(a, "/dev/null");
-}
-
-// As `merge a b >> a` has it.
-bool is_open_file(int descriptor, const std::string& input) {
-  struct stat open {};
-  struct stat named {};
-  return ::fstat(descriptor, &open) == 0 && S_ISREG(open.st_mode) && ::stat(input.c_str(), &named) == 0 &&
-         open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
 }  // namespace
@@ -81,11 +60,12 @@ void refuse_overwriting(const std::vector<std::string>& outputs, const std::vect
       if (are_mixed(outputs[i], outputs[k]))
         throw Error(outputs[i] == "-" ? "standard output" : outputs[i], "",
                     "is to hold two outputs of this command: name a file for each");
-    const OutputTarget target = output_target(outputs[i]);
-    require_folder_of(outputs[i]);
+    const os::OutputTarget target = os::output_target(outputs[i]);
+    os::require_folder_of(outputs[i]);
     for (const std::string& input : inputs) {
       if (input.empty()) continue;
-      const bool is_lost = target.is_stream ? is_open_file(target.descriptor, input) : are_one_file(outputs[i], input);
+      const bool is_lost =
+          target.is_stream ? os::is_open_file(target.descriptor, input) : are_one_file(outputs[i], input);
       if (is_lost)
         throw Error(outputs[i].empty() || outputs[i] == "-" ? "standard output" : outputs[i], "",
                     "is read by this command and would be lost: name another file for the output");
@@ -94,7 +74,7 @@ void refuse_overwriting(const std::vector<std::string>& outputs, const std::vect
 }
 
 void write_text(const std::string& output, const std::string& text) {
-  write_file(output, text);
+  os::write_file(output, text);
 }
 
 void write_output(const std::string& output, const nlohmann::ordered_json& result) {
@@ -103,7 +83,7 @@ void write_output(const std::string& output, const nlohmann::ordered_json& resul
 
 LaterOutput::LaterOutput(const std::string& output, bool is_none) {
   if (is_none) return;
-  file_ = std::make_unique<OutputFile>(output);
+  file_ = std::make_unique<os::OutputFile>(output);
   file_->probe();
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/output_file.h"
+#include "os/output_file.h"
 
 namespace clusterbench::cli {
 
@@ -16,12 +16,6 @@ void tell(const std::string& message);
 // "", "-", and what exists and is neither a file nor a folder.
 bool is_stream(const std::string& output);
 
-// A standard stream that is closed would give its number to the next file that is opened, and what is printed would go
-// there: in its place stands what can be neither read nor written, and of standard error what takes all.
-void keep_standard_streams();
-// A file that gets larger than the system allows (`ulimit -f`) is an error of the write that says so, and not the end
-// of the process.
-void tell_of_size_limits();
 // Throws Error if standard output has not taken all that was printed.
 void check_standard_output();
 
@@ -33,7 +27,7 @@ void tell_of_keeping();
 // Throws Error if an output is one of the inputs, which would be lost, or is another output, too. "" is none.
 void refuse_overwriting(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
-// core/output_file.h; "" and "-" are standard output. Throws Error if it could not be written whole.
+// os/output_file.h; "" and "-" are standard output. Throws Error if it could not be written whole.
 void write_text(const std::string& output, const std::string& text);
 void write_output(const std::string& output, const nlohmann::ordered_json& result);
 
@@ -45,7 +39,7 @@ class LaterOutput {
   void write(const nlohmann::ordered_json& result);
 
  private:
-  std::unique_ptr<OutputFile> file_;
+  std::unique_ptr<os::OutputFile> file_;
 };
 
 }  // namespace clusterbench::cli

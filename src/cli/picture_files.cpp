@@ -1,16 +1,14 @@
 #include "cli/picture_files.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
 
 #include "cli/output.h"
 #include "core/error.h"
-#include "core/output_file.h"
 #include "core/text.h"
 #include "geom/shapes/domain.h"
+#include "os/output_file.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -137,7 +135,7 @@ PictureFiles::PictureFiles(const ImageFlags& flags, const config::Config& config
     : config_(config), plan_(plan), folder_(flags.folder), inputs_(std::move(inputs)), request_(request_of(flags)) {
   check_count(plan, request_);
   make_folder(folder_);
-  if (::access(folder_.c_str(), W_OK | X_OK) != 0) throw Error(folder_, "", errno_says("cannot be written to"));
+  if (!os::is_writable_folder(folder_)) throw Error(folder_, "", errno_says("cannot be written to"));
   geometries_ = pictures::load_geometries(config, plan, request_);
   for (std::size_t i = 0; i < geometries_.size(); ++i)
     for (const std::string& warning : geometries_[i] ? geometries_[i]->warnings : std::vector<std::string>{})
@@ -151,10 +149,10 @@ std::string PictureFiles::index_path(const std::string& folder) {
 void PictureFiles::write_picture(const fs::path& file, const std::string& bytes) const {
   make_folder(file.parent_path());
   refuse_overwriting({file.string()}, inputs_);
-  write_file(file, bytes);
+  os::write_file(file, bytes);
 }
 
-bool PictureFiles::write(const nlohmann::ordered_json& result, Terminal screen, bool quiet,
+bool PictureFiles::write(const nlohmann::ordered_json& result, os::Terminal screen, bool quiet,
                          const std::atomic<bool>& stop) const {
   ProgressLine progress(screen, quiet);
   std::uint64_t written = 0, skipped = 0;

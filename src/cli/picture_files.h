@@ -38,7 +38,8 @@ class PictureFiles {
   static std::string index_path(const std::string& folder);
 
   // Makes them, of what the run has found. A picture of the same name is replaced. False if stopped before the end.
-  bool write(const nlohmann::ordered_json& result, Terminal screen, bool quiet, const std::atomic<bool>& stop) const;
+  bool write(const nlohmann::ordered_json& result, os::Terminal screen, bool quiet,
+             const std::atomic<bool>& stop) const;
 
  private:
   void write_picture(const std::filesystem::path& file, const std::string& bytes) const;

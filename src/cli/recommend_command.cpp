@@ -1,7 +1,5 @@
 // `clusterbench recommend SCENE|CONFIG`: which clustering to take, and why.
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -13,11 +11,11 @@
 #include "cli/launches.h"
 #include "cli/output.h"
 #include "cli/run_inputs.h"
-#include "cli/stop.h"
 #include "cli/terminal.h"
 #include "config/config.h"
 #include "config/presets.h"
 #include "core/text.h"
+#include "os/stop_signals.h"
 #include "report/recommend_report.h"
 #include "run/sweep.h"
 #include "search/recommend.h"
@@ -168,7 +166,7 @@ ExitCode tell_what_there_is(const config::Config& config, const report::Question
     std::cerr << printable_lines(
         report::recommendation_text(report::recommendation_to_json(config, question, answers)));
   std::cerr << printable_lines(report::unfinished_text(view, found, question)) << std::flush;
-  return stopped_exit_code();
+  return os::stopped_exit_code();
 }
 
 // The searches of a command, each with what it is about to take; no costs where nobody is told.
@@ -220,10 +218,10 @@ bool asks_for_cost(const report::Question& question) {
 std::optional<ExitCode> search_all(const RecommendFlags& flags, const config::Config& config, run::Plan& plan,
                                    const report::Question& question, const search::Request& request, Searches& searches,
                                    Json& answers) {
-  const std::atomic<bool>& stop = stop_on_signals();
+  const std::atomic<bool>& stop = os::stop_on_signals();
   const run::Launcher launcher =
       request.is_timed && config.timing.launches > 1 ? make_launcher(config, plan, nullptr, stop) : run::Launcher{};
-  ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
+  ProgressLine progress(os::terminal(os::StandardStream::error), flags.quiet);
   const search::Watch watch{[&](const run::Progress& now) { progress.show(now); }, stop,
                             [&](const std::string& stage) { progress.stage(stage); }};
   for (std::size_t i = 0; i < searches.views.size(); ++i) {
@@ -253,7 +251,7 @@ ExitCode recommend(const RecommendFlags& flags) {
   run::Plan plan = run::make_plan(config, flags.filter);
   refuse_overwriting({flags.output, flags.written}, files_of(flags.inputs, config));
   for (const std::string& output : {flags.output, flags.written})
-    if (!output.empty() && !is_stream(output)) OutputFile(output).probe();
+    if (!output.empty() && !is_stream(output)) os::OutputFile(output).probe();
   const bool has_random_depths = asks_for_cost(question) && weigh_samples(config, plan);
   Searches searches{search::views_of(config, plan), {}};
   searches.costs.resize(searches.views.size());

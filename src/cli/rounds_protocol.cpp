@@ -4,9 +4,9 @@
 #include <iostream>
 #include <sstream>
 
-#include "cli/stop.h"
 #include "core/error.h"
 #include "core/json_document.h"
+#include "os/stop_signals.h"
 #include "report/result_json.h"
 #include "run/served_cases.h"
 
@@ -55,7 +55,7 @@ void serve_rounds(const config::Config& config, const run::Plan& plan) {
 }
 
 RemoteProgram::RemoteProgram(const std::vector<std::string>& command, double patience_s, const std::atomic<bool>& stop)
-    : name_(command.front() == k_this_program ? "this program" : command.front()),
+    : name_(command.front() == os::k_this_program ? "this program" : command.front()),
       patience_s_(patience_s),
       stop_(stop),
       child_(command) {
@@ -63,7 +63,7 @@ RemoteProgram::RemoteProgram(const std::vector<std::string>& command, double pat
 }
 
 void RemoteProgram::fail(const std::string& what) {
-  if (stop_) throw Error(name_, "", "interrupted", stopped_exit_code());
+  if (stop_) throw Error(name_, "", "interrupted", os::stopped_exit_code());
   const std::string errors = child_.error_tail();
   throw Error(name_, "--baseline-binary", what + (errors.empty() ? "" : ": " + errors));
 }
@@ -86,13 +86,13 @@ void RemoteProgram::greet() {
 Json RemoteProgram::answer(const std::string& request) {
   std::string line;
   switch (child_.receive_line(line, patience_s_, stop_)) {
-    case Conversation::Received::line:
+    case os::Conversation::Received::line:
       break;
-    case Conversation::Received::stop:
+    case os::Conversation::Received::stop:
       fail("interrupted");
-    case Conversation::Received::timeout:
+    case os::Conversation::Received::timeout:
       fail("gave no answer to '" + request + "' in " + std::to_string(std::lround(patience_s_)) + " s");
-    case Conversation::Received::end: {
+    case os::Conversation::Received::end: {
       const std::string ending = child_.end().how;
       const std::string how = ending.empty() ? "" : " (" + ending + ")";
       fail(tool_.is_null() ? "is no clusterbench that can be measured beside this one; it ended at once" + how

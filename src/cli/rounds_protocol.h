@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/child.h"
+#include "os/process.h"
 #include "run/paired_rounds.h"
 #include "run/sweep.h"
 
@@ -21,7 +21,7 @@ inline constexpr int k_rounds_protocol = 1;
 void serve_rounds(const config::Config& config, const run::Plan& plan);
 
 // Another program that serves rounds. Throws Error where it cannot be started, is none of the kind, dies, gives no
-// answer for `patience_s`, or answers nonsense; with stopped_exit_code() once `stop` is true.
+// answer for `patience_s`, or answers nonsense; with os::stopped_exit_code() once `stop` is true.
 class RemoteProgram : public run::Program {
  public:
   RemoteProgram(const std::vector<std::string>& command, double patience_s, const std::atomic<bool>& stop);
@@ -43,7 +43,7 @@ class RemoteProgram : public run::Program {
   std::string name_;
   double patience_s_;
   const std::atomic<bool>& stop_;
-  Conversation child_;
+  os::Conversation child_;
   nlohmann::ordered_json tool_;
   std::vector<std::string> ids_;
 };

@@ -1,7 +1,5 @@
 // `clusterbench run CONFIG|SCENE...`: plan, measure, show, write.
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -22,11 +20,11 @@
 #include "cli/picture_files.h"
 #include "cli/rounds_protocol.h"
 #include "cli/run_inputs.h"
-#include "cli/stop.h"
 #include "cli/terminal.h"
 #include "config/config.h"
 #include "core/file_text.h"
 #include "core/text.h"
+#include "os/stop_signals.h"
 #include "report/compare.h"
 #include "report/conclusion.h"
 #include "report/journal.h"
@@ -227,7 +225,7 @@ ExitCode interrupted(const report::Journal* journal) {
         "--resume goes on");
   else
     tell("interrupted" + what_is_kept(journal));
-  return stopped_exit_code();
+  return os::stopped_exit_code();
 }
 
 ExitCode report_gates(const Json& result) {
@@ -350,7 +348,9 @@ void show_table(const RunFlags& flags, const Json& result) {
   }
   const bool for_reading = is_for_reading(flags.output);
   std::ostream& out = for_reading ? std::cout : std::cerr;
-  out << report::render_table(result, terminal(for_reading ? STDOUT_FILENO : STDERR_FILENO).colour) << std::flush;
+  out << report::render_table(result,
+                              os::terminal(for_reading ? os::StandardStream::output : os::StandardStream::error).colour)
+      << std::flush;
   if (for_reading) tell_of_keeping();
 }
 
@@ -382,10 +382,8 @@ void show_conclusion(const RunFlags& flags, const Json& result) {
         << report::preset_conclusions(result) << std::flush;
 }
 
-std::string own_command_line() {
-  std::ifstream in("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> words;
-  for (std::string word; std::getline(in, word, '\0');) words.push_back(word);
+std::string command_line() {
+  std::vector<std::string> words = os::own_command_line();
   if (!words.empty()) words.front() = "clusterbench";  // wherever it lies
   return printable(shell_command(words));
 }
@@ -410,12 +408,12 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   const ExportFiles export_files(exports, config.timing.measure);
   std::optional<PictureFiles> images;
   if (!flags.images.folder.empty()) images.emplace(flags.images, config, plan, inputs);
-  const std::atomic<bool>& stop = stop_on_signals();  // before there is anything to keep
+  const std::atomic<bool>& stop = os::stop_on_signals();  // before there is anything to keep
   const std::unique_ptr<report::Journal> journal = open_journal(flags, config, plan);
   const std::vector<Json> earlier = journal ? journal->earlier_cases() : std::vector<Json>{};
   const std::vector<std::string> earlier_ids = journal ? journal->earlier_ids() : std::vector<std::string>{};
 
-  const Terminal screen = terminal(STDERR_FILENO);
+  const os::Terminal screen = os::terminal(os::StandardStream::error);
   run::Counts counts;
   if (way != CountWay::none) {
     ProgressLine progress(screen, flags.quiet);
@@ -440,7 +438,7 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   }
   progress.clear();
   if (stop) return interrupted(journal.get());
-  if (!fresh.date.empty()) fresh.command = own_command_line();
+  if (!fresh.date.empty()) fresh.command = command_line();
 
   Json result = report::result_to_json(fresh, earlier);
   if (!flags.baseline.binary.empty() && !add_baseline(flags, config, plan, progress, journal.get(), stop, result))
@@ -452,7 +450,7 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   show_table(flags, result);
   if (images && !images->write(result, screen, flags.quiet, stop)) {
     tell("interrupted; the result is complete, its pictures are not");
-    return stopped_exit_code();
+    return os::stopped_exit_code();
   }
   const ExitCode code = report_verdicts(verdicts, result);
   if (!flags.quiet) show_conclusion(flags, result);
@@ -466,7 +464,7 @@ void check_baseline(const RunFlags& flags) {
       throw Error(input, "--baseline-binary", "is no file that the other program could read, too; save it to one");
   if (flags.no_timing)
     throw Error("", "--baseline-binary", "measures times, which --no-timing leaves out; take one of the two");
-  probe_baseline(flags.baseline, plan_arguments(flags), stop_on_signals());
+  probe_baseline(flags.baseline, plan_arguments(flags), os::stop_on_signals());
 }
 
 ExitCode serve(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {

@@ -149,7 +149,7 @@ void add_generate(Command& parent, Action& action) {
     action = [flags] {
       const std::string out = flags->out.empty() ? flags->name + ".glb" : flags->out;
       if (std::filesystem::path(out).extension() != ".glb") throw Error(out, "", "scenes are written as .glb files");
-      require_folder_of(out);
+      os::require_folder_of(out);
       write_text(out, scene::make_scene(flags->name, flags->seed, flags->lights));
       std::cerr << "wrote " << out << "\n";
       return ExitCode::ok;

@@ -14,12 +14,12 @@
 #include "cli/search_options.h"
 #include "cli/size_counting.h"
 #include "cli/size_search.h"
-#include "cli/stop.h"
 #include "config/documents.h"
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/json_document.h"
 #include "core/text.h"
+#include "os/stop_signals.h"
 #include "report/engine_settings.h"
 #include "report/found_frames.h"
 #include "report/nothing_seen.h"
@@ -153,11 +153,11 @@ ExitCode size(SizeFlags flags) {
   Json result;
   if (!is_result(flags.inputs)) {
     std::optional<SizePlan> plan = plan_for_size(flags.inputs, request.filter, request.all, flags.engine);
-    if (!plan) return stopped_exit_code();
+    if (!plan) return os::stopped_exit_code();
     if (!flags.quiet)
       tell_of_size(*plan, flags.worst_case ? told_of_search(*plan, request, flags.search) : std::string());
     counts = counted_for_size(std::move(*plan), flags.quiet);
-    if (!counts) return stopped_exit_code();
+    if (!counts) return os::stopped_exit_code();
     result = counts->result;
     request.scope.grown = counts->grown;
   } else {
@@ -171,12 +171,12 @@ ExitCode size(SizeFlags flags) {
   }
   if (flags.worst_case) {
     const auto found = search_sized(*counts, report::sized_cases(result, request), flags.search, flags.quiet);
-    if (!found) return stopped_exit_code();
+    if (!found) return os::stopped_exit_code();
     request.scope.found.insert(request.scope.found.end(), found->begin(), found->end());
   }
   if (!request.scope.grid_of.empty()) {
     const auto guests = samples_of_guests(*counts, report::sized_cases(result, request), flags.quiet);
-    if (!guests) return stopped_exit_code();
+    if (!guests) return os::stopped_exit_code();
     request.scope.guests = *guests;
   }
   for (const std::string& view : report::views_of_dark_lights(result))

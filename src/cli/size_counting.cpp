@@ -1,7 +1,5 @@
 #include "cli/size_counting.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -10,11 +8,11 @@
 #include "cli/duration.h"
 #include "cli/output.h"
 #include "cli/size_limits.h"
-#include "cli/stop.h"
 #include "cli/terminal.h"
 #include "core/file_text.h"
 #include "core/json_document.h"
 #include "core/text.h"
+#include "os/stop_signals.h"
 #include "report/columns.h"
 #include "report/result_json.h"
 #include "run/estimate.h"
@@ -105,10 +103,10 @@ void share_samples(config::Config& config, const run::Plan& plan) {
 
 run::Result counts_of(const config::Config& config, const run::Plan& plan, bool quiet,
                       std::span<const run::GroupCost> costs = {}) {
-  ProgressLine progress(terminal(STDERR_FILENO), quiet);
+  ProgressLine progress(os::terminal(os::StandardStream::error), quiet);
   run::Listener listener;
   listener.on_progress = [&](const run::Progress& now) { progress.show(now); };
-  return run::run_plan(config, plan, {}, listener, stop_on_signals(), {}, {}, costs);
+  return run::run_plan(config, plan, {}, listener, os::stop_on_signals(), {}, {}, costs);
 }
 
 // About what a frame of a case takes a core of 2020 to count: a model of what was counted, so that it is the same
@@ -194,7 +192,7 @@ std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string
   const bool exact_methods = takes_exact_methods(inputs, filter, all_methods);
   if (exact_methods) flags.push_back({"--assigner", k_exact_methods});
   const std::vector<bool> asked = asked_for(inputs, read_inputs(inputs, flags).scenes.size());
-  const std::atomic<bool>& stop = stop_on_signals();
+  const std::atomic<bool>& stop = os::stop_on_signals();
   const bool samples = std::ranges::find(asked, false) != asked.end();
   Sampling sampling{std::move(flags), false};
   if (samples) sampling = sampling_of(inputs, std::move(sampling.flags), asked, filter);
@@ -231,7 +229,7 @@ void tell_of_size(SizePlan& plan, const std::string& then) {
 
 std::optional<SizeCounts> counted_for_size(SizePlan plan, bool quiet) {
   const run::Result result = counts_of(plan.config, plan.plan, quiet, plan.costs);
-  if (stop_on_signals()) return {};
+  if (os::stop_on_signals()) return {};
   for (const run::SceneResult& scene : result.scenes)
     for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
   if (result.cases.empty())

@@ -1,14 +1,12 @@
 #include "cli/size_search.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 
 #include "cli/duration.h"
-#include "cli/stop.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "os/stop_signals.h"
 #include "search/shared_grid.h"
 #include "search/worst_case.h"
 
@@ -140,8 +138,8 @@ std::optional<std::vector<report::FoundFrame>> search_sized(const SizeCounts& co
   search::WorstCaseRequest request = search_request(flags, counts.config);
   request.random = 0;
   const SharedSeconds seconds(request.seconds);
-  const std::atomic<bool>& stop = stop_on_signals();
-  ProgressLine progress(terminal(STDERR_FILENO), quiet);
+  const std::atomic<bool>& stop = os::stop_on_signals();
+  ProgressLine progress(os::terminal(os::StandardStream::error), quiet);
   std::vector<report::FoundFrame> out;
   std::size_t searches = 0;
   for (const report::SizedCase& sized : cases) searches += sized.measures.size();
@@ -159,8 +157,8 @@ std::optional<std::vector<report::GuestSamples>> samples_of_guests(const SizeCou
                                                                    const std::vector<report::SizedCase>& cases,
                                                                    bool quiet) {
   constexpr int k_samples = 1024;  // of a frame
-  const std::atomic<bool>& stop = stop_on_signals();
-  ProgressLine progress(terminal(STDERR_FILENO), quiet);
+  const std::atomic<bool>& stop = os::stop_on_signals();
+  ProgressLine progress(os::terminal(os::StandardStream::error), quiet);
   std::vector<report::GuestSamples> out;
   for (const report::SizedCase& sized : cases) {
     const run::CasePlan* case_plan = case_named(counts.plan, sized.grid_case);

@@ -1,16 +1,14 @@
 // `clusterbench stress`: every assigner on every hard case.
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/output.h"
-#include "cli/stop.h"
 #include "cli/terminal.h"
 #include "core/text.h"
+#include "os/stop_signals.h"
 #include "report/stress_report.h"
 
 namespace clusterbench::cli {
@@ -82,7 +80,7 @@ class AtWork {
   AtWork& operator=(const AtWork&) = delete;
 
   void write(const std::string& doing) const {
-    if (!path_.empty()) write_file(path_, doing + "\n");
+    if (!path_.empty()) os::write_file(path_, doing + "\n");
   }
 
  private:
@@ -94,8 +92,8 @@ ExitCode stress(const StressFlags& flags) {
   request.cases = Pattern(cases_of(flags), "--cases");
   request.methods = Pattern(flags.methods, "--methods");
   LaterOutput output(flags.output, is_for_reading(flags.output));
-  const std::atomic<bool>& stop = stop_on_signals();
-  ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
+  const std::atomic<bool>& stop = os::stop_on_signals();
+  ProgressLine progress(os::terminal(os::StandardStream::error), flags.quiet);
   const AtWork at_work(flags);
   stress::StressListener listener;
   listener.on_progress = [&](const std::string& doing, double done, double whole) {
@@ -119,7 +117,7 @@ ExitCode stress(const StressFlags& flags) {
   for (const std::string& failure : failures) tell("FAILED " + failure);
   if (result.interrupted) {
     tell("interrupted: what was done by then is all that is told");
-    return stopped_exit_code();
+    return os::stopped_exit_code();
   }
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }

@@ -1,13 +1,8 @@
 #include "cli/terminal.h"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <iostream>
-#include <string_view>
 
 #include "core/text.h"
 
@@ -25,20 +20,7 @@ std::string minutes_and_seconds(double seconds) {
 
 }  // namespace
 
-// One digit, or two of them: more would not be true.
-Terminal terminal(int stream) {
-  Terminal found;
-  const char* term = std::getenv("TERM");
-  const bool dumb = term == nullptr || std::string_view(term) == "dumb";
-  const char* no_color = std::getenv("NO_COLOR");
-  found.interactive = isatty(stream) != 0 && !dumb;
-  found.colour = found.interactive && (no_color == nullptr || *no_color == '\0');
-  winsize size{};
-  if (ioctl(stream, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) found.columns = size.ws_col;
-  return found;
-}
-
-ProgressLine::ProgressLine(Terminal terminal, bool quiet, std::chrono::milliseconds tell_every)
+ProgressLine::ProgressLine(os::Terminal terminal, bool quiet, std::chrono::milliseconds tell_every)
     : terminal_(terminal), quiet_(quiet), tell_every_(tell_every) {
   if (!quiet_ && !terminal_.interactive)
     teller_ = std::jthread([this](const std::stop_token& stop) { tell_in_silence(stop); });

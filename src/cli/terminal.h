@@ -1,5 +1,5 @@
 #pragma once
-// What a terminal can show, and the progress of a run on standard error.
+// The progress of a run on standard error.
 
 #include <chrono>
 #include <condition_variable>
@@ -8,22 +8,16 @@
 #include <string>
 #include <thread>
 
+#include "os/terminal.h"
 #include "run/runner.h"
 
 namespace clusterbench::cli {
-
-struct Terminal {
-  bool interactive = false;  // can redraw a line
-  bool colour = false;       // a terminal, and neither NO_COLOR nor TERM=dumb
-  int columns = 80;
-};
-Terminal terminal(int stream);  // STDERR_FILENO, STDOUT_FILENO
 
 // A line with an estimate of the time left (by cost, not by count) on a terminal, else a line per finished case, and
 // one with the estimate where nothing else was told for ten seconds, however long a step takes.
 class ProgressLine {
  public:
-  ProgressLine(Terminal terminal, bool quiet, std::chrono::milliseconds tell_every = std::chrono::seconds(10));
+  ProgressLine(os::Terminal terminal, bool quiet, std::chrono::milliseconds tell_every = std::chrono::seconds(10));
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -41,7 +35,7 @@ class ProgressLine {
   void tell_line(const std::string& line);
   void tell_in_silence(const std::stop_token& stop);
 
-  Terminal terminal_;
+  os::Terminal terminal_;
   bool quiet_;
   std::chrono::milliseconds tell_every_;
   bool drawn_ = false;

@@ -1,7 +1,5 @@
 // `clusterbench worst-case CONFIG|SCENE`: the frames in which a measure is largest.
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -11,9 +9,9 @@
 #include "cli/output.h"
 #include "cli/run_inputs.h"
 #include "cli/search_options.h"
-#include "cli/stop.h"
 #include "cli/terminal.h"
 #include "core/text.h"
+#include "os/stop_signals.h"
 #include "report/worst_case_report.h"
 #include "scene/write_gltf.h"
 #include "search/replay_config.h"
@@ -56,7 +54,7 @@ LaterOutput checked_output(const WorstCaseFlags& flags, const config::Config& co
   const std::vector<std::string> outputs{flags.output, flags.path, config_path(flags.path)};
   refuse_overwriting({outputs.begin(), outputs.begin() + (flags.path.empty() ? 1 : 3)}, files_of(flags.inputs, config));
   for (const std::string& output : {flags.path, config_path(flags.path)})
-    if (!output.empty()) OutputFile(output).probe();
+    if (!output.empty()) os::OutputFile(output).probe();
   return LaterOutput(flags.output, is_for_reading(flags.output));
 }
 
@@ -103,8 +101,8 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   if (!config.limits.fail_if.empty())
     tell("warning: limits.fail_if is not looked at: `clusterbench run` and `size` do");
   if (!flags.quiet) tell_of_work(config, plan, case_plan, request);
-  const std::atomic<bool>& stop = stop_on_signals();
-  ProgressLine progress(terminal(STDERR_FILENO), flags.quiet);
+  const std::atomic<bool>& stop = os::stop_on_signals();
+  ProgressLine progress(os::terminal(os::StandardStream::error), flags.quiet);
   const search::WorstCase found =
       search::find_worst_case(config, plan, case_plan, request, search_listener(progress), stop);
   progress.clear();
@@ -120,7 +118,7 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   if (for_reading) tell_of_keeping();
   if (!stop) return ExitCode::ok;
   tell("interrupted: the worst frames by then are told");
-  return stopped_exit_code();
+  return os::stopped_exit_code();
 }
 
 }  // namespace

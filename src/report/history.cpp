@@ -12,10 +12,10 @@
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/json_document.h"
-#include "core/output_file.h"
 #include "core/text.h"
+#include "os/locked_file.h"
+#include "os/output_file.h"
 #include "report/light_changes.h"
-#include "report/locked_file.h"
 #include "report/machine.h"
 #include "run/case_names.h"
 
@@ -176,7 +176,7 @@ std::vector<HistoryEntry> parsed_file(const std::string& path, const std::string
 
 // A pipe or a device is no history: what is added later would have nothing to be added to.
 fs::path history_path(const std::string& path) {
-  const OutputTarget target = output_target(path);
+  const os::OutputTarget target = os::output_target(path);
   if (target.is_stream) throw Error(path, "", "is no regular file; a history is one");
   return target.path;
 }
@@ -351,8 +351,8 @@ std::vector<HistoryEntry> read_history(const std::string& path) {
 }
 
 Addition add_to_history(const std::string& path, const Json& result, const std::string& commit) {
-  require_folder_of(path);
-  LockedFile file(history_path(path), LockedFile::Held::wait);
+  os::require_folder_of(path);
+  os::LockedFile file(history_path(path), os::LockedFile::Held::wait);
   std::string text = file.text();
   const std::vector<HistoryEntry> history = parsed_file(path, text);
   const std::string line = history_line(result, commit).dump() + "\n";

@@ -7,8 +7,8 @@
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/json_document.h"
-#include "core/output_file.h"
 #include "core/text.h"
+#include "os/output_file.h"
 #include "report/compact_json.h"
 #include "report/json_values.h"
 
@@ -72,7 +72,7 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
 }  // namespace
 
 fs::path partial_of(const fs::path& file) {
-  const fs::path target = output_target(file).path;
+  const fs::path target = os::output_target(file).path;
   std::error_code none;
   if (fs::is_directory(target, none)) throw Error(file.string(), "", "is a directory; name a file for the result");
   return target.string() + ".partial";
@@ -97,7 +97,7 @@ std::vector<std::string> finished_ids(const fs::path& file, const Json& header) 
 
 Journal::Journal(const fs::path& file, const Json& header, bool resume, std::uint64_t expected_bytes)
     : file_(file), partial_(partial_of(file)) {
-  OutputFile(file_).probe();
+  os::OutputFile(file_).probe();
   if (resume)
     read_earlier(header);
   else
@@ -184,7 +184,7 @@ void Journal::add_case(const Json& finished) {
 
 void Journal::finish(const Json& result) {
   try {
-    write_file(file_, compact_json(result));
+    os::write_file(file_, compact_json(result));
   } catch (const Error& error) {
     throw Error(error.file(), "",
                 error.message() + (is_empty() ? "" : "; the cases are kept in " + partial_path().string()),

@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "report/locked_file.h"
+#include "os/locked_file.h"
 
 namespace clusterbench::report {
 
@@ -67,7 +67,7 @@ class Journal {
   bool take_answer(nlohmann::ordered_json& entry);
 
   std::filesystem::path file_, set_aside_;
-  LockedFile partial_;
+  os::LockedFile partial_;
   bool has_added_ = false, is_finished_ = false;
   std::vector<nlohmann::ordered_json> earlier_cases_;
   std::set<std::string> earlier_ids_;                              // as JSON

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "run/counters/processor.h"
+#include "os/machine.h"
 
 namespace clusterbench::run {
 
 std::uint64_t sweep_bytes() {
   constexpr std::uint64_t k_unknown = 64 << 20, k_most = 1 << 30;
   std::uint64_t all = 0;
-  for (const auto& [name, bytes] : caches_of("/sys/devices/system/cpu/cpu0/cache")) all += bytes;
+  for (const auto& [name, bytes] : os::caches_now()) all += bytes;
   return all == 0 ? k_unknown : std::min(all + all / 4, k_most);
 }
 

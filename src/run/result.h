@@ -24,8 +24,8 @@
 #include "measure/shared_frusta.h"
 #include "measure/stability.h"
 #include "measure/time_statistics.h"
+#include "os/processor.h"
 #include "run/counters/instruction_counter.h"
-#include "run/counters/processor.h"
 #include "run/fit_meter.h"
 #include "run/packed_details.h"
 #include "run/pre_cull_meter.h"
@@ -57,13 +57,10 @@ struct MachineFacts {
   std::string family, model, stepping;                        // run/counters/processor.h
   std::vector<std::pair<std::string, std::uint64_t>> caches;  // "l1d", bytes
   // How it was when something was timed.
-  std::optional<ClockFacts> clock;
+  std::optional<os::Clock> clock;
   std::optional<LoadFacts> load;
 };
 MachineFacts machine_facts();
-std::optional<ClockFacts> clock_now();
-std::optional<double> load_now();
-std::string date_now();  // UTC, ISO 8601
 
 struct SceneResult {
   std::string name, sha256;

@@ -7,6 +7,7 @@
 #include "config/presets.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "os/machine.h"
 #include "run/case_result.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/details_pass.h"
@@ -110,16 +111,16 @@ class Run {
     for (const GroupPlan& group : plan_.groups)
       if (!stop_) run_group(what_is_left(group), out);
     if (!stop_) time_waiting(out);
-    if (out.machine.load) out.machine.load->end = load_now().value_or(out.machine.load->begin);
+    if (out.machine.load) out.machine.load->end = os::load_now().value_or(out.machine.load->begin);
     return out;
   }
 
  private:
   // What times can depend on. Without times a result does not say when it was made, so that it is the same every time.
   static void note_beginning(Result& out) {
-    out.date = date_now();
-    out.machine.clock = clock_now();
-    if (const std::optional<double> load = load_now()) out.machine.load = LoadFacts{*load, *load};
+    out.date = os::utc_now();
+    out.machine.clock = os::clock_now();
+    if (const std::optional<double> load = os::load_now()) out.machine.load = LoadFacts{*load, *load};
   }
 
   GroupPlan what_is_left(GroupPlan group) const {
@@ -292,7 +293,7 @@ class Run {
   void begin_session() {
     std::random_device random;
     constexpr std::size_t k_digits = 12;
-    session_ = sha256_hex(date_now() + std::to_string(random()) + std::to_string(random())).substr(0, k_digits);
+    session_ = sha256_hex(os::utc_now() + std::to_string(random()) + std::to_string(random())).substr(0, k_digits);
   }
 
   // `timings`: of those cases that are timed.

@@ -1,16 +1,10 @@
 // What a result says about the tool and the machine that made it.
 
-#include <sys/utsname.h>
-#include <unistd.h>
-
-#include <ctime>
-#include <fstream>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "assign/lists/list_builder.h"
-#include "run/counters/processor.h"
+#include "os/machine.h"
 #include "run/git_sha.h"
 #include "run/result.h"
 
@@ -46,38 +40,17 @@ ToolFacts tool_facts() {
 }
 
 MachineFacts machine_facts() {
-  std::ifstream cpuinfo("/proc/cpuinfo");
-  const Processor processor = processor_of(cpuinfo);
+  const os::Machine machine = os::this_machine();
   MachineFacts facts;
-  facts.cpu = processor.name;
-  facts.family = processor.family;
-  facts.model = processor.model;
-  facts.stepping = processor.stepping;
-  facts.caches = caches_of("/sys/devices/system/cpu/cpu0/cache");
-  facts.cores = static_cast<int>(std::thread::hardware_concurrency());
-  facts.ram_bytes =
-      static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
-  utsname names{};
-  if (uname(&names) == 0) facts.os = std::string(names.sysname) + " " + names.release + " " + names.machine;
+  facts.cpu = machine.processor.name;
+  facts.family = machine.processor.family;
+  facts.model = machine.processor.model;
+  facts.stepping = machine.processor.stepping;
+  facts.caches = machine.caches;
+  facts.cores = machine.cores;
+  facts.ram_bytes = machine.ram_bytes;
+  facts.os = machine.system;
   return facts;
-}
-
-std::optional<ClockFacts> clock_now() {
-  std::ifstream cpuinfo("/proc/cpuinfo");
-  return clock_of(cpuinfo, "/sys/devices/system/cpu/cpu0/cpufreq");
-}
-
-std::optional<double> load_now() {
-  std::ifstream loadavg("/proc/loadavg");
-  return load_of(loadavg);
-}
-
-std::string date_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[sizeof "2000-01-01T00:00:00Z"];
-  return {text, std::strftime(text, sizeof text, "%FT%TZ", &utc)};
 }
 
 }  // namespace clusterbench::run

@@ -2,7 +2,7 @@
 
 #include "config/grid_json.h"
 #include "core/error.h"
-#include "core/output_file.h"
+#include "os/output_file.h"
 #include "scene/write_gltf.h"
 #include "stress/stress_run.h"
 
@@ -41,8 +41,8 @@ void write_replay(const fs::path& folder, const std::string& name, const Trial& 
                            {"grids", OrderedJson::array({config::grid_request(trial.grid)})},
                            {"assigners", assigners},
                            {"timing", {{"measure", false}}}};
-  write_file(folder / (name + ".gltf"), scene::to_gltf(trial.scene, "clusterbench stress"));
-  write_file(folder / (name + ".json"), config.dump(1) + "\n");
+  os::write_file(folder / (name + ".gltf"), scene::to_gltf(trial.scene, "clusterbench stress"));
+  os::write_file(folder / (name + ".json"), config.dump(1) + "\n");
 }
 
 }  // namespace clusterbench::stress

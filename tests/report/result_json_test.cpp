@@ -310,7 +310,7 @@ TEST(ResultJson, date_command_clock_and_load_are_there_where_something_is_timed)
   for (const char* key : {"clock_mhz", "load"}) EXPECT_FALSE(without["machine"].contains(key));
   result.date = "2026-01-02T03:04:05Z";
   result.command = "clusterbench run a.glb";
-  result.machine.clock = run::ClockFacts{2400.4, 3000.0};
+  result.machine.clock = os::Clock{2400.4, 3000.0};
   result.machine.load = run::LoadFacts{0.5, 1.5};
   const Json with = result_to_json(result, {});
   EXPECT_EQ(with["date"], "2026-01-02T03:04:05Z");

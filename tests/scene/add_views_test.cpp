@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "core/output_file.h"
+#include "os/output_file.h"
 #include "places.h"
 #include "scene/scene.h"
 
@@ -23,7 +23,7 @@ class AddViews : public ::testing::Test {
 
   Scene with(const ViewsRequest& request, const std::string& name = "views.glb") const {
     const Scene street = load_gltf(street_);
-    write_file(folder_ / name, with_views(street, request, folder_ / name));
+    os::write_file(folder_ / name, with_views(street, request, folder_ / name));
     return load_gltf(folder_ / name);
   }
   static const Camera& named(const Scene& scene, const std::string& name) {

@@ -1,31 +1,29 @@
 #pragma once
-// Hardware counters, through perf_event_open(2).
+// The processor's own counters.
 
+#include "os/hardware_counter.h"
 #include "run/counters/instruction_counter.h"
 
 namespace clusterbench::run {
 
 class PerfCounter final : public InstructionCounter {
  public:
-  // Instructions, and cycles where the processor counts both at a time. Throws Error that says what refuses.
-  PerfCounter();
+  PerfCounter() : counter_(k_option) {}
   // One event of perf_event_open(2) in place of instructions.
-  PerfCounter(std::uint32_t type, std::uint64_t event);
-  ~PerfCounter() override;
-  PerfCounter(const PerfCounter&) = delete;
-  PerfCounter& operator=(const PerfCounter&) = delete;
+  PerfCounter(std::uint32_t type, std::uint64_t event) : counter_(k_option, type, event) {}
 
   const char* source() const override { return "perf"; }
   bool counts_all_threads() const override { return false; }
-  void start() override;
-  Counted stop() override;
+  void start() override { counter_.start(); }
+  Counted stop() override {
+    const os::HardwareCounter::Values values = counter_.stop();
+    return {values.instructions, values.cycles};
+  }
 
  private:
-  // Whether a start and a stop count anything.
-  bool is_alive();
-  void close_cycles();
+  static constexpr const char* k_option = "--count=perf";
 
-  int leader_ = -1, cycles_ = -1;  // file descriptors
+  os::HardwareCounter counter_;
 };
 
 }  // namespace clusterbench::run

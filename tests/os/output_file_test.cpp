@@ -1,4 +1,4 @@
-#include "core/output_file.h"
+#include "os/output_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -17,7 +17,7 @@
 
 #include "effort.h"
 
-namespace clusterbench {
+namespace clusterbench::os {
 namespace {
 
 namespace fs = std::filesystem;
@@ -180,4 +180,4 @@ TEST_F(OutputFiles, a_signal_leaves_the_old_text_or_the_new_one_and_no_other_fil
 }
 
 }  // namespace
-}  // namespace clusterbench
+}  // namespace clusterbench::os

@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 
-namespace clusterbench::cli {
+namespace clusterbench::os {
 
 // Becomes true at the first signal; the second ends the program at once. A SIGHUP that is ignored, as `nohup` has it,
 // stays so.
@@ -14,4 +14,4 @@ const std::atomic<bool>& stop_on_signals();
 // sigint for SIGINT, interrupted for others.
 ExitCode stopped_exit_code();
 
-}  // namespace clusterbench::cli
+}  // namespace clusterbench::os

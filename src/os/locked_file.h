@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace clusterbench::report {
+namespace clusterbench::os {
 
 // Locked with flock, so that the end of the process, however it comes, gives it free. A regular file: through links
 // nothing is written. All functions throw Error.
@@ -32,7 +32,7 @@ class LockedFile {
   // Leaves the text in a file of the first free name of PATH.1, PATH.2 ..., which it returns, and goes on with an empty
   // file.
   std::filesystem::path move_text_beside();
-  // The whole text at once (core/output_file.h). The lock is at an end then.
+  // The whole text at once (os/output_file.h). The lock is at an end then.
   void replace(std::string_view text);
   // Other names of the same file: hard links.
   std::uint64_t other_names() const;
@@ -53,4 +53,4 @@ class LockedFile {
   bool is_made_ = false;
 };
 
-}  // namespace clusterbench::report
+}  // namespace clusterbench::os

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace clusterbench::cli {
+namespace clusterbench::os {
 
 class TemporaryFolder {
  public:
@@ -19,4 +19,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace clusterbench::cli
+}  // namespace clusterbench::os

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace clusterbench::run {
+namespace clusterbench::os {
 
 struct Processor {
   std::string name;  // "AMD EPYC", "Arm Neoverse-N1"; "unknown"
@@ -25,15 +25,15 @@ Processor processor_of(std::istream& cpuinfo);
 std::vector<std::pair<std::string, std::uint64_t>> caches_of(const std::filesystem::path& folder);
 
 // The clock when something was timed.
-struct ClockFacts {
+struct Clock {
   double now_mhz = 0.0;            // mean of all cores
   std::optional<double> most_mhz;  // that the system allows the first core
 };
 
 // Of a /proc/cpuinfo, and of a folder like /sys/devices/system/cpu/cpu0/cpufreq. None where the first does not say.
-std::optional<ClockFacts> clock_of(std::istream& cpuinfo, const std::filesystem::path& folder);
+std::optional<Clock> clock_of(std::istream& cpuinfo, const std::filesystem::path& folder);
 
 // The mean of the last minute in a /proc/loadavg.
 std::optional<double> load_of(std::istream& loadavg);
 
-}  // namespace clusterbench::run
+}  // namespace clusterbench::os

@@ -1,4 +1,4 @@
-#include "run/counters/processor.h"
+#include "os/processor.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace clusterbench::run {
+namespace clusterbench::os {
 namespace {
 
 Processor processor_in(const std::string& cpuinfo) {
@@ -48,7 +48,7 @@ TEST(Processor, tells_its_clock_where_the_system_does) {
   fs::create_directories(folder);
   std::ofstream(folder / "scaling_cur_freq") << "1800000\n";
   std::ofstream(folder / "cpuinfo_max_freq") << "3400000\n";
-  const std::optional<ClockFacts> clock = clock_of(again, folder);
+  const std::optional<Clock> clock = clock_of(again, folder);
   fs::remove_all(folder);
   ASSERT_TRUE(clock);
   EXPECT_DOUBLE_EQ(clock->now_mhz, 1800.0);
@@ -80,4 +80,4 @@ TEST(Processor, has_the_caches_that_its_folder_lists) {
 }
 
 }  // namespace
-}  // namespace clusterbench::run
+}  // namespace clusterbench::os

@@ -1,4 +1,4 @@
-#include "core/output_file.h"
+#include "os/output_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -16,7 +16,7 @@
 #include <string>
 #include <thread>
 
-namespace clusterbench {
+namespace clusterbench::os {
 namespace {
 
 namespace fs = std::filesystem;
@@ -273,4 +273,4 @@ fs::path reserve_name(const fs::path& path) {
   return made.path;
 }
 
-}  // namespace clusterbench
+}  // namespace clusterbench::os

@@ -1,4 +1,4 @@
-#include "cli/child.h"
+#include "os/process.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -15,10 +15,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 
 #include "core/error.h"
 
-namespace clusterbench::cli {
+namespace clusterbench::os {
 namespace {
 
 [[noreturn]] void refuse_start(const std::string& program, const std::string& what, int error) {
@@ -147,6 +148,13 @@ std::string this_program_for_others() {
   return "/proc/" + std::to_string(::getpid()) + "/exe";
 }
 
+std::vector<std::string> own_command_line() {
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(in, word, '\0');) words.push_back(word);
+  return words;
+}
+
 MemoryFile::MemoryFile(const std::string& text) : descriptor_(::memfd_create("clusterbench", MFD_CLOEXEC)) {
   if (descriptor_ < 0) refuse_start("memory", "no file could be made in it", errno);
   for (std::size_t done = 0; done < text.size();) {
@@ -249,4 +257,4 @@ Ending Conversation::end() {
   return ending_;
 }
 
-}  // namespace clusterbench::cli
+}  // namespace clusterbench::os

@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 
-namespace clusterbench {
+namespace clusterbench::os {
 
 // What a name leads to when it is written.
 struct OutputTarget {
@@ -60,4 +60,4 @@ void write_file(const std::filesystem::path& name, std::string_view text);
 // Makes an empty file of the first of the names PATH.1, PATH.2 ... that is free, also of links and folders. Returns it.
 std::filesystem::path reserve_name(const std::filesystem::path& path);
 
-}  // namespace clusterbench
+}  // namespace clusterbench::os

@@ -1,10 +1,10 @@
-#include "cli/temporary_folder.h"
+#include "os/temporary_folder.h"
 
 #include <stdlib.h>
 
 #include "core/error.h"
 
-namespace clusterbench::cli {
+namespace clusterbench::os {
 
 namespace fs = std::filesystem;
 
@@ -33,4 +33,4 @@ TemporaryFolder::~TemporaryFolder() {
   fs::remove_all(path_, ignored);
 }
 
-}  // namespace clusterbench::cli
+}  // namespace clusterbench::os

@@ -1,19 +1,19 @@
 #pragma once
 // Another program, run from here and listened to. It does not outlive this one.
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
 
-namespace clusterbench::cli {
+namespace clusterbench::os {
 
 // As a command's first word: this program, even where its file has been replaced or removed since it started.
 inline constexpr const char* k_this_program = "/proc/self/exe";
 // The same for another program, which is to open it.
 std::string this_program_for_others();
+// What this process was started with.
+std::vector<std::string> own_command_line();
 
 // A file without a name, in memory: nothing of it can stay behind.
 class MemoryFile {
@@ -65,10 +65,10 @@ class Conversation {
 
  private:
   MemoryFile errors_;
-  pid_t pid_ = -1;
+  int pid_ = -1;
   int socket_ = -1;
   std::string received_;
   Ending ending_;
 };
 
-}  // namespace clusterbench::cli
+}  // namespace clusterbench::os

@@ -1,4 +1,4 @@
-#include "run/counters/perf_counter.h"
+#include "os/hardware_counter.h"
 
 #include <linux/perf_event.h>
 #include <sys/ioctl.h>
@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 
-namespace clusterbench::run {
+namespace clusterbench::os {
 namespace {
 
 // A pinned leader counts all of the time or fails; without it the kernel would share the counter and estimate.
@@ -48,43 +48,45 @@ std::string refusal(int number) {
   }
 }
 
-[[noreturn]] void refuse(const std::string& reason) {
-  throw Error("", "--count=perf", reason);
-}
-
 }  // namespace
 
-PerfCounter::PerfCounter(std::uint32_t type, std::uint64_t event) : leader_(open_event(type, event, -1)) {
+void HardwareCounter::refuse(const std::string& reason) const {
+  throw Error("", location_, reason);
+}
+
+HardwareCounter::HardwareCounter(const char* location, std::uint32_t type, std::uint64_t event)
+    : location_(location), leader_(open_event(type, event, -1)) {
   if (leader_ < 0) refuse(refusal(errno));
 }
 
-PerfCounter::PerfCounter() : PerfCounter(PERF_TYPE_HARDWARE, PERF_COUNT_HW_INSTRUCTIONS) {
+HardwareCounter::HardwareCounter(const char* location)
+    : HardwareCounter(location, PERF_TYPE_HARDWARE, PERF_COUNT_HW_INSTRUCTIONS) {
   cycles_ = open_event(PERF_TYPE_HARDWARE, PERF_COUNT_HW_CPU_CYCLES, leader_);
   if (is_alive()) return;
   close_cycles();
   if (!is_alive()) refuse("the hardware counter stands still; another program may hold it");
 }
 
-PerfCounter::~PerfCounter() {
+HardwareCounter::~HardwareCounter() {
   close_cycles();
   ::close(leader_);
 }
 
-void PerfCounter::start() {
+void HardwareCounter::start() {
   ioctl(leader_, PERF_EVENT_IOC_RESET, PERF_IOC_FLAG_GROUP);
   ioctl(leader_, PERF_EVENT_IOC_ENABLE, PERF_IOC_FLAG_GROUP);
 }
 
-Counted PerfCounter::stop() {
+HardwareCounter::Values HardwareCounter::stop() {
   ioctl(leader_, PERF_EVENT_IOC_DISABLE, PERF_IOC_FLAG_GROUP);
   std::array<std::uint64_t, 3> values{};  // how many, leader, cycles
   if (::read(leader_, values.data(), sizeof values) <= 0) refuse("the counter was taken away while it counted");
-  Counted counted{values[1], {}};
+  Values counted{values[1], {}};
   if (cycles_ >= 0) counted.cycles = values[2];
   return counted;
 }
 
-bool PerfCounter::is_alive() {
+bool HardwareCounter::is_alive() {
   try {
     start();
     return stop().instructions > 0;
@@ -93,9 +95,9 @@ bool PerfCounter::is_alive() {
   }
 }
 
-void PerfCounter::close_cycles() {
+void HardwareCounter::close_cycles() {
   if (cycles_ >= 0) ::close(cycles_);
   cycles_ = -1;
 }
 
-}  // namespace clusterbench::run
+}  // namespace clusterbench::os

@@ -1,4 +1,4 @@
-#include "run/counters/processor.h"
+#include "os/processor.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <map>
 #include <string_view>
 
-namespace clusterbench::run {
+namespace clusterbench::os {
 namespace {
 
 std::string trimmed(std::string_view text) {
@@ -110,7 +110,7 @@ std::vector<std::pair<std::string, std::uint64_t>> caches_of(const std::filesyst
   return caches;
 }
 
-std::optional<ClockFacts> clock_of(std::istream& cpuinfo, const std::filesystem::path& folder) {
+std::optional<Clock> clock_of(std::istream& cpuinfo, const std::filesystem::path& folder) {
   double sum_mhz = 0.0, count = 0.0;
   for (std::string line; std::getline(cpuinfo, line);)
     if (const std::size_t colon = line.find(':'); line.starts_with("cpu MHz") && colon != std::string::npos) {
@@ -119,7 +119,7 @@ std::optional<ClockFacts> clock_of(std::istream& cpuinfo, const std::filesystem:
     }
   const double first_khz = std::atof(first_line(folder / "scaling_cur_freq").c_str()),
                most_khz = std::atof(first_line(folder / "cpuinfo_max_freq").c_str());
-  ClockFacts clock{sum_mhz > 0.0 ? sum_mhz / count : first_khz / 1e3, {}};
+  Clock clock{sum_mhz > 0.0 ? sum_mhz / count : first_khz / 1e3, {}};
   if (most_khz > 0.0) clock.most_mhz = most_khz / 1e3;
   return clock.now_mhz > 0.0 ? std::optional(clock) : std::nullopt;
 }
@@ -129,4 +129,4 @@ std::optional<double> load_of(std::istream& loadavg) {
   return loadavg >> minute ? std::optional(minute) : std::nullopt;
 }
 
-}  // namespace clusterbench::run
+}  // namespace clusterbench::os

@@ -1,4 +1,4 @@
-#include "report/locked_file.h"
+#include "os/locked_file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -8,9 +8,9 @@
 #include <cerrno>
 
 #include "core/error.h"
-#include "core/output_file.h"
+#include "os/output_file.h"
 
-namespace clusterbench::report {
+namespace clusterbench::os {
 
 namespace fs = std::filesystem;
 
@@ -145,4 +145,4 @@ void LockedFile::remove() {
   close();
 }
 
-}  // namespace clusterbench::report
+}  // namespace clusterbench::os

@@ -1,9 +1,9 @@
-#include "cli/stop.h"
+#include "os/stop_signals.h"
 
 #include <csignal>
 #include <cstdlib>
 
-namespace clusterbench::cli {
+namespace clusterbench::os {
 namespace {
 
 // The only state outside of functions: a signal handler can reach nothing else.
@@ -32,4 +32,4 @@ ExitCode stopped_exit_code() {
   return code_of(g_signal);
 }
 
-}  // namespace clusterbench::cli
+}  // namespace clusterbench::os

@@ -1,0 +1,22 @@
+#pragma once
+// Processor time that this process and all others have taken, and how often heat has slowed processors down.
+
+#include <cstdint>
+#include <istream>
+
+namespace clusterbench::os {
+
+// Of the whole machine since it started, in seconds: the first line of a /proc/stat.
+struct ProcessorTime {
+  double busy_s = 0.0, stolen_s = 0.0;  // by programs; by other guests of the host
+};
+ProcessorTime processor_time(std::istream& stat);
+ProcessorTime processor_time_now();
+
+// Of this process, all its threads together.
+double own_processor_s();
+
+// Of all processors since the machine started; 0 where Linux does not count them.
+std::uint64_t throttle_events();
+
+}  // namespace clusterbench::os
