@@ -201,12 +201,12 @@ TEST(TimingPass, a_sweep_is_larger_than_the_caches_of_the_machine) {
 
 TEST(MachineLoad, is_read_from_the_first_line_of_proc_stat) {
   std::istringstream stat("cpu  300 0 100 5000 7 0 50 25 0 0\ncpu0 1 1 1 1 1 1 1 1\n");
-  const ProcessorTime time = processor_time(stat);
+  const os::ProcessorTime time = os::processor_time(stat);
   const auto ticks = static_cast<double>(sysconf(_SC_CLK_TCK));
   EXPECT_DOUBLE_EQ(time.busy_s, 450.0 / ticks);
   EXPECT_DOUBLE_EQ(time.stolen_s, 25.0 / ticks);
   std::istringstream other("nothing of the kind");
-  EXPECT_EQ(processor_time(other).busy_s, 0.0);
+  EXPECT_EQ(os::processor_time(other).busy_s, 0.0);
 }
 
 }  // namespace
