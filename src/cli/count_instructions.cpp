@@ -9,6 +9,7 @@
 #include "cli/handover.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "os/file_access.h"
 #include "os/process.h"
 #include "os/temporary_folder.h"
 #include "run/counters/callgrind_counter.h"

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "geom/shapes/domain.h"
+#include "os/file_access.h"
 #include "os/output_file.h"
 
 namespace clusterbench::cli {

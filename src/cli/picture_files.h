@@ -10,6 +10,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "os/terminal.h"
 #include "pictures/pictures.h"
 
 namespace clusterbench::cli {

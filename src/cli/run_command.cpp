@@ -24,6 +24,7 @@
 #include "config/config.h"
 #include "core/file_text.h"
 #include "core/text.h"
+#include "os/process.h"
 #include "os/stop_signals.h"
 #include "report/compare.h"
 #include "report/conclusion.h"
