@@ -383,10 +383,20 @@ void add_own_steps(const Json& parts, const Json& document, Config& config, Pres
   }
 }
 
-void add_preset(const Preset& preset, std::size_t viewport, const Json& schema, bool as_shipped, Config& config) {
+// A preset's grid with members in place of its own; tiles have one size, and not two.
+Json changed_grid(Json grid, const GridChange& change) {
+  if (change.grid.contains("tiles")) grid.erase("tiles");
+  grid.merge_patch(change.grid);
+  return grid;
+}
+
+void add_preset(const Preset& preset, std::size_t viewport, const Json& schema, bool as_shipped,
+                const GridChange& preset_grid, Config& config) {
   Json parts = preset_parts(preset, config.viewports[viewport], as_shipped);
+  parts["grid"] = changed_grid(parts["grid"], preset_grid);
   JsonText text;
   text.file = std::string("preset ") + preset.name;
+  for (const auto& [pointer, flag] : preset_grid.flags) text.flags["/grids/0" + pointer] = flag.shown();
   text.value["scenes"] = Json::array({{{"path", "any.glb"}}});
   text.value["grids"] = Json::array({parts["grid"]});
   text.value["assigners"] = Json::array({parts["assigner"]});
@@ -394,17 +404,19 @@ void add_preset(const Preset& preset, std::size_t viewport, const Json& schema, 
   if (parts.contains("pre_cull")) text.value["pre_cull"] = Json::array({parts["pre_cull"]});
   const Json document = read_by_schema(schema, text.value, text);
   PresetChoice choice{preset.name, viewport, 0, 0, std::nullopt};
-  choice.grid = index_in(config.grids, grid_specs(document["grids"], text).front(), is_same_grid);
   choice.assigner = index_in(
       config.assigners, methods(document["assigners"], "assigners", text, assigner_params).front(), is_same_method);
   if (parts.contains("storage"))
     choice.storage = index_in(config.storages, methods(document["storages"], "storages", text, storage_params).front(),
                               is_same_method);
   add_own_steps(parts, document, config, choice);
-  config.presets.push_back(std::move(choice));
+  for (const grid::GridSpec& spec : grid_specs(document["grids"], text)) {
+    choice.grid = index_in(config.grids, spec, is_same_grid);
+    config.presets.push_back(choice);
+  }
 }
 
-void read_clusterings(const Json& document, const JsonText& text, Config& config) {
+void read_clusterings(const Json& document, const JsonText& text, const GridChange& preset_grid, Config& config) {
   if (document.contains("grids")) {
     config.grids = grid_specs(document["grids"], text);
     config.assigners = methods(document["assigners"], "assigners", text, assigner_params);
@@ -417,10 +429,11 @@ void read_clusterings(const Json& document, const JsonText& text, Config& config
   const Json schema = config_schema();
   for (std::size_t viewport = 0; viewport < config.viewports.size(); ++viewport)
     for (const Json& name : document["presets"])
-      add_preset(*find_preset(name.get<std::string>()), viewport, schema, document.value("as_shipped", false), config);
+      add_preset(*find_preset(name.get<std::string>()), viewport, schema, document.value("as_shipped", false),
+                 preset_grid, config);
 }
 
-Config read_config(const JsonText& text) {
+Config read_config(const JsonText& text, const GridChange& preset_grid) {
   check_utf8(text);
   Config config;
   config.file = text.file;
@@ -435,7 +448,7 @@ Config read_config(const JsonText& text) {
   config.pre_culls = pre_culls(document, text);
   config.own_pre_culls = config.pre_culls.size();
   check_fields_of_view(config, text);
-  read_clusterings(document, text, config);
+  read_clusterings(document, text, preset_grid, config);
   config.precisions = precisions(document["precision"], text);
   config.shadow_culls = shadow_culls(document, text);
   config.shared_frusta = shared_frusta(document);
@@ -487,8 +500,23 @@ class Usual {
   bool has_scenes_only_, names_surfaces_, names_accuracy_;
 };
 
+// Beside presets the defaults' grids are not measured, and a flag that changes these would change nothing.
+void check_grids_of_flags(bool has_presets, bool names_own, std::span<const FlagValue> flags) {
+  const FlagValue* flag = flag_of_unnamed_grids(flags);
+  if (!has_presets || names_own || flag == nullptr) return;
+  const std::string key = flag->value.substr(0, flag->value.find('='));
+  const bool is_far = key.ends_with("slices.far") || key.ends_with("slices/far");
+  throw Error(
+      "", flag->shown(),
+      std::string("changes grids of the configuration, and not those of presets, which are their engines'; ") +
+          (is_far ? "their slices end with the camera's far plane: --set 'scenes.*.far=METRES' sets it; " : "") +
+          "a grid of your own beside the presets is named first: --grid frustum; the grid of a preset is "
+          "changed in a configuration: `clusterbench list presets` prints it");
+}
+
 // The configuration as flags change it. Presets stand alone where neither the file nor a flag names a clustering.
-Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json& standard) {
+Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json& standard,
+                    const GridChange& preset_grid) {
   const GridsFrom grids = text.value.contains("grids") ? GridsFrom::file : GridsFrom::defaults;
   const bool names_own = names_own_clusterings(text.value);
   const Usual usual(text, flags);
@@ -497,7 +525,7 @@ Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json&
   JsonText as_written = text;
   if (text.value.contains("presets") && !names_own) drop_own_clusterings(as_written.value);
   usual.add_to(as_written.value);
-  Config config = read_config(as_written);
+  Config config = read_config(as_written, flags.empty() ? preset_grid : GridChange{});
   if (flags.empty()) return config;
   Json document = config.resolved;
   if (!document.contains("grids")) {
@@ -506,13 +534,14 @@ Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json&
     document["presets"] = config.resolved["presets"];
   }
   JsonText changed = changed_by_flags(document, grids, text.file, flags);
+  check_grids_of_flags(changed.value.contains("presets"), names_own, flags);
   if (changed.value.contains("presets") && !names_own && !name_clusterings(flags)) drop_own_clusterings(changed.value);
   usual.add_to(changed.value);
   if (grids == GridsFrom::defaults && changed.value.contains("grids")) {
     const Json whole = filled(changed)["grids"], usable = usable_default_grids(whole);
     if (usable != whole) changed.value["grids"] = usable;
   }
-  return read_config(changed);
+  return read_config(changed, preset_grid);
 }
 
 std::string param_text(const assign::ParamSpec& spec, const assign::ParamValue& value) {
@@ -544,15 +573,17 @@ std::string PrecisionRequest::label() const {
 }
 
 Config parse_config(const std::string& text, const fs::path& file, std::span<const FlagValue> flags,
-                    const Json& standard) {
-  return read_changed(parse_json_text(text, file.string()), flags, standard);
+                    const Json& standard, const GridChange& preset_grid) {
+  return read_changed(parse_json_text(text, file.string()), flags, standard, preset_grid);
 }
 
-Config load_config(const fs::path& path, std::span<const FlagValue> flags, const Json& standard) {
-  return parse_config(file_text(path), path, flags, standard);
+Config load_config(const fs::path& path, std::span<const FlagValue> flags, const Json& standard,
+                   const GridChange& preset_grid) {
+  return parse_config(file_text(path), path, flags, standard, preset_grid);
 }
 
-Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagValue> flags, const Json& standard) {
+Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagValue> flags, const Json& standard,
+                      const GridChange& preset_grid) {
   Json list = Json::array();
   for (const fs::path& path : scenes)
     list.push_back({{"path", path.string()}, {"frames", {{"most", k_usual_frames}, {"lights", k_usual_lights}}}});
@@ -561,7 +592,7 @@ Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagV
                       {"timing", {{"rounds", 15}, {"min_time_ms", 2}, {"frames", 4}}}};
   JsonText text;
   text.value = document;
-  return read_changed(std::move(text), flags, standard);
+  return read_changed(std::move(text), flags, standard, preset_grid);
 }
 
 }  // namespace clusterbench::config

@@ -424,6 +424,48 @@ bool name_clusterings(std::span<const FlagValue> values) {
   return std::ranges::any_of(values, is_own) || names_key(values, "(grids|assigners|storages)");
 }
 
+const FlagValue* flag_of_unnamed_grids(std::span<const FlagValue> values) {
+  static const std::regex member("/?grids[./](\\*|[0-9]+)[./].*");
+  const FlagValue* found = nullptr;
+  for (const FlagValue& flag : values) {
+    const bool is_member = flag.name == "--set" && std::regex_match(flag.value, member);
+    if (!is_member && name_clusterings(std::span(&flag, 1))) return nullptr;
+    if (is_member && found == nullptr) found = &flag;
+  }
+  return found;
+}
+
+bool changes_grid(const FlagValue& flag) {
+  return flag.name == "--grid" || shapes_grids(flag) || names_key(std::span(&flag, 1), "grids");
+}
+
+GridChange grid_change(std::span<const FlagValue> values) {
+  GridChange change;
+  const auto put = [&](const std::string& pointer, const FlagValue& flag, const Json& value) {
+    change.grid[Json::json_pointer(pointer)] = value;
+    change.flags.insert_or_assign(pointer, flag);
+  };
+  for (const FlagValue& flag : values) {
+    if (flag.name == "--grid") put("/kind", flag, value_of(flag.value));
+    if (flag.name == "--slices") put("/slices/count", flag, value_of(flag.value));
+    if (flag.name == "--scheme") put("/slices/scheme", flag, value_of(flag.value));
+    if (flag.name == "--tiles") {
+      const TileSizes sizes = tile_sizes(flag);
+      if (!sizes.pixels.empty()) put("/tiles/pixels", flag, sizes.pixels);
+      if (!sizes.counts.empty()) put("/tiles/count", flag, sizes.counts);
+    }
+    if (flag.name != "--set" || !changes_grid(flag)) continue;
+    const std::size_t equals = flag.value.find('=');
+    const std::vector<std::string> steps = steps_of(flag.value.substr(0, equals), flag);
+    if (equals == std::string::npos || steps.size() < 3)
+      refuse(flag, "takes a key of a grid, as in grids.*.slices.count=24");
+    std::string pointer;
+    for (const std::string& step : std::span(steps).subspan(2)) pointer = child_pointer(pointer, step);
+    put(pointer, flag, value_of(flag.value.substr(equals + 1)));
+  }
+  return change;
+}
+
 JsonText changed_by_flags(const Json& document, GridsFrom grids, const std::string& file,
                           std::span<const FlagValue> values) {
   JsonText text;

@@ -26,6 +26,7 @@ constexpr Axis k_axes[] = {{"/tiles/pixels", 1},
                            {"/slices/first", 0},
                            {"/slices/far", 0},
                            {"/slices/far_at_most", 0},
+                           {"/slices/far_default", 0},
                            {"/slices/orthographic", 0},
                            {"/slices/lambda", 0},
                            {"/slices/boundaries", 1},
@@ -88,10 +89,11 @@ void drop_unused(Json& grid) {
   if (scheme != "power") slices.erase("lambda");
   if (scheme != "list") slices.erase("boundaries");
   if (scheme == "list")
-    for (const char* key : {"count", "near", "far", "far_at_most", "orthographic"}) slices.erase(key);
+    for (const char* key : {"count", "near", "far", "far_at_most", "far_default", "orthographic"}) slices.erase(key);
   if (is_cubical) slices.erase("count");
   if (scheme == "linear" || slices.value("orthographic", Json()) == "scheme") slices.erase("orthographic");
-  if (slices.contains("far_at_most") && slices["far_at_most"].is_null()) slices.erase("far_at_most");
+  for (const char* key : {"far_at_most", "far_default"})
+    if (slices.contains(key) && slices[key].is_null()) slices.erase(key);
   const bool is_fitted = slices.contains("fit") && !slices["fit"].is_null();
   if (!is_fitted || is_cubical || scheme == "list" || scheme == "fit") slices.erase("fit");
 }

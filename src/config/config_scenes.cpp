@@ -38,6 +38,7 @@ scene::PathRequest path_request(const Json& scene, const std::string& pointer, c
                       "' is no field of view; takes degrees above 0 and below 180 with h (across the picture) or "
                       "v (up and down), as in 90h or 60v");
   }
+  if (scene.contains("far")) request.far_m = scene["far"].get<double>();
   request.camera = scene["camera"].get<std::string>();
   if (scene["camera_fit"] == "vertical") request.fit = scene::CameraFit::vertical;
   const Json& frames = scene["frames"];

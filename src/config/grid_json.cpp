@@ -57,6 +57,7 @@ grid::Slicing slicing_of(const Json& slices) {
   out.near_m = slices_metres(slices, "near");
   out.far_m = slices_metres(slices, "far");
   out.far_at_most_m = slices_metres(slices, "far_at_most");
+  out.far_default_m = slices_metres(slices, "far_default");
   out.linear_when_orthographic = slices.contains("orthographic") && slices["orthographic"] == "linear";
   if (slices.contains("first")) out.first_m = slices_metres(slices, "first");
   if (slices.contains("lambda")) out.lambda = slices["lambda"].get<double>();
@@ -94,6 +95,7 @@ OrderedJson slices_json(const grid::Slicing& slices) {
   if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
   if (slices.far_m != 0.0) out["far"] = slices.far_m;
   if (slices.far_at_most_m != 0.0) out["far_at_most"] = slices.far_at_most_m;
+  if (slices.far_default_m != 0.0) out["far_default"] = slices.far_default_m;
   if (slices.linear_when_orthographic) out["orthographic"] = "linear";
   if (slices.fit)
     out["fit"] = {{"to", grid::name_of(slices.fit->to)}, {"damping", slices.fit->damping}, {"step", slices.fit->step}};
@@ -151,6 +153,7 @@ void add_identity(const grid::GridSpec& spec, const std::string& key, Json& out)
     if (slices.scheme == grid::Scheme::power) out["lambda"] = slices.lambda;
     if (slices.fit) out["fit"] = {grid::name_of(slices.fit->to), slices.fit->damping, slices.fit->step};
     if (slices.far_at_most_m != 0.0) out["far_at_most"] = slices.far_at_most_m;
+    if (slices.far_default_m != 0.0) out["far_default"] = slices.far_default_m;
     if (slices.linear_when_orthographic) out["orthographic"] = "linear";
   }
   if (key == "react" && spec.reaction)

@@ -35,6 +35,8 @@ struct Preset {
   // Members of a configuration's entries as JSON: {"grid": {...}, "assigner": {...}, "storage": {...}, "pre_cull":
   // [...]}; without storage the method's own structure, without pre_cull all lights.
   const char* parts;
+  // What to know before it is taken, where another preset is of the same engine; "" where nothing.
+  const char* remark = "";
   // The mistakes of the engine as it is shipped, in words, and what changes in the parts with them: members of the grid
   // one by one, of the others as a whole. "" where none is modelled.
   const char* mistakes = "";

@@ -52,6 +52,7 @@ constexpr Preset k_engines[] = {
                  "react": {"to": "entries", "most": 16384, "of": "sphere-refinement"}},
                  "assigner": {"name": "sphere-refinement", "spot": "cone-sphere", "columns": "nearest"},
                  "storage": {"name": "packed", "index_bits": "32", "header_size": 32}})",
+     .remark = "the fallback on the CPU, whose lists are uploaded; the default since 0.19 is bevy-gpu",
      .mistakes = "the row of a light's centre is taken once and not again in each slice; nothing is padded",
      .as_shipped = R"({"grid": {"react": {"of": "bevy-refinement"}}, "assigner": {"name": "bevy-refinement"}})",
      .tiles = bevy_tiles},
@@ -77,16 +78,16 @@ constexpr Preset k_engines[] = {
      .version = "4, release not recorded",
      .evidence = Evidence::read,
      .source = "godotengine/godot, cluster_builder_rd and light_storage",
-     .summary =
-         "32 px tiles with 32 linear parts of the depth from 0 to the camera's far, bits per tile, 512 points and "
-         "512 spots",
+     .summary = "32 px tiles with 32 linear parts of the depth from 0 to the camera's far (4000 m by default), bits "
+                "per tile, 512 points and "
+                "512 spots",
      .approximated = "a sphere's and a cone's extents in place of meshes that are rasterised at a quarter of the "
                      "resolution and are "
                      "inflated; which 512 it takes follows its own order of the lights, here it is that of the scene",
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"pixels": [32, 32]},
-                 "slices": {"scheme": "linear", "count": 32, "near": 1e-6}},
+                 "slices": {"scheme": "linear", "count": 32, "near": 1e-6, "far_default": 4000}},
                  "assigner": {"name": "tile-ranges"},
                  "pre_cull": ["frustum", {"most": {"lights": 512, "per": "type"}}]})"},
     {.name = "three-js",
@@ -94,16 +95,16 @@ constexpr Preset k_engines[] = {
      .version = "r187",
      .evidence = Evidence::ran,
      .source = "mrdoob/three.js, ClusteredLightsNode",
-     .summary =
-         "32 px tiles, 24 exponential slices, every light against every cell's box, 64 lights in each; spots by the "
-         "smallest sphere around them, which up to r186 are not clustered at all",
+     .summary = "32 px tiles, 24 exponential slices to the camera's far (2000 m by default), every light against every "
+                "cell's box, 64 lights in each; spots by the "
+                "smallest sphere around them, which up to r186 are not clustered at all",
      .approximated =
          "tiles end at whole 32 px and of more than 64 lights in a cell the first ones are kept, where it has "
          "what `--as-shipped` has; which of more than 1024 lights it keeps is not known",
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"pixels": [32, 32]},
-                 "slices": {"scheme": "exponential", "count": 24}},
+                 "slices": {"scheme": "exponential", "count": 24, "far_default": 2000}},
                  "assigner": {"name": "brute-force", "spot": "ball"}, "storage": {"name": "fixed", "cap": 64},
                  "pre_cull": [{"most": {"lights": 1024}}]})",
      .mistakes =
@@ -134,7 +135,7 @@ constexpr Preset k_engines[] = {
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"count": [64, 64]},
-                 "slices": {"scheme": "exponential", "count": 16}}, "assigner": {"name": "babylon-masks"}})",
+                 "slices": {"scheme": "exponential", "count": 16, "far_default": 10000}}, "assigner": {"name": "babylon-masks"}})",
      .mistakes =
          "a light whose far tangent lies behind the eye can lose all its tiles; an orthographic view is cut by the "
          "tangents of a perspective; nothing is padded",
@@ -154,7 +155,7 @@ constexpr Preset k_engines[] = {
      .unverified = "",
      .assigns_on = AssignsOn::cpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"pixels": [8, 8]},
-                 "slices": {"scheme": "exponential", "count": 409, "orthographic": "linear"},
+                 "slices": {"scheme": "exponential", "count": 409, "orthographic": "linear", "far_default": 1000},
                  "react": {"to": "mask-words", "most": 16384, "most_lights": 256}},
                  "assigner": {"name": "tile-spans", "bins": "masks"},
                  "pre_cull": ["frustum", {"most": {"lights": 256}}]})"},
@@ -170,7 +171,7 @@ constexpr Preset k_engines[] = {
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"pixels": [32, 32]},
-                 "slices": {"scheme": "exponential", "count": 64}},
+                 "slices": {"scheme": "exponential", "count": 64, "far_default": 1000}},
                  "assigner": {"name": "tile-slices", "least_growth": 1.02},
                  "pre_cull": ["frustum", {"most": {"lights": 512}}]})"},
     {.name = "unity-hdrp-fptl",
@@ -186,7 +187,8 @@ constexpr Preset k_engines[] = {
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts =
-         R"({"grid": {"kind": "frustum", "tiles": {"pixels": [16, 16]}, "slices": {"scheme": "linear", "count": 1}},
+         R"({"grid": {"kind": "frustum", "tiles": {"pixels": [16, 16]}, "slices":
+                 {"scheme": "linear", "count": 1, "far_default": 1000}},
                  "assigner": {"name": "tiled", "test": "both"},
                  "pre_cull": ["frustum", {"most": {"lights": 512}}]})"},
     {.name = "wicked",
@@ -203,7 +205,8 @@ constexpr Preset k_engines[] = {
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts =
-         R"({"grid": {"kind": "frustum", "tiles": {"pixels": [32, 32]}, "slices": {"scheme": "linear", "count": 1}},
+         R"({"grid": {"kind": "frustum", "tiles": {"pixels": [32, 32]}, "slices":
+                 {"scheme": "linear", "count": 1, "far_default": 5000}},
                  "assigner": {"name": "tiled-2.5d", "test": "both", "spot": "ball"},
                  "pre_cull": ["frustum", {"most": {"lights": 256}}]})"},
     {.name = "unreal",
@@ -211,14 +214,16 @@ constexpr Preset k_engines[] = {
      .version = "not recorded",
      .evidence = Evidence::memory,
      .source = "documentation of the light grid; its code was not read",
-     .summary = "64 px tiles, 32 slices, boxes and cones, a linked list with room for 32 lights per cell",
+     .summary = "64 px tiles, 32 slices that end with the farthest light in view, boxes and cones, a linked list with "
+                "room for 32 lights per cell",
      .approximated =
          "a blend of linear and exponential slices in place of log2(z B + O) 4.05, whose boundaries differ by up to 2 "
-         "times; newer versions cull by a hierarchy of depths and a parent grid, which are not here",
-     .unverified = "which test it has for cones",
+         "times; spots end with the spheres of their ranges; newer versions cull by a hierarchy of depths and a parent "
+         "grid, which are not here",
+     .unverified = "which test it has for cones; that slices end with the lights, whatever the camera's far plane",
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"pixels": [64, 64]},
-                 "slices": {"scheme": "power", "count": 32, "lambda": 0.92}},
+                 "slices": {"scheme": "power", "count": 32, "lambda": 0.92, "fit": {"to": "ranges"}}},
                  "assigner": {"name": "brute-force", "spot": "both"},
                  "storage": {"name": "linked", "nodes_per_cell": 32}})"},
     {.name = "ogre-next",

@@ -84,8 +84,9 @@ std::string tiles_name(const Tiling& tiles) {
 // "near..far", or "near..first..far"; what the camera or the lights decide is left out.
 std::string reach_name(const Slicing& slices) {
   const std::string near = slices.near_m == 0.0 ? "" : number_name(slices.near_m);
-  const std::string most = slices.far_at_most_m == 0.0 ? "" : "at most " + number_name(slices.far_at_most_m);
-  const std::string far = slices.far_m == 0.0 ? most : number_name(slices.far_m);
+  std::string far = slices.far_default_m == 0.0 ? "" : "far or " + number_name(slices.far_default_m);
+  if (slices.far_at_most_m != 0.0) far += (far.empty() ? "at most " : " at most ") + number_name(slices.far_at_most_m);
+  if (slices.far_m != 0.0) far = number_name(slices.far_m);
   const bool has_first = slices.scheme == Scheme::exponential_first || slices.scheme == Scheme::cubical_first;
   if (near.empty() && far.empty()) return has_first ? " first " + number_name(slices.first_m) : "";
   return " " + near + ".." + (has_first ? number_name(slices.first_m) + ".." : "") + far;

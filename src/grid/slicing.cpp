@@ -43,8 +43,9 @@ double far_from_lights(const Slicing& slicing, double near_m, double lights_end_
 
 Reach reach_of(const Slicing& slicing, const SliceRange& range) {
   Reach reach{slicing.near_m != 0.0 ? slicing.near_m : range.camera_near_m, slicing.far_m};
-  const double seen =
-      slicing.far_at_most_m > 0.0 ? std::min(range.camera_far_m, slicing.far_at_most_m) : range.camera_far_m;
+  double seen = range.camera_far_m;
+  if (std::isinf(seen) && slicing.far_default_m > 0.0) seen = slicing.far_default_m;
+  if (slicing.far_at_most_m > 0.0) seen = std::min(seen, slicing.far_at_most_m);
   if (reach.far == 0.0)
     reach.far = std::isfinite(seen) ? seen : far_from_lights(slicing, reach.near, range.light_far_m);
   if (slicing.scheme == Scheme::fit) {
@@ -253,6 +254,11 @@ int slices_between(double near, double far, double ratio) {
 }
 
 }  // namespace
+
+bool Slicing::ends_with_lights(double camera_far_m) const {
+  return scheme != Scheme::list && far_m == 0.0 && far_at_most_m == 0.0 && far_default_m == 0.0 &&
+         std::isinf(camera_far_m);
+}
 
 Span telling_span(const Slicing& slicing, const Span& needed) {
   if (slicing.fit && slicing.fit->to == Fit::To::ranges && !needed.is_empty())

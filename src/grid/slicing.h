@@ -27,8 +27,15 @@ struct Slicing {
   std::optional<Fit> fit = {};
   // Where no far is given: however far the camera sees, slices end here (Filament's 100 m). 0: they do not.
   double far_at_most_m = 0.0;
+  // Where no far is given and the camera has none: slices end here, as with an engine whose own cameras have this far
+  // plane by default (Godot's 4000 m). 0: with the lights.
+  double far_default_m = 0.0;
   // Of an orthographic camera the scheme is linear from near to far, as engines have it (Bevy, Unity URP).
   bool linear_when_orthographic = false;
+
+  // Whether, of a camera with this far plane, they end where the lights of the path do, which no engine and no
+  // configuration says.
+  bool ends_with_lights(double camera_far_m) const;
 };
 
 // Where slices can lie in this frame. light_near/far: the reach of the lights in view (fit; far when nothing else

@@ -55,7 +55,7 @@ std::vector<std::string> differing_settings(const Json& base, const Json& base_c
   for (const char* key :
        {"seed", "shading", "samples", "lookup", "stability", "jitter", "shadow_cull", "shadow_frusta"})
     tell(base["config"], next["config"], key, (std::string("/") + key).c_str());
-  for (const char* key : {"camera_fit", "boxes", "fov"})
+  for (const char* key : {"camera_fit", "boxes", "fov", "far"})
     if (answers_of(base, key) != answers_of(next, key)) out.emplace_back(key);
   if (out.empty()) out.emplace_back("something that results do not tell");
   return out;

@@ -142,15 +142,16 @@ void check_settings(const std::string& path, const Json& settings, const Json& r
                     const Json& match) {
   const auto differs = [&](const std::string& key, const Json& here) {
     throw Error(path, "/case/settings/" + key,
-                "is " + settings[key].dump() + ", and here it is " + here.dump() + "; search with the same settings");
+                "is " + settings.value(key, Json()).dump() + ", and here it is " + here.dump() +
+                    "; search with the same settings");
   };
   if (const auto fov = asked_of_scene(result, scene, "fov"); fov && !is_same_angle(settings["fov"], *fov))
     differs("fov", *fov);
-  const std::pair<const char*, Json> plain[] = {{"camera_fit", "contain"}, {"boxes", false}};
+  const std::pair<const char*, Json> plain[] = {{"camera_fit", "contain"}, {"boxes", false}, {"far", nullptr}};
   for (const auto& [key, standard] : plain)
     if (auto asked = asked_of_scene(result, scene, key)) {
       const Json here = asked->is_null() ? standard : *asked;
-      if (settings[key] != here) differs(key, here);
+      if (settings.value(key, standard) != here) differs(key, here);
     }
   const Json& rule = result["scenes"][scene]["range_rule"];
   for (const char* key : {"cutoff_lux", "max_range"})

@@ -10,6 +10,7 @@
 #include "report/json_values.h"
 #include "report/nothing_seen.h"
 #include "report/sample_sets.h"
+#include "run/grid_facts.h"
 
 namespace clusterbench::report {
 namespace {
@@ -63,10 +64,45 @@ std::string full_cells(const Json& result_case) {
 std::string room_text(const RankedPreset& row) {
   const auto over = number_at(*row.result_case, "/react/frames/over");
   if (!over || *over == 0.0 || (*row.result_case)["react"]["to"] != "entries") return "";
-  return "where its lists may grow (storage buffers): with room for " +
-         text("%.0f entries ", *number_at(*row.result_case, "/react/most")) +
+  return "with storage buffers, where its lists grow, as the figures of its row are; without them there is room for " +
+         text("%.0f entries, ", *number_at(*row.result_case, "/react/most")) +
          number_of(static_cast<std::uint64_t>(*over), "frame") + " of " + (*row.result_case)["frames"].dump() +
          " do not fit, and lack lights";
+}
+
+// What to know of the preset before it is taken: "the fallback on the CPU, ..."; "" where nothing is known.
+std::string remark_of(const RankedPreset& row) {
+  const config::Preset* preset = preset_of(row);
+  return preset == nullptr ? "" : preset->remark;
+}
+
+bool has_slices_without_camera_far(const RankedPreset& row) {
+  const Json* note = value_at(*row.result_case, "/grid/note");
+  const Json* boundaries = value_at(*row.result_case, "/grid/slices/boundaries");
+  return note != nullptr && boundaries != nullptr && boundaries->size() > 2 &&
+         note->get_ref<const std::string&>().find(run::k_no_far_plane) != std::string::npos;
+}
+
+bool ends_with_lights(const RankedPreset& row) {
+  return (*row.result_case)["grid"]["note"].get_ref<const std::string&>().find(run::k_ends_with_lights) !=
+         std::string::npos;
+}
+
+// Of cameras without a far plane: where slices end that follow it in the engine, and how to give it. "" where costs do
+// not depend on that.
+std::string far_text(const std::vector<RankedPreset>& rows) {
+  std::vector<std::string> by_engine, by_lights;
+  for (const RankedPreset& row : rows) {
+    if (!has_slices_without_camera_far(row)) continue;
+    const double end_m = (*row.result_case)["grid"]["slices"]["boundaries"].back().get<double>();
+    (ends_with_lights(row) ? by_lights : by_engine).push_back(name(row) + text(" at %.4g m", end_m));
+  }
+  if (by_engine.empty() && by_lights.empty()) return "";
+  std::string out = "costs depend on the far plane, which the camera does not have: slices end ";
+  if (!by_engine.empty()) out += "with that of the engine's own cameras (" + joined(by_engine) + ")";
+  if (!by_lights.empty())
+    out += std::string(by_engine.empty() ? "" : " and ") + "with the lights of the path (" + joined(by_lights) + ")";
+  return out + "; --set 'scenes.*.far=METRES' gives cameras that of your game";
 }
 
 // What is lost to a limit of lights; "" where nothing in view is.
@@ -220,7 +256,8 @@ std::string own_loss_text(const RankedPreset& row) {
     losses.push_back("samples lack " + percent(*row.losses.unlit) + " of the lights that they need");
   if (const std::string limit = limit_loss(row); !limit.empty()) losses.push_back(limit);
   if (const std::string room = room_text(row); !room.empty()) losses.push_back("loses nothing " + room);
-  return losses.empty() ? "" : "; " + name(row) + ": " + joined(losses);
+  if (const std::string remark = remark_of(row); !remark.empty()) losses.push_back(remark);
+  return losses.empty() ? "" : "; " + name(row) + ": " + joined(losses, "; ");
 }
 
 // Of presets with one standing, best first: what to take and by how much.
@@ -300,7 +337,8 @@ std::string preset_reason(const RankedPreset& row, const RankedPreset& first) {
     out += "; no difference that the model can show to " + name(first);
   else
     out += text("; %.2f times the cost of ", row.gpu_ns() / first.gpu_ns()) + name(first);
-  return out + ": " + load_text(row) + " (" + evidence_text(row) + ")";
+  const std::string remark = remark_of(row);
+  return out + ": " + load_text(row) + " (" + evidence_text(row) + (remark.empty() ? "" : "; " + remark) + ")";
 }
 
 std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
@@ -328,6 +366,7 @@ std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
     out += "; apart, since no GPU has measured what samples search: " + names_text(searched) + ", from " +
            milliseconds(searched.front()->gpu_ns()) + " by the model";
   if (!doubt.empty()) out += "; " + doubt;
+  if (const std::string far = far_text(rows); !far.empty()) out += "; " + far;
   out += ". Sure by as much as the model of `cost` is; how " + name(first) + " is known: " + evidence_text(first);
   if (first.frame->has_random_depths)
     out += std::string("; depths are random, since there are no surfaces") +

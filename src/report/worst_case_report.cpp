@@ -77,6 +77,7 @@ Json settings_json(const WorstCaseFacts& facts) {
   const config::SceneRequest& request = facts.config.scenes[facts.case_plan.scene];
   return {
       {"fov", fov_json(request.camera.field_of_view)},
+      {"far", request.camera.far_m ? Json(*request.camera.far_m) : Json()},
       {"camera_fit", request.camera.fit == scene::CameraFit::vertical ? "vertical" : "contain"},
       {"boxes", request.boxes},
       {"range_rule", {{"cutoff_lux", request.range_rule.cutoff_lux}, {"max_range", request.range_rule.max_range_m}}},

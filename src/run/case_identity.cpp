@@ -49,6 +49,7 @@ Json identity(const config::SceneRequest& request, const SceneData& data) {
   if (request.camera.fit != scene::CameraFit::contain) out["camera_fit"] = "vertical";
   if (request.camera.field_of_view)
     out["fov"] = {request.camera.field_of_view->angle_rad, request.camera.field_of_view->is_horizontal};
+  if (request.camera.far_m) out["far"] = *request.camera.far_m;
   if (request.boxes) out["boxes"] = true;
   if (!request.choice.scene.empty()) out["scene"] = request.choice.scene;
   if (!request.choice.animation.empty()) out["animation"] = request.choice.animation;

@@ -23,16 +23,19 @@ Json lookup_facts(const grid::SliceLookup& lookup) {
   return facts;
 }
 
-std::string end_text(double far_m, bool is_cut) {
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
-      is_cut
-          ? "the grid ends at %.4g m, its slices' far_at_most, whether lights of the path reach farther or not"
-          : "the camera has no far plane and slices.far is not set: the grid ends at %.4g m, beyond which no light of "
-            "the path reaches",
-      far_m);
-  return text;
+// What decides where the slices of a camera without a far plane end, which changes lists, and how to decide it.
+std::string end_text(const grid::Slicing& slices, double far_m) {
+  char at[40];
+  std::snprintf(at, sizeof at, "%.4g m", far_m);
+  const std::string remedy = "; --set 'scenes.*.far=METRES' gives cameras the far plane of your game";
+  if (slices.far_at_most_m > 0.0 && far_m >= slices.far_at_most_m)
+    return std::string("the grid ends at ") + at +
+           ", its slices' far_at_most, whether lights of the path reach farther or not";
+  if (slices.far_default_m > 0.0)
+    return std::string(k_no_far_plane) + ": the grid ends at " + at +
+           ", as that of the engine's own cameras does by default (slices.far_default)" + remedy;
+  return std::string(k_no_far_plane) + " and slices.far is not set: the grid ends at " + at + ", " +
+         k_ends_with_lights + ", and lists depend on that" + remedy;
 }
 
 std::string note_of_reaction(const grid::Reaction& reaction) {
@@ -76,9 +79,7 @@ void add_facts(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid& 
   else if (spec.slices.fit)
     facts["note"] = note_of_fit(*spec.slices.fit);
   else if (std::isinf(camera_far_m) && spec.slices.scheme != grid::Scheme::list && spec.slices.far_m == 0.0)
-    facts["note"] =
-        end_text(grid.slices.boundaries.back(),
-                 spec.slices.far_at_most_m > 0.0 && grid.slices.boundaries.back() >= spec.slices.far_at_most_m);
+    facts["note"] = end_text(spec.slices, grid.slices.boundaries.back());
   if (!spec.reaction) return;
   const std::string other = facts.value("note", "");
   facts["note"] = note_of_reaction(*spec.reaction) + (other.empty() ? "" : "; " + other);

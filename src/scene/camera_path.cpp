@@ -105,6 +105,15 @@ void set_field_of_view(CameraProjection& projection, const PathRequest& request)
   projection.fit = CameraFit::contain;
 }
 
+void set_far(CameraProjection& projection, const PathRequest& request, const Scene& scene, const std::string& camera) {
+  if (!request.far_m) return;
+  projection.far_m = *request.far_m;
+  if (projection.far_m <= projection.near_m)
+    throw Error(scene.path.string(), "far",
+                number(projection.far_m) + " m is not behind the near plane of camera '" + camera + "', " +
+                    number(projection.near_m) + " m");
+}
+
 CameraPath path_of(const Scene& scene, const Camera& camera, const PathRequest& request) {
   const CameraMoments moments = camera_moments(scene, camera, request);
   CameraPath path{camera.name, false, moments.how, {}, camera_digest(scene, camera)};
@@ -112,6 +121,7 @@ CameraPath path_of(const Scene& scene, const Camera& camera, const PathRequest& 
     path.shots.push_back({time, camera_pose(scene, camera, time), projection_at(scene, camera, time)});
     path.shots.back().projection.fit = request.fit;
     set_field_of_view(path.shots.back().projection, request);
+    set_far(path.shots.back().projection, request, scene, camera.name);
   }
   return path;
 }
@@ -153,6 +163,7 @@ CameraPath path_around_lights(const Scene& scene, const PathRequest& request) {
   projection.yfov_rad = k_half_turn / 3.0;
   projection.far_m = std::numeric_limits<double>::infinity();
   set_field_of_view(projection, request);
+  set_far(projection, request, scene, "around-lights");
   CameraPath path{"around-lights",
                   true,
                   "no camera in the file: a walk of " + std::to_string(count) + " frames around the lights",

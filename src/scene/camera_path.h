@@ -32,6 +32,7 @@ struct PathRequest {
   double rate_hz = 30.0;
   CameraFit fit = CameraFit::contain;
   std::optional<FieldOfView> field_of_view{};
+  std::optional<double> far_m{};   // in place of the file's
   std::vector<Vec2d> jitter_px{};  // a Shot's, frame by frame and then from the first again; empty: none
 };
 

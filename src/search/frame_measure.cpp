@@ -155,9 +155,8 @@ void fix_grid(config::Config& config, const run::Plan& plan, const run::CasePlan
   const scene::CameraPath& path = plan.scenes[case_plan.scene].paths[case_plan.camera];
   const run::PathFrames recorded(plan.scenes[case_plan.scene].scene, path, config.viewports[case_plan.viewport]);
   const bool has_slices = spec.kind == grid::Kind::frustum || spec.kind == grid::Kind::distance;
-  const bool has_scheme = spec.slices.scheme != grid::Scheme::fit && spec.slices.scheme != grid::Scheme::list;
-  const bool is_endless = spec.slices.far_m == 0.0 && !std::isfinite(path.shots.front().projection.far_m);
-  if (has_slices && has_scheme && is_endless) spec.slices.far_m = recorded.far_m();
+  const bool is_endless = spec.slices.ends_with_lights(path.shots.front().projection.far_m);
+  if (has_slices && spec.slices.scheme != grid::Scheme::fit && is_endless) spec.slices.far_m = recorded.far_m();
   if (spec.kind != grid::Kind::world || spec.has_bounds || spec.follow == grid::Follow::lights) return;
   const auto [lo, hi] = recorded.light_bounds();
   if (!(lo.x < hi.x && lo.y < hi.y && lo.z < hi.z)) return;

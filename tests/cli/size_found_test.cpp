@@ -60,6 +60,7 @@ TEST_F(SizeFound, a_search_of_other_settings_is_refused_with_what_differs) {
   expect_refused("viewport.json", "", "/case/viewport: is [320,180], and here it is [640,360]", "320x180");
   expect_refused("fov.json", "--fov 120h", R"(/case/settings/fov: is "120h", and here it is null)");
   expect_refused("rule.json", "--set 'scenes.*.range_rule.cutoff_lux=5'", "/case/settings/range_rule: is ");
+  expect_refused("far.json", "--set 'scenes.*.far=50'", "/case/settings/far: is 50.0, and here it is null");
   expect_refused("fit.json", "--set 'scenes.*.camera_fit=vertical'", "/case/settings/camera_fit: is \"vertical\"");
   const std::string same = search("same.json", "--fov 90.0h");
   EXPECT_EQ(size("--found " + same, "--fov 90h").code, 0);

@@ -117,6 +117,13 @@ TEST(ConfigFlags, a_whole_slices_object_may_not_have_keys_that_its_scheme_does_n
       std::string::npos);
 }
 
+TEST(ConfigFlags, a_far_plane_is_that_of_all_scenes) {
+  const Config config = default_config({"a.glb", "b.glb"}, Flags{{"--set", "scenes.*.far=400"}});
+  for (const SceneRequest& scene : config.scenes) EXPECT_EQ(scene.camera.far_m, 400.0);
+  EXPECT_FALSE(default_config({"a.glb"}).scenes[0].camera.far_m);
+  EXPECT_NE(refusal_of({{"--set", "scenes.*.far=0"}}).find("/scenes/0/far"), std::string::npos);
+}
+
 TEST(ConfigFlags, a_field_of_view_is_that_of_all_scenes_and_refused_where_it_cannot_be) {
   const Config config = default_config({"a.glb", "b.glb"}, Flags{{"--fov", "90h"}});
   for (const SceneRequest& scene : config.scenes) {

@@ -111,6 +111,12 @@ TEST(Presets, grids_are_those_of_the_engines) {
       {"bevy", "/slices/fit/to", R"("ranges")"},
       {"godot", "/slices/count", "32"},
       {"godot", "/slices/scheme", R"("linear")"},
+      {"godot", "/slices/far_default", "4000.0"},
+      {"three-js", "/slices/far_default", "2000.0"},
+      {"babylon", "/slices/far_default", "10000.0"},
+      {"unity-urp", "/slices/far_default", "1000.0"},
+      {"unity-hdrp", "/slices/far_default", "1000.0"},
+      {"unreal", "/slices/fit/to", R"("ranges")"},
       {"three-js", "/tiles/pixels", "[32, 32]"},
       {"three-js", "/slices/count", "24"},
       {"playcanvas", "/cells", "[10, 3, 10]"},
@@ -327,6 +333,40 @@ TEST(Presets, patterns_name_several_and_each_once) {
   EXPECT_EQ(config.presets[1].preset, "unity-urp");
   EXPECT_EQ(config.presets[2].preset, "unity-hdrp-fptl");
   EXPECT_EQ(with_presets("", {{"--preset", "*"}}).presets.size(), presets().size());
+}
+
+TEST(Presets, a_flag_of_grids_that_would_change_none_of_them_is_refused_with_what_to_write) {
+  const std::string far = refusal_of("", {{"--preset", "unreal"}, {"--set", "grids.*.slices.far=4000"}});
+  EXPECT_NE(far.find("--set=grids.*.slices.far=4000"), std::string::npos) << far;
+  EXPECT_NE(far.find("--set 'scenes.*.far=METRES' sets it"), std::string::npos) << far;
+  EXPECT_NE(far.find("--grid frustum"), std::string::npos) << far;
+  const std::string count = refusal_of(R"(, "presets": ["unreal"])", {{"--set", "/grids/0/slices/count=8"}});
+  EXPECT_NE(count.find("not those of presets"), std::string::npos) << count;
+  EXPECT_EQ(count.find("far plane"), std::string::npos) << count;
+  const std::vector<FlagValue> named{
+      {"--preset", "unreal"}, {"--grid", "frustum"}, {"--set", "grids.*.slices.far=4000"}};
+  EXPECT_EQ(refusal_of("", named), "") << "of a grid that is named beside the presets";
+  EXPECT_EQ(refusal_of(R"(, "grids": [{}])", {{"--preset", "unreal"}, {"--set", "grids.*.slices.far=400"}}), "");
+  EXPECT_EQ(refusal_of("", {{"--set", "grids.*.slices.far=400"}}), "") << "without presets";
+}
+
+TEST(Presets, a_grid_is_changed_member_by_member_and_an_axis_makes_several) {
+  const std::vector<FlagValue> flags{{"--tiles", "32,64x16"}, {"--set", "grids.*.slices.count=24"}};
+  const GridChange change = grid_change(flags);
+  EXPECT_EQ(change.flags.at("/slices/count").value, "grids.*.slices.count=24");
+  const Config config = parse_config(R"({"scenes": ["a.glb"], "presets": ["unreal"]})", "c.json", {}, {}, change);
+  ASSERT_EQ(config.presets.size(), 2u);
+  const auto grid = [&](std::size_t i) {
+    return Json::parse(grid_request(config.grids.at(config.presets[i].grid)).dump());
+  };
+  EXPECT_EQ(grid(0)["tiles"]["pixels"], Json::parse("[32, 32]"));
+  EXPECT_EQ(grid(1)["tiles"]["pixels"], Json::parse("[64, 16]"));
+  EXPECT_EQ(grid(1)["slices"]["count"], 24);
+  EXPECT_EQ(grid(1)["slices"]["scheme"], "power") << "what is not changed stays the engine's";
+  EXPECT_EQ(config.assigners.at(config.presets[1].assigner).name, "brute-force");
+  EXPECT_THROW(parse_config(R"({"scenes": ["a.glb"], "presets": ["unreal"]})", "c.json", {}, {},
+                            grid_change(std::vector<FlagValue>{{"--slices", "0"}})),
+               Error);
 }
 
 TEST(Presets, a_name_that_is_none_is_refused_with_its_place_and_near_ones) {

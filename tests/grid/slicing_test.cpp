@@ -264,6 +264,26 @@ TEST(Slicing, far_at_most_ends_slices_only_where_the_camera_sees_farther) {
   EXPECT_EQ(far(1000.0), 300.0f) << "a far that is named is taken";
 }
 
+// Godot: its own cameras end at 4000 m, where those of the file do not end.
+TEST(Slicing, far_default_ends_slices_only_of_a_camera_that_has_no_far_plane) {
+  Slicing asked = slicing(Scheme::linear, 8, 0.0, 0.0);
+  asked.far_default_m = 4000.0;
+  const auto far = [&](double camera_far) {
+    return make_slices(asked, {0.1, camera_far, 0.0, 700.0}, false).boundaries.back();
+  };
+  EXPECT_EQ(far(k_infinity), 4000.0f);
+  EXPECT_EQ(far(90.0), 90.0f);
+  EXPECT_EQ(far(9000.0), 9000.0f);
+  EXPECT_FALSE(asked.ends_with_lights(k_infinity));
+  asked.far_at_most_m = 100.0;
+  EXPECT_EQ(far(k_infinity), 100.0f);
+  asked.far_m = 300.0;
+  EXPECT_EQ(far(k_infinity), 300.0f) << "a far that is named is taken";
+  asked = slicing(Scheme::linear, 8, 0.0, 0.0);
+  EXPECT_TRUE(asked.ends_with_lights(k_infinity));
+  EXPECT_FALSE(asked.ends_with_lights(90.0));
+}
+
 // Bevy, Unity URP.
 TEST(Slicing, of_an_orthographic_camera_are_linear_where_asked_for) {
   Slicing asked = slicing(Scheme::exponential_first, 4, 0.0, 0.0);

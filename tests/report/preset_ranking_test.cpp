@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "report/preset_words.h"
+#include "run/grid_facts.h"
 
 namespace clusterbench::report {
 namespace {
@@ -394,13 +395,42 @@ TEST(PresetRanking, lists_that_do_not_fit_lose_nothing_only_where_they_may_grow)
   Json bevy = preset_case("bevy", 1e3, 1e4, 4e5);
   bevy["react"] = {{"to", "entries"}, {"most", 16384}, {"frames", {{"reacted", 5}, {"over", 6}}}};
   const std::string room =
-      "loses nothing where its lists may grow (storage buffers): with room for 16384 entries 6 frames of 30 do not fit";
+      "loses nothing with storage buffers, where its lists grow, as the figures of its row are; without them there is "
+      "room for 16384 entries, 6 frames of 30 do not fit";
   Json ranking = ranking_of_cases(Json::array({bevy}));
   EXPECT_NE(ranking["cases"][0]["why"].get<std::string>().find(room), std::string::npos) << ranking["cases"][0]["why"];
   EXPECT_NE(ranking["text"].get<std::string>().find(room), std::string::npos) << ranking["text"];
   bevy["react"]["frames"]["over"] = 0;
   ranking = ranking_of_cases(Json::array({bevy}));
-  EXPECT_EQ(ranking["text"].get<std::string>().find("may grow"), std::string::npos) << ranking["text"];
+  EXPECT_EQ(ranking["text"].get<std::string>().find("its lists grow"), std::string::npos) << ranking["text"];
+}
+
+TEST(PresetRanking, a_fallback_is_told_with_what_the_engine_takes_by_default) {
+  const Json ranking = ranking_of_cases({preset_case("bevy", 1e3, 1e4, 1e5), preset_case("filament", 1e3, 1e4, 9e5)});
+  const std::string remark = "the fallback on the CPU, whose lists are uploaded; the default since 0.19 is bevy-gpu";
+  EXPECT_NE(line_of(ranking, "bevy")["why"].get<std::string>().find(remark), std::string::npos);
+  EXPECT_NE(ranking["text"].get<std::string>().find("; bevy: " + remark), std::string::npos) << ranking["text"];
+  EXPECT_EQ(line_of(ranking, "filament")["why"].get<std::string>().find("fallback"), std::string::npos);
+}
+
+TEST(PresetRanking, says_that_costs_depend_on_a_far_plane_that_the_camera_does_not_have_and_how_to_give_it) {
+  const auto ending = [](const std::string& preset, double far_m, const std::string& note) {
+    Json out = preset_case(preset, 0, 1e4, 1e5);
+    out["grid"] = {{"slices", {{"boundaries", {0.1, 5.0, far_m}}}}, {"note", note}};
+    return out;
+  };
+  const std::string none = run::k_no_far_plane;
+  const Json made_up = ending("black-mesa", 91.73, none + ": the grid ends, " + run::k_ends_with_lights),
+             own = ending("three-js", 2000, none + ": the grid ends at 2000 m, as that of the engine's own cameras"),
+             follows = ending("bevy", 91, "slices follow the ranges of the lights in view");
+  const std::string text = ranking_of_cases({made_up, own, follows})["text"];
+  EXPECT_NE(
+      text.find("costs depend on the far plane, which the camera does not have: slices end with that of the "
+                "engine's own cameras (three-js at 2000 m) and with the lights of the path (black-mesa at 91.73 m); "
+                "--set 'scenes.*.far=METRES' gives cameras that of your game"),
+      std::string::npos)
+      << text;
+  EXPECT_EQ(ranking_of_cases(Json::array({follows}))["text"].get<std::string>().find("far plane"), std::string::npos);
 }
 
 TEST(PresetRanking, older_results_have_no_places_and_are_shown) {

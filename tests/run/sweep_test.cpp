@@ -174,6 +174,7 @@ TEST_F(Sweep, an_id_depends_on_what_is_counted_and_not_on_how_it_is_timed_or_ord
   EXPECT_EQ(packed.at(0).id, id);
   EXPECT_NE(cases(plan(R"([{"path": "a.gltf", "range_rule": {"max_range": 3}}])", text)).at(0).id, id);
   EXPECT_NE(cases(plan(R"([{"path": "a.gltf", "camera_fit": "vertical"}])", text)).at(0).id, id);
+  EXPECT_NE(cases(plan(R"([{"path": "a.gltf", "far": 50}])", text)).at(0).id, id);
   EXPECT_EQ(cases(plan(R"([{"path": "a.gltf", "camera_fit": "contain"}])", text)).at(0).id, id);
 }
 

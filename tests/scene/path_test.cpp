@@ -89,6 +89,28 @@ TEST(CameraPaths, a_field_of_view_is_degrees_across_or_up_and_down) {
     EXPECT_FALSE(field_of_view(text)) << text;
 }
 
+TEST(CameraPaths, a_far_plane_that_is_asked_for_is_that_of_all_cameras_and_lies_behind_the_near_plane) {
+  PathRequest request;
+  request.camera = "*";
+  request.far_m = 400.0;
+  Scene scene = scene_with_cameras(true);
+  scene.cameras[1].projection.orthographic = true;
+  for (const CameraPath& path : camera_paths(scene, request))
+    for (const Shot& shot : path.shots) EXPECT_EQ(shot.projection.far_m, 400.0);
+  scene.cameras.clear();
+  EXPECT_EQ(camera_paths(scene, request).at(0).shots.at(0).projection.far_m, 400.0) << "of a made path";
+  request.far_m = 0.1;
+  try {
+    camera_paths(scene_with_cameras(true), request);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where(), "far");
+    EXPECT_NE(std::string(error.what()).find("0.1 m is not behind the near plane of camera 'standing', 0.1 m"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(CameraPaths, jitter_is_gone_through_frame_by_frame_and_again_from_its_first) {
   PathRequest request;
   request.count = 5;
