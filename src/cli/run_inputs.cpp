@@ -55,8 +55,9 @@ config::Config read_inputs(const RunInputs& inputs, const std::vector<config::Fl
   flags.insert(flags.end(), given.begin(), given.end());
   const auto scenes = static_cast<std::size_t>(std::count_if(inputs.paths.begin(), inputs.paths.end(), is_scene));
   if (scenes == inputs.paths.size())
-    return config::default_config({inputs.paths.begin(), inputs.paths.end()}, flags, standard);
-  if (scenes == 0 && inputs.paths.size() == 1) return config::load_config(inputs.paths.front(), flags, standard);
+    return config::default_config({inputs.paths.begin(), inputs.paths.end()}, flags, standard, inputs.preset_grid);
+  if (scenes == 0 && inputs.paths.size() == 1)
+    return config::load_config(inputs.paths.front(), flags, standard, inputs.preset_grid);
   throw Error("", "command line",
               "takes one configuration (.json), or one or more scenes (.glb, .gltf), not " + joined(inputs.paths));
 }

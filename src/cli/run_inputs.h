@@ -15,6 +15,7 @@ struct RunInputs {
   std::vector<std::string> paths;
   std::vector<std::vector<std::string>> settings{config::config_flags().size()};  // by flag
   bool has_all_presets = false, are_as_shipped = false;
+  config::GridChange preset_grid;  // in place of what presets have
 };
 
 // An option for each flag of config_flags() but those named in `without`.

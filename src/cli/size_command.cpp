@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/commands.h"
+#include "cli/engine_grid.h"
 #include "cli/gates.h"
 #include "cli/output.h"
 #include "cli/run_inputs.h"
@@ -56,7 +57,7 @@ bool is_result(const RunInputs& inputs) {
   return inputs.paths.size() == 1 && !is_scene(inputs.paths.front()) && !is_config(inputs.paths.front());
 }
 
-// Measures the engine's own clustering, where the command line names no other.
+// Measures the engine's own clustering, in another grid where flags name one that the engine can be set to.
 void choose_engine(SizeFlags& flags) {
   report::check_engine(flags.engine);
   if (flags.request.format != "table" && flags.request.format != "json")
@@ -69,11 +70,7 @@ void choose_engine(SizeFlags& flags) {
   flags.request.engine = flags.engine;
   flags.request.all = true;
   if (is_result(flags.inputs)) return;
-  flags.request.has_own_grid = config::name_clusterings(flag_values(flags.inputs));
-  if (flags.request.has_own_grid) return;
-  for (std::size_t i = 0; i < flags.inputs.settings.size(); ++i)
-    if (std::string_view(config::config_flags()[i].name) == "--preset" && flags.inputs.settings[i].empty())
-      flags.inputs.settings[i] = {flags.engine};
+  flags.request.has_changed_grid = choose_engine_clustering(flags.engine, flags.inputs);
 }
 
 // A result has been measured: nothing of that can change, and it holds no scene to search in.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "config/presets.h"
+#include "core/text.h"
 #include "report/json_values.h"
 
 namespace clusterbench::report {
@@ -116,46 +117,64 @@ const std::vector<EngineRow>& engine_rows() {
       {"godot",
        "Project Settings",
        "",
+       "",
+       {},
        {{"rendering/limits/cluster_builder/max_clustered_elements", Needed::lights_of_type, 512, 32, 8192, 32}},
        "of each type (omni lights, spot lights, decals, reflection probes) elements beyond it are not drawn"},
       {"playcanvas",
        "scene.lighting (LightingParams)",
        "scene.lighting.cells = new pc.Vec3(X, Y, Z)",
+       "",
+       {"/cells"},
        {{"scene.lighting.maxLightsPerCell", Needed::longest_list, 255, 1, 255},
         {"lights of a frame, which 8 bits number", Needed::lights_in_view, 255, 1, 255, 1, true}},
        "a full cell takes no more lights, and a frame no more than 255"},
       {"three-js",
        "examples/jsm/lighting/ClusteredLighting.js",
        "new ClusteredLighting(maxLights, tileSize = P, zSlices = Z, maxLightsPerCluster)",
+       "",
+       {"/tiles/pixels", "/slices/count"},
        {{"maxLights", Needed::lights_in_scene, 1024, 1, k_any},
         {"maxLightsPerCluster", Needed::longest_list, 64, 1, k_any}},
        "lights of the scene beyond maxLights are not drawn, in view or not; a full cluster keeps the farthest lights"},
       {"bevy",
        "GlobalClusterSettings and ClusterConfig of a camera",
        "ClusterConfig::XYZ { dimensions: UVec3::new(X, Y, Z), .. }",
+       "ClusterConfig: leave it alone; its default makes these X x Y x Z clusters of this viewport, and others of "
+       "another",
+       {"/tiles/count", "/slices/count"},
        {{"GlobalClusterSettings::view_cluster_bindings_max_indices", Needed::entries, 16384, 1, k_any}},
        "after a frame with more, tiles grow until lists fit (dynamic_resizing); that frame itself is whole with "
        "storage buffers, and lacks entries without"},
       {"bevy-gpu",
        "GlobalClusterGpuSettings",
        "ClusterConfig::XYZ { dimensions: UVec3::new(X, Y, Z), .. }",
+       "ClusterConfig: leave it alone; its default makes these X x Y x Z clusters of this viewport, and others of "
+       "another",
+       {"/tiles/count", "/slices/count"},
        {{"GlobalClusterSettings::gpu_clustering.initial_index_list_capacity", Needed::entries, 0, 1, k_any}},
        "the list grows after a few frames that lack lights"},
       {"ogre-next",
        "SceneManager, as since 2.3",
        "setForwardClustered(true, X, Y, Z, lightsPerCell, decalsPerCell, cubemapProbesPerCell, minDistance, "
        "maxDistance)",
+       "",
+       {"/tiles/count"},
        {{"lightsPerCell", Needed::longest_list, 96, 1, k_any}},
        "a full cell takes no more lights"},
       {"unreal",
        "console variables",
        "r.Forward.LightGridPixelSize P, r.Forward.LightGridSizeZ Z",
+       "",
+       {"/tiles/pixels", "/slices/count"},
        {{"r.Forward.MaxCulledLightsPerCell", Needed::entries_per_cell, 32, 1, k_any}},
        "the pool has room for so many entries times the cells; where a frame needs more, lights are missing in some "
        "cells. From documentation: versions that cull by depths first need less than is counted here"},
       {"unity-urp",
        "package com.unity.render-pipelines.universal-config, as since URP 14",
        "",
+       "",
+       {},
        {{"MAX_VISIBLE_LIGHT_COUNT_DESKTOP (ShaderConfig.cs.hlsl) and k_MaxVisibleLightCountDesktop (ShaderConfig.cs)",
          Needed::lights_in_view, 256, 1, 256}},
        "lights beyond it are not drawn; on mobile platforms the limits are 32 and 16"},
@@ -167,6 +186,18 @@ std::string version_text(const EngineRow& row) {
   const config::Preset& preset = *config::find_preset(row.preset);
   const std::string engine = preset.engine;
   return engine.substr(0, engine.find(',')) + " (" + preset.version + "), " + row.settings;
+}
+
+std::string settable_grid_text(const EngineRow& row) {
+  constexpr std::pair<const char*, const char*> k_flags[] = {{"/tiles/pixels", "--tiles N (pixels of a square tile)"},
+                                                             {"/tiles/count", "--tiles XxYt (tiles across and down)"},
+                                                             {"/slices/count", "--slices N"},
+                                                             {"/cells", "--set 'grids.*.cells=[[X,Y,Z]]'"}};
+  std::vector<std::string> flags;
+  for (const std::string key : row.grid_keys)
+    for (const auto& [pointer, flag] : k_flags)
+      if (key == pointer) flags.emplace_back(flag);
+  return joined(flags);
 }
 
 const EngineRow* row_of_engine(const std::string& name) {

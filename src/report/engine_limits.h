@@ -36,6 +36,11 @@ struct EngineRow {
   const char* preset;    // of which it is in all else: engine, version
   const char* settings;  // where they are set
   const char* grid;  // the call or member that the grid is set with: X, Y, Z stand for the cells, P for a tile's pixels
+  // In its place where nothing of the grid is changed: what to do with its settings; "": they are the engine's own.
+  const char* own_grid;
+  // What of the grid can be set, as pointers into a configuration's grid: "/tiles/pixels" (of square tiles),
+  // "/tiles/count", "/slices/count", "/cells".
+  std::vector<const char*> grid_keys;
   std::vector<LimitSetting> limits;
   const char* beyond;  // what happens beyond the limit
 };
@@ -47,6 +52,9 @@ const std::vector<EngineRow>& engine_rows();
 std::string version_text(const EngineRow& row);
 // What a search has to make large for it, by its name in `worst-case --measure`; "": nothing that a search changes.
 std::string measure_of(Needed needed);
+// How flags set what of its grid can be set: "--tiles N (pixels of a square tile), --slices N"; "" where nothing can
+// be.
+std::string settable_grid_text(const EngineRow& row);
 // nullptr: no such row.
 const EngineRow* row_of_engine(const std::string& name);
 

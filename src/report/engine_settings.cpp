@@ -5,6 +5,7 @@
 #include <cctype>
 #include <span>
 
+#include "config/presets.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "report/columns.h"
@@ -36,13 +37,13 @@ const char* unit_of(Needed needed) {
   return "entries in all lists";
 }
 
-// As it is asked for: of tiles that have grown before they did.
-std::string grid_text(const EngineRow& row, const SizedStructure& structure) {
+// The call or member with the grid as it is asked for: of tiles that have grown before they did.
+std::string filled_in(const char* call, const SizedStructure& structure) {
   const Json& grid = (*structure.cases.front())["grid"];
   Json cells = grid["cells"];
   if (!structure.grown.empty())
     for (std::size_t axis = 0; axis < 2; ++axis) cells[axis] = structure.grown.front().asked[axis];
-  std::string out = row.grid;
+  std::string out = call;
   const auto put = [&](const std::string& letter, const std::string& value) {
     for (std::size_t at = 0; (at = out.find(letter, at)) != std::string::npos; at += value.size()) {
       const bool is_alone = (at == 0 || std::isalnum(static_cast<unsigned char>(out[at - 1])) == 0) &&
@@ -56,6 +57,12 @@ std::string grid_text(const EngineRow& row, const SizedStructure& structure) {
   return out;
 }
 
+std::string grid_text(const EngineRow& row, const SizedStructure& structure, bool is_changed) {
+  if (*row.grid == '\0' || is_changed) return filled_in(row.grid, structure);
+  return *row.own_grid == '\0' ? filled_in(row.grid, structure) + " (the grid that the engine comes with)"
+                               : filled_in(row.own_grid, structure);
+}
+
 std::string tiles_text(const std::array<int, 2>& tiles) {
   return std::to_string(tiles[0]) + "x" + std::to_string(tiles[1]);
 }
@@ -67,12 +74,10 @@ std::string value_text(const SettingValue& value) {
   const std::string standard = std::to_string(setting.standard);
   std::string out = std::to_string(value.value);
   if (value.is_too_much()) return out + ", and that is NOT ENOUGH";
-  if (setting.standard > 0 && value.needed() > 0)
-    out += value.value > setting.standard ? " (the engine comes with " + standard + ")"
-           : value.wanted > setting.most
-               ? " (the engine's own " + standard + " is enough for what was seen, not for the margin)"
-               : " (the engine's own " + standard + " is enough)";
-  return out;
+  if (setting.standard == 0 || value.needed() == 0) return out;
+  if (value.needed() > setting.standard) return out + " (the engine comes with " + standard + ")";
+  return out + " (the engine's own " + standard + " is enough" +
+         (value.wanted > setting.standard ? " for what was seen, not for the margin)" : ": leave it)");
 }
 
 std::string search_text(const SettingValue& value, const SizedStructure& structure) {
@@ -167,32 +172,45 @@ std::string setting_lines(const SettingValue& value, const SizedStructure& struc
   if (setting.needed != Needed::lights_in_scene)
     out += "    the most found by a search: " + search_text(value, structure) + "\n";
   if (!setting.is_constant)
-    out += (value.is_all ? "    all lights of the level" + of_type_text(setting.needed)
-                         : "    x " + text("%g", rules.margin)) +
-           (setting.multiple > 1 ? ", up to a multiple of " + std::to_string(setting.multiple) : std::string()) +
-           (!value.is_too_much() && value.wanted > setting.most
-                ? "; the engine takes at most " + std::to_string(setting.most) + ", less room than asked for"
-                : "") +
-           "\n";
+    out +=
+        (value.is_all ? "    all lights of the level" + of_type_text(setting.needed)
+                      : "    with the margin: " + std::to_string(value.needed()) + " x " + text("%g", rules.margin)) +
+        (setting.multiple > 1 ? ", up to a multiple of " + std::to_string(setting.multiple) : std::string()) +
+        (!value.is_too_much() && value.wanted > setting.most
+             ? "; the engine takes at most " + std::to_string(setting.most) + ", less room than asked for"
+             : "") +
+        "\n";
   out += own_value_text(value, structure);
   if (!value.is_too_much()) return out;
   return out + "    TOO MUCH: the engine takes at most " + std::to_string(setting.most) + "; " +
          lost_text(setting.needed, value.needed() - setting.most) + "\n";
 }
 
+// Whether the engine comes with less than is asked for.
+bool is_to_be_set(const SettingValue& value) {
+  return !value.setting->is_constant && value.seen && value.value > value.setting->standard;
+}
+
+// Whether the engine has both at once: one setting serves them. Grids that differ in what can be set are alternatives.
+bool have_one_setting(const EngineRequest& request, const SizedStructure& a, const SizedStructure& b) {
+  const EngineRow& row = *row_of_engine(request.engine);
+  return !request.has_changed_grid || grid_text(row, a, true) == grid_text(row, b, true);
+}
+
 // What to do with the settings: where frames need more than the engine takes, setting them does not help.
-std::string advice_text(const EngineRow& row, const std::vector<SizedStructure>& structures,
-                        const AllocationRules& rules) {
+std::string advice_text(const EngineRequest& request, std::span<const SizedStructure* const> structures) {
   bool is_too_much = false, is_known = true;
   bool is_settable = false;  // to something that the engine does not come with
-  for (const SizedStructure& structure : structures)
-    for (const LimitSetting& setting : row.limits) {
-      const SettingValue value = value_of(setting, structure, rules);
+  bool is_any_enough = false, is_any_to_be_set = request.has_changed_grid;
+  for (const SizedStructure* structure : structures)
+    for (const LimitSetting& setting : row_of_engine(request.engine)->limits) {
+      const SettingValue value = value_of(setting, *structure, request.rules);
       is_too_much |= value.is_too_much();
       is_settable |= !setting.is_constant && value.seen && value.value != setting.standard;
       is_known &= value.seen.has_value();
+      (is_to_be_set(value) ? is_any_to_be_set : is_any_enough) |= !setting.is_constant;
     }
-  if (std::ranges::any_of(structures, is_sized_from_nothing))
+  if (std::ranges::any_of(structures, [](const auto* structure) { return is_sized_from_nothing(*structure); }))
     return "Do not set these values: they hold for frames without lights. Give cameras that see some.\n";
   if (is_too_much && !is_settable)
     return "The engine loses lights where it says TOO MUCH, and has no setting with which it does not: fewer or "
@@ -201,8 +219,45 @@ std::string advice_text(const EngineRow& row, const std::vector<SizedStructure>&
   if (is_too_much)
     return "With these values the engine still loses lights, where it says TOO MUCH: fewer or smaller lights, or "
            "another clustering; `clusterbench run` with the preset says what pixels lose.\n";
-  if (!is_known) return "Set the values that are known; measure again when levels or lights change.\n";
-  return "Set these values; measure again when levels or lights change.\n";
+  constexpr const char* k_again = "measure again when levels or lights change.\n";
+  if (!is_known) return std::string("Set the values that are known; ") + k_again;
+  if (!is_any_to_be_set)
+    return std::string(
+               "Nothing to set: what the engine comes with is enough, and a smaller value would only save "
+               "memory; ") +
+           k_again;
+  const bool has_alternatives = std::ranges::any_of(
+      structures, [&](const auto* structure) { return !have_one_setting(request, *structures.front(), *structure); });
+  return std::string(has_alternatives ? "Take one of these grids and set its values" : "Set these values") +
+         (is_any_enough ? ", and leave those of which the engine's own is enough" : "") + "; " + k_again;
+}
+
+// Of all structures with which it shares its settings the one of which most is asked for.
+SettingValue value_for_all(const EngineRequest& request, const LimitSetting& setting, const SizedStructure& structure,
+                           std::span<const SizedStructure* const> structures) {
+  SettingValue most = value_of(setting, structure, request.rules);
+  for (const SizedStructure* other : structures)
+    if (have_one_setting(request, structure, *other))
+      if (const SettingValue value = value_of(setting, *other, request.rules); value.value > most.value) most = value;
+  return most;
+}
+
+// "Of these 2, which have one setting: maxLightsPerCell 200, the largest"; "" of one alone.
+std::string shared_text(const EngineRequest& request, const SizedStructure& first,
+                        std::span<const SizedStructure* const> structures) {
+  std::vector<const SizedStructure*> sharing;
+  std::ranges::copy_if(structures, std::back_inserter(sharing),
+                       [&](const auto* other) { return have_one_setting(request, first, *other); });
+  if (sharing.size() < 2 || sharing.front() != &first) return "";
+  std::string out;
+  for (const LimitSetting& setting : row_of_engine(request.engine)->limits)
+    if (!setting.is_constant)
+      out +=
+          "  " + std::string(setting.name) + ": " + value_text(value_for_all(request, setting, first, sharing)) + "\n";
+  const std::string grid =
+      request.has_changed_grid ? " of " + grid_text(*row_of_engine(request.engine), first, true) : "";
+  return "The engine has one setting for all " + std::to_string(sharing.size()) + " above" + grid +
+         ", which is the largest:\n" + out;
 }
 
 }  // namespace
@@ -234,31 +289,36 @@ void check_engine(const std::string& name) {
                   joined(names));
 }
 
-std::string engine_settings_text(const std::string& engine, const std::vector<SizedStructure>& structures,
-                                 const AllocationRules& rules) {
-  const EngineRow& row = *row_of_engine(engine);
+std::string engine_settings_text(const EngineRequest& request, std::span<const SizedStructure* const> structures) {
+  const EngineRow& row = *row_of_engine(request.engine);
+  const std::string remark = config::find_preset(request.engine)->remark;
   std::string out;
-  for (const SizedStructure& structure : structures) {
-    out += shown(structure.name) + "\n  " + version_text(row) + "\n";
-    if (const std::string grid = grid_text(row, structure); !grid.empty()) out += "  " + grid + "\n";
+  for (const SizedStructure* structure : structures) {
+    out += shown(structure->name) + "\n  " + version_text(row) + "\n";
+    if (!remark.empty()) out += "  " + remark + "\n";
+    if (const std::string grid = grid_text(row, *structure, request.has_changed_grid); !grid.empty())
+      out += "  " + grid + "\n";
     for (const LimitSetting& setting : row.limits)
-      out += setting_lines(value_of(setting, structure, rules), structure, rules);
-    if (const std::string unseen = nothing_seen_text(structure); !unseen.empty()) out += "  " + unseen + "\n";
+      out += setting_lines(value_of(setting, *structure, request.rules), *structure, request.rules);
+    if (const std::string unseen = nothing_seen_text(*structure); !unseen.empty()) out += "  " + unseen + "\n";
     out += std::string("  beyond the limit: ") + row.beyond + "\n";
-    for (const std::string& note : grid_notes(structure)) out += "  grid: " + shown(note) + "\n";
+    for (const std::string& note : grid_notes(*structure)) out += "  grid: " + shown(note) + "\n";
     out += "\n";
   }
-  return out + advice_text(row, structures, rules);
+  for (const SizedStructure* structure : structures)
+    if (const std::string shared = shared_text(request, *structure, structures); !shared.empty()) out += shared + "\n";
+  return out + advice_text(request, structures);
 }
 
-Json engine_settings_json(const std::string& engine, const SizedStructure& structure, const AllocationRules& rules) {
-  const EngineRow& row = *row_of_engine(engine);
-  Json out{{"engine", engine},
+Json engine_settings_json(const EngineRequest& request, const SizedStructure& structure,
+                          std::span<const SizedStructure* const> structures) {
+  const EngineRow& row = *row_of_engine(request.engine);
+  Json out{{"engine", request.engine},
            {"version", version_text(row)},
-           {"grid", grid_text(row, structure)},
+           {"grid", filled_in(row.grid, structure)},
            {"limits", Json::array()}};
   for (const LimitSetting& setting : row.limits) {
-    const SettingValue value = value_of(setting, structure, rules);
+    const SettingValue value = value_of(setting, structure, request.rules);
     Json entry{{"name", setting.name}, {"needed", unit_of(setting.needed)}};
     entry["seen"] = value.seen ? Json(*value.seen) : Json();
     entry["found"] = value.found ? Json(*value.found) : Json();
@@ -266,6 +326,7 @@ Json engine_settings_json(const std::string& engine, const SizedStructure& struc
       entry["search"] = search_json(*search);
     const bool is_told = value.seen && !setting.is_constant && !is_sized_from_nothing(structure);
     entry["value"] = is_told ? Json(value.value) : Json();
+    if (is_told) entry["value_for_all"] = value_for_all(request, setting, structure, structures).value;
     entry["most"] = setting.most == k_any ? Json() : Json(setting.most);
     entry["is_too_much"] = value.is_too_much();
     if (value.is_too_much()) entry["lost"] = value.needed() - setting.most;

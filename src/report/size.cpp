@@ -156,7 +156,7 @@ Json cameras_of(const std::vector<const Json*>& cases) {
   return out;
 }
 
-Json structure_json(const NamedStructure& named, const std::string& engine, const AllocationRules& rules) {
+Json structure_json(const NamedStructure& named) {
   const SizedStructure& structure = named.structure;
   const Json& first = *structure.cases.front();
   Json out{{"name", structure.name},        {"identifier", named.name},
@@ -187,7 +187,6 @@ Json structure_json(const NamedStructure& named, const std::string& engine, cons
   out["buffers"] = Json::array();
   for (std::size_t i = 0; i < structure.buffers.size(); ++i)
     out["buffers"].push_back(buffer_json(structure.buffers[i], named.buffers[i], structure.searches));
-  if (!engine.empty()) out["settings"] = engine_settings_json(engine, structure, rules);
   out["lookups"] = Json::array();
   for (const NamedLookup& lookup : named.lookups)
     out["lookups"].push_back({{"identifier", lookup.name},
@@ -200,8 +199,14 @@ std::string size_json(const std::vector<NamedStructure>& structures, std::size_t
                       const AllocationRules& rules) {
   Json out{{"size_version", k_size_version}, {"margin", rules.margin},   {"warn_at", rules.warn_at},
            {"rounding", request.rounding},   {"structures_in_all", all}, {"structures", Json::array()}};
-  for (const NamedStructure& named : structures)
-    out["structures"].push_back(structure_json(named, request.engine, rules));
+  std::vector<const SizedStructure*> all_structures;
+  for (const NamedStructure& named : structures) all_structures.push_back(&named.structure);
+  for (const NamedStructure& named : structures) {
+    out["structures"].push_back(structure_json(named));
+    if (!request.engine.empty())
+      out["structures"].back()["settings"] =
+          engine_settings_json({request.engine, request.has_changed_grid, rules}, named.structure, all_structures);
+  }
   return out.dump(1) + "\n";
 }
 
@@ -299,7 +304,7 @@ void keep_engine(std::vector<SizedStructure>& structures, const std::string& eng
 // Those that are printed.
 std::vector<SizedStructure> printed_structures(const Json& result, const SizeRequest& request, std::size_t& count) {
   std::vector<SizedStructure> chosen = chosen_structures(result, request, count);
-  if (!request.engine.empty() && !request.has_own_grid) keep_engine(chosen, request.engine);
+  if (!request.engine.empty()) keep_engine(chosen, request.engine);
   return chosen;
 }
 
@@ -321,7 +326,7 @@ std::vector<std::string> sized_measures(const std::string& storage, const std::s
 std::vector<SizedCase> sized_cases(const Json& result, const SizeRequest& request) {
   std::size_t count = 0;
   std::vector<SizedCase> out;
-  for (const SizedStructure& structure : chosen_structures(result, request, count)) {
+  for (const SizedStructure& structure : printed_structures(result, request, count)) {
     const Json& of_mark = case_of_mark(structure);
     out.push_back({structure.name, of_mark["name"].get<std::string>(),
                    sized_measures(of_mark["storage"].get<std::string>(), request.engine), "", structure.guests});
@@ -346,7 +351,11 @@ std::string size_report(const Json& result, const SizeRequest& request) {
     throw Error("", "--name", "names what is printed as code, and a table has no names; give --format, too");
   std::size_t count = 0;
   std::vector<SizedStructure> chosen = printed_structures(result, request, count);
-  if (!request.engine.empty() && request.format == "table") return engine_settings_text(request.engine, chosen, rules);
+  if (!request.engine.empty() && request.format == "table") {
+    std::vector<const SizedStructure*> all;
+    for (const SizedStructure& structure : chosen) all.push_back(&structure);
+    return engine_settings_text({request.engine, request.has_changed_grid, rules}, all);
+  }
   const std::string left_out = remark(result, chosen, count);
   const std::vector<NamedStructure> named = request.name.empty() ? named_structures(std::move(chosen), request.all)
                                                                  : named_structures(std::move(chosen), request.name);

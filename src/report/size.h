@@ -27,7 +27,7 @@ struct SizeRequest {
   AllocationScope scope = {};
   // Of engines_with_settings(): settings are printed, of the cases of the preset of that name. "": buffers.
   std::string engine = {};
-  bool has_own_grid = false;  // of all cases, whatever their preset: grids that the engine can be set to
+  bool has_changed_grid = false;  // with it: another grid than the engine's own, one that it can be set to
 };
 
 // A table, C++, the languages of shaders, and for other programs JSON.

@@ -55,6 +55,17 @@ TEST(EngineLimits, that_an_engine_comes_with_are_those_that_its_preset_has) {
   EXPECT_GE(compared, 9);
 }
 
+TEST(EngineLimits, what_can_be_set_of_a_grid_is_a_value_that_the_preset_has) {
+  for (const EngineRow& row : engine_rows()) {
+    const nlohmann::json grid = config::preset_parts(preset_of_row(row), {1920, 1080})["grid"];
+    for (const char* key : row.grid_keys)
+      EXPECT_TRUE(grid.contains(nlohmann::json::json_pointer(key))) << row.preset << ": " << key;
+    EXPECT_EQ(row.grid_keys.empty(), std::string(row.grid).empty()) << row.preset;
+    EXPECT_EQ(row.grid_keys.empty(), settable_grid_text(row).empty()) << row.preset;
+  }
+  EXPECT_EQ(settable_grid_text(*row_of_engine("unreal")), "--tiles N (pixels of a square tile), --slices N");
+}
+
 // A preset with a limit of lights is either an engine that can be set, or says why not, or is no engine.
 TEST(EngineLimits, that_are_compiled_in_name_the_number_of_the_preset) {
   for (const char* name : {"filament", "wicked"}) {
