@@ -338,6 +338,35 @@ void share_grid(SizedStructure& structure, const std::vector<std::string>& camer
     if (camera != owner) structure.guests.push_back(camera);
 }
 
+// The allocation is that of one camera's grid: a camera that no group names is drawn otherwise, and is none of it.
+void leave_out_others(SizedStructure& structure, const std::vector<std::string>& groups) {
+  std::set<std::string> named;
+  for (const std::string& group : groups)
+    for (const std::string& camera : cameras_in(structure, group)) named.insert(camera);
+  for (const std::string& camera : cameras_in(structure, "*"))
+    if (!named.contains(camera)) structure.left_out.push_back(camera);
+  std::erase_if(structure.cases, [&](const Json* one) { return !named.contains((*one)["camera"].get<std::string>()); });
+}
+
+// How to name a camera whose name the list would be cut in.
+std::string comma_hint(const std::vector<std::string>& cameras) {
+  for (const std::string& camera : cameras) {
+    std::string pattern = camera;
+    std::ranges::replace(pattern, ',', '?');
+    if (pattern != camera)
+      return "; a comma ends a name: write ? for that of '" + camera + "', as in '" + pattern + "'";
+  }
+  return "";
+}
+
+// Where two eyes are named that the scene does not have.
+std::string eyes_hint(const std::string& group) {
+  const std::vector<std::string> names = between_commas(group);
+  const bool has_eye =
+      std::ranges::find(names, "left") != names.end() || std::ranges::find(names, "right") != names.end();
+  return has_eye ? "; `clusterbench scene views LEVEL --eyes 0.064 -o eyes.glb` adds left and right" : "";
+}
+
 // Each name between commas is a camera's of some scene.
 void check_view_names(const std::vector<SizedStructure>& structures, const std::string& group) {
   std::vector<std::string> known, unknown;
@@ -350,7 +379,8 @@ void check_view_names(const std::vector<SizedStructure>& structures, const std::
   if (unknown.empty() || known.empty()) return;
   throw Error("", "--views",
               joined(unknown) + (unknown.size() == 1 ? " matches no camera" : " match no camera") + "; there are " +
-                  joined(known) + "; takes names, as in left,right, and * for any letters");
+                  joined(known) + "; takes names, as in left,right, and * for any letters" + comma_hint(known) +
+                  eyes_hint(group));
 }
 
 void set_views(std::vector<SizedStructure>& structures, const AllocationScope& scope) {
@@ -377,10 +407,12 @@ void set_views(std::vector<SizedStructure>& structures, const AllocationScope& s
       known.push_back((*result_case)["camera"].get<std::string>());
     throw Error("", "--views",
                 "'" + group + "' names no two cameras of a scene; " + structures.front().name + " has " +
-                    joined(known) + "; takes names, as in left,right, and * for any letters");
+                    joined(known) + "; takes names, as in left,right, and * for any letters" + comma_hint(known));
   }
   if (!is_owner_known && !structures.empty())
     throw Error("", "--grid-of", "'" + scope.grid_of + "' is none of the cameras of --views");
+  for (SizedStructure& structure : structures)
+    if (!structure.guests.empty()) leave_out_others(structure, scope.views);
 }
 
 void set_taken(std::vector<SizedStructure>& structures, const Json& result) {

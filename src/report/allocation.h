@@ -131,7 +131,8 @@ struct SizedStructure {
   std::vector<std::vector<std::string>> views;  // cameras in one frame, as far as they are in it
   std::vector<std::string> guests;              // cameras without a grid of their own
   std::vector<GuestSamples> guest_samples;
-  std::vector<GrownTiles> grown;  // of its cases
+  std::vector<std::string> left_out;  // cameras that have no part in the one grid of others, and are not in `cases`
+  std::vector<GrownTiles> grown;      // of its cases
   std::vector<FoundFrame> searches;
   std::vector<std::string> taken_by;            // cameras whose conclusion in the result takes a case of it
   std::string choice;                           // why it is printed, beside what the conclusion takes; ""
@@ -148,6 +149,7 @@ struct SizedStructure {
   std::string sought_measure() const;
   bool is_sought() const;
   bool is_taken() const { return !taken_by.empty(); }
+  bool is_guest(const std::string& camera) const { return std::ranges::find(guests, camera) != guests.end(); }
   std::uint64_t bytes() const;
   std::uint64_t frames() const;  // of all cameras, or of cameras in one frame, each frame once
   // Of those that a buffer's figures are of.

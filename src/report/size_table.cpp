@@ -103,7 +103,8 @@ std::string worst_lines(const SizedStructure& structure) {
 std::string longest_line(const SizedStructure& structure) {
   double longest = 0.0;
   for (const Json* result_case : structure.cases)
-    longest = std::max(longest, number_at(*result_case, "/occupancy/lights_per_cell/max").value_or(0.0));
+    if (!structure.is_guest((*result_case)["camera"].get<std::string>()))
+      longest = std::max(longest, number_at(*result_case, "/occupancy/lights_per_cell/max").value_or(0.0));
   return longest == 0.0 ? "" : "  longest list: " + number_of(static_cast<std::uint64_t>(longest), "light") + "\n";
 }
 
@@ -135,10 +136,14 @@ std::string counted_text(const SizedStructure& structure) {
     cameras.insert((*result_case)["camera"].get<std::string>());
     viewports.insert((*result_case)["viewport"].dump());
   }
+  for (const std::string& guest : structure.guests) cameras.erase(guest);
   std::string out = number_of(cameras.size(), "camera") + ", " + number_of(structure.frames(), "frame");
   if (viewports.size() > 1) out += ", " + number_of(viewports.size(), "viewport");
   for (const std::vector<std::string>& view : structure.views)
     out += "; in one buffer in one frame: " + shown(joined(view, " + "));
+  if (!structure.guests.empty()) out += "; in its grid, without lists of their own: " + shown(joined(structure.guests));
+  if (!structure.left_out.empty())
+    out += "; not counted, since they have no part in it: " + shown(joined(structure.left_out));
   return out;
 }
 
@@ -187,6 +192,13 @@ std::string size_table(const std::vector<NamedStructure>& structures, const std:
       std::ranges::any_of(structures, [](const NamedStructure& named) { return named.structure.is_sought(); });
   const bool is_of_nothing = std::ranges::any_of(
       structures, [](const NamedStructure& named) { return is_sized_from_nothing(named.structure); });
+  const bool is_too_narrow = std::ranges::any_of(
+      structures, [](const NamedStructure& named) { return lack_lights(named.structure.guest_samples); });
+  if (is_too_narrow)
+    out +=
+        "Next: one grid that holds all views, of a camera a little behind them: `clusterbench scene views LEVEL --add "
+        "both=0,0,BACK`, for eyes BACK = half their distance over the tangent of half the horizontal field of view, "
+        "and then --views both,... --grid-of both; or lists for each view, without --grid-of.\n";
   if (is_of_nothing) return out + "Do not allocate these: give cameras that see lights, or --worst-case.\n";
   return out + (is_searched
                     ? "Allocate these capacities; --format cpp, hlsl or glsl has them as code.\n"

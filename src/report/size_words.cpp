@@ -128,6 +128,7 @@ std::vector<std::string> grid_notes(const SizedStructure& structure) {
   for (const nlohmann::ordered_json* result_case : structure.cases) {
     const nlohmann::ordered_json& grid = (*result_case)["grid"];
     const auto camera = (*result_case)["camera"].get<std::string>();
+    if (structure.is_guest(camera)) continue;
     cameras.insert(camera);
     if (!grid.contains("note")) continue;
     const auto note = grid["note"].get<std::string>();
@@ -170,12 +171,17 @@ std::vector<std::string> limit_notes(const SizedStructure& structure) {
 std::vector<std::string> guest_lines(const SizedStructure& structure) {
   std::vector<std::string> lines;
   for (const GuestSamples& guest : structure.guest_samples)
-    lines.push_back(
-        "samples of " + guest.camera + " in this grid (points at random depths of its view, not on surfaces): " +
-        share_text(guest.outside, guest.samples) + " lie outside of it; " + share_text(guest.missed, guest.needed) +
-        " of the lights that they need are missing (" + share_text(guest.missed_outside, guest.needed) +
-        " outside), most in frame " + std::to_string(guest.worst_frame));
+    lines.push_back(std::string(guest.missed > 0 ? "WARNING: " : "") + "samples of " + guest.camera +
+                    " in this grid (points at random depths of its view, not on surfaces): " +
+                    share_text(guest.outside, guest.samples) + " lie outside of it; " +
+                    share_text(guest.missed, guest.needed) + " of the lights that they need are missing (" +
+                    share_text(guest.missed_outside, guest.needed) + " outside), most in frame " +
+                    std::to_string(guest.worst_frame));
   return lines;
+}
+
+bool lack_lights(const std::vector<GuestSamples>& guests) {
+  return std::ranges::any_of(guests, [](const GuestSamples& guest) { return guest.missed > 0; });
 }
 
 std::string nothing_seen_text(const SizedStructure& structure) {

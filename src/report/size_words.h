@@ -31,8 +31,9 @@ struct MarkLine {
 // words. None of a buffer of which nothing can overflow.
 std::vector<MarkLine> mark_lines(const SizedBuffer& buffer, const SizedStructure& structure);
 
-// What samples of cameras without a grid of their own lack: a line each.
+// What samples of cameras without a grid of their own lack: a line each, and whether any lack lights.
 std::vector<std::string> guest_lines(const SizedStructure& structure);
+bool lack_lights(const std::vector<GuestSamples>& guests);
 
 // Why the frames that were counted say nothing of what frames with lights need: no light was ever in view, or no list
 // had one; "" where some did.

@@ -279,7 +279,7 @@ TEST(SizeMarks, an_engines_setting_names_the_largest_of_several_finds) {
   refused.refusal = "its seconds were over";
   SizeRequest request = marks_request("table");
   request.engine = "bevy";
-  request.has_own_grid = true;
+  result.cases[0].preset = "bevy";
   std::vector<std::vector<FoundFrame>> orders{{less, more}, {more, less}, {refused, less, more}, {more, refused, less}};
   for (const std::vector<FoundFrame>& order : orders) {
     request.scope.found = order;
@@ -312,7 +312,7 @@ TEST(SizeMarks, an_engines_own_value_without_room_for_the_margin_is_not_called_e
   nlohmann::ordered_json json = result_to_json(result_of_cameras({camera_of_marks("walk", {10, 40})}), {});
   SizeRequest request = marks_request("table");
   request.engine = "playcanvas";
-  request.has_own_grid = true;
+  json["cases"][0]["preset"] = "playcanvas";
   json["cases"][0]["lights"] = 2000;
   const auto told = [&](int longest) {
     json["cases"][0]["occupancy"]["lights_per_cell"]["max"] = longest;
@@ -322,7 +322,79 @@ TEST(SizeMarks, an_engines_own_value_without_room_for_the_margin_is_not_called_e
       told(200).find("maxLightsPerCell: 255 (the engine's own 255 is enough for what was seen, not for the margin)"),
       std::string::npos)
       << told(200);
-  EXPECT_NE(told(100).find("maxLightsPerCell: 200 (the engine's own 255 is enough)"), std::string::npos) << told(100);
+  EXPECT_NE(told(100).find("maxLightsPerCell: 200 (the engine's own 255 is enough: leave it)"), std::string::npos)
+      << told(100);
+  EXPECT_NE(told(100).find("    with the margin: 100 x 2\n"), std::string::npos) << told(100);
+  EXPECT_NE(told(100).find("\nNothing to set: what the engine comes with is enough"), std::string::npos) << told(100);
+}
+
+// Bevy's tiles follow the viewport, so each has a structure of its own; its setting is one of the whole program.
+TEST(SizeMarks, of_several_structures_that_share_an_engines_setting_the_largest_value_is_told_to_be_set) {
+  nlohmann::ordered_json json = result_to_json(
+      result_of_cameras({camera_of_marks("walk", {10, 40}, 1, "960x540 "), camera_of_marks("walk", {10, 40})}), {});
+  for (std::size_t i = 0; i < 2; ++i) {
+    json["cases"][i]["preset"] = "bevy";
+    json["cases"][i]["buffers"]["index_entries"]["high_water"] = 40000 - 10000 * i;
+  }
+  SizeRequest request = marks_request("table");
+  request.engine = "bevy";
+  const std::string text = size_report(json, request);
+  EXPECT_NE(
+      text.find("The engine has one setting for all 2 above, which is the largest:\n"
+                "  GlobalClusterSettings::view_cluster_bindings_max_indices: 80000 (the engine comes with 16384)"),
+      std::string::npos)
+      << text;
+  EXPECT_NE(text.find("the fallback on the CPU, whose lists are uploaded; the default since 0.19 is bevy-gpu"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("  ClusterConfig: leave it alone"), std::string::npos) << text;
+  request.format = "json";
+  const MarksJson structures = MarksJson::parse(size_report(json, request))["structures"];
+  for (const MarksJson& structure : structures)
+    EXPECT_EQ(structure["settings"]["limits"][0]["value_for_all"], 80000) << structure;
+  json["cases"].erase(1);
+  request.format = "table";
+  EXPECT_EQ(size_report(json, request).find("one setting for all"), std::string::npos);
+}
+
+TEST(SizeMarks, a_camera_whose_name_has_a_comma_is_told_how_to_be_named) {
+  const run::Result result = result_of_cameras({camera_of_marks("left, up", {10}), camera_of_marks("right", {30})});
+  try {
+    sized_json(result, with_views({"left, up,right"}));
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("write ? for that of 'left, up', as in 'left? up'"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(sized_json(result, with_views({"left? up,right"}))["views"][0], MarksJson({"left, up", "right"}));
+}
+
+TEST(SizeMarks, a_camera_that_has_no_part_in_the_grid_of_others_makes_no_mark_of_it) {
+  run::CaseResult right = camera_of_marks("right", {30, 10});
+  right.grid["note"] = "the grid of right";
+  const run::Result result =
+      result_of_cameras({camera_of_marks("walk", {500, 600}), camera_of_marks("left", {10, 20}), right});
+  SizeRequest request = with_views({"left,right"});
+  request.scope.grid_of = "left";
+  EXPECT_EQ(sized_json(result, request)["buffers"][0]["high_water"], 20);
+  EXPECT_EQ(sized_json(result, request)["frames"], 2);
+  request.format = "table";
+  GuestSamples lacking{result.cases[1].name, "right", 1000, 50, 400, 20, 20, 1};
+  request.scope.guests = {lacking};
+  std::string text = marks_of(result, request);
+  EXPECT_NE(
+      text.find("(1 camera, 2 frames; in its grid, without lists of their own: right; not counted, since they have "
+                "no part in it: walk)"),
+      std::string::npos)
+      << text;
+  EXPECT_NE(text.find("  WARNING: samples of right in this grid"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nNext: one grid that holds all views"), std::string::npos) << text;
+  EXPECT_NE(text.find("--add both=0,0,BACK"), std::string::npos) << text;
+  EXPECT_EQ(text.find("the grid of right"), std::string::npos) << text;
+  request.scope.guests[0].missed = request.scope.guests[0].missed_outside = 0;
+  text = marks_of(result, request);
+  EXPECT_EQ(text.find("WARNING"), std::string::npos) << text;
+  EXPECT_EQ(text.find("one grid that holds"), std::string::npos) << text;
 }
 
 TEST(SizeMarks, notes_of_the_grid_name_the_cameras_that_they_are_of) {
