@@ -34,7 +34,7 @@ std::string growth_text(const SizedBuffer& buffer) {
   constexpr double k_still = 1.01;
   if (!buffer.growth.empty() &&
       static_cast<double>(buffer.high_water) > k_still * static_cast<double>(buffer.growth[2].high_water))
-    out += ": STILL GROWING, count more frames";
+    out += ": STILL GROWING, count more frames (of the scene, not of its result)";
   return out;
 }
 
