@@ -91,8 +91,8 @@ TEST(Table, what_was_not_measured_has_no_column_or_a_dash) {
 
 TEST(Table, marks_have_a_legend_that_says_what_was_measured) {
   run::Result result = result_by_hand();
-  EXPECT_NE(table_of(result).find(
-                "camera and viewport is as good in time (as measured), bytes and overshade, and better in one.\n"),
+  EXPECT_NE(table_of(result).find("at most 0.1 % unlit, and no other such case of its view is as good in time (as "
+                                  "measured), bytes and overshade, and better in one.\n"),
             std::string::npos);
   EXPECT_EQ(table_of(result).find("-: not measured"), std::string::npos);
   for (run::CaseResult& case_result : result.cases) case_result.timing.reset();
