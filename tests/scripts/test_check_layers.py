@@ -52,6 +52,11 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertEqual(out, "src/geom/numbers/a.h: includes geom/shapes/b.h, but geom/numbers is not above geom/shapes\n")
 
+    def test_a_header_of_the_system_outside_of_os_is_found(self):
+        for header in ("unistd.h", "sys/wait.h", "linux/perf_event.h", "csignal"):
+            code, out = self.check({"cli/a.cpp": f"#include <{header}>\n", "os/b.cpp": f"#include <{header}>\n"})
+            self.assertEqual((code, out), (1, f"src/cli/a.cpp: includes {header}, whose home is os\n"))
+
     def test_a_library_outside_its_home_is_found(self):
         for layer, library, home in (("grid", "multiprecision", "geom"), ("geom", "math", "measure")):
             code, out = self.check({f"{layer}/a.cpp": f"#include <boost/{library}/x.hpp>\n"})
