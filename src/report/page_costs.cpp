@@ -8,8 +8,11 @@
 #include "report/result_json.h"
 
 namespace clusterbench::report {
+namespace {
 
 using Json = nlohmann::ordered_json;
+
+}  // namespace
 
 Json page_costs(const Json& result) {
   Json costs = Json::array();
