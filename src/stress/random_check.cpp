@@ -385,18 +385,25 @@ class SettingCheck {
     const bool has_fit = trial_.grid.has_tiles() && trial_.grid.slices.fit;
     const bool is_around_lights = trial_.grid.kind == grid::Kind::world && trial_.grid.follow == grid::Follow::lights;
     if (!has_fit && !is_around_lights) return;
-    if (!unfitted_) {
-      Trial plain = trial_;
-      plain.grid = trial_.grid.unfitted();
-      plain.grid.follow = grid::Follow::nothing;
-      unfitted_ = grid_of(plain, frame_);
-    }
-    if (grid::lookup(*unfitted_, sample) < 0) return;
+    if (!unfitted_) unfitted_ = unfitted_grid();
+    if (!*unfitted_ || grid::lookup(**unfitted_, sample) < 0) return;
     for (std::uint32_t light = 0; light < frame_.lights.size(); ++light) {
       if (lights_.is_empty(light) || !clearly_reaches(frame_.lights[light], sample, margin)) continue;
       add(FaultKind::shading, "",
           "the grid follows the lights and ends before a sample that light " + std::to_string(light) + " reaches", 0,
           light);
+    }
+  }
+
+  // Nothing where there is no such grid: around all lights cells can be too thin, which those in view have room for.
+  std::optional<grid::Grid> unfitted_grid() const {
+    Trial plain = trial_;
+    plain.grid = trial_.grid.unfitted();
+    plain.grid.follow = grid::Follow::nothing;
+    try {
+      return grid_of(plain, frame_);
+    } catch (const Error&) {
+      return std::nullopt;
     }
   }
 
@@ -457,7 +464,7 @@ class SettingCheck {
   std::span<const StressMethod> methods_;
   view::Frame frame_;
   grid::Grid grid_;
-  std::optional<grid::Grid> unfitted_;
+  std::optional<std::optional<grid::Grid>> unfitted_;  // once asked for: the grid that does not follow lights, if any
   view::LightArrays lights_;
   measure::Truth truth_;
   std::vector<Answer> answers_;

@@ -188,6 +188,14 @@ TEST(RandomSearch, refuses_a_setting_of_more_pairs_than_a_moment_allows) {
   EXPECT_EQ(report.counts.pairs, 0U);
 }
 
+TEST(RandomSearch, holds_a_grid_around_lights_in_view_where_there_is_none_around_all_lights) {
+  // A lamp far off: boundaries around all lights would coincide.
+  const StressMethod methods[] = {sound("exact")};
+  const SettingReport report = check_setting(random_setting(61905968480496), methods);
+  EXPECT_EQ(report.counts.refused, 0U);
+  EXPECT_TRUE(report.faults.empty());
+}
+
 TEST(RandomSearch, checks_a_setting_alone_by_its_seed) {
   const std::vector<StressMethod> methods{flawed<Flaw::adds>()};
   const RandomSearch whole = searched_at_random(methods, 8);
