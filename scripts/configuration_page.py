@@ -58,6 +58,11 @@ def number_range(schema):
     return text + (f" to {figure(high)}" if high is not None else "")
 
 
+def words_of(schema):
+    """The words of today; x-former has those of earlier versions."""
+    return [word for word in schema["enum"] if word not in schema.get("x-former", {})]
+
+
 def value_text(root, schema):
     """What can stand there."""
     if "$ref" in schema:
@@ -67,7 +72,7 @@ def value_text(root, schema):
     if "const" in schema:
         return f"`{json.dumps(schema['const'])}`"
     if "enum" in schema:
-        return ", ".join(f"`{json.dumps(word)}`" for word in schema["enum"])
+        return ", ".join(f"`{json.dumps(word)}`" for word in words_of(schema))
     if "type" not in schema:
         return " or ".join(dict.fromkeys(value_text(root, one) for one in schema.get("anyOf") or schema["oneOf"]))
     if isinstance(schema["type"], list):
@@ -135,7 +140,7 @@ def other_value(schema):
     """Any value but the default, as an example."""
     one = schema["anyOf"][0]
     if "enum" in one:
-        return next(word for word in reversed(one["enum"]) if word != schema["default"])
+        return next(word for word in reversed(words_of(one)) if word != schema["default"])
     if one["type"] == "boolean":
         return not schema["default"]
     twice = min(2 * schema["default"], one["maximum"])

@@ -106,7 +106,7 @@ export const againstSection: Section = (view, redraw) => {
     figureView({
       id: "against-first",
       title: `${second.label} against ${first.label}`,
-      lead: "A dot is a case that both results have; left of the line the second is faster. Times of separate runs are hints: they differ by themselves. `clusterbench compare` says what has changed.",
+      lead: "A dot is a case that both results have; left of the line the second is faster. Times of two runs of one program can differ several-fold: hints only. `clusterbench compare` says what has changed.",
       controls: [control],
       chart: isTimed ? ratios(view, rows, first, second) : undefined,
       table: () => ({

@@ -29,6 +29,10 @@ Json param_schema(const assign::ParamSpec& param) {
     schema.update({{"type", "number"}, {"minimum", param.min}, {"maximum", param.max}});
   } else {
     schema.update({{"type", "string"}, {"enum", param.choices}});
+    for (const auto& [former, current] : param.former) {
+      schema["enum"].push_back(former);
+      schema["x-former"][former] = current;
+    }
   }
   return schema;
 }

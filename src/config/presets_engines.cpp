@@ -105,7 +105,7 @@ constexpr Preset k_engines[] = {
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"pixels": [32, 32]},
                  "slices": {"scheme": "exponential", "count": 24, "far_default": 2000}},
-                 "assigner": {"name": "brute-force", "spot": "ball"}, "storage": {"name": "fixed", "cap": 64},
+                 "assigner": {"name": "brute-force", "spot": "sphere"}, "storage": {"name": "fixed", "cap": 64},
                  "pre_cull": [{"most": {"lights": 1024}}]})",
      .mistakes =
          "tiles are spread evenly over the viewport and looked up every 32 px; a full cell keeps the 64 farthest "
@@ -207,7 +207,7 @@ constexpr Preset k_engines[] = {
      .parts =
          R"({"grid": {"kind": "frustum", "tiles": {"pixels": [32, 32]}, "slices":
                  {"scheme": "linear", "count": 1, "far_default": 5000}},
-                 "assigner": {"name": "tiled-2.5d", "test": "both", "spot": "ball"},
+                 "assigner": {"name": "tiled-2.5d", "test": "both", "spot": "sphere"},
                  "pre_cull": ["frustum", {"most": {"lights": 256}}]})"},
     {.name = "unreal",
      .engine = "Unreal Engine",

@@ -1,5 +1,6 @@
 #include "report/case_filter.h"
 
+#include "assign/contract/assigner.h"
 #include "core/error.h"
 #include "core/pattern.h"
 #include "core/text.h"
@@ -10,6 +11,27 @@
 #include "run/sweep.h"
 
 namespace clusterbench::report {
+
+namespace {
+
+// Of a method as a case has it: name, label and params. Whether one was called otherwise.
+bool use_current_choices(nlohmann::ordered_json& method) {
+  const assign::AssignerDescriptor* known = assign::find_assigner(method.value("name", ""));
+  if (known == nullptr || !method.contains("params")) return false;
+  bool is_former = false;
+  for (const assign::ParamSpec& spec : known->params) {
+    const auto param = method["params"].find(spec.name);
+    if (param == method["params"].end() || !param->is_string()) continue;
+    const assign::ParamValue choice = param->get<std::string>(), current = assign::current_value(spec, choice);
+    if (current == choice) continue;
+    is_former = true;
+    *param = std::get<std::string>(current);
+  }
+  if (is_former) method["label"] = run::current_method(method["label"].get<std::string>());
+  return is_former;
+}
+
+}  // namespace
 
 run::CaseNames names_of_case(const nlohmann::ordered_json& result_case) {
   const auto text_of = [&](const char* pointer) {
@@ -27,9 +49,11 @@ run::CaseNames names_of_case(const nlohmann::ordered_json& result_case) {
 }
 
 void use_current_names(nlohmann::ordered_json& result) {
-  for (nlohmann::ordered_json& result_case : result["cases"])
-    if (result_case.value("storage", "") == run::k_own_structure)
+  for (nlohmann::ordered_json& result_case : result["cases"]) {
+    const bool has_former_choice = result_case.contains("assigner") && use_current_choices(result_case["assigner"]);
+    if (has_former_choice || result_case.value("storage", "") == run::k_own_structure)
       result_case["name"] = run::current_name(result_case["name"].get<std::string>());
+  }
 }
 
 bool is_selected(const Pattern& pattern, const nlohmann::ordered_json& result_case) {

@@ -25,18 +25,13 @@ Json identity(const config::SampleSetRequest& request) {
   return out;
 }
 
-bool is_late_default(std::span<const assign::ParamSpec> specs, const std::string& name,
-                     const assign::ParamValue& value) {
-  return std::ranges::any_of(specs, [&](const assign::ParamSpec& spec) {
-    return spec.is_late && spec.name == name && spec.standard == value;
-  });
-}
-
 Json identity(const config::MethodRequest& method, std::span<const assign::ParamSpec> specs) {
   Json params = Json::object();
-  for (const auto& [name, value] : method.params.values())
-    if (!is_late_default(specs, name, value))
-      params[name] = std::visit([](const auto& number) { return Json(number); }, value);
+  for (const assign::ParamSpec& spec : specs) {
+    const assign::ParamValue& value = method.params.values().at(spec.name);
+    if (spec.is_late && spec.standard == value) continue;
+    params[spec.name] = std::visit([](const auto& one) { return Json(one); }, assign::first_value(spec, value));
+  }
   return {{"name", method.name}, {"params", params}};
 }
 

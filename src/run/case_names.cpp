@@ -1,6 +1,7 @@
 #include "run/case_names.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/text.h"
 #include "run/sweep.h"
@@ -44,10 +45,40 @@ std::vector<std::string> other_names(const CaseNames& names) {
   return all;
 }
 
+// Choices of methods that were called otherwise: as they were and as they are, in the method's part of a name.
+constexpr std::pair<const char*, const char*> k_choices[] = {{"(spot=ball", "(spot=sphere"},
+                                                             {"(flaw=flat-cap-ball", "(flaw=flat-cap-sphere"}};
+
+// The method follows scene, camera and grid, which can be called anything. The end where there are fewer parts.
+std::size_t begin_of_method(const std::string& name) {
+  std::size_t method = 0;
+  for (int before = 0; before < 3; ++before) {
+    const std::size_t end = name.find('/', method);
+    if (end == std::string::npos) return name.size();
+    method = end + 1;
+  }
+  return method;
+}
+
+void replace_first(std::string& name, std::size_t begin, const std::string& text, const std::string& other) {
+  if (const std::size_t at = name.find(text, begin); at != std::string::npos) name.replace(at, text.size(), other);
+}
+
+std::string former_name(std::string name) {
+  for (const auto& [former, current] : k_choices) replace_first(name, begin_of_method(name), current, former);
+  return with_part(name, k_no_lists, k_own_structure);
+}
+
 }  // namespace
 
-std::string current_name(const std::string& name) {
+std::string current_name(std::string name) {
+  for (const auto& [former, current] : k_choices) replace_first(name, begin_of_method(name), former, current);
   return with_part(name, k_own_structure, k_no_lists);
+}
+
+std::string current_method(std::string label) {
+  for (const auto& [former, current] : k_choices) replace_first(label, 0, former, current);
+  return label;
 }
 
 std::string name_without_camera(const CaseNames& names, bool with_viewport) {
@@ -59,7 +90,7 @@ std::string name_without_camera(const CaseNames& names, bool with_viewport) {
 }
 
 bool is_selected(const Pattern& pattern, const CaseNames& names) {
-  return pattern.is_in(names.name) || pattern.is_in(with_part(names.name, k_no_lists, k_own_structure)) ||
+  return pattern.is_in(names.name) || pattern.is_in(former_name(names.name)) ||
          pattern.is_in_as_it_stands(printable(names.name)) ||
          std::ranges::any_of(other_names(names),
                              [&](const std::string& name) { return pattern.is(name) || pattern.is(printable(name)); });

@@ -19,8 +19,12 @@ struct CaseNames {
   std::string storage;
 };
 
-// A name of an earlier version as it is now: "street/walk/frustum/bvh/own" had a structure that is no lists.
-std::string current_name(const std::string& name);
+// A name of an earlier version as it is now: "street/walk/frustum/bvh/own" had a structure that is no lists,
+// "street/walk/frustum/aabb(spot=ball)/packed" a choice of another name.
+std::string current_name(std::string name);
+
+// The same of a method alone, "aabb(spot=ball)".
+std::string current_method(std::string label);
 
 // What follows scene and camera: "1920x1080 frustum 64px/exact-fast/packed"; without the viewport where it is not
 // wanted. Names that are not made like that are taken as they are.

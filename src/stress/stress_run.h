@@ -17,7 +17,7 @@ namespace clusterbench::stress {
 
 // An assigner with one choice of its parameters, in a form with lists per cell.
 struct StressMethod {
-  std::string label;  // "sphere-refinement(spot=ball)"
+  std::string label;  // "sphere-refinement(spot=sphere)"
   const assign::AssignerDescriptor* assigner = nullptr;
   assign::Params params;
   bool conservative = true;

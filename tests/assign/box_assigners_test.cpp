@@ -9,7 +9,7 @@
 namespace clusterbench::assign::testing {
 namespace {
 
-constexpr const char* k_spot_choices[] = {"ball", "range", "cone-sphere", "both"};
+constexpr const char* k_spot_choices[] = {"sphere", "range", "cone-sphere", "both"};
 
 std::vector<Setting> frustum_settings(std::uint64_t seed) {
   return settings_for(*find_assigner("bounds"), seed);
@@ -70,15 +70,15 @@ TEST(BoxAssigners, planes_aabb_and_sphere_refinement_stay_within_bounds) {
 
 TEST(BoxAssigners, planes_cost_a_test_per_cell_and_exclude_next_to_nothing_within_bounds) {
   for (const Setting& setting : frustum_settings(4)) {
-    const double planes = listed(setting, "planes", "ball").pair_count();
-    EXPECT_GT(planes, 0.999 * listed(setting, "bounds", "ball").pair_count()) << setting.name;
+    const double planes = listed(setting, "planes", "sphere").pair_count();
+    EXPECT_GT(planes, 0.999 * listed(setting, "bounds", "sphere").pair_count()) << setting.name;
   }
 }
 
 TEST(BoxAssigners, the_cone_test_only_takes_cells_away) {
   for (const Setting& setting : frustum_settings(5))
     for (const char* assigner : {"brute-force", "bounds", "planes", "aabb"}) {
-      const Lists both = listed(setting, assigner, "both"), ball = listed(setting, assigner, "ball");
+      const Lists both = listed(setting, assigner, "both"), ball = listed(setting, assigner, "sphere");
       EXPECT_TRUE(contained(both, ball)) << assigner << ", " << setting.name;
       EXPECT_LT(both.pair_count(), ball.pair_count()) << assigner << ", " << setting.name;
     }
@@ -261,7 +261,7 @@ TEST(Spots, a_long_thin_spot_across_the_view_takes_a_fraction_of_its_balls_cells
   const auto pairs = [&](const char* spot) {
     return lists_by("aabb", frame, grid, {{"spot", std::string(spot)}}).pair_count();
   };
-  EXPECT_LT(5 * pairs("both"), pairs("ball"));
+  EXPECT_LT(5 * pairs("both"), pairs("sphere"));
   EXPECT_LE(pairs("both"), pairs("cone-sphere"));
 }
 
@@ -277,7 +277,7 @@ TEST(Spots, take_no_memory_where_there_are_none) {
     assigner->assign({frame, lights}, lists);
     return assigner->scratch_bytes();
   };
-  EXPECT_EQ(scratch("both", 0), scratch("ball", 0));
+  EXPECT_EQ(scratch("both", 0), scratch("sphere", 0));
   EXPECT_GE(scratch("both", 1), scratch("both", 0) + grid.cell_count() * sizeof(geom::Ball));
 }
 

@@ -30,7 +30,7 @@ TEST(Cascades, list_what_every_light_against_every_box_lists_and_nothing_in_hole
 TEST(Cascades, hold_every_drawn_point_of_random_points_and_spots_in_every_spot_mode) {
   const view::Frame frame = frame_with(random_lights(100, 150, 42));
   const grid::Grid grid = grid_of(cascades_spec({16, 16, 16}, 5), frame);
-  for (const char* spot : {"ball", "range", "cone-sphere", "both"})
+  for (const char* spot : {"sphere", "range", "cone-sphere", "both"})
     EXPECT_EQ(count_misses(frame, grid, lists_by("cascades", frame, grid, {{"spot", std::string(spot)}}), 2000, 43), 0)
         << spot;
 }

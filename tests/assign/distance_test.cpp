@@ -24,7 +24,7 @@ view::Frame frame_at(double fov_deg, std::vector<scene::WorldLight> lights) {
 TEST(Distance, holds_every_drawn_point_of_random_points_and_spots_in_every_spot_mode) {
   const view::Frame frame = frame_at(60, random_lights(150, 150, 21));
   const grid::Grid grid = grid_of(shells({16, 9}, 24), frame);
-  for (const char* spot : {"ball", "range", "cone-sphere", "both"})
+  for (const char* spot : {"sphere", "range", "cone-sphere", "both"})
     EXPECT_EQ(count_misses(frame, grid, lists_by("distance", frame, grid, {{"spot", std::string(spot)}}), 2000, 22), 0)
         << spot;
 }

@@ -9,7 +9,12 @@ namespace clusterbench::assign {
 namespace {
 
 const std::vector<ParamSpec> k_specs{
-    {.name = "spot", .summary = "", .standard = std::string("both"), .unit = "", .choices = {"ball", "both"}},
+    {.name = "spot",
+     .summary = "",
+     .standard = std::string("both"),
+     .unit = "",
+     .choices = {"sphere", "both"},
+     .former = {{"ball", "sphere"}}},
     {.name = "margin", .summary = "", .standard = 2.0, .unit = "m", .min = 0.5, .max = 4.0, .choices = {}},
     {.name = "cap",
      .summary = "",
@@ -43,11 +48,17 @@ TEST(Params, what_is_not_given_has_its_default) {
 }
 
 TEST(Params, given_values_replace_defaults) {
-  const Params params(k_specs, {{"spot", std::string("ball")}, {"fast", false}, {"cap", 1.0}, {"margin", 0.5}});
-  EXPECT_EQ(params.text("spot"), "ball");
+  const Params params(k_specs, {{"spot", std::string("sphere")}, {"fast", false}, {"cap", 1.0}, {"margin", 0.5}});
+  EXPECT_EQ(params.text("spot"), "sphere");
   EXPECT_FALSE(params.flag("fast"));
   EXPECT_EQ(params.number("cap"), 1.0);
   EXPECT_EQ(params.number("margin"), 0.5);
+}
+
+TEST(Params, a_former_name_of_a_choice_means_the_choice) {
+  EXPECT_EQ(Params(k_specs, {{"spot", std::string("ball")}}).text("spot"), "sphere");
+  EXPECT_EQ(first_value(k_specs[0], std::string("sphere")), ParamValue(std::string("ball")));
+  EXPECT_EQ(first_value(k_specs[0], std::string("both")), ParamValue(std::string("both")));
 }
 
 TEST(Params, an_unknown_name_is_refused_with_the_likely_one_and_all_that_exist) {
@@ -76,7 +87,8 @@ TEST(Params, a_wrong_type_is_refused_with_what_was_found_and_what_it_must_be) {
 }
 
 TEST(Params, a_choice_that_does_not_exist_is_refused_with_the_choices) {
-  EXPECT_EQ(refusal("spot", std::string("bal")), "spot: is 'bal' (did you mean 'ball'?); allowed: ball, both");
+  EXPECT_EQ(refusal("spot", std::string("bal")), "spot: is 'bal'; allowed: sphere, both");
+  EXPECT_EQ(refusal("spot", std::string("spher")), "spot: is 'spher' (did you mean 'sphere'?); allowed: sphere, both");
 }
 
 TEST(Params, a_number_out_of_range_or_no_number_is_refused_with_the_range) {

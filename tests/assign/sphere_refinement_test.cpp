@@ -45,9 +45,9 @@ TEST(SphereRefinement, stays_within_bounds_and_narrowing_within_both) {
   const auto refined = [&](const char* spot) {
     return lists_by("sphere-refinement", frame, grid, {{"spot", std::string(spot)}});
   };
-  for (const char* spot : {"ball", "range", "cone-sphere", "both"})
+  for (const char* spot : {"sphere", "range", "cone-sphere", "both"})
     EXPECT_TRUE(contained(refined(spot), lists_by("bounds", frame, grid, {{"spot", std::string(spot)}}))) << spot;
-  EXPECT_TRUE(contained(refined("both"), refined("ball")));
+  EXPECT_TRUE(contained(refined("both"), refined("sphere")));
   EXPECT_TRUE(contained(refined("narrowing"), refined("both")));
   EXPECT_LT(refined("narrowing").pair_count(), refined("both").pair_count());
 }
@@ -55,7 +55,7 @@ TEST(SphereRefinement, stays_within_bounds_and_narrowing_within_both) {
 TEST(SphereRefinement, holds_every_drawn_point_of_random_points_and_spots_in_every_spot_mode) {
   const view::Frame frame = full_hd_frame(random_lights(150, 150, 11));
   const grid::Grid grid = grid_of(frustum_12x12x24(), frame);
-  for (const char* spot : {"ball", "range", "cone-sphere", "both", "narrowing"})
+  for (const char* spot : {"sphere", "range", "cone-sphere", "both", "narrowing"})
     EXPECT_EQ(
         count_misses(frame, grid, lists_by("sphere-refinement", frame, grid, {{"spot", std::string(spot)}}), 2000, 12),
         0)
@@ -65,7 +65,7 @@ TEST(SphereRefinement, holds_every_drawn_point_of_random_points_and_spots_in_eve
 // By one plane a column is rejected only where the ball lies beyond it, so nothing is lost, and more is kept.
 TEST(SphereRefinement, by_the_nearest_plane_of_each_column_lists_all_that_both_planes_list_and_more) {
   const view::Frame frame = full_hd_frame(random_lights(200, 100, 19));
-  for (const char* spot : {"ball", "cone-sphere"}) {
+  for (const char* spot : {"sphere", "cone-sphere"}) {
     const grid::Grid grid = grid_of(frustum_12x12x24(), frame);
     const Lists both = lists_by("sphere-refinement", frame, grid, {{"spot", std::string(spot)}});
     const Lists nearest =
@@ -97,7 +97,7 @@ TEST(SphereRefinement, holds_every_drawn_point_in_an_orthographic_view) {
   spec.slices.near_m = 0.0;
   spec.slices.far_m = 300;
   const grid::Grid grid = grid_of(spec, frame);
-  for (const char* spot : {"ball", "narrowing"})
+  for (const char* spot : {"sphere", "narrowing"})
     EXPECT_EQ(
         count_misses(frame, grid, lists_by("sphere-refinement", frame, grid, {{"spot", std::string(spot)}}), 2000, 14),
         0)

@@ -32,7 +32,7 @@ TEST(WorldGrid, holds_every_drawn_point_of_random_points_and_spots_in_every_spot
   view::Frame frame = frame_with(random_lights(100, 150, 32));
   frame.view_space.origin = {3, 2, 1};  // the eye does not matter to the world's boxes
   const grid::Grid grid = grid_of(world_spec({32, 8, 40}), frame);
-  for (const char* spot : {"ball", "range", "cone-sphere", "both"})
+  for (const char* spot : {"sphere", "range", "cone-sphere", "both"})
     EXPECT_EQ(count_misses(frame, grid, lists_by("world-grid", frame, grid, {{"spot", std::string(spot)}}), 2000, 33),
               0)
         << spot;

@@ -45,7 +45,7 @@ NamesJson random_named_grid(SplitMix64& random) {
 NamesJson random_named_config(SplitMix64& random) {
   NamesJson config{{"scenes", NamesJson::array({{{"path", test::source_file("scenes/street.glb")}, {"frames", 1}}})},
                    {"viewports", {{320, 180}}},
-                   {"assigners", {"exact-fast", {{"name", "aabb"}, {"spot", "ball"}}, "bvh"}},
+                   {"assigners", {"exact-fast", {{"name", "aabb"}, {"spot", "sphere"}}, "bvh"}},
                    {"storages", {"packed", {{"name", "fixed"}, {"cap", 64}}}},
                    {"accuracy", {{"check", false}}},
                    {"limits", {{"dropped_pairs", nullptr}}}};
@@ -154,6 +154,39 @@ TEST_F(PrintedNames, of_a_structure_select_its_cases_of_all_cameras_and_nothing_
       EXPECT_NE(line.find(name.substr(name.find('/') + 1)), std::string::npos) << line;
     }
     EXPECT_EQ(lines, 1u) << name << "\n" << planned.out;
+  }
+}
+
+TEST(FormerNames, of_a_methods_choice_are_those_of_today_wherever_they_are_read) {
+  const test::Folder folder;
+  const auto configuration = [](const std::string& spot) {
+    return R"({"scenes": [{"path": ")" + test::source_file("scenes/street.glb") +
+           R"(", "frames": 2}], "viewport": [320, 180], "grids": [{"kind": "frustum", "slices": {"count": 4}}],
+             "assigners": [{"name": "aabb", "spot": ")" +
+           spot + R"("}], "timing": {"measure": false}})";
+  };
+  const auto result_of = [&](const std::string& spot) {
+    const std::string out = (folder / (spot + ".result.json")).string();
+    EXPECT_EQ(tool("run -q -o " + out + " " + folder.write(spot + ".json", configuration(spot)).string()).code, 0);
+    return out;
+  };
+  const std::string now = result_of("sphere"), before = result_of("ball");
+  EXPECT_EQ(NamesJson::parse(test::file_text(now))["cases"], NamesJson::parse(test::file_text(before))["cases"]);
+  // As an earlier version wrote it.
+  NamesJson old = NamesJson::parse(test::file_text(now));
+  NamesJson& one = old["cases"][0];
+  one["assigner"]["label"] = "aabb(spot=ball)";
+  one["assigner"]["params"]["spot"] = "ball";
+  std::string name = one["name"];
+  name.replace(name.find("spot=sphere"), 11, "spot=ball");
+  one["name"] = name;
+  const std::string former = folder.write("former.json", old.dump()).string();
+  const Outcome compared = tool("compare " + former + " " + now);
+  EXPECT_EQ(compared.code, 0) << compared.out << compared.err;
+  for (const char* spot : {"sphere", "ball"}) {
+    const Outcome exported = tool("export --format csv --filter 'aabb(spot=" + std::string(spot) + ")' " + former);
+    EXPECT_EQ(exported.code, 0) << exported.err;
+    EXPECT_NE(exported.out.find("aabb(spot=sphere)"), std::string::npos) << exported.out;
   }
 }
 

@@ -89,7 +89,7 @@ TEST(Deferred, a_spot_shades_the_pixels_in_its_cone_or_with_its_ball_alone_those
   // A disk of 5 tan(0.3) at 10 m.
   const double disk = std::numbers::pi * std::pow(5 * std::tan(0.3) / 10 * 100, 2);
   EXPECT_NEAR(static_cast<double>(pixels_of(setting, "both").shaded), disk, 0.03 * disk);
-  EXPECT_GT(drawn(setting, {{"spot", std::string("ball")}}).structure()->use().index_entries, 1.5 * disk);
+  EXPECT_GT(drawn(setting, {{"spot", std::string("sphere")}}).structure()->use().index_entries, 1.5 * disk);
 }
 
 TEST(Deferred, a_ball_that_the_near_plane_cuts_is_drawn_beyond_it_alone_whatever_the_grid) {

@@ -172,7 +172,7 @@ TEST(NaiveForm, a_loose_form_loses_nothing_and_lists_more) {
     assigner->assign({case_text.frame, view::lights_in(case_text.frame, case_text.frame.view_space)}, lists);
     return lists.pair_count();
   };
-  for (const char* flaw : {"no-range", "flat-cap-ball"}) {
+  for (const char* flaw : {"no-range", "flat-cap-sphere"}) {
     EXPECT_EQ(lost_by_flaw(case_text, "naive-cone", flaw), 0) << flaw;
     EXPECT_GT(pairs("naive-cone", {{"flaw", std::string(flaw)}}), pairs("sphere-refinement", {})) << flaw;
   }

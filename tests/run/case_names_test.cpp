@@ -34,5 +34,17 @@ TEST(CaseNames, filters_and_names_of_earlier_versions_still_mean_structures_with
   EXPECT_EQ(current_name("own/own/own/own/packed"), "own/own/own/own/packed") << "of scene, camera, grid and method";
 }
 
+TEST(CaseNames, choices_that_were_called_otherwise_are_found_by_both_names) {
+  CaseNames spots = k_case;
+  spots.name = "street/walk/frustum 64px/aabb(spot=sphere)/packed";
+  for (const char* name : {"aabb(spot=sphere)", "aabb(spot=ball)", "street/walk/frustum 64px/aabb(spot=ball)/packed"})
+    EXPECT_TRUE(is_selected(Pattern(name, ""), spots)) << name;
+  EXPECT_EQ(current_name("street/walk/frustum 64px/aabb(spot=ball,inflation=2)/packed"),
+            "street/walk/frustum 64px/aabb(spot=sphere,inflation=2)/packed");
+  EXPECT_EQ(current_name("street/walk/frustum 64px/naive-cone(flaw=flat-cap-ball)/packed"),
+            "street/walk/frustum 64px/naive-cone(flaw=flat-cap-sphere)/packed");
+  EXPECT_EQ(current_name("a(spot=ball)/b/c/exact/packed"), "a(spot=ball)/b/c/exact/packed") << "a scene's name";
+}
+
 }  // namespace
 }  // namespace clusterbench::run

@@ -52,7 +52,7 @@ class Published(unittest.TestCase):
     def test_each_is_noticed_where_it_does_not_hold(self):
         def scaled(scene, grid, label, *way, by):
             def change(case):
-                if case["scene"] == scene and grid in case["grid"]["name"] and case["assigner"]["label"] == label:
+                if case["scene"] == scene and grid in case["grid"]["name"] and depth_trends.current(case["assigner"]["label"]) == label:
                     inner = case
                     for key in way[:-1]:
                         inner = inner[key]
@@ -62,9 +62,9 @@ class Published(unittest.TestCase):
         pairs, evaluated = ("error", "reported_pairs"), ("samples", "opaque", "evaluated")
         dense = ("rig-2400-r30", "x 64 ", "exact-fast")
         for key, scene, result, change in (
-                ("cube-aabb", "open-world", "trends", scaled("open-world", "64px", "aabb(spot=ball)", *pairs, by=1.2)),
-                ("cube-refinement", "open-world", "trends", scaled("open-world", "64px", "sphere-refinement(spot=ball)", *pairs, by=0.5)),
-                ("cube-planes", "hall-512", "trends", scaled("hall-512", "64px", "planes(spot=ball)", *pairs, by=0.99)),
+                ("cube-aabb", "open-world", "trends", scaled("open-world", "64px", "aabb(spot=sphere)", *pairs, by=1.2)),
+                ("cube-refinement", "open-world", "trends", scaled("open-world", "64px", "sphere-refinement(spot=sphere)", *pairs, by=0.5)),
+                ("cube-planes", "hall-512", "trends", scaled("hall-512", "64px", "planes(spot=sphere)", *pairs, by=0.99)),
                 ("upload", "hall-2048", "trends", scaled("hall-2048", "64px", "sphere-refinement", "buffers", "upload_bytes", "mean", by=2)),
                 ("cubical", "open-world", "trends", scaled("open-world", "128px", "aabb", *pairs, by=1.3)),
                 ("linear", "hall-*", "trends", scaled("hall-2048", "12x12", "brute-force", "tests_done", by=2)),
@@ -99,7 +99,7 @@ class DepthTrends(unittest.TestCase):
         def with_change(slices, label, pointer, factor):
             changed = copy.deepcopy(result)
             for case in changed["cases"]:
-                if case["grid"]["cells"][2] == slices and case["assigner"]["label"] == label:
+                if case["grid"]["cells"][2] == slices and depth_trends.current(case["assigner"]["label"]) == label:
                     *way, last = pointer
                     inner = case
                     for key in way:
@@ -111,7 +111,7 @@ class DepthTrends(unittest.TestCase):
         self.assertIn("a", with_change(256, "exact-fast", (*lists, "mean"), 100))
         self.assertIn("b", with_change(64, "tiled-2.5d", ("samples", "opaque", "evaluated"), 3))
         self.assertIn("b", with_change(64, "exact-fast", ("samples", "opaque", "evaluated"), 30))
-        self.assertIn("c", with_change(16, "sphere-refinement(spot=ball)", ("error", "reported_pairs"), 3))
+        self.assertIn("c", with_change(16, "sphere-refinement(spot=sphere)", ("error", "reported_pairs"), 3))
         self.assertIn("d", with_change(64, "aabb", ("error", "reported_pairs"), 1.2))
         self.assertIn("e", with_change(256, "aabb", (*lists, "p99"), 20))
 

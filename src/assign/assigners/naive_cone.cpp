@@ -86,16 +86,17 @@ extern const AssignerDescriptor naive_cone_descriptor;
 const AssignerDescriptor naive_cone_descriptor{
     .name = "naive-cone",
     .summary = "spots by a cone test with one mistake that engines have shipped",
-    .source = "Wicked Engine (flat-cap-ball), articles on cone culling (no-range, sine-from-cosine)",
+    .source = "Wicked Engine (flat-cap-sphere), articles on cone culling (no-range, sine-from-cosine)",
     .kinds = {grid::Kind::frustum},
     .conservative = false,
     .naive = true,
     .params = {{.name = "flaw",
                 .summary = "the mistake. sine-from-cosine: the sine of the angle is computed from its cosine; "
-                           "no-range: no test against the range; flat-cap-ball: the sphere of a cone with a flat cap",
+                           "no-range: no test against the range; flat-cap-sphere: the sphere of a cone with a flat cap",
                 .standard = std::string("sine-from-cosine"),
                 .unit = "",
-                .choices = {"sine-from-cosine", "no-range", "flat-cap-ball"}}},
+                .choices = {"sine-from-cosine", "no-range", "flat-cap-sphere"},
+                .former = {{"flat-cap-ball", "flat-cap-sphere"}}}},
     .make = make_list_assigner<NaiveCone>,
 };
 

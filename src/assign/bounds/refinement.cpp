@@ -51,15 +51,13 @@ void narrow(int& first, int& last, const geom::SphericalCone& cone, SideAt&& sid
 }  // namespace
 
 std::vector<ParamSpec> refinement_params() {
-  return {
-      {.name = "spot",
-       .summary =
-           "how spots are tested. ball, range, cone-sphere, both: as for other methods; narrowing: both, after the box "
-           "of cells is narrowed by planes from six sides",
-       .standard = std::string("narrowing"),
-       .unit = "",
-       .choices = {"ball", "range", "cone-sphere", "both", "narrowing"}},
-      inflation_param()};
+  ParamSpec spot = spot_param();
+  spot.summary =
+      "how spots are tested. sphere, range, cone-sphere, both: as for other methods; narrowing: both, after the box of "
+      "cells is narrowed by planes from six sides";
+  spot.standard = std::string("narrowing");
+  spot.choices.emplace_back("narrowing");
+  return {spot, inflation_param()};
 }
 
 bool narrows(const Params& params) {

@@ -36,7 +36,13 @@ struct ParamSpec {
   // Added after results with the method were published: at its default it is no part of a case's identity, so that they
   // still compare.
   bool is_late = false;
+  // Texts: what earlier versions called a choice, and its name of today. Both may be given; cases keep their identity.
+  std::vector<std::pair<std::string, std::string>> former{};
 };
+
+// A value as a choice of today, and as it was first called.
+ParamValue current_value(const ParamSpec& spec, const ParamValue& value);
+ParamValue first_value(const ParamSpec& spec, const ParamValue& value);
 
 // Resolved parameters: every parameter of the method, defaults filled in.
 class Params {

@@ -7,14 +7,13 @@ namespace clusterbench::assign {
 ParamSpec spot_param() {
   return {.name = "spot",
           .summary =
-              "how spots are tested. ball: the sphere around their cone; range: the sphere of their range; "
-              "cone-sphere: the "
-              "sphere of their range, and the cone against each cell's bounding sphere; both: a cell has to pass "
-              "sphere and "
-              "cone-sphere",
+              "how spots are tested. sphere: the one around their cone; range: the sphere of their range; "
+              "cone-sphere: the sphere of their range, and the cone against each cell's bounding sphere; both: a cell "
+              "has to pass sphere and cone-sphere",
           .standard = std::string("both"),
           .unit = "",
-          .choices = {"ball", "range", "cone-sphere", "both"}};
+          .choices = {"sphere", "range", "cone-sphere", "both"},
+          .former = {{"ball", "sphere"}}};
 }
 
 ParamSpec inflation_param() {
@@ -41,7 +40,7 @@ void check_prepared(const view::LightArrays& lights, const std::vector<geom::Bal
 LightTest::LightTest(const Params& params, float roundoffs)
     : spot_(SpotTest::both), inflation_(static_cast<float>(params.number("inflation"))), roundoffs_(roundoffs) {
   const std::string& name = params.text("spot");
-  if (name == "ball") spot_ = SpotTest::ball;
+  if (name == "sphere") spot_ = SpotTest::ball;
   if (name == "range") spot_ = SpotTest::range;
   if (name == "cone-sphere") spot_ = SpotTest::cone_sphere;
 }

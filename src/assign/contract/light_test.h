@@ -13,7 +13,7 @@
 
 namespace clusterbench::assign {
 
-// `spot`: "ball", "range", "cone-sphere" or "both" (the default).
+// `spot`: "sphere", "range", "cone-sphere" or "both" (the default).
 ParamSpec spot_param();
 // `inflation`: the padding in units of the derived one. Below 1 a method is no longer conservative.
 ParamSpec inflation_param();

@@ -60,14 +60,28 @@ void check(const ParamSpec& spec, const ParamValue& value) {
 
 }  // namespace
 
+ParamValue current_value(const ParamSpec& spec, const ParamValue& value) {
+  for (const auto& [former, current] : spec.former)
+    if (value == ParamValue(former)) return current;
+  return value;
+}
+
+ParamValue first_value(const ParamSpec& spec, const ParamValue& value) {
+  for (const auto& [former, current] : spec.former)
+    if (value == ParamValue(current)) return former;
+  return value;
+}
+
 Params::Params(std::span<const ParamSpec> specs) {
   for (const ParamSpec& spec : specs) values_[spec.name] = spec.standard;
 }
 
 Params::Params(std::span<const ParamSpec> specs, const std::map<std::string, ParamValue>& given) : Params(specs) {
   for (const auto& [name, value] : given) {
-    check(spec_of(specs, name), value);
-    values_[name] = value;
+    const ParamSpec& spec = spec_of(specs, name);
+    const ParamValue current = current_value(spec, value);
+    check(spec, current);
+    values_[name] = current;
   }
 }
 

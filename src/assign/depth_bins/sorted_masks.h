@@ -289,7 +289,7 @@ class SortedMasksMethod final : public AssignerOf<SortedMasks<ranges_of>> {
 
  private:
   static Params as_balls(const Params& params) {
-    return Params(light_params(), {{"spot", std::string("ball")}, {"inflation", params.number("inflation")}});
+    return Params(light_params(), {{"spot", std::string("sphere")}, {"inflation", params.number("inflation")}});
   }
 
   // The middles of what balls reach in depth are their centres. Balls of equal depth are sorted by their slices, so
