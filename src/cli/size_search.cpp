@@ -53,8 +53,11 @@ report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& s
     out.evaluations = found.evaluations;
     out.seed = request.seed;
     out.lights = found.own_lights + request.extra_ranges_m.size();
-    const Vec3d& eye = found.frames.front().choice.eye;
-    out.eye_m = {eye.x, eye.y, eye.z};
+    out.space_flags = search::space_flags(request);
+    const search::FrameChoice& worst = found.frames.front().choice;
+    const Vec3d direction = search::direction_of(worst.rotation);
+    out.eye_m = {worst.eye.x, worst.eye.y, worst.eye.z};
+    out.direction = {direction.x, direction.y, direction.z};
     for (const assign::BufferNeed& need : found.buffers)
       out.needs.push_back({need.name, need.elements, need.most, need.element_bytes});
   } catch (const Error& error) {

@@ -33,8 +33,9 @@ struct FoundFrame {
   std::uint64_t value = 0;          // of the measure
   int evaluations = 0;
   std::uint64_t seed = 1;
-  std::vector<double> eye_m;  // of the worst frame
-  std::uint64_t lights = 0;   // of the level and those added; 0: not known
+  std::string space_flags;               // search::space_flags(); "" also of a file of an earlier version
+  std::vector<double> eye_m, direction;  // of the worst frame; of a file of an earlier version no direction
+  std::uint64_t lights = 0;              // of the level and those added; 0: not known
   struct Need {
     std::string name;  // of a buffer
     std::uint64_t elements = 0, most = 0;

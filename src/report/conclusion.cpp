@@ -424,8 +424,10 @@ std::string excluding_text(const Json& answer) {
   std::vector<std::string> texts;
   for (const auto& [excluded, constraint] : excluding) {
     if (texts.size() == k_most) break;
-    texts.push_back(constraint + " rejects " + (excluded == answer["candidates"] ? "all " : "") +
-                    number_of(excluded, "candidate"));
+    const bool is_all = excluded == answer["candidates"];
+    texts.push_back(
+        constraint + " rejects " +
+        (is_all && excluded == 1 ? "the only candidate" : (is_all ? "all " : "") + number_of(excluded, "candidate")));
   }
   return texts.empty() ? "" : ": " + joined(texts);
 }

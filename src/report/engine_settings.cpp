@@ -84,9 +84,7 @@ std::string search_text(const SettingValue& value, const SizedStructure& structu
   const std::string measure = measure_of(value.setting->needed);
   const FoundFrame* search = structure.search_for(measure);
   if (value.found)
-    return std::to_string(*value.found) + " " + unit_of(value.setting->needed) + " in " +
-           number_of(static_cast<std::uint64_t>(search->evaluations), "frame") + " tried (seed " +
-           std::to_string(search->seed) + ")";
+    return std::to_string(*value.found) + " " + unit_of(value.setting->needed) + " in " + tried_text(*search);
   if (search != nullptr) return "not searched: " + search->refusal;
   if (!structure.searches.empty()) return "not looked for: `clusterbench worst-case --measure " + measure + "` does";
   return "not searched (--worst-case)";

@@ -233,7 +233,9 @@ FoundFrame read_found(const std::string& path, const Json& result) {
   out.evaluations = json["evaluations"].get<int>();
   if (const auto random = number_at(json, "/random/frames")) out.evaluations += static_cast<int>(*random);
   out.seed = json["seed"].get<std::uint64_t>();
+  out.space_flags = json["space"].value("flags", "");
   out.eye_m = json["frames"][0]["eye_m"].get<std::vector<double>>();
+  out.direction = json["frames"][0].value("direction", std::vector<double>());
   out.lights = json["space"]["lights"].get<std::uint64_t>() + json["space"]["added_ranges_m"].size();
   if (!json.contains("buffers"))
     throw Error(path, "/buffers", "is missing: an earlier version wrote the file, without what each buffer needs");
@@ -261,7 +263,11 @@ Json search_json(const FoundFrame& found) {
   if (!found.refusal.empty())
     out["refusal"] = found.refusal;
   else
-    out.update({{"evaluations", found.evaluations}, {"seed", found.seed}, {"eye_m", found.eye_m}});
+    out.update({{"evaluations", found.evaluations},
+                {"seed", found.seed},
+                {"flags", found.space_flags},
+                {"eye_m", found.eye_m}});
+  if (!found.direction.empty()) out["direction"] = found.direction;
   return out;
 }
 

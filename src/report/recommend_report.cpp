@@ -21,6 +21,8 @@
 #include "report/nothing_seen.h"
 #include "report/result_json.h"
 #include "report/sample_sets.h"
+#include "report/timing_warnings.h"
+#include "run/gate.h"
 #include "run/scene_facts.h"
 
 namespace clusterbench::report {
@@ -126,10 +128,19 @@ std::string rule_text_of(const config::LimitRule& rule) {
   return rule.figure + (rule.is_inclusive ? " < " : " <= ") + amount_text(rule.limit);
 }
 
+// Whoever allows some lights to be lost may have a method that can lose some.
+bool takes_sound_methods_only(const Question& question) {
+  return std::ranges::none_of(question.constraints, [](const Constraint& constraint) {
+    return constraint.is_given && constraint.rule.figure == "unlit";
+  });
+}
+
+// The question's; then two that are always asked for.
 std::vector<std::string> constraint_texts(const Question& question) {
   std::vector<std::string> texts;
   for (const Constraint& constraint : question.constraints) texts.push_back(rule_text_of(constraint.rule));
   texts.emplace_back("a run of it does not fail");
+  texts.emplace_back("conservative or exact (--unlit allows others)");
   return texts;
 }
 
@@ -290,6 +301,15 @@ double needed_over(const Json& cases) {
 bool rests_on_samples(const ObjectiveFigure& objective) {
   const std::string& name = objective.name;
   return objective.is_cost || name == k_evaluated || name == k_read_bytes || config::is_at_samples(name);
+}
+
+// What speaks against the times of all that is ranked.
+Json doubts_of(const std::vector<Ranked>& all) {
+  Json cases = Json::array();
+  for (const Ranked& ranked : all)
+    if (ranked.is_feasible())
+      for (const Json& one : ranked.cases) cases.push_back(one);
+  return timing_doubts(cases, "leave times out (--no-timing)");
 }
 
 // Of all cameras together: what one of them sees is something to choose by.
@@ -482,9 +502,15 @@ search::Judge judge_of(const Question& question, const nlohmann::json& config) {
       verdict.broken_by.push_back(*by);
       verdict.is_final = verdict.is_final || stays_broken(rule);
     }
-    if (verdict.broken.empty() && fails(cases, question.objective.is_cost)) {
-      verdict.broken.push_back(question.constraints.size());
+    const auto break_by_no_figure = [&](std::size_t constraint) {
+      verdict.broken.push_back(constraint);
       verdict.broken_by.push_back(std::numeric_limits<double>::quiet_NaN());
+    };
+    if (verdict.broken.empty() && fails(cases, question.objective.is_cost))
+      break_by_no_figure(question.constraints.size());
+    if (takes_sound_methods_only(question) && !std::ranges::all_of(results, run::is_sound)) {
+      break_by_no_figure(question.constraints.size() + 1);
+      verdict.is_final = true;
     }
     return verdict;
   };
@@ -516,6 +542,7 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
            {"needed_at_samples", nullptr},
            {"no_reader", nullptr},
            {"nothing_seen", unseen.empty() ? Json() : Json(unseen)},
+           {"timing_doubts", doubts_of(all)},
            {"choice", nullptr},
            {"runners_up", Json::array()},
            {"searched", Json::array()},

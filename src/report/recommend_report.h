@@ -41,7 +41,8 @@ struct Question {
 
 // Judges by the cases as a result has them. Of several cameras a figure is the worst one of high-water marks, the sum
 // of counts, else the mean by frames; a constraint holds for each camera. A case that a run would fail for is out,
-// under the constraint after the last of the question's.
+// under the constraint after the last of the question's; under the one after that a method that could lose lights
+// elsewhere, unless the question allows losses.
 search::Judge judge_of(const Question& question, const nlohmann::json& config);
 
 // One answer: docs/recommend.md, `clusterbench schema recommendation`.

@@ -193,6 +193,9 @@ std::string recommendation_text(const Json& recommendation) {
   for (const Json& answer : recommendation["answers"]) out += "\n" + answer_text(answer, objective);
   out += "\n";
   for (const Json& answer : recommendation["answers"])
+    for (const Json& doubt : answer.value("timing_doubts", Json::array()))
+      out += "warning: " + doubt.get<std::string>() + "\n";
+  for (const Json& answer : recommendation["answers"])
     out += "conclusion: " + answer_conclusion(answer, objective) + "\n";
   return out;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "measure/shading.h"
 #include "report/buffer_tail.h"
 #include "report/columns.h"
 #include "report/json_values.h"
@@ -56,8 +57,7 @@ std::string found_text(const SizedBuffer& buffer, const SizedStructure& structur
   if (!structure.is_searched()) return "not searched: " + structure.searches.front().refusal;
   if (!buffer.found) return "nothing for this buffer";
   const FoundFrame& found = structure.searches[buffer.found_by];
-  const std::string tried = number_of(static_cast<std::uint64_t>(found.evaluations), "frame") + " tried (seed " +
-                            std::to_string(found.seed) + ")";
+  const std::string tried = tried_text(found);
   // What a frame needs that was sought for something else is no less true, but nothing of what others need.
   std::string out = std::to_string(*buffer.found) +
                     (found.measure == structure.sought_measure()
@@ -69,6 +69,7 @@ std::string found_text(const SizedBuffer& buffer, const SizedStructure& structur
   if (buffer.high_water > 0)
     out +=
         text(", %.2f times the most seen", static_cast<double>(*buffer.found) / static_cast<double>(buffer.high_water));
+  if (const std::string place = place_text(found); !place.empty()) out += ", " + place;
   if (*buffer.found > buffer.capacity) out += ": MORE THAN THE CAPACITY";
   if (!structure.is_sought())
     out += "; what this buffer needs was not searched for: --worst-case, or worst-case --measure " +
@@ -83,6 +84,10 @@ bool has_viewports_of_pixel_tiles(const SizedStructure& structure) {
   return viewports.size() > 1 && value_at(*structure.cases.front(), "/grid/tiles/pixels") != nullptr;
 }
 
+bool lacks_lights(const GuestSamples& guest) {
+  return static_cast<double>(guest.missed) > measure::k_most_unlit * static_cast<double>(guest.needed);
+}
+
 std::string possible_text(const SizedBuffer& buffer) {
   if (!buffer.is_bounded)
     return "not known: other frames can have more lights or cells in these lists than those that were counted";
@@ -92,6 +97,20 @@ std::string possible_text(const SizedBuffer& buffer) {
 }
 
 }  // namespace
+
+std::string tried_text(const FoundFrame& found) {
+  return number_of(static_cast<std::uint64_t>(found.evaluations), "frame") + " tried (seed " +
+         std::to_string(found.seed) + (found.space_flags.empty() ? "" : ", " + found.space_flags) + ")";
+}
+
+std::string place_text(const FoundFrame& found) {
+  const auto vector = [](const std::vector<double>& v) {
+    return text("(%.4g", v[0]) + text(", %.4g", v[1]) + text(", %.4g)", v[2]);
+  };
+  if (found.eye_m.size() != 3) return "";
+  return "at " + vector(found.eye_m) + " m" +
+         (found.direction.size() == 3 ? " along " + vector(found.direction) : std::string());
+}
 
 std::string rule_text(const AllocationRules& rules, bool is_searched) {
   return (is_searched ? "the larger of high water and find x " : "high water x ") + rounding_text(rules);
@@ -171,7 +190,7 @@ std::vector<std::string> limit_notes(const SizedStructure& structure) {
 std::vector<std::string> guest_lines(const SizedStructure& structure) {
   std::vector<std::string> lines;
   for (const GuestSamples& guest : structure.guest_samples)
-    lines.push_back(std::string(guest.missed > 0 ? "WARNING: " : "") + "samples of " + guest.camera +
+    lines.push_back(std::string(lacks_lights(guest) ? "WARNING: " : "") + "samples of " + guest.camera +
                     " in this grid (points at random depths of its view, not on surfaces): " +
                     share_text(guest.outside, guest.samples) + " lie outside of it; " +
                     share_text(guest.missed, guest.needed) + " of the lights that they need are missing (" +
@@ -181,7 +200,7 @@ std::vector<std::string> guest_lines(const SizedStructure& structure) {
 }
 
 bool lack_lights(const std::vector<GuestSamples>& guests) {
-  return std::ranges::any_of(guests, [](const GuestSamples& guest) { return guest.missed > 0; });
+  return std::ranges::any_of(guests, lacks_lights);
 }
 
 std::string nothing_seen_text(const SizedStructure& structure) {

@@ -31,8 +31,14 @@ struct MarkLine {
 // words. None of a buffer of which nothing can overflow.
 std::vector<MarkLine> mark_lines(const SizedBuffer& buffer, const SizedStructure& structure);
 
+// "5000 frames tried (seed 1, --keep-height)" of a search that was made, and "at (1, 2, 3) m along (0, 0, -1)" of the
+// worst frame that it found.
+std::string tried_text(const FoundFrame& found);
+std::string place_text(const FoundFrame& found);
+
 // What samples of cameras without a grid of their own lack: a line each, and whether any lack lights.
 std::vector<std::string> guest_lines(const SizedStructure& structure);
+// More than measure::k_most_unlit of those that samples of some camera need.
 bool lack_lights(const std::vector<GuestSamples>& guests);
 
 // Why the frames that were counted say nothing of what frames with lights need: no light was ever in view, or no list

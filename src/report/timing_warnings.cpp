@@ -82,14 +82,14 @@ std::string modes_warning(const Doubt& two, std::size_t timed) {
          more_launches(two.worst());
 }
 
-void add_machine_warnings(std::vector<std::string>& out, const Doubt& others, const Doubt& stolen, const Doubt& hot) {
+void add_machine_warnings(std::vector<std::string>& out, const Doubt& others, const Doubt& stolen, const Doubt& hot,
+                          const std::string& without_times) {
   if (others.is_any())
     out.push_back("other programs kept up to " + text("%.1f", others.badness()) +
-                  " processors busy while times were measured; stop them, or count instructions instead (--count)");
+                  " processors busy while times were measured; stop them, or " + without_times);
   if (stolen.is_any())
-    out.push_back(
-        "other guests of this machine's host took up to " + text("%.2f", stolen.badness()) +
-        " processors while times were measured; measure at another time, or count instructions instead (--count)");
+    out.push_back("other guests of this machine's host took up to " + text("%.2f", stolen.badness()) +
+                  " processors while times were measured; measure at another time, or " + without_times);
   if (hot.is_any())
     out.push_back("processors slowed down because of heat " + text("%.0f", hot.badness()) +
                   " times while times were measured; let the machine cool, or fix a lower clock");
@@ -97,7 +97,7 @@ void add_machine_warnings(std::vector<std::string>& out, const Doubt& others, co
 
 }  // namespace
 
-std::vector<std::string> timing_doubts(const Json& cases) {
+std::vector<std::string> timing_doubts(const Json& cases, const std::string& without_times) {
   Doubt unknown, wide, two, others, stolen, hot;
   std::size_t timed = 0;
   for (const Json& result_case : cases) {
@@ -119,7 +119,7 @@ std::vector<std::string> timing_doubts(const Json& cases) {
   if (unknown.is_any()) out.push_back(unknown_warning(unknown, timed));
   if (wide.is_any()) out.push_back(wide_warning(wide, timed));
   if (two.is_any()) out.push_back(modes_warning(two, timed));
-  add_machine_warnings(out, others, stolen, hot);
+  add_machine_warnings(out, others, stolen, hot, without_times);
   return out;
 }
 

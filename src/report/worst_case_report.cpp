@@ -108,7 +108,8 @@ Json space_json(const WorstCase& found, const WorstCaseFacts& facts) {
            {"lights", found.own_lights},
            {"added_ranges_m", facts.request.extra_ranges_m},
            {"added_within_m", box_json(found.lights)},
-           {"move_m", facts.request.move_m}};
+           {"move_m", facts.request.move_m},
+           {"flags", search::space_flags(facts.request)}};
   if (facts.request.walkable)
     out["floor"] = {{"triangles", found.floor_triangles},
                     {"area_m2", found.floor_area_m2},
@@ -212,6 +213,7 @@ std::string worst_case_text(const WorstCase& found, const WorstCaseFacts& facts)
   out += line("measure", std::string(row.name) + ": " + row.summary);
   if (const std::size_t others = case_count(facts.plan) - 1; others > 0)
     out += line("others", number_of(others, "case") + " not searched; --filter chooses");
+  if (const std::string flags = search::space_flags(facts.request); !flags.empty()) out += line("space", flags);
   if (found.frames.empty()) return out + line("worst", "nothing was tried");
   const double worst = found.frames.front().value;
   out += line("worst", figure_text(worst) + " " + row.unit + ", found in " +

@@ -309,9 +309,12 @@ bool loses_lights(const CaseResult& result) {
          lacking_samples(result).counts != nullptr || is_unlit(result);
 }
 
+bool is_sound(const CaseResult& result) {
+  return result.conservative || result.exact || !result.preset.empty();
+}
+
 bool is_eligible(const CaseResult& result) {
-  const bool is_sound = result.conservative || result.exact || !result.preset.empty();
-  return is_sound && result.failures.empty() && !loses_lights(result);
+  return is_sound(result) && result.failures.empty() && !loses_lights(result);
 }
 
 std::optional<measure::Ratio> ratio_between(const Contender& numerator, const Contender& denominator,

@@ -29,9 +29,12 @@ std::vector<Warning> warnings_of(const CaseResult& result);
 // that visible surfaces need; without surfaces, of those that random points in the view need.
 bool loses_lights(const CaseResult& result);
 
+// Whether what a case does not lose here it loses nowhere: its method is conservative, exact, or an engine's as a
+// preset has it, whose losses are the engine's own.
+bool is_sound(const CaseResult& result);
+
 // Whether a case may stand on a front, and be the best that others are measured by: it fails nothing and loses no
-// lights, and not by luck: its method is conservative, exact or an engine's as a preset has it. Short lists are no
-// merit else.
+// lights, and not by luck (is_sound). Short lists are no merit else.
 bool is_eligible(const CaseResult& result);
 
 // A case beside others. Results are continued and merged from files, so this is apart from CaseResult.

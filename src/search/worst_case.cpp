@@ -521,6 +521,22 @@ const run::CasePlan& case_to_search(const config::Config& config, const run::Pla
   throw Error(config.file.string(), "", "all cases need depth, and a written path holds no triangles to see it from");
 }
 
+std::string space_flags(const WorstCaseRequest& request) {
+  std::vector<std::string> flags;
+  if (request.within) {
+    std::vector<std::string> ends;
+    for (const Vec3d& end : {request.within->lo, request.within->hi})
+      for (int axis = 0; axis < 3; ++axis) ends.push_back(grid::number_name(end[axis]));
+    flags.push_back("--within=" + joined(ends, ","));
+  }
+  if (request.walkable) flags.push_back("--walkable --eye-height " + grid::number_name(request.eye_height_m));
+  if (request.keep_height) flags.emplace_back("--keep-height");
+  if (request.keep_direction) flags.emplace_back("--keep-direction");
+  for (const double range_m : request.extra_ranges_m) flags.push_back("--add-lights " + grid::number_name(range_m));
+  if (request.move_m > 0.0) flags.push_back("--move-lights " + grid::number_name(request.move_m));
+  return joined(flags, " ");
+}
+
 WorstCase find_worst_case(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
                           const WorstCaseRequest& request, const WorstCaseListener& listener,
                           const std::atomic<bool>& stop) {

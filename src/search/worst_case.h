@@ -34,6 +34,9 @@ struct WorstCaseRequest {
   bool keep_height = false;     // the eye stays between the recorded eyes' least and greatest y
 };
 
+// The flags that say what it may choose, as given: "--keep-height --add-lights 10"; "" where none is.
+std::string space_flags(const WorstCaseRequest& request);
+
 struct WorstCaseListener {
   std::function<void(const std::string& doing, int done, int whole)> on_progress;  // from any thread, one at a time
 };

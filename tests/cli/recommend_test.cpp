@@ -249,6 +249,29 @@ TEST(Recommend, excludes_what_breaks_a_constraint_and_says_how_good_the_best_of_
   EXPECT_NE(bound.outcome.out.find(row["best"]["name"].get<std::string>()), std::string::npos) << bound.outcome.out;
 }
 
+// A method without padding loses nothing on one street, and can on the next one.
+TEST(Recommend, takes_no_method_that_can_lose_lights_elsewhere_unless_losses_are_allowed) {
+  Json lucky = Json::parse(space());
+  lucky["assigners"] = {"naive-bounds", "bounds-fast"};
+  lucky["grids"] = {{{"kind", "frustum"}, {"tiles", {{"pixels", 64}}}, {"slices", {{"count", 8}}}}};
+  lucky["storages"] = {"packed"};
+  const Recommended sound = recommended(lucky.dump(), "--no-timing --by bytes");
+  ASSERT_EQ(sound.outcome.code, 0) << sound.outcome.err;
+  EXPECT_EQ(sound.answer["choice"]["assigner"]["name"], "bounds-fast");
+  EXPECT_TRUE(sound.answer["runners_up"].empty());
+  EXPECT_NE(sound.outcome.out.find("conservative or exact (--unlit allows others)"), std::string::npos);
+  const Recommended allowed = recommended(lucky.dump(), "--no-timing --by bytes --unlit 0");
+  ASSERT_EQ(allowed.outcome.code, 0) << allowed.outcome.err;
+  EXPECT_EQ(allowed.answer["runners_up"].size(), 1U) << "it loses nothing here";
+  lucky["assigners"] = {"naive-bounds"};
+  const Recommended none = recommended(lucky.dump(), "--no-timing --by bytes");
+  EXPECT_EQ(none.outcome.code, 1);
+  EXPECT_TRUE(
+      none.outcome.out.ends_with("take none: no candidate satisfies all constraints: conservative or exact "
+                                 "(--unlit allows others) rejects the only candidate.\n"))
+      << none.outcome.out;
+}
+
 TEST(Recommend, exits_with_1_where_nothing_satisfies_and_shows_what_excluded_how_many) {
   const Folder folder;
   const std::string choice = (folder / "choice.json").string();
@@ -393,6 +416,8 @@ TEST(Recommend, measures_times_where_the_objective_is_one) {
   EXPECT_GT(found.answer["choice"]["objective"], 0.0);
   ASSERT_FALSE(found.answer["runners_up"].empty());
   EXPECT_TRUE(found.answer["runners_up"][0].contains("ci95"));
+  for (const Json& doubt : found.answer.at("timing_doubts"))
+    EXPECT_NE(found.outcome.out.find("warning: " + doubt.get<std::string>()), std::string::npos) << found.outcome.out;
 }
 
 TEST(Recommend, searches_a_space_of_its_own_for_a_scene) {

@@ -38,6 +38,25 @@ TEST(WorstCaseCommand, what_it_writes_is_valid_and_run_and_size_take_it) {
   EXPECT_EQ(bare["cases"][0]["buffers"]["index_entries"]["high_water"], found["frames"][0]["value"]);
 }
 
+TEST(WorstCaseCommand, what_could_be_chosen_goes_with_the_find_to_where_it_is_used) {
+  const Folder folder;
+  const std::string out = (folder / "out.json").string(),
+                    level = " --grid frustum --tiles 128 --assigner aabb-fast " + source_file("scenes/street.glb"),
+                    space = "--keep-direction --add-lights 4 --add-lights 4 --move-lights 0.5",
+                    box = "--within=-1.5,0,-2,1,2,3 ";
+  ASSERT_EQ(tool("worst-case -q --evaluations 40 --random 0 --within -1.5,0,-2,1,2,3 --keep-direction "
+                 "--add-lights 2x4 --move-lights 0.5 -o " +
+                 out + level)
+                .code,
+            0);
+  const auto found = nlohmann::json::parse(file_text(out));
+  EXPECT_EQ(found["space"]["flags"], box + space);
+  EXPECT_EQ(tool("worst-case -q --evaluations 40 --random 0 " + box + space + level).out, file_text(out));
+  const Outcome size = tool("size -q --format hlsl --found " + out + level);
+  ASSERT_EQ(size.code, 0) << size.err;
+  EXPECT_NE(size.out.find("tried (seed 1, " + box + space + ")"), std::string::npos) << size.out;
+}
+
 TEST(WorstCaseCommand, what_fails_leaves_what_was_there) {
   const Folder folder;
   const std::string kept = folder.write("kept.json", "old").string(), absent = (folder / "absent.json").string();
