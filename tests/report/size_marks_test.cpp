@@ -288,7 +288,8 @@ TEST(SizeMarks, an_engines_setting_names_the_largest_of_several_finds) {
   for (const std::vector<FoundFrame>& order : orders) {
     request.scope.found = order;
     const std::string text = marks_of(result, request);
-    EXPECT_NE(text.find("60 entries in all lists in 5000 frames tried (seed 4, --keep-height)"), std::string::npos) << text;
+    EXPECT_NE(text.find("60 entries in all lists in 5000 frames tried (seed 4, --keep-height)"), std::string::npos)
+        << text;
   }
 }
 
