@@ -140,7 +140,7 @@ def headline(quick, street):
 
 def conclusion(street):
     """What to take, against what; what it rests on stands behind that and is left out. As lines that a terminal holds."""
-    text = street["conclusions"][0]["text"].split(". ")[0] + "."
+    text = street["conclusions"][0]["text"].split(". ")[0] + ". ..."
     return "```text\n" + textwrap.fill("conclusion: " + text, 130, break_on_hyphens=False, break_long_words=False) + "\n```"
 
 

@@ -109,7 +109,7 @@ const isWithoutGrid = (raw: CaseResult) =>
 function toCase(raw: CaseResult, run: Run, known: Known): Case {
   const { front, standings, costs } = known;
   const ranked = known.ranked.get(raw.id) ?? null;
-  const kept = raw.storage === "own" ? "no lists" : raw.storage;
+  const kept = raw.storage === "own" ? (/\/own lists(\/|$)/.test(raw.name) ? "own lists" : "no lists") : raw.storage;
   const packed = raw.precision && raw.precision.packing !== "float32" ? `${kept}, ${raw.precision.label}` : kept;
   const storage = raw.pre_cull ? `${packed}, after ${raw.pre_cull.label}` : packed;
   const seen = raw.samples?.opaque ?? raw.shading;

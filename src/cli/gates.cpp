@@ -29,7 +29,7 @@ void add_gate_options(Command& command, GateFlags& flags) {
       "A result that budgets in percent are held against ('longest > +5 %'), and whose lights it has to have; "
       "which figures have changed since is told");
   command.add_flag("--allow-no-lights", flags.allows_no_lights,
-                   "Budgets hold also where a scene has no lights, dark ones alone, or none is ever in view");
+                   "Does not fail where a scene has no lights, dark ones alone, or none is ever in view");
   command.add_flag("--allow-changed-lights", flags.allows_changed_lights,
                    "Lights may be others than those of the --baseline; what has changed is told");
 }

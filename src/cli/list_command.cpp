@@ -181,7 +181,7 @@ void print_section(const Json& all, const char* section) {
     if (row.contains("grids"))
       std::cout << "      grids: " << words(row["grids"]) << "; lights: " << words(row["lights"])
                 << (row["needs"].empty() ? "" : "; needs: " + words(row["needs"]))
-                << "; answers with: " << words(row["answers"])
+                << "; output: " << words(row["answers"])
                 << (row["exact"]          ? "; exact"
                     : row["conservative"] ? "; conservative"
                                           : "; NOT conservative")

@@ -20,10 +20,8 @@ void add_config_options(Command& command, RunInputs& inputs, const std::vector<s
     command.add_option(flag.name, inputs.settings[i], flag.summary).once_a_name();
     if (std::string_view(flag.name) != "--preset") continue;
     command.add_flag("--presets", inputs.has_all_presets, "All presets: --preset '*'");
-    command.add_flag(
-        "--as-shipped", inputs.are_as_shipped,
-        "Presets with the mistakes of the engines whose code was run, which lose lights; else their schemes "
-        "without these");
+    command.add_flag("--as-shipped", inputs.are_as_shipped,
+                     "Presets with the known bugs of Filament, Bevy, three.js and Babylon.js, which lose lights");
   }
 }
 
@@ -79,8 +77,8 @@ std::vector<std::string> files_of(const RunInputs& inputs, const config::Config&
 void tell_of_cameras(const config::Config& config, const run::Plan& plan) {
   for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
     const scene::Scene& scene = plan.scenes[i].scene;
-    for (const std::string& text :
-         {run::without_field_of_view(plan.scenes[i], config.scenes[i]), run::fewer_frames(plan.scenes[i])})
+    for (const std::string& text : {run::without_field_of_view(plan.scenes[i], config.scenes[i]),
+                                    run::fewer_frames(plan.scenes[i]), run::dark_lights(plan.scenes[i])})
       if (!text.empty()) tell("warning: " + scene.name + ": " + text);
     const std::vector<std::string> others = scene::cameras_left_out(scene, config.scenes[i].camera);
     if (others.empty()) continue;

@@ -26,6 +26,7 @@
 #include "report/nothing_seen.h"
 #include "report/result_file.h"
 #include "report/size.h"
+#include "run/scene_facts.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -141,6 +142,16 @@ ExitCode judged(const SizeFlags& flags, const SizeCounts* counts, const Json& re
   return code;
 }
 
+// Lists have them like others.
+void tell_of_dark_lights(const Json& result) {
+  for (const Json& scene : result["scenes"]) {
+    const Json& lights = scene["lights"];
+    const std::string dark =
+        run::dark_lights(lights.value("dark", 0), lights["point"].get<int>() + lights["spot"].get<int>());
+    if (!dark.empty()) tell("warning: " + scene["name"].get<std::string>() + ": " + dark);
+  }
+}
+
 ExitCode size(SizeFlags flags) {
   if (!flags.engine.empty()) choose_engine(flags);
   report::SizeRequest request = flags.request;
@@ -176,6 +187,7 @@ ExitCode size(SizeFlags flags) {
     if (!guests) return os::stopped_exit_code();
     request.scope.guests = *guests;
   }
+  tell_of_dark_lights(result);
   for (const std::string& view : report::views_of_dark_lights(result))
     tell("warning: " + view + "; lists have them all the same, so these are sizes for when they are switched on");
   const std::string text = report::size_report(result, request);
@@ -237,8 +249,7 @@ void add_size(Command& program, Action& action) {
   add_effort_options(command, flags->search, &worst_case);
   add_space_options(command, flags->search, &worst_case);
   add_config_options(command, flags->inputs, {"--rounds", "--launches"});
-  command.add_flag("--allow-no-lights", flags->allows_no_lights,
-                   "Sizes count also where no light is ever in view, which fails else");
+  command.add_flag("--allow-no-lights", flags->allows_no_lights, "Does not fail where no light is ever in view");
   command.add_flag("-q,--quiet", flags->quiet, "No progress; warnings stay");
   command.when_named([flags, &action] { action = [flags] { return size(*flags); }; });
 }

@@ -67,13 +67,14 @@ report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& s
   return out;
 }
 
-// One case of each structure that may be printed: of all, or one of each grid. With several viewports for one
-// allocation of the first.
+// One case of each camera of each structure that may be printed: of all, or one of each grid. With several viewports
+// for one allocation of the first.
 std::vector<const run::CasePlan*> cases_to_search(const SizePlan& plan, const report::SizeRequest& request) {
   std::vector<const run::CasePlan*> out;
   for (const run::GroupPlan& group : plan.plan.groups) {
-    const bool is_first_camera = group.camera == 0 && (group.viewport == 0 || !request.scope.over_viewports);
-    if (!is_first_camera) continue;
+    if (group.viewport != 0 && request.scope.over_viewports) continue;
+    const std::string& camera = plan.plan.scenes[group.scene].paths[group.camera].camera;
+    if (!request.scope.grid_of.empty() && camera != request.scope.grid_of) continue;
     std::string preset = "none yet";
     for (const run::CasePlan& case_plan : group.cases) {
       if (request.all || case_plan.preset != preset) out.push_back(&case_plan);

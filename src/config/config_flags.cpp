@@ -343,7 +343,7 @@ constexpr FlagRow k_rows[] = {
     {{"--rounds", "N: timed rounds over all cases of a group"}, set_rounds},
     {{"--launches", "N: processes that measure one after the other; intervals hold between them"}, set_launches},
     {{"--threads", "N: threads for the truth and for rays; results do not depend on it"}, set_threads},
-    {{"--fail-if", "BUDGET, repeatable: fail where a case exceeds it, as in 'frame_us.max > 200' or 'unlit > 0'", true},
+    {{"--fail-if", "BUDGET, repeatable: fail where a case exceeds it, as in 'longest > 128' or 'bytes > 200000'", true},
      add_budget},
     {{"--set", "KEY=VALUE[,VALUE], repeatable: any key of the configuration, as in 'grids.*.slices.far=200,500'", true},
      set_any},

@@ -63,13 +63,14 @@ constexpr Preset k_engines[] = {
      .source = "bevyengine/bevy, bevy_pbr/src/cluster (cluster_raster, cluster_allocate); the default since 0.19",
      .summary =
          "the clusters of `bevy`; per slice, inside the light's rectangle, sphere against the cell's box, and cones "
-         "against the sphere around that box",
-     .approximated = "far is that of the frame's own lights; cones are held against the sphere around a cell; columns "
-                     "and rows do not follow what its buffers have room for",
+         "against the sphere around that box; after a frame of more than 16384 entries fewer columns and rows",
+     .approximated = "far is that of the frame's own lights; cones are held against the sphere around a cell; it knows "
+                     "the entries of a frame one frame later, where what a GPU counts can take longer",
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "slices":
-                 {"scheme": "exponential-first", "count": 24, "first": 5, "orthographic": "linear", "fit": {"to": "ranges"}}},
+                 {"scheme": "exponential-first", "count": 24, "first": 5, "orthographic": "linear", "fit": {"to": "ranges"}},
+                 "react": {"to": "entries", "most": 16384, "of": "aabb"}},
                  "assigner": {"name": "aabb", "spot": "cone-sphere"},
                  "storage": {"name": "packed", "index_bits": "32", "header_size": 32}})",
      .tiles = bevy_tiles},

@@ -1,6 +1,7 @@
 #include "measure/frame_cost.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -27,6 +28,11 @@ Interval ratio_by_prices(const FrameCost& numerator, const FrameCost& denominato
     ratios = {std::min(ratios.low, ratio), std::max(ratios.high, ratio)};
   }
   return ratios;
+}
+
+Interval around(double measured, double nominal, const Interval& range) {
+  if (!(nominal > 0.0) || !std::isfinite(measured) || !std::isfinite(nominal)) return range;
+  return {range.low * measured / nominal, range.high * measured / nominal};
 }
 
 bool turns_with_prices(const FrameCost& less, const FrameCost& more) {

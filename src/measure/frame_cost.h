@@ -48,6 +48,10 @@ inline constexpr double k_price_factor = 2.0;
 // `numerator` / `denominator` as each price takes values within k_price_factor of the model's; measured times have
 // none.
 Interval ratio_by_prices(const FrameCost& numerator, const FrameCost& denominator);
+
+// A range of ratios about `nominal`, of costs, as one about `measured`, the ratio of the same that was measured side by
+// side: as many times as much.
+Interval around(double measured, double nominal, const Interval& range);
 // Whether what costs more costs no more at some of these prices.
 bool turns_with_prices(const FrameCost& less, const FrameCost& more);
 

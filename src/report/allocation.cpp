@@ -200,27 +200,75 @@ bool follows_surfaces(const Json& result_case) {
   return method != nullptr && (method->needs.depth || method->at_surfaces);
 }
 
+// Not where cells lie in the world and stay there: their lists hold the same lights whatever is in view.
+bool follows_view(const Json& result_case) {
+  const Json* kind = value_at(result_case, "/grid/kind");
+  return kind == nullptr || *kind != "world" || value_at(result_case, "/grid/follow") != nullptr;
+}
+
 // Where other frames can have more lights or cells than those that were counted, what is possible follows from these.
 bool has_bound(const Json& result_case) {
   return !result_case.contains("pre_cull") && !result_case.contains("react") && !follows_surfaces(result_case);
 }
 
-// A search looks at one camera; where several share the buffer, each can be in such a place.
-void add_searches(SizedStructure& structure) {
-  std::size_t views = 1;
-  for (const std::vector<std::string>& view : structure.views) views = std::max(views, view.size());
+// What searches with one camera found for a buffer.
+struct CameraFind {
+  std::string camera;
+  std::uint64_t elements = 0, most = 0;
+  std::size_t search = 0;
+};
+
+// The largest of each camera, in the order of the searches.
+std::vector<CameraFind> finds_of(SizedBuffer& buffer, const SizedStructure& structure) {
+  std::vector<CameraFind> finds;
   for (std::size_t search = 0; search < structure.searches.size(); ++search)
     for (const FoundFrame::Need& need : structure.searches[search].needs) {
-      const auto buffer = std::ranges::find(structure.buffers, need.name, &SizedBuffer::name);
-      if (buffer == structure.buffers.end()) continue;
-      const std::uint64_t found = times(need.elements, views);
-      if (!buffer->found || found > *buffer->found) {
-        buffer->found = found;
-        buffer->found_by = search;
-      }
-      buffer->theoretical_max = std::max(buffer->theoretical_max, times(need.most, views));
-      buffer->element_bytes = std::max(buffer->element_bytes, need.element_bytes);
+      if (need.name != buffer.name) continue;
+      const std::string camera = structure.camera_of(structure.searches[search]);
+      buffer.element_bytes = std::max(buffer.element_bytes, need.element_bytes);
+      auto known = std::ranges::find(finds, camera, &CameraFind::camera);
+      if (known == finds.end()) known = finds.insert(known, {camera, need.elements, need.most, search});
+      if (need.elements > known->elements) known->elements = need.elements, known->search = search;
+      known->most = std::max(known->most, need.most);
     }
+  return finds;
+}
+
+// Of cameras in one frame each can be in its own worst place at the same time; one that was not searched, in one as bad
+// as the worst of the others.
+void add_finds(SizedBuffer& buffer, const std::vector<CameraFind>& finds, const std::vector<std::string>& cameras) {
+  const auto is_of_group = [&](const CameraFind& find) {
+    return std::ranges::find(cameras, find.camera) != cameras.end();
+  };
+  const CameraFind* worst = nullptr;
+  std::uint64_t elements = 0, most = 0, searched = 0;
+  for (const CameraFind& find : finds) {
+    if (!is_of_group(find)) continue;
+    if (worst == nullptr || find.elements > worst->elements) worst = &find;
+    elements += find.elements;
+    most = std::max(most, find.most);
+    ++searched;
+  }
+  if (worst == nullptr) return;
+  elements += times(worst->elements, cameras.size() - searched);
+  buffer.theoretical_max = std::max(buffer.theoretical_max, times(most, cameras.size()));
+  if (buffer.found && elements <= *buffer.found) return;
+  buffer.found = elements;
+  buffer.found_by = worst->search;
+  buffer.found_views = cameras.size();
+}
+
+void add_searches(SizedStructure& structure) {
+  for (SizedBuffer& buffer : structure.buffers) {
+    const std::vector<CameraFind> finds = finds_of(buffer, structure);
+    std::vector<std::vector<std::string>> groups = structure.views;
+    for (const CameraFind& find : finds)
+      if (std::ranges::none_of(structure.views, [&](const std::vector<std::string>& view) {
+            return std::ranges::find(view, find.camera) != view.end();
+          }))
+        groups.push_back({find.camera});
+    for (const std::vector<std::string>& group : groups) add_finds(buffer, finds, group);
+  }
 }
 
 void size_buffers(SizedStructure& structure, const AllocationRules& rules) {
@@ -243,6 +291,7 @@ void size_buffers(SizedStructure& structure, const AllocationRules& rules) {
   add_searches(structure);
   for (std::size_t i = 0; i < structure.buffers.size(); ++i) {
     SizedBuffer& buffer = structure.buffers[i];
+    buffer.depends_on_view = std::ranges::any_of(structure.cases, [](const Json* one) { return follows_view(*one); });
     buffer.is_bounded = std::ranges::all_of(structure.cases, [](const Json* one) { return has_bound(*one); });
     buffer.spread = spread_of(buffer.paths);
     // What is the same in all frames is as large as it is, whatever other frames hold.
@@ -453,6 +502,19 @@ const FoundFrame* SizedStructure::main_search() const {
   const auto buffer = std::ranges::find_if(buffers, [](const SizedBuffer& one) { return one.found.has_value(); });
   if (buffer != buffers.end()) return &searches[buffer->found_by];
   return searches.empty() ? nullptr : &searches.front();
+}
+
+std::string SizedStructure::camera_of(const FoundFrame& found) const {
+  for (const Json* result_case : cases)
+    if ((*result_case)["name"] == found.case_name) return (*result_case)["camera"].get<std::string>();
+  return "";
+}
+
+std::size_t SizedStructure::searched_cameras() const {
+  std::set<std::string> cameras;
+  for (const FoundFrame& found : searches)
+    if (found.refusal.empty()) cameras.insert(camera_of(found));
+  return cameras.size();
 }
 
 bool SizedStructure::is_searched() const {

@@ -96,9 +96,12 @@ struct SizedBuffer {
   std::string name;  // as the structure names it: "indices"
   std::uint64_t element_bytes = 1;
   std::uint64_t high_water = 0, theoretical_max = 0;  // elements; the most seen, and the most that can be
+  bool depends_on_view = true;                        // not in a world grid that stays where it is
   bool is_bounded = true;  // theoretical_max holds for other frames, too: not behind a pre-cull, or with fewer cells
-  std::optional<std::uint64_t> found;  // elements of the worst frame that a search found
-  std::size_t found_by = 0;            // which of the structure's searches
+  std::optional<std::uint64_t> found;  // elements of the worst frame that a search found; of cameras in one frame, of
+                                       // all their worst frames together
+  std::size_t found_by = 0;            // which of the structure's searches; of several the one that found most
+  std::size_t found_views = 1;         // how many cameras' worst frames are in `found`
   std::uint64_t apart = 0;             // of cameras in one frame: if each were at its own most at the same time; else 0
   std::string why_sum;                 // why high_water is `apart`: their paths have different frames; else ""
   bool has_times = true;               // what is added is known to be of frames at the same time
@@ -146,6 +149,8 @@ struct SizedStructure {
   // The one that made the first buffer's find; a refused one, or nullptr, if none found anything.
   const FoundFrame* main_search() const;
   bool is_searched() const;  // one that was not refused
+  std::string camera_of(const FoundFrame& found) const;
+  std::size_t searched_cameras() const;
   // What a search has to make large for its buffers; and whether one was for that, a refused one, too.
   std::string sought_measure() const;
   bool is_sought() const;

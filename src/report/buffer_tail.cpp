@@ -35,7 +35,7 @@ std::string chance_text(const measure::Chance& chance) {
 
 // Of cameras that stand still, as far as the buffer tells: that they say nothing of other views; "" of others.
 std::string still_text(const SizedBuffer& buffer) {
-  if (buffer.is_all() || buffer.paths.empty()) return "";
+  if (!buffer.depends_on_view || buffer.is_all() || buffer.paths.empty()) return "";
   std::uint64_t frames = 0;
   for (const PathNeed& path : buffer.paths) {
     const bool is_merged = path.frames_per_entry > 1 && path.elements.size() > 1;

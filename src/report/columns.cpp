@@ -31,7 +31,8 @@ std::size_t width_of(const std::string& text) {
 }  // namespace
 
 std::vector<std::size_t> widths_of(const std::vector<Cells>& rows) {
-  std::vector<std::size_t> widths(rows.front().size(), 0);
+  std::vector<std::size_t> widths;
+  for (const Cells& row : rows) widths.resize(std::max(widths.size(), row.size()), 0);
   for (const Cells& row : rows)
     for (std::size_t column = 0; column < row.size(); ++column)
       widths[column] = std::max(widths[column], width_of(row[column]));
@@ -91,7 +92,9 @@ std::string short_count(const Json& result_case, const char* pointer) {
 
 std::string storage_name(const Json& result_case) {
   const auto storage = result_case["storage"].get<std::string>();
-  return storage == run::k_own_structure ? run::k_no_lists : printable(storage);
+  if (storage != run::k_own_structure) return printable(storage);
+  const Json* assigner = value_at(result_case, "/assigner/name");
+  return run::own_structure_name(assigner == nullptr ? "" : assigner->get<std::string>());
 }
 
 std::string method_name(const Json& result_case) {

@@ -39,7 +39,7 @@ std::string text_at(const nlohmann::ordered_json& result_case, const char* point
 // Bytes and counts as people say them: 831, 12.3k, 4.56M; "-" where there is none.
 std::string short_count(const nlohmann::ordered_json& result_case, const char* pointer);
 
-// What its lights are kept in, as people read it: "packed", "no lists".
+// What its lights are kept in, as people read it: "packed", "no lists", "own lists".
 std::string storage_name(const nlohmann::ordered_json& result_case);
 // The preset if the case is of one, the assigner's label, how its lights are packed where that is not float32, and what
 // culls them before.

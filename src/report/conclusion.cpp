@@ -40,6 +40,7 @@ std::string samples_text(const std::vector<std::string>& sets) {
 std::string few_samples_text(double needed, const std::vector<std::string>& sets) {
   if (needed >= k_least_needed_to_choose) return "";
   return ". " + samples_text(sets) + " need only " + number_of(static_cast<std::uint64_t>(needed), "light") +
+         ", summed over all samples" +
          ": costs are rough, and a light that is lost can go unseen; more frames, or samples (samples.opaque.divisor, "
          "shading.samples), tell more";
 }
@@ -61,7 +62,10 @@ struct WeighedCase {
   int slowness() const { return slowness_of(*result_case); }
   bool has_simd() const { return slowness() == 1; }
   // Of cases that cost alike the least is taken.
-  auto rank() const { return std::tuple(unlit() > 0.0, !is_on_front, bytes(), !has_simd(), slowness()); }
+  auto rank() const {
+    return std::tuple(unlit() > 0.0, is_at_surfaces(method()), !is_on_front, bytes(), !has_simd(), slowness());
+  }
+  std::string method() const { return (*result_case)["assigner"]["name"].get<std::string>(); }
 };
 
 // What is compared with each other: cases that see the same.
@@ -260,9 +264,11 @@ std::string more_text(double ratio, const measure::Interval& by_times, const mea
          (ranges.empty() ? "" : " (" + joined(ranges, "; ") + ")");
 }
 
+// About the ratio that is told: that of rounds side by side is not quite that of the costs, whose times are medians.
 measure::Interval by_prices(const Choice& choice) {
-  const bool is_modelled = choice.against->is_modelled && choice.take->is_modelled;
-  return is_modelled ? measure::ratio_by_prices(choice.against->cost, choice.take->cost) : measure::Interval{};
+  if (!choice.against->is_modelled || !choice.take->is_modelled) return {};
+  return measure::around(choice.times_as_much(), choice.against->weight() / choice.take->weight(),
+                         measure::ratio_by_prices(choice.against->cost, choice.take->cost));
 }
 
 std::string against_text(const Choice& choice) {
@@ -281,8 +287,8 @@ std::string same_lists_text(const Choice& choice) {
   const std::string out =
       ". " + number_of(count, "other method") + (count == 1 ? " makes" : " make") + " the same lists";
   if (choice.take->is_timed()) return out + ", in times that these do not tell apart";
-  return out + ": times tell which is fastest (leave --no-timing out)" +
-         (choice.take->has_simd() ? "; a -fast one, as far as is known" : "");
+  return out + ": a run without --no-timing tells which is fastest" +
+         (choice.take->has_simd() ? "; until then take one that ends in -fast" : "");
 }
 
 // What limits how far the choice can be trusted.
@@ -294,11 +300,15 @@ std::string doubts_text(const Choice& choice) {
            (unlit < 1e-4 ? "less than 0.01 %" : text("%.2g %%", 100.0 * unlit)) + " of the lights that they need";
   if (take.is_modelled)
     out += few_samples_text(sum_at_samples(*take.result_case, "needed"), ranking_set_names(*take.result_case));
+  if (const std::string limit = at_surfaces_text(take.method()); !limit.empty()) out += ". It " + limit;
   out += same_lists_text(choice);
   if (!choice.others.empty())
-    out += std::string(". No difference that these ") + (take.is_timed() ? "times" : "figures") + " can show" +
-           (take.is_modelled ? " (costs within 5 % are alike: part of them is modelled)" : "") + " to " +
-           first_titles(choice.others);
+    out += std::string(". The same") +
+           (take.is_modelled ? " within 5 %, which is as far as the model tells costs apart" : "") +
+           (take.is_timed()    ? std::string(take.is_modelled ? ", or" : "") + " as far as these times tell"
+            : take.is_modelled ? ""
+                               : " as far as these figures tell") +
+           ": " + first_titles(choice.others);
   if (choice.fastest != nullptr && choice.fastest != choice.take && take.is_modelled)
     out += ". Fastest to make: " + case_title(*choice.fastest->result_case) + ", " +
            ns_text(*choice.fastest->cost.assign_ns);
@@ -389,7 +399,7 @@ measure::Interval interval_at(const Json& record, const char* key) {
 }
 
 std::string beside_choice_text(const Json& record) {
-  return shown(record["name"].get<std::string>()) + " has " +
+  return shown(record["name"].get<std::string>()) + " takes " +
          more_text(record["by_choice"].get<double>(), interval_at(record, "/ci95"), interval_at(record, "/by_prices"));
 }
 
@@ -407,9 +417,10 @@ std::string smallest_text(const Json& answer, const Json& objective) {
                     less = text("%.2g %% less", 100.0 * (1.0 - (*least)["by_choice"].get<double>()));
   // The ratio of times that were measured side by side, which the two figures' own does not give.
   const bool is_measured = interval_at(*least, "/ci95").is_known();
-  return (is_measured ? "; " + name + " has " + less + " where both were measured side by side, "
-                      : "; least is " + objective_text(*least, objective) + " of " + name + ", " + less + ", ") +
-         "which is no difference here, with " + bytes_text(*more_bytes) + " in place of " + bytes_text(*bytes);
+  return "; " + name + " takes " + less +
+         (is_measured ? " where both were measured side by side" : " (" + objective_text(*least, objective) + ")") +
+         ", which is too little to tell them apart, and needs " + bytes_text(*more_bytes) + " in place of " +
+         bytes_text(*bytes);
 }
 
 // ": bytes <= 1000 rejects all 32 candidates, unlit = 0 rejects 4", those that reject most.
@@ -465,8 +476,11 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
   }
   if (against != nullptr) out += "; " + beside_choice_text(*against);
   if (!alike.empty())
-    out += std::string(". No difference that these ") + (objective["timed"] == true ? "times" : "figures") +
-           " can show to " + joined(alike);
+    out += std::string(". The same as far as these ") + (objective["timed"] == true ? "times" : "figures") +
+           " tell: " + joined(alike);
+  const Json* method = value_at(choice, "/assigner/name");
+  if (const std::string limit = at_surfaces_text(method == nullptr ? "" : method->get<std::string>()); !limit.empty())
+    out += ". It " + limit;
   if (const Json* why = value_at(answer, "/no_reader"); why != nullptr && why->is_string())
     out += ". `size --format hlsl` (glsl) has no function that reads its lists: " + shown(*why);
   const Json searched = answer.value("searched", Json::array());

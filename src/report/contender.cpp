@@ -65,6 +65,17 @@ bool samples_search(const Json& result_case) {
   return assigner == nullptr ? result_case.value("samples_search", false) : assigner->own_is_searched();
 }
 
+bool is_at_surfaces(const std::string& assigner) {
+  const assign::AssignerDescriptor* method = assign::find_assigner(assigner);
+  return method != nullptr && method->at_surfaces;
+}
+
+std::string at_surfaces_text(const std::string& assigner) {
+  return is_at_surfaces(assigner)
+             ? "lights visible opaque surfaces alone: transparent ones, particles and fog need lists of their own"
+             : "";
+}
+
 std::vector<double> frame_rounds(const Json& result_case) {
   const Json samples = result_case.value(Json::json_pointer("/timing/frame_ns/samples"), Json::array());
   if (!std::ranges::all_of(samples, [](const Json& ns) { return ns.is_number(); })) return {};

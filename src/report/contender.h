@@ -33,6 +33,12 @@ bool draws_lights(const nlohmann::ordered_json& result_case);
 // Whether each sample searches its structure for lights: priced by the model only, and so ranked apart.
 bool samples_search(const nlohmann::ordered_json& result_case);
 
+// Whether a method's lists hold the lights of visible opaque surfaces alone.
+bool is_at_surfaces(const std::string& assigner);
+// What to know of a method before it is taken whose lists are such: "lights visible opaque surfaces alone: ..."; "" of
+// others.
+std::string at_surfaces_text(const std::string& assigner);
+
 // The frame times of a case's rounds; empty where it has none.
 std::vector<double> frame_rounds(const nlohmann::ordered_json& result_case);
 

@@ -152,8 +152,11 @@ const std::vector<EngineRow>& engine_rows() {
        "ClusterConfig: leave it alone; its default makes these X x Y x Z clusters of this viewport, and others of "
        "another",
        {"/tiles/count", "/slices/count"},
-       {{"GlobalClusterSettings::gpu_clustering.initial_index_list_capacity", Needed::entries, 0, 1, k_any}},
-       "the list grows after a few frames that lack lights"},
+       {{"GlobalClusterSettings::view_cluster_bindings_max_indices", Needed::entries, 16384, 1, k_any},
+        {"GlobalClusterSettings::gpu_clustering.initial_index_list_capacity", Needed::entries, 0, 1, k_any}},
+       "after a frame with more than max_indices, tiles grow in the next one (dynamic_resizing, on the GPU, too); "
+       "where "
+       "the list itself has no room it grows after a few frames that lack lights"},
       {"ogre-next",
        "SceneManager, as since 2.3",
        "setForwardClustered(true, X, Y, Z, lightsPerCell, decalsPerCell, cubemapProbesPerCell, minDistance, "

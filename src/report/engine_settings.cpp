@@ -131,7 +131,9 @@ std::string own_value_text(const SettingValue& value, const SizedStructure& stru
     if (tiles->grown == 0 && tiles->over == 0) return "";
     return with + "tiles grow in " + std::to_string(tiles->grown) + " of " + number_of(tiles->frames, "frame") +
            ", from " + tiles_text(tiles->asked) + " to " + tiles_text(tiles->fewest) + " at most; " +
-           (tiles->over == 0 ? "lists then fit" : "in " + std::to_string(tiles->over) + " lists do not fit even so") +
+           (tiles->over == 0 ? "all frames then fit"
+                             : number_of(tiles->over, "frame") + (tiles->over == 1 ? " has" : " have") +
+                                   " more than there is room for in their own tiles, before or after these grew") +
            " (" + std::to_string(tiles->entries) + " entries at most)\n";
   }
   if (setting.standard == 0 || setting.is_constant || setting.needed == Needed::entries) return "";

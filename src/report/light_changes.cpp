@@ -82,10 +82,6 @@ void add_no_lights(const Json& result, bool are_allowed, LimitFindings& findings
       add_once(why + ", so budgets say nothing of it" +
                    (are_allowed ? "" : " (--allow-no-lights, limits.allow_no_lights, if that is meant)"),
                are_allowed ? findings.warnings : findings.broken);
-    else if (lights->lit < lights->all)
-      add_once(lights->scene + ": " + dark_text(*lights) + " (" + k_dark +
-                   "); lists and all figures but lights_lit and lights_seen count them",
-               findings.warnings);
   }
 }
 

@@ -104,8 +104,8 @@ Json ranking_of(const View& view, const std::vector<RankedPreset>& rows) {
   for (const RankedPreset& row : rows) {
     if (row.standing != first->standing) first = &row;
     list.push_back(line_json(row, *first));
-    if (row.standing == PresetStanding::lists && row.place == 1) alike.push_back((*row.result_case)["id"]);
   }
+  for (const RankedPreset* row : taken_presets(rows)) alike.push_back((*row->result_case)["id"]);
   Json out{{"scene", view.scene},
            {"camera", view.camera},
            {"viewport", view.viewport},
@@ -170,13 +170,13 @@ std::string heading(const Json& ranking, const Json& cases) {
 
 constexpr const char* k_legend =
     "* costs the GPU least, by the key `cost`, of the lists whose samples lack at most 0.1 % of the lights that they "
-    "need.\nplace: 1 + how many are known to cost less: by over 5 %, and at prices of half and twice those of `cost` "
-    "too;\ns: samples search the structure, ranked apart, since no GPU has measured what that costs;\n-: samples lack "
-    "more lights, or need fewer than 1000, too few to say so.\ngpu, upload, read: us of a frame by the model. Lists "
-    "that "
-    "a GPU makes are not uploaded. lights: that a sample is given,\non average. dropped, missed: pairs that cells in "
-    "view lack, seen or not; unlit: what samples lack decides. assign: us of one\ncore here, of engines that assign on "
-    "the CPU; gpu: a time here would not be the engine's.\n";
+    "need, and of\nthose known by more than memory. place: 1 + how many are known to cost less: by over 5 %, and at "
+    "prices of half and twice\nthose of `cost`, too; so one that costs more can have the better place. s: samples "
+    "search the structure, ranked apart, since\nno GPU has measured what that costs. -: samples lack more lights, or "
+    "need fewer than 1000, too few to say so. gpu, upload,\nread: us of a frame by the model; lists that a GPU makes "
+    "are not uploaded, and what it pays to make them is not counted.\nlights: that a sample is given, on average. "
+    "dropped, missed: pairs that cells in view lack, seen or not; unlit: what samples lack\ndecides. assign: us of one "
+    "core here, of engines that assign on the CPU; gpu: a time here would not be the engine's.\n";
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include "core/text.h"
 #include "measure/shading.h"
 #include "report/columns.h"
+#include "report/contender.h"
 #include "report/json_values.h"
 #include "report/nothing_seen.h"
 #include "report/sample_sets.h"
@@ -65,15 +66,26 @@ std::string room_text(const RankedPreset& row) {
   const auto over = number_at(*row.result_case, "/react/frames/over");
   if (!over || *over == 0.0 || (*row.result_case)["react"]["to"] != "entries") return "";
   return "with storage buffers, where its lists grow, as the figures of its row are; without them there is room for " +
-         text("%.0f entries, ", *number_at(*row.result_case, "/react/most")) +
-         number_of(static_cast<std::uint64_t>(*over), "frame") + " of " + (*row.result_case)["frames"].dump() +
-         " do not fit, and lack lights";
+         text("%.0f entries, ", *number_at(*row.result_case, "/react/most")) + text("%.0f of ", *over) +
+         number_of((*row.result_case)["frames"].get<std::uint64_t>(), "frame") +
+         (*over == 1.0 ? " does not fit, and lacks lights" : " do not fit, and lack lights");
 }
 
 // What to know of the preset before it is taken: "the fallback on the CPU, ..."; "" where nothing is known.
 std::string remark_of(const RankedPreset& row) {
   const config::Preset* preset = preset_of(row);
-  return preset == nullptr ? "" : preset->remark;
+  std::vector<std::string> remarks;
+  if (preset != nullptr && !std::string(preset->remark).empty()) remarks.emplace_back(preset->remark);
+  if (const std::string limit = at_surfaces_text((*row.result_case)["assigner"]["name"].get<std::string>());
+      !limit.empty())
+    remarks.push_back(limit);
+  return joined(remarks, "; ");
+}
+
+// Nobody has looked into the engine for it: no reason to take one engine over another.
+bool is_from_memory(const RankedPreset& row) {
+  const config::Preset* preset = preset_of(row);
+  return preset != nullptr && preset->evidence == config::Evidence::memory;
 }
 
 bool has_slices_without_camera_far(const RankedPreset& row) {
@@ -133,7 +145,7 @@ std::vector<std::string> loss_texts(const RankedPreset& row) {
 
 std::string needed_lights_text(const RankedPreset& row) {
   const auto needed = static_cast<std::uint64_t>(row.losses.needed);
-  return needed == 0 ? "no light" : "only " + number_of(needed, "light");
+  return needed == 0 ? "no light" : "only " + number_of(needed, "light") + ", summed over all samples";
 }
 
 std::string sample_word(const RankedPreset& row) {
@@ -188,9 +200,9 @@ std::string load_text(const RankedPreset& row) {
     out = text("%.3g", *lights) + text(" lights per sample (%.3g needed)", *mean_at_samples(result_case, "needed"));
   const bool is_read_priced = row.frame && row.frame->cost.read_ns > 0.0;
   if (const auto bytes = mean_at_samples(result_case, "read_bytes"); bytes && is_read_priced)
-    out += ", for which it reads " + read_size_text(*bytes);
+    out += ", for which it fetches " + read_size_text(*bytes);
   if (makes_lists_on_gpu(result_case))
-    return out + (out.empty() ? "" : "; ") + "nothing to upload, the GPU makes its lists";
+    return out + (out.empty() ? "" : "; ") + "nothing to upload: the GPU makes its lists, which is not in its cost";
   const auto upload = number_at(result_case, "/buffers/upload_bytes/mean");
   return out + (out.empty() || !upload ? "" : ", ") + (upload ? read_size_text(*upload) + " uploaded a frame" : "");
 }
@@ -201,13 +213,13 @@ std::string evidence_text(const RankedPreset& row) {
   if (preset == nullptr) return "of another version of this program";
   switch (preset->evidence) {
     case config::Evidence::ran:
-      return "run beside the engine's code";
+      return "compared with the engine's own code";
     case config::Evidence::read:
-      return "read, not run";
+      return "its source was studied, not run";
     case config::Evidence::memory:
       break;
   }
-  return "from memory";
+  return "from memory alone";
 }
 
 std::string names_text(const std::vector<const RankedPreset*>& rows) {
@@ -260,19 +272,45 @@ std::string own_loss_text(const RankedPreset& row) {
   return losses.empty() ? "" : "; " + name(row) + ": " + joined(losses, "; ");
 }
 
-// Of presets with one standing, best first: what to take and by how much.
-std::string choice_text(const std::vector<const RankedPreset*>& rows) {
-  const RankedPreset& first = *rows.front();
-  std::vector<const RankedPreset*> alike, others;
-  for (const RankedPreset* row : rows) (row->place == 1 ? alike : others).push_back(row);
+// Of presets with one standing, each the cheapest first. Those from memory alone are taken only where all are.
+struct PresetChoice {
+  std::vector<const RankedPreset*> taken;   // of which the model cannot tell the first one
+  std::vector<const RankedPreset*> others;  // that cost more
+  std::vector<const RankedPreset*> guessed;
+};
+
+PresetChoice choose(const std::vector<const RankedPreset*>& rows) {
+  PresetChoice choice;
+  std::vector<const RankedPreset*> known;
+  for (const RankedPreset* row : rows) (is_from_memory(*row) ? choice.guessed : known).push_back(row);
+  if (known.empty()) std::swap(known, choice.guessed);
+  for (const RankedPreset* row : known) {
+    const bool is_alike = row == known.front() || are_alike(known.front()->frame->cost, row->frame->cost);
+    (is_alike ? choice.taken : choice.others).push_back(row);
+  }
+  return choice;
+}
+
+// What to take and by how much. `of`: what there is of such presets, for "no other".
+std::string choice_text(const PresetChoice& choice, const std::string& of) {
+  const auto& [alike, others, guessed] = choice;
+  const RankedPreset& first = *alike.front();
   std::string out = "take " + or_text(alike);
-  out += alike.size() > 1 ? alike_text(alike)
-                          : ", which costs the GPU least: " + milliseconds(first.gpu_ns()) + " a frame";
+  out +=
+      alike.size() > 1
+          ? alike_text(alike)
+          : ", which costs the GPU least of upload, reading and shading: " + milliseconds(first.gpu_ns()) + " a frame";
+  if (std::ranges::any_of(alike, [](const RankedPreset* row) { return makes_lists_on_gpu(*row->result_case); }))
+    out += " (what a GPU pays to make lists itself is not counted)";
   if (!others.empty())
     out += "; " + name(*others.front()) + ", the next, costs " +
            text("%.2f", others.front()->gpu_ns() / first.gpu_ns()) + " times as much as " + name(first);
   else if (alike.size() == 1)
-    out += "; no other preset that was measured is known to lack at most 0.1 % of the lights that samples need";
+    out += of.empty() ? "; no other preset was measured"
+                      : "; no other preset " + of + " is known to give samples all lights";
+  if (!guessed.empty() && guessed.front()->gpu_ns() < first.gpu_ns())
+    out += "; " + name(*guessed.front()) + " would cost " + milliseconds(guessed.front()->gpu_ns()) +
+           ", but is modelled from memory alone";
   for (const RankedPreset* row : alike) out += own_loss_text(*row);
   return out;
 }
@@ -330,7 +368,7 @@ std::string preset_reason(const RankedPreset& row, const RankedPreset& first) {
   const bool lacks = row.standing == PresetStanding::lacks_lights || row.standing == PresetStanding::unknown;
   if (lacks)
     out +=
-        row.standing == PresetStanding::unknown ? "; not ranked" : "; not ranked by cost, which is that of less light";
+        row.standing == PresetStanding::unknown ? "; not ranked" : "; not ranked by cost, since it shades fewer lights";
   else if (&row == &first)
     out += row.standing == PresetStanding::searched ? "; costs least of those that samples search" : "; costs least";
   else if (row.place == first.place)
@@ -341,6 +379,11 @@ std::string preset_reason(const RankedPreset& row, const RankedPreset& first) {
   return out + ": " + load_text(row) + " (" + evidence_text(row) + (remark.empty() ? "" : "; " + remark) + ")";
 }
 
+std::vector<const RankedPreset*> taken_presets(const std::vector<RankedPreset>& rows) {
+  const std::vector<const RankedPreset*> lists = of_standing(rows, PresetStanding::lists);
+  return lists.empty() ? lists : choose(lists).taken;
+}
+
 std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
   const std::vector<const RankedPreset*> lists = of_standing(rows, PresetStanding::lists),
                                          searched = of_standing(rows, PresetStanding::searched),
@@ -349,10 +392,10 @@ std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
   const std::string doubt = doubt_text(rows);
   std::string out;
   if (!lists.empty())
-    out = choice_text(lists);
+    out = choice_text(choose(lists), rows.size() == 1 ? "" : searched.empty() ? "that was measured" : "with lists");
   else if (!searched.empty())
     out = "of lists none is known to give samples all lights; of the structures that samples search " +
-          choice_text(searched);
+          choice_text(choose(searched), "that was measured");
   else if (!lacking.empty())
     return "no preset that was measured is known to give samples all lights; " +
            (unknown.empty() ? "" : "whether " + or_text(unknown) + " does is not known; ") + "of those that do not " +
@@ -361,13 +404,13 @@ std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
            percent(*lacking.front()->losses.unlit) + " of those that they need" + (doubt.empty() ? "" : "; " + doubt);
   else
     return "which preset suits is not known" + (doubt.empty() ? "" : ": " + doubt);
-  const RankedPreset& first = lists.empty() ? *searched.front() : *lists.front();
+  const RankedPreset& first = *choose(lists.empty() ? searched : lists).taken.front();
   if (!lists.empty() && !searched.empty())
     out += "; apart, since no GPU has measured what samples search: " + names_text(searched) + ", from " +
            milliseconds(searched.front()->gpu_ns()) + " by the model";
   if (!doubt.empty()) out += "; " + doubt;
   if (const std::string far = far_text(rows); !far.empty()) out += "; " + far;
-  out += ". Sure by as much as the model of `cost` is; how " + name(first) + " is known: " + evidence_text(first);
+  out += ". No surer than the model of `cost`; " + name(first) + ": " + evidence_text(first);
   if (first.frame->has_random_depths)
     out += std::string("; depths are random, since there are no surfaces") +
            (doubt.empty() ? ": --set samples.opaque.ground=lowest takes a floor" : "");

@@ -29,6 +29,10 @@ struct RankedPreset {
   std::string unseen{};                            // why nothing is seen by which it could be ranked; "": something is
 };
 
+// The lists' rows that a conclusion takes, the cheapest first: those of the first place, but that what is known from
+// memory alone is taken only where all is.
+std::vector<const RankedPreset*> taken_presets(const std::vector<RankedPreset>& rows);
+
 // What speaks for and against a case. `first`: of its part.
 std::string preset_reason(const RankedPreset& row, const RankedPreset& first);
 

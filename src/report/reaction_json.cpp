@@ -121,7 +121,8 @@ std::string reaction_table(const Json& result) {
                                        [](const Json& react) { return "  " + reaction_text(react) + "\n"; });
   if (out.empty()) return "";
   return "\n" + out +
-         "reacted: frames with other tiles than asked for. over: frames that still need more than there is room for.\n"
+         "reacted: frames with other tiles than asked for. over: frames whose own tiles have more than there is\nroom "
+         "for; a frame after one has larger tiles.\n"
          "changed: frames with other tiles than the frame before. entries to evaluated: against the same case in the "
          "tiles "
          "asked for; below 0 is saved. entries, bytes: high water. excess: false positives.\n";
@@ -132,7 +133,7 @@ std::string fallback_table(const Json& result) {
                                        [](const Json&) { return std::string(); });
   if (out.empty()) return "";
   return "\n" + out +
-         "frames: with a cell that reads all lights for want of room. cells: that do, over all frames. entries to "
+         "frames: with a cell that reads all lights for want of room. cells: such cells, over all frames. entries to "
          "evaluated: against the same case with room for all; below 0 is saved.\n";
 }
 

@@ -154,7 +154,11 @@ struct Ranked {
   bool is_apart = false;
 
   bool is_feasible() const { return broken.empty() && std::isfinite(objective); }
-  std::tuple<double, std::uint64_t, std::size_t> smaller() const { return {bytes, cells, candidate}; }
+  // Of those that are alike the least is chosen: one that lights more than opaque surfaces before others.
+  auto smaller() const {
+    const bool is_limited = is_at_surfaces(cases[0]["assigner"]["name"].get<std::string>());
+    return std::tuple(is_limited, bytes, cells, candidate);
+  }
 };
 
 // Frame times of all cameras as one: round by round their mean by frames.
@@ -280,7 +284,9 @@ Json ranked_json(const config::Config& config, const search::View& view, const R
     out["ci95"] = {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)};
   }
   if (question.objective.is_cost && ranked.objective > choice.objective)
-    out["by_prices"] = interval_json(measure::ratio_by_prices(cost_over(ranked.cases), cost_over(choice.cases)));
+    out["by_prices"] =
+        interval_json(measure::around(out["by_choice"].get<double>(), ranked.objective / choice.objective,
+                                      measure::ratio_by_prices(cost_over(ranked.cases), cost_over(choice.cases))));
   Json figures = Json::object();
   for (const ObjectiveFigure& figure : objective_figures())
     if (const std::optional<double> value = figure_over(ranked.cases, figure.name))
@@ -344,11 +350,11 @@ struct Excluded {
   double nearest_figure = 0.0;
 };
 
-Excluded excluded_by(std::size_t constraint, const search::Found& found) {
+Excluded excluded_by(std::size_t constraint, const search::View& view, const search::Found& found) {
+  // What is not known beside the best accepted one comes last. What samples search is never held against lists.
   const auto by_best = [&](std::size_t index) {
-    const search::Record& record = found.records[index];
-    const double by = std::isnan(record.by_best) ? record.verdict.objective : record.by_best;
-    return std::isnan(by) ? std::numeric_limits<double>::infinity() : by;
+    const double by = found.records[index].by_best;
+    return std::tuple(view.candidates[index].is_apart, std::isnan(by), std::isnan(by) ? 0.0 : by);
   };
   Excluded excluded;
   for (std::size_t i = 0; i < found.records.size(); ++i) {
@@ -370,7 +376,7 @@ Json excluded_json(const search::View& view, const search::Found& found, const Q
   const std::vector<std::string> texts = constraint_texts(question);
   Json out = Json::array();
   for (std::size_t constraint = 0; constraint < texts.size(); ++constraint) {
-    const Excluded excluded = excluded_by(constraint, found);
+    const Excluded excluded = excluded_by(constraint, view, found);
     const bool is_given = constraint < question.constraints.size() && question.constraints[constraint].is_given;
     Json row{{"constraint", texts[constraint]}, {"given", is_given},  {"excluded", excluded.count},
              {"alone", excluded.alone},         {"nearest", nullptr}, {"best", nullptr}};
@@ -380,9 +386,11 @@ Json excluded_json(const search::View& view, const search::Found& found, const Q
                         {"frames", found.records[*excluded.nearest].frames}};
     if (excluded.best) {
       const search::Record& best = found.records[*excluded.best];
+      const bool is_comparable = !view.candidates[*excluded.best].is_apart ||
+                                 std::ranges::all_of(view.candidates, &search::Candidate::is_apart);
       row["best"] = {{"name", view.candidates[*excluded.best].name},
                      {"objective", number_or_null(best.verdict.objective)},
-                     {"by_best", number_or_null(best.by_best)},
+                     {"by_best", is_comparable ? number_or_null(best.by_best) : Json()},
                      {"frames", best.frames}};
     }
     out.push_back(row);

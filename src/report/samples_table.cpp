@@ -1,5 +1,7 @@
 #include "report/samples_table.h"
 
+#include <algorithm>
+
 #include "report/columns.h"
 #include "report/sample_sets.h"
 
@@ -28,17 +30,46 @@ std::vector<std::pair<std::string, const Json*>> all_sets_of(const Json& result_
   return sets;
 }
 
-// Methods as lines, sets as columns. All cases of a block have the same sets.
+// Nothing where a case does not have the set, as methods that need depth have no points of the whole view.
+const Json* set_of(const Json& result_case, const std::string& name) {
+  for (const auto& [own, set] : all_sets_of(result_case))
+    if (own == name) return set;
+  return nullptr;
+}
+
+// Of all cases, points of the whole view first.
+std::vector<std::string> set_names(const std::vector<NamedCase>& cases) {
+  std::vector<std::string> names;
+  for (const NamedCase& named : cases)
+    for (const auto& [name, set] : all_sets_of(*named.result_case))
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  std::ranges::stable_partition(names, [](const std::string& name) { return name == "volume"; });
+  return names;
+}
+
+// Lights that reach a sample: the same for all cases that have the set.
+std::string needed_text(const std::string& name, const std::vector<NamedCase>& cases) {
+  for (const NamedCase& named : cases)
+    if (const Json* set = set_of(*named.result_case, name); set != nullptr && (*set)["samples"] != 0)
+      return text("%.2f", set_per_sample(*set, "needed"));
+  return "-";
+}
+
+// Methods as lines, sets as columns.
 std::string samples_block(const std::string& block, const std::vector<NamedCase>& cases) {
+  const std::vector<std::string> names = set_names(cases);
   Cells headings{"", "assigner"}, needed{"", "(needed)"};
-  for (const auto& [name, set] : all_sets_of(*cases.front().result_case)) {
+  for (const std::string& name : names) {
     headings.push_back(name);
-    needed.push_back((*set)["samples"] == 0 ? "-" : text("%.2f", set_per_sample(*set, "needed")));
+    needed.push_back(needed_text(name, cases));
   }
   std::vector<Cells> rows{headings, needed};
   for (const NamedCase& named : cases) {
     Cells row{"", named.name};
-    for (const auto& [name, set] : all_sets_of(*named.result_case)) row.push_back(given_text(*set));
+    for (const std::string& name : names) {
+      const Json* set = set_of(*named.result_case, name);
+      row.push_back(set == nullptr ? "-" : given_text(*set));
+    }
     rows.push_back(row);
   }
   const std::vector<std::size_t> widths = widths_of(rows);

@@ -282,12 +282,23 @@ std::vector<SizedStructure> chosen_structures(const Json& result, const SizeRequ
   return chosen;
 }
 
-// Its first buffer whose need is not the same in all frames says it.
-const Json& case_of_mark(const SizedStructure& structure) {
-  for (const SizedBuffer& buffer : structure.buffers)
-    for (const Json* result_case : structure.cases)
-      if (!buffer.is_all() && buffer.worst_camera == (*result_case)["camera"]) return *result_case;
-  return *structure.cases.front();
+double entries_of(const Json& result_case) {
+  return number_at(result_case, "/buffers/index_entries/high_water").value_or(0.0);
+}
+
+// Of each camera that has a grid of its own, and of its viewports the one that needs most.
+std::vector<const Json*> cases_to_search(const SizedStructure& structure) {
+  std::vector<const Json*> all;
+  for (const Json* result_case : structure.cases) {
+    if (structure.is_guest((*result_case)["camera"].get<std::string>())) continue;
+    const auto known =
+        std::ranges::find_if(all, [&](const Json* one) { return (*one)["camera"] == (*result_case)["camera"]; });
+    if (known == all.end())
+      all.push_back(result_case);
+    else if (entries_of(*result_case) > entries_of(**known))
+      *known = result_case;
+  }
+  return all;
 }
 
 // Those of the engine's preset.
@@ -326,14 +337,17 @@ std::vector<std::string> sized_measures(const std::string& storage, const std::s
 std::vector<SizedCase> sized_cases(const Json& result, const SizeRequest& request) {
   std::size_t count = 0;
   std::vector<SizedCase> out;
-  for (const SizedStructure& structure : printed_structures(result, request, count)) {
-    const Json& of_mark = case_of_mark(structure);
-    out.push_back({structure.name, of_mark["name"].get<std::string>(),
-                   sized_measures(of_mark["storage"].get<std::string>(), request.engine), "", structure.guests});
-    for (const Json* result_case : structure.cases)
-      if ((*result_case)["camera"] == request.scope.grid_of && out.back().grid_case.empty())
-        out.back().grid_case = (*result_case)["name"].get<std::string>();
-  }
+  for (const SizedStructure& structure : printed_structures(result, request, count))
+    for (const Json* result_case : cases_to_search(structure)) {
+      out.push_back({structure.name,
+                     (*result_case)["name"].get<std::string>(),
+                     sized_measures((*result_case)["storage"].get<std::string>(), request.engine),
+                     "",
+                     {}});
+      if ((*result_case)["camera"] != request.scope.grid_of) continue;
+      out.back().grid_case = out.back().name;
+      out.back().guests = structure.guests;
+    }
   return out;
 }
 

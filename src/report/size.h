@@ -40,8 +40,8 @@ std::vector<std::string> size_roundings();
 // have to have room for.
 std::vector<std::string> sized_measures(const std::string& storage, const std::string& engine);
 
-// Of each structure that is printed, the case whose camera made the high-water mark: where a search for worse frames is
-// to begin.
+// Of each structure that is printed, a case of each camera, of several viewports the one that needs most: where
+// searches for worse frames are to begin.
 struct SizedCase {
   std::string structure, name;
   std::vector<std::string> measures;  // for which it is to be searched

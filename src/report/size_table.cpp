@@ -200,10 +200,10 @@ std::string size_table(const std::vector<NamedStructure>& structures, const std:
         "both=0,0,BACK`, for eyes BACK = half their distance over the tangent of half the horizontal field of view, "
         "and then --views both,... --grid-of both; or lists for each view, without --grid-of.\n";
   if (is_of_nothing) return out + "Do not allocate these: give cameras that see lights, or --worst-case.\n";
-  return out + (is_searched ? "Allocate these capacities; --format cpp, hlsl or glsl has them as code.\n"
-                            : "Next: --worst-case, of the scene and not of its result, looks for frames that need more "
-                              "than these; --format cpp, hlsl or glsl "
-                              "has the capacities as code.\n");
+  return out + (is_searched
+                    ? "Allocate these capacities; --format cpp, hlsl or glsl has them as code.\n"
+                    : "Next: `clusterbench size LEVEL --worst-case` (of the scene, not of a result) searches for "
+                      "frames that need more; --format cpp, hlsl or glsl prints the capacities as code.\n");
 }
 
 }  // namespace clusterbench::report

@@ -58,18 +58,21 @@ std::string found_text(const SizedBuffer& buffer, const SizedStructure& structur
   if (!buffer.found) return "nothing for this buffer";
   const FoundFrame& found = structure.searches[buffer.found_by];
   const std::string tried = tried_text(found);
+  const std::size_t cameras = structure.searched_cameras();
+  const std::string of_cameras = cameras > 1 ? " of each of " + std::to_string(cameras) + " cameras" : "";
   // What a frame needs that was sought for something else is no less true, but nothing of what others need.
   std::string out = std::to_string(*buffer.found) +
                     (found.measure == structure.sought_measure()
-                         ? " in " + tried
+                         ? " in " + tried + of_cameras
                          : " in the worst frame of a search with --measure " + found.measure + ", of " + tried);
-  std::size_t views = 1;
-  for (const std::vector<std::string>& view : structure.views) views = std::max(views, view.size());
-  if (views > 1) out += ", all " + std::to_string(views) + " views in such a place";
+  if (buffer.found_views > 1)
+    out += ", " + std::to_string(buffer.found_views) + " views together, each in its own worst frame";
   if (buffer.high_water > 0)
     out +=
         text(", %.2f times the most seen", static_cast<double>(*buffer.found) / static_cast<double>(buffer.high_water));
-  if (const std::string place = place_text(found); !place.empty()) out += ", " + place;
+  if (const std::string place = place_text(found); !place.empty())
+    out += (buffer.found_views > 1 ? "; the worst: " : ", ") +
+           (structure.cases.size() > 1 ? "camera " + structure.camera_of(found) + " " : std::string()) + place;
   if (*buffer.found > buffer.capacity) out += ": MORE THAN THE CAPACITY";
   if (!structure.is_sought())
     out += "; what this buffer needs was not searched for: --worst-case, or worst-case --measure " +
@@ -105,7 +108,7 @@ std::string tried_text(const FoundFrame& found) {
 
 std::string place_text(const FoundFrame& found) {
   const auto vector = [](const std::vector<double>& v) {
-    return text("(%.4g", v[0]) + text(", %.4g", v[1]) + text(", %.4g)", v[2]);
+    return text("(%.4g", v[0] + 0.0) + text(", %.4g", v[1] + 0.0) + text(", %.4g)", v[2] + 0.0);  // no "-0"
   };
   if (found.eye_m.size() != 3) return "";
   return "at " + vector(found.eye_m) + " m" +

@@ -127,7 +127,8 @@ std::string figure_text(double value) {
   return text("%.10g", value);
 }
 
-std::string vector_text(const Vec3d& v) {
+std::string vector_text(Vec3d v) {
+  for (int axis = 0; axis < 3; ++axis) v[axis] += 0.0;  // no "-0"
   return text("(%.4g", v.x) + text(", %.4g", v.y) + text(", %.4g)", v.z);
 }
 

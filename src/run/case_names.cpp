@@ -10,13 +10,17 @@ namespace clusterbench::run {
 namespace {
 
 // "a/own/half" with another word for "own"; the first part from the fourth on that is it: scene, camera and grid can be
-// called anything.
-std::string with_part(const std::string& name, const std::string& part, const std::string& other) {
+// called anything. `other_of`: of the part before, the method.
+template <class OtherOf>
+std::string with_part(const std::string& name, const std::string& part, const OtherOf& other_of) {
+  std::string method;
   std::size_t begin = 0;
   for (int before = 0; begin != std::string::npos; ++before) {
     const std::size_t end = name.find('/', begin);
-    if (before >= 4 && name.substr(begin, end == std::string::npos ? end : end - begin) == part)
-      return name.substr(0, begin) + other + (end == std::string::npos ? "" : name.substr(end));
+    const std::string own = name.substr(begin, end == std::string::npos ? end : end - begin);
+    if (before >= 4 && own == part)
+      return name.substr(0, begin) + other_of(method) + (end == std::string::npos ? "" : name.substr(end));
+    method = own.substr(0, own.find('('));
     begin = end == std::string::npos ? end : end + 1;
   }
   return name;
@@ -35,7 +39,9 @@ std::vector<std::string> other_names(const CaseNames& names) {
       all.push_back(names.scene + "/" + names.camera + "/" + part);
     }
   }
-  const std::string storage = names.storage == k_own_structure ? k_no_lists : names.storage;
+  const std::string storage = names.storage == k_own_structure
+                                  ? own_structure_name(names.method.substr(0, names.method.find_first_of(" (")))
+                                  : names.storage;
   for (const std::string& method :
        {names.method, names.method + " / " + storage, names.method + " / " + names.storage}) {
     all.push_back(method);
@@ -66,14 +72,21 @@ void replace_first(std::string& name, std::size_t begin, const std::string& text
 
 std::string former_name(std::string name) {
   for (const auto& [former, current] : k_choices) replace_first(name, begin_of_method(name), current, former);
-  return with_part(name, k_no_lists, k_own_structure);
+  const auto own = [](const std::string&) { return std::string(k_own_structure); };
+  return with_part(with_part(name, k_no_lists, own), k_own_lists, own);
+}
+
+// Before tiles' lists were told apart.
+std::string without_own_lists(const std::string& name) {
+  return with_part(name, k_own_lists, [](const std::string&) { return std::string(k_no_lists); });
 }
 
 }  // namespace
 
 std::string current_name(std::string name) {
   for (const auto& [former, current] : k_choices) replace_first(name, begin_of_method(name), former, current);
-  return with_part(name, k_own_structure, k_no_lists);
+  const auto own = [](const std::string& method) { return std::string(own_structure_name(method)); };
+  return with_part(with_part(name, k_own_structure, own), k_no_lists, own);
 }
 
 std::string current_method(std::string label) {
@@ -91,7 +104,7 @@ std::string name_without_camera(const CaseNames& names, bool with_viewport) {
 
 bool is_selected(const Pattern& pattern, const CaseNames& names) {
   return pattern.is_in(names.name) || pattern.is_in(former_name(names.name)) ||
-         pattern.is_in_as_it_stands(printable(names.name)) ||
+         pattern.is_in(without_own_lists(names.name)) || pattern.is_in_as_it_stands(printable(names.name)) ||
          std::ranges::any_of(other_names(names),
                              [&](const std::string& name) { return pattern.is(name) || pattern.is(printable(name)); });
 }

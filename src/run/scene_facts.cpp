@@ -73,6 +73,22 @@ std::string most_clamped(int clamped, int all, const scene::RangeRule& rule) {
 
 }  // namespace
 
+std::string dark_lights(const SceneData& data) {
+  const auto lights = std::ranges::count_if(data.scene.lights, [](const scene::Light& light) {
+    return light.type == scene::LightType::point || light.type == scene::LightType::spot;
+  });
+  return dark_lights(scene::count_dark_lights(data.scene), static_cast<int>(lights));
+}
+
+std::string dark_lights(int dark, int lights) {
+  if (dark == 0) return "";
+  return std::to_string(dark) + " of " + number_of(static_cast<std::size_t>(lights), "light") +
+         (dark == 1 ? " is" : " are") +
+         " dark (intensity 0, black, or range 0): lists and all figures but lights_lit and "
+         "lights_seen count " +
+         (dark == 1 ? "it" : "them") + ", engines do not";
+}
+
 SceneResult scene_result(const SceneData& data, const config::SceneRequest& request,
                          const std::vector<Vec2i>& viewports) {
   SceneResult out;
@@ -106,6 +122,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
                            data.paths.front().camera + "': " + first_names(others) +
                            "; \"camera\": \"*\" measures all");
   if (const std::string why = scene::why_no_lights(scene); !request.rig && !why.empty()) out.warnings.push_back(why);
+  if (const std::string dark = dark_lights(data); !dark.empty()) out.warnings.push_back(dark);
   if (!request.camera.field_of_view) add_fit_warnings(data, viewports, out.warnings);
   for (const std::string& text : {lights_after_path(data), without_field_of_view(data, request), fewer_frames(data)})
     if (!text.empty()) out.warnings.push_back(text);

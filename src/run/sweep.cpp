@@ -383,7 +383,7 @@ class Expansion {
     }
     if (!descriptor.answers(assign::Answer::structure) || !is_wanted(family, std::nullopt)) return;
     case_plan.storage.reset();
-    case_plan.name = name + "/" + k_no_lists + part;
+    case_plan.name = name + "/" + own_structure_name(descriptor.name) + part;
     if (const std::string earlier = same_without_grid(plan, descriptor, case_plan); !earlier.empty())
       skip(plan, family, case_plan.name,
            descriptor.name + "'s own structure has nothing of the grid: measured once, as " + earlier);
@@ -507,13 +507,18 @@ std::vector<Method> methods_of(const GroupPlan& group) {
   return list;
 }
 
+const char* own_structure_name(const std::string& assigner) {
+  const assign::AssignerDescriptor* known = assign::find_assigner(assigner);
+  return known != nullptr && known->own_lists ? k_own_lists : k_no_lists;
+}
+
 std::string method_label(const config::Config& config, const Method& method) {
   const config::PrecisionRequest& precision = config.precisions[method.precision];
   const config::MethodRequest& assigner = config.assigners[method.assigner];
   const cull::PreCullSpec& pre_cull = config.pre_culls[method.pre_cull];
   const bool is_one_of_two = method.answer == assign::Answer::structure &&
                              assign::find_assigner(assigner.name)->answers(assign::Answer::lists);
-  return assigner.label() + (is_one_of_two ? std::string(" (") + k_no_lists + ")" : "") +
+  return assigner.label() + (is_one_of_two ? std::string(" (") + own_structure_name(assigner.name) + ")" : "") +
          (precision.is_lossy() ? " " + precision.label() : "") +
          (pre_cull.is_none() ? "" : " after " + pre_cull.label());
 }

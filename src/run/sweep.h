@@ -49,7 +49,9 @@ struct CasePlan {
 // What stands for a storage's name where an assigner leaves its own structure.
 inline constexpr const char* k_own_structure = "own";
 // In its place in names of cases.
-inline constexpr const char* k_no_lists = "no lists";
+inline constexpr const char *k_no_lists = "no lists", *k_own_lists = "own lists";
+// Of an assigner's own structure, for people: "own lists", as of tiles, or "no lists".
+const char* own_structure_name(const std::string& assigner);
 
 // Cases of one scene, camera, viewport and grid: measured together, in interleaved rounds.
 struct GroupPlan {

@@ -109,7 +109,7 @@ std::string how_lights_are_exported(const std::string& generator) {
     if (known.find(exporter.name) != std::string::npos) return exporter.what;
   return "tick Punctual Lights in Blender's glTF export, Export Lights in Unreal's; Unity's glTFast and UnityGLTF, "
          "Godot "
-         "and three.js write lights (KHR_lights_punctual) by themselves";
+         "and three.js write lights (KHR_lights_punctual) by default";
 }
 
 std::string why_no_lights(const Scene& scene) {

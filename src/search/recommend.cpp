@@ -209,18 +209,21 @@ class ViewSearch {
         found_.records[some[i]] = {frames, request_.judge(cases[i]), k_unknown};
       done += some.size();
     }
-    for (const bool is_apart : {false, true}) compare_with_best(candidates, is_apart);
+    for (const bool is_apart : {false, true}) compare_with_best(frames, is_apart);
   }
 
-  void compare_with_best(std::span<const std::size_t> candidates, bool is_apart) {
+  // All that were last measured on so many frames, which are then the same.
+  void compare_with_best(std::size_t frames, bool is_apart) {
+    const auto is_compared = [&](std::size_t candidate) {
+      return found_.records[candidate].frames == frames && view_.candidates[candidate].is_apart == is_apart;
+    };
     double best = k_infinite;
-    for (const std::size_t candidate : candidates)
-      if (const Verdict& verdict = found_.records[candidate].verdict;
-          verdict.broken.empty() && view_.candidates[candidate].is_apart == is_apart)
+    for (std::size_t candidate = 0; candidate < found_.records.size(); ++candidate)
+      if (const Verdict& verdict = found_.records[candidate].verdict; is_compared(candidate) && verdict.broken.empty())
         best = std::fmin(best, verdict.objective);
     if (best == k_infinite) return;
-    for (const std::size_t candidate : candidates) {
-      if (view_.candidates[candidate].is_apart != is_apart) continue;
+    for (std::size_t candidate = 0; candidate < found_.records.size(); ++candidate) {
+      if (!is_compared(candidate)) continue;
       Record& record = found_.records[candidate];
       record.by_best = record.verdict.objective == best ? 1.0 : record.verdict.objective / best;
     }

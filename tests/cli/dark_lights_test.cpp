@@ -33,6 +33,22 @@ TEST(DarkLights, are_nothing_that_a_run_takes_a_clustering_by) {
   }
 }
 
+TEST(DarkLights, are_told_by_every_command_that_chooses) {
+  const Folder folder;
+  const std::string level =
+                        folder.write("level.gltf", level_of(row_of(8, -1.0, 7))).string() + k_small + " --no-timing ",
+                    told = "warning: level: 7 of 8 lights are dark (intensity 0, black, or range 0): lists and all";
+  for (const std::string& command :
+       {"run " + level + "-o " + (folder / "result.json").string(), "recommend " + level}) {
+    const Outcome done = tool(command);
+    EXPECT_TRUE(contains(done.err, told)) << command << "\n" << done.err;
+  }
+  EXPECT_FALSE(contains(
+      tool("recommend " + folder.write("lit.gltf", level_of(row_of(8, -1.0, 0))).string() + k_small + " --no-timing")
+          .err,
+      "dark"));
+}
+
 TEST(DarkLights, are_nothing_that_presets_are_ranked_by) {
   const Folder folder;
   const std::string level = folder.write("level.gltf", dark_level()).string();
@@ -67,7 +83,9 @@ TEST(DarkLights, are_sized_with_a_warning) {
     EXPECT_TRUE(contains(size.err, warning)) << size.err;
   }
   const std::string lit = folder.write("level.gltf", level_of(row_of(8, -1.0, 7))).string();
-  EXPECT_FALSE(contains(tool("size " + lit + k_small + " -q").err, "dark"));
+  const std::string some = tool("size " + lit + k_small + " -q").err;
+  EXPECT_FALSE(contains(some, "all lights in view are dark")) << some;
+  EXPECT_TRUE(contains(some, "warning: level: 7 of 8 lights are dark (intensity 0, black, or range 0)")) << some;
 }
 
 }  // namespace

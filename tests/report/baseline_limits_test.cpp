@@ -185,13 +185,11 @@ void set_lit(Json& result, int lit, int seen) {
   }
 }
 
-TEST(LightGate, fails_where_all_lights_are_dark_and_tells_some) {
+TEST(LightGate, fails_where_all_lights_are_dark) {
   Json result = baseline_json();
   set_lit(result, 7, 5);
   EXPECT_EQ(light_findings(result, {}).broken, Lines{});
-  EXPECT_EQ(light_findings(result, {}).warnings,
-            (Lines{"hall: of 10 lights 3 are dark (intensity 0, black, or range 0); lists and all figures but "
-                   "lights_lit and lights_seen count them"}));
+  EXPECT_EQ(light_findings(result, {}).warnings, Lines{}) << "the scene's own warnings tell of some";
   const Json base = baseline_json();
   result["scenes"][0]["light_digest"] = "another";
   const Lines fewer = light_findings(result, {.base = &base, .base_name = "base.json"}).broken;

@@ -232,7 +232,47 @@ TEST(SizeMarks, a_search_counts_for_each_view) {
   found.case_name = "hall/left/frustum 64px/aabb/packed";
   request.scope.found = {found};
   const run::Result result = result_of_cameras({camera_of_marks("left", {10, 40}), camera_of_marks("right", {10, 30})});
-  EXPECT_EQ(sized_json(result, request)["buffers"][0]["found"], 100);
+  EXPECT_EQ(sized_json(result, request)["buffers"][0]["found"], 100) << "the other view in as bad a place";
+  FoundFrame right = found_frame(70);
+  right.case_name = "hall/right/frustum 64px/aabb/packed";
+  request.scope.found.push_back(right);
+  EXPECT_EQ(sized_json(result, request)["buffers"][0]["found"], 120) << "each in its own";
+  request.format = "table";
+  const std::string text = marks_of(result, request);
+  EXPECT_NE(
+      text.find("indices: 120 in 5000 frames tried (seed 1, --keep-height) of each of 2 cameras, 2 views together, "
+                "each in its own worst frame, 1.71 times the most seen; the worst: camera right at (1, 2, 3) m"),
+      std::string::npos)
+      << text;
+}
+
+TEST(SizeMarks, each_camera_is_searched_and_of_its_viewports_the_one_that_needs_most) {
+  run::CaseResult small = camera_of_marks("left", {10, 40}), large = camera_of_marks("left", {10, 50});
+  small.buffers.index_entries.high_water = 40, large.buffers.index_entries.high_water = 50;
+  small.viewport = {640, 360}, large.viewport = {1920, 1080};
+  small.name = "hall/left/640x360 frustum 64px/aabb/packed";
+  large.name = "hall/left/1920x1080 frustum 64px/aabb/packed";
+  SizeRequest request = marks_request("json");
+  request.scope.over_viewports = true;
+  const auto names_of = [&](const run::Result& result) {
+    std::vector<std::string> names;
+    for (const SizedCase& sized : sized_cases(result_to_json(result, {}), request)) names.push_back(sized.name);
+    return names;
+  };
+  EXPECT_EQ(names_of(result_of_cameras({small, large})), std::vector{large.name});
+  request.scope.over_viewports = false;
+  const run::Result two = result_of_cameras({camera_of_marks("left", {10, 40}), camera_of_marks("right", {10, 30})});
+  EXPECT_EQ(names_of(two), (std::vector{two.cases[0].name, two.cases[1].name}));
+}
+
+TEST(SizeMarks, cells_that_stay_in_the_world_say_as_much_of_all_views) {
+  run::CaseResult still = camera_of_marks("walk", {40, 40, 40});
+  EXPECT_NE(marks_of(result_of_cameras({still}), marks_request("table")).find("as of a camera that stands still"),
+            std::string::npos);
+  still.grid["kind"] = "world";
+  EXPECT_EQ(marks_of(result_of_cameras({still}), marks_request("table")).find("stands still"), std::string::npos);
+  still.grid["follow"] = "lights";
+  EXPECT_NE(marks_of(result_of_cameras({still}), marks_request("table")).find("stands still"), std::string::npos);
 }
 
 // Of one case or of two cameras, each with a place of its own.
@@ -490,7 +530,7 @@ TEST(SizeMarks, a_search_for_something_else_says_so_and_does_not_end_the_search)
     EXPECT_NE(table.find(std::string("30 in the worst frame of a search with --measure ") + measure), std::string::npos)
         << table;
     EXPECT_NE(table.find("was not searched for: --worst-case"), std::string::npos) << table;
-    EXPECT_NE(table.find("looks for frames that need more than these"), std::string::npos) << table;
+    EXPECT_NE(table.find("searches for frames that need more"), std::string::npos) << table;
   }
 }
 

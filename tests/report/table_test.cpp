@@ -393,6 +393,33 @@ TEST(Table, sets_of_samples_have_a_table_with_what_they_need_and_where_nothing_a
   EXPECT_NE(line_with(samples, "aabb").find("2.50, 2.5 % unlit  no answer         none"), std::string::npos) << samples;
 }
 
+// Methods that need depth have no points of the whole view; a set that only some have stands under its own heading.
+TEST(Table, a_set_of_samples_that_some_cases_lack_shifts_no_figure) {
+  for (const bool is_depth_first : {false, true}) {
+    run::Result result = result_by_hand();
+    for (run::CaseResult& one : result.cases) {
+      const bool is_tiled = (one.assigner == "aabb") == is_depth_first;
+      one.shading = measure::ShadingCounts{.samples = 100, .evaluated = 111, .needed = 100};
+      if (is_tiled) one.shading.reset();
+      one.samples = {
+          {measure::SampleSet::opaque, {.samples = 100, .evaluated = is_tiled ? 222U : 333U, .needed = 200}, {}}};
+      if (!is_tiled)
+        one.samples.push_back({measure::SampleSet::fog, {.samples = 100, .evaluated = 444, .needed = 300}, {}});
+    }
+    const std::string table = table_of(result), samples = table.substr(table.find("lights per sample of hall"));
+    using Words = std::vector<std::string>;
+    EXPECT_EQ(words(line_with(samples, "assigner")), (Words{"assigner", "volume", "opaque", "fog"})) << samples;
+    EXPECT_EQ(words(line_with(samples, "(needed)")), (Words{"(needed)", "1.00", "2.00", "3.00"})) << samples;
+    const auto figures = [&](const char* method) {
+      Words all = words(line_with(samples, method));
+      all.erase(all.begin());
+      return all;
+    };
+    EXPECT_EQ(figures(is_depth_first ? "brute-force" : "aabb"), (Words{"1.11", "3.33", "4.44"})) << samples;
+    EXPECT_EQ(figures(is_depth_first ? "aabb" : "brute-force"), (Words{"-", "2.22", "-"})) << samples;
+  }
+}
+
 TEST(Table, a_note_of_thirty_grids_is_printed_once) {
   run::Result result = result_by_hand();
   const run::CaseResult one = result.cases[0];

@@ -31,7 +31,23 @@ TEST(CaseNames, filters_and_names_of_earlier_versions_still_mean_structures_with
     EXPECT_TRUE(is_selected(Pattern(name, ""), k_case)) << name;
   EXPECT_EQ(current_name("street/walk/frustum/bvh/own"), "street/walk/frustum/bvh/no lists");
   EXPECT_EQ(current_name("street/walk/frustum/bvh/own/half"), "street/walk/frustum/bvh/no lists/half");
+  EXPECT_EQ(current_name("street/walk/frustum/tiled-2.5d(test=both)/own"),
+            "street/walk/frustum/tiled-2.5d(test=both)/own lists");
+  EXPECT_EQ(current_name("street/walk/frustum/tiled/no lists"), "street/walk/frustum/tiled/own lists");
   EXPECT_EQ(current_name("own/own/own/own/packed"), "own/own/own/own/packed") << "of scene, camera, grid and method";
+}
+
+TEST(CaseNames, lists_of_tiles_are_a_methods_own_by_all_names_that_they_had) {
+  const CaseNames tiled{"street/walk/frustum 64px/tiled/own lists",
+                        "0123456789ab",
+                        "street",
+                        "walk",
+                        "640x360",
+                        "frustum 64px",
+                        "tiled",
+                        "own"};
+  for (const char* name : {"tiled/own lists", "tiled/no lists", "tiled/own", "tiled / own lists"})
+    EXPECT_TRUE(is_selected(Pattern(name, ""), tiled)) << name;
 }
 
 TEST(CaseNames, choices_that_were_called_otherwise_are_found_by_both_names) {

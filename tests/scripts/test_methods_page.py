@@ -4,6 +4,7 @@ import copy
 import importlib.util
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -29,8 +30,8 @@ def run(*arguments):
 
 def counted(result):
     """What a row shows of each case, but for its time."""
-    # Names of results that were measured before structures without lists were called so.
-    return {case["name"].replace("/own", "/no lists"): (case.get("error"), case["buffers"]["bytes"]["high_water"], case["samples"]["opaque"]["evaluated"],
+    # Results of earlier versions have "own" and "no lists" for what is "no lists" or "own lists" now.
+    return {re.sub("/(own lists|no lists|own)$", "/own", case["name"]): (case.get("error"), case["buffers"]["bytes"]["high_water"], case["samples"]["opaque"]["evaluated"],
                            case["samples"]["opaque"]["read_bytes"],
                            case["samples"]["opaque"]["missed"]) for case in result["cases"]}
 
