@@ -43,7 +43,7 @@ std::vector<std::string> set_names(const std::vector<NamedCase>& cases) {
   for (const NamedCase& named : cases)
     for (const auto& [name, set] : all_sets_of(*named.result_case))
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-  std::ranges::stable_partition(names, [](const std::string& name) { return name == "volume"; });
+  std::stable_partition(names.begin(), names.end(), [](const std::string& name) { return name == "volume"; });
   return names;
 }
 
