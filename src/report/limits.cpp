@@ -155,7 +155,7 @@ std::string reason_for_none(const std::string& figure) {
   if (pointer.starts_with("/timing/")) return " (--no-timing or timing.measure: false leaves times out)";
   if (const config::FigureAtSamples parts = config::figure_at_samples(figure); row_at_samples(parts.figure)) {
     const std::string without = parts.set.empty() || parts.set == "volume"
-                                    ? "shading.samples: 0 leaves them out"
+                                    ? "shading.samples: 0 leaves them out, and methods of visible surfaces have none"
                                     : "samples." + parts.set + ": {} takes such samples";
     if (parts.figure == "overshade")
       return " (there is none where more than 0.1 % of the lights are unlit or fewer than 100 reach the samples; " +

@@ -104,7 +104,8 @@ TEST(Limits, what_no_case_has_fails) {
   EXPECT_EQ(
       findings_of("overshade > 2", bare).broken,
       (Lines{"'overshade > 2' could not be checked: no case has overshade (there is none where more than 0.1 % of "
-             "the lights are unlit or fewer than 100 reach the samples; shading.samples: 0 leaves them out)"}));
+             "the lights are unlit or fewer than 100 reach the samples; shading.samples: 0 leaves them out, and "
+             "methods of visible surfaces have none)"}));
 }
 
 // Lists that lack lights are short; their overshade would pass any budget.
