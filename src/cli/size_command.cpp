@@ -26,7 +26,6 @@
 #include "report/nothing_seen.h"
 #include "report/result_file.h"
 #include "report/size.h"
-#include "run/scene_facts.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -142,16 +141,6 @@ ExitCode judged(const SizeFlags& flags, const SizeCounts* counts, const Json& re
   return code;
 }
 
-// Lists have them like others.
-void tell_of_dark_lights(const Json& result) {
-  for (const Json& scene : result["scenes"]) {
-    const Json& lights = scene["lights"];
-    const std::string dark =
-        run::dark_lights(lights.value("dark", 0), lights["point"].get<int>() + lights["spot"].get<int>());
-    if (!dark.empty()) tell("warning: " + scene["name"].get<std::string>() + ": " + dark);
-  }
-}
-
 ExitCode size(SizeFlags flags) {
   if (!flags.engine.empty()) choose_engine(flags);
   report::SizeRequest request = flags.request;
@@ -187,7 +176,6 @@ ExitCode size(SizeFlags flags) {
     if (!guests) return os::stopped_exit_code();
     request.scope.guests = *guests;
   }
-  tell_of_dark_lights(result);
   for (const std::string& view : report::views_of_dark_lights(result))
     tell("warning: " + view + "; lists have them all the same, so these are sizes for when they are switched on");
   const std::string text = report::size_report(result, request);

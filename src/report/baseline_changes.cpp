@@ -77,6 +77,14 @@ class Changes {
       cases_.push_back(shown(now["name"]) + ": " + of_case);
   }
 
+  // "indices of 8 -> 16 bits": with more lights; "" where they are as wide.
+  static std::string other_width(const Json& before, const Json& now) {
+    const std::optional<double> was = number_at(before, "/buffers/index_bits"),
+                                is = number_at(now, "/buffers/index_bits");
+    if (!was || !is || *was == *is) return "";
+    return report::text("indices of %.0f", *was) + report::text(" -> %.0f bits", *is);
+  }
+
   // "index_entries 40 -> 50 (+25 %; frame 1, cell [3,2,1]), bytes 232 -> 242 (+4.31 %)"; a location that several
   // figures share once.
   std::string changed(const Json& before, const Json& now, std::span<const char* const> figures) {
@@ -88,6 +96,8 @@ class Changes {
       const double percent = percent_change({*was}, {*is});
       Lines remarks;
       if (std::isfinite(percent)) remarks.push_back(report::text("%+.3g %%", percent));
+      if (const std::string width = other_width(before, now); figure == std::string("bytes") && !width.empty())
+        remarks.push_back(width);
       const std::string location = limit_figure_location(now, figure);
       if (!location.empty() && location != last_location) remarks.push_back(location);
       last_location = location;

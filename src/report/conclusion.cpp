@@ -256,7 +256,8 @@ std::string more_text(double ratio, const measure::Interval& by_times, const mea
   };
   const auto range = [&](const measure::Interval& of) { return amount(of.low) + " to " + amount(of.high); };
   std::vector<std::string> ranges;
-  if (by_times.is_known() && std::isfinite(by_times.high)) ranges.push_back("95 % of the times: " + range(by_times));
+  if (by_times.is_known() && std::isfinite(by_times.high))
+    ranges.push_back("95 % interval of the times: " + range(by_times));
   if (by_prices.is_known() && std::isfinite(by_prices.high))
     ranges.push_back("with the model's prices halved or doubled: " + range(by_prices) +
                      (by_prices.low < 1.0 ? ", so it may cost less on another GPU" : ""));
@@ -403,6 +404,10 @@ std::string beside_choice_text(const Json& record) {
          more_text(record["by_choice"].get<double>(), interval_at(record, "/ci95"), interval_at(record, "/by_prices"));
 }
 
+bool is_cost(const Json& objective) {
+  return objective["figure"].get<std::string>().ends_with("_cost_us");
+}
+
 // Why the choice is not the one with least: of those that are like it, it has the fewest bytes.
 std::string smallest_text(const Json& answer, const Json& objective) {
   const Json* least = nullptr;
@@ -419,8 +424,9 @@ std::string smallest_text(const Json& answer, const Json& objective) {
   const bool is_measured = interval_at(*least, "/ci95").is_known();
   return "; " + name + " takes " + less +
          (is_measured ? " where both were measured side by side" : " (" + objective_text(*least, objective) + ")") +
-         ", which is too little to tell them apart, and needs " + bytes_text(*more_bytes) + " in place of " +
-         bytes_text(*bytes);
+         (is_cost(objective) ? ", within the 5 % to which the model tells costs apart, and needs "
+                             : ", which is too little to tell them apart, and needs ") +
+         bytes_text(*more_bytes) + " in place of " + bytes_text(*bytes);
 }
 
 // ": bytes <= 1000 rejects all 32 candidates, unlit = 0 rejects 4", those that reject most.
@@ -476,8 +482,10 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
   }
   if (against != nullptr) out += "; " + beside_choice_text(*against);
   if (!alike.empty())
-    out += std::string(". The same as far as these ") + (objective["timed"] == true ? "times" : "figures") +
-           " tell: " + joined(alike);
+    out += std::string(is_cost(objective) ? ". The same within 5 %, which is as far as the model tells costs apart: "
+                       : objective["timed"] == true ? ". The same as far as these times tell: "
+                                                    : ". The same as far as these figures tell: ") +
+           joined(alike);
   const Json* method = value_at(choice, "/assigner/name");
   if (const std::string limit = at_surfaces_text(method == nullptr ? "" : method->get<std::string>()); !limit.empty())
     out += ". It " + limit;

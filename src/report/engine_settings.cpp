@@ -119,7 +119,8 @@ GrownTiles together(const std::vector<GrownTiles>& all) {
 
 // What a limit is with which the engine's tiles grow, as far as that was looked at.
 std::optional<GrownTiles> grown_tiles(const SettingValue& value, const SizedStructure& structure) {
-  if (value.setting->needed != Needed::entries || structure.grown.empty()) return {};
+  const bool makes_tiles_grow = value.setting->needed == Needed::entries && value.setting->standard > 0;
+  if (!makes_tiles_grow || structure.grown.empty()) return {};
   return together(structure.grown);
 }
 

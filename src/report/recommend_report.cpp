@@ -228,7 +228,8 @@ void choose(std::vector<Ranked>& all, const Question& question, std::uint64_t se
   std::size_t choice = 0;
   for (std::size_t i = 1; i < all.size() && all[i].is_feasible(); ++i) {
     const std::optional<measure::Ratio> ratio = ratio_of(all[i], all[0], question, seed);
-    const bool is_alike = question.objective.is_cost && all[i].objective <= measure::k_alike_ratio * all[0].objective;
+    const double times_as_much = ratio ? ratio->ratio : all[i].objective / all[0].objective;
+    const bool is_alike = question.objective.is_cost && times_as_much <= measure::k_alike_ratio;
     const bool is_no_worse = is_alike || (ratio ? !measure::takes_longer(ratio) : all[i].objective == all[0].objective);
     if (is_no_worse && all[i].smaller() < all[choice].smaller()) choice = i;
   }

@@ -74,19 +74,23 @@ std::string most_clamped(int clamped, int all, const scene::RangeRule& rule) {
 }  // namespace
 
 std::string dark_lights(const SceneData& data) {
-  const auto lights = std::ranges::count_if(data.scene.lights, [](const scene::Light& light) {
-    return light.type == scene::LightType::point || light.type == scene::LightType::spot;
-  });
-  return dark_lights(scene::count_dark_lights(data.scene), static_cast<int>(lights));
-}
-
-std::string dark_lights(int dark, int lights) {
+  const int dark = scene::count_dark_lights(data.scene);
   if (dark == 0) return "";
-  return std::to_string(dark) + " of " + number_of(static_cast<std::size_t>(lights), "light") +
-         (dark == 1 ? " is" : " are") +
-         " dark (intensity 0, black, or range 0): lists and all figures but lights_lit and "
-         "lights_seen count " +
-         (dark == 1 ? "it" : "them") + ", engines do not";
+  std::size_t lights = 0, without_range = 0;
+  for (const scene::Light& light : data.scene.lights) {
+    if (light.type != scene::LightType::point && light.type != scene::LightType::spot) continue;
+    ++lights;
+    if (light.range_m == 0.0) ++without_range;
+  }
+  std::string out = std::to_string(dark) + " of " + number_of(lights, "light") + (dark == 1 ? " is" : " are") +
+                    " dark (intensity 0, black, or range 0); ";
+  if (without_range < static_cast<std::size_t>(dark))
+    out += "lists and all figures but lights_lit and lights_seen count those with a range, engines do not";
+  if (without_range > 0)
+    out += (without_range < static_cast<std::size_t>(dark) ? "; " : "") + std::to_string(without_range) +
+           " have no range but that of their intensity, which is 0: no list has them, and sizes are without them; give "
+           "them ranges to size for when they are on";
+  return out;
 }
 
 SceneResult scene_result(const SceneData& data, const config::SceneRequest& request,

@@ -16,9 +16,8 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
 // all have one: "--fov changes nothing ...".
 std::string without_field_of_view(const SceneData& data, const config::SceneRequest& request);
 
-// "195 of 200 lights are dark ..." of a scene with so many points and spots; "" where none is. Engines cull such
-// lights, methods here get them all the same.
-std::string dark_lights(int dark, int lights);
+// "195 of 200 lights are dark ..."; "" where none is. Engines cull such lights; methods here get those that have a
+// range.
 std::string dark_lights(const SceneData& data);
 
 // That it is measured in fewer frames than asked for, and why; "" where it is not.

@@ -211,14 +211,25 @@ class WorstCaseSearch {
     return 0.05 * std::sqrt(glm::dot(size, size));
   }
 
+  // All of the path, or as many as a quarter of the seconds allows: the rest is for what was not recorded.
+  int affordable_frames(const run::PathFrames& recorded) const {
+    if (request_.seconds == 0.0) return recorded.count();
+    constexpr double k_share = 0.25;
+    const SearchClock::time_point start = SearchClock::now();
+    values_along(config_, case_, request_.measure, recorded.only({0}), [] {});
+    const double one_s = std::chrono::duration<double>(SearchClock::now() - start).count();
+    return static_cast<int>(std::clamp(k_share * request_.seconds / one_s, 1.0, static_cast<double>(recorded.count())));
+  }
+
   void measure_recorded() {
     const Vec2i viewport = config_.viewports[case_.viewport];
     const run::PathFrames recorded(plan_.scenes[case_.scene].scene, path_, viewport);
     progress_.begin("the recorded path");
+    const std::vector<int> frames = run::evenly_spaced(affordable_frames(recorded), recorded.count());
     const std::vector<double> values =
-        values_along(config_, case_, request_.measure, recorded, [this] { progress_.step(); });
+        values_along(config_, case_, request_.measure, recorded.only(frames), [this] { progress_.step(); });
     const auto most = std::ranges::max_element(values);
-    out_.recorded = {recorded.count(), *most, static_cast<int>(most - values.begin())};
+    out_.recorded = {static_cast<int>(frames.size()), *most, frames[static_cast<std::size_t>(most - values.begin())]};
     const scene::CameraProjection& first = projection();
     const auto differs = [&](const scene::Shot& shot) {
       return view::make_projection(shot.projection, viewport) != view::make_projection(first, viewport);

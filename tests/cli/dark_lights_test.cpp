@@ -37,7 +37,7 @@ TEST(DarkLights, are_told_by_every_command_that_chooses) {
   const Folder folder;
   const std::string level =
                         folder.write("level.gltf", level_of(row_of(8, -1.0, 7))).string() + k_small + " --no-timing ",
-                    told = "warning: level: 7 of 8 lights are dark (intensity 0, black, or range 0): lists and all";
+                    told = "warning: level: 7 of 8 lights are dark (intensity 0, black, or range 0); lists and all";
   for (const std::string& command :
        {"run " + level + "-o " + (folder / "result.json").string(), "recommend " + level}) {
     const Outcome done = tool(command);
@@ -47,6 +47,18 @@ TEST(DarkLights, are_told_by_every_command_that_chooses) {
       tool("recommend " + folder.write("lit.gltf", level_of(row_of(8, -1.0, 0))).string() + k_small + " --no-timing")
           .err,
       "dark"));
+}
+
+TEST(DarkLights, without_a_range_are_said_to_be_in_no_list) {
+  const Folder folder;
+  nlohmann::json level = nlohmann::json::parse(level_of(row_of(8, -1.0, 3)));
+  for (nlohmann::json& light : level["extensions"]["KHR_lights_punctual"]["lights"])
+    if (light["intensity"] == 0.0) light.erase("range");
+  const Outcome size = tool("size " + folder.write("level.gltf", level.dump()).string() + k_small + " -q");
+  EXPECT_TRUE(contains(size.err, "3 have no range but that of their intensity, which is 0: no list has them"))
+      << size.err;
+  EXPECT_FALSE(contains(size.err, "engines do not")) << size.err;
+  EXPECT_EQ(size.err.find("are dark"), size.err.rfind("are dark")) << "once: " << size.err;
 }
 
 TEST(DarkLights, are_nothing_that_presets_are_ranked_by) {

@@ -40,6 +40,17 @@ TEST(BaselineChanges, name_old_and_new_figures_and_where_the_new_ones_are) {
             "  none in 1 other case\n");
 }
 
+TEST(BaselineChanges, of_bytes_say_where_indices_are_wider) {
+  Json now = json_by_hand();
+  Json& buffers = now["cases"][1]["buffers"];
+  const int bits = buffers["index_bits"].get<int>();
+  buffers["index_bits"] = 2 * bits;
+  buffers["bytes"]["high_water"] = 464;
+  const std::string width =
+      "bytes 232 -> 464 (+100 %; indices of " + std::to_string(bits) + " -> " + std::to_string(2 * bits) + " bits";
+  EXPECT_NE(changes(json_by_hand(), now).find(width), std::string::npos) << changes(json_by_hand(), now);
+}
+
 TEST(BaselineChanges, from_nothing_have_no_percent) {
   Json base = json_by_hand();
   base["cases"][1]["occupancy"]["lights_per_cell"]["max"] = 0;

@@ -47,8 +47,9 @@ TEST(Conclusion, takes_the_fastest_and_says_against_what_by_how_much_and_how_sur
   EXPECT_TRUE(has_words(conclusion,
                         "hall, camera walk, 1920x1080: take frustum 64px/aabb/packed (232 B); 3.50 us a frame to make"))
       << conclusion["text"];
-  EXPECT_TRUE(has_words(conclusion,
-                        "frustum 64px/brute-force/packed costs 2.71 times as much (95 % of the times: 2.71 to 2.71)"))
+  EXPECT_TRUE(
+      has_words(conclusion,
+                "frustum 64px/brute-force/packed costs 2.71 times as much (95 % interval of the times: 2.71 to 2.71)"))
       << conclusion["text"];
   EXPECT_EQ(conclusions_text(valid_json(result)), "conclusion: " + conclusion["text"].get<std::string>() + "\n");
 }
@@ -435,17 +436,17 @@ TEST(Conclusion, of_a_recommendation_names_the_choice_and_the_next_one) {
   EXPECT_EQ(
       answer_conclusion(answer_by_hand(1.25, {1.2, 1.3}), objective),
       "hall, 640x360: take frustum 64px/exact-fast/packed; frame_cost_us 100; frustum 32px/aabb/packed takes 25 % "
-      "more (95 % of the times: 20 % to 30 %).");
+      "more (95 % interval of the times: 20 % to 30 %).");
   EXPECT_EQ(
       answer_conclusion(answer_by_hand(1.02, {0.98, 1.06}), objective),
-      "hall, 640x360: take frustum 64px/exact-fast/packed; frame_cost_us 100. The same as far as these times tell: "
-      "frustum 32px/aabb/packed.");
+      "hall, 640x360: take frustum 64px/exact-fast/packed; frame_cost_us 100. The same within 5 %, which is as far "
+      "as the model tells costs apart: frustum 32px/aabb/packed.");
   Json smallest = answer_by_hand(0.95, {0.9, 1.01});
   smallest["choice"]["figures"]["bytes"] = 1000;
   smallest["runners_up"][0]["figures"]["bytes"] = 2000;
   EXPECT_NE(answer_conclusion(smallest, objective)
-                .find("; frustum 32px/aabb/packed takes 5 % less where both were measured side by side, which is too "
-                      "little to tell them apart, and needs 2 kB in place of 1 kB"),
+                .find("; frustum 32px/aabb/packed takes 5 % less where both were measured side by side, within the "
+                      "5 % to which the model tells costs apart, and needs 2 kB in place of 1 kB"),
             std::string::npos)
       << answer_conclusion(smallest, objective);
   Json random = answer_by_hand(1.25, {1.2, 1.3});
