@@ -815,7 +815,7 @@ MUTATIONS = [
              "a modelled difference is told as if its prices were known"),
     Mutation("cost-front-with-the-unlit", "report/contender.cpp",
              "(lit == nullptr || *lit == true)", "true",
-             "report.FrameCosts.a_case_that_lacks_lights_at_samples_with_a_weight_is_on_no_front",
+             "report.FrameCosts.a_case_that_leaves_fog_unlit_that_costs_something_is_on_no_front",
              "methods that leave fog unlit are the cheapest"),
     Mutation("rays-cast-for-each-who-asks", "run/frame_depths.cpp",
              "return found == kept_.end() ? nullptr : found->image;", "return nullptr;",

@@ -231,6 +231,21 @@ TEST(FrameCosts, a_case_that_lacks_lights_at_samples_with_a_weight_is_on_no_fron
   EXPECT_NE(table.find("lacks up to 0.2 % of the lights that opaque samples need"), std::string::npos) << table;
 }
 
+// Surfaces that lack lights are a loss of the case's whatever it costs; of fog the cost alone tells.
+TEST(FrameCosts, a_case_that_leaves_fog_unlit_that_costs_something_is_on_no_front) {
+  run::Result result = costly("frame_cost");
+  result.config["cost"]["weights"]["fog"] = 1;
+  for (run::CaseResult& one : result.cases) {
+    run::SampleSetResult fog = one.samples[0];
+    fog.set = measure::SampleSet::fog;
+    fog.counts.missed = &one == result.cases.data() ? 2 : 0;  // of 1000
+    one.samples.push_back(fog);
+  }
+  const Json json = of(result);
+  EXPECT_EQ(json["cases"][0]["cost"]["lit"], false);
+  EXPECT_EQ(json["pareto_front"][0]["ids"], Json({"fast"}));
+}
+
 TEST(FrameCosts, table_and_budgets_have_overshade_and_unlit_of_the_samples_that_rank_and_say_which) {
   run::Result result = costly();
   for (run::CaseResult& one : result.cases) one.samples[0].counts.missed = 1;
