@@ -59,7 +59,7 @@ std::string found_text(const SizedBuffer& buffer, const SizedStructure& structur
   const FoundFrame& found = structure.searches[buffer.found_by];
   const std::string tried = tried_text(found);
   const std::size_t cameras = structure.searched_cameras();
-  const std::string of_cameras = cameras > 1 ? " of each of " + std::to_string(cameras) + " cameras" : "";
+  const std::string of_cameras = cameras > 1 ? ", of " + std::to_string(cameras) + " cameras searched" : "";
   // What a frame needs that was sought for something else is no less true, but nothing of what others need.
   std::string out = std::to_string(*buffer.found) +
                     (found.measure == structure.sought_measure()

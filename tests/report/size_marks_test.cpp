@@ -240,7 +240,7 @@ TEST(SizeMarks, a_search_counts_for_each_view) {
   request.format = "table";
   const std::string text = marks_of(result, request);
   EXPECT_NE(
-      text.find("indices: 120 in 5000 frames tried (seed 1, --keep-height) of each of 2 cameras, 2 views together, "
+      text.find("indices: 120 in 5000 frames tried (seed 1, --keep-height), of 2 cameras searched, 2 views together, "
                 "each in its own worst frame, 1.71 times the most seen; the worst: camera right at (1, 2, 3) m"),
       std::string::npos)
       << text;
