@@ -73,6 +73,7 @@ struct SceneView {
   std::string scene, camera;
   Json viewport;
   std::vector<WeighedCase> sound{}, searched{};  // the cheapest first
+  std::size_t drawn = 0;                         // cases that draw lights, which nothing here has a price for
   std::vector<const Json*> cases{};
 };
 
@@ -120,6 +121,10 @@ std::vector<SceneView> scene_views(const Json& result, const Json& config) {
     if (!loses_nothing_seen(result_case)) continue;
     WeighedCase weighed = weigh(result_case, config);
     weighed.is_on_front = front.contains(result_case["id"].get<std::string>());
+    if (draws_lights(result_case) && !weighed.is_modelled) {
+      ++view->drawn;
+      continue;
+    }
     (samples_search(result_case) ? view->searched : view->sound).push_back(weighed);
   }
   for (SceneView& view : views)
@@ -347,6 +352,15 @@ std::string unsound_text(const std::vector<const Json*>& cases) {
          ") lost none here and is not conservative, so that it can elsewhere";
 }
 
+std::string why_none(const SceneView& view) {
+  if (!view.searched.empty())
+    return "nothing to take: only structures that samples search are sound here, and no GPU has measured such a search";
+  if (view.drawn > 0)
+    return "nothing to take: what draws lights one by one costs as much as the pixels that they cover, and none were "
+           "asked for (--set 'samples.opaque={}')";
+  return "take none of " + number_of(view.cases.size(), "case") + ": " + unsound_text(view.cases);
+}
+
 Json conclusion_of(const SceneView& view, std::uint64_t seed) {
   const std::string unseen = why_nothing_is_seen(view.cases, RankedBy::samples);
   const Choice choice = unseen.empty() ? choose_of(view, seed) : Choice{};
@@ -358,12 +372,7 @@ Json conclusion_of(const SceneView& view, std::uint64_t seed) {
     return out;
   }
   if (choice.take == nullptr) {
-    out["text"] = where +
-                  (view.searched.empty()
-                       ? "take none of " + number_of(view.cases.size(), "case") + ": " + unsound_text(view.cases)
-                       : "nothing to take: only structures that samples search are sound here, and no GPU has "
-                         "measured such a search") +
-                  ".";
+    out["text"] = where + why_none(view) + ".";
     return out;
   }
   out["take"] = (*choice.take->result_case)["id"];
@@ -390,7 +399,9 @@ bool is_like_choice(const Json& record, const Json& objective) {
       number_at(record, "/by_choice").value_or(0.0) <= measure::k_alike_ratio)
     return true;
   if (record.contains("ci95") && record["ci95"][0].is_number()) return record["ci95"][0].get<double>() <= 1.0;
-  return number_at(record, "/by_choice").value_or(0.0) <= 1.0;
+  // Beside a choice of nothing there is no ratio.
+  const std::optional<double> by = number_at(record, "/by_choice");
+  return by ? *by <= 1.0 : number_at(record, "/objective").value_or(0.0) <= 0.0;
 }
 
 measure::Interval interval_at(const Json& record, const char* key) {

@@ -135,12 +135,23 @@ bool takes_sound_methods_only(const Question& question) {
   });
 }
 
-// The question's; then two that are always asked for.
+bool rests_on_samples(const ObjectiveFigure& objective) {
+  const std::string& name = objective.name;
+  return objective.is_cost || name == k_evaluated || name == k_read_bytes || config::is_at_samples(name);
+}
+
+// What draws lights has no lists to be small, fast or read: it is ranked by what pixels cost.
+bool takes_what_draws(const Question& question) {
+  return rests_on_samples(question.objective) && question.objective.name != k_read_bytes;
+}
+
+// The question's; then three that are always asked for.
 std::vector<std::string> constraint_texts(const Question& question) {
   std::vector<std::string> texts;
   for (const Constraint& constraint : question.constraints) texts.push_back(rule_text_of(constraint.rule));
   texts.emplace_back("a run of it does not fail");
   texts.emplace_back("conservative or exact (--unlit allows others)");
+  texts.emplace_back("it has lists (what draws lights is ranked by what pixels cost)");
   return texts;
 }
 
@@ -303,11 +314,6 @@ double needed_over(const Json& cases) {
   double needed = 0.0;
   for (const Json& result_case : cases) needed += sum_at_samples(result_case, "needed");
   return needed;
-}
-
-bool rests_on_samples(const ObjectiveFigure& objective) {
-  const std::string& name = objective.name;
-  return objective.is_cost || name == k_evaluated || name == k_read_bytes || config::is_at_samples(name);
 }
 
 // What speaks against the times of all that is ranked.
@@ -519,6 +525,10 @@ search::Judge judge_of(const Question& question, const nlohmann::json& config) {
       break_by_no_figure(question.constraints.size());
     if (takes_sound_methods_only(question) && !std::ranges::all_of(results, run::is_sound)) {
       break_by_no_figure(question.constraints.size() + 1);
+      verdict.is_final = true;
+    }
+    if (!takes_what_draws(question) && std::ranges::any_of(cases, draws_lights)) {
+      break_by_no_figure(question.constraints.size() + 2);
       verdict.is_final = true;
     }
     return verdict;

@@ -74,23 +74,23 @@ std::string most_clamped(int clamped, int all, const scene::RangeRule& rule) {
 }  // namespace
 
 std::string dark_lights(const SceneData& data) {
-  const int dark = scene::count_dark_lights(data.scene);
+  const auto [dark, without_range] = scene::count_dark_lights(data.scene);
   if (dark == 0) return "";
-  std::size_t lights = 0, without_range = 0;
-  for (const scene::Light& light : data.scene.lights) {
-    if (light.type != scene::LightType::point && light.type != scene::LightType::spot) continue;
-    ++lights;
-    if (light.range_m == 0.0) ++without_range;
-  }
-  std::string out = std::to_string(dark) + " of " + number_of(lights, "light") + (dark == 1 ? " is" : " are") +
-                    " dark (intensity 0, black, or range 0); ";
-  if (without_range < static_cast<std::size_t>(dark))
+  const auto lights = std::ranges::count_if(data.scene.lights, [](const scene::Light& light) {
+    return light.type == scene::LightType::point || light.type == scene::LightType::spot;
+  });
+  std::string out = std::to_string(dark) + " of " + number_of(static_cast<std::size_t>(lights), "light") +
+                    (dark == 1 ? " is" : " are") + " dark (intensity 0, black, or range 0); ";
+  if (without_range < dark)
     out += "lists and all figures but lights_lit and lights_seen count those with a range, engines do not";
-  if (without_range > 0)
-    out += (without_range < static_cast<std::size_t>(dark) ? "; " : "") + std::to_string(without_range) +
-           " have no range but that of their intensity, which is 0: no list has them, and sizes are without them; give "
-           "them ranges to size for when they are on";
-  return out;
+  if (without_range == 0) return out;
+  return out + (without_range < dark ? "; " : "") + std::to_string(without_range) +
+         (without_range == 1
+              ? " has no range but that of its intensity, which is 0: no list has it, and sizes are without it; give "
+                "it "
+                "a range to size for when it is on"
+              : " have no range but that of their intensity, which is 0: no list has them, and sizes are without them; "
+                "give them ranges to size for when they are on");
 }
 
 SceneResult scene_result(const SceneData& data, const config::SceneRequest& request,
@@ -103,7 +103,7 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
   out.warnings = scene.warnings;
   out.boxes = static_cast<int>(scene.boxes.size());
   out.light_digest = scene::light_digest(scene);
-  out.dark = scene::count_dark_lights(scene);
+  out.dark = scene::count_dark_lights(scene).all;
   int given = 0, from_intensity = 0, clamped = 0;
   std::vector<double> ranges;
   for (const scene::Light& light : scene.lights) {

@@ -208,15 +208,24 @@ bool is_dark(const WorldLight& light) {
   return is_black(light) || !(light.range_m > 0.0);
 }
 
-int count_dark_lights(const Scene& scene) {
-  std::map<int, bool> always_dark;  // by index in the scene
+DarkLights count_dark_lights(const Scene& scene) {
+  struct AtAnyTime {
+    bool shines = false, has_range = false;
+  };
+  std::map<int, AtAnyTime> lights;  // by index in the scene
   for (const double time_s : moments_of(scene, channels_of_lights(scene)).times_s)
     for (const WorldLight& light : world_lights(scene, time_s)) {
       if (light.type == LightType::box) continue;
-      bool& is_always = always_dark.try_emplace(light.rig_index, true).first->second;
-      is_always = is_always && is_dark(light);
+      AtAnyTime& seen = lights[light.rig_index];
+      seen.shines = seen.shines || !is_dark(light);
+      seen.has_range = seen.has_range || light.range_m > 0.0;
     }
-  return static_cast<int>(std::ranges::count_if(always_dark, [](const auto& light) { return light.second; }));
+  DarkLights dark;
+  for (const auto& [_, seen] : lights) {
+    if (!seen.shines) ++dark.all;
+    if (!seen.shines && !seen.has_range) ++dark.without_range;
+  }
+  return dark;
 }
 
 }  // namespace clusterbench::scene

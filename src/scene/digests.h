@@ -23,7 +23,10 @@ std::string camera_digest(const Scene& scene, const Camera& camera);
 // is dark only without a range, as one that is hidden.
 bool is_dark(const WorldLight& light);
 
-// Of the points and spots those that are dark at all these times.
-int count_dark_lights(const Scene& scene);
+// Points and spots that are dark at all these times; of them those that have a range at none, so that no list has them.
+struct DarkLights {
+  int all = 0, without_range = 0;
+};
+DarkLights count_dark_lights(const Scene& scene);
 
 }  // namespace clusterbench::scene

@@ -5,6 +5,8 @@
 
 #include "cli/lamps.h"
 #include "cli/tool.h"
+#include "core/random.h"
+#include "effort.h"
 
 namespace clusterbench::test {
 namespace {
@@ -98,6 +100,69 @@ TEST(DarkLights, are_sized_with_a_warning) {
   const std::string some = tool("size " + lit + k_small + " -q").err;
   EXPECT_FALSE(contains(some, "all lights in view are dark")) << some;
   EXPECT_TRUE(contains(some, "warning: level: 7 of 8 lights are dark (intensity 0, black, or range 0)")) << some;
+}
+
+// Random points: lit, dark or black, with a range or without, ahead or behind.
+struct RandomLamps {
+  nlohmann::json level, listed;  // the same without those that no list can have
+  int all = 0, dark = 0, without_range = 0;
+};
+
+void add_lamp(nlohmann::json& level, const nlohmann::json& light, double x_m, double z_m) {
+  nlohmann::json& lights = level["extensions"]["KHR_lights_punctual"]["lights"];
+  level["scenes"][0]["nodes"].push_back(level["nodes"].size());
+  level["nodes"].push_back(
+      {{"translation", {x_m, 0.0, z_m}}, {"extensions", {{"KHR_lights_punctual", {{"light", lights.size()}}}}}});
+  lights.push_back(light);
+}
+
+RandomLamps random_lamps(SplitMix64& random) {
+  RandomLamps out;
+  out.level = out.listed = nlohmann::json::parse(level_of({}));
+  for (nlohmann::json* level : {&out.level, &out.listed}) (*level)["extensionsUsed"] = {"KHR_lights_punctual"};
+  out.all = 1 + static_cast<int>(random.below(12));
+  for (int i = 0; i < out.all; ++i) {
+    nlohmann::json light{{"type", "point"}, {"intensity", random.below(2) * 10.0}};
+    if (random.below(4) == 0) light["color"] = {0.0, 0.0, 0.0};
+    if (random.below(2) == 0) light["range"] = random.between(0.5, 4.0);
+    const bool is_dark = light["intensity"] == 0.0 || light.contains("color"), has_range = light.contains("range");
+    if (is_dark) ++out.dark;
+    if (is_dark && !has_range) ++out.without_range;
+    const double x_m = random.between(-2.0, 2.0), z_m = random.between(-12.0, 4.0);
+    add_lamp(out.level, light, x_m, z_m);
+    if (!is_dark || has_range) add_lamp(out.listed, light, x_m, z_m);
+  }
+  return out;
+}
+
+TEST(DarkLights, at_random_are_counted_where_they_are_said_to_be) {
+  const Folder folder;
+  SplitMix64 random(44);
+  for (int draw = 0; draw < tries(16); ++draw) {
+    SCOPED_TRACE("draw " + std::to_string(draw));
+    const RandomLamps lamps = random_lamps(random);
+    const auto measured = [&](const nlohmann::json& level) {
+      const std::string file = folder.write("level.gltf", level.dump()).string(),
+                        result = (folder / "result.json").string();
+      const Outcome run = tool("run " + file + k_small + " --no-timing -o " + result);
+      EXPECT_EQ(run.code, 0) << run.err;
+      return std::pair(run.err, nlohmann::json::parse(file_text(result)));
+    };
+    const auto [told, result] = measured(lamps.level);
+    EXPECT_EQ(result["scenes"][0]["lights"]["dark"], lamps.dark);
+    const std::string all = std::to_string(lamps.dark) + " of " + std::to_string(lamps.all) + " light",
+                      unlisted = lamps.without_range == 1 ? "1 has no range but"
+                                                          : std::to_string(lamps.without_range) + " have no range but";
+    EXPECT_EQ(contains(told, all), lamps.dark > 0) << told;
+    EXPECT_EQ(contains(told, unlisted), lamps.without_range > 0) << told;
+    EXPECT_EQ(contains(told, "count those with a range"), lamps.without_range < lamps.dark) << told;
+    const nlohmann::json listed = measured(lamps.listed).second;
+    for (std::size_t i = 0; i < result["cases"].size(); ++i)
+      for (const char* figure : {"/buffers/index_entries/high_water", "/lights_seen", "/lights_in_view/max"})
+        EXPECT_EQ(result["cases"][i].at(nlohmann::json::json_pointer(figure)),
+                  listed["cases"][i].at(nlohmann::json::json_pointer(figure)))
+            << figure << " of " << result["cases"][i]["name"];
+  }
 }
 
 }  // namespace

@@ -400,6 +400,53 @@ TEST(Recommend, writes_runners_up_where_they_are_asked_for) {
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(is_measured(found.answer["runners_up"][i]));
 }
 
+TEST(Recommend, tells_what_the_best_of_the_rejected_would_have_on_the_same_frames) {
+  const Json unlimited = recommended(space(), "--no-timing --by bytes").answer;
+  const Recommended found = recommended(space(), "--no-timing --by bytes --longest 80");
+  ASSERT_EQ(found.outcome.code, 0) << found.outcome.err;
+  const auto row = std::ranges::find(found.answer["constraints"], Json("longest <= 80"),
+                                     [](const Json& constraint) { return constraint["constraint"]; });
+  ASSERT_NE(row, found.answer["constraints"].end()) << found.answer["constraints"];
+  const Json& best = (*row)["best"];
+  EXPECT_EQ(best["name"], unlimited["choice"]["name"]);
+  // Beside the best that remains, both on so many frames: of all 32 on every one.
+  std::map<std::string, double> bytes;
+  std::map<std::string, double> longest;
+  for (const Json& one : swept(space())) {
+    const auto name = one["name"].get<std::string>();
+    bytes[name.substr(name.find("walk/") + 5)] = figure(one, "bytes");
+    longest[name.substr(name.find("walk/") + 5)] = figure(one, "longest");
+  }
+  if (best["frames"] == 8) {
+    EXPECT_EQ(best["objective"], bytes.at(best["name"]));
+    EXPECT_NEAR(best["by_best"].get<double>(),
+                bytes.at(best["name"]) / found.answer["choice"]["objective"].get<double>(), 1e-6);
+  }
+  EXPECT_LT(best["by_best"], 1.0);
+  EXPECT_GT(longest.at(best["name"]), 80.0);
+}
+
+TEST(Recommend, takes_what_draws_lights_by_what_pixels_cost_alone) {
+  const std::string flags = "recommend " + source_file("scenes/mix.glb") +
+                            " -q --no-timing --viewport 192x108 --grid frustum --tiles 32 --slices 8 --assigner "
+                            "deferred,exact-fast --set 'scenes.*.frames=1' ";
+  for (const std::string by : {"bytes", "longest", "read_bytes"}) {
+    const Outcome done = tool(flags + "--by " + by);
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_NE(done.out.find("/exact-fast/packed"), std::string::npos) << done.out;
+    EXPECT_EQ(done.out.find("take frustum 32px x 8 exponential/deferred"), std::string::npos) << done.out;
+  }
+  const Outcome by_cost = tool(flags + "--set samples.opaque={} -o -");
+  ASSERT_EQ(by_cost.code, 0) << by_cost.err;
+  EXPECT_NE(by_cost.out.find("/deferred/no lists"), std::string::npos) << by_cost.out;
+  const Outcome alone = tool("recommend " + source_file("scenes/mix.glb") +
+                             " -q --no-timing --viewport 192x108 --grid frustum --tiles 32 --slices 8 --assigner "
+                             "deferred --set 'scenes.*.frames=1' --by bytes");
+  EXPECT_EQ(alone.code, 1);
+  EXPECT_NE(alone.out.find("it has lists (what draws lights is ranked by what pixels cost) rejects"), std::string::npos)
+      << alone.out;
+}
+
 TEST(Recommend, tells_a_coarser_grid_that_is_about_as_good) {
   const Recommended found = recommended(space(), "--no-timing --by evaluated --within 400");
   ASSERT_EQ(found.outcome.code, 0) << found.outcome.err;

@@ -297,5 +297,55 @@ TEST(SizeOfRandomLevels, settings_of_engines_hold_what_every_frame_needs_or_say_
   }
 }
 
+// What `worst-case` finds of one camera, in a file for --found.
+std::uint64_t searched(const std::string& flags, const std::string& camera, std::uint64_t seed,
+                       const std::string& file) {
+  const test::Outcome done = test::tool("worst-case -q --random 0 --evaluations 12 --seed " + std::to_string(seed) +
+                                        " --filter level/" + camera + "/ -o " + file + flags);
+  EXPECT_EQ(done.code, 0) << done.err;
+  return RandomJson::parse(test::file_text(file))["frames"][0]["value"];
+}
+
+TEST(SizeOfRandomLevels, finds_from_files_and_of_its_own_count_for_each_camera_and_add_up_for_views) {
+  const test::Folder folder;
+  SplitMix64 random(5);
+  for (int draw = 0; draw < test::tries(16); ++draw) {
+    SCOPED_TRACE("draw " + std::to_string(draw));
+    const RandomLevel level = random_level(1 + 3 * random.below(20), random);  // few lights
+    const std::string scene = folder.write("level.gltf", level.gltf.dump()).string(),
+                      kept = (folder / "found.json").string(),
+                      flags =
+                          " --viewport 320x180 --grid frustum --tiles 8x5t --slices 6 --assigner exact-fast "
+                          "--set storages=packed --set 'scenes.*.frames=3' --set 'scenes.*.camera=*' " +
+                          scene;
+    std::map<std::string, std::uint64_t> most;
+    std::string files;
+    for (const RandomJson& node : level.gltf["nodes"]) {
+      if (!node.contains("camera")) continue;
+      const std::string camera = node["name"];
+      most[camera] = searched(flags, camera, 1, kept);
+      if (random.below(2) == 0) continue;
+      const std::string file = (folder / (camera + ".json")).string();
+      most[camera] = std::max(most[camera], searched(flags, camera, 2 + random.below(9), file));
+      files += " --found " + file;
+    }
+    std::string views;
+    for (const std::string& view : level.views) views += " --views '" + view + "'";
+    const test::Outcome done = test::tool(
+        "size -q --worst-case --evaluations 12 --format json --margin 1 --round none" + views + files + flags);
+    ASSERT_EQ(done.code, 0) << done.err;
+    const RandomJson structure = RandomJson::parse(done.out)["structures"][0];
+    const RandomJson& buffer = structure["buffers"][0];
+    std::uint64_t found = 0;
+    for (const std::vector<std::string>& group : groups_of(structure)) {
+      std::uint64_t sum = 0;
+      for (const std::string& camera : group) sum += most.at(camera);
+      found = std::max(found, sum);
+    }
+    EXPECT_EQ(buffer["found"], found) << level.gltf << views << files;
+    EXPECT_GE(buffer["capacity"], std::max(found, buffer["high_water"].get<std::uint64_t>()));
+  }
+}
+
 }  // namespace
 }  // namespace clusterbench

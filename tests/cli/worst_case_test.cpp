@@ -57,6 +57,14 @@ TEST(WorstCaseCommand, what_could_be_chosen_goes_with_the_find_to_where_it_is_us
   EXPECT_NE(size.out.find("tried (seed 1, " + box + space + ")"), std::string::npos) << size.out;
 }
 
+TEST(WorstCaseCommand, the_recorded_path_takes_a_quarter_of_the_seconds_at_most) {
+  const Outcome done = tool(k_search + " -q --random 0 --seconds 0.1 --set 'scenes.*.frames=5000'");
+  ASSERT_EQ(done.code, 0) << done.err;
+  const auto found = nlohmann::json::parse(done.out);
+  EXPECT_GE(found["recorded"]["frames"], 1);
+  EXPECT_LT(found["recorded"]["frames"], 5000) << "no machine measures a frame in 5 us";
+}
+
 TEST(WorstCaseCommand, what_fails_leaves_what_was_there) {
   const Folder folder;
   const std::string kept = folder.write("kept.json", "old").string(), absent = (folder / "absent.json").string();

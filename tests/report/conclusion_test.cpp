@@ -449,6 +449,11 @@ TEST(Conclusion, of_a_recommendation_names_the_choice_and_the_next_one) {
                       "5 % to which the model tells costs apart, and needs 2 kB in place of 1 kB"),
             std::string::npos)
       << answer_conclusion(smallest, objective);
+  // Alike are costs within 5 % as measured side by side, though one interval is above 1 and the medians are 20 % apart.
+  Json measured = answer_by_hand(1.2, {1.01, 1.06});
+  measured["runners_up"][0]["by_choice"] = 1.04;
+  EXPECT_NE(answer_conclusion(measured, objective).find("The same within 5 %"), std::string::npos)
+      << answer_conclusion(measured, objective);
   Json random = answer_by_hand(1.25, {1.2, 1.3});
   random["random_depths"] = true;
   random["searched"] = {{{"name", "frustum 64px/bvh/own"}, {"objective", 80.0}, {"by_choice", 0.8}}};
@@ -458,6 +463,31 @@ TEST(Conclusion, of_a_recommendation_names_the_choice_and_the_next_one) {
   Json none = answer_by_hand(1.0, nullptr);
   none["choice"] = nullptr;
   EXPECT_NE(answer_conclusion(none, objective).find("take none"), std::string::npos);
+}
+
+TEST(Conclusion, of_a_recommendation_something_beside_nothing_is_not_alike) {
+  const Json objective{{"figure", "overshade"}, {"meaning", ""}, {"timed", false}};
+  Json answer = answer_by_hand(1.0, nullptr);
+  answer["choice"]["objective"] = 0.0;
+  answer["runners_up"][0]["by_choice"] = nullptr;
+  EXPECT_EQ(answer_conclusion(answer, objective).find("The same"), std::string::npos);
+  answer["runners_up"][0]["objective"] = 0.0;
+  EXPECT_NE(answer_conclusion(answer, objective).find("The same"), std::string::npos);
+}
+
+TEST(Conclusion, what_draws_lights_is_not_taken_for_having_no_lists) {
+  run::Result result = result_by_hand();
+  result.cases[1].assigner = result.cases[1].assigner_label = "deferred";
+  result.cases[1].buffers.bytes.high_water = 0;
+  for (run::CaseResult& one : result.cases) one.timing.reset(), one.shading.reset();
+  const Json beside = only_conclusion(result);
+  EXPECT_EQ(beside["take"], "slow") << beside["text"];
+  EXPECT_TRUE(beside["against"].is_null()) << beside["text"];
+  result.cases.erase(result.cases.begin());
+  result.planned_ids = {"fast"};
+  const Json alone = only_conclusion(result);
+  EXPECT_TRUE(alone["take"].is_null()) << alone["text"];
+  EXPECT_TRUE(has_words(alone, "costs as much as the pixels that they cover")) << alone["text"];
 }
 
 }  // namespace

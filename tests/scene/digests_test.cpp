@@ -75,12 +75,12 @@ TEST(LightDigest, is_another_where_a_light_is_gone_moved_shortened_or_turned) {
 
 TEST(LightDigest, is_another_where_a_light_is_switched_off_and_counts_these) {
   const Scene scene = rig_of(20);
-  EXPECT_EQ(count_dark_lights(scene), 0);
+  EXPECT_EQ(count_dark_lights(scene).all, 0);
   const auto is_told = [&](auto&& change) {
     Scene changed = scene;
     change(changed.lights[3]);
     EXPECT_NE(light_digest(changed), light_digest(scene));
-    EXPECT_EQ(count_dark_lights(changed), 1);
+    EXPECT_EQ(count_dark_lights(changed).all, 1);
   };
   is_told([](Light& light) { light.intensity = 0.0; });
   is_told([](Light& light) { light.color = Vec3d(0.0); });
@@ -89,7 +89,10 @@ TEST(LightDigest, is_another_where_a_light_is_switched_off_and_counts_these) {
   dim.lights[3].intensity *= 1e-6;
   EXPECT_EQ(light_digest(dim), light_digest(scene));
   for (Light& light : dim.lights) light.intensity = 0.0;
-  EXPECT_EQ(count_dark_lights(dim), 20);
+  EXPECT_EQ(count_dark_lights(dim).all, 20);
+  EXPECT_EQ(count_dark_lights(dim).without_range, 0);
+  dim.lights[3].range_m = dim.lights[4].range_m = 0.0;
+  EXPECT_EQ(count_dark_lights(dim).without_range, 2);
 }
 
 Channel channel_of(const Scene& scene, std::size_t light, ChannelPath path, std::vector<double> times_s,
@@ -174,9 +177,20 @@ TEST(LightDigest, a_light_that_shines_at_some_time_is_not_dark) {
   };
   const Scene flashing = flashes({at(0, 0, 0), at(100, 0, 0), at(0, 0, 0), at(100, 0, 0), at(0, 0, 0)});
   const Scene dark = flashes({at(0, 0, 0), at(0, 0, 0), at(0, 0, 0), at(0, 0, 0), at(0, 0, 0)});
-  EXPECT_EQ(count_dark_lights(flashing), 0);
-  EXPECT_EQ(count_dark_lights(dark), 1);
+  EXPECT_EQ(count_dark_lights(flashing).all, 0);
+  EXPECT_EQ(count_dark_lights(dark).all, 1);
   EXPECT_NE(light_digest(flashing), light_digest(dark));
+}
+
+TEST(LightDigest, a_range_at_some_time_is_a_range_of_a_dark_light) {
+  Scene scene = rig_of(2);
+  for (Light& light : scene.lights) light.intensity = light.range_m = 0.0;
+  EXPECT_EQ(count_dark_lights(scene).without_range, 2);
+  scene.lights[0].definition = 0;
+  scene.light_channels = {
+      channel_of(scene, 0, ChannelPath::range, {0.0, 1.0, 2.0}, {at(0, 0, 0), at(5, 0, 0), at(0, 0, 0)})};
+  EXPECT_EQ(count_dark_lights(scene).all, 2);
+  EXPECT_EQ(count_dark_lights(scene).without_range, 1);
 }
 
 TEST(LightDigest, is_another_where_a_directional_light_is_gone) {
