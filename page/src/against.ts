@@ -95,7 +95,7 @@ export const againstSection: Section = (view, redraw) => {
       h(
         "p",
         { class: "note" },
-        `No cases: ${second.label} and ${first.label} have none in common, or none that the filters leave.`,
+        `No cases: ${second.label} and ${first.label} have none in common, or none that the filters leave. A level before and after a change: clusterbench run LEVEL --baseline BEFORE.json.`,
       ),
     );
   const isTimed = rows.some((row) => row.time !== null);

@@ -59,7 +59,7 @@ void refuse_overwriting(const std::vector<std::string>& outputs, const std::vect
     for (std::size_t k = 0; k < i; ++k)
       if (are_mixed(outputs[i], outputs[k]))
         throw Error(outputs[i] == "-" ? "standard output" : outputs[i], "",
-                    "is to hold two outputs of this command: name a file for each");
+                    "is to hold two outputs of this command (--path X.gltf writes X.json, too): name a file for each");
     const os::OutputTarget target = os::output_target(outputs[i]);
     os::require_folder_of(outputs[i]);
     for (const std::string& input : inputs) {

@@ -260,10 +260,8 @@ ExitCode recommend(const RecommendFlags& flags) {
                 "takes one scene in one viewport; these are " + std::to_string(searches.views.size()));
   const search::Request request{report::judge_of(question, config.resolved), is_timed, question.objective.only_grows,
                                 question.within};
-  if (!flags.quiet) {
-    tell_duration(config, plan, request, searches);
-    tell_what_is_asked(config, plan, in_vain);
-  }
+  if (!flags.quiet) tell_duration(config, plan, request, searches);
+  tell_what_is_asked(config, plan, in_vain);
   if (has_random_depths) warn_of_random_depths();
   Json answers = Json::array();
   if (const auto stopped = search_all(flags, config, plan, question, request, searches, answers)) return *stopped;
@@ -315,7 +313,7 @@ void add_recommend(Command& program, Action& action) {
       .may_be_empty();
   add_config_options(command, flags->inputs);
   command.add_flag("--no-timing", flags->no_timing, "Nothing is timed; the answer is then the same on every machine");
-  command.add_flag("-q,--quiet", flags->quiet, "No progress");
+  command.add_flag("-q,--quiet", flags->quiet, "No progress; warnings stay");
   command.when_named([flags, &action] { action = [flags] { return recommend(*flags); }; });
 }
 

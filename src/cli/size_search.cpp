@@ -56,6 +56,8 @@ report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& s
     out.space_flags = search::space_flags(request);
     const search::FrameChoice& worst = found.frames.front().choice;
     const Vec3d direction = search::direction_of(worst.rotation);
+    out.lights_in_view = found.lights_in_view;
+    out.dark_in_view = found.dark_in_view;
     out.eye_m = {worst.eye.x, worst.eye.y, worst.eye.z};
     out.direction = {direction.x, direction.y, direction.z};
     for (const assign::BufferNeed& need : found.buffers)

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "assign/contract/assigner.h"
+#include "config/config_scenes.h"
 #include "core/error.h"
 #include "core/pattern.h"
 #include "core/text.h"
@@ -214,9 +215,21 @@ bool has_bound(const Json& result_case) {
 // What searches with one camera found for a buffer.
 struct CameraFind {
   std::string camera;
-  std::uint64_t elements = 0, most = 0;
+  std::uint64_t elements = 0, most = 0, step = 1;
   std::size_t search = 0;
+
+  std::uint64_t steps() const { return elements / step; }
 };
+
+// Cells of the searched case, in each of which the buffer has the same room; 1 of other buffers.
+std::uint64_t step_of(const FoundFrame& search, const std::string& buffer, const SizedStructure& structure) {
+  for (const Json* result_case : structure.cases) {
+    if ((*result_case)["name"] != search.case_name) continue;
+    for (const CaseBuffer& needs : buffers_of(*result_case))
+      if (needs.name == buffer) return std::max<std::uint64_t>(needs.step, 1);
+  }
+  return 1;
+}
 
 // The largest of each camera, in the order of the searches.
 std::vector<CameraFind> finds_of(SizedBuffer& buffer, const SizedStructure& structure) {
@@ -227,7 +240,9 @@ std::vector<CameraFind> finds_of(SizedBuffer& buffer, const SizedStructure& stru
       const std::string camera = structure.camera_of(structure.searches[search]);
       buffer.element_bytes = std::max(buffer.element_bytes, need.element_bytes);
       auto known = std::ranges::find(finds, camera, &CameraFind::camera);
-      if (known == finds.end()) known = finds.insert(known, {camera, need.elements, need.most, search});
+      if (known == finds.end())
+        known = finds.insert(known, {camera, need.elements, need.most,
+                                     step_of(structure.searches[search], buffer.name, structure), search});
       if (need.elements > known->elements) known->elements = need.elements, known->search = search;
       known->most = std::max(known->most, need.most);
     }
@@ -235,22 +250,25 @@ std::vector<CameraFind> finds_of(SizedBuffer& buffer, const SizedStructure& stru
 }
 
 // Of cameras in one frame each can be in its own worst place at the same time; one that was not searched, in one as bad
-// as the worst of the others.
+// as the worst of the others. Where all cells have the same room, it is that of the longest list of all.
 void add_finds(SizedBuffer& buffer, const std::vector<CameraFind>& finds, const std::vector<std::string>& cameras) {
   const auto is_of_group = [&](const CameraFind& find) {
     return std::ranges::find(cameras, find.camera) != cameras.end();
   };
   const CameraFind* worst = nullptr;
-  std::uint64_t elements = 0, most = 0, searched = 0;
+  std::uint64_t elements = 0, cells = 0, most = 0, searched = 0;
   for (const CameraFind& find : finds) {
     if (!is_of_group(find)) continue;
-    if (worst == nullptr || find.elements > worst->elements) worst = &find;
+    if (worst == nullptr || find.steps() > worst->steps()) worst = &find;
     elements += find.elements;
+    cells += find.step;
     most = std::max(most, find.most);
     ++searched;
   }
   if (worst == nullptr) return;
-  elements += times(worst->elements, cameras.size() - searched);
+  const std::uint64_t others = cameras.size() - searched;
+  elements = worst->step > 1 ? times(worst->steps(), cells + times(worst->step, others))
+                             : elements + times(worst->elements, others);
   buffer.theoretical_max = std::max(buffer.theoretical_max, times(most, cameras.size()));
   if (buffer.found && elements <= *buffer.found) return;
   buffer.found = elements;
@@ -562,6 +580,8 @@ std::vector<SizedStructure> sized_structures(const Json& result, const std::stri
   }
   for (SizedStructure& structure : out) {
     structure.has_grid_cells = !follows_surfaces(*structure.cases.front());
+    if (const Json* jitter = value_at(result, "/config/jitter"))
+      structure.jitters = config::jitter_of(nlohmann::json(*jitter)).size();
     for (const Json& scene : result.value("scenes", Json::array()))
       if (scene["name"] == (*structure.cases.front())["scene"]) {
         structure.has_boxes = number_at(scene, "/lights/box").value_or(0.0) > 0.0;

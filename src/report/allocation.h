@@ -36,6 +36,7 @@ struct FoundFrame {
   std::string space_flags;               // search::space_flags(); "" also of a file of an earlier version
   std::vector<double> eye_m, direction;  // of the worst frame; of a file of an earlier version no direction
   std::uint64_t lights = 0;              // of the level and those added; 0: not known
+  std::uint64_t lights_in_view = 0, dark_in_view = 0;  // of the worst frame; 0 of a file of an earlier version
   struct Need {
     std::string name;  // of a buffer
     std::uint64_t elements = 0, most = 0;
@@ -143,6 +144,7 @@ struct SizedStructure {
   bool has_boxes = false;                       // the scene has oriented boxes among its lights
   std::optional<std::uint64_t> lights_of_type;  // of the scene, of the type that has most; where the result tells
   bool has_grid_cells = true;                   // lists are of the grid's cells, the same in all frames
+  std::size_t jitters = 0;                      // offsets within a pixel that frames take in turn; 0: none
 
   // The one with the largest value of the measure, a refused one only if there is no other; nullptr if there was none.
   const FoundFrame* search_for(const std::string& measure) const;

@@ -75,6 +75,11 @@ std::string frame_interval_text(const Json& result_case) {
   return text("-%.0f", below) + text("/+%.0f %%", above);
 }
 
+std::string height_text(double metres) {
+  constexpr double k_nothing_m = 1e-6;
+  return text("%.4g", std::abs(metres) < k_nothing_m ? 0.0 : metres);
+}
+
 std::string amount_text(double value) {
   const bool is_count = value == std::floor(value) && std::abs(value) < 1e9;
   return text(is_count ? "%.0f" : std::abs(value) < 1e5 ? "%.4g" : "%.6g", value);

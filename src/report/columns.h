@@ -31,6 +31,8 @@ std::string frame_interval_text(const nlohmann::ordered_json& result_case);
 std::string what_intervals_take();
 // One number by a printf format.
 std::string text(const char* format, double value);
+// Metres of a height: four digits, and less than a micrometre is 0.
+std::string height_text(double metres);
 // A whole number as it is, others with four digits or, from 100,000, six.
 std::string amount_text(double value);
 // The number at a pointer in a chosen format; "-" where there is none.

@@ -34,7 +34,7 @@ std::string version(const Json& side) {
 
 const char* kind_of_times(const Json& comparison) {
   if (comparison["data"] == "paired") return ", times of assignment side by side";
-  if (comparison["summary"]["methods_timed"] == 0) return ", no times";
+  if (comparison["summary"]["methods_timed"] == 0) return ", no times in common";
   return ", frame times of separate runs";
 }
 

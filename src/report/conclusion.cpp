@@ -73,7 +73,7 @@ struct SceneView {
   std::string scene, camera;
   Json viewport;
   std::vector<WeighedCase> sound{}, searched{};  // the cheapest first
-  std::size_t drawn = 0;                         // cases that draw lights, which nothing here has a price for
+  std::size_t unsampled = 0;                     // cases of which nothing says what they cost, or what they leave unlit
   std::vector<const Json*> cases{};
 };
 
@@ -107,6 +107,7 @@ std::vector<SceneView> scene_views(const Json& result, const Json& config) {
   std::set<std::string> front;
   for (const Json& of_scene : result["pareto_front"])
     for (const Json& id : of_scene["ids"]) front.insert(id.get<std::string>());
+  const std::set<std::string> without_samples = ids_without_samples(result["cases"]);
   std::vector<SceneView> views;
   for (const Json& result_case : result["cases"]) {
     if (result_case.contains("preset")) continue;
@@ -121,8 +122,10 @@ std::vector<SceneView> scene_views(const Json& result, const Json& config) {
     if (!loses_nothing_seen(result_case)) continue;
     WeighedCase weighed = weigh(result_case, config);
     weighed.is_on_front = front.contains(result_case["id"].get<std::string>());
-    if (draws_lights(result_case) && !weighed.is_modelled) {
-      ++view->drawn;
+    // What draws lights has no lists that could be small.
+    if (without_samples.contains(result_case["id"].get<std::string>()) ||
+        (draws_lights(result_case) && !weighed.is_modelled)) {
+      ++view->unsampled;
       continue;
     }
     (samples_search(result_case) ? view->searched : view->sound).push_back(weighed);
@@ -355,8 +358,9 @@ std::string unsound_text(const std::vector<const Json*>& cases) {
 std::string why_none(const SceneView& view) {
   if (!view.searched.empty())
     return "nothing to take: only structures that samples search are sound here, and no GPU has measured such a search";
-  if (view.drawn > 0)
-    return "nothing to take: what draws lights one by one costs as much as the pixels that they cover, and none were "
+  if (view.unsampled > 0)
+    return "nothing to take: methods of visible surfaces light and cost what there is to see, and no samples of it "
+           "were "
            "asked for (--set 'samples.opaque={}')";
   return "take none of " + number_of(view.cases.size(), "case") + ": " + unsound_text(view.cases);
 }
@@ -417,6 +421,16 @@ std::string beside_choice_text(const Json& record) {
 
 bool is_cost(const Json& objective) {
   return objective["figure"].get<std::string>().ends_with("_cost_us");
+}
+
+// What the choice takes beside what it was chosen for: " (13.3 MB of buffers, 1072 us of GPU by the model)".
+std::string price_text(const Json& choice, const Json& objective) {
+  std::vector<std::string> prices;
+  const std::optional<double> bytes = number_at(choice, "/figures/bytes"),
+                              gpu_us = number_at(choice, "/figures/gpu_cost_us");
+  if (bytes && objective["figure"] != "bytes") prices.push_back(bytes_text(*bytes) + " of buffers");
+  if (gpu_us && !is_cost(objective)) prices.push_back(ns_text(1e3 * *gpu_us) + " of GPU by the model");
+  return prices.empty() ? "" : " (" + joined(prices) + ")";
 }
 
 // Why the choice is not the one with least: of those that are like it, it has the fewest bytes.
@@ -482,7 +496,7 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
   if (const std::string unseen = text_of_nothing_seen(answer); !unseen.empty()) return out + unseen + ".";
   if (choice.is_null()) return out + none_text(answer, objective) + ".";
   out += "take " + shown(choice["name"].get<std::string>()) + "; " + objective_text(choice, objective) +
-         smallest_text(answer, objective);
+         price_text(choice, objective) + smallest_text(answer, objective);
   std::vector<std::string> alike;
   const Json* against = nullptr;
   for (const Json& record : answer["runners_up"]) {
@@ -509,7 +523,13 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
   if (const std::optional<double> needed = number_at(answer, "/needed_at_samples"))
     out += few_samples_text(*needed, answer.value("samples", Json::array()).get<std::vector<std::string>>());
   if (const std::optional<double> height = number_at(answer, "/ground_m"))
-    out += text(". Samples lie on a floor at y = %.4g m, since the scene has no triangles", *height);
+    out += ". Samples lie on a floor at y = " + height_text(*height) + " m, since the scene has no triangles";
+  if (const Json blind = answer.value("blind_cameras", Json::array()); !blind.empty()) {
+    std::vector<std::string> names;
+    for (const Json& name : blind) names.push_back(shown(name));
+    out += ". Without " + std::string(names.size() == 1 ? "camera " : "cameras ") + joined(names) +
+           ", in whose frames no light that shines is in view";
+  }
   if (answer.value("random_depths", false))
     out += std::string(". Samples are at random depths, where no surface is; ") + k_remedy;
   return out + ".";

@@ -40,10 +40,15 @@ std::optional<double> most_of_any_type(const Json& result_case) {
   return most;
 }
 
-// Where tiles have grown for want of room: in the tiles that were asked for, before they did.
+// With room for all: where a pool is full, what it would need. Where tiles have grown for want of room: in the tiles
+// that were asked for, before they did.
 std::optional<double> entries_in(const Json& result_case) {
   if (result_case.contains("react")) return number_at(result_case, "/react/fixed/index_entries");
-  return number_at(result_case, "/buffers/index_entries/high_water");
+  const std::optional<double> kept = number_at(result_case, "/buffers/index_entries/high_water"),
+                              needed = number_at(result_case, "/buffers/each/0/high_water");
+  const bool is_full = number_at(result_case, "/buffers/overflow/dropped_pairs").value_or(0.0) > 0.0 ||
+                       number_at(result_case, "/buffers/overflow/cells").value_or(0.0) > 0.0;
+  return is_full && kept && needed ? std::optional(std::max(*kept, *needed)) : kept;
 }
 
 double per_cell(double entries, const Json& result_case) {

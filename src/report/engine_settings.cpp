@@ -133,9 +133,10 @@ std::string own_value_text(const SettingValue& value, const SizedStructure& stru
     return with + "tiles grow in " + std::to_string(tiles->grown) + " of " + number_of(tiles->frames, "frame") +
            ", from " + tiles_text(tiles->asked) + " to " + tiles_text(tiles->fewest) + " at most; " +
            (tiles->over == 0 ? "all frames then fit"
-                             : number_of(tiles->over, "frame") + (tiles->over == 1 ? " has" : " have") +
-                                   " more than there is room for in their own tiles, before or after these grew") +
-           " (" + std::to_string(tiles->entries) + " entries at most)\n";
+                             : number_of(tiles->over, "frame") +
+                                   " did not fit, since tiles grow by what the frame before needed, or fit in no "
+                                   "tiles") +
+           " (" + std::to_string(tiles->entries) + " entries at most in a frame)\n";
   }
   if (setting.standard == 0 || setting.is_constant || setting.needed == Needed::entries) return "";
   // Beyond what it takes at all, another line says the same.

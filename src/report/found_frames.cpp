@@ -237,6 +237,8 @@ FoundFrame read_found(const std::string& path, const Json& result) {
   out.eye_m = json["frames"][0]["eye_m"].get<std::vector<double>>();
   out.direction = json["frames"][0].value("direction", std::vector<double>());
   out.lights = json["space"]["lights"].get<std::uint64_t>() + json["space"]["added_ranges_m"].size();
+  out.lights_in_view = static_cast<std::uint64_t>(number_at(json, "/lights_in_view/all").value_or(0.0));
+  out.dark_in_view = static_cast<std::uint64_t>(number_at(json, "/lights_in_view/dark").value_or(0.0));
   if (!json.contains("buffers"))
     throw Error(path, "/buffers", "is missing: an earlier version wrote the file, without what each buffer needs");
   for (std::size_t i = 0; i < json["buffers"].size(); ++i) {

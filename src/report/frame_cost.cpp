@@ -71,6 +71,13 @@ std::vector<WeightedSet> weighted_sets(const Json& result_case, const Json& conf
   return sets;
 }
 
+// Points of the whole view that have a weight, and that a method of visible surfaces does not have: it lights none.
+bool lacks_weighted_points(const Json& result_case, const Json& config) {
+  const bool is_asked = config.contains("shading") && config["shading"].value("samples", 0) > 0;
+  return is_asked && config["cost"]["weights"].value("volume", Json(0)) != 0.0 &&
+         samples_of_set(result_case, "volume") == nullptr;
+}
+
 double upload_bytes(const Json& result_case) {
   return makes_lists_on_gpu(result_case) ? 0.0 : number_at(result_case, "/buffers/upload_bytes/mean").value_or(0.0);
 }
@@ -91,11 +98,11 @@ std::vector<RankingSet> ranking_sets(const Json& result_case) {
   return sets;
 }
 
-Json cost_of(const Json& result_case, const std::vector<WeightedSet>& sets, const Json& constants) {
-  const measure::CostModel model = cost_model_of(constants);
+Json cost_of(const Json& result_case, const std::vector<WeightedSet>& sets, const Json& config) {
+  const measure::CostModel model = cost_model_of(config["cost"]);
   std::vector<measure::ShadedSamples> shaded;
   Json sets_json = Json::object();
-  bool is_lit = true;
+  bool is_lit = !lacks_weighted_points(result_case, config);
   double samples = 0.0, given = 0.0, needed = 0.0, counted = 0.0;
   for (const WeightedSet& set : sets) {
     samples += set.shaded.samples;
@@ -204,7 +211,7 @@ void add_costs(Json& cases, const Json& config) {
   for (Json& result_case : cases) {
     result_case.erase("cost");
     const std::vector<WeightedSet> sets = weighted_sets(result_case, config);
-    if (!sets.empty()) result_case["cost"] = cost_of(result_case, sets, config["cost"]);
+    if (!sets.empty()) result_case["cost"] = cost_of(result_case, sets, config);
   }
 }
 

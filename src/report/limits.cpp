@@ -47,6 +47,7 @@ constexpr FigureRow k_figure_rows[] = {
     {"scratch_bytes", "/buffers/scratch_bytes"},
     {"longest", "/occupancy/lights_per_cell/max", 1.0, "/occupancy/worst_frame", "/occupancy/worst_cell"},
     {"pairs", "/occupancy/pairs/max"},
+    {"pairs.mean", "/occupancy/pairs/mean"},
     {"dropped", "/buffers/overflow/dropped_pairs"},
     {"missed", "/error/false_negatives", 1.0, "/error/deepest/frame", "/error/deepest/cell"},
     {"excess", "/error/false_positives", 1.0, "", "", "/error/true_pairs"},
@@ -73,6 +74,7 @@ constexpr FigureRow k_rows_at_samples[] = {
     {"unlit", "/missed", 1.0, "/worst_frame/frame", "", "/needed"},
     {"lost_irradiance", "/lost_irradiance"},
     {"overshade", "/overshade"},
+    {"needed", "/needed", 1.0, "", "", "/samples"},
 };
 
 // With where it is so, and of which samples.
@@ -176,10 +178,34 @@ std::string listed_names(const std::vector<std::string>& names) {
   return joined(std::span(names).first(shown_names)) + (names.size() > k_most ? " ..." : "");
 }
 
-std::string is_text(const Json& result_case, const config::LimitRule& rule, const Found& found) {
-  return result_case["name"].get<std::string>() + ": " + rule.figure + " is " + config::budget_number(found.value()) +
+std::string is_text(const config::LimitRule& rule, const Found& found) {
+  return rule.figure + " is " + config::budget_number(found.value()) +
          (found.location.empty() ? "" : " (" + found.location + ")");
 }
+
+// What is said of cases, each sentence once: figures of a scene or of a view are those of many cases.
+class SaidOfCases {
+ public:
+  void add(const Json& result_case, const std::string& sentence) {
+    auto said = std::ranges::find(said_, sentence, &Said::sentence);
+    if (said == said_.end()) said = said_.insert(said_.end(), {sentence, result_case["name"].get<std::string>(), 0});
+    ++said->cases;
+  }
+  std::vector<std::string> texts() const {
+    std::vector<std::string> out;
+    for (const Said& said : said_)
+      out.push_back(said.first_case +
+                    (said.cases > 1 ? " and " + number_of(said.cases - 1, "other case") + ": " : ": ") + said.sentence);
+    return out;
+  }
+
+ private:
+  struct Said {
+    std::string sentence, first_case;
+    std::size_t cases = 0;
+  };
+  std::vector<Said> said_;
+};
 
 // One budget held against the cases that it names.
 class RuleCheck {
@@ -198,6 +224,8 @@ class RuleCheck {
       check_changes();
     else
       check_values();
+    for (const std::string& text : broken_.texts()) findings_.broken.push_back(text);
+    for (const std::string& text : near_.texts()) findings_.near.push_back(text);
   }
 
  private:
@@ -217,7 +245,7 @@ class RuleCheck {
       if (!found)
         without.push_back((*result_case)["name"].get<std::string>());
       else
-        judge(rule_.is_broken_by(found->value()), found->value(), is_text(*result_case, rule_, *found));
+        judge(*result_case, rule_.is_broken_by(found->value()), found->value(), is_text(rule_, *found));
     }
     add_without(without);
   }
@@ -262,12 +290,10 @@ class RuleCheck {
 
   void judge_change(const Json& result_case, const Found& now, const Found& then) {
     const double percent = percent_change(then.quotient, now.quotient);
-    char amount[48];
-    std::snprintf(amount, sizeof amount, "%+.3g %%", percent);
-    const std::string change = std::isfinite(percent) ? std::string(amount) + " against " : "was ";
-    judge(is_broken_by_change(rule_, then.quotient, now.quotient), percent,
-          is_text(result_case, rule_, now) + ", " + change + config::budget_number(then.value()) + " in " +
-              baseline_->name());
+    const std::string change =
+        std::isfinite(percent) ? percent_text(percent, rule_.limit) + " against " : std::string("was ");
+    judge(result_case, is_broken_by_change(rule_, then.quotient, now.quotient), percent,
+          is_text(rule_, now) + ", " + change + config::budget_number(then.value()) + " in " + baseline_->name());
   }
 
   void add_other_samples(const std::string& name, const Found& now, const Found& then) {
@@ -306,13 +332,12 @@ class RuleCheck {
 
   bool is_instructions() const { return rule_.figure.ends_with("instructions"); }
 
-  void judge(bool is_broken, double value, const std::string& text) {
+  void judge(const Json& result_case, bool is_broken, double value, const std::string& text) {
     ++findings_.checked;
     if (is_broken)
-      findings_.broken.push_back(text + ", and fails with " + rule_.text());
+      broken_.add(result_case, text + ", and fails with " + rule_.text());
     else if (rule_.is_near(value))
-      findings_.near.push_back(text + ", less than 10 % " +
-                               (rule_.side == config::LimitRule::Side::above ? "below " : "above ") + rule_.text());
+      near_.add(result_case, text + ", near the budget " + rule_.text());
   }
 
   const config::LimitRule& rule_;
@@ -320,6 +345,7 @@ class RuleCheck {
   const BaselineCases* baseline_;
   LimitFindings& findings_;
   std::vector<const Json*> cases_;
+  SaidOfCases broken_, near_;
 };
 
 // What stands between a relative budget and its baseline beside the figure itself, each answer once.

@@ -14,7 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // They are in lists like others, and samples get them; but of light that is not there nothing can be lost.
-constexpr const char* k_all_dark = "all lights in view are dark (intensity 0 or black) in all frames";
 
 // Of all samples that a ranking rests on.
 struct SeenAtSamples {
@@ -43,9 +42,9 @@ void add_case(const Json& result_case, RankedBy by, SeenAtSamples& seen) {
 
 std::string of_samples(const SeenAtSamples& seen) {
   if (seen.samples == 0.0 && seen.ground_m)
-    return "no pixel sees the floor at y = " + text("%.4g", *seen.ground_m) + " m (samples.opaque.ground)";
+    return "no pixel sees the floor at y = " + height_text(*seen.ground_m) + " m (samples.opaque.ground)";
   if (seen.samples == 0.0) return "no pixel sees a surface";
-  const std::string on_floor = seen.ground_m ? " on the floor at y = " + text("%.4g", *seen.ground_m) + " m" : "";
+  const std::string on_floor = seen.ground_m ? " on the floor at y = " + height_text(*seen.ground_m) + " m" : "";
   return "no light reaches any of " + text("%.0f", seen.samples) + " samples" + on_floor;
 }
 
@@ -63,7 +62,7 @@ std::string why_nothing_is_seen(const std::vector<const Json*>& cases, RankedBy 
   };
   if (has_none("/lights")) return "the scene has no point or spot lights";
   if (has_none("/lights_in_view/max")) return "no light is in view in any frame";
-  if (has_none("/lights_seen")) return k_all_dark;
+  if (has_none("/lights_seen")) return k_all_lights_dark;
   SeenAtSamples seen;
   for (const Json* one : cases) {
     SeenAtSamples of_case;
@@ -81,7 +80,7 @@ std::vector<std::string> views_of_dark_lights(const Json& result) {
     const bool has_lights = number_at(result_case, "/lights_in_view/max").value_or(0.0) > 0.0;
     if (!has_lights || number_at(result_case, "/lights_seen") != 0.0) continue;
     const std::string view =
-        shown(result_case["scene"]) + ", camera " + shown(result_case["camera"]) + ": " + k_all_dark;
+        shown(result_case["scene"]) + ", camera " + shown(result_case["camera"]) + ": " + k_all_lights_dark;
     if (std::ranges::find(views, view) == views.end()) views.push_back(view);
   }
   return views;

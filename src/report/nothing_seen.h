@@ -12,6 +12,8 @@ namespace clusterbench::report {
 // What cases are ranked by: the samples that rank them (report/sample_sets.h), or nothing that a sample says.
 enum class RankedBy : std::uint8_t { samples, no_samples };
 
+inline constexpr const char* k_all_lights_dark = "all lights in view are dark (intensity 0 or black) in all frames";
+
 // Of the points and spots of a result's scene those that light nothing; 0 also in results that are older than this
 // count.
 std::uint64_t dark_lights(const nlohmann::ordered_json& scene);

@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -65,6 +67,16 @@ double stand_in(const config::LimitRule& rule, const Quotient& then, const Quoti
 double percent_change(const Quotient& then, const Quotient& now) {
   const double before = then.value(), after = now.value();
   return before == after ? 0.0 : 100.0 * (after - before) / before;
+}
+
+std::string percent_text(double percent, double beside) {
+  char text[48];
+  for (int digits = 3; digits <= 12; ++digits) {
+    std::snprintf(text, sizeof text, "%+.*g %%", digits, percent);
+    const double read = std::strtod(text, nullptr);
+    if ((read < beside) == (percent < beside) && (read > beside) == (percent > beside)) break;
+  }
+  return text;
 }
 
 bool is_broken_by_change(const config::LimitRule& rule, const Quotient& then, const Quotient& now) {

@@ -119,6 +119,12 @@ Json ranking_of(const View& view, const std::vector<RankedPreset>& rows) {
   return out;
 }
 
+// A share that is small and not nothing never looks like nothing.
+std::string small_share_text(const std::optional<double>& share) {
+  if (!share) return "-";
+  return *share > 0.0 && *share < 5e-5 ? "<0.01 %" : text("%.2f %%", 100.0 * *share);
+}
+
 // Of older results: none had places.
 std::string place_text(const Json& line) {
   if (!line.contains("place")) return "";
@@ -138,20 +144,20 @@ std::string shown_line(const Json& line, const Json& cases, const Json& best, Ce
   const auto found =
       std::ranges::find_if(cases, [&](const Json& result_case) { return result_case["id"] == line["id"]; });
   if (found == cases.end()) return "";
-  cells = {
-      line["id"] == best ? "*" : "",
-      line["preset"].get<std::string>(),
-      place_text(line),
-      text_at(line, "/gpu_ns", "%.0f", 1e-3),
-      text_at(line, "/upload_ns", "%.1f", 1e-3),
-      text_at(line, "/read_ns", "%.1f", 1e-3),
-      text_at(line, "/lights_per_sample", "%.2f"),
-      text_at(*found, "/occupancy/lights_per_cell/max", "%.0f"),
-      short_count(*found, "/buffers/bytes/high_water"),
-      short_count(*found, "/buffers/overflow/dropped_pairs"),
-      short_count(line, "/missed_in_view"),
-      line.value("standing", "") == name_of(PresetStanding::unknown) ? "-" : text_at(line, "/unlit", "%.2f %%", 100.0),
-      assign_text(*found)};
+  cells = {line["id"] == best ? "*" : "",
+           line["preset"].get<std::string>(),
+           place_text(line),
+           text_at(line, "/gpu_ns", "%.0f", 1e-3),
+           text_at(line, "/upload_ns", "%.1f", 1e-3),
+           text_at(line, "/read_ns", "%.1f", 1e-3),
+           text_at(line, "/lights_per_sample", "%.2f"),
+           text_at(*found, "/occupancy/lights_per_cell/max", "%.0f"),
+           short_count(*found, "/buffers/bytes/high_water"),
+           short_count(*found, "/buffers/overflow/dropped_pairs"),
+           short_count(line, "/missed_in_view"),
+           line.value("standing", "") == name_of(PresetStanding::unknown) ? "-"
+                                                                          : small_share_text(number_at(line, "/unlit")),
+           assign_text(*found)};
   return "  " + shown(line["preset"]) + " " + shown(line["why"]) + ".\n";
 }
 

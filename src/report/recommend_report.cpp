@@ -24,6 +24,7 @@
 #include "report/timing_warnings.h"
 #include "run/gate.h"
 #include "run/scene_facts.h"
+#include "scene/digests.h"
 
 namespace clusterbench::report {
 namespace {
@@ -145,13 +146,14 @@ bool takes_what_draws(const Question& question) {
   return rests_on_samples(question.objective) && question.objective.name != k_read_bytes;
 }
 
-// The question's; then three that are always asked for.
+// The question's; then four that are always asked for.
 std::vector<std::string> constraint_texts(const Question& question) {
   std::vector<std::string> texts;
   for (const Constraint& constraint : question.constraints) texts.push_back(rule_text_of(constraint.rule));
   texts.emplace_back("a run of it does not fail");
   texts.emplace_back("conservative or exact (--unlit allows others)");
   texts.emplace_back("it has lists (what draws lights is ranked by what pixels cost)");
+  texts.emplace_back("it has " + question.objective.name + " on these frames");
   return texts;
 }
 
@@ -325,8 +327,14 @@ Json doubts_of(const std::vector<Ranked>& all) {
   return timing_doubts(cases, "leave times out (--no-timing)");
 }
 
-// Of all cameras together: what one of them sees is something to choose by.
-std::string why_nothing_is_seen(const search::Found& found, const config::Config& config, const Question& question) {
+// Of all cameras together: what one of them sees is something to choose by. A scene of dark lights alone is one before
+// candidates are rejected for what it does not need.
+std::string why_nothing_is_seen(const search::Found& found, const config::Config& config, const scene::Scene& scene,
+                                const Question& question) {
+  const auto lights = static_cast<int>(std::ranges::count_if(scene.lights, [](const scene::Light& light) {
+    return light.type == scene::LightType::point || light.type == scene::LightType::spot;
+  }));
+  if (lights > 0 && scene.boxes.empty() && scene::count_dark_lights(scene).all == lights) return k_all_lights_dark;
   Json all = Json::array();
   for (const search::Finalist& finalist : found.finalists)
     for (const Json& one : cases_json(finalist.cases, config.resolved)) all.push_back(one);
@@ -531,6 +539,8 @@ search::Judge judge_of(const Question& question, const nlohmann::json& config) {
       break_by_no_figure(question.constraints.size() + 2);
       verdict.is_final = true;
     }
+    if (verdict.broken.empty() && !std::isfinite(verdict.objective))
+      break_by_no_figure(question.constraints.size() + 3);
     return verdict;
   };
 }
@@ -542,14 +552,17 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
   all.resize(all.size() - apart.size());
   choose(all, question, config.seed);
   const run::SceneData& data = plan.scenes[view.scene];
-  const std::string unseen = why_nothing_is_seen(found, config, question);
+  const std::string unseen = why_nothing_is_seen(found, config, data.scene, question);
   const bool has_choice = unseen.empty() && !all.empty() && all.front().is_feasible();
   const Vec2i viewport = config.viewports[view.viewport];
   Json cameras = Json::array();
   for (const std::size_t camera : view.cameras) cameras.push_back(data.paths[camera].camera);
+  Json blind = Json::array();
+  for (const std::size_t camera : view.blind) blind.push_back(data.paths[camera].camera);
   Json out{{"scene", data.scene.name},
            {"sha256", data.scene.sha256},
            {"cameras", cameras},
+           {"blind_cameras", blind},
            {"viewport", {viewport.x, viewport.y}},
            {"frames", view.frames},
            {"lights", data.scene.lights.size()},
@@ -631,14 +644,15 @@ Json recommended_config(const config::Config& config, const search::View& view, 
     add_once(out["precision"], record["precision"]);
   }
   if (out["storages"].empty()) out["storages"].push_back("packed");  // of lists, which it may have besides
-  // Lists that come with a structure of the method's own are not the choice, and would break its budgets.
-  const bool has_lists_besides =
-      answer["choice"]["storage"].is_null() &&
-      assign::find_assigner(answer["choice"]["assigner"]["name"].get<std::string>())->answers(assign::Answer::lists);
+  // Of a method that leaves lists and a structure of its own only the choice has to hold.
+  const assign::AssignerDescriptor& method =
+      *assign::find_assigner(answer["choice"]["assigner"]["name"].get<std::string>());
+  const bool has_others = method.answers(assign::Answer::lists) && method.answers(assign::Answer::structure);
+  const std::string only_choice = has_others ? answer["choice"]["name"].get<std::string>() + ": " : "";
   Json budgets = Json::array();
   for (const Constraint& constraint : question.constraints)
-    if (constraint.is_given && !has_lists_besides)
-      budgets.push_back(constraint.rule.figure + (constraint.rule.is_inclusive ? " >= " : " > ") +
+    if (constraint.is_given)
+      budgets.push_back(only_choice + constraint.rule.figure + (constraint.rule.is_inclusive ? " >= " : " > ") +
                         Json(constraint.rule.limit).dump());
   out["limits"]["fail_if"] = budgets;
   return out;

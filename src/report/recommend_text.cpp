@@ -139,6 +139,8 @@ std::string answer_text(const Json& answer, const Json& objective) {
     rows.push_back(candidate_row("*", answer["choice"], figure));
     for (const Json& runner_up : answer["runners_up"]) rows.push_back(candidate_row(" ", runner_up, figure));
     out += table_of(rows) + worse_by_line(answer);
+    if (std::ranges::any_of(rows, [](const Cells& row) { return row.back() == "-" || row[row.size() - 2] == "-"; }))
+      out += "-: a camera has no such samples, or too few that need a light\n";
     const Json& coarsest = answer["coarsest"];
     out += "coarsest grid within " + within_text(answer["within"].get<double>()) + " of the best: " +
            (coarsest.is_null() ? "none other"

@@ -17,6 +17,7 @@
 #include "report/nothing_seen.h"
 #include "report/preset_ranking.h"
 #include "report/reaction_json.h"
+#include "report/sample_sets.h"
 #include "report/shadows_json.h"
 #include "run/gate.h"
 
@@ -406,9 +407,10 @@ Json six_digits(double value) {
 
 Json fronts(const Json& scenes, const Json& cases, const Json& origin) {
   std::vector<run::Contender> all;
-  const std::set<std::string> unseen = ids_of_nothing_seen(cases);
+  std::set<std::string> unknown = ids_of_nothing_seen(cases);
+  unknown.merge(ids_without_samples(cases));
   for (const Json& result_case : cases)
-    if (!unseen.contains(result_case["id"].get<std::string>()))
+    if (!unknown.contains(result_case["id"].get<std::string>()))
       all.push_back(contender_of(result_case, rank_by(origin)));
   const std::vector<std::string> ids = run::on_front(all, seed_of(origin));
   const std::set<std::string> best(ids.begin(), ids.end());

@@ -37,6 +37,12 @@ const Json* samples_of_set(const Json& result_case, const std::string& set) {
 std::vector<std::string> ranking_set_names(const Json& result_case) {
   std::vector<std::string> sets;
   if (const Json* paid = value_at(result_case, "/cost/sets"); paid != nullptr && !paid->empty()) {
+    // Without one of a set that has no samples in any frame, unless none has.
+    for (const auto& [name, set] : paid->items())
+      if (const Json* counts = samples_of_set(result_case, name);
+          counts != nullptr && number_at(*counts, "/samples").value_or(0.0) > 0.0)
+        sets.push_back(name);
+    if (!sets.empty()) return sets;
     for (const auto& [name, set] : paid->items())
       if (samples_of_set(result_case, name) != nullptr) sets.push_back(name);
     return sets;
@@ -44,6 +50,17 @@ std::vector<std::string> ranking_set_names(const Json& result_case) {
   for (const char* set : {"opaque", k_volume})
     if (samples_of_set(result_case, set) != nullptr) return {set};
   return {};
+}
+
+std::set<std::string> ids_without_samples(const Json& cases) {
+  const auto view_of = [](const Json& one) { return Json{one["scene"], one["camera"], one["viewport"]}.dump(); };
+  std::set<std::string> sampled_views, ids;
+  for (const Json& one : cases)
+    if (!ranking_set_names(one).empty()) sampled_views.insert(view_of(one));
+  for (const Json& one : cases)
+    if (ranking_set_names(one).empty() && sampled_views.contains(view_of(one)))
+      ids.insert(one["id"].get<std::string>());
+  return ids;
 }
 
 bool ranks_at_random_depths(const Json& result_case) {

@@ -3,6 +3,7 @@
 // (frame_cost.h). Tables, budgets and sentences name the sets in the same words.
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ const nlohmann::ordered_json* samples_of_set(const nlohmann::ordered_json& resul
 // The sets that a case is ranked by: those that cost something; without any, visible surfaces if they are asked for,
 // else points of the whole view. Empty without samples.
 std::vector<std::string> ranking_set_names(const nlohmann::ordered_json& result_case);
+
+// Cases that have no samples while others of their scene, camera and viewport have some: of what they leave unlit
+// nothing is known.
+std::set<std::string> ids_without_samples(const nlohmann::ordered_json& cases);
 
 // Of points of the view, where no surface is, and of no surfaces beside.
 bool ranks_at_random_depths(const nlohmann::ordered_json& result_case);

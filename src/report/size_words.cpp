@@ -106,13 +106,21 @@ std::string tried_text(const FoundFrame& found) {
          std::to_string(found.seed) + (found.space_flags.empty() ? "" : ", " + found.space_flags) + ")";
 }
 
+// A search goes where lights are, lit or not.
+static std::string dark_text(const FoundFrame& found) {
+  const bool are_all = found.dark_in_view == found.lights_in_view;
+  return ", where " + (are_all ? "all" : std::to_string(found.dark_in_view) + " of the") + " " +
+         number_of(found.lights_in_view, "light") + " in view are dark";
+}
+
 std::string place_text(const FoundFrame& found) {
   const auto vector = [](const std::vector<double>& v) {
     return text("(%.4g", v[0] + 0.0) + text(", %.4g", v[1] + 0.0) + text(", %.4g)", v[2] + 0.0);  // no "-0"
   };
   if (found.eye_m.size() != 3) return "";
   return "at " + vector(found.eye_m) + " m" +
-         (found.direction.size() == 3 ? " along " + vector(found.direction) : std::string());
+         (found.direction.size() == 3 ? " along " + vector(found.direction) : std::string()) +
+         (found.dark_in_view == 0 ? "" : dark_text(found));
 }
 
 std::string rule_text(const AllocationRules& rules, bool is_searched) {
@@ -162,6 +170,9 @@ std::vector<std::string> grid_notes(const SizedStructure& structure) {
   for (const auto& [note, of] : notes)
     out.push_back(of.size() == cameras.size() ? note
                                               : (of.size() == 1 ? "camera " : "cameras ") + joined(of) + ": " + note);
+  if (structure.jitters > 0)
+    out.push_back("jittered: each frame has one of " + number_of(structure.jitters, "offset") +
+                  " within a pixel, and with another one it can need a little more or less; the margin is for that");
   if (has_viewports_of_pixel_tiles(structure))
     out.push_back(
         "tiles of so many pixels: a picture of a size between these viewports, or below them, can need more, since its "

@@ -159,13 +159,17 @@ bool is_shown(const Column& column, const Extras& extras) {
   return column.needed == nullptr || extras.*column.needed;
 }
 
-// Of a block, whose cases have the same samples.
-Cells headings(const Extras& extras, const Json& result_case) {
+Cells headings(const Extras& extras, const Json& sampled) {
   Cells cells{"", "assigner"};
   for (const Column& column : k_columns)
     if (is_shown(column, extras))
-      cells.push_back(column.heading + (column.is_at_samples ? heading_of_sets(result_case) : std::string()));
+      cells.push_back(column.heading + (column.is_at_samples ? heading_of_sets(sampled) : std::string()));
   return cells;
+}
+
+// The case of a block that has the most sets of samples: headings are of these.
+const Json& most_sampled(const std::vector<const Json*>& cases) {
+  return **std::ranges::max_element(cases, {}, [](const Json* one) { return ranking_set_names(*one).size(); });
 }
 
 // Cases that samples search stand together, and so name their grids, where they use them.
@@ -179,13 +183,17 @@ std::string table_label(const Json& result_case, const Extras& extras) {
   return label;
 }
 
-Line line_of(const Json& result_case, bool is_on_front, const Extras& extras, RankBy by) {
+// At samples only of the sets in the heading: of fewer ones a figure is another.
+Line line_of(const Json& result_case, bool is_on_front, const Extras& extras, RankBy by,
+             const std::vector<std::string>& sets) {
+  const bool is_of_sets = ranking_set_names(result_case) == sets;
   Line line;
   line.result_case = &result_case;
   const std::string label = table_label(result_case, extras);
   line.cells = {is_on_front ? "*" : "", label};
   for (const Column& column : k_columns)
-    if (is_shown(column, extras)) line.cells.push_back(column.text(result_case));
+    if (is_shown(column, extras))
+      line.cells.push_back(column.is_at_samples && !is_of_sets ? "-" : column.text(result_case));
   line.has_failed = has_failed(result_case);
   line.sort_key = sort_key(result_case, by);
   return line;
@@ -271,15 +279,16 @@ std::string legend(const Json& cases, const Extras& extras, RankBy by, bool has_
   std::string out;
   const std::string measured = extras.times ? " (as measured)" : "";
   if (has_front)
-    out += "* at most 0.1 % unlit, and no other such case of its view is as good in " +
-           (by == RankBy::frame_cost ? "cost" + measured + " and bytes"
-                                     : (extras.times ? "time" + measured + ", " : "") + "bytes and overshade") +
-           ", and better in one.\n";
+    out += std::string("* ") + (extras.samples ? "at most 0.1 % unlit, and " : "") +
+           "no other such case of its view is better in " +
+           (by == RankBy::frame_cost ? "cost" + measured + " or bytes"
+                                     : (extras.times ? "time" + measured + ", " : "") + "bytes or overshade") +
+           " and worse in none.\n";
   if (extras.times)
     out += std::string("frame: time to make a frame's lists") + (extras.cold ? " with cold caches" : "") + ", assign" +
            (extras.conversions ? " + convert" : "") + "; ±: half of its 95 % interval" +
            (extras.launches ? " between launches" : "") + ", both sides where one is above 20 %" +
-           ".\nworst: the slowest of the timed frames and the one with most pairs, @ its number.\n";
+           ".\nworst: the slowest frame that was timed (the one with most pairs always is), @ its number.\n";
   if (extras.builds) out += "build: the grid changes between frames, and assign holds its builds.\n";
   if (extras.costs)
     out += std::string("cost: ") + (extras.times ? "frame, and " : "") +
@@ -339,8 +348,9 @@ std::string skipped_text(const Json& skipped) {
     reasons.insert(reason);
     takes_no_boxes = takes_no_boxes || reason.ends_with(" takes no boxes");
   }
-  std::string out = number_of(skipped.size(), "combination") + " skipped";
-  out += reasons.size() == 1 ? ": " + shown(Json(*reasons.begin())) + ".\n" : "; the result says why.\n";
+  std::string out = number_of(skipped.size(), "combination") + " of grid, method and storage left out";
+  out += reasons.size() == 1 ? ": " + shown(Json(*reasons.begin())) + ".\n"
+                             : ", since they do not go together (`skipped` in the result).\n";
   if (!takes_no_boxes) return out;
   std::vector<std::string> names;
   for (const assign::AssignerDescriptor* method : assign::assigner_descriptors())
@@ -363,10 +373,13 @@ std::string render_table(const Json& result, bool colour) {
     if (blocks.empty()) continue;
     out += (colour ? k_bold : "") + scene_heading(scene) + (colour ? k_plain : "") + "\n";
     for (const TableBlock& block : blocks) {
-      const Cells heads = headings(extras, *block.cases.front());
+      const Json& sampled = most_sampled(block.cases);
+      const std::vector<std::string> sets = ranking_set_names(sampled);
+      const Cells heads = headings(extras, sampled);
       std::vector<Line> lines;
       for (const Json* result_case : block.cases)
-        lines.push_back(line_of(*result_case, on_front.contains((*result_case)["id"].get<std::string>()), extras, by));
+        lines.push_back(
+            line_of(*result_case, on_front.contains((*result_case)["id"].get<std::string>()), extras, by, sets));
       std::stable_sort(lines.begin(), lines.end(),
                        [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
       has_alike |= mark_alike(result, heads, by, lines);

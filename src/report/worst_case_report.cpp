@@ -189,6 +189,7 @@ Json worst_case_to_json(const WorstCase& found, const WorstCaseFacts& facts) {
            {"random", nullptr},
            {"theoretical_max", nullptr},
            {"buffers", Json::array()},
+           {"lights_in_view", {{"all", found.lights_in_view}, {"dark", found.dark_in_view}}},
            {"written", nullptr},
            {"warnings", found.warnings}};
   for (const search::Stage& stage : found.stages)
@@ -216,7 +217,7 @@ std::string worst_case_text(const WorstCase& found, const WorstCaseFacts& facts)
     out += line("others", number_of(others, "case") + " not searched; --filter chooses");
   if (const std::string flags = search::space_flags(facts.request); !flags.empty()) out += line("space", flags);
   if (found.frames.empty()) return out + line("worst", "nothing was tried");
-  const double worst = found.frames.front().value;
+  const double worst = std::ranges::max(found.frames, {}, &search::FoundFrame::value).value;
   out += line("worst", figure_text(worst) + " " + row.unit + ", found in " +
                            number_of(static_cast<std::uint64_t>(found.evaluations), "evaluation") +
                            (is_random_one(found) ? " and the random frames" : "") + " (seed " +

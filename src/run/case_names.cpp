@@ -70,15 +70,27 @@ void replace_first(std::string& name, std::size_t begin, const std::string& text
   if (const std::size_t at = name.find(text, begin); at != std::string::npos) name.replace(at, text.size(), other);
 }
 
-std::string former_name(std::string name) {
+std::string with_former_choices(std::string name) {
   for (const auto& [former, current] : k_choices) replace_first(name, begin_of_method(name), current, former);
-  const auto own = [](const std::string&) { return std::string(k_own_structure); };
-  return with_part(with_part(name, k_no_lists, own), k_own_lists, own);
+  return name;
 }
 
-// Before tiles' lists were told apart.
-std::string without_own_lists(const std::string& name) {
-  return with_part(name, k_own_lists, [](const std::string&) { return std::string(k_no_lists); });
+// As it has been called: choices and structures were renamed at different times.
+std::vector<CaseNames> names_over_time(const CaseNames& names) {
+  const auto own = [](const std::string&) { return std::string(k_own_structure); };
+  const auto no_lists = [](const std::string&) { return std::string(k_no_lists); };
+  CaseNames former = names;
+  former.name = with_former_choices(names.name);
+  for (const auto& [was, is] : k_choices) replace_first(former.method, 0, is, was);
+  std::vector<CaseNames> all;
+  for (const CaseNames& choice : {names, former})
+    for (const std::string& name :
+         {choice.name, with_part(choice.name, k_own_lists, no_lists),  // before tiles' lists were told apart
+          with_part(with_part(choice.name, k_no_lists, own), k_own_lists, own)}) {
+      all.push_back(choice);
+      all.back().name = name;
+    }
+  return all;
 }
 
 }  // namespace
@@ -103,10 +115,11 @@ std::string name_without_camera(const CaseNames& names, bool with_viewport) {
 }
 
 bool is_selected(const Pattern& pattern, const CaseNames& names) {
-  return pattern.is_in(names.name) || pattern.is_in(former_name(names.name)) ||
-         pattern.is_in(without_own_lists(names.name)) || pattern.is_in_as_it_stands(printable(names.name)) ||
-         std::ranges::any_of(other_names(names),
-                             [&](const std::string& name) { return pattern.is(name) || pattern.is(printable(name)); });
+  const auto is_other = [&](const std::string& name) { return pattern.is(name) || pattern.is(printable(name)); };
+  return pattern.is_in_as_it_stands(printable(names.name)) ||
+         std::ranges::any_of(names_over_time(names), [&](const CaseNames& once) {
+           return pattern.is_in(once.name) || std::ranges::any_of(other_names(once), is_other);
+         });
 }
 
 }  // namespace clusterbench::run

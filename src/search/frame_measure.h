@@ -16,7 +16,7 @@
 namespace clusterbench::search {
 
 enum class Measure : std::uint8_t {
-  entries,        // index entries of the light structure (`buffers.index_entries.high_water`)
+  entries,        // index entries of the light structure (`buffers.index_entries.high_water`), had it room for all
   longest,        // lights in the longest list (`occupancy.lights_per_cell.max`)
   p99,            // the list that 99 % of the cells do not exceed (`occupancy.lights_per_cell.p99`)
   evaluated,      // lights per sample of the view: what a pixel loops over (`shading.evaluated` / `shading.samples`)

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/text.h"
+#include "measure/lights_in_view.h"
 #include "run/case_result.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/timing_pass.h"
@@ -40,8 +41,12 @@ struct FrameOfView {
   int index = 0;
 };
 
+// Few candidates on few frames are all measured, so that nothing is lost by how the first frame ranks them.
 HalvingRequest halving_of(const View& view, const Request& request) {
-  HalvingRequest halving{view.candidates.size(), view.frames, 1, request.growth, request.keep_one_in, request.least};
+  constexpr std::size_t k_few = 256;
+  const std::size_t first_frames = view.candidates.size() * view.frames <= k_few ? view.frames : 1;
+  HalvingRequest halving{view.candidates.size(), view.frames,         first_frames,
+                         request.growth,         request.keep_one_in, request.least};
   for (const Candidate& candidate : view.candidates) halving.apart.push_back(candidate.is_apart);
   return halving;
 }
@@ -61,6 +66,16 @@ void set_apart(const config::Config& config, View& view) {
   };
   if (std::ranges::all_of(view.candidates, is_searched)) return;
   for (Candidate& candidate : view.candidates) candidate.is_apart = is_searched(candidate);
+}
+
+// Boxes are assigned to cells, too, and light nothing.
+bool sees_no_light(const config::Config& config, const run::Plan& plan, const run::GroupPlan& group) {
+  if (!plan.scenes[group.scene].scene.boxes.empty()) return false;
+  const run::PathFrames path = run::path_of(config, plan, group);
+  measure::LightsInView in_view;
+  for (int frame = 0; frame < path.count() && in_view.seen() == 0; ++frame)
+    measure::add_frame(in_view, path.frame(frame));
+  return in_view.seen() == 0;
 }
 
 class ViewSearch {
@@ -423,12 +438,22 @@ class ViewSearch {
 std::vector<View> views_of(const config::Config& config, const run::Plan& plan) {
   std::map<std::pair<std::size_t, std::size_t>, View> views;
   std::map<std::pair<std::size_t, std::size_t>, std::map<Key, Candidate>> candidates;
+  std::map<std::size_t, std::map<std::size_t, bool>> blind;  // by scene and camera
+  for (const run::GroupPlan& group : plan.groups) {
+    std::map<std::size_t, bool>& of_scene = blind[group.scene];
+    if (!of_scene.contains(group.camera)) of_scene[group.camera] = sees_no_light(config, plan, group);
+  }
   for (const run::GroupPlan& group : plan.groups) {
     const std::pair key{group.scene, group.viewport};
     View& view = views[key];
     view.scene = group.scene;
     view.viewport = group.viewport;
-    if (view.cameras.empty() || view.cameras.back() != group.camera) view.cameras.push_back(group.camera);
+    // Where all are blind, all are asked, and the answer says so.
+    const bool is_left_out = blind[group.scene][group.camera] &&
+                             !std::ranges::all_of(blind[group.scene], [](const auto& camera) { return camera.second; });
+    std::vector<std::size_t>& cameras = is_left_out ? view.blind : view.cameras;
+    if (cameras.empty() || cameras.back() != group.camera) cameras.push_back(group.camera);
+    if (is_left_out) continue;
     for (const run::CasePlan& plan_of_case : group.cases) {
       Candidate& candidate = candidates[key][key_of(plan_of_case)];
       candidate.grid = group.grid;
@@ -445,6 +470,7 @@ std::vector<View> views_of(const config::Config& config, const run::Plan& plan) 
       else
         ++view.incomplete;
     }
+    std::ranges::stable_sort(view.candidates, {}, &Candidate::name);
     set_apart(config, view);
     out.push_back(std::move(view));
   }

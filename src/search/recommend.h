@@ -32,9 +32,10 @@ struct Candidate {
 struct View {
   std::size_t scene = 0, viewport = 0;
   std::vector<std::size_t> cameras;
-  std::size_t frames = 0;  // of all cameras together
-  std::vector<Candidate> candidates;
-  std::size_t incomplete = 0;  // left out, since not every camera can have their grid
+  std::vector<std::size_t> blind;  // cameras that are left out: no light that shines is in view in any of their frames
+  std::size_t frames = 0;          // of all cameras together
+  std::vector<Candidate> candidates;  // by name, whatever the order of the configuration
+  std::size_t incomplete = 0;         // left out, since not every camera can have their grid
 };
 // Refers to the plan.
 std::vector<View> views_of(const config::Config& config, const run::Plan& plan);

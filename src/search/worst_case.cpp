@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "geom/shapes/domain.h"
+#include "measure/lights_in_view.h"
 #include "search/best_frames.h"
 #include "search/optimizer.h"
 
@@ -439,8 +440,8 @@ class WorstCaseSearch {
     out_.path_scene = rig_.scene(count, projection());
     for (std::size_t i = 0; i < count; ++i) rig_.set_frame(out_.path_scene, i, best_.frames()[i].choice);
     const scene::CameraPath path = path_of(out_.path_scene, config_.scenes[case_.scene].camera);
-    const std::vector<double> values =
-        values_along(config_, case_, request_.measure, {out_.path_scene, path, config_.viewports[case_.viewport]});
+    const run::PathFrames frames(out_.path_scene, path, config_.viewports[case_.viewport]);
+    const std::vector<double> values = values_along(config_, case_, request_.measure, frames);
     for (std::size_t i = 0; i < count; ++i) out_.frames.push_back({best_.frames()[i].choice, values[i]});
     FrameRater meter = rater();
     meter.rate(out_.frames.front().choice);
@@ -448,6 +449,19 @@ class WorstCaseSearch {
     FrameRater lists(config_, case_, Measure::entries, rig_, projection());  // which has lists, whatever was searched
     lists.rate(out_.frames.front().choice);
     out_.buffers = lists.buffers();
+    count_dark_lights(frames.frame(0));
+  }
+
+  // A search goes where lights are, lit or not.
+  void count_dark_lights(const view::Frame& worst) {
+    measure::LightsInView counts;
+    measure::add_frame(counts, worst);
+    out_.lights_in_view = counts.most;
+    out_.dark_in_view = counts.most - counts.seen();
+    if (out_.dark_in_view > 0)
+      out_.warnings.push_back("of " + number_of(out_.lights_in_view, "light") + " in view in the worst frame " +
+                              (out_.dark_in_view == out_.lights_in_view ? "all" : std::to_string(out_.dark_in_view)) +
+                              " are dark (intensity 0 or black)");
   }
 
   // What of them is worse than what was searched for is as much found.

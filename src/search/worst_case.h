@@ -72,8 +72,9 @@ struct WorstCase {
   std::vector<FoundFrame> frames;  // best first
   RecordedFrames recorded;
   RandomFrames random;
-  std::optional<double> theoretical_max;    // in the grid of the worst frame
-  std::vector<assign::BufferNeed> buffers;  // of the worst frame
+  std::optional<double> theoretical_max;               // in the grid of the worst frame
+  std::vector<assign::BufferNeed> buffers;             // of the worst frame
+  std::uint64_t lights_in_view = 0, dark_in_view = 0;  // of the worst frame
   Box eyes, lights;
   std::size_t own_lights = 0, moments = 1;
   std::size_t directions = 0;  // that the camera could look along; 0: any

@@ -20,6 +20,14 @@ std::string dark_level(int lit_behind = 0) {
   return level_of(lamps);
 }
 
+void add_lamp(nlohmann::json& level, const nlohmann::json& light, double x_m, double z_m) {
+  nlohmann::json& lights = level["extensions"]["KHR_lights_punctual"]["lights"];
+  level["scenes"][0]["nodes"].push_back(level["nodes"].size());
+  level["nodes"].push_back(
+      {{"translation", {x_m, 0.0, z_m}}, {"extensions", {{"KHR_lights_punctual", {{"light", lights.size()}}}}}});
+  lights.push_back(light);
+}
+
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -85,6 +93,33 @@ TEST(DarkLights, are_nothing_that_recommend_chooses_by) {
   EXPECT_EQ(tool("recommend " + lit + k_small + " --no-timing -q").code, 0) << "one of them shines";
 }
 
+// Two cameras: what a cellar of dark lights looks like is nothing to choose for the street above it by.
+TEST(DarkLights, of_one_camera_have_no_part_in_what_others_are_given) {
+  const Folder folder;
+  nlohmann::json level = nlohmann::json::parse(level_of(row_of(6)));
+  const std::string alone = folder.write("alone.gltf", level.dump()).string();
+  for (int i = 0; i < 40; ++i)
+    add_lamp(level, {{"type", "point"}, {"range", 3.0}, {"intensity", 0.0}}, 500.0 + 0.1 * i, -4.0);
+  level["scenes"][0]["nodes"].push_back(level["nodes"].size());
+  level["nodes"].push_back({{"name", "cellar"}, {"camera", 0}, {"translation", {502.0, 0.0, 0.0}}});
+  const std::string both = folder.write("both.gltf", level.dump()).string();
+  const auto answer = [&](const std::string& file) {
+    const Outcome done =
+        tool("recommend " + file + k_small + " --no-timing -q --set storages=packed --set 'scenes.*.camera=*' -o -");
+    EXPECT_EQ(done.code, 0) << done.err;
+    return nlohmann::json::parse(done.out)["answers"][0];
+  };
+  const nlohmann::json of_both = answer(both);
+  EXPECT_EQ(of_both["blind_cameras"], nlohmann::json::array({"cellar"}));
+  EXPECT_EQ(of_both["choice"]["figures"], answer(alone)["choice"]["figures"]);
+  const Outcome told = tool("recommend " + both + k_small + " --no-timing -q --set 'scenes.*.camera=*'");
+  EXPECT_TRUE(contains(told.out, "Without camera cellar, in whose frames no light that shines is in view")) << told.out;
+  EXPECT_TRUE(contains(told.err, "40 of 46 lights are dark")) << "with -q, too: " << told.err;
+  const Outcome size =
+      tool("size " + both + k_small + " -q --worst-case --evaluations 40 --set 'scenes.*.camera=cellar'");
+  EXPECT_TRUE(contains(size.out, " lights in view are dark")) << size.out;
+}
+
 TEST(DarkLights, are_sized_with_a_warning) {
   const Folder folder;
   const std::string level = folder.write("level.gltf", dark_level()).string();
@@ -107,14 +142,6 @@ struct RandomLamps {
   nlohmann::json level, listed;  // the same without those that no list can have
   int all = 0, dark = 0, without_range = 0;
 };
-
-void add_lamp(nlohmann::json& level, const nlohmann::json& light, double x_m, double z_m) {
-  nlohmann::json& lights = level["extensions"]["KHR_lights_punctual"]["lights"];
-  level["scenes"][0]["nodes"].push_back(level["nodes"].size());
-  level["nodes"].push_back(
-      {{"translation", {x_m, 0.0, z_m}}, {"extensions", {{"KHR_lights_punctual", {{"light", lights.size()}}}}}});
-  lights.push_back(light);
-}
 
 RandomLamps random_lamps(SplitMix64& random) {
   RandomLamps out;

@@ -114,7 +114,7 @@ TEST(Gates, two_outputs_in_one_file_are_refused_however_it_is_named) {
         "-o /dev/stdout --export csv=-", "-o new.json --export csv=- --export markdown=-"}) {
     const Outcome refused = run(outputs);
     EXPECT_EQ(refused.code, 2) << outputs;
-    EXPECT_TRUE(says(refused, "is to hold two outputs of this command: name a file for each")) << refused.err;
+    EXPECT_TRUE(says(refused, "is to hold two outputs of this command")) << refused.err;
     EXPECT_FALSE(std::filesystem::exists(level.folder / "new.json")) << outputs;
   }
   EXPECT_EQ(run("-o /dev/null --export csv=/dev/null").code, 0);
@@ -239,6 +239,23 @@ TEST(Gates, what_cannot_be_held_against_a_baseline_is_said_before_anything_is_me
   EXPECT_EQ(times.code, 2);
   EXPECT_TRUE(says(times, "--baseline-binary")) << times.err;
   EXPECT_FALSE(std::filesystem::exists(level.result));
+}
+
+TEST(Gates, what_failed_stands_in_the_markdown_once_for_all_cases_that_it_is_of) {
+  const Folder folder;
+  const std::string level = folder.write("level.gltf", level_of(row_of(8))).string(),
+                    table = (folder / "result.md").string();
+  const Outcome run = tool("run " + level +
+                           " --no-timing -q --viewport 320x180 --grid frustum --tiles 64,128 --assigner "
+                           "exact-fast,aabb-fast --fail-if 'lights_seen < 300' --export markdown=" +
+                           table + " -o " + (folder / "result.json").string());
+  EXPECT_EQ(run.code, 1);
+  const std::string text = file_text(table);
+  EXPECT_TRUE(text.starts_with("**FAILED**\n\n- level/")) << text;
+  EXPECT_NE(text.find(" and 3 other cases: lights\\_seen is 8, and fails with lights\\_seen \\< 300\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("fails with"), text.rfind("fails with")) << text;
 }
 
 TEST(Gates, what_matches_nothing_fails) {

@@ -121,6 +121,28 @@ void hold_table_against(const Shown& shown) {
   }
 }
 
+// A set that only some methods have is not what others are cheaper by.
+TEST(RandomSamples, points_of_the_view_that_have_a_price_are_lacking_where_a_method_has_none) {
+  const Folder folder;
+  const std::string weight = " --set 'cost.weights.volume=pixels'";
+  for (const std::string& sets :
+       {std::string(), std::string(" --set samples.opaque={}"), std::string(" --set samples.transparent={}")})
+    for (const std::vector<std::string>& methods :
+         {std::vector<std::string>{"tiled", "exact-fast"}, std::vector<std::string>{"exact-fast", "tiled"}}) {
+      const Shown shown = shown_of(folder, methods, sets + weight);
+      for (const OrderedJson& result_case : shown.result["cases"]) {
+        const bool is_tiled = result_case["assigner"]["name"] == "tiled";
+        if (result_case.contains("cost")) {
+          EXPECT_EQ(result_case["cost"]["lit"], !is_tiled) << joined(methods) << sets;
+        }
+        if (!is_tiled) {
+          EXPECT_EQ(shown.result["conclusions"][0]["take"], result_case["id"]) << shown.text;
+        }
+      }
+      hold_table_against(shown);
+    }
+}
+
 TEST(RandomSamples, stand_under_their_own_headings_and_no_order_of_methods_changes_them) {
   const Folder folder;
   SplitMix64 random(12);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "cli/lamps.h"
 #include "cli/tool.h"
 
 namespace clusterbench::test {
@@ -245,7 +246,7 @@ TEST(Recommend, excludes_what_breaks_a_constraint_and_says_how_good_the_best_of_
   EXPECT_EQ(row["constraint"], "bytes <= " + std::to_string(bytes - 1));
   EXPECT_EQ(row["given"], true);
   EXPECT_GT(row["excluded"], 0);
-  EXPECT_LT(row["best"]["by_best"], 1.0);
+  EXPECT_LE(row["best"]["by_best"], 1.0) << "on its frames";
   EXPECT_NE(bound.outcome.out.find(row["best"]["name"].get<std::string>()), std::string::npos) << bound.outcome.out;
 }
 
@@ -445,6 +446,43 @@ TEST(Recommend, takes_what_draws_lights_by_what_pixels_cost_alone) {
   EXPECT_EQ(alone.code, 1);
   EXPECT_NE(alone.out.find("it has lists (what draws lights is ranked by what pixels cost) rejects"), std::string::npos)
       << alone.out;
+}
+
+TEST(Recommend, gives_the_same_answer_for_methods_in_any_order) {
+  const auto answer = [](const std::string& methods) {
+    const Outcome done = tool("recommend " + source_file("scenes/street.glb") +
+                              " -q --no-timing --viewport 320x180 --grid frustum --tiles 64,128 --slices 4,8 "
+                              "--set 'scenes.*.frames=12' -o - --assigner " +
+                              methods);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return Json::parse(done.out)["answers"][0]["choice"];
+  };
+  const Json choice = answer("bounds-fast,exact-fast,aabb-fast,sphere-refinement-fast");
+  EXPECT_EQ(answer("sphere-refinement-fast,aabb-fast,exact-fast,bounds-fast"), choice);
+  EXPECT_EQ(answer("exact-fast,sphere-refinement-fast,bounds-fast,aabb-fast"), choice);
+}
+
+TEST(Recommend, gives_a_budget_to_the_choice_alone_where_its_method_leaves_more) {
+  const Folder folder;
+  const std::string choice = (folder / "choice.json").string(),
+                    level = source_file("scenes/street.glb") +
+                            " --no-timing -q --viewport 320x180 --grid frustum --tiles 64 --slices 4 --assigner bvh "
+                            "--set storages=bitfield --set 'scenes.*.frames=3' ";
+  ASSERT_EQ(tool("recommend " + level + "--by bytes --bytes 100000 --write-config " + choice).code, 0);
+  const Json budgets = Json::parse(file_text(choice))["limits"]["fail_if"];
+  ASSERT_EQ(budgets.size(), 1u);
+  EXPECT_TRUE(budgets[0].get<std::string>().ends_with("/bvh/bitfield: bytes > 100000.0")) << budgets;
+  EXPECT_EQ(tool("run " + choice + " --no-timing -q -o " + (folder / "result.json").string()).code, 0);
+}
+
+TEST(Recommend, says_what_is_not_there_to_rank_by) {
+  const Folder folder;
+  const std::string level = folder.write("level.gltf", level_of(row_of(1))).string();
+  const Outcome done = tool("recommend " + level +
+                            " --no-timing -q --viewport 64x36 --grid frustum --tiles 64 --slices 4 --assigner "
+                            "exact-fast --set shading.samples=20 --by overshade");
+  EXPECT_EQ(done.code, 1) << done.out;
+  EXPECT_NE(done.out.find("it has overshade on these frames rejects"), std::string::npos) << done.out;
 }
 
 TEST(Recommend, tells_a_coarser_grid_that_is_about_as_good) {

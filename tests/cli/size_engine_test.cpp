@@ -18,6 +18,13 @@ using test::lights_in_view_and_behind;
 using test::Outcome;
 using test::tool;
 
+// So many points at the eye, whose ranges hold every cell.
+std::string lights_everywhere(int count) {
+  Json scene = Json::parse(lights_in_view_and_behind(count, 0));
+  for (Json& light : scene["extensions"]["KHR_lights_punctual"]["lights"]) light["range"] = 500.0;
+  return scene.dump();
+}
+
 TEST(SizeEngine, keeps_an_engines_method_where_flags_name_another_grid_that_it_can_be_set_to) {
   const std::string flags = " --viewport 640x360 --set scenes.*.frames=5 " + test::source_file("scenes/street.glb");
   const auto structures = [&](const std::string& more) {
@@ -42,6 +49,19 @@ TEST(SizeEngine, keeps_an_engines_method_where_flags_name_another_grid_that_it_c
   EXPECT_EQ(cells[0]["settings"]["grid"], "scene.lighting.cells = new pc.Vec3(12, 4, 12)");
   EXPECT_EQ(structures("--engine bevy --tiles 8x4t --slices 12")[0]["settings"]["grid"],
             "ClusterConfig::XYZ { dimensions: UVec3::new(8, 4, 12), .. }");
+}
+
+// Its own pool, which is full, does not say what would be enough.
+TEST(SizeEngine, a_full_pool_is_told_with_what_it_would_need) {
+  const Folder folder;
+  for (const int lights : {31, 33, 60}) {
+    const std::string scene = folder.write("level.gltf", lights_everywhere(lights)).string();
+    const Outcome done = tool("size -q --engine unreal --margin 1 --format json --viewport 320x180 " + scene);
+    ASSERT_EQ(done.code, 0) << done.err;
+    const Json limit = Json::parse(done.out)["structures"][0]["settings"]["limits"][0];
+    EXPECT_EQ(limit["seen"], lights) << limit;
+    EXPECT_EQ(limit["value"], lights) << limit;
+  }
 }
 
 TEST(SizeEngine, refuses_of_an_engines_clustering_what_it_has_no_setting_for) {

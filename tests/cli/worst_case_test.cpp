@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/lamps.h"
 #include "cli/tool.h"
 #include "places.h"
 
@@ -63,6 +64,21 @@ TEST(WorstCaseCommand, the_recorded_path_takes_a_quarter_of_the_seconds_at_most)
   const auto found = nlohmann::json::parse(done.out);
   EXPECT_GE(found["recorded"]["frames"], 1);
   EXPECT_LT(found["recorded"]["frames"], 5000) << "no machine measures a frame in 5 us";
+}
+
+// "range": 0 would be read as none, and the range rule would give it one.
+TEST(WorstCaseCommand, a_range_of_nothing_is_one_in_the_written_path) {
+  const Folder folder;
+  nlohmann::json level = nlohmann::json::parse(level_of(row_of(3)));
+  level["extensions"]["KHR_lights_punctual"]["lights"].push_back(
+      {{"type", "point"}, {"range", 1e-16}, {"intensity", 1000.0}});
+  level["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 2;
+  const std::string path = (folder / "worst.gltf").string();
+  const Outcome done = tool("worst-case " + folder.write("level.gltf", level.dump()).string() +
+                            " -q --grid frustum --tiles 8x5t --slices 4 --assigner exact-fast --evaluations 20 "
+                            "--random 0 --path " +
+                            path + " -o " + (folder / "out.json").string());
+  EXPECT_EQ(done.code, 0) << done.err;
 }
 
 TEST(WorstCaseCommand, what_fails_leaves_what_was_there) {

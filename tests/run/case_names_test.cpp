@@ -50,6 +50,24 @@ TEST(CaseNames, lists_of_tiles_are_a_methods_own_by_all_names_that_they_had) {
     EXPECT_TRUE(is_selected(Pattern(name, ""), tiled)) << name;
 }
 
+// A choice and a structure were renamed, not on the same day.
+TEST(CaseNames, all_that_a_case_was_ever_called_selects_it) {
+  const CaseNames tiled{"street/walk/frustum 64px/tiled(spot=sphere)/own lists",
+                        "0123456789ab",
+                        "street",
+                        "walk",
+                        "640x360",
+                        "frustum 64px",
+                        "tiled(spot=sphere)",
+                        "own"};
+  for (const char* spot : {"sphere", "ball"})
+    for (const char* structure : {"own", "no lists", "own lists"})
+      for (const char* before : {"", "street/walk/frustum 64px/", "street/frustum 64px/", "frustum 64px/"}) {
+        const std::string name = std::string(before) + "tiled(spot=" + spot + ")/" + structure;
+        EXPECT_TRUE(is_selected(Pattern(name, ""), tiled)) << name;
+      }
+}
+
 TEST(CaseNames, choices_that_were_called_otherwise_are_found_by_both_names) {
   CaseNames spots = k_case;
   spots.name = "street/walk/frustum 64px/aabb(spot=sphere)/packed";

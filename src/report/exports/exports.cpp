@@ -20,7 +20,7 @@ constexpr ExportFormat k_formats[] = {
     {"bencher", "Bencher Metric Format", "json", bencher},
     {"lnt", "LLVM's LNT, report format 2, test suite nts", "json", lnt},
     {"csv", "A row per case, comma-separated (RFC 4180)", "csv", csv},
-    {"markdown", "A table for comments and pages", "md", markdown},
+    {"markdown", "What failed and a table, for comments and pages", "md", markdown},
 };
 
 std::string string_at(const Json& from, const char* pointer) {
@@ -82,6 +82,8 @@ ExportResult read(const Json& result, bool all) {
   out.os = string_at(result, "/machine/os");
   if (const Json* cores = value_at(result, "/machine/cores"); cores != nullptr && cores->is_number_integer())
     out.cores = cores->get<int>();
+  if (const Json* failed = value_at(result, "/failed"); failed != nullptr && failed->is_array())
+    for (const Json& sentence : *failed) out.failed.push_back(sentence.get<std::string>());
   for (std::size_t index = 0; index < result["cases"].size(); ++index)
     out.cases.push_back(read_case(result["cases"][index], index, all));
   return out;

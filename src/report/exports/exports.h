@@ -26,7 +26,8 @@ struct ExportResult {
   std::string name, version, git_sha, compiler, flags, build_type, simd_target;
   std::string machine, os;
   int cores = 0;
-  bool all = false;  // figures of the whole table, not only the headline
+  bool all = false;                 // figures of the whole table, not only the headline
+  std::vector<std::string> failed;  // what the run failed for, a sentence each
   std::vector<ExportCase> cases;
 };
 

@@ -1,5 +1,5 @@
-// A table as GitHub and GitLab render it. Only columns in which a case has a figure; of what a name is made of,
-// viewport and precision only where they differ.
+// What the run failed for, and a table, as GitHub and GitLab render them. Only columns in which a case has a figure; of
+// what a name is made of, viewport and precision only where they differ.
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +51,14 @@ std::vector<std::size_t> shown_parts(const ExportResult& result) {
   return shown;
 }
 
+// With the value, the one of the baseline, and the budget. "" where nothing failed.
+std::string failed_list(const ExportResult& result) {
+  if (result.failed.empty()) return "";
+  std::string out = "**FAILED**\n\n";
+  for (const std::string& sentence : result.failed) out += "- " + markdown_cell(sentence) + "\n";
+  return out + "\n";
+}
+
 }  // namespace
 
 std::string markdown(const ExportResult& result) {
@@ -59,7 +67,7 @@ std::string markdown(const ExportResult& result) {
     if (is_used(metric, result)) columns.push_back(&metric);
 
   const std::vector<std::size_t> parts = shown_parts(result);
-  std::string out = "|", rule = "|";
+  std::string out = failed_list(result) + "|", rule = "|";
   for (const std::size_t part : parts) {
     out += " " + result.cases.front().parts[part].first + " |";
     rule += "---|";

@@ -57,6 +57,7 @@ constexpr Metric k_metrics[] = {
     {"miss_ratio", "ratio", "/error/miss_ratio", "", smaller, k_detail},
     {"deepest_miss", "ratio", "/error/deepest_miss", "", smaller, k_detail},
     {"undecided", "pairs", "/error/undecided", "", smaller, k_detail},
+    {"samples_needed", "lights", "/shading/needed", "", neither, k_detail},
     {"samples_missed", "lights", "/shading/missed", "", smaller, k_detail},
     {"samples_missed_outside", "lights", "/shading/missed_outside", "", smaller, k_detail},
     {"lost_irradiance", "ratio", "/shading/lost_irradiance", "", smaller, k_detail},
