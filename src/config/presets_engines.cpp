@@ -100,8 +100,10 @@ constexpr Preset k_engines[] = {
                 "cell's box, 64 lights in each; spots by the "
                 "smallest sphere around them, which up to r186 are not clustered at all",
      .approximated =
-         "tiles end at whole 32 px and of more than 64 lights in a cell the first ones are kept, where it has "
-         "what `--as-shipped` has; which of more than 1024 lights it keeps is not known",
+         "tiles end at whole 32 px; of more than 64 lights in a cell the first of the file are kept, the engine keeps "
+         "the "
+         "farthest (`--as-shipped`), so which light is lost depends on their order; which of more than 1024 lights it "
+         "keeps is not known",
      .unverified = "",
      .assigns_on = AssignsOn::gpu,
      .parts = R"({"grid": {"kind": "frustum", "tiles": {"pixels": [32, 32]},

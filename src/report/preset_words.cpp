@@ -45,7 +45,8 @@ std::string shortage(const RankedPreset& row) {
   if (preset == nullptr) return "";
   const auto parts = nlohmann::json::parse(preset->parts);
   if (parts.contains("storage") && parts["storage"].contains("cap"))
-    return " (room for " + number_of(parts["storage"]["cap"].get<std::uint64_t>(), "light") + " per cell)";
+    return " (room for " + number_of(parts["storage"]["cap"].get<std::uint64_t>(), "light") +
+           " per cell, the first ones of the file: in another order others are lost)";
   return " (its pool of entries is too small)";
 }
 
