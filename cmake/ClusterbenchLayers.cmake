@@ -32,11 +32,11 @@ set(CLUSTERBENCH_ABOVE "")
 
 # Layers none of whose code is timed, and that leave the long work to others: optimised a little they build in two thirds of
 # the time.
-set(CLUSTERBENCH_UNTIMED_LAYERS os config pictures stress search report cli)
+set(CLUSTERBENCH_UNTIMED_LAYERS os result config pictures stress search report cli)
 
 # Layers that spend no time of their own. Sanitized code takes long to build where it is optimised, and longest where it
 # is written for many vectors; so only the other layers are, a little.
-set(CLUSTERBENCH_COLD_LAYERS os config run pictures stress search report cli)
+set(CLUSTERBENCH_COLD_LAYERS os result config run pictures stress search report cli)
 set(CLUSTERBENCH_COLD_OPTIONS "")
 if(CLUSTERBENCH_SANITIZE)
   set(CLUSTERBENCH_COLD_OPTIONS -O0)

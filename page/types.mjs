@@ -1,11 +1,14 @@
-// Writes the types of a result into src/schema_types.ts from its JSON Schema: node types.mjs [--check]. With --check it
-// only says whether they are up to date.
+// Writes the types of a result into src/schema_types.ts from its JSON Schema, as `clusterbench schema result` prints it (the
+// program that CLUSTERBENCH names, or the release build's): node types.mjs [--check]. With --check it only says whether
+// they are up to date.
 
+import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
-const schema = JSON.parse(readFileSync(here("../src/config/schemas/result.schema.json"), "utf8"));
+const program = process.env.CLUSTERBENCH ?? here("../build/release/clusterbench");
+const schema = JSON.parse(execFileSync(program, ["schema", "result"], { encoding: "utf8" }));
 const into = here("src/schema_types.ts");
 
 const nameOf = (definition) => definition.replace(/(^|_)(\w)/g, (_match, _before, letter) => letter.toUpperCase());
@@ -50,7 +53,7 @@ const types = Object.entries({ ...schema.definitions, result: schema }).map(
   ([name, part]) =>
     `${part.description ? `// ${part.description}\n` : ""}export type ${nameOf(name)} = ${typeOf(part)};\n`,
 );
-const text = `// Made by types.mjs of src/config/schemas/result.schema.json: change that, and run \`node types.mjs\`.\n\n${types.join("\n")}`;
+const text = `// Made by types.mjs of the records of src/result: change those, and run \`node types.mjs\`.\n\n${types.join("\n")}`;
 
 if (!process.argv.includes("--check")) {
   writeFileSync(into, text);

@@ -13,6 +13,7 @@
 #include "core/file_text.h"
 #include "core/json_document.h"
 #include "core/text.h"
+#include "result/result.h"
 #include "run/sweep.h"
 
 namespace clusterbench::cli {
@@ -64,7 +65,9 @@ void add_schema(Command& program, Action& action) {
   command.when_named([name, &action] {
     action = [name] {
       const auto rows = config::document_rows();
-      std::cout << std::ranges::find(rows, *name, &config::DocumentRow::name)->schema().dump(2) << "\n";
+      const config::DocumentRow& row = *std::ranges::find(rows, *name, &config::DocumentRow::name);
+      const bool is_result = row.document == config::Document::result;  // in the order of its fields
+      std::cout << (is_result ? result::result_schema().dump(2) : row.schema().dump(2)) << "\n";
       return ExitCode::ok;
     };
   });

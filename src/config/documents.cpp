@@ -9,6 +9,7 @@
 #include "assign/contract/storage.h"
 #include "config/schema_text.h"
 #include "core/error.h"
+#include "result/result.h"
 
 namespace clusterbench::config {
 namespace {
@@ -114,7 +115,7 @@ Json config_schema() {
 }
 
 Json result_schema() {
-  return Json::parse(result_schema_text());
+  return Json(result::result_schema());
 }
 
 std::span<const DocumentRow> document_rows() {

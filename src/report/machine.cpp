@@ -1,11 +1,11 @@
 #include "report/machine.h"
 
 #include <array>
-#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "core/text.h"
+#include "run/records/records.h"
 
 namespace clusterbench::report {
 namespace {
@@ -22,20 +22,7 @@ std::string size_text(std::uint64_t bytes) {
 }  // namespace
 
 Json machine_to_json(const run::MachineFacts& machine) {
-  Json out{{"cpu", machine.cpu}};
-  for (const auto& [key, value] :
-       {std::pair("family", &machine.family), {"model", &machine.model}, {"stepping", &machine.stepping}})
-    if (!value->empty()) out[key] = *value;
-  for (const auto& [level, bytes] : machine.caches) out["caches"][level] = bytes;
-  out["cores"] = machine.cores;
-  out["ram_bytes"] = machine.ram_bytes;
-  if (machine.clock) {
-    out["clock_mhz"] = {{"now", std::round(machine.clock->now_mhz)}};
-    if (machine.clock->most_mhz) out["clock_mhz"]["max"] = std::round(*machine.clock->most_mhz);
-  }
-  if (machine.load) out["load"] = {{"begin", machine.load->begin}, {"end", machine.load->end}};
-  out["os"] = machine.os;
-  return out;
+  return result::to_json(run::record_of(machine));
 }
 
 Json without_state(Json machine) {

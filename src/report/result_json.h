@@ -19,7 +19,6 @@ nlohmann::ordered_json number_or_null(double value);
 nlohmann::ordered_json six_digits(double value);
 
 nlohmann::ordered_json tool_to_json(const run::ToolFacts& tool);
-nlohmann::ordered_json scene_to_json(const run::SceneResult& scene);
 nlohmann::ordered_json case_to_json(const run::CaseResult& case_result);
 
 // `earlier_cases`: what an interrupted run had finished, as case_to_json gave it. All cases come in the plan's order.

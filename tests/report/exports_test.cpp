@@ -46,7 +46,7 @@ std::vector<std::string> violations(const char* schema, const std::string& insta
 
 // Follows a JSON pointer through the result schema's case.
 bool is_in_schema(const std::string& pointer) {
-  const Json schema = Json::parse(config::result_schema_text());
+  const Json schema = Json(config::result_schema());
   const Json* at = &schema["properties"]["cases"]["items"];
   std::istringstream parts(pointer.substr(1));
   for (std::string part; std::getline(parts, part, '/');) {

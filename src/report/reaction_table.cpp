@@ -1,4 +1,4 @@
-#include "report/reaction_json.h"
+#include "report/reaction_table.h"
 
 #include <functional>
 
@@ -87,34 +87,6 @@ std::string table_beside(const Json& result, const char* part, const std::string
 }
 
 }  // namespace
-
-Json reaction_to_json(const run::ReactionResult& result) {
-  const run::TileMoves& moves = result.moves;
-  const Json reacting = to_json(result.reacting);
-  Json out{{"to", grid::name_of(result.reaction.to)}, {"most", result.reaction.most}};
-  if (!result.reaction.of.empty()) out["of"] = result.reaction.of;
-  if (result.reaction.most_lights > 0) out["most_lights"] = result.reaction.most_lights;
-  out["tiles"] = {{"asked", {moves.asked.x, moves.asked.y}},
-                  {"fewest", {moves.fewest.x, moves.fewest.y}},
-                  {"per_frame", to_json(moves.tiles)}};
-  out["needed"] = to_json(moves.amount);
-  out["frames"] = {{"reacted", moves.reacted}, {"over", moves.over}};
-  out["moves"] = {{"steps", moves.steps}, {"changed", moves.changed}};
-  out["reacting"] = reacting;
-  if (!result.fixed) return out;
-  out["fixed"] = to_json(*result.fixed);
-  out["saved"] = saved(reacting, out["fixed"]);
-  return out;
-}
-
-Json fallback_to_json(const run::FallbackResult& result) {
-  const Json limited = to_json(result.limited), roomy = to_json(result.roomy);
-  return {{"frames", result.frames},
-          {"cells", result.cells},
-          {"limited", limited},
-          {"roomy", roomy},
-          {"saved", saved(limited, roomy)}};
-}
 
 std::string reaction_table(const Json& result) {
   const std::string out = table_beside(result, "react", "tiles that react", k_reaction_headings, reaction_row,

@@ -1,8 +1,7 @@
-#include "report/fit_json.h"
+#include "report/fit_table.h"
 
 #include "report/case_sides.h"
 #include "report/columns.h"
-#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {
@@ -38,25 +37,6 @@ std::string range_text(const Json& fit) {
 }
 
 }  // namespace
-
-Json fit_to_json(const run::FitResult& fit) {
-  const run::GridMoves& moves = fit.moves;
-  const Json fitted = to_json(fit.fitted), unfitted = to_json(fit.unfitted);
-  return {{"to", grid::name_of(fit.fit.to)},
-          {"damping", fit.fit.damping},
-          {"step", fit.fit.step},
-          {"asked", {{"near", number_or_null(fit.asked.near_m)}, {"far", number_or_null(fit.asked.far_m)}}},
-          {"near", to_json(moves.near_m)},
-          {"far", to_json(moves.far_m)},
-          {"moves",
-           {{"steps", moves.steps},
-            {"changed", moves.changed},
-            {"cells", number_or_null(moves.cells_changed / moves.steps)},
-            {"boundaries", to_json(moves.moved)}}},
-          {"fitted", fitted},
-          {"unfitted", unfitted},
-          {"saved", saved(fitted, unfitted)}};
-}
 
 std::string fit_table(const Json& result) {
   std::string out;

@@ -1,0 +1,131 @@
+#include "result/fields.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+
+namespace clusterbench::result {
+namespace {
+
+Json list_to_json(const Type& type, const void* list, bool is_fraction);
+
+Json value_to_json(const Type& type, const void* value, bool is_in_fractions) {
+  const bool is_fraction = is_in_fractions || type.about.is_fraction;
+  switch (type.kind) {
+    case Kind::object:
+      return to_json(type, value);
+    case Kind::nullable:
+      return type.size(value) == 0 ? Json() : value_to_json(*type.element, type.at(value, 0), is_fraction);
+    case Kind::list:
+    case Kind::by_name:
+      return list_to_json(type, value, is_fraction);
+    default:
+      return type.to_json(value, is_fraction);
+  }
+}
+
+Json list_to_json(const Type& type, const void* list, bool is_fraction) {
+  Json out = type.kind == Kind::list ? Json::array() : Json::object();
+  for (std::size_t i = 0; i < type.size(list); ++i) {
+    Json element = value_to_json(*type.element, type.at(list, i), is_fraction);
+    if (type.kind == Kind::list)
+      out.push_back(std::move(element));
+    else
+      out[type.name_at(list, i)] = std::move(element);
+  }
+  return out;
+}
+
+const char* wanted(const Type& type) {
+  switch (type.kind) {
+    case Kind::boolean:
+      return "true or false";
+    case Kind::integer:
+      return type.is_unsigned ? "a whole number of at least 0" : "a whole number";
+    case Kind::number:
+      return "a number or null";
+    case Kind::text:
+      return "a text";
+    case Kind::list:
+      return "a list";
+    default:
+      return "an object";
+  }
+}
+
+bool is_of_kind(const Type& type, const Json& json) {
+  switch (type.kind) {
+    case Kind::boolean:
+      return json.is_boolean();
+    case Kind::integer:
+      return type.is_unsigned ? json.is_number_unsigned() : json.is_number_integer();
+    case Kind::number:
+      return json.is_number() || json.is_null();
+    case Kind::text:
+      return json.is_string();
+    case Kind::list:
+      return json.is_array() && (type.fixed_size == 0 || json.size() == type.fixed_size);
+    case Kind::object:
+    case Kind::by_name:
+      return json.is_object();
+    default:
+      return true;
+  }
+}
+
+void value_from_json(const Type& type, const Json& json, void* value, const std::string& where) {
+  if (type.kind == Kind::nullable) {
+    if (!json.is_null()) value_from_json(*type.element, json, type.append(value, 0, ""), where);
+    return;
+  }
+  if (!is_of_kind(type, json)) throw Error("", where, std::string("must be ") + wanted(type));
+  if (type.kind == Kind::object) {
+    from_json(type, json, value, where);
+  } else if (type.kind == Kind::list) {
+    for (std::size_t i = 0; i < json.size(); ++i)
+      value_from_json(*type.element, json[i], type.append(value, i, ""), where + "/" + std::to_string(i));
+  } else if (type.kind == Kind::by_name) {
+    for (const auto& [name, element] : json.items())
+      value_from_json(*type.element, element, type.append(value, 0, name), where + "/" + name);
+  } else {
+    type.from_json(json, value);
+  }
+}
+
+}  // namespace
+
+Json number_json(double value, bool is_fraction) {
+  constexpr double k_exact_integers = 9007199254740992.0;
+  if (!std::isfinite(value)) return nullptr;
+  if (!is_fraction && std::floor(value) == value && std::abs(value) < k_exact_integers)
+    return static_cast<std::int64_t>(value);
+  return value;
+}
+
+Json to_json(const Type& type, const void* record) {
+  Json out = Json::object();
+  for (const Field& field : type.fields)
+    if (const void* value = field.get(record))
+      out[field.name] = value_to_json(*field.type, value, field.about.is_fraction);
+  return out;
+}
+
+void from_json(const Type& type, const Json& json, void* record, const std::string& where) {
+  std::size_t known = 0;
+  for (const Field& field : type.fields) {
+    const auto found = json.find(field.name);
+    if (found != json.end()) {
+      ++known;
+      value_from_json(*field.type, *found, field.make(record), where + "/" + field.name);
+    } else if (!field.is_optional) {
+      throw Error("", where + "/" + field.name, "is missing");
+    }
+  }
+  if (known == json.size()) return;
+  for (const auto& [name, value] : json.items())
+    if (std::ranges::find(type.fields, name, &Field::name) == type.fields.end())
+      throw Error("", where + "/" + name, "is not known");
+}
+
+}  // namespace clusterbench::result

@@ -1,0 +1,327 @@
+#pragma once
+// Records: plain structs that list each field once, with its name, meaning, unit, and what it is taken over.
+//
+//   struct Spread {
+//     RECORD(Spread);
+//     FIELD(double, mean, "Arithmetic mean");
+//     FIELD(std::optional<double>, max, About("Largest", "m", "all frames").at_least(0));
+//     END_RECORD;
+//   };
+//
+// From these lists come a record's JSON, its reader, and its JSON Schema (schema.h). A std::optional is absent where it
+// has no value, a Nullable is null, and so is a double that is not finite.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace clusterbench::result {
+
+using Json = nlohmann::ordered_json;
+
+inline constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+
+// What a field is. "" for a unit, and for what it is over: that of what holds it.
+struct About {
+  About(const char* what = "", const char* in_unit = "", const char* taken_over = "")
+      : description(what), unit(in_unit), over(taken_over) {}
+
+  About at_least(double least) const { return with(&About::min, least); }
+  About above(double bound) const { return with(&About::above_min, bound); }
+  About at_most(double most) const { return with(&About::max, most); }
+  About finite() const { return with(&About::is_finite, true); }         // a number that is never null
+  About as_fraction() const { return with(&About::is_fraction, true); }  // a number that is written as 2.0, not 2
+  About one_of(std::vector<const char*> words) const { return with(&About::choices, std::move(words)); }
+  About matches(const char* expression) const { return with(&About::pattern, expression); }
+  About items(std::size_t least, std::size_t most) const {
+    return with(&About::least_items, least).with(&About::most_items, most);
+  }
+  About each(const char* what) const { return with(&About::of_each, what); }
+  About always(int value) const { return with(&About::constant, value); }
+  About shaped(const char* json_schema) const { return with(&About::shape, json_schema); }
+  About late() const { return with(&About::is_late, true); }
+
+  const char *description, *unit, *over;
+  std::optional<double> min{}, above_min{}, max{};  // of a number, or each of a list's
+  bool is_finite = false;
+  bool is_fraction = false;
+  std::vector<const char*> choices{};           // of a text
+  const char* pattern = "";                     // of a text
+  std::size_t least_items = 0, most_items = 0;  // of a list; 0: any number
+  const char* of_each = "";                     // what the values by name are
+  std::optional<int> constant{};                // of a whole number
+  const char* shape = "";                       // of any JSON: what else its schema says
+  bool is_late = false;                         // always written; results of earlier versions may lack it
+
+ private:
+  template <class T, class Value>
+  About with(T About::*part, Value value) const {
+    About copy = *this;
+    copy.*part = std::move(value);
+    return copy;
+  }
+};
+
+// Null where it has no value.
+template <class T>
+struct Nullable : std::optional<T> {
+  using std::optional<T>::optional;
+  using std::optional<T>::operator=;
+};
+
+// Values by name, in the order in which they are written.
+template <class T>
+using ByName = std::vector<std::pair<std::string, T>>;
+
+enum class Kind : std::uint8_t { boolean, integer, number, text, list, object, by_name, nullable, json };
+
+struct Type;
+
+struct Field {
+  std::string name;
+  About about;
+  const Type* type = nullptr;
+  bool is_optional = false;
+  const void* (*get)(const void* record) = nullptr;  // nothing where it is absent
+  void* (*make)(void* record) = nullptr;             // makes an absent one
+};
+
+// How values of a C++ type are read and written.
+struct Type {
+  Kind kind = Kind::json;
+  About about{};                // of a struct that says it of itself
+  const char* definition = "";  // the schema has it once, under this name; "": in place
+  bool is_unsigned = false;     // an integer
+  std::vector<Field> fields{};  // of an object
+  // Of a list, values by name, or a nullable one (which has one element or none).
+  const Type* element = nullptr;
+  std::size_t fixed_size = 0;  // of a list that always has so many elements
+  std::size_t (*size)(const void* list) = nullptr;
+  const void* (*at)(const void* list, std::size_t index) = nullptr;
+  const std::string& (*name_at)(const void* list, std::size_t index) = nullptr;
+  void* (*append)(void* list, std::size_t index, const std::string& name) = nullptr;
+  // Of a plain value.
+  Json (*to_json)(const void* value, bool is_fraction) = nullptr;
+  void (*from_json)(const Json& json, void* value) = nullptr;  // of its kind
+};
+
+template <class T>
+const Type& type_of();
+
+template <class T>
+T initial() {
+  if constexpr (std::is_same_v<T, double>)
+    return k_none;
+  else
+    return T{};
+}
+
+// C++20 cannot name the members of a struct, so these do: a field is known by its line.
+#define RECORD(Name) \
+  using Self = Name; \
+  static constexpr int k_first_line = __LINE__
+#define FIELD_AS(name, Type, member, ...)                                                \
+  Type member = ::clusterbench::result::initial<Type>();                                 \
+  template <class F>                                                                     \
+  static void list(F& field, std::integral_constant<int, __LINE__>) {                    \
+    field.template add<&Self::member>(name, ::clusterbench::result::About(__VA_ARGS__)); \
+  }                                                                                      \
+  static_assert(true)
+#define FIELD(Type, member, ...) FIELD_AS(#member, Type, member, __VA_ARGS__)
+#define END_RECORD static constexpr int k_last_line = __LINE__
+
+// Collects the fields of a record.
+class FieldCollector {
+ public:
+  explicit FieldCollector(std::vector<Field>& fields) : fields_(fields) {}
+
+  template <auto Member>
+  void add(const char* name, const About& about) {
+    add_typed<Member>(name, about, Member);
+  }
+
+ private:
+  template <auto Member, class Record, class T>
+  void add_typed(const char* name, const About& about, T Record::*) {
+    fields_.push_back({name, about, &type_of<T>(), false,
+                       [](const void* record) -> const void* { return &(static_cast<const Record*>(record)->*Member); },
+                       [](void* record) -> void* { return &(static_cast<Record*>(record)->*Member); }});
+  }
+  template <auto Member, class Record, class T>
+  void add_typed(const char* name, const About& about, std::optional<T> Record::*) {
+    fields_.push_back({name, about, &type_of<T>(), true,
+                       [](const void* record) -> const void* {
+                         const auto& value = static_cast<const Record*>(record)->*Member;
+                         return value ? &*value : nullptr;
+                       },
+                       [](void* record) -> void* { return &(static_cast<Record*>(record)->*Member).emplace(); }});
+  }
+
+  std::vector<Field>& fields_;
+};
+
+Json number_json(double value, bool is_fraction);  // null where it is not finite
+
+namespace detail {
+
+template <class T>
+inline constexpr bool is_nullable = false;
+template <class T>
+inline constexpr bool is_nullable<Nullable<T>> = true;
+template <class T>
+inline constexpr bool is_by_name = false;
+template <class T>
+inline constexpr bool is_by_name<ByName<T>> = true;
+
+template <class T>
+Type plain(Kind kind) {
+  Type type{kind};
+  type.to_json = [](const void* value, bool) { return Json(*static_cast<const T*>(value)); };
+  type.from_json = [](const Json& json, void* value) { *static_cast<T*>(value) = json.get<T>(); };
+  return type;
+}
+
+inline Type number() {
+  Type type{Kind::number};
+  type.to_json = [](const void* value, bool is_fraction) {
+    return number_json(*static_cast<const double*>(value), is_fraction);
+  };
+  type.from_json = [](const Json& json, void* value) {
+    *static_cast<double*>(value) = json.is_null() ? k_none : json.get<double>();
+  };
+  return type;
+}
+
+template <class T>
+Type nullable() {
+  using Value = typename T::value_type;
+  Type type{Kind::nullable};
+  type.element = &type_of<Value>();
+  type.size = [](const void* value) -> std::size_t { return static_cast<const T*>(value)->has_value() ? 1 : 0; };
+  type.at = [](const void* value, std::size_t) -> const void* { return &**static_cast<const T*>(value); };
+  type.append = [](void* value, std::size_t, const std::string&) -> void* {
+    return &static_cast<T*>(value)->emplace();
+  };
+  return type;
+}
+
+template <class T>
+Type by_name() {
+  Type type{Kind::by_name};
+  type.element = &type_of<typename T::value_type::second_type>();
+  type.size = [](const void* list) { return static_cast<const T*>(list)->size(); };
+  type.at = [](const void* list, std::size_t i) -> const void* { return &(*static_cast<const T*>(list))[i].second; };
+  type.name_at = [](const void* list, std::size_t i) -> const std::string& {
+    return (*static_cast<const T*>(list))[i].first;
+  };
+  type.append = [](void* list, std::size_t, const std::string& name) -> void* {
+    T& all = *static_cast<T*>(list);
+    all.emplace_back();
+    all.back().first = name;
+    return &all.back().second;
+  };
+  return type;
+}
+
+// A std::vector, or a std::array and what is made of one.
+template <class T>
+Type list() {
+  Type type{Kind::list};
+  type.element = &type_of<typename T::value_type>();
+  type.size = [](const void* list) { return static_cast<const T*>(list)->size(); };
+  type.at = [](const void* list, std::size_t i) -> const void* { return &(*static_cast<const T*>(list))[i]; };
+  if constexpr (requires(T & list) { list.emplace_back(); }) {
+    type.append = [](void* list, std::size_t, const std::string&) -> void* {
+      T& all = *static_cast<T*>(list);
+      all.emplace_back();
+      return &all.back();
+    };
+  } else {
+    type.fixed_size = T{}.size();
+    type.append = [](void* list, std::size_t i, const std::string&) -> void* { return &(*static_cast<T*>(list))[i]; };
+  }
+  return type;
+}
+
+}  // namespace detail
+
+template <class Record, class F, int... Lines>
+void list_lines(F& field, std::integer_sequence<int, Lines...>) {
+  const auto list_one = [&]<int Line>(std::integral_constant<int, Line> line) {
+    if constexpr (requires { Record::list(field, line); }) Record::list(field, line);
+  };
+  (list_one(std::integral_constant<int, Record::k_first_line + Lines>()), ...);
+}
+
+// Calls field(name, member, about) for each field of a record, in the order of their lines.
+template <class Record, class F>
+void list_fields(F& field) {
+  list_lines<Record>(field, std::make_integer_sequence<int, Record::k_last_line - Record::k_first_line>());
+}
+
+template <class T>
+Type make_type() {
+  if constexpr (std::is_same_v<T, bool>) {
+    return detail::plain<bool>(Kind::boolean);
+  } else if constexpr (std::is_integral_v<T>) {
+    Type type = detail::plain<T>(Kind::integer);
+    type.is_unsigned = std::is_unsigned_v<T>;
+    return type;
+  } else if constexpr (std::is_same_v<T, double>) {
+    return detail::number();
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return detail::plain<std::string>(Kind::text);
+  } else if constexpr (std::is_same_v<T, Json>) {
+    return detail::plain<Json>(Kind::json);
+  } else if constexpr (detail::is_nullable<T>) {
+    return detail::nullable<T>();
+  } else if constexpr (detail::is_by_name<T>) {
+    return detail::by_name<T>();
+  } else if constexpr (requires(T & list) { list.size(); }) {
+    Type type = detail::list<T>();
+    if constexpr (requires { T::k_definition; }) {
+      type.definition = T::k_definition;
+      type.about = T::about();
+    }
+    return type;
+  } else {
+    Type type{Kind::object};
+    if constexpr (requires { T::k_definition; }) type.definition = T::k_definition;
+    if constexpr (requires { T::about(); }) type.about = T::about();
+    FieldCollector collect(type.fields);
+    list_fields<T>(collect);
+    return type;
+  }
+}
+
+template <class T>
+const Type& type_of() {
+  static const Type type = make_type<T>();
+  return type;
+}
+
+// Of a record of a type: its JSON, its fields in their order.
+Json to_json(const Type& type, const void* record);
+// Fills a record that was just made. Throws Error (where: the JSON pointer below `where`) for what is not of its
+// field's type, and for a field that is missing or not known. Ranges of values are the schema's to check.
+void from_json(const Type& type, const Json& json, void* record, const std::string& where);
+
+template <class Record>
+Json to_json(const Record& record) {
+  return to_json(type_of<Record>(), &record);
+}
+template <class Record>
+Record from_json(const Json& json, const std::string& where = "") {
+  Record record;
+  from_json(type_of<Record>(), json, &record, where);
+  return record;
+}
+
+}  // namespace clusterbench::result
