@@ -50,7 +50,9 @@ struct Machine {
   FIELD(std::optional<std::string>, model, "On ARM the part; absent if unknown");
   FIELD(std::optional<std::string>, stepping, "On ARM variant and revision, r3p1; absent if unknown");
   FIELD(std::optional<ByName<std::uint64_t>>, caches,
-        About("Those that the first core uses; absent if unknown").at_least(1).each("By level: l1d, l1i, l2, l3"));
+        About("Those that the first core uses; absent if unknown", "bytes", "the first core")
+            .at_least(1)
+            .each("By level: l1d, l1i, l2, l3"));
   FIELD(std::uint64_t, cores, "Logical ones", "cores", "the machine");
   FIELD(std::uint64_t, ram_bytes, "Main memory", "bytes", "the machine");
   FIELD(std::optional<Clock>, clock_mhz, "The processor's clock; absent if unknown, and where nothing is timed", "MHz");

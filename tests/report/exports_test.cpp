@@ -11,7 +11,7 @@
 #include <regex>
 #include <sstream>
 
-#include "config/schema_text.h"
+#include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "core/error.h"
 #include "report/result_by_hand.h"

@@ -9,10 +9,6 @@ result::Vector vector_record(const Vec3d& v) {
   return {{v.x, v.y, v.z}};
 }
 
-result::Counts2 counts_record(Vec2i counts) {
-  return {static_cast<std::uint64_t>(counts.x), static_cast<std::uint64_t>(counts.y)};
-}
-
 result::DetailedCamera camera_record(const DetailsFrame& frame) {
   const Mat3d rows = glm::transpose(frame.camera.rotation);
   const view::Projection& p = frame.projection;

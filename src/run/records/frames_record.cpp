@@ -56,10 +56,6 @@ result::Saved saved_record(const result::FitSide& with, const result::FitSide& w
   return out;
 }
 
-result::Counts2 counts_record(Vec2i counts) {
-  return {static_cast<std::uint64_t>(counts.x), static_cast<std::uint64_t>(counts.y)};
-}
-
 result::Churn churn_record(const measure::Churn& churn) {
   return {churn.changes, counted(churn.mean_changes()), churn.most_changes};
 }

@@ -32,6 +32,10 @@ result::Details details_record(const Details& details);
 // [x, y, z] of a cell's index in a frame.
 result::CellIndex cell_record(std::uint32_t cell, const CaseResult& of, int frame);
 
+inline result::Counts2 counts_record(Vec2i counts) {
+  return {static_cast<std::uint64_t>(counts.x), static_cast<std::uint64_t>(counts.y)};
+}
+
 template <class Numbers>
 result::MeanMax mean_max(const Numbers& numbers) {
   return {result::counted(numbers.mean), result::counted(numbers.max)};
