@@ -1,35 +1,80 @@
-// Made by types.mjs of src/config/schemas/result.schema.json: change that, and run `node types.mjs`.
+// Made by types.mjs of the records of src/result: change those, and run `node types.mjs`.
 
-export type Extremes = {
-  min: number | null; // Smallest
-  mean: number | null; // Mean
+export type Tool = {
+  version: string; // Version of clusterbench
+  git_sha: string; // Commit that was built; with + where files differed from it
+  compiler: string; // Name and version
+  flags: string; // The compiler's flags
+  build_type: string; // CMake's build type; only Release gives times worth comparing
+  simd_target: string; // Instruction set that Highway chose
+  libraries: Record<string, string>; // Version of each library
+};
+
+// [x, y, z]
+export type Vector = [number, number, number];
+
+// Percentiles are nearest-rank: values that occur
+export type Spread = {
+  mean: number | null; // Arithmetic mean
+  p50: number | null; // Median
+  p95: number | null; // 95th percentile
+  p99: number | null; // 99th percentile
   max: number | null; // Largest
 };
 
-export type Saved = {
-  pairs?: number | null; // Pairs in lists, mean per frame
-  false_positives?: number | null; // Pairs that are not true
-  lists_changed?: number | null; // Lists that differ from the frame before's
-  index_entries: number | null; // High-water mark of the entries to allocate
-  bytes: number | null; // High-water mark of all bytes to allocate
-  evaluated: Record<string, number | null>; // Lights that samples loop over, by the set of samples
+// Cell as [x, y, z]
+export type Cell = [number, number, number];
+
+export type HighWater = {
+  high_water: number; // Largest of all frames
+  theoretical_max: number; // If every light were in every cell
+  recommended: number; // What to allocate: high water x allocation.margin of the configuration, at most theoretical_max
 };
 
-export type BeforeAfter = {
-  before: number; // Before
-  after: number; // After
-  removed: number | null; // Share that is taken out; null where there is none [share of 1]
+export type MeanMax = {
+  mean: number | null; // Arithmetic mean
+  max: number | null; // Largest
 };
 
-export type FitSide = {
-  pairs?: number; // In lists, mean per frame; absent without cells [pairs]
-  true_pairs?: number; // Over all frames; absent without cells, or where accuracy is not checked [pairs]
-  false_positives?: number; // Over all frames: pairs in lists that are not true [pairs]
-  lists_changed?: number | null; // Share of the lists that differ from those of the same cells in the frame before; absent without cells, null with one frame [share]
-  index_entries: number; // High-water mark [entries]
-  bytes: number; // High-water mark of all that is allocated [bytes]
-  evaluated: Record<string, number>; // Lights that samples loop over, by the set of samples [lights]
-  missed: Record<string, number>; // Lights that samples need and do not get, by the set of samples [lights]
+// What a shader would loop over at the points of a set
+export type SampleSet = {
+  samples: number; // Points of the set [samples]
+  unanswered?: number; // Samples at which the light structure has no answer: outside of its cells, beside the picture, behind the eye [samples]
+  evaluated: number; // Lights that the light structure gives at the samples [lights]
+  needed: number; // Lights that reach the samples [lights]
+  missed: number; // Of needed, those that the light structure does not give, for any reason: no pair, dropped, or outside of the grid [lights]
+  missed_in_cells?: number; // Of missed, at samples inside of the grid: the cell lacks the light, or its storage dropped it [lights]
+  missed_outside?: number; // Of missed, at samples outside of the grid, mostly beyond its far end [lights]
+  unlit: number | null; // missed / needed, 0 to 1; null where nothing is needed [share of 1]
+  lost_irradiance: number | null; // Share of the irradiance (lux, on a surface that faces the light) that missed lights carry: intensity times the colour's luminance (Rec. 709), attenuated as KHR_lights_punctual has it, with the range's window and a spot's falloff. Without directional lights [share of 1]
+  lost_lux?: number | null; // Irradiance that missed lights carry, mean over the samples [lx]
+  overshade: number | null; // evaluated / needed over all samples; null where it cannot be compared: fewer than 100 lights are needed, or more than 0.001 of them are missed [ratio]
+  reads?: number; // Elements of the light structure's buffers that shaders fetch at the samples to know their lights: headers, light indices, words of bits, nodes, runs, boxes. The lights themselves are not among them [elements]
+  read_bytes?: number; // Bytes of these elements [B]
+  worst_frame?: {
+    frame: number; // Number of the frame on the camera's path, from 0 [frame, over one frame]
+    missed: number; // Missed lights at this frame's samples [lights, over one frame]
+    needed: number; // Needed lights at this frame's samples [lights, over one frame]
+  }; // The frame that misses most; absent where none is missed
+  darkest?: {
+    frame: number; // Number of the frame on the camera's path, from 0 [frame, over one sample]
+    lost_lux: number | null; // Irradiance that the sample loses [lx, over one sample]
+    pixel?: [number, number]; // Its position in the picture, from the top left; absent behind the eye [px, over one sample]
+  }; // The sample that loses most light; absent where none is lost
+  ground_m?: number; // Height of the horizontal plane (the world's y) on which these samples lie, since the scene has no triangles; absent where they lie on its surfaces [m, over the whole run]
+  waves?: Array<{
+    lanes: number; // Pixels of a wave: 32 (8 x 4) or 64 (8 x 8) [pixels, over one wave]
+    waves: number; // With a surface in one of their pixels at least; only such pixels count [waves]
+    distinct_lists: {
+      mean: number | null; // Of a wave [lists]
+      max: number; // Of a wave [lists]
+    }; // Different lists within a wave
+    mean_list: number | null; // Length of a wave's lists, mean over its lanes and then over waves: steps if no lane waited for another [lights]
+    longest_list: number | null; // Longest list of a wave, mean over waves: steps until its last lane is done [lights]
+    united_lists: number | null; // Lights that any lane of a wave has, mean over waves: steps of a loop that all lanes share (scalarised) [lights]
+    divergence: number | null; // Sum over waves of the longest list by the sum of the mean ones; 1: no lane waits [ratio]
+    scalarised: number | null; // Sum over waves of the united lists by the sum of the mean ones [ratio]
+  }>; // Lists among pixels that a GPU shades together; of visible surfaces at full resolution (divisor 1) [over the waves of all frames]
 };
 
 export type DepthLengths = {
@@ -50,93 +95,42 @@ export type Lengths = {
   max: number | null; // The longest
 };
 
-// What a shader would loop over at the points of a set
-export type SampleSet = {
-  samples: number; // Points of the set [samples]
-  evaluated: number; // Lights that the light structure gives at the samples [lights]
-  needed: number; // Lights that reach the samples [lights]
-  missed: number; // Of needed, those that the light structure does not give, for any reason: no pair, dropped, or outside of the grid [lights]
-  lost_irradiance: number | null; // Share of the irradiance (lux, on a surface that faces the light) that missed lights carry: intensity times the colour's luminance (Rec. 709), attenuated as KHR_lights_punctual has it, with the range's window and a spot's falloff. Without directional lights [share of 1]
-  missed_in_cells?: number; // Of missed, at samples inside of the grid: the cell lacks the light, or its storage dropped it [lights]
-  missed_outside?: number; // Of missed, at samples outside of the grid, mostly beyond its far end [lights]
-  unlit: number | null; // missed / needed, 0 to 1; null where nothing is needed [share of 1]
-  worst_frame?: {
-    frame: number; // Number of the frame on the camera's path, from 0 [frame, over one frame]
-    missed: number; // Missed lights at this frame's samples [lights, over one frame]
-    needed: number; // Needed lights at this frame's samples [lights, over one frame]
-  }; // The frame that misses most; absent where none is missed
-  overshade: number | null; // evaluated / needed over all samples; null where it cannot be compared: fewer than 100 lights are needed, or more than 0.001 of them are missed [ratio]
-  unanswered?: number; // Samples at which the light structure has no answer: outside of its cells, beside the picture, behind the eye [samples]
-  reads?: number; // Elements of the light structure's buffers that shaders fetch at the samples to know their lights: headers, light indices, words of bits, nodes, runs, boxes. The lights themselves are not among them [elements]
-  read_bytes?: number; // Bytes of these elements [B]
-  lost_lux?: number | null; // Irradiance that missed lights carry, mean over the samples [lx]
-  darkest?: {
-    frame: number; // Number of the frame on the camera's path, from 0 [frame, over one sample]
-    pixel?: [number, number]; // Its position in the picture, from the top left; absent behind the eye [px, over one sample]
-    lost_lux: number | null; // Irradiance that the sample loses [lx, over one sample]
-  }; // The sample that loses most light; absent where none is lost
-  ground_m?: number; // Height of the horizontal plane (the world's y) on which these samples lie, since the scene has no triangles; absent where they lie on its surfaces [m, over the whole run]
-  waves?: Array<{
-    lanes: number; // Pixels of a wave: 32 (8 x 4) or 64 (8 x 8) [pixels, over one wave]
-    waves: number; // With a surface in one of their pixels at least; only such pixels count [waves]
-    distinct_lists: {
-      mean: number | null; // Of a wave [lists]
-      max: number; // Of a wave [lists]
-    }; // Different lists within a wave
-    mean_list: number | null; // Length of a wave's lists, mean over its lanes and then over waves: steps if no lane waited for another [lights]
-    longest_list: number | null; // Longest list of a wave, mean over waves: steps until its last lane is done [lights]
-    united_lists: number | null; // Lights that any lane of a wave has, mean over waves: steps of a loop that all lanes share (scalarised) [lights]
-    divergence: number | null; // Sum over waves of the longest list by the sum of the mean ones; 1: no lane waits [ratio]
-    scalarised: number | null; // Sum over waves of the united lists by the sum of the mean ones [ratio]
-  }>; // Lists among pixels that a GPU shades together; of visible surfaces at full resolution (divisor 1) [over the waves of all frames]
-};
-
-export type Tool = {
-  version: string; // Version of clusterbench
-  git_sha: string; // Commit that was built; with + where files differed from it
-  compiler: string; // Name and version
-  flags: string; // The compiler's flags
-  build_type: string; // CMake's build type; only Release gives times worth comparing
-  simd_target: string; // Instruction set that Highway chose
-  libraries: Record<string, string>; // Version of each library
-};
-
-// Percentiles are nearest-rank: values that occur
-export type Spread = {
-  mean: number | null; // Arithmetic mean
-  p50: number | null; // Median
-  p95: number | null; // 95th percentile
-  p99: number | null; // 99th percentile
-  max: number | null; // Largest
-};
-
-export type MeanMax = {
-  mean: number | null; // Arithmetic mean
-  max: number | null; // Largest
-};
-
-export type HighWater = {
-  high_water: number; // Largest of all frames
-  theoretical_max: number; // If every light were in every cell
-  recommended: number; // What to allocate: high water x allocation.margin of the configuration, at most theoretical_max
-};
-
-// Cell as [x, y, z]
-export type Cell = [number, number, number];
-
-// 95 % interval, [low, high]: of times Student's t between three launches or more, or the bootstrap of six rounds or more of one; null where it is unknown
-export type Interval = [number | null, number | null];
-
-// [x, y, z]
-export type Vector = [number, number, number];
-
-// More than 1 on paths of more than 512 frames: an entry is the largest of so many
-export type FramesPerEntry = number;
-
 export type Churn = {
   total: number; // Sum over all steps
   mean: number | null; // Mean per step
   max: number; // In the step with the most
+};
+
+export type Extremes = {
+  min: number | null; // Smallest
+  mean: number | null; // Mean
+  max: number | null; // Largest
+};
+
+export type FitSide = {
+  pairs?: number; // In lists, mean per frame; absent without cells [pairs]
+  true_pairs?: number; // Over all frames; absent without cells, or where accuracy is not checked [pairs]
+  false_positives?: number; // Over all frames: pairs in lists that are not true [pairs]
+  lists_changed?: number | null; // Share of the lists that differ from those of the same cells in the frame before; absent without cells, null with one frame [share]
+  index_entries: number; // High-water mark [entries]
+  bytes: number; // High-water mark of all that is allocated [bytes]
+  evaluated: Record<string, number>; // Lights that samples loop over, by the set of samples [lights]
+  missed: Record<string, number>; // Lights that samples need and do not get, by the set of samples [lights]
+};
+
+export type Saved = {
+  pairs?: number | null; // Pairs in lists, mean per frame
+  false_positives?: number | null; // Pairs that are not true
+  lists_changed?: number | null; // Lists that differ from the frame before's
+  index_entries: number | null; // High-water mark of the entries to allocate
+  bytes: number | null; // High-water mark of all bytes to allocate
+  evaluated: Record<string, number | null>; // Lights that samples loop over, by the set of samples
+};
+
+export type BeforeAfter = {
+  before: number; // Before
+  after: number; // After
+  removed: number | null; // Share that is taken out; null where there is none [share of 1]
 };
 
 export type Time = {
@@ -147,6 +141,9 @@ export type Time = {
   ci95: Interval; // 95 % interval of the median
   samples: Array<number | null>; // One per round, in the order measured
 };
+
+// 95 % interval, [low, high]: of times Student's t between three launches or more, or the bootstrap of six rounds or more of one; null where it is unknown
+export type Interval = [number | null, number | null];
 
 export type PerFrame = {
   assign: number; // Instructions of assignment, with the builds that the frames need
@@ -171,7 +168,7 @@ export type Result = {
     family?: string; // The vendor's number, on ARM the implementer's; absent if unknown
     model?: string; // On ARM the part; absent if unknown
     stepping?: string; // On ARM variant and revision, r3p1; absent if unknown
-    caches?: Record<string, number>; // Those that the first core uses; absent if unknown
+    caches?: Record<string, number>; // Those that the first core uses; absent if unknown [bytes, over the first core]
     cores: number; // Logical ones [cores, over the machine]
     ram_bytes: number; // Main memory [bytes, over the machine]
     clock_mhz?: {
@@ -204,25 +201,25 @@ export type Result = {
     light_digest?: string; // The same for the same assigned lights (kinds, positions, ranges, directions, angles, whether they are dark, along their animations, and how many directional ones), whatever their names, order and file are; absent in older results
     frames: number; // Frames of all camera paths together [frames, over the scene]
     range_rule: {
-      cutoff_lux: number | null; // A light without a range ends where its illuminance falls to this [lux, over each light]
-      max_range: number | null; // Largest range that such a light gets [m, over each light]
-      given: number; // Lights with a range in the file [lights, over the scene]
-      from_intensity: number; // Lights without a range, which got one from their intensity [lights, over the scene]
       clamped: number; // Lights whose range was cut to max_range [lights, over the scene]
+      cutoff_lux: number | null; // A light without a range ends where its illuminance falls to this [lux, over each light]
       dark?: number; // In older results: what is lights.dark now [lights, over the scene]
+      from_intensity: number; // Lights without a range, which got one from their intensity [lights, over the scene]
+      given: number; // Lights with a range in the file [lights, over the scene]
+      max_range: number | null; // Largest range that such a light gets [m, over each light]
       ranges?: {
+        greatest: number; // Longest
         least: number; // Shortest
         median: number; // Middle
-        greatest: number; // Longest
       }; // Ranges that were used, of all lights with an end. Absent where no light has one [m, over the scene]
     }; // Where lights' ranges come from
     warnings: string[]; // What is unusual about the scene, as text
     rig?: {
       lights: number; // Number of lights [lights, over the scene]
-      spots: number; // Share of spots [share of 1, over the lights]
       range: number; // Range of each light [m, over each light]
-      size: [number, number, number]; // Size of the box, [x, y, z] [m, over the scene]
       seed: number; // Seed of the random numbers [seed, over the scene]
+      size: Vector; // Size of the box, [x, y, z] [m, over the scene]
+      spots: number; // Share of spots [share of 1, over the lights]
     }; // Settings of a scene that was made in memory; absent for files
   }>;
   cases: Array<{
@@ -239,37 +236,37 @@ export type Result = {
     viewport: [number, number]; // [width, height] [pixels, over the case]
     frames: number; // Frames of the camera's path [frames, over the case]
     grid: {
-      kind: "frustum" | "distance" | "cascades" | "world"; // How space is cut: docs/grids-and-lookups.md
-      name: string; // Kind, tiles and slices in words, as in names of cases
+      aspect?: {
+        max: number; // Deepest
+        min: number; // Flattest
+      }; // Where the configuration asks for cells of a shape: how many times as deep as high cells are at their near side; without the first slice, which holds what lies before it, too [ratio, over the slices]
+      bounds?: {
+        max: Vector; // Highest corner
+        min: Vector; // Lowest corner
+      }; // Of world grids: the box, relative to the origin [m, over the grid]
+      cell_size?: Vector; // Of world grids: edges of a cell [m, over the grid]
       cells: [number, number, number]; // Number of cells, [x, y, z]; z of cascades counts the cells of all levels [cells, over the grid]
+      finest?: number; // Of cascades: edge of a cell of the first level; each further level doubles it [m, over the grid]
+      follow?: "camera" | "lights"; // Of world grids that follow something from frame to frame: origin, bounds and cell_size are the last frame's
+      kind: "frustum" | "distance" | "cascades" | "world"; // How space is cut: docs/grids-and-lookups.md
+      levels?: number; // Of cascades: number of nested boxes [levels, over the grid]
+      name: string; // Kind, tiles and slices in words, as in names of cases
+      note?: string; // What to know about the slices or the box, as text: where slices end if nothing names a far plane, or that those of the last frame are shown
+      origin?: Vector; // Of world grids: position in the world that bounds are relative to [m, over the grid]
+      slices?: {
+        boundaries: number[]; // Near to far, one more than slices: of depth, of distance grids of the distance from the eye [m, over the grid]
+        lookup: {
+          bias?: number; // Added after scale [slices, over the grid]
+          first?: number; // Depth below which a sample is in slice 0; absent where the formula holds for slice 0, too [m, over the grid]
+          form: "linear" | "log2" | "search"; // slice = int(depth * scale + bias), int(log2(depth) * scale + bias), or a search in boundaries
+          scale?: number; // Factor of the lookup [slices per m, or per doubling, over the grid]
+        }; // A shader's way from depth to slice
+        scheme: string; // As the configuration has it
+      }; // Of frustum and distance grids
       tiles?: {
         count?: [number, number]; // [columns, rows] of the screen [tiles, over the screen]
         pixels?: [number, number]; // [width, height] of a tile [pixels, over one tile]
       }; // Of frustum and distance grids: count or pixels, as the configuration has it
-      slices?: {
-        scheme: string; // As the configuration has it
-        boundaries: number[]; // Near to far, one more than slices: of depth, of distance grids of the distance from the eye [m, over the grid]
-        lookup: {
-          form: "linear" | "log2" | "search"; // slice = int(depth * scale + bias), int(log2(depth) * scale + bias), or a search in boundaries
-          scale?: number; // Factor of the lookup [slices per m, or per doubling, over the grid]
-          bias?: number; // Added after scale [slices, over the grid]
-          first?: number; // Depth below which a sample is in slice 0; absent where the formula holds for slice 0, too [m, over the grid]
-        }; // A shader's way from depth to slice
-      }; // Of frustum and distance grids
-      note?: string; // What to know about the slices or the box, as text: where slices end if nothing names a far plane, or that those of the last frame are shown
-      aspect?: {
-        min: number; // Flattest
-        max: number; // Deepest
-      }; // Where the configuration asks for cells of a shape: how many times as deep as high cells are at their near side; without the first slice, which holds what lies before it, too [ratio, over the slices]
-      levels?: number; // Of cascades: number of nested boxes [levels, over the grid]
-      finest?: number; // Of cascades: edge of a cell of the first level; each further level doubles it [m, over the grid]
-      origin?: Vector; // Of world grids: position in the world that bounds are relative to [m, over the grid]
-      bounds?: {
-        min: Vector; // Lowest corner
-        max: Vector; // Highest corner
-      }; // Of world grids: the box, relative to the origin [m, over the grid]
-      cell_size?: Vector; // Of world grids: edges of a cell [m, over the grid]
-      follow?: "camera" | "lights"; // Of world grids that follow something from frame to frame: origin, bounds and cell_size are the last frame's
     }; // The grid, with the constants of a shader's lookup
     assigner: {
       name: string; // As `clusterbench list` has it
@@ -327,12 +324,12 @@ export type Result = {
       occupied_fraction: Spread; // Share of the cells with a light [share of 1, over all frames]
       worst_frame: number; // Frame with the longest list [frame, over the path]
       worst_cell: Cell; // Cell with the longest list
-      longest_by_slice?: number[]; // [z]: in the fullest cell of that slice, in cascades of that layer of cells of a level; absent in world grids, where slices move along the path, and for methods with cells of their own [lights, over all frames]
       along_path: {
-        frames_per_entry: FramesPerEntry;
+        frames_per_entry: number; // More than 1 on paths of more than 512 frames: an entry is the largest of so many [frames, over the case]
         pairs: number[]; // Pairs (cell, light) of each frame [pairs]
         longest_list: number[]; // In the fullest cell of the frame [lights]
       }; // Frame by frame [over each frame]
+      longest_by_slice?: number[]; // [z]: in the fullest cell of that slice, in cascades of that layer of cells of a level; absent in world grids, where slices move along the path, and for methods with cells of their own [lights, over all frames]
     }; // How full the grid's cells are; absent without cells
     buffers: {
       index_entries: HighWater; // Entries of all lists [entries, over all frames]
@@ -343,10 +340,6 @@ export type Result = {
         mean: number | null; // Mean per frame
         max: number; // Of the frame with most
       }; // What a frame would send to a GPU [bytes, over all frames]
-      traffic_bytes?: {
-        mean: number | null; // Mean per frame
-        max: number; // Of the frame with most
-      }; // What a GPU reads and writes for lights that are drawn over pixels; absent where none are [bytes, over all frames]
       used_share: MeanMax; // Entries that a frame uses, of index_entries.recommended [share of 1, over all frames]
       overflow: {
         dropped_pairs: number; // That the storage had no room for [pairs, over all frames]
@@ -356,9 +349,13 @@ export type Result = {
       }; // What a full storage loses
       scratch_bytes: number; // The assigner's own memory, the most it held [bytes, over all frames]
       worst_frame: number; // That made the high-water mark [frame, over the path]
+      traffic_bytes?: {
+        mean: number | null; // Mean per frame
+        max: number; // Of the frame with most
+      }; // What a GPU reads and writes for lights that are drawn over pixels; absent where none are [bytes, over all frames]
       worst_cell?: Cell; // That has this frame's longest list; absent without cells
       along_path: {
-        frames_per_entry: FramesPerEntry;
+        frames_per_entry: number; // More than 1 on paths of more than 512 frames: an entry is the largest of so many [frames, over the case]
         bytes: number[]; // Headers and indices of the frame [bytes]
       }; // Frame by frame [over each frame]
       each?: Array<{
@@ -370,7 +367,7 @@ export type Result = {
         worst_frame: number; // That made the high-water mark, the first one [frame, over the path]
         worst_cell?: Cell; // That has this frame's longest list; absent without cells
         along_path?: {
-          frames_per_entry: FramesPerEntry;
+          frames_per_entry: number; // More than 1 on paths of more than 512 frames: an entry is the largest of so many [frames, over the case]
           elements: number[]; // That the frame needs [elements]
         }; // Frame by frame; absent where every frame needs high_water [over each frame]
       }>; // Each buffer of the structure as an engine allocates it: what it needs so that nothing is dropped
@@ -398,11 +395,6 @@ export type Result = {
         light_name: string; // In the scene
       }; // The deepest miss; absent without misses
     }; // Lists against the truth; absent without cells, where it is not asked for, and with cells_not_compared [over all frames]
-    depth_ranges?: {
-      slopes: DepthLengths; // In tiles where 1 / depth (orthographic: depth) changes from each pixel to the next by at most a quarter of what it changes by in the tile
-      discontinuities: DepthLengths; // In the other tiles
-      outside: number; // Visible pixels beside the grid, in none of the tiles [pixels]
-    }; // How much depth the list of a visible pixel covers, by the kind of list, whatever the case's method is; with samples.opaque on a frustum grid [over the visible pixels of all frames]
     shading?: SampleSet; // What a shader would loop over at points in the whole view, at random pixels and depths [over the samples of all frames]
     samples?: {
       opaque?: SampleSet;
@@ -411,6 +403,11 @@ export type Result = {
       mirror?: SampleSet;
       anywhere?: SampleSet;
     }; // What a shader would loop over at sets of points that the configuration asks for, by the set's name; without sets that the scene has not [over the set's samples of all frames]
+    depth_ranges?: {
+      slopes: DepthLengths; // In tiles where 1 / depth (orthographic: depth) changes from each pixel to the next by at most a quarter of what it changes by in the tile
+      discontinuities: DepthLengths; // In the other tiles
+      outside: number; // Visible pixels beside the grid, in none of the tiles [pixels]
+    }; // How much depth the list of a visible pixel covers, by the kind of list, whatever the case's method is; with samples.opaque on a frustum grid [over the visible pixels of all frames]
     lookup?: Array<{
       logarithm: "rounded" | "glsl" | "fast"; // How the lookup took its logarithm; glsl: at either end of what is allowed
       depth: "given" | "d32f" | "d24"; // Where its depth came from
@@ -420,6 +417,75 @@ export type Result = {
       wrong_samples: number; // Samples that miss a light [samples]
       safe_padding_ulps: number; // By so many ulps slices must reach over their boundaries to hold every depth that is looked up in them [ulps]
     }>; // A shader's lookup on samples, once per logarithm and depth [over the samples of all frames]
+    stability?: {
+      steps: number; // Steps taken: fewer than asked for where the path ends or the camera stands still [steps, over the piece of the path]
+      step_m: number | null; // Largest move of the camera in one step [m, over the steps]
+      step_deg: number | null; // Largest turn of the camera in one step, in degrees [degrees, over the steps]
+      window: number; // Steps within which a change back is a flicker [steps, over the case]
+      from_frame: number; // Frame of the path where the steps begin [frame, over the path]
+      drift: boolean; // The camera stands still and was moved artificially, as path says
+      path: string; // Where the steps come from
+      grids: number; // Grids made along the steps; with more than one, cells themselves move [grids, over the steps]
+      changed: {
+        method: Churn; // In the method's lists
+        truth: Churn; // In the true lists
+      }; // Pairs (cell, light) added or removed from one step to the next
+      flickers: {
+        method: number; // In the method's lists
+        truth: number; // In the true lists
+      }; // Changes that undo the same pair's change at most `window` steps before, over all steps [changes, over the steps]
+      excess_churn: {
+        pairs: number; // Below 0 where the truth has more [pairs]
+        ratio: number | null; // Divided by those of the truth; null where the truth has none [ratio]
+      }; // Changes of the method less those of the truth [over the steps]
+      excess_flickers: {
+        count: number; // Below 0 where the truth has more [changes]
+        ratio: number | null; // Divided by those of the truth; null where the truth has none [ratio]
+      }; // Flickers of the method less those of the truth [over the steps]
+      undecided: number; // Pairs of the truth that exact arithmetic left undecided, over all steps; counted as true [pairs, over the steps]
+    }; // Lists along a piece of the path in fine steps, beside the true lists; where the configuration asks for it
+    precision?: {
+      packing: "float32" | "half" | "unorm16"; // How lights are packed before the assigner sees them
+      inflate: boolean; // Each light is grown by what packing can have lost. Without it a packed case's assigner is not conservative, and misses do not fail the run
+      label: string; // The packing's name, with +inflate if lights are inflated
+      position_error_m: MeanMax; // Distance of the unpacked position from the scene's own [m, over the lights of all frames]
+      range_error_m: MeanMax; // By how much ranges are too long: they are rounded up [m, over the lights of all frames]
+      axis_error_rad: MeanMax; // Error of spots' axes; null where there is no spot [rad, over the spots of all frames]
+      angle_error_rad: MeanMax; // Error of spots' half-angles; null where there is no spot [rad, over the spots of all frames]
+      safe_inflation_m: MeanMax; // How far a packed volume can be from the exact one, from the unpacked numbers alone: bound of the place, and for spots the bounds of axis and angle times the range. Growing by it is enough [m, over the lights of all frames]
+      unrepresentable: {
+        lights: number; // Most such lights in one frame [lights, over all frames]
+        frames: number; // Frames with at least one such light [frames, over all frames]
+      }; // Lights that the format cannot hold: without end; in half a coordinate or range beyond 65504 m. They stay in float32 here; an engine's conversion makes them infinite or cuts them off
+      extra_pairs?: {
+        mean: number | null; // Mean per frame [pairs, over all frames]
+        ratio: number | null; // Extra pairs / pairs in float32 [ratio, over all frames]
+      }; // Pairs more than the same case in float32; null where there is no such case
+    }; // How precisely the assigner gets its lights; where the configuration asks for more than float32
+    pre_cull?: {
+      label: string; // The steps in their order: frustum, distance(m), visible-set(view_cell_m,voxel_m,rays), most(lights,which are kept), most(lights,which are kept,type)
+      conservative: boolean; // In no frame can it remove a light that shares a point with a cell. Where it can, losses are counted and do not fail the run. frustum: in frustum and distance grids, whose cells end with the picture. distance: where no cell reaches farther. visible-set: never. most: where no frame has more lights
+      kept: MeanMax; // Lights that the assigner gets [lights, over all frames]
+      removed: MeanMax; // Lights that it does not get, the distant ones among them [lights, over all frames]
+      distant: MeanMax; // Lights that a distance step puts into the list of distant lights [lights, over all frames]
+      steps: Array<{
+        label: string; // The step
+        removed: MeanMax; // Lights that it removes of those that the steps before it leave [lights, over all frames]
+        frames?: number; // In which it removes lights; absent in older results [frames, over all frames]
+      }>; // In their order
+      lost_pairs: number; // True pairs of lights that are removed; they are among error.false_negatives. 0 where nothing is held against the truth [pairs, over all frames]
+      lost_at_samples: Record<string, {
+        needed: number; // Lights that reach the samples [lights, over the samples of all frames]
+        lost: number; // Of those, removed [lights, over the samples of all frames]
+      }>; // By the set's name (volume: the random samples in the whole view)
+      view_cells: number; // View cells that have a visible set; 0 without such a step [view cells, over the path]
+      bytes: number; // Of all view cells' sets: a bit per light, and voxels where lights move [bytes, over the path]
+      build_ns?: number; // What building the sets took, once and beside all other times; absent where nothing is timed [ns, over one build]
+      over_limit?: {
+        lights: number[]; // Indices of those that it removes in some frame [light index, over all frames]
+        lost_pairs: number; // True pairs of lights in frames where it removes them; they are among lost_pairs [pairs, over all frames]
+      }; // What a limit (most) removes; absent without one
+    }; // What happens to lights before the assigner gets them; absent where it gets all. buffers, tests_done and times are those of the lights that are left; error, shading and samples are told against all lights, in their indices
     fit?: {
       to: "lights" | "surfaces" | "both" | "ranges"; // What is followed
       damping: number; // Share of a shrinking that is left after one frame [ratio, over the case]
@@ -516,115 +582,11 @@ export type Result = {
         }; // Of a shared frustum [ratio, over shared frusta of all frames]
       }; // Shadow maps that spots in view could share, whatever the case's method and grid are: groups of spots in one square frustum that holds them all [over frames]
     }; // What lies in the shadow of the scene's triangles, and what sharing shadow maps saves; where the configuration asks for it (shadow_cull, shadow_frusta)
-    stability?: {
-      steps: number; // Steps taken: fewer than asked for where the path ends or the camera stands still [steps, over the piece of the path]
-      step_m: number | null; // Largest move of the camera in one step [m, over the steps]
-      step_deg: number | null; // Largest turn of the camera in one step, in degrees [degrees, over the steps]
-      window: number; // Steps within which a change back is a flicker [steps, over the case]
-      from_frame: number; // Frame of the path where the steps begin [frame, over the path]
-      drift: boolean; // The camera stands still and was moved artificially, as path says
-      path: string; // Where the steps come from
-      grids: number; // Grids made along the steps; with more than one, cells themselves move [grids, over the steps]
-      changed: {
-        method: Churn; // In the method's lists
-        truth: Churn; // In the true lists
-      }; // Pairs (cell, light) added or removed from one step to the next
-      flickers: {
-        method: number; // In the method's lists
-        truth: number; // In the true lists
-      }; // Changes that undo the same pair's change at most `window` steps before, over all steps [changes, over the steps]
-      excess_churn: {
-        pairs: number; // Below 0 where the truth has more [pairs]
-        ratio: number | null; // Divided by those of the truth; null where the truth has none [ratio]
-      }; // Changes of the method less those of the truth [over the steps]
-      excess_flickers: {
-        count: number; // Below 0 where the truth has more [changes]
-        ratio: number | null; // Divided by those of the truth; null where the truth has none [ratio]
-      }; // Flickers of the method less those of the truth [over the steps]
-      undecided: number; // Pairs of the truth that exact arithmetic left undecided, over all steps; counted as true [pairs, over the steps]
-    }; // Lists along a piece of the path in fine steps, beside the true lists; where the configuration asks for it
-    cost?: {
-      frame_ns: number | null; // assign_ns + gpu_ns; null where nothing is timed, and of presets whose engine makes its lists on a GPU, which is not timed here [ns]
-      assign_ns: number | null; // timing.frame_ns.median: assignment and conversion [ns]
-      gpu_ns: number | null; // upload_ns + traffic_ns + read_ns + shade_ns: all but the assignment, and the same on every machine [ns]
-      upload_ns: number | null; // buffers.upload_bytes.mean / upload_gb_per_s; 0 of presets whose engine makes its lists on a GPU (in older results as of others) [ns]
-      traffic_ns: number | null; // buffers.traffic_bytes.mean / memory_gb_per_s [ns]
-      read_ns?: number | null; // Sum over the sets: samples x divergence x (reads x ns_per_read + read_bytes / read_gb_per_s). Absent in older results, where reading was free [ns]
-      shade_ns: number | null; // Sum over the sets: samples x lights x divergence x ns_per_light [ns]
-      lights?: number | null; // Looped over at a sample of these sets, mean [lights]
-      overshade?: number | null; // Lights given at the samples of these sets / lights that reach them: the overshade that a rank by cost rests on. null where fewer than 100 reach them, or where one of the sets lacks more than 0.001 of them [ratio]
-      sets: Record<string, {
-        samples: number | null; // That a frame shades: weight x samples, each of which stands for its block of pixels [samples]
-        lights: number | null; // Looped over at one of them, mean [lights]
-        divergence: number | null; // Of waves of config.cost.wave pixels; 1 where it is not known, and where lights are drawn [ratio]
-        reads?: number | null; // Elements of the light structure (headers, indices, words of bits, nodes) that one of them fetches to know its lights, mean; 0 where lights are drawn [elements]
-        read_bytes?: number | null; // Their bytes, mean [B]
-        ns: number | null; // samples x divergence x (lights x ns_per_light + reads x ns_per_read + read_bytes / read_gb_per_s) [ns]
-      }>; // By name, those that are asked for, have a weight and are there
-      lit: boolean; // None of these sets lacks more than 0.001 of the lights that it needs. A case that does is on no front over cost
-    }; // What a frame costs with its shading, by the model and the constants of config.cost; where samples of a set with a weight are asked for [over one frame, mean over all frames]
-    precision?: {
-      packing: "float32" | "half" | "unorm16"; // How lights are packed before the assigner sees them
-      inflate: boolean; // Each light is grown by what packing can have lost. Without it a packed case's assigner is not conservative, and misses do not fail the run
-      label: string; // The packing's name, with +inflate if lights are inflated
-      position_error_m: MeanMax; // Distance of the unpacked position from the scene's own [m, over the lights of all frames]
-      range_error_m: MeanMax; // By how much ranges are too long: they are rounded up [m, over the lights of all frames]
-      axis_error_rad: MeanMax; // Error of spots' axes; null where there is no spot [rad, over the spots of all frames]
-      angle_error_rad: MeanMax; // Error of spots' half-angles; null where there is no spot [rad, over the spots of all frames]
-      safe_inflation_m: MeanMax; // How far a packed volume can be from the exact one, from the unpacked numbers alone: bound of the place, and for spots the bounds of axis and angle times the range. Growing by it is enough [m, over the lights of all frames]
-      unrepresentable: {
-        lights: number; // Most such lights in one frame [lights, over all frames]
-        frames: number; // Frames with at least one such light [frames, over all frames]
-      }; // Lights that the format cannot hold: without end; in half a coordinate or range beyond 65504 m. They stay in float32 here; an engine's conversion makes them infinite or cuts them off
-      extra_pairs?: {
-        mean: number | null; // Mean per frame [pairs, over all frames]
-        ratio: number | null; // Extra pairs / pairs in float32 [ratio, over all frames]
-      }; // Pairs more than the same case in float32; null where there is no such case
-    }; // How precisely the assigner gets its lights; where the configuration asks for more than float32
-    pre_cull?: {
-      label: string; // The steps in their order: frustum, distance(m), visible-set(view_cell_m,voxel_m,rays), most(lights,which are kept), most(lights,which are kept,type)
-      conservative: boolean; // In no frame can it remove a light that shares a point with a cell. Where it can, losses are counted and do not fail the run. frustum: in frustum and distance grids, whose cells end with the picture. distance: where no cell reaches farther. visible-set: never. most: where no frame has more lights
-      kept: MeanMax; // Lights that the assigner gets [lights, over all frames]
-      removed: MeanMax; // Lights that it does not get, the distant ones among them [lights, over all frames]
-      distant: MeanMax; // Lights that a distance step puts into the list of distant lights [lights, over all frames]
-      steps: Array<{
-        label: string; // The step
-        removed: MeanMax; // Lights that it removes of those that the steps before it leave [lights, over all frames]
-        frames?: number; // In which it removes lights; absent in older results [frames, over all frames]
-      }>; // In their order
-      lost_pairs: number; // True pairs of lights that are removed; they are among error.false_negatives. 0 where nothing is held against the truth [pairs, over all frames]
-      lost_at_samples: Record<string, {
-        needed: number; // Lights that reach the samples [lights, over the samples of all frames]
-        lost: number; // Of those, removed [lights, over the samples of all frames]
-      }>; // By the set's name (volume: the random samples in the whole view)
-      over_limit?: {
-        lights: number[]; // Indices of those that it removes in some frame [light index, over all frames]
-        lost_pairs: number; // True pairs of lights in frames where it removes them; they are among lost_pairs [pairs, over all frames]
-      }; // What a limit (most) removes; absent without one
-      view_cells: number; // View cells that have a visible set; 0 without such a step [view cells, over the path]
-      bytes: number; // Of all view cells' sets: a bit per light, and voxels where lights move [bytes, over the path]
-      build_ns?: number; // What building the sets took, once and beside all other times; absent where nothing is timed [ns, over one build]
-    }; // What happens to lights before the assigner gets them; absent where it gets all. buffers, tests_done and times are those of the lights that are left; error, shading and samples are told against all lights, in their indices
     timing?: {
       frames_timed: number; // Evenly spaced over the path; all times but that of worst_frame are means over them [frames, over the path]
       caches?: "cold" | "warm"; // Of frame_ns, assign_ns, convert_ns, worst_frame and against_first. cold: swept before each frame, as all else of an engine's frame does; warm: the same frames again and again. Absent in older results: warm
       session?: string; // Equal in cases that the same launches have measured; only their times have ratios
       launches?: number; // Processes that measured, each an equal share of every array of samples, one after the other. From two on all 95 % intervals are between launches (Student's t on the logarithms of the launches' medians), else they are bootstrap intervals over the rounds of one process [processes, over the case]
-      warm?: {
-        frame_ns: Time; // Per frame: pre_cull_ns, assign_ns and convert_ns
-        assign_ns: Time; // Per frame: as the one beside cold times
-        convert_ns?: Time; // Per frame: as the one beside cold times
-        pre_cull_ns?: Time; // Per frame: as the one beside cold times
-      }; // The same frames with warm caches, beside cold times; samples need not be as many
-      passes_per_sample?: {
-        assign: number; // Of assign_ns
-        convert?: number; // Of convert_ns; absent where a method leaves its own structure
-      }; // How many passes over the timed frames one sample of warm times is the mean of, in the launch with fewest; each launch runs as many as take timing.min_time_ms. A sample of cold times is one pass [passes, over one sample]
-      disturbed?: {
-        others_cores: number | null; // Processors that other programs of the machine kept busy meanwhile, in the mean [processors]
-        stolen_cores: number | null; // Processors that other guests of the host took meanwhile, in the mean [processors]
-        throttled: number; // Times that processors slowed down because of heat; 0 where Linux does not count them [times]
-      }; // What else went on while the cases of this grid, camera and viewport were measured, over all launches [over the measuring of the group]
       frame_ns: Time; // Per frame: what a frame takes, pre_cull_ns, assign_ns and convert_ns of the same round together
       worst_frame?: {
         frame: number; // Number of the frame on the camera's path, from 0 [frame, over the path]
@@ -640,6 +602,16 @@ export type Result = {
       build_ns: Time; // Per build: preparing for a grid, once for each projection
       assign_ns: Time; // Per frame: assignment, mean over the timed frames, with the builds of builds_per_frame
       convert_ns?: Time; // Per frame: from lists to the layout of the storage; absent where a method leaves its own structure
+      warm?: {
+        frame_ns: Time; // Per frame: pre_cull_ns, assign_ns and convert_ns
+        assign_ns: Time; // Per frame: as the one beside cold times
+        convert_ns?: Time; // Per frame: as the one beside cold times
+        pre_cull_ns?: Time; // Per frame: as the one beside cold times
+      }; // The same frames with warm caches, beside cold times; samples need not be as many
+      passes_per_sample?: {
+        assign: number; // Of assign_ns
+        convert?: number; // Of convert_ns; absent where a method leaves its own structure
+      }; // How many passes over the timed frames one sample of warm times is the mean of, in the launch with fewest; each launch runs as many as take timing.min_time_ms. A sample of cold times is one pass [passes, over one sample]
       pre_cull_ns?: Time; // Per frame: from all lights to those that the method gets, side by side; absent where nothing is culled. Visible sets are built before (pre_cull.build_ns)
       device?: {
         upload_ns: Time; // Per frame: bringing the frame's input to the device
@@ -682,6 +654,11 @@ export type Result = {
         ratio: number | null; // This case's frame time by that of the group's first assigner in the same storage: median of the rounds' ratios [ratio, over the rounds]
         ci95: Interval; // 95 % interval of the ratio [ratio, over the rounds]
       }; // How much longer than the group's first assigner; absent of that one. A group: scene, camera, viewport and grid
+      disturbed?: {
+        others_cores: number | null; // Processors that other programs of the machine kept busy meanwhile, in the mean [processors]
+        stolen_cores: number | null; // Processors that other guests of the host took meanwhile, in the mean [processors]
+        throttled: number; // Times that processors slowed down because of heat; 0 where Linux does not count them [times]
+      }; // What else went on while the cases of this grid, camera and viewport were measured, over all launches [over the measuring of the group]
       fit?: {
         follow_ns: Time; // Finding what a frame needs, and making its grid; in no other time. Building a method for the grid is in assign_ns [ns, over the rounds]
         unfitted_ns: Time; // frame_ns of the same case in the grid that does not follow [ns, over the rounds]
@@ -695,8 +672,8 @@ export type Result = {
         frame: number; // Number of the frame on the camera's path, from 0 [frame, over the path]
         time_s: number; // Time of the animation [s, over the frame]
         camera: {
-          eye: [number, number, number]; // Position in world space [m, over the frame]
-          view_from_world: [[number, number, number], [number, number, number], [number, number, number]]; // Rows of the rotation: view = rotation (world - eye), looking down -z [1, over the frame]
+          eye: Vector; // Position in world space [m, over the frame]
+          view_from_world: [Vector, Vector, Vector]; // Rows of the rotation: view = rotation (world - eye), looking down -z [1, over the frame]
           orthographic: boolean; // true: orthographic; false: perspective
           sides: [number, number, number, number]; // Left, right, bottom, top of the image: slopes, or metres of an orthographic camera [slope, or m, over the frame]
           near_m: number; // Near plane [m, over the frame]
@@ -742,6 +719,26 @@ export type Result = {
         not_on_path: number[]; // Frames that the configuration names and the path does not have [frame, over the path]
       }; // What was asked for and is not in the result
     }; // Chosen frames cell by cell
+    cost?: {
+      frame_ns: number | null; // assign_ns + gpu_ns; null where nothing is timed, and of presets whose engine makes its lists on a GPU, which is not timed here [ns]
+      assign_ns: number | null; // timing.frame_ns.median: assignment and conversion [ns]
+      gpu_ns: number | null; // upload_ns + traffic_ns + read_ns + shade_ns: all but the assignment, and the same on every machine [ns]
+      upload_ns: number | null; // buffers.upload_bytes.mean / upload_gb_per_s; 0 of presets whose engine makes its lists on a GPU (in older results as of others) [ns]
+      traffic_ns: number | null; // buffers.traffic_bytes.mean / memory_gb_per_s [ns]
+      read_ns?: number | null; // Sum over the sets: samples x divergence x (reads x ns_per_read + read_bytes / read_gb_per_s). Absent in older results, where reading was free [ns]
+      shade_ns: number | null; // Sum over the sets: samples x lights x divergence x ns_per_light [ns]
+      lights?: number | null; // Looped over at a sample of these sets, mean [lights]
+      overshade?: number | null; // Lights given at the samples of these sets / lights that reach them: the overshade that a rank by cost rests on. null where fewer than 100 reach them, or where one of the sets lacks more than 0.001 of them [ratio]
+      sets: Record<string, {
+        samples: number | null; // That a frame shades: weight x samples, each of which stands for its block of pixels [samples]
+        lights: number | null; // Looped over at one of them, mean [lights]
+        divergence: number | null; // Of waves of config.cost.wave pixels; 1 where it is not known, and where lights are drawn [ratio]
+        reads?: number | null; // Elements of the light structure (headers, indices, words of bits, nodes) that one of them fetches to know its lights, mean; 0 where lights are drawn [elements]
+        read_bytes?: number | null; // Their bytes, mean [B]
+        ns: number | null; // samples x divergence x (lights x ns_per_light + reads x ns_per_read + read_bytes / read_gb_per_s) [ns]
+      }>; // By name, those that are asked for, have a weight and are there
+      lit: boolean; // None of these sets lacks more than 0.001 of the lights that it needs. A case that does is on no front over cost
+    }; // What a frame costs with its shading, by the model and the constants of config.cost; where samples of a set with a weight are asked for [over one frame, mean over all frames]
     count?: {
       source: "perf" | "callgrind"; // Hardware counters or valgrind's callgrind; compare counts of one source only
       simd_target: string; // Instruction set of the counted code; callgrind offers fewer than the machine has
@@ -756,18 +753,6 @@ export type Result = {
     ids: string[]; // Ids of the cases with a star, in the order of cases
   }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the interval of their ratio), bytes and overshade together, and better in one; where config.rank_by is frame_cost, in cost and bytes. What draws lights has no lists, so its bytes count as unknown. Only cases that are eligible, and none that samples search
   failed?: string[]; // What the run failed for beside the failures of its cases, a line each: budgets (limits.fail_if), lights that are missing, what a baseline has, a program beside it. conclusions then take nothing. Absent where it failed for none of these
-  conclusions?: Array<{
-    scene: string; // Name of one of scenes
-    camera: string; // As in cases
-    viewport: [number, number]; // [width, height] [px, over the cases]
-    take: string | null; // Id of the case to take; null: no case is sound, nothing that they are ranked by sees a light, or the run failed (text says what)
-    against: string | null; // Id of the cheapest case that is known to cost more; null: there is none
-    ratio: number | null; // Cost of that / cost of the case to take [ratio, over the frame times]
-    ci95: [number | null, number | null] | null; // Its 95 % interval, of the times in it; null where times were not measured side by side [ratio, over the frame times]
-    by_prices?: [number | null, number | null]; // From and to what ratio goes as each price of config.cost (of uploading, drawing, reading, looping) takes values between half and twice its own; absent where nothing is modelled, and in older results [ratio, over the samples]
-    alike: string[]; // Ids of cases that are not known to cost more
-    text: string; // The same for people
-  }>; // Per scene, camera and viewport what to take by this result, and how sure that is. Of the cases that lose nothing that their samples see, that which costs least: frame time and, where samples were asked for, upload, reading and shading by the model of config.cost. Of those that the times cannot tell apart, or the model (within 5 %), one whose samples lack nothing comes before others, then one on the front, then the one with the fewest bytes. Presets are ranked by themselves. Absent in older results
   presets?: Array<{
     name: string; // As a case's preset
     engine: string; // Whose scheme it is
@@ -813,4 +798,16 @@ export type Result = {
     reason: string; // Why, as text
     preset?: string; // That it is of; absent for the configuration's own clusterings
   }>; // Combinations that cannot be
+  conclusions?: Array<{
+    scene: string; // Name of one of scenes
+    camera: string; // As in cases
+    viewport: [number, number]; // [width, height] [px, over the cases]
+    take: string | null; // Id of the case to take; null: no case is sound, nothing that they are ranked by sees a light, or the run failed (text says what)
+    against: string | null; // Id of the cheapest case that is known to cost more; null: there is none
+    ratio: number | null; // Cost of that / cost of the case to take [ratio, over the frame times]
+    ci95: [number | null, number | null] | null; // Its 95 % interval, of the times in it; null where times were not measured side by side [ratio, over the frame times]
+    alike: string[]; // Ids of cases that are not known to cost more
+    by_prices?: [number | null, number | null]; // From and to what ratio goes as each price of config.cost (of uploading, drawing, reading, looping) takes values between half and twice its own; absent where nothing is modelled, and in older results [ratio, over the samples]
+    text: string; // The same for people
+  }>; // Per scene, camera and viewport what to take by this result, and how sure that is. Of the cases that lose nothing that their samples see, that which costs least: frame time and, where samples were asked for, upload, reading and shading by the model of config.cost. Of those that the times cannot tell apart, or the model (within 5 %), one whose samples lack nothing comes before others, then one on the front, then the one with the fewest bytes. Presets are ranked by themselves. Absent in older results
 };

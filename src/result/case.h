@@ -217,6 +217,14 @@ struct Case {
         "", "the visible pixels of all frames");
   FIELD(std::optional<std::vector<Lookup>>, lookup, "A shader's lookup on samples, once per logarithm and depth", "",
         "the samples of all frames");
+  FIELD(std::optional<Stability>, stability,
+        "Lists along a piece of the path in fine steps, beside the true lists; where the configuration asks for it");
+  FIELD(std::optional<Precision>, precision,
+        "How precisely the assigner gets its lights; where the configuration asks for more than float32");
+  FIELD(std::optional<PreCull>, pre_cull,
+        "What happens to lights before the assigner gets them; absent where it gets all. buffers, tests_done and times "
+        "are those of the lights that are left; error, shading and samples are told against all lights, in their "
+        "indices");
   FIELD(std::optional<Fit>, fit,
         "Of slices that follow what frames need (slices.fit): what that saves and risks beside the same case in the "
         "same grid without");
@@ -229,14 +237,6 @@ struct Case {
   FIELD(std::optional<Shadows>, shadows,
         "What lies in the shadow of the scene's triangles, and what sharing shadow maps saves; where the configuration "
         "asks for it (shadow_cull, shadow_frusta)");
-  FIELD(std::optional<Stability>, stability,
-        "Lists along a piece of the path in fine steps, beside the true lists; where the configuration asks for it");
-  FIELD(std::optional<Precision>, precision,
-        "How precisely the assigner gets its lights; where the configuration asks for more than float32");
-  FIELD(std::optional<PreCull>, pre_cull,
-        "What happens to lights before the assigner gets them; absent where it gets all. buffers, tests_done and times "
-        "are those of the lights that are left; error, shading and samples are told against all lights, in their "
-        "indices");
   FIELD(std::optional<Timing>, timing, "Wall times");
   FIELD(std::optional<Details>, details, "Chosen frames cell by cell");
   FIELD(std::optional<Cost>, cost,

@@ -266,7 +266,6 @@ struct PreCull {
         "the truth",
         "pairs", "all frames");
   FIELD(ByName<LostAtSamples>, lost_at_samples, "By the set's name (volume: the random samples in the whole view)");
-  FIELD(std::optional<OverLimit>, over_limit, "What a limit (most) removes; absent without one");
   FIELD(std::uint64_t, view_cells, "View cells that have a visible set; 0 without such a step", "view cells",
         "the path");
   FIELD(std::uint64_t, bytes, "Of all view cells' sets: a bit per light, and voxels where lights move", "bytes",
@@ -276,6 +275,7 @@ struct PreCull {
               "one build")
             .finite()
             .at_least(0));
+  FIELD(std::optional<OverLimit>, over_limit, "What a limit (most) removes; absent without one");
   END_RECORD;
 };
 

@@ -20,7 +20,8 @@ result::Method method_record(const CaseResult& found) {
 
 // Whether samples search a structure of the method's own.
 bool samples_search(const CaseResult& found) {
-  return found.storage_label == k_own_structure && assign::find_assigner(found.assigner)->own_is_searched();
+  const assign::AssignerDescriptor* method = assign::find_assigner(found.assigner);
+  return found.storage_label == k_own_structure && method != nullptr && method->own_is_searched();
 }
 
 result::LightsInView lights_in_view_record(const measure::LightsInView& lights) {
