@@ -49,8 +49,7 @@ TEST(Merge, different_configurations_are_all_kept_and_fit_the_schema) {
   other.result["config"]["seed"] = 2;
   other.result["name"] = "other";
   const Json all = merged({shard("a", "slow"), other});
-  EXPECT_EQ(config::schema_violations(config::result_schema(), all),
-            std::vector<std::string>{});
+  EXPECT_EQ(config::schema_violations(config::result_schema(), all), std::vector<std::string>{});
   EXPECT_EQ(all["name"], "by hand + other");
   EXPECT_EQ(all["config"]["merged"][1]["seed"], 2);
   EXPECT_EQ(all["config"]["allocation"], other.result["config"]["allocation"]);
