@@ -45,7 +45,7 @@ def best_of_grids(result):
 
 
 def grids(result):
-    rows = ["| grid | fastest method | µs to make the lists | overshade | unlit | kB to allocate |",
+    rows = ["| grid | fastest method with lists | µs to make the lists | overshade | unlit | kB to allocate |",
             "|---|---|---:|---:|---:|---:|"]
     for case in best_of_grids(result):
         size = case["buffers"]["bytes"]["recommended"] / 1e3
@@ -128,13 +128,14 @@ def headline(quick, street):
         sys.exit("exact lists no longer cost little more than loose ones: write another conclusion below README.md's picture")
     levels = NUMBERS[len({case["scene"] for case, _ in many})]
     slices = sorted({case["grid"]["cells"][2] for case, _ in many})
-    text = (f"**With 16 or more slices, exact lists cost little more than loose ones.** On {levels} levels with "
-            f"{' or '.join(str(count) for count in slices)} slices, `exact-fast` has no false positives. It takes "
-            f"{span(times_as_long(many_slices(boxes)), '.2f')} times as long as `aabb-fast`, which has "
-            f"{span(excess_percent(many_slices(boxes)), '.0f')} % false positives, and "
-            f"{span(times_as_long(many_slices(loose)), '.2f')} times as long as `bounds-fast`, which has "
-            f"{span(excess_percent(many_slices(loose)), '.0f')} %. With 1 to 4 slices it takes "
-            f"{span(times_as_long(few_slices(loose + boxes)), '.0f')} times as long as either.")
+    counts = ' or '.join(str(count) for count in slices)
+    text = (f"**With {counts} slices, exact lists take about as long as those of box tests.** On the {levels} levels of the "
+            f"picture, in grids of {counts} slices, `exact-fast` has no false positives. It takes "
+            f"{span(times_as_long(many_slices(boxes)), '.2f')} times as long as `aabb-fast` (sphere against the cell's box), "
+            f"which has {span(excess_percent(many_slices(boxes)), '.0f')} % false positives, and "
+            f"{span(times_as_long(many_slices(loose)), '.2f')} times as long as `bounds-fast` (the light's extents on the "
+            f"screen and in depth), which has {span(excess_percent(many_slices(loose)), '.0f')} %. With 1 to 4 slices it "
+            f"takes {span(times_as_long(few_slices(loose + boxes)), '.0f')} times as long as either.")
     return textwrap.fill(text, 130, break_on_hyphens=False)
 
 

@@ -99,18 +99,18 @@ std::string possible_text(const SizedBuffer& buffer) {
          " bytes (every light in every cell): with these lights needs no check";
 }
 
+// A search goes where lights are, lit or not.
+std::string dark_text(const FoundFrame& found) {
+  const bool are_all = found.dark_in_view == found.lights_in_view;
+  return ", where " + (are_all ? "all" : std::to_string(found.dark_in_view) + " of the") + " " +
+         number_of(found.lights_in_view, "light") + " in view are dark";
+}
+
 }  // namespace
 
 std::string tried_text(const FoundFrame& found) {
   return number_of(static_cast<std::uint64_t>(found.evaluations), "frame") + " tried (seed " +
          std::to_string(found.seed) + (found.space_flags.empty() ? "" : ", " + found.space_flags) + ")";
-}
-
-// A search goes where lights are, lit or not.
-static std::string dark_text(const FoundFrame& found) {
-  const bool are_all = found.dark_in_view == found.lights_in_view;
-  return ", where " + (are_all ? "all" : std::to_string(found.dark_in_view) + " of the") + " " +
-         number_of(found.lights_in_view, "light") + " in view are dark";
 }
 
 std::string place_text(const FoundFrame& found) {
