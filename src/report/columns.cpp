@@ -75,6 +75,13 @@ std::string frame_interval_text(const Json& result_case) {
   return text("-%.0f", below) + text("/+%.0f %%", above);
 }
 
+std::string unlit_text(const std::optional<double>& share) {
+  if (!share) return "-";
+  const double percent = 100.0 * *share;
+  if (percent == 0.0) return "0 %";
+  return percent < 0.01 ? "<0.01 %" : text(percent < 1.0 ? "%.2f %%" : "%.1f %%", percent);
+}
+
 std::string height_text(double metres) {
   constexpr double k_nothing_m = 1e-6;
   return text("%.4g", std::abs(metres) < k_nothing_m ? 0.0 : metres);

@@ -2,6 +2,7 @@
 // Columns of text for people, and what all tables take from a result in the same way.
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ std::string frame_interval_text(const nlohmann::ordered_json& result_case);
 std::string what_intervals_take();
 // One number by a printf format.
 std::string text(const char* format, double value);
+// A share of lights in percent; one that is small and not nothing never looks like nothing: "0 %", "<0.01 %", "0.25 %".
+std::string unlit_text(const std::optional<double>& share);
 // Metres of a height: four digits, and less than a micrometre is 0.
 std::string height_text(double metres);
 // A whole number as it is, others with four digits or, from 100,000, six.

@@ -359,9 +359,8 @@ std::string why_none(const SceneView& view) {
   if (!view.searched.empty())
     return "nothing to take: only structures that samples search are sound here, and no GPU has measured such a search";
   if (view.unsampled > 0)
-    return "nothing to take: methods of visible surfaces light and cost what there is to see, and no samples of it "
-           "were "
-           "asked for (--set 'samples.opaque={}')";
+    return "nothing to take: these methods light visible surfaces, and no surface was sampled to say what they cost "
+           "(--set 'samples.opaque={}' samples them)";
   return "take none of " + number_of(view.cases.size(), "case") + ": " + unsound_text(view.cases);
 }
 

@@ -132,10 +132,10 @@ std::string own_value_text(const SettingValue& value, const SizedStructure& stru
     if (tiles->grown == 0 && tiles->over == 0) return "";
     return with + "tiles grow in " + std::to_string(tiles->grown) + " of " + number_of(tiles->frames, "frame") +
            ", from " + tiles_text(tiles->asked) + " to " + tiles_text(tiles->fewest) + " at most; " +
-           (tiles->over == 0 ? "all frames then fit"
-                             : number_of(tiles->over, "frame") +
-                                   " did not fit, since tiles grow by what the frame before needed, or fit in no "
-                                   "tiles") +
+           (tiles->over == 0
+                ? "all frames then fit"
+                : number_of(tiles->over, "frame") +
+                      " did not fit: tiles were still those of the frame before, or none are large enough") +
            " (" + std::to_string(tiles->entries) + " entries at most in a frame)\n";
   }
   if (setting.standard == 0 || setting.is_constant || setting.needed == Needed::entries) return "";

@@ -119,12 +119,6 @@ Json ranking_of(const View& view, const std::vector<RankedPreset>& rows) {
   return out;
 }
 
-// A share that is small and not nothing never looks like nothing.
-std::string small_share_text(const std::optional<double>& share) {
-  if (!share) return "-";
-  return *share > 0.0 && *share < 5e-5 ? "<0.01 %" : text("%.2f %%", 100.0 * *share);
-}
-
 // Of older results: none had places.
 std::string place_text(const Json& line) {
   if (!line.contains("place")) return "";
@@ -155,8 +149,7 @@ std::string shown_line(const Json& line, const Json& cases, const Json& best, Ce
            short_count(*found, "/buffers/bytes/high_water"),
            short_count(*found, "/buffers/overflow/dropped_pairs"),
            short_count(line, "/missed_in_view"),
-           line.value("standing", "") == name_of(PresetStanding::unknown) ? "-"
-                                                                          : small_share_text(number_at(line, "/unlit")),
+           line.value("standing", "") == name_of(PresetStanding::unknown) ? "-" : unlit_text(number_at(line, "/unlit")),
            assign_text(*found)};
   return "  " + shown(line["preset"]) + " " + shown(line["why"]) + ".\n";
 }

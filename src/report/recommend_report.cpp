@@ -152,8 +152,8 @@ std::vector<std::string> constraint_texts(const Question& question) {
   for (const Constraint& constraint : question.constraints) texts.push_back(rule_text_of(constraint.rule));
   texts.emplace_back("a run of it does not fail");
   texts.emplace_back("conservative or exact (--unlit allows others)");
-  texts.emplace_back("it has lists (what draws lights is ranked by what pixels cost)");
-  texts.emplace_back("it has " + question.objective.name + " on these frames");
+  texts.emplace_back("has lists (methods that draw lights are ranked by cost alone)");
+  texts.emplace_back("a known " + question.objective.name + " on these frames");
   return texts;
 }
 

@@ -67,15 +67,6 @@ std::string pairs_text(const Json& result_case) {
       result_case, number_at(result_case, "/timing/frame_ns/median") ? "/timing/pairs/mean" : "/occupancy/pairs/mean");
 }
 
-// A share that is small and not nothing never looks like nothing.
-std::string unlit_text(const Json& result_case) {
-  const std::optional<double> share = unlit_at_samples(result_case);
-  if (!share) return "-";
-  const double percent = 100.0 * *share;
-  if (percent == 0.0) return "0 %";
-  return percent < 0.01 ? "<0.01 %" : text(percent < 1.0 ? "%.2f %%" : "%.1f %%", percent);
-}
-
 // Of the samples that the case is ranked by, as `unlit`.
 std::string lost_lux_text(const Json& result_case, const char* what) {
   const Json* most = most_at_sets(result_case, what);
@@ -149,7 +140,8 @@ constexpr Column k_columns[] = {
     {"lost lx", [](const Json& result_case) { return lost_lux_text(result_case, "/lost_lux"); }, &Extras::dropped},
     {"worst lx", [](const Json& result_case) { return lost_lux_text(result_case, "/darkest/lost_lux"); },
      &Extras::dropped},
-    {"unlit", unlit_text, &Extras::samples, k_at_samples},
+    {"unlit", [](const Json& result_case) { return unlit_text(unlit_at_samples(result_case)); }, &Extras::samples,
+     k_at_samples},
     {"overshade", overshade_text, &Extras::samples, k_at_samples},
     {"read", read_bytes_text, &Extras::searched},
     {"bytes", [](const Json& result_case) { return short_count(result_case, "/buffers/bytes/high_water"); }},

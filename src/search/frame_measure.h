@@ -1,5 +1,6 @@
 #pragma once
-// One figure of one frame of a case: the same number that `clusterbench run` gives for a path of that frame alone.
+// One figure of one frame of a case: the same number that `clusterbench run` gives for a path of that frame alone, but
+// for the entries of a storage that is full.
 
 #include <functional>
 #include <memory>
