@@ -198,7 +198,7 @@ TEST(PresetRanking, lights_lost_to_a_limit_are_no_small_loss_where_few_are_neede
   const Json cases{with_few_samples(limited, 1), with_few_samples(whole, 1)};
   const std::string table =
       preset_table({{"preset_rankings", Json::array({ranking})}, {"cases", cases}, {"skipped", Json::array()}});
-  EXPECT_NE(table.find(" 450       -"), std::string::npos) << table << "a share of one light is none";
+  EXPECT_NE(table.find(" 450      -"), std::string::npos) << table << "a share of one light is none";
   const Json enough = ranking_of_cases({with_few_samples(limited, 1000), with_few_samples(whole, 1000)});
   EXPECT_EQ(enough["best"], "id-playcanvas") << "of a thousand that samples need none is lost";
 }
