@@ -470,7 +470,8 @@ std::vector<View> views_of(const config::Config& config, const run::Plan& plan) 
       else
         ++view.incomplete;
     }
-    std::ranges::stable_sort(view.candidates, {}, &Candidate::name);
+    std::ranges::stable_sort(view.candidates, {},
+                             [](const Candidate& candidate) { return std::pair(candidate.grid, candidate.name); });
     set_apart(config, view);
     out.push_back(std::move(view));
   }
