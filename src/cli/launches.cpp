@@ -98,16 +98,22 @@ GroupSamples group_samples(const Json& json) {
   return group;
 }
 
-// The group of these cases and no others. A case that several scenes have is told apart by a number behind its hash; a
-// launch has one scene and no such numbers.
+// A case that several scenes have is told apart by a number behind its hash; a launch has one scene and no such
+// numbers.
+std::string hash_of(const std::string& id) {
+  return id.substr(0, id.find('-'));
+}
+
+// The group of these cases and no others, in this order: samples are told apart by their places.
 run::GroupPlan group_of(const run::Plan& plan, const std::vector<std::string>& ids) {
-  const auto hash = [](const std::string& id) { return id.substr(0, id.find('-')); };
-  const auto is_asked_for = [&](const run::CasePlan& case_plan) {
-    return std::ranges::find(ids, hash(case_plan.id), hash) != ids.end();
+  const auto place = [&](const run::CasePlan& case_plan) {
+    return std::ranges::find(ids, hash_of(case_plan.id), hash_of) - ids.begin();
   };
   for (run::GroupPlan group : plan.groups) {
-    std::erase_if(group.cases, [&](const run::CasePlan& case_plan) { return !is_asked_for(case_plan); });
-    if (!group.cases.empty() && group.cases.size() == ids.size()) return group;
+    std::erase_if(group.cases, [&](const run::CasePlan& one) { return place(one) == std::ssize(ids); });
+    if (group.cases.empty() || group.cases.size() != ids.size()) continue;
+    std::ranges::stable_sort(group.cases, {}, place);
+    return group;
   }
   throw Error("", k_serve_launch, "has no group with the cases that are asked for", ExitCode::internal);
 }

@@ -100,6 +100,39 @@ TEST(Recommend, ranks_what_samples_search_apart_and_never_takes_it_while_there_a
   }
 }
 
+// By name aabb-fast comes first, by configuration brute-force, which takes some twenty times as long.
+TEST(Recommend, gives_each_candidate_the_times_of_its_own_in_several_launches) {
+  std::string config = space();
+  const std::string methods = R"("aabb-fast", "exact-fast", "world-grid-fast")";
+  config.replace(config.find(methods), methods.size(), R"("brute-force", "bvh", "aabb-fast")");
+  const Recommended found = recommended(config, "--tiles 32 --slices 8 --by frame_us --grid frustum --runners-up 20");
+  ASSERT_EQ(found.outcome.code, 0) << found.outcome.err;
+  double fast = 0.0, brute = 0.0;
+  std::vector<Json> records{found.answer["choice"]};
+  for (const Json& record : found.answer["runners_up"]) records.push_back(record);
+  for (const Json& record : records)
+    (record["assigner"]["name"] == "brute-force" ? brute : fast) = record["figures"]["frame_us"];
+  ASSERT_GT(brute, 0.0);
+  EXPECT_EQ(found.answer["choice"]["assigner"]["name"], "aabb-fast");
+  EXPECT_LT(fast, brute);
+}
+
+TEST(Recommend, says_which_command_sizes_the_choice) {
+  const Folder folder;
+  const std::string choice = (folder / "my choice.json").string();
+  const Outcome done = tool("recommend " + source_file("scenes/street.glb") +
+                            " --no-timing -q --viewport 320x180 --tiles 64 --slices 4 --assigner exact-fast "
+                            "--set scenes.*.frames=2 --write-config '" +
+                            choice + "'");
+  ASSERT_EQ(done.code, 0) << done.err;
+  const std::size_t next = done.out.find("next: clusterbench size ");
+  ASSERT_NE(next, std::string::npos) << done.out;
+  EXPECT_LT(next, done.out.find("conclusion: ")) << "the last line is the conclusion";
+  const Outcome sized = tool(done.out.substr(next + 18, done.out.find("   sizes", next) - next - 18));
+  EXPECT_EQ(sized.code, 0) << sized.err;
+  EXPECT_NE(sized.out.find("(1 camera, 451 frames)"), std::string::npos) << sized.out;
+}
+
 TEST(Recommend, says_where_no_shader_function_reads_the_choice) {
   const Recommended listed = recommended(space(), "--no-timing --by bytes --tiles 64 --slices 4");
   ASSERT_EQ(listed.outcome.code, 0) << listed.outcome.err;
