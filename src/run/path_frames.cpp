@@ -10,18 +10,10 @@ namespace clusterbench::run {
 PathFrames::PathFrames(const scene::Scene& scene, const scene::CameraPath& path, Vec2i viewport, FrameDepths* depths,
                        int threads, SceneVisibleSets* visible_sets)
     : scene_(scene), path_(path), viewport_(viewport), depths_(depths), threads_(threads), visible_sets_(visible_sets) {
-  bool is_first = true;
   for (int i = 0; i < count(); ++i) {
     const view::Frame now = frame(i);
     if (i == 0) shape_ = now.projection;
-    for (const scene::WorldLight& light : now.lights) {
-      if (!std::isfinite(light.range_m)) continue;
-      const Vec3d lo = light.position - light.range_m, hi = light.position + light.range_m;
-      rig_lo_ = is_first ? lo : glm::min(rig_lo_, lo);
-      rig_hi_ = is_first ? hi : glm::max(rig_hi_, hi);
-      far_m_ = std::max(far_m_, glm::length(light.position - now.view_space.origin) + light.range_m);
-      is_first = false;
-    }
+    reach_.add(now);
   }
 }
 
@@ -53,7 +45,7 @@ grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Fram
 }
 
 grid::GridInputs PathFrames::inputs_as_asked(const grid::GridSpec& spec, const view::Frame& frame) const {
-  grid::GridInputs inputs = grid::grid_inputs(spec.unfitted(), frame, far_m_, rig_lo_, rig_hi_);
+  grid::GridInputs inputs = grid::grid_inputs(spec.unfitted(), frame, reach_.far_m(), reach_.lo(), reach_.hi());
   if (inputs.shape) inputs.shape = shape_;
   if (spec.slices.fit) inputs.needed = spans(spec)[static_cast<std::size_t>(frame.index)];
   return inputs;
@@ -62,7 +54,7 @@ grid::GridInputs PathFrames::inputs_as_asked(const grid::GridSpec& spec, const v
 grid::Span PathFrames::needed(const grid::GridSpec& spec, const view::Frame& frame) const {
   const bool needs_depths = depths_ != nullptr && spec.slices.fit->needs_surfaces();
   const std::shared_ptr<const depth::DepthImage> depths = needs_depths ? depths_->of(frame, threads_) : nullptr;
-  return grid::grid_inputs(spec, frame, far_m_, rig_lo_, rig_hi_, depths.get()).needed;
+  return grid::grid_inputs(spec, frame, reach_.far_m(), reach_.lo(), reach_.hi(), depths.get()).needed;
 }
 
 const std::vector<grid::Span>& PathFrames::spans(const grid::GridSpec& spec) const {

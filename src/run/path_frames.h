@@ -12,6 +12,7 @@
 #include "grid/grid.h"
 #include "measure/samples.h"
 #include "run/frame_depths.h"
+#include "run/light_reach.h"
 #include "run/scene_visible_sets.h"
 #include "run/sweep.h"
 #include "scene/camera_path.h"
@@ -56,22 +57,20 @@ class PathFrames {
   Vec2i viewport() const { return viewport_; }
   // Of one frame by itself.
   grid::Span needed(const grid::GridSpec& spec, const view::Frame& frame) const;
-  // The farthest that a bounded light reaches from any eye of the path.
-  double far_m() const { return far_m_; }
+  // The farthest that a light with an end reaches from any eye of the path.
+  double far_m() const { return reach_.far_m(); }
   // Of its frames, and of those of paths along it; null without triangles.
   FrameDepths* depths() const { return depths_; }
   SceneVisibleSets* visible_sets() const { return visible_sets_; }  // null without triangles
-  // A box around the bounded lights' balls over the path.
-  measure::Bounds light_bounds() const { return {rig_lo_, rig_hi_}; }
+  // The box around such lights over the path.
+  measure::Bounds light_bounds() const { return {reach_.lo(), reach_.hi()}; }
 
  private:
   PathFrames(const PathFrames& whole, const scene::CameraPath& path)
       : scene_(whole.scene_),
         path_(path),
         viewport_(whole.viewport_),
-        rig_lo_(whole.rig_lo_),
-        rig_hi_(whole.rig_hi_),
-        far_m_(whole.far_m_),
+        reach_(whole.reach_),
         shape_(whole.shape_),
         depths_(whole.depths_),
         threads_(whole.threads_),
@@ -86,8 +85,7 @@ class PathFrames {
   const scene::Scene& scene_;
   const scene::CameraPath& path_;
   Vec2i viewport_;
-  Vec3d rig_lo_{0.0}, rig_hi_{0.0};  // box around the bounded lights' balls over the path
-  double far_m_ = 0.0;
+  LightReach reach_;
   view::Projection shape_;  // of the first frame: cells of a shape are as many in all
   FrameDepths* depths_ = nullptr;
   std::vector<int> frames_;  // empty: all

@@ -18,6 +18,7 @@
 #include "run/case_identity.h"
 #include "run/case_names.h"
 #include "run/frame_work.h"
+#include "run/light_reach.h"
 #include "scene/domain.h"
 #include "view/frame.h"
 
@@ -178,26 +179,6 @@ std::string pre_cull_obstacle(const cull::PreCullSpec& pre_cull, const SceneData
   return "a visible set needs surfaces that hide, and the scene has no triangles";
 }
 
-struct Reach {
-  Vec3d lo{0.0}, hi{0.0};
-  double far_m = 0.0;
-};
-
-// The box around the bounded lights of a frame, and how far they reach from the eye.
-Reach reach_of(const view::Frame& frame) {
-  Reach reach;
-  bool first = true;
-  for (const scene::WorldLight& light : frame.lights) {
-    if (!std::isfinite(light.range_m)) continue;
-    const Vec3d radius(light.range_m), to_eye = light.position - frame.view_space.origin;
-    reach.lo = first ? light.position - radius : glm::min(reach.lo, light.position - radius);
-    reach.hi = first ? light.position + radius : glm::max(reach.hi, light.position + radius);
-    reach.far_m = std::max(reach.far_m, std::sqrt(glm::dot(to_eye, to_eye)) + light.range_m);
-    first = false;
-  }
-  return reach;
-}
-
 // A path's first frame in a grid, by the numbers; or why the grid cannot be made for it.
 struct FirstFrame {
   std::uint32_t cells = 0;
@@ -218,8 +199,10 @@ FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const 
                 ", which takes no boxes; react.of names another method"};
   try {
     const view::Frame frame = view::make_frame(data.scene, path.shots.front(), 0, viewport);
-    const Reach reach = reach_of(frame);
-    const grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, reach.far_m, reach.lo, reach.hi));
+    LightReach reach;
+    reach.add(frame);
+    const grid::Grid grid =
+        grid::make_grid(spec, grid::grid_inputs(spec, frame, reach.far_m(), reach.lo(), reach.hi()));
     return {grid.cell_count(), frame.ranges(), ""};
   } catch (const Error& error) {
     return {0, {}, error.what()};

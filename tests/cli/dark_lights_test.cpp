@@ -71,6 +71,29 @@ TEST(DarkLights, without_a_range_are_said_to_be_in_no_list) {
   EXPECT_EQ(size.err.find("are dark"), size.err.rfind("are dark")) << "once: " << size.err;
 }
 
+// They reach nothing: neither where a grid ends nor where samples lie goes by them, so that nothing else changes.
+TEST(DarkLights, without_a_range_change_no_figure_of_others) {
+  const Folder folder;
+  nlohmann::json level = nlohmann::json::parse(level_of(row_of(8, -1.0, 0)));
+  const auto figures = [&](const nlohmann::json& of) {
+    const std::string result = (folder / "result.json").string();
+    const Outcome run = tool("run " + folder.write("level.gltf", of.dump()).string() +
+                             " --viewport 320x180 --grid frustum,world --tiles 64 --slices 8 --assigner "
+                             "exact-fast,world-grid-fast --no-timing -q -o " +
+                             result);
+    EXPECT_EQ(run.code, 0) << run.err;
+    nlohmann::json cases = nlohmann::json::parse(file_text(result))["cases"];
+    nlohmann::json out = nlohmann::json::array();
+    for (const nlohmann::json& one : cases)
+      out.push_back({one["name"], one["grid"], one["occupancy"], one["buffers"]["index_entries"]["high_water"],
+                     one["error"]["false_positives"], one["shading"]["needed"], one["shading"]["evaluated"]});
+    return out;
+  };
+  const nlohmann::json without = figures(level);
+  add_lamp(level, {{"type", "point"}, {"intensity", 0.0}}, 700.0, -900.0);
+  EXPECT_EQ(figures(level), without);
+}
+
 TEST(DarkLights, are_nothing_that_presets_are_ranked_by) {
   const Folder folder;
   const std::string level = folder.write("level.gltf", dark_level()).string();
