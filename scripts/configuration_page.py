@@ -117,7 +117,7 @@ def default_text(name, schema, required):
     if name == "assigners":
         return "all but `naive-` and those that need depth"
     if name == "grids":
-        return "five, two `frustum`"
+        return "seven, four `frustum`"
     return code(schema["default"]) if "default" in schema else "needed" if required else ""
 
 

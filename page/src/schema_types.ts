@@ -303,6 +303,7 @@ export type Result = {
         spot: number; // Spot lights
         box: number; // Boxes
       }; // Of each type by itself, in the frame that has most of it [over the worst frame]
+      shining_mean?: number; // Of those in view the ones that shine in the frame, mean over the frames. Absent in older results [over all frames]
     }; // Lights of a frame whose bounding sphere (a spot's: around its cone) reaches into the half-spaces of the camera's six planes, before any pre-cull; the same for all cases of a camera and viewport. What engines' limits of lights are about. Absent in older results [lights]
     lights_beyond_grid?: {
       max: number; // In the frame with most; 0: none ever does [over the worst frame]

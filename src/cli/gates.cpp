@@ -47,7 +47,7 @@ void set_gates(config::Config& config, const GateFlags& flags) {
 void keep_counted_budgets(config::Config& config, const std::string& doing) {
   constexpr const char* k_counted[] = {"index_entries",  "bytes",      "upload_bytes", "scratch_bytes",
                                        "longest",        "pairs",      "dropped",      "lights",
-                                       "lights_in_view", "lights_lit", "lights_seen"};
+                                       "lights_in_view", "lights_lit", "lights_seen",  "lights_seen.mean"};
   const auto is_left_out = [&](const config::LimitRule& rule) {
     return rule.is_relative || std::ranges::find(k_counted, rule.figure) == std::end(k_counted);
   };

@@ -47,6 +47,7 @@ constexpr LimitFigure k_figures[] = {
     {"lights", "lights of the scene that methods get", k_given},
     {"lights_lit", "those of them that shine in some frame: not of intensity 0, black, or of range 0", k_given},
     {"lights_seen", "those of them that are in view in a frame in which they shine", k_given},
+    {"lights_seen.mean", "lights of a frame that are in view and shine in it, mean of all frames", k_given},
     {"lights_in_view", "lights whose bounding sphere is in view, in the frame with most", k_given},
 };
 

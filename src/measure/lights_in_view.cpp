@@ -18,6 +18,7 @@ void add_frame(LightsInView& counts, const view::Frame& frame) {
     now[ranges.type_of(i)] += is_here ? 1 : 0;
     counts.is_lit[i] = counts.is_lit[i] || is_lit;
     counts.is_seen[i] = counts.is_seen[i] || (is_lit && is_here);
+    counts.shining_sum += is_lit && is_here ? 1 : 0;
   }
   const std::uint64_t all = std::accumulate(now.begin(), now.end(), std::uint64_t{0});
   if (counts.frames == 0 || all > counts.most) {

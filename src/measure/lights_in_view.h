@@ -13,7 +13,7 @@ namespace clusterbench::measure {
 // By grid/lights_in_view.h, over the frames of a path. Before any pre-cull: it depends on camera and lights alone, and
 // not on the grid.
 struct LightsInView {
-  std::uint64_t frames = 0, sum = 0;
+  std::uint64_t frames = 0, sum = 0, shining_sum = 0;  // of all frames; of those that shine in the frame
   std::uint64_t most = 0, frames_with_most = 0;
   int worst_frame = 0;                                            // the first with most
   std::array<std::uint64_t, view::k_light_types> most_of_type{};  // points, spots, boxes: each in a frame of its own
@@ -23,7 +23,13 @@ struct LightsInView {
 
   std::uint64_t lit() const { return static_cast<std::uint64_t>(std::ranges::count(is_lit, true)); }
   std::uint64_t seen() const { return static_cast<std::uint64_t>(std::ranges::count(is_seen, true)); }
-  double mean() const { return frames == 0 ? 0.0 : static_cast<double>(sum) / static_cast<double>(frames); }
+  double mean() const { return mean_of(sum); }
+  double shining_mean() const { return mean_of(shining_sum); }
+
+ private:
+  double mean_of(std::uint64_t all) const {
+    return frames == 0 ? 0.0 : static_cast<double>(all) / static_cast<double>(frames);
+  }
 };
 void add_frame(LightsInView& counts, const view::Frame& frame);
 

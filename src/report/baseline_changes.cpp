@@ -25,7 +25,7 @@ constexpr const char* k_instructions =
     "instructions";  // told where both were counted by the same processor and program
 
 // The first are the same for all cases of a camera and viewport.
-constexpr const char* k_of_view[] = {"lights", "lights_lit", "lights_seen", "lights_in_view"};
+constexpr const char* k_of_view[] = {"lights", "lights_lit", "lights_seen", "lights_seen.mean", "lights_in_view"};
 constexpr const char* k_of_case[] = {"index_entries", "bytes", "longest", "pairs.mean", k_instructions};
 
 void add_once(const std::string& line, Lines& lines) {

@@ -66,6 +66,7 @@ constexpr FigureRow k_figure_rows[] = {
     {"lights", "/lights"},
     {"lights_lit", "/lights_lit"},
     {"lights_seen", "/lights_seen"},
+    {"lights_seen.mean", "/lights_in_view/shining_mean"},
     {"lights_in_view", "/lights_in_view/max", 1.0, "/lights_in_view/worst_frame"},
 };
 
@@ -128,7 +129,9 @@ std::optional<Found> found_at_samples(const Json& result_case, const FigureRow& 
   }
   for (const std::string& set : sets) {
     const Json* counts = samples_of_set(result_case, set);
-    if (counts == nullptr || number_at(*counts, "/needed") == 0.0) continue;
+    if (counts == nullptr) continue;
+    // Where no light reaches a set, none is unlit, and as many are needed: 0.
+    if (number_at(*counts, "/needed") == 0.0 && row.name != std::string_view("needed")) continue;
     std::optional<Found> found = found_by(row, *counts);
     if (!found || (most && most->value() >= found->value())) continue;
     found->location = words_of_set(set) + (found->location.empty() ? "" : ", ") + found->location;
@@ -355,8 +358,8 @@ void add_changes_since(const Json& result, const BaselineCases& baseline, LimitF
     if (const std::string changes = baseline.what_changed(result_case); !changes.empty())
       names[changes].push_back(result_case["name"].get<std::string>());
   for (const auto& [changes, changed_cases] : names)
-    findings.warnings.push_back("since " + baseline.name() + " has changed: " + changes + ", of " +
-                                number_of(changed_cases.size(), "case") + ": " + listed_names(changed_cases));
+    findings.warnings.push_back("changed since " + baseline.name() + " (" + number_of(changed_cases.size(), "case") +
+                                "): " + changes + "; " + listed_names(changed_cases));
 }
 
 }  // namespace

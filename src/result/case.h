@@ -69,6 +69,12 @@ struct LightsInView {
   FIELD(std::uint64_t, frames_at_max, About("How many frames have as many", "frames", "all frames").at_least(1));
   FIELD(std::uint64_t, worst_frame, "The first of them", "index", "the path");
   FIELD(LightsByType, max_by_type, "Of each type by itself, in the frame that has most of it", "", "the worst frame");
+  FIELD(std::optional<double>, shining_mean,
+        About("Of those in view the ones that shine in the frame, mean over the frames. Absent in older results", "",
+              "all frames")
+            .finite()
+            .at_least(0)
+            .late());
   END_RECORD;
 };
 

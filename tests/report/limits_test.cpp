@@ -26,7 +26,7 @@ Json case_with_budget_figures() {
     "occupancy": {"lights_per_cell": {"max": 64}, "pairs": {"max": 4000, "mean": 3500}, "worst_frame": 8, "worst_cell": [4, 5, 6]},
     "error": {"false_negatives": 2, "excess_ratio": 0.5, "undecided": 0, "deepest": {"frame": 7, "cell": [0, 0, 1]}},
     "cost": {"frame_ns": 900000}, "lights": 300, "lights_lit": 290, "lights_seen": 260,
-    "lights_in_view": {"max": 250, "worst_frame": 4},
+    "lights_in_view": {"max": 250, "worst_frame": 4, "shining_mean": 120.5},
     "count": {"instructions_per_frame": {"assign": 40000, "convert": 2000, "frame": 42000}},
     "shading": {"samples": 500, "missed": 1, "needed": 1000, "lost_irradiance": 0.25, "overshade": 1.5, "worst_frame": {"frame": 3}}})");
 }
@@ -58,6 +58,7 @@ TEST(Limits, what_breaks_one_is_told_with_case_frame_and_cell) {
       {"lights < 300", "kept"},
       {"lights_lit < 291", "lights_lit is 290, and fails with lights_lit < 291"},
       {"lights_lit < 290", "kept"},
+      {"lights_seen.mean < 121", "lights_seen.mean is 120.5, and fails with lights_seen.mean < 121"},
       {"lights_seen <= 260", "lights_seen is 260, and fails with lights_seen <= 260"},
       {"lights == 300", "lights is 300, and fails with lights == 300"},
       {"lights_in_view 200..240", "lights_in_view is 250 (frame 4), and fails with lights_in_view outside 200..240"},
@@ -125,6 +126,18 @@ TEST(Limits, samples_that_need_no_light_say_nothing_of_lost_irradiance) {
   unseen["samples"]["opaque"] = {{"samples", 0}, {"missed", 0}, {"needed", 0}, {"lost_irradiance", 0}};
   EXPECT_EQ(findings_of("opaque.lost_irradiance > 0", unseen).broken.size(), 1u);
   EXPECT_EQ(findings_of("lost_irradiance > 0", unseen).broken.size(), 1u) << "they rank it";
+}
+
+// A camera whose surfaces have lost all of their lights is what the budget is for.
+TEST(Limits, samples_that_no_light_reaches_need_none) {
+  Json unlit = case_with_budget_figures();
+  unlit["samples"]["opaque"] = {{"samples", 440}, {"missed", 0}, {"needed", 0}, {"lost_irradiance", 0}};
+  EXPECT_EQ(findings_of("opaque.needed < 0.5", unlit).broken.size(), 1u);
+  EXPECT_EQ(findings_of("opaque.needed == 0", unlit).broken.size(), 1u);
+  EXPECT_EQ(findings_of("opaque.needed > 0.5", unlit).broken, Lines{});
+  Json lit = case_with_budget_figures();
+  lit["samples"]["opaque"] = {{"samples", 440}, {"missed", 0}, {"needed", 476}, {"lost_irradiance", 0}};
+  EXPECT_EQ(findings_of("opaque.needed < 0.5", lit).broken, Lines{});
 }
 
 TEST(Limits, what_some_cases_have_is_held_there_and_the_others_are_named) {

@@ -36,6 +36,7 @@ constexpr Metric k_metrics[] = {
 
     {"tests_done", "tests", "/tests_done", "", smaller, k_detail},
     {"fallbacks", "pairs", "/fallbacks", "", smaller, k_detail},
+    {"lights_seen_mean", "lights", "/lights_in_view/shining_mean", "", neither, k_detail},
     {"lights_in_view_mean", "lights", "/lights_in_view/mean", "", neither, k_detail},
     {"pairs_mean", "pairs", "/occupancy/pairs/mean", "", neither, k_detail},
     {"pairs_max", "pairs", "/occupancy/pairs/max", "", neither, k_detail},

@@ -30,7 +30,8 @@ result::LightsInView lights_in_view_record(const measure::LightsInView& lights) 
           static_cast<std::uint64_t>(lights.most),
           static_cast<std::uint64_t>(lights.frames_with_most),
           static_cast<std::uint64_t>(lights.worst_frame),
-          {static_cast<std::uint64_t>(points), static_cast<std::uint64_t>(spots), static_cast<std::uint64_t>(boxes)}};
+          {static_cast<std::uint64_t>(points), static_cast<std::uint64_t>(spots), static_cast<std::uint64_t>(boxes)},
+          counted(lights.shining_mean())};
 }
 
 void add_verdict(result::Case& out, const CaseResult& found) {

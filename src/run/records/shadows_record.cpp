@@ -71,9 +71,10 @@ result::SharedFrusta frusta_record(const SharedFrustaResult& shared) {
 
 std::optional<result::Shadows> shadows_record(const CaseResult& found) {
   if (found.shadow_culls.empty() && !found.shared_frusta) return {};
+  std::vector<result::ShadowCull> culls;
+  for (const ShadowCullResult& cull : found.shadow_culls) culls.push_back(cull_record(cull));
   result::Shadows out;
-  if (!found.shadow_culls.empty()) out.culls.emplace();
-  for (const ShadowCullResult& cull : found.shadow_culls) out.culls->push_back(cull_record(cull));
+  if (!culls.empty()) out.culls = std::move(culls);
   if (found.shared_frusta) out.frusta = frusta_record(*found.shared_frusta);
   return out;
 }
