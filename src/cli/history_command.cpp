@@ -41,8 +41,8 @@ ExitCode add(const AddFlags& flags) {
   for (const std::string& change : addition.light_changes)
     tell((flags.allows_changed_lights ? "warning: " : "FAILED ") + change +
          (flags.allows_changed_lights ? ""
-          : addition.is_added         ? " (it was added; --allow-changed-lights if that is meant)"
-                                      : " (--allow-changed-lights if that is meant)"));
+          : addition.is_added ? " (the result was added all the same; --allow-changed-lights if the change is meant)"
+                              : " (--allow-changed-lights if that is meant)"));
   for (const std::string& change : addition.path_changes) tell("warning: " + change);
   for (const std::string& scene : addition.new_scenes)
     tell("warning: " + flags.file + " has no earlier lights of " + scene + " to hold these against");

@@ -205,13 +205,13 @@ std::size_t least_values(double max_p) {
 }
 
 std::vector<ChangePoint> counted_changes(std::span<const double> series, double min_change) {
-  std::vector<Edge> edges;
+  std::vector<ChangePoint> points;
   for (std::size_t i = 1, level = 0; i < series.size(); ++i) {
     if (series[i] == series[level] || size_of(series[level], series[i]) < min_change) continue;
-    edges.push_back({i, 0.0});
+    points.push_back({i, series[level], series[i], 0.0});
     level = i;
   }
-  return described(series, edges);
+  return points;
 }
 
 }  // namespace clusterbench::measure

@@ -11,7 +11,8 @@ namespace clusterbench::measure {
 
 struct ChangePoint {
   std::size_t index;     // first value after the change
-  double before, after;  // means of the stretches on both sides, up to the neighbouring change points or the ends
+  double before, after;  // means of the stretches on both sides, up to the neighbouring change points or the ends; of
+                         // counted values the one that the last change led to, and the one that differs
   double p;              // a series without changes shows such a change at most so often; 0 where values are counted
 };
 

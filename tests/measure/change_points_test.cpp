@@ -112,6 +112,14 @@ TEST(ChangePoints, small_steps_of_counts_matter_once_they_add_up) {
   EXPECT_EQ(counted_places({1000, 1003, 1006, 1009}), std::vector<std::size_t>{2});
 }
 
+// 299.5 lights were in no commit.
+TEST(ChangePoints, counts_are_told_as_they_were) {
+  const std::vector<ChangePoint> points = counted_changes(std::vector<double>{300, 299, 310, 311}, 0.005);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].before, 300.0);
+  EXPECT_EQ(points[0].after, 310.0);
+}
+
 using Noise = double (*)(SplitMix64&);
 
 double normal_noise(SplitMix64& random) {
