@@ -28,7 +28,8 @@ Json answers_of(const Json& result, const char* key) {
 std::string lights_that_changed(const Json& base_scene, const Json& next_scene) {
   if (light_change(base_scene, next_scene) != LightChange::changed) return "";
   const std::string before = lights_text(base_scene), now = lights_text(next_scene);
-  return "its lights (" + (before == now ? "as many, " + now + ", moved or changed" : before + ", now " + now) + ")";
+  return "its lights (" +
+         (before == now ? "still " + now + ", some of them moved or changed" : before + ", now " + now) + ")";
 }
 
 }  // namespace

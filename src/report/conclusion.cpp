@@ -27,9 +27,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* k_remedy =
-    "--set 'samples.opaque={}' (levels with triangles) or samples.opaque.ground=lowest shades surfaces, and can change "
-    "the choice";
+// What shades surfaces in place of points at random depths.
+std::string remedy_text(bool has_no_triangles) {
+  return std::string(has_no_triangles ? "since the scene has no triangles; samples.opaque.ground=lowest shades a floor"
+                                      : "where no surface is; --set 'samples.opaque={}' (levels with triangles) or "
+                                        "samples.opaque.ground=lowest shades surfaces") +
+         ", and can change the choice";
+}
 
 // "Its samples (visible surfaces)".
 std::string samples_text(const std::vector<std::string>& sets) {
@@ -51,6 +55,7 @@ struct WeighedCase {
   run::Contender contender;  // whose times hold what is modelled
   measure::FrameCost cost;
   bool is_modelled = false, has_random_depths = false, is_on_front = false;
+  bool has_no_triangles = false;  // where surfaces are asked for
 
   bool is_timed() const { return cost.assign_ns.has_value(); }
   double bytes() const { return number_at(*result_case, "/buffers/bytes/high_water").value_or(0.0); }
@@ -95,6 +100,7 @@ WeighedCase weigh(const Json& result_case, const Json& config) {
     out.cost = frame->cost;
     out.is_modelled = true;
     out.has_random_depths = frame->has_random_depths;
+    out.has_no_triangles = value_at(config, "/samples/opaque") != nullptr;
   }
   out.cost.assign_ns = number_at(result_case, "/timing/frame_ns/median");
   for (double& ns : out.contender.rounds_ns) ns += out.cost.gpu_ns();
@@ -189,11 +195,12 @@ std::optional<measure::Ratio> measured_ratio(const WeighedCase& a, const Weighed
 // nothing was measured often enough for them by the costs.
 bool is_known_dearer(const WeighedCase& a, const WeighedCase& b, std::uint64_t seed) {
   const bool is_estimated = a.is_modelled || b.is_modelled;
-  if (is_estimated && a.weight() <= measure::k_alike_ratio * b.weight()) return false;
+  const std::optional<measure::Ratio> ratio = measured_ratio(a, b, seed);
+  const double times_as_much = ratio ? ratio->ratio : a.weight() / b.weight();
+  if (is_estimated && times_as_much <= measure::k_alike_ratio) return false;
   if (!a.is_timed() || !b.is_timed()) return a.weight() > b.weight();
   const measure::Interval &of_a = a.contender.costs.time_ns, &of_b = b.contender.costs.time_ns;
   if (of_b.is_known() && a.cost.gpu_ns() > of_b.high) return true;  // even if its lists cost no time
-  const std::optional<measure::Ratio> ratio = measured_ratio(a, b, seed);
   if (has_interval(ratio)) return measure::takes_longer(ratio);
   if (of_a.is_known() && of_b.is_known()) return of_a.low > of_b.high;
   return a.weight() > measure::k_alike_ratio * b.weight();
@@ -203,6 +210,7 @@ bool is_known_dearer(const WeighedCase& a, const WeighedCase& b, std::uint64_t s
 struct Choice {
   const WeighedCase* take = nullptr;
   const WeighedCase* against = nullptr;    // the cheapest that is known to be dearer
+  const WeighedCase* cheapest = nullptr;   // by its figure, where that is one with other lists
   const WeighedCase* fastest = nullptr;    // to make, where that is another one
   const WeighedCase* searched = nullptr;   // where it would be cheaper
   std::optional<measure::Ratio> ratio;     // against / take
@@ -233,6 +241,8 @@ Choice choose_of(const SceneView& view, std::uint64_t seed) {
   }
   std::ranges::copy_if(choice.alike, std::back_inserter(choice.others),
                        [&](const WeighedCase* weighed) { return !has_lists_of(*weighed, *choice.take); });
+  if (view.sound.front().weight() < choice.take->weight() && !has_lists_of(view.sound.front(), *choice.take))
+    choice.cheapest = &view.sound.front();
   if (choice.against != nullptr) choice.ratio = measured_ratio(*choice.against, *choice.take, seed);
   if (!view.searched.empty() && view.searched.front().is_modelled && view.searched.front().ns() < choice.take->ns())
     choice.searched = &view.searched.front();
@@ -260,7 +270,12 @@ std::string more_text(double ratio, const measure::Interval& by_times, const mea
   const bool is_share = ratio < 2.0;
   const auto amount = [&](double of) {
     const double percent = 100.0 * (of - 1.0);
-    return !is_share ? text("%.3g", of) : text(std::abs(percent) < 99.5 ? "%.2g %%" : "%.0f %%", percent);
+    const bool is_near_alike = std::abs(of - measure::k_alike_ratio) < 5e-4;  // 5.04 % more is not within 5 %
+    return !is_share ? text("%.3g", of)
+                     : text(is_near_alike              ? "%.3g %%"
+                            : std::abs(percent) < 99.5 ? "%.2g %%"
+                                                       : "%.0f %%",
+                            percent);
   };
   const auto range = [&](const measure::Interval& of) { return amount(of.low) + " to " + amount(of.high); };
   std::vector<std::string> ranges;
@@ -281,7 +296,8 @@ measure::Interval by_prices(const Choice& choice) {
 }
 
 std::string against_text(const Choice& choice) {
-  if (choice.against == nullptr) return choice.alike.empty() ? "; no other case that loses nothing was measured" : "";
+  if (choice.against == nullptr)
+    return choice.alike.empty() ? "; no other case was measured, or each loses lights" : "";
   const std::string out =
       "; " + case_title(*choice.against->result_case) + " costs " +
       more_text(choice.times_as_much(), choice.ratio ? choice.ratio->ci95 : measure::Interval{}, by_prices(choice));
@@ -300,6 +316,17 @@ std::string same_lists_text(const Choice& choice) {
          (choice.take->has_simd() ? "; until then take one that ends in -fast" : "");
 }
 
+// What leads those that cost no more than is told from the choice.
+std::string alike_title(bool is_modelled, bool is_timed) {
+  if (!is_modelled) return is_timed ? "Not told apart by these times" : "The same by these figures";
+  return std::string("About the same cost (within 5 %") + (is_timed ? ", or not told apart by these times)" : ")");
+}
+
+// "2.1 % more", "9.6 % less".
+std::string change_text(double ratio) {
+  return text("%.2g %% ", 100.0 * std::abs(ratio - 1.0)) + (ratio < 1.0 ? "less" : "more");
+}
+
 // What limits how far the choice can be trusted.
 std::string doubts_text(const Choice& choice) {
   const WeighedCase& take = *choice.take;
@@ -312,12 +339,11 @@ std::string doubts_text(const Choice& choice) {
   if (const std::string limit = at_surfaces_text(take.method()); !limit.empty()) out += ". It " + limit;
   out += same_lists_text(choice);
   if (!choice.others.empty())
-    out += std::string(". The same") +
-           (take.is_modelled ? " within 5 %, which is as far as the model tells costs apart" : "") +
-           (take.is_timed()    ? std::string(take.is_modelled ? ", or" : "") + " as far as these times tell"
-            : take.is_modelled ? ""
-                               : " as far as these figures tell") +
-           ": " + first_titles(choice.others);
+    out += ". " + alike_title(take.is_modelled, take.is_timed()) + ": " + first_titles(choice.others);
+  if (choice.cheapest != nullptr)
+    out += ". The least of them is " + case_title(*choice.cheapest->result_case) + ": " +
+           change_text(choice.cheapest->weight() / take.weight()) + ", with " + bytes_text(choice.cheapest->bytes()) +
+           (choice.cheapest->unlit() > 0.0 ? " and " + unlit_text(choice.cheapest->unlit()) + " unlit" : "");
   if (choice.fastest != nullptr && choice.fastest != choice.take && take.is_modelled)
     out += ". Fastest to make: " + case_title(*choice.fastest->result_case) + ", " +
            ns_text(*choice.fastest->cost.assign_ns);
@@ -325,7 +351,7 @@ std::string doubts_text(const Choice& choice) {
     out += ". " + case_title(*choice.searched->result_case) + ", which samples search, would cost " +
            ns_text(choice.searched->ns()) + " by the model; no GPU has measured such a search";
   if (take.has_random_depths)
-    out += std::string(". Its samples are at random depths, where no surface is; ") + k_remedy +
+    out += ". Its samples are at random depths, " + remedy_text(take.has_no_triangles) +
            (take.is_modelled && !take.result_case->contains("cost")
                 ? "; --set cost.weights.volume=pixels shows each case's cost at random depths"
                 : "");
@@ -396,30 +422,29 @@ std::string objective_text(const Json& record, const Json& objective) {
   return objective["figure"].get<std::string>() + " " + amount_text(number_at(record, "/objective").value_or(0.0));
 }
 
-// Modelled costs within what the model can tell, times that differ by less than their interval, and equal figures.
-bool is_like_choice(const Json& record, const Json& objective) {
-  if (objective["figure"].get<std::string>().ends_with("_cost_us") &&
-      number_at(record, "/by_choice").value_or(0.0) <= measure::k_alike_ratio)
-    return true;
-  if (record.contains("ci95") && record["ci95"][0].is_number()) return record["ci95"][0].get<double>() <= 1.0;
-  // Beside a choice of nothing there is no ratio.
-  const std::optional<double> by = number_at(record, "/by_choice");
-  return by ? *by <= 1.0 : number_at(record, "/objective").value_or(0.0) <= 0.0;
-}
-
 measure::Interval interval_at(const Json& record, const char* key) {
   const Json* ends = value_at(record, key);
   if (ends == nullptr || !(*ends)[0].is_number() || !(*ends)[1].is_number()) return {};
   return {(*ends)[0].get<double>(), (*ends)[1].get<double>()};
 }
 
+bool is_cost(const Json& objective) {
+  return objective["figure"].get<std::string>().ends_with("_cost_us");
+}
+
+// Modelled costs within what the model can tell, times that differ by less than their interval or, without one, by less
+// than times usually do, and equal figures.
+bool is_like_choice(const Json& record, const Json& objective) {
+  const std::optional<double> by = number_at(record, "/by_choice");
+  if (!by) return number_at(record, "/objective").value_or(0.0) <= 0.0;  // beside a choice of nothing there is no ratio
+  if (is_cost(objective) && *by <= measure::k_alike_ratio) return true;
+  if (const measure::Interval interval = interval_at(record, "/ci95"); interval.is_known()) return interval.low <= 1.0;
+  return *by <= (record.contains("ci95") ? measure::k_alike_ratio : 1.0);
+}
+
 std::string beside_choice_text(const Json& record) {
   return shown(record["name"].get<std::string>()) + " takes " +
          more_text(record["by_choice"].get<double>(), interval_at(record, "/ci95"), interval_at(record, "/by_prices"));
-}
-
-bool is_cost(const Json& objective) {
-  return objective["figure"].get<std::string>().ends_with("_cost_us");
 }
 
 // What the choice takes beside what it was chosen for: " (13.3 MB of buffers, 1072 us of GPU by the model)".
@@ -430,6 +455,16 @@ std::string price_text(const Json& choice, const Json& objective) {
   if (bytes && objective["figure"] != "bytes") prices.push_back(bytes_text(*bytes) + " of buffers");
   if (gpu_us && !is_cost(objective)) prices.push_back(ns_text(1e3 * *gpu_us) + " of GPU by the model");
   return prices.empty() ? "" : " (" + joined(prices) + ")";
+}
+
+// Why a candidate that takes less is not known to be better than the choice.
+std::string why_alike(const Json& record, const Json& objective) {
+  if (is_cost(objective) && record["by_choice"].get<double>() * measure::k_alike_ratio >= 1.0)
+    return "within the 5 % to which the model tells costs apart";
+  const measure::Interval interval = interval_at(record, "/ci95");
+  if (!interval.is_known()) return "which was not measured often enough to tell them apart";
+  return "which these times do not tell from no difference (95 % interval: " + change_text(interval.low) + " to " +
+         change_text(interval.high) + ")";
 }
 
 // Why the choice is not the one with least: of those that are like it, it has the fewest bytes.
@@ -443,14 +478,13 @@ std::string smallest_text(const Json& answer, const Json& objective) {
   const std::optional<double> more_bytes = least != nullptr ? number_at(*least, "/figures/bytes") : std::nullopt;
   if (!bytes || !more_bytes || *bytes >= *more_bytes) return "";
   const std::string name = shown((*least)["name"].get<std::string>()),
-                    less = text("%.2g %% less", 100.0 * (1.0 - (*least)["by_choice"].get<double>()));
+                    less = change_text((*least)["by_choice"].get<double>());
   // The ratio of times that were measured side by side, which the two figures' own does not give.
   const bool is_measured = interval_at(*least, "/ci95").is_known();
   return "; " + name + " takes " + less +
          (is_measured ? " where both were measured side by side" : " (" + objective_text(*least, objective) + ")") +
-         (is_cost(objective) ? ", within the 5 % to which the model tells costs apart, and needs "
-                             : ", which is too little to tell them apart, and needs ") +
-         bytes_text(*more_bytes) + " in place of " + bytes_text(*bytes);
+         ", " + why_alike(*least, objective) + ", and needs " + bytes_text(*more_bytes) + " in place of " +
+         bytes_text(*bytes);
 }
 
 // ": bytes <= 1000 rejects all 32 candidates, unlit = 0 rejects 4", those that reject most.
@@ -505,11 +539,7 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
       against = &record;
   }
   if (against != nullptr) out += "; " + beside_choice_text(*against);
-  if (!alike.empty())
-    out += std::string(is_cost(objective) ? ". The same within 5 %, which is as far as the model tells costs apart: "
-                       : objective["timed"] == true ? ". The same as far as these times tell: "
-                                                    : ". The same as far as these figures tell: ") +
-           joined(alike);
+  if (!alike.empty()) out += ". " + alike_title(is_cost(objective), objective["timed"] == true) + ": " + joined(alike);
   const Json* method = value_at(choice, "/assigner/name");
   if (const std::string limit = at_surfaces_text(method == nullptr ? "" : method->get<std::string>()); !limit.empty())
     out += ". It " + limit;
@@ -529,8 +559,7 @@ std::string answer_conclusion(const Json& answer, const Json& objective) {
     out += ". Without " + std::string(names.size() == 1 ? "camera " : "cameras ") + joined(names) +
            ", in whose frames no light that shines is in view";
   }
-  if (answer.value("random_depths", false))
-    out += std::string(". Samples are at random depths, where no surface is; ") + k_remedy;
+  if (answer.value("random_depths", false)) out += ". Samples are at random depths, " + remedy_text(true);
   return out + ".";
 }
 

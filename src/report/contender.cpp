@@ -45,11 +45,7 @@ bool loses_nothing_seen(const Json& result_case) {
 }
 
 int slowness_of(const Json& result_case) {
-  const auto name = result_case["assigner"]["name"].get<std::string>();
-  const assign::AssignerDescriptor* assigner = assign::find_assigner(name);
-  if (assigner != nullptr && assigner->all_pairs) return 3;
-  if (assign::find_assigner(name + "-fast") != nullptr) return 2;
-  return name.ends_with("-fast") ? 1 : 0;
+  return assign::slowness_of(result_case["assigner"]["name"].get<std::string>());
 }
 
 bool draws_lights(const Json& result_case) {

@@ -23,8 +23,7 @@ bool loses_nothing_seen(const nlohmann::ordered_json& result_case);
 // all. One without that cost is not eligible: an engine's time is not known where its lists are a GPU's.
 run::Contender contender_of(const nlohmann::ordered_json& result_case, RankBy by = RankBy::frame_time);
 
-// Of methods that make the same lists, which is known to be slower without a time: 1 with SIMD, 2 the plain form beside
-// one with SIMD, 3 every light against every cell. 0: nothing is known.
+// Of its method (assign/contract/assigner.h).
 int slowness_of(const nlohmann::ordered_json& result_case);
 
 // Whether its method draws lights, and leaves no lists.

@@ -175,7 +175,7 @@ void add_changed_lights(const Json& result, const LightGate& gate, LimitFindings
     if (change != LightChange::changed) continue;
     const std::string text = name + ": its lights are not those of " + gate.base_name + ": " +
                              (are_as_many(*before, scene) && dark_lights(*before) == dark_lights(scene)
-                                  ? "as many, " + lights_text(scene) + ", moved or changed"
+                                  ? "still " + lights_text(scene) + ", some of them moved or changed"
                                   : counts);
     if (gate.allows_changed_lights)
       findings.warnings.push_back(text);

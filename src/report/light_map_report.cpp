@@ -269,7 +269,10 @@ std::string light_maps_text(const std::vector<LightMapScene>& scenes, const Ligh
     if (!found.maps.empty())
       out += light_map_tables(found) + tests_line(found.all, request) + triangles_line(found.all);
     else
-      out += "  no mesh has a light map; --unwrap makes texture coordinates where the file has none\n";
+      out += found.left_out.empty() ? "  the scene has no triangles\n"
+             : request.unwrap       ? "  no mesh has a light map\n"
+                                    : "  no mesh has a light map; --unwrap makes texture coordinates where the file "
+                                      "has none\n";
     out += left_out_lines(found);
     for (const std::string& warning : scene.warnings) out += "  warning: " + shown(warning) + "\n";
   }

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "report/list_code.h"
+#include "report/lookup_code.h"
 #include "report/lookup_constants.h"
 
 namespace clusterbench::report {
@@ -32,16 +33,28 @@ std::string identifier(const std::string& name) {
   return is_reserved || std::isdigit(static_cast<unsigned char>(id.front())) != 0 ? "case_" + id : id;
 }
 
-// Cases of cameras whose lookups have the same constants, the first camera's first.
-std::vector<NamedLookup> lookups_of(const SizedStructure& structure) {
+// What tells two lookups apart.
+Json lookup_key(const Json& result_case, LookupsOf lookups) {
+  Json constants = lookup_json(lookup_constants(result_case));
+  const bool takes_viewports =
+      result_case["grid"].contains("tiles") && !lookup_function_glsl("lookup", result_case).empty();
+  if (lookups == LookupsOf::all_viewports && takes_viewports) {
+    for (const char* name : {"viewport", "tile_scale"}) constants.erase(name);
+    constants["cells"] = result_case["grid"]["cells"].back();  // slices
+  }
+  return {lookup_note(result_case), constants};
+}
+
+// Cases of cameras whose lookups are the same, the first camera's first.
+std::vector<NamedLookup> lookups_of(const SizedStructure& structure, LookupsOf lookups) {
   std::vector<NamedLookup> out;
   std::vector<Json> known;
   for (const Json* result_case : structure.cases) {
     if ((*result_case)["storage"] == "own") continue;
-    const Json constants{lookup_note(*result_case), lookup_json(lookup_constants(*result_case))};
-    const auto at = static_cast<std::size_t>(std::ranges::find(known, constants) - known.begin());
+    const Json key = lookup_key(*result_case, lookups);
+    const auto at = static_cast<std::size_t>(std::ranges::find(known, key) - known.begin());
     if (at == known.size()) {
-      known.push_back(constants);
+      known.push_back(key);
       out.emplace_back();
     }
     out[at].cases.push_back(result_case);
@@ -84,35 +97,39 @@ std::vector<std::string> declared_names(const NamedStructure& named) {
   return out;
 }
 
-NamedStructure under_name(SizedStructure structure, const std::string& name) {
+NamedStructure under_name(SizedStructure structure, const std::string& name, LookupsOf lookups) {
   NamedStructure named;
   named.structure = std::move(structure);
-  named.lookups = lookups_of(named.structure);
+  named.lookups = lookups_of(named.structure, lookups);
   give_name(named, name);
   return named;
 }
 
 }  // namespace
 
-std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, const std::string& name) {
+std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, const std::string& name,
+                                             LookupsOf lookups) {
   if (identifier(name) != name)
     throw Error(
         "", "--name",
         "'" + name + "' is no name in C++, HLSL and GLSL alike; takes letters, digits and single underscores, " +
             "a letter first, such as " + identifier(name) + "; at most " + std::to_string(k_longest) + " of them");
+  std::string which;  // the first two
+  for (std::size_t i = 0; i < std::min<std::size_t>(structures.size(), 2); ++i) which += ", " + structures[i].name;
+  if (structures.size() > 2) which += " ...";
   if (structures.size() != 1)
     throw Error("", "--name",
-                "names one structure, and these are " + std::to_string(structures.size()) +
+                "names one structure, and these are " + std::to_string(structures.size()) + which +
                     "; choose one of them with --filter");
-  return {under_name(std::move(structures.front()), name)};
+  return {under_name(std::move(structures.front()), name, lookups)};
 }
 
-std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, bool in_full) {
+std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, bool in_full, LookupsOf lookups) {
   std::vector<NamedStructure> out;
   std::set<std::string> taken;
   for (SizedStructure& structure : structures) {
     const std::string id = identifier(in_full ? structure.name : structure.group);
-    NamedStructure named = under_name(std::move(structure), id);
+    NamedStructure named = under_name(std::move(structure), id, lookups);
     const auto is_taken = [&](const std::string& name) { return taken.contains(name); };
     for (int number = 2; std::ranges::any_of(declared_names(named), is_taken); ++number)
       give_name(named, id + "_" + std::to_string(number));

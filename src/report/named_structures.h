@@ -12,8 +12,11 @@ namespace clusterbench::report {
 // Constants with which samples find their cells. Cameras whose grids are equal share them.
 struct NamedLookup {
   std::string name;                                  // "street_frustum_64px_lookup"
-  std::vector<const nlohmann::ordered_json*> cases;  // one per camera, with the same constants
+  std::vector<const nlohmann::ordered_json*> cases;  // one per camera and viewport, with the same constants
 };
+
+// Constants are of a viewport; a shader's function has a form that takes any, and so is one for all.
+enum class LookupsOf : std::uint8_t { each_viewport, all_viewports };
 
 struct NamedStructure {
   SizedStructure structure;
@@ -24,9 +27,10 @@ struct NamedStructure {
 
 // Named by scene and grid, or (`in_full`) with method and storage, too. No two of all the names that snippets are made
 // of become the same: a number is added where they would.
-std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, bool in_full);
+std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, bool in_full, LookupsOf lookups);
 // The one structure under a name of the user's. Throws Error (where = "--name") if there are others, or if C++, HLSL or
 // GLSL would not take the name.
-std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, const std::string& name);
+std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, const std::string& name,
+                                             LookupsOf lookups);
 
 }  // namespace clusterbench::report

@@ -57,12 +57,12 @@ void give_places(std::vector<RankedPreset>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].standing != rows[part].standing) part = i;
     const bool is_priced = rows[i].standing == PresetStanding::lists || rows[i].standing == PresetStanding::searched;
-    const auto is_better = [&](const RankedPreset& other) {
-      return !is_priced || !are_alike(other.frame->cost, rows[i].frame->cost);
+    const auto is_known_better = [&](const RankedPreset& other) {
+      return is_priced ? !are_alike(other.frame->cost, rows[i].frame->cost) : is_better(other, rows[i]);
     };
     const auto first = rows.begin() + static_cast<std::ptrdiff_t>(part);
     rows[i].place =
-        1 + static_cast<int>(std::count_if(first, rows.begin() + static_cast<std::ptrdiff_t>(i), is_better));
+        1 + static_cast<int>(std::count_if(first, rows.begin() + static_cast<std::ptrdiff_t>(i), is_known_better));
   }
 }
 
@@ -169,13 +169,19 @@ std::string heading(const Json& ranking, const Json& cases) {
 
 constexpr const char* k_legend =
     "* costs the GPU least, by the key `cost`, of the lists whose samples lack at most 0.1 % of the lights that they "
-    "need, and of\nthose known by more than memory. place: 1 + how many are known to cost less: by over 5 %, and at "
-    "prices of half and twice\nthose of `cost`, too; so one that costs more can have the better place. s: samples "
-    "search the structure, ranked apart, since\nno GPU has measured what that costs. -: samples lack more lights, or "
-    "need fewer than 1000, too few to say so. gpu, upload,\nread: us of a frame by the model; lists that a GPU makes "
-    "are not uploaded, and what it pays to make them is not counted.\nlights: that a sample is given, on average. "
-    "dropped, missed: pairs that cells in view lack, seen or not; unlit: what samples lack\ndecides. assign: us of one "
-    "core here, of engines that assign on the CPU; gpu: a time here would not be the engine's.\n";
+    "need; presets\nfrom memory alone do not count. place: 1 + the number of presets "
+    "that "
+    "are clearly cheaper (by\nover 5 %, also with each price halved or doubled), so that one that costs more can have "
+    "the "
+    "better place. s: samples search the\nstructure, ranked apart, since no GPU has measured what that costs. -: "
+    "samples "
+    "lack more lights, or need fewer than 1000, too few\nto say so. gpu, upload, read: us of a frame by the model; "
+    "lists "
+    "that a GPU makes are not uploaded, and what it pays to make them\nis not counted. lights: that a sample is given, "
+    "on "
+    "average. dropped, missed: pairs that cells in view lack, seen or not; unlit:\nwhat samples lack decides. assign: "
+    "us "
+    "of one core here, of engines that assign on the CPU; gpu: a time here would not be the\nengine's.\n";
 
 }  // namespace
 

@@ -368,8 +368,8 @@ std::string preset_reason(const RankedPreset& row, const RankedPreset& first) {
   if (!row.unseen.empty()) return row.unseen + ", so not ranked: " + load_text(row) + " (" + evidence_text(row) + ")";
   const bool lacks = row.standing == PresetStanding::lacks_lights || row.standing == PresetStanding::unknown;
   if (lacks)
-    out +=
-        row.standing == PresetStanding::unknown ? "; not ranked" : "; not ranked by cost, since it shades fewer lights";
+    out += row.standing == PresetStanding::unknown ? "; not ranked"
+                                                   : "; not ranked by cost, since its samples lack lights";
   else if (&row == &first)
     out += row.standing == PresetStanding::searched ? "; costs least of those that samples search" : "; costs least";
   else if (row.place == first.place)
@@ -411,7 +411,7 @@ std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
            milliseconds(searched.front()->gpu_ns()) + " by the model";
   if (!doubt.empty()) out += "; " + doubt;
   if (const std::string far = far_text(rows); !far.empty()) out += "; " + far;
-  out += ". No surer than the model of `cost`; " + name(first) + ": " + evidence_text(first);
+  out += ". This is only as reliable as the cost model (key `cost`); " + name(first) + ": " + evidence_text(first);
   if (first.frame->has_random_depths)
     out += std::string("; depths are random, since there are no surfaces") +
            (doubt.empty() ? ": --set samples.opaque.ground=lowest takes a floor" : "");

@@ -234,20 +234,30 @@ std::vector<Ranked> ranked(const config::Config& config, const search::View& vie
   return all;
 }
 
-// The smallest of those that are not known to be worse than the best one, which is brought to the front: so neither
-// noise nor what a model cannot tell apart decides.
+// Whether one is known to be worse than another: of a cost by more than the model can tell; of times by their interval,
+// or without one by more than times usually differ by.
+bool is_known_worse(const Ranked& a, const Ranked& b, const Question& question, std::uint64_t seed) {
+  const std::optional<measure::Ratio> ratio = ratio_of(a, b, question, seed);
+  const bool has_interval = ratio && std::isfinite(ratio->ci95.low) && std::isfinite(ratio->ci95.high);
+  const double times_as_much = ratio ? ratio->ratio : a.objective / b.objective;
+  const bool is_by_ratio = question.objective.is_cost || (ratio && !has_interval);
+  if (is_by_ratio && times_as_much <= measure::k_alike_ratio) return false;
+  return has_interval ? measure::takes_longer(ratio) : a.objective > b.objective;
+}
+
+// The smallest of those that none is known to beat is brought to the front: so neither noise nor what a model cannot
+// tell apart decides.
 void choose(std::vector<Ranked>& all, const Question& question, std::uint64_t seed) {
-  if (all.empty() || !all.front().is_feasible()) return;
-  std::size_t choice = 0;
-  for (std::size_t i = 1; i < all.size() && all[i].is_feasible(); ++i) {
-    const std::optional<measure::Ratio> ratio = ratio_of(all[i], all[0], question, seed);
-    const double times_as_much = ratio ? ratio->ratio : all[i].objective / all[0].objective;
-    const bool is_alike = question.objective.is_cost && times_as_much <= measure::k_alike_ratio;
-    const bool is_no_worse = is_alike || (ratio ? !measure::takes_longer(ratio) : all[i].objective == all[0].objective);
-    if (is_no_worse && all[i].smaller() < all[choice].smaller()) choice = i;
-  }
-  std::rotate(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(choice),
-              all.begin() + static_cast<std::ptrdiff_t>(choice) + 1);
+  const auto end = std::ranges::find_if_not(all, &Ranked::is_feasible);
+  const auto is_beaten = [&](const Ranked& one) {
+    return std::any_of(all.begin(), end, [&](const Ranked& other) {
+      return &other != &one && is_known_worse(one, other, question, seed);
+    });
+  };
+  auto choice = end;
+  for (auto one = all.begin(); one != end; ++one)
+    if (!is_beaten(*one) && (choice == end || one->smaller() < choice->smaller())) choice = one;
+  if (choice != end) std::rotate(all.begin(), choice, choice + 1);
 }
 
 Json method_json(const config::MethodRequest& request) {

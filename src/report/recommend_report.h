@@ -51,7 +51,8 @@ nlohmann::ordered_json answer_to_json(const config::Config& config, const run::P
 // All answers of one configuration.
 nlohmann::ordered_json recommendation_to_json(const config::Config& config, const Question& question,
                                               const nlohmann::ordered_json& answers);
-std::string recommendation_text(const nlohmann::ordered_json& recommendation);
+// `next`: a line that stands before the conclusions, what to do with the choice; ""
+std::string recommendation_text(const nlohmann::ordered_json& recommendation, const std::string& next = "");
 // Of a search that was stopped: the candidates that were measured on the most frames and break nothing there, the best
 // first.
 std::string unfinished_text(const search::View& view, const search::Found& found, const Question& question);

@@ -143,7 +143,7 @@ std::string answer_text(const Json& answer, const Json& objective) {
       out += "-: a camera has no such samples, or too few that need a light\n";
     const Json& coarsest = answer["coarsest"];
     out += "coarsest grid within " + within_text(answer["within"].get<double>()) + " of the best: " +
-           (coarsest.is_null() ? "none other"
+           (coarsest.is_null() ? "the choice itself"
                                : shown(coarsest["name"].get<std::string>()) + ", " + coarsest["cells"].dump() +
                                      " cells, " + figure + " " + amount_text(coarsest["objective"].get<double>())) +
            "\n";
@@ -188,7 +188,7 @@ std::string unfinished_text(const search::View& view, const search::Found& found
   return out + "\n" + table_of(rows);
 }
 
-std::string recommendation_text(const Json& recommendation) {
+std::string recommendation_text(const Json& recommendation, const std::string& next) {
   const Json& objective = recommendation["objective"];
   std::string out =
       "least " + objective["figure"].get<std::string>() + ": " + objective["meaning"].get<std::string>() + "\n";
@@ -197,6 +197,7 @@ std::string recommendation_text(const Json& recommendation) {
   for (const Json& answer : recommendation["answers"])
     for (const Json& doubt : answer.value("timing_doubts", Json::array()))
       out += "warning: " + doubt.get<std::string>() + "\n";
+  out += next;
   for (const Json& answer : recommendation["answers"])
     out += "conclusion: " + answer_conclusion(answer, objective) + "\n";
   return out;

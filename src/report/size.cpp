@@ -371,8 +371,11 @@ std::string size_report(const Json& result, const SizeRequest& request) {
     return engine_settings_text({request.engine, request.has_changed_grid, rules}, all);
   }
   const std::string left_out = remark(result, chosen, count);
-  const std::vector<NamedStructure> named = request.name.empty() ? named_structures(std::move(chosen), request.all)
-                                                                 : named_structures(std::move(chosen), request.name);
+  const LookupsOf lookups =
+      request.format == "hlsl" || request.format == "glsl" ? LookupsOf::all_viewports : LookupsOf::each_viewport;
+  const std::vector<NamedStructure> named = request.name.empty()
+                                                ? named_structures(std::move(chosen), request.all, lookups)
+                                                : named_structures(std::move(chosen), request.name, lookups);
   if (request.format == "json") return size_json(named, count, request, rules);
   if (request.format == "cpp") return size_code(SizeLanguage::cpp, named, left_out, rules);
   if (request.format == "hlsl") return size_code(SizeLanguage::hlsl, named, left_out, rules);

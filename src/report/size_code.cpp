@@ -67,6 +67,11 @@ std::string cameras_text(const SizedStructure& structure) {
 
 std::string structure_comment(const SizedStructure& structure) {
   std::string out = comment_line(structure.name) + comment_line("  " + cameras_text(structure));
+  std::vector<std::string> viewports;
+  for (const Json* result_case : structure.cases)
+    if (const std::string one = viewport_text(*result_case); std::ranges::find(viewports, one) == viewports.end())
+      viewports.push_back(one);
+  if (viewports.size() > 1) out += comment_line("  viewports " + joined(viewports));
   if (!structure.choice.empty()) out += comment_line("  " + structure.choice);
   if (const std::string unseen = nothing_seen_text(structure); !unseen.empty()) out += comment_line("  " + unseen);
   for (const std::string& note : grid_notes(structure)) out += comment_line("  grid: " + note);

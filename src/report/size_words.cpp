@@ -96,7 +96,7 @@ std::string possible_text(const SizedBuffer& buffer) {
     return "not known: other frames can have more lights or cells in these lists than those that were counted";
   return std::to_string(buffer.theoretical_max) + " elements, " +
          std::to_string(buffer.theoretical_max * buffer.element_bytes) +
-         " bytes (every light in every cell): with these lights needs no check";
+         " bytes (every light in every cell): with these lights a buffer of this size needs no check";
 }
 
 // A search goes where lights are, lit or not.
@@ -115,7 +115,7 @@ std::string tried_text(const FoundFrame& found) {
 
 std::string place_text(const FoundFrame& found) {
   const auto vector = [](const std::vector<double>& v) {
-    return text("(%.4g", v[0] + 0.0) + text(", %.4g", v[1] + 0.0) + text(", %.4g)", v[2] + 0.0);  // no "-0"
+    return text("(%.7g", v[0] + 0.0) + text(", %.7g", v[1] + 0.0) + text(", %.7g)", v[2] + 0.0);  // no "-0"
   };
   if (found.eye_m.size() != 3) return "";
   return "at " + vector(found.eye_m) + " m" +

@@ -269,19 +269,21 @@ std::string sets_text(const Json& cases) {
 // Of the marks and columns that the table has.
 std::string legend(const Json& cases, const Extras& extras, RankBy by, bool has_front, bool is_complete) {
   std::string out;
-  const std::string measured = extras.times ? " (as measured)" : "";
   if (has_front)
     out += std::string("* ") + (extras.samples ? "at most 0.1 % unlit, and " : "") +
-           "no other such case of its view is better in " +
-           (by == RankBy::frame_cost ? "cost" + measured + " or bytes"
-                                     : (extras.times ? "time" + measured + ", " : "") + "bytes or overshade") +
-           " and worse in none.\n";
+           "no other case of its camera is better in one of " +
+           (by == RankBy::frame_cost ? "cost and bytes"
+            : extras.times           ? "time, bytes and overshade"
+                                     : "bytes and overshade") +
+           " and as good in the rest.\n" +
+           (extras.times ? "Times that are not known to differ count as equal.\n"
+                         : "Of cases that are equal in all, one ending in -fast has it.\n");
   if (extras.times)
     out += std::string("frame: time to make a frame's lists") + (extras.cold ? " with cold caches" : "") + ", assign" +
            (extras.conversions ? " + convert" : "") + "; ±: half of its 95 % interval" +
            (extras.launches ? " between launches" : "") + ", both sides where one is above 20 %" +
-           ".\nworst: the slowest frame that was timed (the one with most pairs always is), @ its number.\n";
-  if (extras.builds) out += "build: the grid changes between frames, and assign holds its builds.\n";
+           ".\nworst: the slowest timed frame, @ its number; the frame with most pairs is always timed.\n";
+  if (extras.builds) out += "build: preparing the method for a changed grid; it is part of assign.\n";
   if (extras.costs)
     out += std::string("cost: ") + (extras.times ? "frame, and " : "") +
            "upload, and reading and shading of the frame's samples, by the model of the key `cost`.\n";
@@ -388,7 +390,7 @@ std::string render_table(const Json& result, bool colour) {
     out += "\n";
   }
   out += legend(cases, extras, by, !on_front.empty(), is_complete);
-  if (has_alike) out += "~: may be as fast as the row above, as far as their ratio is known (`clusterbench ratio`).\n";
+  if (has_alike) out += "~: not measurably slower than the row above (`clusterbench ratio`).\n";
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
   out += skipped_text(result["skipped"]);
   return out + samples_table(result) + lookup_table(result) + stability_table(result) + fit_table(result) +

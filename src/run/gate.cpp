@@ -231,15 +231,16 @@ std::string limit_text(const CaseResult& result, const ExceededLimit& limit) {
   const PreCullCounts::Step& step = *limit.step;
   const PreCullCounts& counts = result.pre_cull->counts;
   std::string text =
-      "limit: " + number_of(static_cast<std::uint64_t>(*step.limit), "light") +
-      (step.label.ends_with(",type)") ? " of each type" : "") + (limit.is_of_view ? " in view; " : " in the scene; ") +
-      number_of(static_cast<std::uint64_t>(step.frames), "frame") + " of " + std::to_string(result.frames) +
-      (step.frames == 1 ? " has" : " have") + " more: " + std::to_string(static_cast<std::uint64_t>(step.removed.max)) +
-      " too many at most, " + number_of(counts.dropped.size(), "light") + " lost in some frame";
+      "its limit of " + number_of(static_cast<std::uint64_t>(*step.limit), "light") +
+      (step.label.ends_with(",type)") ? " of each type" : "") + (limit.is_of_view ? " in view" : " in the scene") +
+      " is exceeded in " + std::to_string(step.frames) + " of " +
+      number_of(static_cast<std::uint64_t>(result.frames), "frame") + ", by up to " +
+      std::to_string(static_cast<std::uint64_t>(step.removed.max)) + "; " + number_of(counts.dropped.size(), "light") +
+      (counts.dropped.size() == 1 ? " is" : " are") + " lost at least once";
   for (const LostAtSamples& set : counts.samples)
     if (set.is_asked && set.needed > 0 && set.lost > 0)
-      text += ", " + percent(static_cast<double>(set.lost) / static_cast<double>(set.needed)) + " of those that " +
-              needing_text(set.set);
+      text += " (" + percent(static_cast<double>(set.lost) / static_cast<double>(set.needed)) + " of the lights that " +
+              needing_text(set.set) + ")";
   return text;
 }
 

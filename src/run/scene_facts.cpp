@@ -82,7 +82,8 @@ std::string dark_lights(const SceneData& data) {
   std::string out = std::to_string(dark) + " of " + number_of(static_cast<std::size_t>(lights), "light") +
                     (dark == 1 ? " is" : " are") + " dark (intensity 0, black, or range 0); ";
   if (without_range < dark)
-    out += "lists and all figures but lights_lit and lights_seen count those with a range, engines do not";
+    out +=
+        "lists and all figures but lights_lit and lights_seen (and its mean) count those with a range, engines do not";
   if (without_range == 0) return out;
   return out + (without_range < dark ? "; " : "") + std::to_string(without_range) +
          (without_range == 1

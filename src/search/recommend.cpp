@@ -470,8 +470,10 @@ std::vector<View> views_of(const config::Config& config, const run::Plan& plan) 
       else
         ++view.incomplete;
     }
-    std::ranges::stable_sort(view.candidates, {},
-                             [](const Candidate& candidate) { return std::pair(candidate.grid, candidate.name); });
+    std::ranges::stable_sort(view.candidates, {}, [&](const Candidate& candidate) {
+      const int slowness = assign::slowness_of(config.assigners[candidate.cases.front()->assigner].name);
+      return std::tuple(candidate.grid, slowness != 1, slowness, candidate.name);
+    });
     set_apart(config, view);
     out.push_back(std::move(view));
   }

@@ -34,7 +34,7 @@ struct View {
   std::vector<std::size_t> cameras;
   std::vector<std::size_t> blind;  // cameras that are left out: no light that shines is in view in any of their frames
   std::size_t frames = 0;          // of all cameras together
-  std::vector<Candidate> candidates;  // by grid and name, whatever the order of methods
+  std::vector<Candidate> candidates;  // by grid, what is known of methods without times, and name
   std::size_t incomplete = 0;         // left out, since not every camera can have their grid
 };
 // Refers to the plan.

@@ -82,8 +82,7 @@ TEST(Conclusion, times_whose_intervals_overlap_show_no_difference_and_the_smalle
   EXPECT_EQ(conclusion["take"], "slow") << "has fewer bytes";
   EXPECT_EQ(conclusion["alike"], Json({"fast"})) << conclusion["text"];
   EXPECT_TRUE(conclusion["against"].is_null());
-  EXPECT_TRUE(has_words(conclusion, "The same as far as these times tell: frustum 64px/aabb/packed"))
-      << conclusion["text"];
+  EXPECT_TRUE(has_words(conclusion, "Not told apart by these times: frustum 64px/aabb/packed")) << conclusion["text"];
 }
 
 TEST(Conclusion, modelled_costs_within_5_percent_are_alike_and_what_leaves_nothing_unlit_is_taken) {
@@ -100,8 +99,7 @@ TEST(Conclusion, modelled_costs_within_5_percent_are_alike_and_what_leaves_nothi
   Json conclusion = only_conclusion(result);
   EXPECT_EQ(conclusion["take"], "slow") << conclusion["text"];
   EXPECT_EQ(conclusion["alike"], Json({"fast"})) << conclusion["text"];
-  EXPECT_TRUE(has_words(conclusion, "The same within 5 %, which is as far as the model tells costs apart: "))
-      << conclusion["text"];
+  EXPECT_TRUE(has_words(conclusion, "About the same cost (within 5 %): ")) << conclusion["text"];
   EXPECT_FALSE(has_words(conclusion, "lack")) << conclusion["text"];
   first.evaluated = 200000;
   conclusion = only_conclusion(result);
@@ -416,8 +414,7 @@ TEST(Conclusion, of_methods_with_the_same_lists_that_nobody_timed_the_fast_form_
   }
   result.cases[0].buffers.index_entries.high_water = 39;  // other lists
   EXPECT_TRUE(has_words(only_conclusion(result), "1 other method makes the same lists"));
-  EXPECT_TRUE(
-      has_words(only_conclusion(result), "The same as far as these figures tell: frustum 64px/brute-force/packed"));
+  EXPECT_TRUE(has_words(only_conclusion(result), "The same by these figures: frustum 64px/brute-force/packed"));
 }
 
 Json answer_by_hand(double by_choice, const Json& ci95) {
@@ -439,20 +436,33 @@ TEST(Conclusion, of_a_recommendation_names_the_choice_and_the_next_one) {
       "more (95 % interval of the times: 20 % to 30 %).");
   EXPECT_EQ(
       answer_conclusion(answer_by_hand(1.02, {0.98, 1.06}), objective),
-      "hall, 640x360: take frustum 64px/exact-fast/packed; frame_cost_us 100. The same within 5 %, which is as far "
-      "as the model tells costs apart: frustum 32px/aabb/packed.");
-  Json smallest = answer_by_hand(0.95, {0.9, 1.01});
+      "hall, 640x360: take frustum 64px/exact-fast/packed; frame_cost_us 100. About the same cost (within 5 %, or not "
+      "told apart by these times): frustum 32px/aabb/packed.");
+  Json smallest = answer_by_hand(0.96, {0.9, 1.01});
   smallest["choice"]["figures"]["bytes"] = 1000;
   smallest["runners_up"][0]["figures"]["bytes"] = 2000;
   EXPECT_NE(answer_conclusion(smallest, objective)
-                .find("; frustum 32px/aabb/packed takes 5 % less where both were measured side by side, within the "
+                .find("; frustum 32px/aabb/packed takes 4 % less where both were measured side by side, within the "
                       "5 % to which the model tells costs apart, and needs 2 kB in place of 1 kB"),
+            std::string::npos)
+      << answer_conclusion(smallest, objective);
+  // Further away, it is the interval that says so, or that there is none.
+  smallest["runners_up"][0]["by_choice"] = 0.9;
+  smallest["runners_up"][0]["ci95"] = {0.8, 1.01};
+  EXPECT_NE(answer_conclusion(smallest, objective)
+                .find("takes 10 % less where both were measured side by side, which these times do not tell from no "
+                      "difference (95 % interval: 20 % less to 1 % more), and needs 2 kB"),
+            std::string::npos)
+      << answer_conclusion(smallest, objective);
+  smallest["runners_up"][0]["ci95"] = {nullptr, nullptr};
+  EXPECT_NE(answer_conclusion(smallest, objective)
+                .find("takes 10 % less (frame_cost_us 96), which was not measured often enough to tell them apart"),
             std::string::npos)
       << answer_conclusion(smallest, objective);
   // Alike are costs within 5 % as measured side by side, though one interval is above 1 and the medians are 20 % apart.
   Json measured = answer_by_hand(1.2, {1.01, 1.06});
   measured["runners_up"][0]["by_choice"] = 1.04;
-  EXPECT_NE(answer_conclusion(measured, objective).find("The same within 5 %"), std::string::npos)
+  EXPECT_NE(answer_conclusion(measured, objective).find("About the same cost"), std::string::npos)
       << answer_conclusion(measured, objective);
   Json random = answer_by_hand(1.25, {1.2, 1.3});
   random["random_depths"] = true;
@@ -470,9 +480,9 @@ TEST(Conclusion, of_a_recommendation_something_beside_nothing_is_not_alike) {
   Json answer = answer_by_hand(1.0, nullptr);
   answer["choice"]["objective"] = 0.0;
   answer["runners_up"][0]["by_choice"] = nullptr;
-  EXPECT_EQ(answer_conclusion(answer, objective).find("The same"), std::string::npos);
+  EXPECT_EQ(answer_conclusion(answer, objective).find("The same by these figures"), std::string::npos);
   answer["runners_up"][0]["objective"] = 0.0;
-  EXPECT_NE(answer_conclusion(answer, objective).find("The same"), std::string::npos);
+  EXPECT_NE(answer_conclusion(answer, objective).find("The same by these figures"), std::string::npos);
 }
 
 TEST(Conclusion, what_draws_lights_is_not_taken_for_having_no_lists) {

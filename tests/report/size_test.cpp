@@ -170,7 +170,7 @@ TEST(Size, a_name_that_no_language_takes_or_that_several_structures_would_have_i
   for (const char* name : {"9lives", "a b", "a__b", "_a", "a_", "gl_x", "\xC3\xA9", "x;"})
     refuses(named_request(name), "is no name in C++, HLSL and GLSL alike");
   refuses(named_request(std::string(201, 'l')), "at most 200");
-  refuses(named_request("lights", "cpp", true), "these are 2; choose one of them with --filter");
+  refuses(named_request("lights", "cpp", true), "packed; choose one of them with --filter");
   refuses(named_request("lights", "table"), "a table has no names");
   EXPECT_NO_THROW(size_of(result, named_request(std::string(200, 'l'))));
 }

@@ -180,10 +180,10 @@ TEST(Gate, a_limit_is_one_of_lights_in_view_only_behind_a_cull_by_the_view) {
   cull.counts.steps[0].frames = 1;
   case_result.pre_cull = cull;
   const auto text = [&] { return warnings_of(case_result)[0].text; };
-  EXPECT_TRUE(text().starts_with("limit: 128 lights in the scene; ")) << text();
+  EXPECT_TRUE(text().starts_with("its limit of 128 lights in the scene is exceeded in ")) << text();
   case_result.pre_cull->counts.steps.insert(case_result.pre_cull->counts.steps.begin(), PreCullCounts::Step{});
   case_result.pre_cull->counts.steps[0].label = "frustum";
-  EXPECT_TRUE(text().starts_with("limit: 128 lights in view; ")) << text();
+  EXPECT_TRUE(text().starts_with("its limit of 128 lights in view is exceeded in ")) << text();
 }
 
 std::vector<Warning::Kind> warned(const CaseResult& case_result) {

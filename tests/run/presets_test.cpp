@@ -158,7 +158,8 @@ TEST(PresetRuns, lights_in_view_beyond_an_engines_limit_are_lost_and_fail_nothin
     EXPECT_TRUE(one.failures.empty()) << one.preset;
     EXPECT_EQ(limit_warning(one).empty(), beyond == 0) << one.preset;
   }
-  EXPECT_NE(limit_warning(result.cases[0]).find("limit: 255 lights in view; 1 frame of 1 has more: 45 too many"),
+  EXPECT_NE(limit_warning(result.cases[0])
+                .find("its limit of 255 lights in view is exceeded in 1 of 1 frame, by up to 45; 45 lights are lost"),
             std::string::npos)
       << limit_warning(result.cases[0]);
 }
@@ -168,9 +169,9 @@ TEST(PresetRuns, a_limit_of_each_type_is_said_to_be_one) {
   const config::Config config = preset_config(row.path(), R"(, "presets": ["godot"])");
   const Result result = preset_results(config, make_plan(config, ""));
   ASSERT_EQ(result.cases.size(), 1u);
-  EXPECT_NE(
-      limit_warning(result.cases[0]).find("limit: 512 lights of each type in view; 1 frame of 1 has more: 8 too many"),
-      std::string::npos)
+  EXPECT_NE(limit_warning(result.cases[0])
+                .find("its limit of 512 lights of each type in view is exceeded in 1 of 1 frame, by up to 8;"),
+            std::string::npos)
       << limit_warning(result.cases[0]);
 }
 

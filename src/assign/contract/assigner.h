@@ -218,6 +218,9 @@ class AssignerRegistration {
 };
 // nullptr if there is none.
 const AssignerDescriptor* find_assigner(const std::string& name);
+// Of methods that make the same lists, which is known to be slower without a time: 1 with SIMD, 2 the plain form beside
+// one with SIMD, 3 every light against every cell. 0: nothing is known, as of a name that nobody has.
+int slowness_of(const std::string& name);
 std::vector<std::string> assigner_names();
 // Those that run where nothing is named.
 std::vector<std::string> standard_assigner_names();

@@ -67,6 +67,13 @@ const AssignerDescriptor* find_assigner(const std::string& name) {
   return nullptr;
 }
 
+int slowness_of(const std::string& name) {
+  const AssignerDescriptor* assigner = find_assigner(name);
+  if (assigner != nullptr && assigner->all_pairs) return 3;
+  if (find_assigner(name + "-fast") != nullptr) return 2;
+  return name.ends_with("-fast") ? 1 : 0;
+}
+
 std::vector<std::string> assigner_names() {
   std::vector<std::string> names;
   for (const AssignerDescriptor* descriptor : assigner_descriptors()) names.push_back(descriptor->name);
