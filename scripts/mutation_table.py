@@ -802,7 +802,7 @@ MUTATIONS = [
              "report.Conclusion.is_held_against_the_cheapest_that_is_dearer_on_the_front_or_not",
              "the next best clustering is passed over, and the choice looks far better than it is"),
     Mutation("places-behind-one-leader", "report/preset_ranking.cpp",
-             "return !is_priced || !are_alike(other.frame->cost, rows[i].frame->cost);", "return true;",
+             "return is_priced ? !are_alike(other.frame->cost, rows[i].frame->cost) : is_better(other, rows[i]);", "return true;",
              "report.PresetRanking.a_place_is_behind_all_that_are_known_to_be_better_and_no_others",
              "presets that the model cannot tell apart are ranked one behind the other"),
     Mutation("few-samples-acquit-grids-that-end", "report/preset_losses.h",

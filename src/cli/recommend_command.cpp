@@ -141,10 +141,22 @@ bool check_timing(const RecommendFlags& flags, const report::Question& question,
   return true;
 }
 
+// "next: clusterbench size choice.json": what sizes the buffers of the choice, of a level over its whole paths. ""
+// where nothing is chosen, or more than one configuration holds.
+std::string next_text(const RecommendFlags& flags, const Json& recommendation) {
+  if (recommendation["answers"].size() != 1 || recommendation["answers"][0]["choice"].is_null()) return "";
+  const bool is_level = std::ranges::all_of(flags.inputs.paths, is_scene);
+  const bool is_written = !flags.written.empty() && !is_stream(flags.written);
+  std::vector<std::string> words{"clusterbench", "size", is_written ? flags.written : "choice.json"};
+  if (is_level) words.insert(words.end(), {"--set", R"(scenes.*.frames={"rate": 30})"});
+  return std::string("next: ") + (is_written ? "" : "the same with --write-config choice.json, then ") +
+         shell_command(words) + "   sizes its buffers\n";
+}
+
 ExitCode write_and_show(const RecommendFlags& flags, const Json& recommendation) {
   if (!flags.output.empty()) write_output(flags.output, recommendation);
   std::ostream& out = is_stream(flags.output) && !flags.output.empty() ? std::cerr : std::cout;
-  out << printable_lines(report::recommendation_text(recommendation)) << std::flush;
+  out << printable_lines(report::recommendation_text(recommendation, next_text(flags, recommendation))) << std::flush;
   return report::all_satisfied(recommendation) ? ExitCode::ok : ExitCode::gate_failed;
 }
 

@@ -355,21 +355,21 @@ void show_table(const RunFlags& flags, const Json& result) {
   if (for_reading) tell_of_keeping();
 }
 
-// "next: clusterbench size result.json --filter '...'": what sizes the buffers of what is taken, from the result where
-// a file keeps it, else from the same scenes. "" where nothing is taken.
+// "next: clusterbench size level.glb --filter '...'": what sizes the buffers of what is taken, from the same scenes, of
+// which it counts more frames; from the result where they came through a pipe. "" where nothing is taken.
 std::string next_text(const RunFlags& flags, const Json& result) {
   const std::vector<std::string> taken = report::taken_names(result);
   if (taken.empty()) return "";
   std::vector<std::string> words{"clusterbench", "size"};
-  const bool is_kept = !is_stream(flags.output);
-  if (is_kept)
+  const bool is_of_result = !is_stream(flags.output) && std::ranges::any_of(flags.inputs.paths, is_stream);
+  if (is_of_result)
     words.push_back(flags.output);
   else
     words.insert(words.end(), flags.inputs.paths.begin(), flags.inputs.paths.end());
   for (const config::FlagValue& setting : flag_values(flags.inputs))
-    if (!is_kept && setting.name != "--fail-if" && setting.name != "--launches" && setting.name != "--rounds")
+    if (!is_of_result && setting.name != "--fail-if" && setting.name != "--launches" && setting.name != "--rounds")
       words.push_back(setting.text());
-  if (!is_kept || taken.size() == 1) words.insert(words.end(), {"--filter", taken.front()});
+  if (!is_of_result || taken.size() == 1) words.insert(words.end(), {"--filter", taken.front()});
   return "next: " + shell_command(words) + "   sizes its buffers\n";
 }
 
