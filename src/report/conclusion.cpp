@@ -439,7 +439,7 @@ bool is_like_choice(const Json& record, const Json& objective) {
   if (!by) return number_at(record, "/objective").value_or(0.0) <= 0.0;  // beside a choice of nothing there is no ratio
   if (is_cost(objective) && *by <= measure::k_alike_ratio) return true;
   if (const measure::Interval interval = interval_at(record, "/ci95"); interval.is_known()) return interval.low <= 1.0;
-  return *by <= (record.contains("ci95") ? measure::k_alike_ratio : 1.0);
+  return *by <= (objective["timed"] == true ? measure::k_alike_ratio : 1.0);
 }
 
 std::string beside_choice_text(const Json& record) {

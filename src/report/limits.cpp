@@ -243,14 +243,29 @@ class RuleCheck {
 
   void check_values() {
     std::vector<std::string> without;
-    for (const Json* result_case : cases_) {
-      const std::optional<Found> found = found_in(*result_case, rule_.figure);
-      if (!found)
-        without.push_back((*result_case)["name"].get<std::string>());
-      else
-        judge(*result_case, rule_.is_broken_by(found->value()), found->value(), is_text(rule_, *found));
-    }
+    for (const Json* result_case : cases_)
+      for (const std::string& figure : figures_of(*result_case)) {
+        const std::optional<Found> found = found_in(*result_case, figure);
+        if (!found)
+          add_name(*result_case, without);
+        else
+          judge(*result_case, rule_.is_broken_by(found->value()), found->value(), is_text(rule_, *found));
+      }
     add_without(without);
+  }
+
+  static void add_name(const Json& result_case, std::vector<std::string>& names) {
+    if (const auto name = result_case["name"].get<std::string>(); names.empty() || names.back() != name)
+      names.push_back(name);
+  }
+
+  // Of lights needed at several sets each by itself: what one of them has lost the largest one would hide.
+  std::vector<std::string> figures_of(const Json& result_case) const {
+    const std::vector<std::string> sets = ranking_set_names(result_case);
+    if (rule_.figure != "needed" || sets.size() < 2) return {rule_.figure};
+    std::vector<std::string> figures;
+    for (const std::string& set : sets) figures.push_back(set + ".needed");
+    return figures;
   }
 
   // Whoever names cases means them; a budget of all is held against those that can have the figure.
@@ -274,19 +289,22 @@ class RuleCheck {
     for (const Json* result_case : cases_) {
       const std::string name = (*result_case)["name"].get<std::string>();
       const Json* before = baseline_->case_of(*result_case);
-      const std::optional<Found> now = found_in(*result_case, rule_.figure);
-      const std::optional<Found> then = before == nullptr ? std::nullopt : found_in(*before, rule_.figure);
-      const std::string why = is_instructions() ? baseline_->obstacle_to_instructions(*result_case) : "";
-      if (before == nullptr)
+      if (before == nullptr) {
         not_in_base.push_back(name);
-      else if (!now || !then)
-        without.push_back(name);
-      else if (!why.empty())
-        obstacle = why;
-      else if (now->samples != then->samples)
-        add_other_samples(name, *now, *then);
-      else
-        judge_change(*result_case, *now, *then);
+        continue;
+      }
+      const std::string why = is_instructions() ? baseline_->obstacle_to_instructions(*result_case) : "";
+      for (const std::string& figure : figures_of(*result_case)) {
+        const std::optional<Found> now = found_in(*result_case, figure), then = found_in(*before, figure);
+        if (!now || !then)
+          add_name(*result_case, without);
+        else if (!why.empty())
+          obstacle = why;
+        else if (now->samples != then->samples)
+          add_other_samples(name, *now, *then);
+        else
+          judge_change(*result_case, *now, *then);
+      }
     }
     add_unmatched(not_in_base, without, obstacle);
   }

@@ -89,6 +89,11 @@ std::string code_of_viewport(const Json& grid, const std::string& slice) {
          count + ";\n}\n" + k_screen_start_of_viewport + slice + end;
 }
 
+// Cubical cells are as deep as they are wide on the screen, and so of one viewport.
+bool are_slices_of_viewport(const Json& grid) {
+  return grid["slices"]["scheme"].get<std::string>().starts_with("cubical");
+}
+
 std::string screen_code(const Json& grid) {
   const std::string form = grid["slices"]["lookup"]["form"].get<std::string>();
   const bool by_distance = grid["kind"] == "distance";
@@ -98,7 +103,7 @@ std::string screen_code(const Json& grid) {
   return std::string("// pixel: from the top left (OpenGL's gl_FragCoord: from the bottom), centres at .5; along: ") +
          (by_distance ? "length(view)" : "depth, -view.z") +
          ", in metres. -1: beside the picture, beyond the last slice\n" + k_screen_start + slice + k_screen_end +
-         code_of_viewport(grid, slice);
+         (are_slices_of_viewport(grid) ? "" : code_of_viewport(grid, slice));
 }
 
 bool has(const std::vector<LookupConstant>& constants, const char* name) {

@@ -15,7 +15,8 @@ namespace clusterbench::report {
 //   cascades: the sample in view space
 //   world: the sample in the world, relative to the grid's origin
 // and gives -1 outside of the grid. The first two have another form with the viewport as a last argument, and
-// `ivec2 NAME_tiles_of(vec2 viewport)`. As the tool's own lookup, but for the logarithm, which is the shader's.
+// `ivec2 NAME_tiles_of(vec2 viewport)`, but for cubical cells, whose slices depend on the viewport. As the tool's own
+// lookup, but for the logarithm, which is the shader's.
 std::string lookup_function_hlsl(const std::string& name, const nlohmann::ordered_json& result_case);
 std::string lookup_function_glsl(const std::string& name, const nlohmann::ordered_json& result_case);
 

@@ -33,16 +33,20 @@ std::string identifier(const std::string& name) {
   return is_reserved || std::isdigit(static_cast<unsigned char>(id.front())) != 0 ? "case_" + id : id;
 }
 
-// What tells two lookups apart.
+// What tells two lookups apart. A function that takes the viewport is the same for all, and what a program sets in each
+// frame is no difference.
 Json lookup_key(const Json& result_case, LookupsOf lookups) {
-  Json constants = lookup_json(lookup_constants(result_case));
-  const bool takes_viewports =
-      result_case["grid"].contains("tiles") && !lookup_function_glsl("lookup", result_case).empty();
-  if (lookups == LookupsOf::all_viewports && takes_viewports) {
-    for (const char* name : {"viewport", "tile_scale"}) constants.erase(name);
-    constants["cells"] = result_case["grid"]["cells"].back();  // slices
+  std::vector<LookupConstant> constants = lookup_constants(result_case);
+  const std::string name = "lookup";
+  if (lookups == LookupsOf::all_viewports &&
+      lookup_function_glsl(name, result_case).find(name + "_tiles_of(") != std::string::npos) {
+    std::erase_if(constants, [](const LookupConstant& constant) {
+      return constant.name == "viewport" || constant.name == "tile_scale" || constant.name == "cells" ||
+             constant.changes;
+    });
+    constants.push_back({"slices", LookupConstant::Type::integer, {result_case["grid"]["cells"].back().get<double>()}});
   }
-  return {lookup_note(result_case), constants};
+  return {lookup_note(result_case), lookup_json(constants)};
 }
 
 // Cases of cameras whose lookups are the same, the first camera's first.

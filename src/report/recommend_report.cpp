@@ -240,7 +240,7 @@ bool is_known_worse(const Ranked& a, const Ranked& b, const Question& question, 
   const std::optional<measure::Ratio> ratio = ratio_of(a, b, question, seed);
   const bool has_interval = ratio && std::isfinite(ratio->ci95.low) && std::isfinite(ratio->ci95.high);
   const double times_as_much = ratio ? ratio->ratio : a.objective / b.objective;
-  const bool is_by_ratio = question.objective.is_cost || (ratio && !has_interval);
+  const bool is_by_ratio = question.objective.is_cost || (question.objective.is_timed && !has_interval);
   if (is_by_ratio && times_as_much <= measure::k_alike_ratio) return false;
   return has_interval ? measure::takes_longer(ratio) : a.objective > b.objective;
 }

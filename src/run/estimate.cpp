@@ -53,16 +53,18 @@ double timing_ns(const config::Config& config, const GroupPlan& group, const Pat
     TimedWork work(config, group, method, middle_frame);
     const double build = duration_ns([&] { work.build(); }), assign = duration_ns([&] { work.assign(); });
     double start = build + (frames + 1.0) * assign, warm = build + frames * assign + std::max(min_ns, frames * assign);
-    double converts = 0.0;
+    double converts = 0.0, cold_frames = 1.0;
     for (std::size_t store = 0; work.converts() && store < work.case_indices().size(); ++store) {
       const double convert = duration_ns([&] { work.convert(store); });
       warm += 2.0 * std::max(min_ns / 10.0, frames * convert);
       converts += convert;
+      cold_frames = static_cast<double>(store) + 1.0;  // each storage has its own
     }
     warm += min_ns / 10.0;  // the copy of the lists
     if (!config.timing.cold) warm += std::max(min_ns / 10.0, frames * (assign + converts));
     constexpr double k_cold_by_warm = 2.0;
-    const double swept = (frames + 1.0) * (sweep_ns + k_cold_by_warm * (assign + converts));
+    const double swept =
+        (frames + 1.0) * (cold_frames * (sweep_ns + k_cold_by_warm * assign) + k_cold_by_warm * converts);
     all += launches * (start + warm_rounds * warm + cold * swept);
   }
   return all;

@@ -132,8 +132,12 @@ struct Extent {
 };
 
 Extent light_positions(const Scene& scene) {
+  const std::vector<WorldLight> lights = world_lights(scene, 0.0);
+  const auto reaches = [](const WorldLight& light) { return light.range_m > 0.0; };
+  const bool reaches_any = std::ranges::any_of(lights, reaches);  // what reaches nothing is nothing to walk around
   Extent extent;
-  for (const WorldLight& light : world_lights(scene, 0.0)) {
+  for (const WorldLight& light : lights) {
+    if (reaches_any && !reaches(light)) continue;
     extent.lo = glm::min(extent.lo, light.position);
     extent.hi = glm::max(extent.hi, light.position);
   }

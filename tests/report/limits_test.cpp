@@ -135,6 +135,10 @@ TEST(Limits, samples_that_no_light_reaches_need_none) {
   EXPECT_EQ(findings_of("opaque.needed < 0.5", unlit).broken.size(), 1u);
   EXPECT_EQ(findings_of("opaque.needed == 0", unlit).broken.size(), 1u);
   EXPECT_EQ(findings_of("opaque.needed > 0.5", unlit).broken, Lines{});
+  unlit["cost"] = {{"sets", {{"opaque", Json::object()}, {"fog", Json::object()}}}, {"lit", true}};
+  unlit["samples"]["fog"] = {{"samples", 100}, {"missed", 0}, {"needed", 900}, {"lost_irradiance", 0}};
+  EXPECT_EQ(findings_of("needed < 0.5", unlit).broken.size(), 1u) << "fog does not make up for surfaces";
+  EXPECT_EQ(findings_of("needed < 10", unlit).broken.size(), 2u);
   Json lit = case_with_budget_figures();
   lit["samples"]["opaque"] = {{"samples", 440}, {"missed", 0}, {"needed", 476}, {"lost_irradiance", 0}};
   EXPECT_EQ(findings_of("opaque.needed < 0.5", lit).broken, Lines{});

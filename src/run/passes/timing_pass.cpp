@@ -80,31 +80,22 @@ class TimingTrack {
           frame_by_frame([this, store](std::size_t frame) { work_.convert_frame(store, frame); }));
   }
 
-  // Each frame once after `sweep`. Of several storages each finds its own buffers cold and the lists as the assignment
-  // leaves them, as the first one does.
+  // Each frame once after `sweep`. Of several storages each has a frame of its own: it finds its buffers cold, and the
+  // lists as the assignment has just left them, which the conversion before would have warmed.
   void cold_frames(const std::function<void()>& sweep) {
-    EachFrame& assigned = samples_.cold_each.emplace_back();
+    samples_.cold_each.emplace_back();
     if (work_.culls()) samples_.cull_cold_each.emplace_back();
     for (StoreSamples& store : samples_.stores) store.cold_each.emplace_back();
     for (std::size_t frame = 0; frame < samples_.frames.size(); ++frame) {
       if (frame >= samples_.mean_frames) work_.prepare_frame(frame);
-      sweep();
-      wall_ns();  // the clock's own memory is warm
-      double before = wall_ns();
-      if (work_.culls()) {
-        work_.cull_frame(frame);
-        const double culled = wall_ns();
-        samples_.cull_cold_each.back().push_back(culled - before);
-        before = culled;
-      }
-      work_.assign_frame(frame);
-      double now = wall_ns();
-      assigned.push_back(now - before);
-      for (std::size_t store = 0; store < samples_.stores.size(); ++store) {
-        before = wall_ns();
+      for (std::size_t store = 0; store == 0 || store < samples_.stores.size(); ++store) {
+        const ColdLists lists = cold_lists(frame, sweep);
+        if (store == 0 && work_.culls()) samples_.cull_cold_each.back().push_back(lists.cull_ns);
+        if (store == 0) samples_.cold_each.back().push_back(lists.assign_ns);
+        if (samples_.stores.empty()) continue;
+        const double before = wall_ns();
         work_.convert_frame(store, frame);
-        now = wall_ns();
-        samples_.stores[store].cold_each.back().push_back(now - before);
+        samples_.stores[store].cold_each.back().push_back(wall_ns() - before);
       }
     }
   }
@@ -112,6 +103,25 @@ class TimingTrack {
   const MethodSamples& samples() const { return samples_; }
 
  private:
+  struct ColdLists {
+    double cull_ns = 0.0, assign_ns = 0.0;
+  };
+  ColdLists cold_lists(std::size_t frame, const std::function<void()>& sweep) {
+    ColdLists out;
+    sweep();
+    wall_ns();  // the clock's own memory is warm
+    double before = wall_ns();
+    if (work_.culls()) {
+      work_.cull_frame(frame);
+      const double culled = wall_ns();
+      out.cull_ns = culled - before;
+      before = culled;
+    }
+    work_.assign_frame(frame);
+    out.assign_ns = wall_ns() - before;
+    return out;
+  }
+
   // In lists, or in the cells of a structure; none without cells, or with more than can be expanded.
   std::vector<std::uint64_t> pairs_of_frames() const {
     std::vector<std::uint64_t> pairs;
