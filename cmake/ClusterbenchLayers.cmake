@@ -28,21 +28,24 @@ function(clusterbench_unite TARGET)
   endif()
 endfunction()
 
-# Layers of many small files parse these once for all of them: it saves a quarter of their time. Where files are united it
-# saves little, and of sums of texts g++ 12 warns as if the library were our own (PR 105651). What a file needs it includes
-# all the same: scripts/check_style compiles without.
-set(CLUSTERBENCH_PRECOMPILED_LAYERS core geom view depth assign measure)
-file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp.new "")
-file(COPY_FILE ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp.new ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp ONLY_IF_DIFFERENT)
-add_library(clusterbench_precompiled OBJECT EXCLUDE_FROM_ALL ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp)
-target_link_libraries(clusterbench_precompiled PRIVATE clusterbench_flags)
-target_precompile_headers(clusterbench_precompiled PRIVATE <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map>
-  <memory> <optional> <span> <string> <string_view> <utility> <variant> <vector> <glm/glm.hpp>)
-set(CLUSTERBENCH_PCH_OPTIONS "")
+# With g++, layers of many small files parse these once for all of them: it saves a quarter of their time. Where files are
+# united it saves little, and of sums of texts g++ 12 warns as if the library were our own (PR 105651); clang takes no headers
+# that were parsed with other options (functions of assign are aligned). What a file needs it includes all the same:
+# clang and scripts/check_style compile without.
+set(CLUSTERBENCH_PRECOMPILED_LAYERS "")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  set(CLUSTERBENCH_PCH_OPTIONS -fpch-preprocess) # ccache asks for it
+  set(CLUSTERBENCH_PRECOMPILED_LAYERS core geom view depth assign measure)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+    list(REMOVE_ITEM CLUSTERBENCH_PRECOMPILED_LAYERS assign) # it is built for another processor (CMakeLists.txt)
+  endif()
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp.new "")
+  file(COPY_FILE ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp.new ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp ONLY_IF_DIFFERENT)
+  add_library(clusterbench_precompiled OBJECT EXCLUDE_FROM_ALL ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp)
+  target_link_libraries(clusterbench_precompiled PRIVATE clusterbench_flags)
+  target_compile_options(clusterbench_precompiled PRIVATE -fpch-preprocess)
+  target_precompile_headers(clusterbench_precompiled PRIVATE <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map>
+    <memory> <optional> <span> <string> <string_view> <utility> <variant> <vector> <glm/glm.hpp>)
 endif()
-target_compile_options(clusterbench_precompiled PRIVATE ${CLUSTERBENCH_PCH_OPTIONS})
 
 set(CLUSTERBENCH_ABOVE "")
 
@@ -76,7 +79,7 @@ macro(clusterbench_layer NAME)
     clusterbench_unite(cb_${NAME})
   elseif(${NAME} IN_LIST CLUSTERBENCH_PRECOMPILED_LAYERS)
     target_precompile_headers(cb_${NAME} REUSE_FROM clusterbench_precompiled)
-    target_compile_options(cb_${NAME} PRIVATE ${CLUSTERBENCH_PCH_OPTIONS})
+    target_compile_options(cb_${NAME} PRIVATE -fpch-preprocess) # ccache asks for it
   endif()
   target_link_libraries(cb_${NAME} PUBLIC clusterbench_flags ${CLUSTERBENCH_ABOVE} ${LAYER_LINK})
   list(PREPEND CLUSTERBENCH_ABOVE cb_${NAME})
