@@ -100,21 +100,19 @@ TEST(Recommend, ranks_what_samples_search_apart_and_never_takes_it_while_there_a
   }
 }
 
-// By name aabb-fast comes first, by configuration brute-force, which takes some twenty times as long.
+// Candidates are sorted, launches have the configuration's order: aabb-fast is last there, and planes takes three times
+// as long.
 TEST(Recommend, gives_each_candidate_the_times_of_its_own_in_several_launches) {
   std::string config = space();
   const std::string methods = R"("aabb-fast", "exact-fast", "world-grid-fast")";
-  config.replace(config.find(methods), methods.size(), R"("brute-force", "bvh", "aabb-fast")");
-  const Recommended found = recommended(config, "--tiles 32 --slices 8 --by frame_us --grid frustum --runners-up 20");
+  config.replace(config.find(methods), methods.size(), R"("planes", "aabb-fast")");
+  const Recommended found =
+      recommended(config, "--tiles 32 --slices 8 --scheme exponential --by frame_us --grid frustum");
   ASSERT_EQ(found.outcome.code, 0) << found.outcome.err;
-  double fast = 0.0, brute = 0.0;
-  std::vector<Json> records{found.answer["choice"]};
-  for (const Json& record : found.answer["runners_up"]) records.push_back(record);
-  for (const Json& record : records)
-    (record["assigner"]["name"] == "brute-force" ? brute : fast) = record["figures"]["frame_us"];
-  ASSERT_GT(brute, 0.0);
-  EXPECT_EQ(found.answer["choice"]["assigner"]["name"], "aabb-fast");
-  EXPECT_LT(fast, brute);
+  EXPECT_EQ(found.answer["choice"]["assigner"]["name"], "aabb-fast") << found.outcome.out;
+  std::set<std::string> behind;
+  for (const Json& record : found.answer["runners_up"]) behind.insert(record["assigner"]["name"]);
+  EXPECT_TRUE(behind.contains("planes")) << found.outcome.out;
 }
 
 TEST(Recommend, says_which_command_sizes_the_choice) {
