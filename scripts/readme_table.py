@@ -45,7 +45,7 @@ def best_of_grids(result):
 
 
 def grids(result):
-    rows = ["| grid | fastest method with lists | µs to make the lists | overshade | unlit | kB to allocate |",
+    rows = ["| grid | fastest method with lists | µs to make the lists | overshade | unlit | kB with reserve |",
             "|---|---|---:|---:|---:|---:|"]
     for case in best_of_grids(result):
         size = case["buffers"]["bytes"]["recommended"] / 1e3
@@ -129,13 +129,12 @@ def headline(quick, street):
     levels = NUMBERS[len({case["scene"] for case, _ in many})]
     slices = sorted({case["grid"]["cells"][2] for case, _ in many})
     counts = ' or '.join(str(count) for count in slices)
-    text = (f"**With {counts} slices, exact lists take about as long as those of box tests.** On the {levels} levels of the "
-            f"picture, in grids of {counts} slices, `exact-fast` has no false positives. It takes "
-            f"{span(times_as_long(many_slices(boxes)), '.2f')} times as long as `aabb-fast` (sphere against the cell's box), "
-            f"which has {span(excess_percent(many_slices(boxes)), '.0f')} % false positives, and "
-            f"{span(times_as_long(many_slices(loose)), '.2f')} times as long as `bounds-fast` (the light's extents on the "
-            f"screen and in depth), which has {span(excess_percent(many_slices(loose)), '.0f')} %. With 1 to 4 slices it "
-            f"takes {span(times_as_long(few_slices(loose + boxes)), '.0f')} times as long as either.")
+    text = (f"**With {counts} slices, exact lists take little longer than loose ones.** On the {levels} levels of the picture, in "
+            f"grids of {counts} slices, `exact-fast` (no false positives) takes {span(times_as_long(many_slices(boxes)), '.2f')} "
+            f"times as long as `aabb-fast` (sphere against the cell's box; {span(excess_percent(many_slices(boxes)), '.0f')} % false "
+            f"positives), and {span(times_as_long(many_slices(loose)), '.2f')} times as long as `bounds-fast` (the light's extents "
+            f"on the screen and in depth; {span(excess_percent(many_slices(loose)), '.0f')} %). With 1 to 4 slices it takes "
+            f"{span(times_as_long(few_slices(loose + boxes)), '.0f')} times as long as either.")
     return textwrap.fill(text, 130, break_on_hyphens=False)
 
 
