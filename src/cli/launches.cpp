@@ -98,28 +98,12 @@ GroupSamples group_samples(const Json& json) {
   return group;
 }
 
-// A case that several scenes have is told apart by a number behind its hash; a launch has one scene and no such
-// numbers.
 std::string hash_of(const std::string& id) {
   return id.substr(0, id.find('-'));
 }
 
-// The group of these cases and no others, in this order: samples are told apart by their places.
-run::GroupPlan group_of(const run::Plan& plan, const std::vector<std::string>& ids) {
-  const auto place = [&](const run::CasePlan& case_plan) {
-    return std::ranges::find(ids, hash_of(case_plan.id), hash_of) - ids.begin();
-  };
-  for (run::GroupPlan group : plan.groups) {
-    std::erase_if(group.cases, [&](const run::CasePlan& one) { return place(one) == std::ssize(ids); });
-    if (group.cases.empty() || group.cases.size() != ids.size()) continue;
-    std::ranges::stable_sort(group.cases, {}, place);
-    return group;
-  }
-  throw Error("", k_serve_launch, "has no group with the cases that are asked for", ExitCode::internal);
-}
-
 GroupSamples measured(const config::Config& config, const run::Plan& plan, const Json& request) {
-  const run::GroupPlan group = group_of(plan, request.at("ids"));
+  const run::GroupPlan group = group_to_measure(plan, request.at("ids"));
   const run::PathFrames path = run::path_of(config, plan, group);
   const std::atomic<bool> stop{false};
   return run::measure_launch(
@@ -179,6 +163,19 @@ class Launch {
 };
 
 }  // namespace
+
+run::GroupPlan group_to_measure(const run::Plan& plan, const std::vector<std::string>& ids) {
+  const auto place = [&](const run::CasePlan& case_plan) {
+    return std::ranges::find(ids, hash_of(case_plan.id), hash_of) - ids.begin();
+  };
+  for (run::GroupPlan group : plan.groups) {
+    std::erase_if(group.cases, [&](const run::CasePlan& one) { return place(one) == std::ssize(ids); });
+    if (group.cases.empty() || group.cases.size() != ids.size()) continue;
+    std::ranges::stable_sort(group.cases, {}, place);
+    return group;
+  }
+  throw Error("", k_serve_launch, "has no group with the cases that are asked for", ExitCode::internal);
+}
 
 void serve_launch(const config::Config& config, const run::Plan& plan) {
   std::cout << k_ready << std::endl;

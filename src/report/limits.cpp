@@ -243,29 +243,28 @@ class RuleCheck {
 
   void check_values() {
     std::vector<std::string> without;
-    for (const Json* result_case : cases_)
-      for (const std::string& figure : figures_of(*result_case)) {
-        const std::optional<Found> found = found_in(*result_case, figure);
-        if (!found)
-          add_name(*result_case, without);
-        else
+    for (const Json* result_case : cases_) {
+      bool has_none = true;
+      for (const std::string& figure : figures_of({result_case}))
+        if (const std::optional<Found> found = found_in(*result_case, figure)) {
+          has_none = false;
           judge(*result_case, rule_.is_broken_by(found->value()), found->value(), is_text(rule_, *found));
-      }
+        }
+      if (has_none) without.push_back((*result_case)["name"].get<std::string>());
+    }
     add_without(without);
   }
 
-  static void add_name(const Json& result_case, std::vector<std::string>& names) {
-    if (const auto name = result_case["name"].get<std::string>(); names.empty() || names.back() != name)
-      names.push_back(name);
-  }
-
-  // Of lights needed at several sets each by itself: what one of them has lost the largest one would hide.
-  std::vector<std::string> figures_of(const Json& result_case) const {
-    const std::vector<std::string> sets = ranking_set_names(result_case);
-    if (rule_.figure != "needed" || sets.size() < 2) return {rule_.figure};
+  // Of lights needed at several sets each by itself: what one of them has lost the largest one would hide. Sets of now
+  // and before.
+  std::vector<std::string> figures_of(const std::vector<const Json*>& cases) const {
+    if (rule_.figure != "needed") return {rule_.figure};
     std::vector<std::string> figures;
-    for (const std::string& set : sets) figures.push_back(set + ".needed");
-    return figures;
+    for (const Json* result_case : cases)
+      for (const std::string& set : ranking_set_names(*result_case))
+        if (const std::string figure = set + ".needed"; std::ranges::find(figures, figure) == figures.end())
+          figures.push_back(figure);
+    return figures.size() > 1 ? figures : std::vector{rule_.figure};
   }
 
   // Whoever names cases means them; a budget of all is held against those that can have the figure.
@@ -294,10 +293,12 @@ class RuleCheck {
         continue;
       }
       const std::string why = is_instructions() ? baseline_->obstacle_to_instructions(*result_case) : "";
-      for (const std::string& figure : figures_of(*result_case)) {
+      bool has_none = true, lacks_one = false;
+      for (const std::string& figure : figures_of({result_case, before})) {
         const std::optional<Found> now = found_in(*result_case, figure), then = found_in(*before, figure);
+        has_none = has_none && !now && !then;
         if (!now || !then)
-          add_name(*result_case, without);
+          lacks_one = lacks_one || now || then;
         else if (!why.empty())
           obstacle = why;
         else if (now->samples != then->samples)
@@ -305,6 +306,7 @@ class RuleCheck {
         else
           judge_change(*result_case, *now, *then);
       }
+      if (has_none || lacks_one) without.push_back(name);
     }
     add_unmatched(not_in_base, without, obstacle);
   }

@@ -83,7 +83,7 @@ double lowest_height(const SceneData& data) {
     for (const scene::Shot& shot : path.shots) {
       lowest_m = std::min(lowest_m, shot.pose.eye.y - k_eye_height_m);
       for (const scene::WorldLight& light : scene::world_lights(data.scene, shot.time_s))
-        lowest_m = std::min(lowest_m, light.position.y);
+        if (light.range_m > 0.0) lowest_m = std::min(lowest_m, light.position.y);
     }
   return lowest_m;
 }

@@ -43,6 +43,8 @@ class LightRig {
   std::size_t own_lights() const { return own_; }
   const Vec3d& position(std::size_t moment, std::size_t light) const { return states_[moment][light].position; }
 
+  bool reaches_something(std::size_t moment, std::size_t light) const { return states_[moment][light].range_m > 0.0; }
+
   // A scene with room for so many frames; set_frame() fills them. The name of its camera is `worst-case`.
   scene::Scene scene(std::size_t frames, const scene::CameraProjection& projection) const;
   void set_frame(scene::Scene& scene, std::size_t frame, const FrameChoice& choice) const;

@@ -99,7 +99,8 @@ Box box_of(const LightRig& rig, const scene::CameraPath& path) {
   Box box{path.shots.front().pose.eye, path.shots.front().pose.eye};
   for (const scene::Shot& shot : path.shots) box.add(shot.pose.eye);
   for (std::size_t moment = 0; moment < rig.moments(); ++moment)
-    for (std::size_t light = 0; light < rig.own_lights(); ++light) box.add(rig.position(moment, light));
+    for (std::size_t light = 0; light < rig.own_lights(); ++light)
+      if (rig.reaches_something(moment, light)) box.add(rig.position(moment, light));
   return box;
 }
 

@@ -20,11 +20,11 @@ std::string dark_level(int lit_behind = 0) {
   return level_of(lamps);
 }
 
-void add_lamp(nlohmann::json& level, const nlohmann::json& light, double x_m, double z_m) {
+void add_lamp(nlohmann::json& level, const nlohmann::json& light, double x_m, double z_m, double y_m = 0.0) {
   nlohmann::json& lights = level["extensions"]["KHR_lights_punctual"]["lights"];
   level["scenes"][0]["nodes"].push_back(level["nodes"].size());
   level["nodes"].push_back(
-      {{"translation", {x_m, 0.0, z_m}}, {"extensions", {{"KHR_lights_punctual", {{"light", lights.size()}}}}}});
+      {{"translation", {x_m, y_m, z_m}}, {"extensions", {{"KHR_lights_punctual", {{"light", lights.size()}}}}}});
   lights.push_back(light);
 }
 
@@ -71,30 +71,48 @@ TEST(DarkLights, without_a_range_are_said_to_be_in_no_list) {
   EXPECT_EQ(size.err.find("are dark"), size.err.rfind("are dark")) << "once: " << size.err;
 }
 
-// They reach nothing: neither where a grid ends nor where samples lie goes by them, so that nothing else changes.
-TEST(DarkLights, without_a_range_change_no_figure_of_others) {
+// A level of lamps that shine, with a camera that has a far plane or none, or without a camera: a walk around the
+// lights.
+nlohmann::json random_lit_level(SplitMix64& random) {
+  nlohmann::json level = nlohmann::json::parse(level_of({}, random.below(2) == 0));
+  level["extensionsUsed"] = {"KHR_lights_punctual"};
+  if (random.below(3) == 0) level["nodes"][0].erase("camera");
+  for (std::uint64_t i = 0, count = 1 + random.below(12); i < count; ++i)
+    add_lamp(level, {{"type", "point"}, {"intensity", 10.0}, {"range", random.between(0.5, 4.0)}},
+             random.between(-3.0, 3.0), random.between(-12.0, 2.0));
+  return level;
+}
+
+// They reach nothing: neither where a grid ends, nor where samples lie, nor what is taken goes by them.
+TEST(DarkLights, without_a_range_change_nothing_wherever_they_are) {
   const Folder folder;
-  nlohmann::json level = nlohmann::json::parse(level_of(row_of(8, -1.0, 0)));
   const auto figures = [&](const nlohmann::json& of) {
     const std::string result = (folder / "result.json").string();
     const Outcome run = tool("run " + folder.write("level.gltf", of.dump()).string() +
-                             " --viewport 320x180 --grid frustum,world --tiles 64 --slices 8 --assigner "
-                             "exact-fast,world-grid-fast --no-timing -q -o " +
+                             " --viewport 320x180 --grid frustum,distance,cascades,world --tiles 64 --slices 1,8 "
+                             "--assigner exact-fast,distance-fast,cascades-fast,world-grid-fast --no-timing -q "
+                             "--set samples.opaque.ground=lowest -o " +
                              result);
     EXPECT_EQ(run.code, 0) << run.err;
-    nlohmann::json cases = nlohmann::json::parse(file_text(result))["cases"];
-    nlohmann::json out = nlohmann::json::array();
-    for (const nlohmann::json& one : cases)
+    const nlohmann::json read = nlohmann::json::parse(file_text(result));
+    nlohmann::json out = nlohmann::json::array({read["conclusions"][0]["text"]});
+    for (const nlohmann::json& one : read["cases"])
       out.push_back({one["name"], one["grid"], one["occupancy"], one["buffers"]["index_entries"]["high_water"],
-                     one["error"]["false_positives"], one["shading"]["needed"], one["shading"]["evaluated"]});
+                     one["error"]["false_positives"], one["shading"]["needed"], one["shading"]["evaluated"],
+                     one["samples"]});
     return out;
   };
-  nlohmann::json without_camera = level;
-  without_camera["nodes"][0].erase("camera");  // a walk around the lights
-  for (nlohmann::json of : {level, without_camera}) {
-    const nlohmann::json without = figures(of);
-    add_lamp(of, {{"type", "point"}, {"intensity", 0.0}}, 700.0, -900.0);
-    EXPECT_EQ(figures(of), without);
+  SplitMix64 random(900);
+  for (int draw = 0; draw < tries(24); ++draw) {
+    SCOPED_TRACE("draw " + std::to_string(draw));
+    nlohmann::json level = random_lit_level(random);
+    const nlohmann::json without = figures(level);
+    for (std::uint64_t i = 0, count = 1 + random.below(3); i < count; ++i) {
+      const double far_m = random.below(2) == 0 ? 10.0 : 2000.0;
+      add_lamp(level, {{"type", "point"}, {"intensity", 0.0}}, random.between(-far_m, far_m),
+               random.between(-far_m, far_m), random.between(-far_m, far_m));
+    }
+    EXPECT_EQ(figures(level), without) << level;
   }
 }
 

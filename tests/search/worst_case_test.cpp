@@ -352,5 +352,12 @@ TEST(WorstCase, a_scene_of_one_light_and_no_camera_or_of_one_point_is_searched) 
   EXPECT_GT(found.frames.front().value, 0.0);
 }
 
+TEST(WorstCase, lights_that_reach_nothing_widen_no_box) {
+  const SearchFolder folder;
+  Json scene = scene_json({{{3.0, 1.0, 2.0}, 5.0}, {{500.0, -900.0, 0.0}, 5.0}}, {{3.0, 1.0, 2.0}});
+  scene["extensions"]["KHR_lights_punctual"]["lights"][1] = {{"type", "point"}, {"intensity", 0.0}};
+  EXPECT_EQ(searched(folder, scene).search(few(20)).eyes.hi, Vec3d(3.0, 1.0, 2.0));
+}
+
 }  // namespace
 }  // namespace clusterbench::search::test
