@@ -5,6 +5,7 @@ FOLDER holds quick.json and quick.txt, result and table of configs/quick.json; s
 `clusterbench run scenes/street.glb`; and street-size.txt, what `clusterbench size scenes/street.glb` says of one case. Examples in
 docs/results.md whose output is marked are run on street.json, with the program of build/release."""
 import json
+import math
 import os
 import pathlib
 import re
@@ -129,8 +130,8 @@ def headline(quick, street):
     levels = NUMBERS[len({case["scene"] for case, _ in many})]
     slices = sorted({case["grid"]["cells"][2] for case, _ in many})
     counts = ' or '.join(str(count) for count in slices)
-    text = (f"**With {counts} slices, exact lists take little longer than loose ones.** On the {levels} levels of the picture, in "
-            f"grids of {counts} slices, `exact-fast` (no false positives) takes {span(times_as_long(many_slices(boxes)), '.2f')} "
+    text = (f"**With {counts} slices, exact lists take at most {math.ceil(10 * max(times_as_long(many))) / 10} times as long as loose "
+            f"ones.** On the {levels} levels of the picture, in grids of {counts} slices, `exact-fast` (no false positives) takes {span(times_as_long(many_slices(boxes)), '.2f')} "
             f"times as long as `aabb-fast` (sphere against the cell's box; {span(excess_percent(many_slices(boxes)), '.0f')} % false "
             f"positives), and {span(times_as_long(many_slices(loose)), '.2f')} times as long as `bounds-fast` (the light's extents "
             f"on the screen and in depth; {span(excess_percent(many_slices(loose)), '.0f')} %). With 1 to 4 slices it takes "
