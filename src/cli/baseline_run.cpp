@@ -33,6 +33,14 @@ std::vector<std::string> server_command(const std::string& binary, const std::ve
   return command;
 }
 
+result::Tool tool_in(const nlohmann::ordered_json& said, const std::string& binary) {
+  try {
+    return result::from_json<result::Tool>(said);
+  } catch (const Error& error) {
+    throw Error(binary, "--baseline-binary", std::string("says of itself what cannot be read: ") + error.what());
+  }
+}
+
 bool are_same_bytes(const fs::path& a, const fs::path& b) {
   std::error_code unknown;
   if (!fs::is_regular_file(a, unknown) || fs::file_size(a, unknown) != fs::file_size(b, unknown)) return false;
@@ -48,7 +56,7 @@ void probe_baseline(const BaselineRequest& request, const std::vector<std::strin
 
 void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
                     const config::Config& config, const run::Plan& plan, const run::OnPairedRound& on_round,
-                    const std::atomic<bool>& stop, nlohmann::ordered_json& result) {
+                    const std::atomic<bool>& stop, result::Result& result) {
   nlohmann::ordered_json tool;
   const auto start = [&](const std::string& binary) {
     return std::make_unique<RemoteProgram>(server_command(binary, arguments), request.patience_s, stop);
@@ -61,8 +69,10 @@ void measure_beside(const BaselineRequest& request, const std::vector<std::strin
                               },
                               [&] { return start(os::k_this_program); }};
   try {
-    report::add_baseline(result, tool, run::measure_paired(plan, paired_request(request, config), both, on_round));
-    if (are_same_bytes(other, os::k_this_program)) result["baseline"]["is_same_program"] = true;
+    const std::map<std::string, run::PairedCase> measured =
+        run::measure_paired(plan, paired_request(request, config), both, on_round);
+    report::add_baseline(result, tool_in(tool, request.binary), measured);
+    if (are_same_bytes(other, os::k_this_program)) result.baseline->is_same_program = true;
   } catch (const nlohmann::json::exception& error) {
     throw Error(request.binary, "--baseline-binary", std::string("answered what cannot be read: ") + error.what());
   }

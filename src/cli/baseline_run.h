@@ -3,10 +3,10 @@
 
 #include <atomic>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "result/result.h"
 #include "run/paired_rounds.h"
 
 namespace clusterbench::cli {
@@ -27,6 +27,6 @@ void probe_baseline(const BaselineRequest& request, const std::vector<std::strin
 // `stop` is true.
 void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
                     const config::Config& config, const run::Plan& plan, const run::OnPairedRound& on_round,
-                    const std::atomic<bool>& stop, nlohmann::ordered_json& result);
+                    const std::atomic<bool>& stop, result::Result& result);
 
 }  // namespace clusterbench::cli

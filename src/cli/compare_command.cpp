@@ -33,7 +33,7 @@ void check_gate(const CompareFlags& flags, const nlohmann::ordered_json& compari
 
 ExitCode compare(const CompareFlags& flags) {
   refuse_overwriting({flags.markdown, flags.json}, {flags.base, flags.next});
-  nlohmann::ordered_json base = report::read_result(flags.base), next = report::read_result(flags.next);
+  result::Result base = report::read_result(flags.base), next = report::read_result(flags.next);
   report::keep_cases(base, flags.filter, flags.base);
   report::keep_cases(next, flags.filter, flags.next);
   const nlohmann::ordered_json comparison =

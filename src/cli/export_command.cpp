@@ -19,7 +19,7 @@ struct ExportFlags {
 ExitCode export_result(const ExportFlags& flags) {
   refuse_overwriting({flags.output}, {flags.result});
   const report::ExportFormat& format = report::export_format(flags.format);
-  nlohmann::ordered_json result = report::read_result(flags.result);
+  result::Result result = report::read_result(flags.result);
   report::keep_cases(result, flags.filter, flags.result);
   write_text(flags.output, report::exported(result, format, flags.all));
   return ExitCode::ok;

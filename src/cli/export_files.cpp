@@ -33,7 +33,7 @@ ExportFiles::ExportFiles(const std::vector<ExportTarget>& targets, bool are_time
   }
 }
 
-void ExportFiles::write(const nlohmann::ordered_json& result) const {
+void ExportFiles::write(const result::Result& result) const {
   std::vector<std::string> texts;
   texts.reserve(targets_.size());
   for (const ExportTarget& target : targets_) texts.push_back(report::exported(result, *target.format, false));

@@ -2,12 +2,12 @@
 // --export FORMAT=FILE: where a result goes beside its own file.
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "os/output_file.h"
 #include "report/exports/exports.h"
+#include "result/result.h"
 
 namespace clusterbench::cli {
 
@@ -26,7 +26,7 @@ class ExportFiles {
   ExportFiles(const std::vector<ExportTarget>& targets, bool are_times_measured);
 
   // All formats are made before the first file is written.
-  void write(const nlohmann::ordered_json& result) const;
+  void write(const result::Result& result) const;
 
  private:
   std::vector<ExportTarget> targets_;

@@ -71,15 +71,15 @@ Gates::Gates(const config::Config& config, const std::string& filter) : limits_(
                       "a result of `clusterbench run`; a share is written without percent, 0.05");
 }
 
-std::string Gates::changes(const nlohmann::ordered_json& result) const {
+std::string Gates::changes(const result::Result& result) const {
   if (!base_) return "";
   return report::baseline_changes_text(result, {*base_, result, filter_, limits_.baseline.string()});
 }
 
-std::vector<report::LimitFindings> Gates::findings(const nlohmann::ordered_json& result) const {
+std::vector<report::LimitFindings> Gates::findings(const result::Result& result) const {
   if (limits_.fail_if.empty() && !base_) return {};
   const std::string name = limits_.baseline.string();
-  const nlohmann::ordered_json* base = base_ ? &*base_ : nullptr;
+  const result::Result* base = base_ ? &*base_ : nullptr;
   std::optional<report::BaselineCases> cases;
   if (base != nullptr) cases.emplace(*base, result, filter_, name);
   return {

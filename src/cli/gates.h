@@ -1,14 +1,15 @@
 #pragma once
 // What a run is held against when it is done: budgets, an earlier result, and the lights that it should have.
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/command.h"
 #include "config/config.h"
+#include "core/error.h"
 #include "report/limits.h"
+#include "result/result.h"
 
 namespace clusterbench::cli {
 
@@ -32,14 +33,14 @@ class Gates {
   Gates(const config::Config& config, const std::string& filter);
 
   // Which figures have changed since the baseline; "" without one.
-  std::string changes(const nlohmann::ordered_json& result) const;
+  std::string changes(const result::Result& result) const;
   // What holds and what does not: of the lights, then of the budgets. Nothing without budgets and baseline.
-  std::vector<report::LimitFindings> findings(const nlohmann::ordered_json& result) const;
+  std::vector<report::LimitFindings> findings(const result::Result& result) const;
 
  private:
   const config::LimitsRequest& limits_;
   std::string filter_;
-  std::optional<nlohmann::ordered_json> base_;
+  std::optional<result::Result> base_;
 };
 
 // Tells them.

@@ -27,8 +27,8 @@ struct ShowFlags {
 
 ExitCode add(const AddFlags& flags) {
   refuse_overwriting({flags.file}, {flags.result});
-  const nlohmann::ordered_json result = report::read_result(flags.result);
-  const std::string commit = flags.commit.empty() ? result["tool"]["git_sha"].get<std::string>() : flags.commit;
+  const result::Result result = report::read_result(flags.result);
+  const std::string commit = flags.commit.empty() ? result.tool.git_sha : flags.commit;
   const report::Addition addition = report::add_to_history(flags.file, result, commit);
   const std::string before = number_of(addition.earlier, "result") + " of " + commit;
   if (!addition.is_added)

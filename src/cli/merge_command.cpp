@@ -19,7 +19,7 @@ ExitCode merge(const MergeFlags& flags) {
   refuse_overwriting({flags.output}, flags.results);
   std::vector<report::NamedPart> parts;
   for (const std::string& file : flags.results) parts.push_back({file, report::read_result(file)});
-  write_output(flags.output, report::merged(parts));
+  write_output(flags.output, result::to_json(report::merged(parts)));
   return ExitCode::ok;
 }
 

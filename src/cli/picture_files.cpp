@@ -91,14 +91,14 @@ void check_count(const run::Plan& plan, const pictures::Request& request) {
 }
 
 // A method without cells has no longest list.
-pictures::LongestLists longest_lists(const nlohmann::ordered_json& result) {
+pictures::LongestLists longest_lists(const result::Result& result) {
   pictures::LongestLists longest;
-  for (const auto& result_case : result.at("cases")) {
-    pictures::LongestList& list = longest[result_case.at("id").get<std::string>()];
-    list.frame = result_case.at("buffers").at("worst_frame").get<int>();
-    if (!result_case.contains("occupancy") || result_case["occupancy"].is_null()) continue;
-    list = {result_case["occupancy"].at("lights_per_cell").at("max").get<std::uint64_t>(),
-            result_case["occupancy"].at("worst_frame").get<int>()};
+  for (const result::Case& result_case : result.cases) {
+    pictures::LongestList& list = longest[result_case.id];
+    list.frame = static_cast<int>(result_case.buffers.worst_frame);
+    if (!result_case.occupancy) continue;
+    list = {static_cast<std::uint64_t>(result_case.occupancy->lights_per_cell.max),
+            static_cast<int>(result_case.occupancy->worst_frame)};
   }
   return longest;
 }
@@ -153,7 +153,7 @@ void PictureFiles::write_picture(const fs::path& file, const std::string& bytes)
   os::write_file(file, bytes);
 }
 
-bool PictureFiles::write(const nlohmann::ordered_json& result, os::Terminal screen, bool quiet,
+bool PictureFiles::write(const result::Result& result, os::Terminal screen, bool quiet,
                          const std::atomic<bool>& stop) const {
   ProgressLine progress(screen, quiet);
   std::uint64_t written = 0, skipped = 0;

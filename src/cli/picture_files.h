@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "cli/terminal.h"
 #include "os/terminal.h"
 #include "pictures/pictures.h"
+#include "result/result.h"
 
 namespace clusterbench::cli {
 
@@ -39,8 +39,7 @@ class PictureFiles {
   static std::string index_path(const std::string& folder);
 
   // Makes them, of what the run has found. A picture of the same name is replaced. False if stopped before the end.
-  bool write(const nlohmann::ordered_json& result, os::Terminal screen, bool quiet,
-             const std::atomic<bool>& stop) const;
+  bool write(const result::Result& result, os::Terminal screen, bool quiet, const std::atomic<bool>& stop) const;
 
  private:
   void write_picture(const std::filesystem::path& file, const std::string& bytes) const;

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/json_document.h"
 #include "os/stop_signals.h"
-#include "report/result_json.h"
+#include "run/records/records.h"
 #include "run/served_cases.h"
 
 namespace clusterbench::cli {
@@ -49,7 +49,7 @@ Json answer_to(run::Program& cases, const std::string& line) {
 void serve_rounds(const config::Config& config, const run::Plan& plan) {
   run::ServedCases cases(config, plan);
   put({{k_version_key, k_rounds_protocol},
-       {"tool", report::tool_to_json(run::tool_facts())},
+       {"tool", result::to_json(run::record_of(run::tool_facts()))},
        {"cases", cases.case_ids()}});
   for (std::string line; std::getline(std::cin, line);) put(answer_to(cases, line));
 }

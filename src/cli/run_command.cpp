@@ -34,7 +34,9 @@
 #include "report/table.h"
 #include "report/timing_warnings.h"
 #include "report/warnings.h"
+#include "result/result.h"
 #include "run/estimate.h"
+#include "run/records/records.h"
 #include "run/runner.h"
 #include "run/scene_facts.h"
 #include "run/sweep.h"
@@ -229,7 +231,7 @@ ExitCode interrupted(const report::Journal* journal) {
   return os::stopped_exit_code();
 }
 
-ExitCode report_gates(const Json& result) {
+ExitCode report_gates(const result::Result& result) {
   const std::vector<std::string> failures = report::gate_failures(result);
   for (const std::string& failure : failures) tell("FAILED " + failure);
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
@@ -248,7 +250,7 @@ std::vector<std::string> plan_arguments(const RunFlags& flags) {
 
 // False once it is to stop.
 bool add_baseline(const RunFlags& flags, const config::Config& config, const run::Plan& plan, ProgressLine& progress,
-                  const report::Journal* journal, const std::atomic<bool>& stop, Json& result) {
+                  const report::Journal* journal, const std::atomic<bool>& stop, result::Result& result) {
   run::Progress now;
   now.cost_total = 1.0;
   const auto on_round = [&](const run::PairedRound& round) {
@@ -274,7 +276,7 @@ struct Verdicts {
 };
 
 // The result says what it failed for, too.
-Verdicts judge(const RunFlags& flags, const Gates& gates, Json& result) {
+Verdicts judge(const RunFlags& flags, const Gates& gates, result::Result& result) {
   Verdicts verdicts;
   if (!flags.baseline.binary.empty())
     verdicts.comparison = report::compare_results(result, result, flags.baseline.threshold_percent / 100.0);
@@ -290,7 +292,7 @@ Verdicts judge(const RunFlags& flags, const Gates& gates, Json& result) {
   return verdicts;
 }
 
-ExitCode report_verdicts(const Verdicts& verdicts, const Json& result) {
+ExitCode report_verdicts(const Verdicts& verdicts, const result::Result& result) {
   ExitCode code = ExitCode::ok;
   if (verdicts.comparison.empty()) {
     code = report_gates(result);
@@ -307,7 +309,7 @@ run::Listener make_listener(ProgressLine& progress, report::Journal* journal, st
   run::Listener listener;
   listener.on_progress = [&progress](const run::Progress& now) { progress.show(now); };
   listener.on_case = [&progress, journal, number = earlier, total](const run::CaseResult& done) mutable {
-    if (journal != nullptr) journal->add_case(report::case_to_json(done));
+    if (journal != nullptr) journal->add_case(run::record_of(done));
     progress.case_done(done, ++number, total);
   };
   return listener;
@@ -342,9 +344,9 @@ run::Counts count_instructions(CountWay way, const CountTask& task, ProgressLine
 }
 
 // Warnings also where no table is wanted.
-void show_table(const RunFlags& flags, const Json& result) {
+void show_table(const RunFlags& flags, const result::Result& result) {
   if (flags.quiet) {
-    std::cerr << report::warnings_text(result) << report::timing_warnings(result["cases"]);
+    std::cerr << report::warnings_text(result) << report::timing_warnings(result.cases);
     return;
   }
   const bool for_reading = is_for_reading(flags.output);
@@ -357,7 +359,7 @@ void show_table(const RunFlags& flags, const Json& result) {
 
 // "next: clusterbench size level.glb --filter '...'": what sizes the buffers of what is taken, from the same scenes, of
 // which it counts more frames; from the result where they came through a pipe. "" where nothing is taken.
-std::string next_text(const RunFlags& flags, const Json& result) {
+std::string next_text(const RunFlags& flags, const result::Result& result) {
   const std::vector<std::string> taken = report::taken_names(result);
   if (taken.empty()) return "";
   std::vector<std::string> words{"clusterbench", "size"};
@@ -374,7 +376,7 @@ std::string next_text(const RunFlags& flags, const Json& result) {
 }
 
 // Last of all, behind what is doubted. What failed is no ground to take anything.
-void show_conclusion(const RunFlags& flags, const Json& result) {
+void show_conclusion(const RunFlags& flags, const result::Result& result) {
   std::ostream& out = is_for_reading(flags.output) ? std::cout : std::cerr;
   if (!report::run_failures(result).empty())
     out << "conclusion: " << report::failed_conclusion(result) << ".\n" << std::flush;
@@ -411,7 +413,7 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   if (!flags.images.folder.empty()) images.emplace(flags.images, config, plan, inputs);
   const std::atomic<bool>& stop = os::stop_on_signals();  // before there is anything to keep
   const std::unique_ptr<report::Journal> journal = open_journal(flags, config, plan);
-  const std::vector<Json> earlier = journal ? journal->earlier_cases() : std::vector<Json>{};
+  const std::vector<result::Case> earlier = journal ? journal->earlier_cases() : std::vector<result::Case>{};
   const std::vector<std::string> earlier_ids = journal ? journal->earlier_ids() : std::vector<std::string>{};
 
   const os::Terminal screen = os::terminal(os::StandardStream::error);
@@ -441,12 +443,14 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   if (stop) return interrupted(journal.get());
   if (!fresh.date.empty()) fresh.command = command_line();
 
-  Json result = report::result_to_json(fresh, earlier);
+  result::Result result = report::record_of(fresh, earlier);
   if (!flags.baseline.binary.empty() && !add_baseline(flags, config, plan, progress, journal.get(), stop, result))
     return interrupted(journal.get());
   const Verdicts verdicts = judge(flags, own_gates, result);
-  if (journal) journal->finish(result);
-  output.write(result);
+  if (journal)
+    journal->finish(result);
+  else
+    output.write(result::to_json(result));
   export_files.write(result);
   show_table(flags, result);
   if (images && !images->write(result, screen, flags.quiet, stop)) {

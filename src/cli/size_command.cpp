@@ -91,7 +91,7 @@ void check_for_result(const SizeFlags& flags) {
 }
 
 // Budgets hold what frames of the paths have, and what searches found.
-std::vector<report::LimitFindings> findings_with_finds(const Gates& gates, const Json& result,
+std::vector<report::LimitFindings> findings_with_finds(const Gates& gates, const result::Result& result,
                                                        const std::vector<report::FoundFrame>& found) {
   std::vector<report::LimitFindings> findings = gates.findings(result);
   const bool is_searched = std::ranges::any_of(found, [](const auto& frame) { return frame.refusal.empty(); });
@@ -109,7 +109,8 @@ std::vector<report::LimitFindings> findings_with_finds(const Gates& gates, const
 }
 
 // Which budgets hold recorded frames alone.
-void tell_of_held(const config::Config& config, const Json& result, const std::vector<report::FoundFrame>& found) {
+void tell_of_held(const config::Config& config, const result::Result& result,
+                  const std::vector<report::FoundFrame>& found) {
   std::vector<std::string> searched, measures;
   for (const report::FoundFrame& frame : found) {
     if (!frame.refusal.empty()) continue;
@@ -118,11 +119,11 @@ void tell_of_held(const config::Config& config, const Json& result, const std::v
   }
   if (config.limits.fail_if.empty() || searched.empty()) return;
   tell("budgets also hold what a search for " + joined(measures) + " found, in " + std::to_string(searched.size()) +
-       " of " + number_of(result["cases"].size(), "case") + "; all else of recorded frames alone");
+       " of " + number_of(result.cases.size(), "case") + "; all else of recorded frames alone");
 }
 
 // Sizes of nothing, and what the configuration's budgets say of what was counted.
-ExitCode judged(const SizeFlags& flags, const SizeCounts* counts, const Json& result,
+ExitCode judged(const SizeFlags& flags, const SizeCounts* counts, const result::Result& result,
                 const report::SizeRequest& request) {
   const bool allows_no_lights = flags.allows_no_lights || (counts != nullptr && counts->config.limits.allows_no_lights);
   ExitCode code = ExitCode::ok;
@@ -147,7 +148,7 @@ ExitCode size(SizeFlags flags) {
   if (flags.margin > 0.0) request.margin = flags.margin;
   if (flags.warn_at > 0.0) request.warn_at = flags.warn_at;
   std::optional<SizeCounts> counts;
-  Json result;
+  result::Result result;
   if (!is_result(flags.inputs)) {
     std::optional<SizePlan> plan = plan_for_size(flags.inputs, request.filter, request.all, flags.engine);
     if (!plan) return os::stopped_exit_code();

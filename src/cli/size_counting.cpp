@@ -234,8 +234,8 @@ std::optional<SizeCounts> counted_for_size(SizePlan plan, bool quiet) {
     for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
   if (result.cases.empty())
     for (const run::Skipped& skipped : result.skipped) tell("skipped " + skipped.name + ": " + skipped.reason);
-  SizeCounts out{std::move(plan.config), std::move(plan.plan), report::result_to_json(result, {}), {}};
-  out.result["conclusions"] = Json::array();  // nothing was compared, so nothing is taken
+  SizeCounts out{std::move(plan.config), std::move(plan.plan), report::record_of(result, {}), {}};
+  out.result.conclusions.emplace();  // nothing was compared, so nothing is taken
   if (plan.limited) out.grown = grown_tiles(*plan.limited, out.plan);
   return out;
 }

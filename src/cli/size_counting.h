@@ -1,7 +1,6 @@
 #pragma once
 // What `size` counts of scenes or a configuration: their frames, as finely as high-water marks need them.
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "cli/run_inputs.h"
 #include "config/config.h"
 #include "report/allocation.h"
+#include "result/result.h"
 #include "run/runner.h"
 #include "run/sweep.h"
 
@@ -27,7 +27,7 @@ struct SizePlan {
 struct SizeCounts {
   config::Config config;
   run::Plan plan;
-  nlohmann::ordered_json result;
+  result::Result result;
   std::vector<report::GrownTiles> grown;  // with an engine's own room for lists
 };
 

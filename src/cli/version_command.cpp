@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "cli/commands.h"
-#include "run/result.h"
+#include "run/records/records.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -15,11 +15,7 @@ ExitCode print_version(bool as_json) {
               << tool.build_type << ")\n";
     return ExitCode::ok;
   }
-  nlohmann::ordered_json facts{{"version", tool.version},       {"git_sha", tool.git_sha},
-                               {"compiler", tool.compiler},     {"flags", tool.flags},
-                               {"build_type", tool.build_type}, {"simd_target", tool.simd_target}};
-  for (const auto& [name, version] : tool.libraries) facts["libraries"][name] = version;
-  std::cout << facts.dump(2) << "\n";
+  std::cout << result::to_json(run::record_of(tool)).dump(2) << "\n";
   return ExitCode::ok;
 }
 

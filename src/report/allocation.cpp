@@ -19,8 +19,6 @@
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::uint64_t k_largest_count = std::numeric_limits<std::uint64_t>::max();
 
 // What does not fit into 64 bits is as much as does: a result that was changed by hand may say anything.
@@ -30,9 +28,6 @@ std::uint64_t times(std::uint64_t a, std::uint64_t b) {
 std::uint64_t as_count(double value) {
   constexpr double k_end = 18446744073709551616.0;  // 2^64
   return value >= k_end ? k_largest_count : static_cast<std::uint64_t>(value);
-}
-std::uint64_t count_of(const Json& from, const std::string& pointer) {
-  return as_count(std::max(0.0, number_at(from, pointer).value_or(0.0)));
 }
 std::uint64_t up_to_multiple(std::uint64_t value, std::uint64_t step) {
   const std::uint64_t over = value % step;
@@ -114,14 +109,14 @@ void add(SizedBuffer& buffer, std::uint64_t& step, const CaseBuffer& next) {
 }
 
 // Cameras of one frame, each with its cases in all viewports; a camera that shares no buffer is alone.
-using FrameCameras = std::vector<std::vector<const Json*>>;
+using FrameCameras = std::vector<std::vector<const result::Case*>>;
 
 std::vector<FrameCameras> cameras_by_frame(const SizedStructure& structure) {
   std::vector<FrameCameras> out;
   const auto cases_of = [&](const std::string& camera) {
-    std::vector<const Json*> cases;
-    for (const Json* result_case : structure.cases)
-      if ((*result_case)["camera"] == camera) cases.push_back(result_case);
+    std::vector<const result::Case*> cases;
+    for (const result::Case* result_case : structure.cases)
+      if (result_case->camera == camera) cases.push_back(result_case);
     return cases;
   };
   std::set<std::string> taken(structure.guests.begin(), structure.guests.end());
@@ -132,23 +127,20 @@ std::vector<FrameCameras> cameras_by_frame(const SizedStructure& structure) {
       taken.insert(camera);
     }
   }
-  for (const Json* result_case : structure.cases)
-    if (const auto camera = (*result_case)["camera"].get<std::string>(); taken.insert(camera).second)
-      out.push_back({cases_of(camera)});
+  for (const result::Case* result_case : structure.cases)
+    if (taken.insert(result_case->camera).second) out.push_back({cases_of(result_case->camera)});
   return out;
 }
 
 std::uint64_t frames_of_group(const FrameCameras& cameras) {
   std::uint64_t most = 0;
-  for (const std::vector<const Json*>& of_camera : cameras)
-    most = std::max(most, of_camera.front()->at("frames").get<std::uint64_t>());
+  for (const std::vector<const result::Case*>& of_camera : cameras) most = std::max(most, of_camera.front()->frames);
   return most;
 }
 
 FrameGroup group_of(const FrameCameras& cameras, const CaseBuffer& needs) {
   FrameGroup group;
-  for (const std::vector<const Json*>& of_camera : cameras)
-    group.cameras.push_back(of_camera.front()->at("camera").get<std::string>());
+  for (const std::vector<const result::Case*>& of_camera : cameras) group.cameras.push_back(of_camera.front()->camera);
   group.frames = frames_of_group(cameras);
   group.high_water = needs.high_water;
   group.spread = spread_of({needs.path});
@@ -161,7 +153,7 @@ std::vector<CaseBuffer> buffers_of_frame(const FrameCameras& cameras) {
   std::vector<std::vector<CaseBuffer>> by_buffer;
   for (std::size_t viewport = 0; viewport < viewports; ++viewport) {
     std::vector<std::vector<CaseBuffer>> of_cameras;
-    for (const std::vector<const Json*>& cases : cameras)
+    for (const std::vector<const result::Case*>& cases : cameras)
       of_cameras.push_back(buffers_of(*cases[std::min(viewport, cases.size() - 1)]));
     by_buffer.resize(std::max(by_buffer.size(), of_cameras.front().size()));
     for (std::size_t i = 0; i < of_cameras.front().size(); ++i) {
@@ -194,22 +186,19 @@ std::vector<Growth> growth_of(const std::vector<PathNeed>& paths) {
   return out;
 }
 
-bool follows_surfaces(const Json& result_case) {
-  const Json* name = value_at(result_case, "/assigner/name");
-  const assign::AssignerDescriptor* method =
-      name != nullptr && name->is_string() ? assign::find_assigner(name->get<std::string>()) : nullptr;
+bool follows_surfaces(const result::Case& result_case) {
+  const assign::AssignerDescriptor* method = assign::find_assigner(result_case.assigner.name);
   return method != nullptr && (method->needs.depth || method->at_surfaces);
 }
 
 // Not where cells lie in the world and stay there: their lists hold the same lights whatever is in view.
-bool follows_view(const Json& result_case) {
-  const Json* kind = value_at(result_case, "/grid/kind");
-  return kind == nullptr || *kind != "world" || value_at(result_case, "/grid/follow") != nullptr;
+bool follows_view(const result::Case& result_case) {
+  return result_case.grid.kind != "world" || result_case.grid.follow;
 }
 
 // Where other frames can have more lights or cells than those that were counted, what is possible follows from these.
-bool has_bound(const Json& result_case) {
-  return !result_case.contains("pre_cull") && !result_case.contains("react") && !follows_surfaces(result_case);
+bool has_bound(const result::Case& result_case) {
+  return !result_case.pre_cull && !result_case.react && !follows_surfaces(result_case);
 }
 
 // What searches with one camera found for a buffer.
@@ -223,8 +212,8 @@ struct CameraFind {
 
 // Cells of the searched case, in each of which the buffer has the same room; 1 of other buffers.
 std::uint64_t step_of(const FoundFrame& search, const std::string& buffer, const SizedStructure& structure) {
-  for (const Json* result_case : structure.cases) {
-    if ((*result_case)["name"] != search.case_name) continue;
+  for (const result::Case* result_case : structure.cases) {
+    if (result_case->name != search.case_name) continue;
     for (const CaseBuffer& needs : buffers_of(*result_case))
       if (needs.name == buffer) return std::max<std::uint64_t>(needs.step, 1);
   }
@@ -309,8 +298,9 @@ void size_buffers(SizedStructure& structure, const AllocationRules& rules) {
   add_searches(structure);
   for (std::size_t i = 0; i < structure.buffers.size(); ++i) {
     SizedBuffer& buffer = structure.buffers[i];
-    buffer.depends_on_view = std::ranges::any_of(structure.cases, [](const Json* one) { return follows_view(*one); });
-    buffer.is_bounded = std::ranges::all_of(structure.cases, [](const Json* one) { return has_bound(*one); });
+    buffer.depends_on_view =
+        std::ranges::any_of(structure.cases, [](const result::Case* one) { return follows_view(*one); });
+    buffer.is_bounded = std::ranges::all_of(structure.cases, [](const result::Case* one) { return has_bound(*one); });
     buffer.spread = spread_of(buffer.paths);
     // What is the same in all frames is as large as it is, whatever other frames hold.
     if (buffer.spread && buffer.spread->min == buffer.theoretical_max) buffer.is_bounded = true;
@@ -319,15 +309,15 @@ void size_buffers(SizedStructure& structure, const AllocationRules& rules) {
   }
 }
 
-std::vector<const Json*> matching_cases(const Json& cases, const std::string& filter) {
-  std::vector<const Json*> out;
+std::vector<const result::Case*> matching_cases(const std::vector<result::Case>& cases, const std::string& filter) {
+  std::vector<const result::Case*> out;
   const Pattern pattern(filter, "--filter");
-  for (const Json& result_case : cases)
+  for (const result::Case& result_case : cases)
     if (is_selected(pattern, result_case)) out.push_back(&result_case);
   if (out.empty() && !cases.empty())
     throw Error("", "--filter",
                 "'" + filter + "' matches none of " + number_of(cases.size(), "case") + pattern_hint(filter) +
-                    "; one of them is '" + cases[0]["name"].get<std::string>() + "'");
+                    "; one of them is '" + cases[0].name + "'");
   return out;
 }
 
@@ -337,38 +327,34 @@ struct Names {
   std::string structure, group;
 };
 
-Names names_of(const Json& result_case, bool over_viewports) {
+Names names_of(const result::Case& result_case, bool over_viewports) {
   const run::CaseNames names = names_of_case(result_case);
   const std::string rest = run::name_without_camera(names, !over_viewports);
   if (rest == names.name) return {rest, rest};
   return {names.scene + "/" + rest, names.scene + "/" + rest.substr(0, rest.find('/'))};
 }
 
+std::array<int, 2> across_and_down(const result::Counts2& tiles) {
+  return {static_cast<int>(tiles[0]), static_cast<int>(tiles[1])};
+}
+
 // As `run` tells it.
-std::optional<GrownTiles> grown_in_result(const Json& result_case) {
-  if (!result_case.contains("react") || result_case["react"]["to"] != "entries") return {};
-  const Json& react = result_case["react"];
-  return GrownTiles{result_case["name"].get<std::string>(),
-                    count_of(react, "/most"),
-                    count_of(result_case, "/frames"),
-                    count_of(react, "/frames/reacted"),
-                    count_of(react, "/frames/over"),
-                    count_of(react, "/needed/max"),
-                    react["tiles"]["asked"].get<std::array<int, 2>>(),
-                    react["tiles"]["fewest"].get<std::array<int, 2>>()};
+std::optional<GrownTiles> grown_in_result(const result::Case& result_case) {
+  if (!result_case.react || result_case.react->to != "entries") return {};
+  const result::Reaction& react = *result_case.react;
+  return GrownTiles{result_case.name,
+                    react.most,
+                    result_case.frames,
+                    react.frames.reacted,
+                    react.frames.over,
+                    as_count(std::max(0.0, react.needed.max)),
+                    across_and_down(react.tiles.asked),
+                    across_and_down(react.tiles.fewest)};
 }
 
-std::optional<std::uint64_t> most_of_one_type(const Json& scene) {
-  std::optional<std::uint64_t> most;
-  for (const char* type : {"/lights/point", "/lights/spot", "/lights/box"})
-    if (number_at(scene, type)) most = std::max(most.value_or(0), count_of(scene, type));
-  return most;
-}
-
-bool has_camera(const SizedStructure& structure, const Json& result_case) {
-  return std::ranges::any_of(structure.cases, [&](const Json* other) {
-    return (*other)["camera"] == result_case["camera"] &&
-           other->value("viewport", Json()) == result_case.value("viewport", Json());
+bool has_camera(const SizedStructure& structure, const result::Case& result_case) {
+  return std::ranges::any_of(structure.cases, [&](const result::Case* other) {
+    return other->camera == result_case.camera && other->viewport == result_case.viewport;
   });
 }
 
@@ -390,8 +376,8 @@ bool is_named_by(const std::string& pattern, const std::string& camera) {
 std::vector<std::string> cameras_in(const SizedStructure& structure, const std::string& group) {
   std::vector<std::string> out;
   const std::vector<std::string> patterns = between_commas(group);
-  for (const Json* result_case : structure.cases) {
-    const auto camera = (*result_case)["camera"].get<std::string>();
+  for (const result::Case* result_case : structure.cases) {
+    const std::string& camera = result_case->camera;
     const bool is_named =
         std::ranges::any_of(patterns, [&](const std::string& pattern) { return is_named_by(pattern, camera); });
     if (is_named && std::ranges::find(out, camera) == out.end()) out.push_back(camera);
@@ -412,7 +398,7 @@ void leave_out_others(SizedStructure& structure, const std::vector<std::string>&
     for (const std::string& camera : cameras_in(structure, group)) named.insert(camera);
   for (const std::string& camera : cameras_in(structure, "*"))
     if (!named.contains(camera)) structure.left_out.push_back(camera);
-  std::erase_if(structure.cases, [&](const Json* one) { return !named.contains((*one)["camera"].get<std::string>()); });
+  std::erase_if(structure.cases, [&](const result::Case* one) { return !named.contains(one->camera); });
 }
 
 // How to name a camera whose name the list would be cut in.
@@ -470,8 +456,7 @@ void set_views(std::vector<SizedStructure>& structures, const AllocationScope& s
     }
     if (is_known || structures.empty()) continue;
     std::vector<std::string> known;
-    for (const Json* result_case : structures.front().cases)
-      known.push_back((*result_case)["camera"].get<std::string>());
+    for (const result::Case* result_case : structures.front().cases) known.push_back(result_case->camera);
     throw Error("", "--views",
                 "'" + group + "' names no two cameras of a scene; " + structures.front().name + " has " +
                     joined(known) + "; takes names, as in left,right, and * for any letters" + comma_hint(known));
@@ -482,13 +467,21 @@ void set_views(std::vector<SizedStructure>& structures, const AllocationScope& s
     if (!structure.guests.empty()) leave_out_others(structure, scope.views);
 }
 
-void set_taken(std::vector<SizedStructure>& structures, const Json& result) {
-  for (const Json& conclusion : result.value("conclusions", Json::array()))
+void set_taken(std::vector<SizedStructure>& structures, const result::Result& result) {
+  if (!result.conclusions) return;
+  for (const result::Conclusion& conclusion : *result.conclusions)
     for (SizedStructure& structure : structures) {
-      const auto takes = [&](const Json* one) { return one->value("id", Json()) == conclusion["take"]; };
-      if (!conclusion["take"].is_null() && std::ranges::any_of(structure.cases, takes))
-        structure.taken_by.push_back(conclusion["camera"].get<std::string>());
+      const auto takes = [&](const result::Case* one) { return one->id == *conclusion.take; };
+      if (conclusion.take && std::ranges::any_of(structure.cases, takes))
+        structure.taken_by.push_back(conclusion.camera);
     }
+}
+
+// What its scene's lights are.
+void set_lights(SizedStructure& structure, const result::Scene& scene) {
+  const result::SceneLights& lights = scene.lights;
+  structure.has_boxes = lights.box > 0;
+  structure.lights_of_type = std::max({lights.point, lights.spot, lights.box});
 }
 
 }  // namespace
@@ -523,8 +516,8 @@ const FoundFrame* SizedStructure::main_search() const {
 }
 
 std::string SizedStructure::camera_of(const FoundFrame& found) const {
-  for (const Json* result_case : cases)
-    if ((*result_case)["name"] == found.case_name) return (*result_case)["camera"].get<std::string>();
+  for (const result::Case* result_case : cases)
+    if (result_case->name == found.case_name) return result_case->camera;
   return "";
 }
 
@@ -540,7 +533,7 @@ bool SizedStructure::is_searched() const {
 }
 
 std::string SizedStructure::sought_measure() const {
-  return measure_of_buffers((*cases.front())["storage"].get<std::string>());
+  return measure_of_buffers(cases.front()->storage);
 }
 
 bool SizedStructure::is_sought() const {
@@ -562,10 +555,10 @@ std::uint64_t SizedStructure::bytes() const {
   return sum;
 }
 
-std::vector<SizedStructure> sized_structures(const Json& result, const std::string& filter,
+std::vector<SizedStructure> sized_structures(const result::Result& result, const std::string& filter,
                                              const AllocationRules& rules, const AllocationScope& scope) {
   std::vector<SizedStructure> out;
-  for (const Json* result_case : matching_cases(result["cases"], filter)) {
+  for (const result::Case* result_case : matching_cases(result.cases, filter)) {
     const Names names = names_of(*result_case, scope.over_viewports);
     // The same camera again is another structure whose name is the same.
     auto known = std::ranges::find_if(out, [&](const SizedStructure& sized) {
@@ -580,24 +573,21 @@ std::vector<SizedStructure> sized_structures(const Json& result, const std::stri
   }
   for (SizedStructure& structure : out) {
     structure.has_grid_cells = !follows_surfaces(*structure.cases.front());
-    if (const Json* jitter = value_at(result, "/config/jitter"))
+    if (const result::Json* jitter = value_at(result.config, "/jitter"))
       structure.jitters = config::jitter_of(nlohmann::json(*jitter)).size();
-    for (const Json& scene : result.value("scenes", Json::array()))
-      if (scene["name"] == (*structure.cases.front())["scene"]) {
-        structure.has_boxes = number_at(scene, "/lights/box").value_or(0.0) > 0.0;
-        structure.lights_of_type = most_of_one_type(scene);
-      }
+    for (const result::Scene& scene : result.scenes)
+      if (scene.name == structure.cases.front()->scene) set_lights(structure, scene);
   }
   set_taken(out, result);
   set_views(out, scope);
   for (SizedStructure& structure : out) {
     const auto is_mine = [&](const auto& told) {
-      return std::ranges::any_of(structure.cases, [&](const Json* one) { return (*one)["name"] == told.case_name; });
+      return std::ranges::any_of(structure.cases, [&](const result::Case* one) { return one->name == told.case_name; });
     };
     std::ranges::copy_if(scope.guests, std::back_inserter(structure.guest_samples), is_mine);
     std::ranges::copy_if(scope.found, std::back_inserter(structure.searches), is_mine);
     std::ranges::copy_if(scope.grown, std::back_inserter(structure.grown), is_mine);
-    for (const Json* result_case : structure.cases)
+    for (const result::Case* result_case : structure.cases)
       if (const std::optional<GrownTiles> grown = grown_in_result(*result_case)) structure.grown.push_back(*grown);
   }
   for (SizedStructure& structure : out) size_buffers(structure, rules);

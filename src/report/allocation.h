@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "report/case_buffers.h"
+#include "result/result.h"
 
 namespace clusterbench::report {
 
@@ -108,7 +108,7 @@ struct SizedBuffer {
   bool has_times = true;               // what is added is known to be of frames at the same time
   std::string worst_camera;            // that made the high-water mark
   std::uint64_t worst_frame = 0;       // of its path
-  nlohmann::ordered_json worst_cell;   // [x, y, z], its longest list in that frame; null without cells
+  std::optional<result::CellIndex> worst_cell;  // its longest list in that frame; none without cells
   // With cameras in one frame: these and the others, each apart. Else empty.
   std::vector<FrameGroup> groups;
   // Of all cameras, in the cases' order; of groups the one that made the high-water mark.
@@ -129,9 +129,9 @@ struct SizedBuffer {
 
 // One structure of one scene, viewport (or all) and grid, over all cameras.
 struct SizedStructure {
-  std::string name;                                  // "scene/grid/assigner/storage": a case's name without its camera
-  std::string group;                                 // "scene/grid"
-  std::vector<const nlohmann::ordered_json*> cases;  // one per camera, in the result's order
+  std::string name;                        // "scene/grid/assigner/storage": a case's name without its camera
+  std::string group;                       // "scene/grid"
+  std::vector<const result::Case*> cases;  // one per camera, in the result's order
   std::vector<SizedBuffer> buffers;
   std::vector<std::vector<std::string>> views;  // cameras in one frame, as far as they are in it
   std::vector<std::string> guests;              // cameras without a grid of their own
@@ -171,7 +171,7 @@ std::string measure_of_buffers(const std::string& storage);
 // Of all cases whose name matches the regular expression `filter` ("" = all). Results of earlier versions have no
 // single buffers: theirs are called "entries" and "header_bytes". `result` outlives them. Throws Error if the filter is
 // no regex or matches no case, and for views that name no two cameras of any scene.
-std::vector<SizedStructure> sized_structures(const nlohmann::ordered_json& result, const std::string& filter,
+std::vector<SizedStructure> sized_structures(const result::Result& result, const std::string& filter,
                                              const AllocationRules& rules, const AllocationScope& scope = {});
 
 }  // namespace clusterbench::report

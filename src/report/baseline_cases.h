@@ -3,9 +3,10 @@
 // structure, also where the level itself has changed since.
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "result/result.h"
 
 namespace clusterbench::report {
 
@@ -13,30 +14,27 @@ class BaselineCases {
  public:
   // Both must outlive it. `filter`: what the result's cases were selected by; others of the base are not missed.
   // `name`: what messages call the base.
-  BaselineCases(const nlohmann::ordered_json& base, const nlohmann::ordered_json& result, const std::string& filter,
-                std::string name);
+  BaselineCases(const result::Result& base, const result::Result& result, const std::string& filter, std::string name);
 
   // Null: the base has none.
-  const nlohmann::ordered_json* case_of(const nlohmann::ordered_json& result_case) const;
-  // The base's cases that the result no longer has, by their names.
-  const std::vector<std::string>& gone() const { return gone_; }
-  const std::vector<const nlohmann::ordered_json*>& gone_cases() const { return gone_cases_; }
-  const nlohmann::ordered_json& result() const { return base_; }
+  const result::Case* case_of(const result::Case& result_case) const;
+  // The base's cases that the result no longer has.
+  const std::vector<const result::Case*>& gone_cases() const { return gone_cases_; }
   const std::string& name() const { return name_; }
   // "the scene's file, its lights (300, now 250)"; "" where nothing has changed that results tell.
-  std::string what_changed(const nlohmann::ordered_json& result_case) const;
+  std::string what_changed(const result::Case& result_case) const;
   // Why instructions of these two do not compare; "" where they do.
-  std::string obstacle_to_instructions(const nlohmann::ordered_json& result_case) const;
+  std::string obstacle_to_instructions(const result::Case& result_case) const;
 
  private:
-  std::string key_of(const nlohmann::ordered_json& result_case) const;
+  std::string key_of(const result::Case& result_case) const;
 
-  const nlohmann::ordered_json &base_, &next_;
+  const result::Result &base_, &next_;
   std::string name_;
+  std::string obstacle_;  // to instructions of any two cases; "": none
   bool is_one_scene_ = false;
-  std::map<std::string, const nlohmann::ordered_json*> by_key_;
-  std::vector<std::string> gone_;
-  std::vector<const nlohmann::ordered_json*> gone_cases_;
+  std::map<std::string, const result::Case*> by_key_;
+  std::vector<const result::Case*> gone_cases_;
 };
 
 }  // namespace clusterbench::report

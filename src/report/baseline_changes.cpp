@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -11,14 +12,13 @@
 #include "core/text.h"
 #include "report/baseline_cases.h"
 #include "report/columns.h"
-#include "report/json_values.h"
 #include "report/limits.h"
 #include "report/percent_change.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::Case;
 using Lines = std::vector<std::string>;
 
 constexpr const char* k_instructions =
@@ -33,21 +33,20 @@ void add_once(const std::string& line, Lines& lines) {
 }
 
 // With its viewport where the others have the same name, which does not show it.
-std::string names_of(const std::vector<const Json*>& cases, const std::vector<const Json*>& others) {
+std::string names_of(const std::vector<const Case*>& cases, const std::vector<const Case*>& others) {
   Lines names;
-  for (const Json* one : cases) {
-    const bool is_ambiguous =
-        std::ranges::any_of(others, [&](const Json* other) { return (*other)["name"] == (*one)["name"]; });
-    names.push_back(shown((*one)["name"]) + (is_ambiguous ? " at " + viewport_text(*one) : ""));
+  for (const Case* one : cases) {
+    const bool is_ambiguous = std::ranges::any_of(others, [&](const Case* other) { return other->name == one->name; });
+    names.push_back(shown(one->name) + (is_ambiguous ? " at " + viewport_text(one->viewport) : ""));
   }
   return joined(names);
 }
 
 class Changes {
  public:
-  Changes(const Json& result, const BaselineCases& baseline) : baseline_(baseline) {
-    for (const Json& result_case : result["cases"])
-      if (const Json* before = baseline.case_of(result_case); before != nullptr)
+  Changes(const result::Result& result, const BaselineCases& baseline) : baseline_(baseline) {
+    for (const Case& result_case : result.cases)
+      if (const Case* before = baseline.case_of(result_case); before != nullptr)
         add(*before, result_case);
       else
         not_in_base_.push_back(&result_case);
@@ -55,7 +54,7 @@ class Changes {
 
   std::string text() const {
     const std::string begin = "changes since " + baseline_.name() + ":";
-    const std::vector<const Json*>& gone = baseline_.gone_cases();
+    const std::vector<const Case*>& gone = baseline_.gone_cases();
     const bool is_all_there = not_in_base_.empty() && gone.empty() && not_told_.empty();
     if (views_.empty() && cases_.empty() && is_all_there)
       return begin + " none in " + number_of(unchanged_, "case") + " (lights, " +
@@ -72,26 +71,24 @@ class Changes {
   }
 
  private:
-  void add(const Json& before, const Json& now) {
+  void add(const Case& before, const Case& now) {
     const std::string of_view = changed(before, now, k_of_view), of_case = changed(before, now, k_of_case);
-    if (!of_view.empty()) add_once(shown(now["scene"]) + ", camera " + shown(now["camera"]) + ": " + of_view, views_);
+    if (!of_view.empty()) add_once(shown(now.scene) + ", camera " + shown(now.camera) + ": " + of_view, views_);
     if (of_case.empty())
       ++unchanged_;
     else
-      cases_.push_back(shown(now["name"]) + ": " + of_case);
+      cases_.push_back(shown(now.name) + ": " + of_case);
   }
 
   // "indices of 8 -> 16 bits": with more lights; "" where they are as wide.
-  static std::string other_width(const Json& before, const Json& now) {
-    const std::optional<double> was = number_at(before, "/buffers/index_bits"),
-                                is = number_at(now, "/buffers/index_bits");
-    if (!was || !is || *was == *is) return "";
-    return report::text("indices of %.0f", *was) + report::text(" -> %.0f bits", *is);
+  static std::string other_width(const Case& before, const Case& now) {
+    const std::uint64_t was = before.buffers.index_bits, is = now.buffers.index_bits;
+    return was == is ? "" : "indices of " + std::to_string(was) + " -> " + std::to_string(is) + " bits";
   }
 
   // "index_entries 40 -> 50 (+25 %; frame 1, cell [3,2,1]), bytes 232 -> 242 (+4.31 %)"; a location that several
   // figures share once.
-  std::string changed(const Json& before, const Json& now, std::span<const char* const> figures) {
+  std::string changed(const Case& before, const Case& now, std::span<const char* const> figures) {
     std::string out, last_location;
     for (const char* figure : figures) {
       const std::optional<double> was = limit_figure(before, figure), is = limit_figure(now, figure);
@@ -115,13 +112,13 @@ class Changes {
 
   const BaselineCases& baseline_;
   Lines views_, cases_, not_told_;
-  std::vector<const Json*> not_in_base_;
+  std::vector<const Case*> not_in_base_;
   std::size_t unchanged_ = 0;
 };
 
 }  // namespace
 
-std::string baseline_changes_text(const Json& result, const BaselineCases& baseline) {
+std::string baseline_changes_text(const result::Result& result, const BaselineCases& baseline) {
   return Changes(result, baseline).text();
 }
 

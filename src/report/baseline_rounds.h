@@ -2,16 +2,16 @@
 // What rounds beside another program (run --baseline-binary) add to a result.
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "result/result.h"
 #include "run/paired_rounds.h"
 
 namespace clusterbench::report {
 
-// The result gets `baseline` {tool}, each measured case `timing.baseline` {launches [{base_ns, new_ns}], base_ns,
-// new_ns, ratio, ci95, lists_differ}. `tool`: what the other program says of itself, as in a result.
-void add_baseline(nlohmann::ordered_json& result, const nlohmann::ordered_json& tool,
+// The result gets `baseline`, each measured case `timing.baseline`. `tool`: what the other program says of itself, as
+// in a result.
+void add_baseline(result::Result& result, const result::Tool& tool,
                   const std::map<std::string, run::PairedCase>& measured);
 
 }  // namespace clusterbench::report

@@ -7,12 +7,9 @@
 
 #include "core/text.h"
 #include "report/columns.h"
-#include "report/json_values.h"
 
 namespace clusterbench::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // A result that was changed by hand may say anything: what 64 bits do not hold is as much as they do.
 std::uint64_t sum_of_counts(std::uint64_t a, std::uint64_t b) {
@@ -23,44 +20,34 @@ std::uint64_t product_of_counts(std::uint64_t a, std::uint64_t b) {
                                                                      : a * b;
 }
 
-std::uint64_t count_at(const Json& from, const char* key) {
-  return from[key].get<std::uint64_t>();
-}
-
-PathNeed path_need(const Json& result_case, const Json& buffer) {
-  PathNeed path{result_case["camera"].get<std::string>(), 1, {}};
-  const std::optional<double> from_s = number_at(result_case, "/camera_path/from_s"),
-                              to_s = number_at(result_case, "/camera_path/to_s");
-  if (from_s && to_s) path.span_s = {*from_s, *to_s};
-  if (const Json* along = value_at(buffer, "/along_path")) {
-    path.frames_per_entry = std::max<std::uint64_t>(1, count_at(*along, "frames_per_entry"));
-    path.elements = (*along)["elements"].get<std::vector<std::uint64_t>>();
-  } else if (const std::uint64_t frames = count_at(result_case, "frames"); frames > 0) {
-    path.frames_per_entry = frames;
-    path.elements = {count_at(buffer, "high_water")};
+PathNeed path_need(const result::Case& result_case, const result::Buffer& buffer) {
+  PathNeed path{result_case.camera, 1, {}};
+  if (const std::optional<result::CameraPath>& along = result_case.camera_path)
+    path.span_s = {along->from_s, along->to_s};
+  if (buffer.along_path) {
+    path.frames_per_entry = std::max<std::uint64_t>(1, buffer.along_path->frames_per_entry);
+    path.elements = buffer.along_path->elements;
+  } else if (result_case.frames > 0) {
+    path.frames_per_entry = result_case.frames;
+    path.elements = {buffer.high_water};
   }
   return path;
 }
 
-Json cell_of(const Json& from) {
-  const Json* cell = value_at(from, "/worst_cell");
-  return cell == nullptr ? Json() : *cell;
-}
-
-std::vector<CaseBuffer> buffers_of_earlier_version(const Json& result_case) {
-  const Json &buffers = result_case["buffers"], &entries = buffers["index_entries"];
+std::vector<CaseBuffer> buffers_of_earlier_version(const result::Case& result_case) {
+  const result::Buffers& buffers = result_case.buffers;
   CaseBuffer indices;
   indices.name = "entries";
-  indices.element_bytes = std::max<std::uint64_t>(1, count_at(buffers, "index_bits") / 8);
-  indices.high_water = count_at(entries, "high_water");
-  indices.theoretical_max = count_at(entries, "theoretical_max");
-  indices.worst_frame = count_at(buffers, "worst_frame");
-  indices.worst_cell = cell_of(buffers);
-  indices.path.camera = result_case["camera"].get<std::string>();
+  indices.element_bytes = std::max<std::uint64_t>(1, buffers.index_bits / 8);
+  indices.high_water = buffers.index_entries.high_water;
+  indices.theoretical_max = buffers.index_entries.theoretical_max;
+  indices.worst_frame = buffers.worst_frame;
+  indices.worst_cell = buffers.worst_cell;
+  indices.path.camera = result_case.camera;
   CaseBuffer headers = indices;
   headers.name = "header_bytes";
   headers.element_bytes = 1;
-  headers.high_water = headers.theoretical_max = count_at(buffers, "header_bytes");
+  headers.high_water = headers.theoretical_max = buffers.header_bytes;
   return {indices, headers};
 }
 
@@ -130,15 +117,13 @@ std::string joined_cameras(const std::vector<CaseBuffer>& cameras) {
 
 }  // namespace
 
-std::vector<CaseBuffer> buffers_of(const Json& result_case) {
-  const Json* each = value_at(result_case, "/buffers/each");
-  if (each == nullptr) return buffers_of_earlier_version(result_case);
+std::vector<CaseBuffer> buffers_of(const result::Case& result_case) {
+  if (!result_case.buffers.each) return buffers_of_earlier_version(result_case);
   std::vector<CaseBuffer> out;
-  for (const Json& buffer : *each)
-    out.push_back({buffer["name"].get<std::string>(), std::max<std::uint64_t>(1, count_at(buffer, "element_bytes")),
-                   std::max<std::uint64_t>(1, count_at(buffer, "step")), count_at(buffer, "high_water"),
-                   count_at(buffer, "theoretical_max"), count_at(buffer, "worst_frame"), cell_of(buffer),
-                   path_need(result_case, buffer)});
+  for (const result::Buffer& buffer : *result_case.buffers.each)
+    out.push_back({buffer.name, std::max<std::uint64_t>(1, buffer.element_bytes),
+                   std::max<std::uint64_t>(1, buffer.step), buffer.high_water, buffer.theoretical_max,
+                   buffer.worst_frame, buffer.worst_cell, path_need(result_case, buffer)});
   return out;
 }
 
@@ -146,7 +131,7 @@ CaseBuffer in_one_frame(const std::vector<CaseBuffer>& cameras) {
   CaseBuffer out = cameras.front();
   if (cameras.size() == 1) return out;
   out.path = {joined_cameras(cameras), 1, {}};
-  out.worst_cell = nullptr;
+  out.worst_cell.reset();
   out.step = out.theoretical_max = 0;
   std::vector<std::uint64_t> marks;
   for (const CaseBuffer& one : cameras) {

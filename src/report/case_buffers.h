@@ -2,11 +2,12 @@
 // What one case's buffers need, as a result has it, and what cameras need together.
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "result/case.h"
 
 namespace clusterbench::report {
 
@@ -25,7 +26,7 @@ struct PathNeed {
 struct CaseBuffer {
   std::string name;
   std::uint64_t element_bytes = 1, step = 1, high_water = 0, theoretical_max = 0, worst_frame = 0;
-  nlohmann::ordered_json worst_cell;
+  std::optional<result::CellIndex> worst_cell;
   PathNeed path;
   std::uint64_t apart = 0;  // of several cameras: each at its own most at the same time
   std::string why_sum =
@@ -35,7 +36,7 @@ struct CaseBuffer {
 };
 
 // All of a case. Results of earlier versions have no single buffers: theirs are called "entries" and "header_bytes".
-std::vector<CaseBuffer> buffers_of(const nlohmann::ordered_json& result_case);
+std::vector<CaseBuffer> buffers_of(const result::Case& result_case);
 
 // Of cameras that are drawn in the same frame into one buffer: their needs are added frame by frame. A camera that
 // needs the same in all frames is added to each frame of the others; where the paths have different numbers of frames,

@@ -8,13 +8,17 @@
 
 #include "core/text.h"
 #include "measure/time_change.h"
-#include "report/json_values.h"
+#include "result/at.h"
 #include "run/sweep.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using result::Case;
+using result::Scene;
+using result::Time;
+using result::Timing;
 
 std::string count_text(double value) {
   if (value < 10000.0) return text("%.0f", value);
@@ -63,14 +67,13 @@ std::string text(const char* format, double value) {
   return out;
 }
 
-std::string frame_interval_text(const Json& result_case) {
+std::string frame_interval_text(const Case& result_case) {
   constexpr double k_wide_percent = 20.0;
-  const auto low = number_at(result_case, "/timing/frame_ns/ci95/0"),
-             high = number_at(result_case, "/timing/frame_ns/ci95/1"),
-             median = number_at(result_case, "/timing/frame_ns/median");
+  const auto median = result::number<&Case::timing, &Timing::frame_ns, &Time::median>(result_case);
   if (!median || *median <= 0.0) return "-";
-  if (!low || !high) return k_unknown_interval;
-  const double below = 100.0 * (1.0 - *low / *median), above = 100.0 * (*high / *median - 1.0);
+  const auto [low, high] = result::Pair(result_case.timing->frame_ns.ci95);
+  if (!std::isfinite(low) || !std::isfinite(high)) return k_unknown_interval;
+  const double below = 100.0 * (1.0 - low / *median), above = 100.0 * (high / *median - 1.0);
   if (std::max(below, above) < k_wide_percent) return text("%.1f %%", 0.5 * (below + above));
   return text("-%.0f", below) + text("/+%.0f %%", above);
 }
@@ -92,47 +95,38 @@ std::string amount_text(double value) {
   return text(is_count ? "%.0f" : std::abs(value) < 1e5 ? "%.4g" : "%.6g", value);
 }
 
-std::string text_at(const Json& result_case, const char* pointer, const char* format, double scale) {
-  const std::optional<double> number = number_at(result_case, pointer);
-  return number ? text(format, scale * *number) : "-";
+std::string text_of(const std::optional<double>& value, const char* format, double scale) {
+  return value ? text(format, scale * *value) : "-";
 }
 
-std::string short_count(const Json& result_case, const char* pointer) {
-  const std::optional<double> count = number_at(result_case, pointer);
+std::string short_count(const std::optional<double>& count) {
   return count ? count_text(*count) : "-";
 }
 
-std::string storage_name(const Json& result_case) {
-  const auto storage = result_case["storage"].get<std::string>();
-  if (storage != run::k_own_structure) return printable(storage);
-  const Json* assigner = value_at(result_case, "/assigner/name");
-  return run::own_structure_name(assigner == nullptr ? "" : assigner->get<std::string>());
+std::string storage_name(const Case& result_case) {
+  return result_case.storage == run::k_own_structure ? run::own_structure_name(result_case.assigner.name)
+                                                     : printable(result_case.storage);
 }
 
-std::string method_name(const Json& result_case) {
-  std::string label = printable(result_case["assigner"]["label"].get_ref<const std::string&>());
-  if (result_case.contains("preset"))
-    label = printable(result_case["preset"].get_ref<const std::string&>()) + ": " + label;
-  if (result_case.contains("precision") && result_case["precision"]["packing"] != "float32")
-    label += " " + printable(result_case["precision"]["label"].get_ref<const std::string&>());
-  if (result_case.contains("pre_cull"))
-    label += " after " + printable(result_case["pre_cull"]["label"].get_ref<const std::string&>());
+std::string method_name(const Case& result_case) {
+  std::string label = printable(result_case.assigner.label);
+  if (result_case.preset) label = printable(*result_case.preset) + ": " + label;
+  if (result_case.precision && result_case.precision->packing != "float32")
+    label += " " + printable(result_case.precision->label);
+  if (result_case.pre_cull) label += " after " + printable(result_case.pre_cull->label);
   return label;
 }
 
-std::vector<NamedCase> distinct_cases(const Json& cases, const Json& scene, const std::string& block,
-                                      const std::vector<std::string>& parts) {
+std::vector<NamedCase> distinct_cases(const std::vector<Case>& cases, const Scene& scene, const std::string& block,
+                                      PartOfCase part) {
   std::vector<NamedCase> out;
-  for (const Json& result_case : cases) {
-    const auto has = [&](const std::string& part) { return result_case.contains(part); };
+  for (const Case& result_case : cases) {
+    if (result_case.scene != scene.name || block_of(result_case) != block) continue;
+    const Json of_case = part(result_case);
     const auto is_same = [&](const NamedCase& other) {
-      return other.name == method_name(result_case) &&
-             std::all_of(parts.begin(), parts.end(), [&](const std::string& part) {
-               return result_case.value(part, Json()) == other.result_case->value(part, Json());
-             });
+      return other.name == method_name(result_case) && of_case == part(*other.result_case);
     };
-    if (std::any_of(parts.begin(), parts.end(), has) && result_case["scene"] == scene["name"] &&
-        block_of(result_case) == block && std::none_of(out.begin(), out.end(), is_same))
+    if (!of_case.is_null() && std::none_of(out.begin(), out.end(), is_same))
       out.push_back({method_name(result_case), &result_case});
   }
   std::map<std::string, int> uses;
@@ -142,16 +136,15 @@ std::vector<NamedCase> distinct_cases(const Json& cases, const Json& scene, cons
   return out;
 }
 
-std::string block_of(const Json& result_case) {
-  const std::string viewport = viewport_text(result_case);
-  return printable(result_case["grid"]["name"].get_ref<const std::string&>()) + ", camera " +
-         printable(result_case["camera"].get_ref<const std::string&>()) + ", " + viewport;
+std::string block_of(const Case& result_case) {
+  return printable(result_case.grid.name) + ", camera " + printable(result_case.camera) + ", " +
+         viewport_text(result_case.viewport);
 }
 
-std::vector<std::string> blocks_of(const Json& cases, const Json& scene) {
+std::vector<std::string> blocks_of(const std::vector<Case>& cases, const Scene& scene) {
   std::vector<std::string> blocks;
-  for (const Json& result_case : cases)
-    if (result_case["scene"] == scene["name"] &&
+  for (const Case& result_case : cases)
+    if (result_case.scene == scene.name &&
         std::find(blocks.begin(), blocks.end(), block_of(result_case)) == blocks.end())
       blocks.push_back(block_of(result_case));
   return blocks;

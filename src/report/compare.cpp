@@ -1,6 +1,7 @@
 #include "report/compare.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -14,98 +15,131 @@
 #include "report/exact_differences.h"
 #include "report/json_values.h"
 #include "report/result_json.h"
+#include "result/at.h"
+#include "run/sweep.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Pointer = Json::json_pointer;
+using result::Case;
+using result::number;
+using result::PerFrame;
+using result::Result;
+using result::Timing;
 
 // A case that both results have.
 struct Match {
-  const Json& base;
-  const Json& next;
+  const Case& base;
+  const Case& next;
 };
 
-std::vector<Match> matches_of(const Json& base, const Json& next) {
-  std::map<std::string, const Json*> by_id;
-  for (const Json& result_case : base["cases"]) by_id[result_case["id"].get<std::string>()] = &result_case;
+std::vector<Match> matches_of(const Result& base, const Result& next) {
+  std::map<std::string, const Case*> by_id;
+  for (const Case& result_case : base.cases) by_id[result_case.id] = &result_case;
   std::vector<Match> matches;
-  for (const Json& result_case : next["cases"])
-    if (const auto found = by_id.find(result_case["id"].get<std::string>()); found != by_id.end())
+  for (const Case& result_case : next.cases)
+    if (const auto found = by_id.find(result_case.id); found != by_id.end())
       matches.push_back({*found->second, result_case});
   return matches;
 }
 
 // The cases of `result` that `other` has not.
-std::vector<const Json*> missing_from(const Json& other, const Json& result) {
-  std::vector<const Json*> missing;
-  for (const Json& result_case : result["cases"])
-    if (std::none_of(other["cases"].begin(), other["cases"].end(),
-                     [&](const Json& other_case) { return other_case["id"] == result_case["id"]; }))
-      missing.push_back(&result_case);
+std::vector<const Case*> missing_from(const Result& other, const Result& result) {
+  std::vector<const Case*> missing;
+  for (const Case& result_case : result.cases)
+    if (std::ranges::find(other.cases, result_case.id, &Case::id) == other.cases.end()) missing.push_back(&result_case);
   return missing;
 }
 
-Json names_of(const std::vector<const Json*>& cases) {
+Json names_of(const std::vector<const Case*>& cases) {
   Json names = Json::array();
-  for (const Json* result_case : cases) names.push_back((*result_case)["name"]);
+  for (const Case* result_case : cases) names.push_back(result_case->name);
   return names;
 }
 
 // The same name on both sides, and not the same case.
-Json renamed(const Json& base, const std::vector<const Json*>& only_in_base, const Json& next,
-             const std::vector<const Json*>& only_in_new) {
+Json renamed(const Result& base, const std::vector<const Case*>& only_in_base, const Result& next,
+             const std::vector<const Case*>& only_in_new) {
   Json out = Json::array();
-  for (const Json* base_case : only_in_base)
-    for (const Json* next_case : only_in_new)
-      if ((*base_case)["name"] == (*next_case)["name"])
+  for (const Case* base_case : only_in_base)
+    for (const Case* next_case : only_in_new)
+      if (base_case->name == next_case->name)
         out.push_back(
-            {{"name", (*base_case)["name"]}, {"differs_in", differing_settings(base, *base_case, next, *next_case)}});
+            {{"name", base_case->name}, {"differs_in", differing_settings(base, *base_case, next, *next_case)}});
   return out;
 }
+
+// A part that cases may lack.
+struct Part {
+  const char* name;
+  bool (*is_in)(const Case& result_case);
+};
+template <auto Member>
+bool has(const Case& result_case) {
+  return (result_case.*Member).has_value();
+}
+constexpr Part k_parts[] = {
+    {"occupancy", has<&Case::occupancy>}, {"error", has<&Case::error>},       {"shading", has<&Case::shading>},
+    {"samples", has<&Case::samples>},     {"lookup", has<&Case::lookup>},     {"stability", has<&Case::stability>},
+    {"precision", has<&Case::precision>}, {"pre_cull", has<&Case::pre_cull>}, {"fit", has<&Case::fit>},
+    {"react", has<&Case::react>},         {"fallback", has<&Case::fallback>}, {"shadows", has<&Case::shadows>},
+    {"timing", has<&Case::timing>},       {"count", has<&Case::count>},
+};
 
 // Of the cases of both, how many have a part in one result alone.
 Json parts_of_one(const std::vector<Match>& matches) {
   Json out = Json::array();
-  for (const char* part : {"occupancy", "error", "shading", "samples", "lookup", "stability", "precision", "pre_cull",
-                           "fit", "react", "fallback", "shadows", "timing", "count"}) {
+  for (const Part& part : k_parts) {
     std::size_t base = 0, next = 0;
     for (const Match& match : matches) {
-      base += match.base.contains(part) && !match.next.contains(part) ? 1 : 0;
-      next += match.next.contains(part) && !match.base.contains(part) ? 1 : 0;
+      base += part.is_in(match.base) && !part.is_in(match.next) ? 1 : 0;
+      next += part.is_in(match.next) && !part.is_in(match.base) ? 1 : 0;
     }
-    if (base > 0) out.push_back({{"part", part}, {"only_in", "base"}, {"cases", base}});
-    if (next > 0) out.push_back({{"part", part}, {"only_in", "new"}, {"cases", next}});
+    if (base > 0) out.push_back({{"part", part.name}, {"only_in", "base"}, {"cases", base}});
+    if (next > 0) out.push_back({{"part", part.name}, {"only_in", "new"}, {"cases", next}});
   }
   return out;
 }
 
-bool has(const Json& json, const char* pointer) {
-  return value_at(json, pointer) != nullptr;
-}
-bool both_have(const Match& match, const char* pointer) {
-  return has(match.base, pointer) && has(match.next, pointer);
+// In all that results tell.
+template <class Record>
+bool are_same(const Record& base, const Record& next) {
+  return &base == &next || result::to_json(base) == result::to_json(next);
 }
 
 // What is compared of two separate runs: what a frame takes.
-constexpr const char* k_frame_time = "/timing/frame_ns/median";
+std::optional<double> frame_time(const Case& result_case) {
+  return number<&Case::timing, &Timing::frame_ns, &result::Time::median>(result_case);
+}
+bool are_timed(const Match& match) {
+  return frame_time(match.base) && frame_time(match.next);
+}
+bool are_counted(const Match& match) {
+  return match.base.count && match.next.count;
+}
 
-// Did the new result measure this base beside itself? The same result twice is a question about just that.
-bool is_paired(const Json& base, const Json& next) {
-  return has(next, "/baseline/tool") && (next["baseline"]["tool"] == base["tool"] || base == next);
+// How two results stand to each other.
+struct Relation {
+  bool is_paired = false;  // the new one measured this base beside itself
+  bool is_one = false;     // one result twice: a question about just that
+};
+Relation relation_of(const Result& base, const Result& next) {
+  if (!next.baseline) return {};
+  const bool is_one = are_same(base, next);
+  return {is_one || are_same(next.baseline->tool, base.tool), is_one};
 }
 
 // What differs between methods, and not between a method's storages: those share the times of assignment, but for a
 // light structure of the method's own. What a frame takes is each case's own.
 std::string time_key(const Match& match, bool is_paired) {
-  const Json& result_case = match.next;
-  if (!is_paired) return result_case["id"].get<std::string>();
-  Json key{result_case["scene"], result_case["camera"], result_case["viewport"], result_case["grid"],
-           result_case["assigner"]["label"]};
-  if (result_case.contains("precision")) key.push_back(result_case["precision"]["label"]);
-  if (result_case.contains("pre_cull")) key.push_back(result_case["pre_cull"]["label"]);
-  key.push_back(result_case["storage"] == "own");
+  const Case& result_case = match.next;
+  if (!is_paired) return result_case.id;
+  Json key{result_case.scene, result_case.camera, result_case.viewport, result::to_json(result_case.grid),
+           result_case.assigner.label};
+  if (result_case.precision) key.push_back(result_case.precision->label);
+  if (result_case.pre_cull) key.push_back(result_case.pre_cull->label);
+  key.push_back(result_case.storage == run::k_own_structure);
   return key.dump();
 }
 
@@ -115,34 +149,36 @@ struct TimeChange {
   double base_ns = 0.0, next_ns = 0.0;
 };
 
-TimeChange paired_change(const Json& paired) {
+TimeChange paired_change(const result::BaselineTimes& paired) {
   TimeChange out;
-  for (const Json& launch : paired["launches"])
-    out.launches.push_back(measure::launch_log_ratio(launch["base_ns"].get<std::vector<double>>(),
-                                                     launch["new_ns"].get<std::vector<double>>()));
+  for (const result::BaselineLaunch& launch : paired.launches)
+    out.launches.push_back(measure::launch_log_ratio(launch.base_ns, launch.new_ns));
   out.change = measure::change_over_launches(out.launches);
-  out.base_ns = paired["base_ns"].get<double>();
-  out.next_ns = paired["new_ns"].get<double>();
+  out.base_ns = paired.base_ns;
+  out.next_ns = paired.new_ns;
   return out;
 }
 
 // Without an interval nothing can be concluded: as of no samples.
-measure::MedianTime median_frame_time(const Json& timing) {
-  const Json &time = timing["frame_ns"], &low = time["ci95"][0], &high = time["ci95"][1];
-  if (!low.is_number() || !high.is_number()) return {time["median"], {}, 0, 1};
-  return {time["median"], {low, high}, time["samples"].size(), timing.value("launches", 1)};
+measure::MedianTime median_frame_time(const Timing& timing) {
+  const result::Time& time = timing.frame_ns;
+  const double low = time.ci95[0], high = time.ci95[1];
+  if (!std::isfinite(low) || !std::isfinite(high)) return {time.median, {}, 0, 1};
+  return {time.median, {low, high}, time.samples.size(), static_cast<int>(timing.launches.value_or(1))};
 }
 
 std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
-  const auto is_known = [&](const char* pointer) { return has(match.next, pointer); };
-  if (is_paired && is_known("/timing/baseline/ratio") && is_known("/timing/baseline/base_ns") &&
-      is_known("/timing/baseline/new_ns"))
-    return paired_change(match.next["timing"]["baseline"]);
-  if (is_paired || !both_have(match, k_frame_time)) return std::nullopt;
-  const Json &base_timing = match.base["timing"], &next_timing = match.next["timing"];
+  if (is_paired) {
+    const auto* paired = result::part<&Case::timing, &Timing::baseline>(match.next);
+    const bool is_known = paired != nullptr && std::isfinite(paired->ratio) && std::isfinite(paired->base_ns) &&
+                          std::isfinite(paired->new_ns);
+    return is_known ? std::optional(paired_change(*paired)) : std::nullopt;
+  }
+  if (!are_timed(match)) return std::nullopt;
+  const Timing &base_timing = *match.base.timing, &next_timing = *match.next.timing;
   const measure::MedianTime base = median_frame_time(base_timing), next = median_frame_time(next_timing);
   if (!(base.ns > 0.0) || !(next.ns > 0.0)) return std::nullopt;
-  if (base_timing["frame_ns"] == next_timing["frame_ns"])
+  if (are_same(base_timing.frame_ns, next_timing.frame_ns))
     return TimeChange{{0.0, 0.0, measure::k_least_freedom}, {}, base.ns, next.ns};  // one measurement, twice
   return TimeChange{measure::change_of_medians(base, next), {}, base.ns, next.ns};
 }
@@ -207,46 +243,45 @@ void add_ratio(Json& out, const measure::Change& change) {
 
 // Counted alike: by the same means, for the same instruction set.
 bool are_counts_comparable(const Match& match) {
-  if (!both_have(match, "/count/instructions_per_frame/assign")) return false;
-  const Json &base = match.base["count"], &next = match.next["count"];
-  return base["source"] == next["source"] && base["simd_target"] == next["simd_target"] &&
-         base["frames"] == next["frames"];
+  if (!are_counted(match)) return false;
+  const result::Count &base = *match.base.count, &next = *match.next.count;
+  return base.source == next.source && base.simd_target == next.simd_target && base.frames == next.frames;
 }
 
 // Hardware counts interrupts, too; even valgrind's depend a little on where memory lies.
-double count_tolerance(const Json& count) {
-  return count["source"] == "callgrind" ? 0.001 : 0.01;
+double count_tolerance(const result::Count& count) {
+  return count.source == "callgrind" ? 0.001 : 0.01;
 }
 
-Json instructions(const Match& match, double threshold) {
-  const auto ratio = [&](const char* pointer) {
-    const double base = match.base["count"][Pointer(pointer)].get<double>();
-    const double next = match.next["count"][Pointer(pointer)].get<double>();
-    return base > 0.0 ? next / base : next > 0.0 ? std::nan("") : 1.0;
+Json instructions(const result::Count& base, const result::Count& next, double threshold) {
+  const auto ratio = [](double before, double now) {
+    return before > 0.0 ? now / before : now > 0.0 ? std::nan("") : 1.0;
   };
+  const PerFrame &base_frame = base.instructions_per_frame, &next_frame = next.instructions_per_frame;
   // What leaves its own structure converts nothing.
-  const bool converts = has(match.base, "/count/instructions_per_frame/convert") &&
-                        has(match.next, "/count/instructions_per_frame/convert");
-  const double assign = ratio("/instructions_per_frame/assign"),
-               convert = converts ? ratio("/instructions_per_frame/convert") : 1.0;
-  const double limit = std::max(threshold, count_tolerance(match.next["count"]));
+  const double assign = ratio(base_frame.assign, next_frame.assign),
+               convert =
+                   base_frame.convert && next_frame.convert ? ratio(*base_frame.convert, *next_frame.convert) : 1.0,
+               build = ratio(static_cast<double>(base.instructions_per_build),
+                             static_cast<double>(next.instructions_per_build));
+  const double limit = std::max(threshold, count_tolerance(next));
   const char* verdict = assign > 1.0 + limit || convert > 1.0 + limit   ? "more"
                         : assign < 1.0 - limit || convert < 1.0 - limit ? "fewer"
                                                                         : "same";
   return {{"verdict", verdict},
           {"assign_ratio", number_or_null(assign)},
           {"convert_ratio", number_or_null(convert)},
-          {"build_ratio", number_or_null(ratio("/instructions_per_build"))},
-          {"tolerance", count_tolerance(match.next["count"])}};
+          {"build_ratio", number_or_null(build)},
+          {"tolerance", count_tolerance(next)}};
 }
 
 // What two programs that were measured side by side listed differently.
 void add_list_difference(const Match& match, Json& out) {
-  if (!has(match.next, "/timing/baseline/lists_differ")) return;
-  const Json& lists = match.next["timing"]["baseline"]["lists_differ"];
-  const bool is_better = lists["new_pairs"].get<double>() < lists["base_pairs"].get<double>() &&
-                         has(match.next, "/error") && match.next["error"]["false_negatives"] == 0;
-  out["lists"] = lists;
+  const auto* lists = result::part<&Case::timing, &Timing::baseline, &result::BaselineTimes::lists_differ>(match.next);
+  if (lists == nullptr) return;
+  const bool is_better =
+      lists->new_pairs < lists->base_pairs && match.next.error && match.next.error->false_negatives == 0;
+  out["lists"] = result::to_json(*lists);
   if (out["counts"] == "same" || !is_better) out["counts"] = is_better ? "better" : "worse";
 }
 
@@ -258,24 +293,22 @@ struct Scope {
   bool leaves_out(const char* what) const { return left_out.contains(what); }
 };
 
-Scope scope_of(const Json& base, const Json& next, const std::vector<Match>& matches, bool is_forced) {
+Scope scope_of(const Result& base, const Result& next, const std::vector<Match>& matches, bool is_paired,
+               bool is_forced) {
   const Obstacles found = obstacles(base, next);
   Scope scope;
-  const auto add = [&](const char* what, const char* pointer, const std::vector<std::string>& in_the_way) {
-    if (in_the_way.empty() ||
-        std::none_of(matches.begin(), matches.end(), [&](const Match& match) { return both_have(match, pointer); }))
-      return;
+  const auto add = [&](const char* what, bool (*can_be)(const Match&), const std::vector<std::string>& in_the_way) {
+    if (in_the_way.empty() || std::ranges::none_of(matches, can_be)) return;
     if (is_forced)
       scope.forced = in_the_way;
     else
       scope.left_out[what] = in_the_way;
   };
-  add("instructions", "/count/source", found.to_instructions);
-  if (std::any_of(matches.begin(), matches.end(), [](const Match& match) {
-        return both_have(match, "/count/source") && !are_counts_comparable(match);
-      }))
+  add("instructions", are_counted, found.to_instructions);
+  if (std::ranges::any_of(matches,
+                          [](const Match& match) { return are_counted(match) && !are_counts_comparable(match); }))
     scope.left_out["instructions"].push_back("/cases are counted by other means, or of other frames");
-  if (!is_paired(base, next)) add("times", k_frame_time, found.to_times);
+  if (!is_paired) add("times", are_timed, found.to_times);
   return scope;
 }
 
@@ -305,17 +338,18 @@ void add_time(Json& out, const TimeChange& time, double corrected_p, const Setti
   out["launches"] = time.launches.size();
 }
 
-Json margin_of(const Json& result) {
-  return result["config"].value(Pointer("/allocation/margin"), Json());
+Json margin_of(const Result& result) {
+  const Json* margin = value_at(result.config, "/allocation/margin");
+  return margin == nullptr ? Json() : *margin;
 }
 
 Json compared(const Match& match, const Times& times, const Scope& scope, const Settings& settings) {
-  Json out{{"id", match.next["id"]}, {"name", match.next["name"]}};
+  Json out{{"id", match.next.id}, {"name", match.next.name}};
   if (const auto index = times.index_of(match)) add_time(out, times.at(*index), times.corrected_p(*index), settings);
   out.update(exact_differences(match.base, match.next, settings.is_margin_same));
   add_list_difference(match, out);
   if (!scope.leaves_out("instructions") && are_counts_comparable(match))
-    out["instructions"] = instructions(match, settings.threshold);
+    out["instructions"] = instructions(*match.base.count, *match.next.count, settings.threshold);
   return out;
 }
 
@@ -340,7 +374,7 @@ std::string percent_text(const Json& ratio) {
   return ratio.is_null() ? "-" : text("%+.1f %%", 100.0 * (ratio.get<double>() - 1.0));
 }
 
-Json failures_of(const Json& next, const Json& cases) {
+Json failures_of(const Result& next, const Json& cases) {
   Json failures = Json::array();
   for (const std::string& failure : gate_failures(next)) failures.push_back(failure);
   for (const Json& compared_case : cases) {
@@ -382,8 +416,9 @@ Json without_renamed(const Json& names, const Json& renamed_cases) {
   return out;
 }
 
-Json warnings_of(const Json& base, const Json& next, const Json& comparison, const std::vector<std::string>& forced,
-                 bool gates_separate) {
+// `is_beside`: of one result, and what the other program had beside it.
+Json warnings_of(const Result& base, const Result& next, const Json& comparison, bool is_beside,
+                 const std::vector<std::string>& forced, bool gates_separate) {
   Json warnings = Json::array();
   for (const std::string& obstacle : forced) warnings.push_back("compared all the same: " + obstacle);
   for (const auto& [what, in_the_way] : comparison["left_out"].items())
@@ -393,7 +428,6 @@ Json warnings_of(const Json& base, const Json& next, const Json& comparison, con
   if (margin_of(base) != margin_of(next) && !comparison["cases"].empty())
     warnings.push_back("allocation.margin is " + margin_of(base).dump() + " and " + margin_of(next).dump() +
                        ", another setting: what is recommended follows it and is not compared");
-  const bool is_beside = comparison["data"] == "paired" && base == next;
   const Json only_in_base = without_renamed(comparison["only_in_base"], comparison["renamed"]),
              only_in_new = without_renamed(comparison["only_in_new"], comparison["renamed"]);
   if (!only_in_base.empty()) warnings.push_back("only in the base, not compared: " + listed(only_in_base));
@@ -418,11 +452,17 @@ Json warnings_of(const Json& base, const Json& next, const Json& comparison, con
   return warnings;
 }
 
-// "cold" or "warm"; null without times.
-Json caches_of_times(const Json& result) {
-  for (const Json& result_case : result["cases"])
-    if (has(result_case, "/timing")) return result_case["timing"].value("caches", "warm");
+// "cold" or "warm"; none without times.
+std::optional<std::string> caches_of_times(const Result& result) {
+  for (const Case& result_case : result.cases)
+    if (result_case.timing) return result_case.timing->caches.value_or("warm");
   return {};
+}
+
+// What figures depend on, at its place in a result.
+Json facts_of(const Result& result) {
+  return {
+      {"machine", result::to_json(result.machine)}, {"tool", result::to_json(result.tool)}, {"config", result.config}};
 }
 
 // Something that would have failed the comparison had it become worse.
@@ -433,12 +473,13 @@ bool is_gated_part_missing(const Json& comparison) {
 
 }  // namespace
 
-Obstacles obstacles(const Json& base, const Json& next) {
+Obstacles obstacles(const Result& base, const Result& next) {
+  const Json base_facts = facts_of(base), next_facts = facts_of(next);
   const auto differing = [&](std::initializer_list<const char*> pointers) {
     std::vector<std::string> out;
     for (const char* pointer : pointers) {
-      const Json none, &left = has(base, pointer) ? base[Pointer(pointer)] : none,
-                       &right = has(next, pointer) ? next[Pointer(pointer)] : none;
+      const Json *before = value_at(base_facts, pointer), *now = value_at(next_facts, pointer);
+      const Json left = before == nullptr ? Json() : *before, right = now == nullptr ? Json() : *now;
       // Results of older versions do not know the processor's numbers and caches.
       const bool is_unknown = left.is_null() != right.is_null() && std::string_view(pointer).starts_with("/machine/");
       if (left != right && !is_unknown)
@@ -451,38 +492,38 @@ Obstacles obstacles(const Json& base, const Json& next) {
       differing({"/machine/cpu", "/machine/family", "/machine/model", "/machine/stepping", "/machine/caches",
                  "/tool/compiler", "/tool/flags", "/tool/build_type", "/tool/simd_target", "/config/timing/frames"});
   out.to_times = differing({"/machine/cores", "/machine/ram_bytes", "/machine/os"});
-  const Json base_caches = caches_of_times(base), next_caches = caches_of_times(next);
-  if (!base_caches.is_null() && !next_caches.is_null() && base_caches != next_caches)
-    out.to_times.push_back("/cases/*/timing/caches is " + base_caches.dump() + " and " + next_caches.dump());
+  const std::optional<std::string> base_caches = caches_of_times(base), next_caches = caches_of_times(next);
+  if (base_caches && next_caches && *base_caches != *next_caches)
+    out.to_times.push_back("/cases/*/timing/caches is \"" + *base_caches + "\" and \"" + *next_caches + "\"");
   out.to_times.insert(out.to_times.begin(), out.to_instructions.begin(), out.to_instructions.end());
   return out;
 }
 
-Json compare_results(const Json& base, const Json& next, double threshold, const CompareOptions& options) {
-  const bool by_pairs = is_paired(base, next);
+Json compare_results(const Result& base, const Result& next, double threshold, const CompareOptions& options) {
+  const auto [is_paired, is_one] = relation_of(base, next);
   std::vector<Match> matches = matches_of(base, next);
-  const std::vector<const Json*> only_in_base = missing_from(next, base);
-  std::vector<const Json*> only_in_new = missing_from(base, next);
-  if (by_pairs && base == next) {  // one result, and what the other program had beside it
+  const std::vector<const Case*> only_in_base = missing_from(next, base);
+  std::vector<const Case*> only_in_new = missing_from(base, next);
+  if (is_one) {  // and what the other program had beside it
     std::vector<Match> beside;
     for (const Match& match : matches)
-      if (has(match.next, "/timing/baseline"))
+      if (result::part<&Case::timing, &Timing::baseline>(match.next) != nullptr)
         beside.push_back(match);
       else
         only_in_new.push_back(&match.next);
     matches.swap(beside);
   }
-  const Scope scope = scope_of(base, next, matches, options.is_forced);
-  const Times times = scope.leaves_out("times") ? Times() : Times(matches, by_pairs);
+  const Scope scope = scope_of(base, next, matches, is_paired, options.is_forced);
+  const Times times = scope.leaves_out("times") ? Times() : Times(matches, is_paired);
   Json out{{"comparison_version", 1},
            {"threshold", threshold},
-           {"data", by_pairs ? "paired" : "separate"},
-           {"time", by_pairs ? "assign" : "frame"},
-           {"base", {{"tool", by_pairs ? next["baseline"]["tool"] : base["tool"]}}},
-           {"new", {{"tool", next["tool"]}}},
+           {"data", is_paired ? "paired" : "separate"},
+           {"time", is_paired ? "assign" : "frame"},
+           {"base", {{"tool", result::to_json(is_paired ? next.baseline->tool : base.tool)}}},
+           {"new", {{"tool", result::to_json(next.tool)}}},
            {"left_out", scope.left_out},
            {"cases", Json::array()}};
-  const bool is_same_program = by_pairs && next["baseline"].value("is_same_program", false);
+  const bool is_same_program = is_paired && next.baseline->is_same_program.value_or(false);
   if (is_same_program) out["is_same_program"] = true;
   const Settings settings{threshold, options.gates_separate, margin_of(base) == margin_of(next), is_same_program};
   for (const Match& match : matches) out["cases"].push_back(compared(match, times, scope, settings));
@@ -492,7 +533,7 @@ Json compare_results(const Json& base, const Json& next, double threshold, const
   out["renamed"] = renamed(base, only_in_base, next, only_in_new);
   out["not_compared"] = parts_of_one(matches);
   out["failures"] = failures_of(next, out["cases"]);
-  out["warnings"] = warnings_of(base, next, out, scope.forced, options.gates_separate);
+  out["warnings"] = warnings_of(base, next, out, is_one, scope.forced, options.gates_separate);
   if (const std::vector<std::string> advice = advice_on(out); !advice.empty()) out["advice"] = advice;
   return out;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "result/result.h"
 
 namespace clusterbench::report {
 
@@ -16,7 +17,7 @@ namespace clusterbench::report {
 struct Obstacles {
   std::vector<std::string> to_times, to_instructions;
 };
-Obstacles obstacles(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next);
+Obstacles obstacles(const result::Result& base, const result::Result& next);
 
 struct CompareOptions {
   bool gates_separate = false;  // times of separate runs get verdicts, not hints
@@ -26,8 +27,8 @@ struct CompareOptions {
 // As src/config/schemas/comparison.schema.json says. `threshold`: the smallest change of time that matters, 0.02 for 2
 // %. Times: of rounds side by side where the new result has them for this base ("data": "paired"), else of medians
 // ("separate").
-nlohmann::ordered_json compare_results(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next,
-                                       double threshold, const CompareOptions& options = {});
+nlohmann::ordered_json compare_results(const result::Result& base, const result::Result& next, double threshold,
+                                       const CompareOptions& options = {});
 
 // ok, gate_failed (a failure), nothing_comparable (no case in common); with `is_strict` inconclusive where a verdict
 // is, a case of the base is missing, or instructions could not be compared.

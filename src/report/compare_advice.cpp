@@ -12,6 +12,8 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using result::Case;
+using result::Result;
 
 // In percent, upward to one digit behind the point.
 std::string percent_up(double share) {
@@ -86,15 +88,12 @@ std::string advice_on_same_program(const Json& comparison) {
                    : "; two launches tell no interval, --baseline-launches 10 does");
 }
 
-std::set<std::string> answers(const Json& result, const char* pointer) {
-  std::set<std::string> all;
-  for (const Json& result_case : result["cases"])
-    if (const Json* value = value_at(result_case, pointer); value != nullptr) all.insert(value->dump());
-  return all;
-}
-
-bool share_any(const std::set<std::string>& a, const std::set<std::string>& b) {
-  return std::ranges::any_of(a, [&](const std::string& value) { return b.contains(value); });
+// Whether a case of each has the same.
+template <class Get>
+bool share(const Result& base, const Result& next, Get get) {
+  std::set<std::string> answers;
+  for (const Case& base_case : base.cases) answers.insert(get(base_case));
+  return std::ranges::any_of(next.cases, [&](const Case& next_case) { return answers.contains(get(next_case)); });
 }
 
 }  // namespace
@@ -112,28 +111,27 @@ std::vector<std::string> advice_on(const Json& comparison) {
   return lines;
 }
 
-std::string advice_on_nothing(const Json& base, const Json& next, const std::string& base_name,
+std::string advice_on_nothing(const Result& base, const Result& next, const std::string& base_name,
                               const std::string& next_name) {
   const std::string begin = "the results have no case in common: ";
-  const auto share = [&](const char* pointer) { return share_any(answers(base, pointer), answers(next, pointer)); };
   const std::string both = shown(base_name) + " " + shown(next_name);
   const std::string before_and_after =
       "of a level before and after a change `clusterbench run ... --baseline " + shown(base_name) +
       " --allow-changed-lights` says old and new figures, and fails by budgets (--fail-if 'index_entries > +5 %')";
-  if (!share("/scene")) {
-    const bool may_be_renamed = base["scenes"].size() == 1 && next["scenes"].size() == 1;
+  if (!share(base, next, [](const Case& one) { return one.scene; })) {
+    const bool may_be_renamed = base.scenes.size() == 1 && next.scenes.size() == 1;
     return begin + "they are of other scenes (`clusterbench report " + both +
            " -o both.html` shows them side by side)" + (may_be_renamed ? "; " + before_and_after : "");
   }
-  if (!share("/grid/name"))
+  if (!share(base, next, [](const Case& one) { return one.grid.name; }))
     return begin +
            "their grids differ. To hold grids against each other, measure them in one run (--grid, --tiles and " +
            "--slices take lists) and ask `clusterbench ratio RESULT --across-grids`; `clusterbench report " + both +
            " -o both.html` shows both results";
-  if (share("/name"))
+  if (share(base, next, [](const Case& one) { return one.name; }))
     return begin + "the level or a setting has changed, as told above; " + before_and_after +
            "; `clusterbench history` shows how they move";
-  if (!share("/assigner/label"))
+  if (!share(base, next, [](const Case& one) { return one.assigner.label; }))
     return begin + "their methods differ. Measure them in one run and ask `clusterbench ratio RESULT`";
   return begin + "they differ in camera, viewport, grid, method or storage in every case (`clusterbench report " +
          both + " -o both.html` shows them side by side)";

@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "result/result.h"
+
 namespace clusterbench::report {
 
 // Of what compare_results() gives, but for its "advice"; none where every verdict stands.
 std::vector<std::string> advice_on(const nlohmann::ordered_json& comparison);
 
 // Why two results have no case in common, and which command answers the question behind it. `base_name`: its file.
-std::string advice_on_nothing(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next,
-                              const std::string& base_name, const std::string& next_name);
+std::string advice_on_nothing(const result::Result& base, const result::Result& next, const std::string& base_name,
+                              const std::string& next_name);
 
 }  // namespace clusterbench::report

@@ -5,12 +5,14 @@
 
 #include "config/presets.h"
 #include "core/text.h"
-#include "report/json_values.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::Case;
+using result::LightsInView;
+using result::number;
 
 struct Constant {
   const char *name, *what;
@@ -24,50 +26,49 @@ constexpr Constant k_constants[] = {
 };
 
 // Lists of frames in which a limit took lights away are shorter than those that the lights need.
-bool has_lists_behind_limit(const Json& result_case) {
-  const Json* steps = value_at(result_case, "/pre_cull/steps");
-  return steps != nullptr && std::ranges::any_of(*steps, [](const Json& step) {
-           return step["label"].get_ref<const std::string&>().starts_with("most(") &&
-                  number_at(step, "/removed/max").value_or(1.0) > 0.0;
-         });
+bool has_lists_behind_limit(const Case& result_case) {
+  const auto takes_lights = [](const result::PreCullStep& step) {
+    return step.label.starts_with("most(") &&
+           number<&result::PreCullStep::removed, &result::MeanMax::max>(step).value_or(1.0) > 0.0;
+  };
+  return result_case.pre_cull && std::ranges::any_of(result_case.pre_cull->steps, takes_lights);
 }
 
-std::optional<double> most_of_any_type(const Json& result_case) {
-  const Json* by_type = value_at(result_case, "/lights_in_view/max_by_type");
-  if (by_type == nullptr) return number_at(result_case, "/lights_in_view/max");
-  double most = 0.0;
-  for (const Json& lights : *by_type) most = std::max(most, lights.get<double>());
-  return most;
+std::optional<double> most_of_any_type(const Case& result_case) {
+  if (!result_case.lights_in_view) return {};
+  const result::LightsByType& most = result_case.lights_in_view->max_by_type;
+  return static_cast<double>(std::max({most.point, most.spot, most.box}));
 }
 
 // With room for all: where a pool is full, what it would need. Where tiles have grown for want of room: in the tiles
 // that were asked for, before they did.
-std::optional<double> entries_in(const Json& result_case) {
-  if (result_case.contains("react")) return number_at(result_case, "/react/fixed/index_entries");
-  const std::optional<double> kept = number_at(result_case, "/buffers/index_entries/high_water"),
-                              needed = number_at(result_case, "/buffers/each/0/high_water");
-  const bool is_full = number_at(result_case, "/buffers/overflow/dropped_pairs").value_or(0.0) > 0.0 ||
-                       number_at(result_case, "/buffers/overflow/cells").value_or(0.0) > 0.0;
-  return is_full && kept && needed ? std::optional(std::max(*kept, *needed)) : kept;
+std::optional<double> entries_in(const Case& result_case) {
+  if (result_case.react)
+    return number<&Case::react, &result::Reaction::fixed, &result::FitSide::index_entries>(result_case);
+  const result::Buffers& buffers = result_case.buffers;
+  const std::uint64_t kept = buffers.index_entries.high_water;
+  const bool is_full = buffers.overflow.dropped_pairs > 0 || buffers.overflow.cells > 0;
+  const bool has_need = buffers.each && !buffers.each->empty();
+  return static_cast<double>(is_full && has_need ? std::max(kept, buffers.each->front().high_water) : kept);
 }
 
-double per_cell(double entries, const Json& result_case) {
+double per_cell(double entries, const Case& result_case) {
   double cells = 1.0;
-  for (const Json& axis : result_case["grid"]["cells"]) cells *= std::max(1.0, axis.get<double>());
+  for (const std::uint64_t axis : result_case.grid.cells) cells *= std::max(1.0, static_cast<double>(axis));
   return std::ceil(entries / cells);
 }
 
-std::optional<double> seen_in_case(const Json& result_case, Needed needed) {
+std::optional<double> seen_in_case(const Case& result_case, Needed needed) {
   if (is_of_lists(needed) && has_lists_behind_limit(result_case)) return {};
   switch (needed) {
     case Needed::lights_in_view:
-      return number_at(result_case, "/lights_in_view/max");
+      return number<&Case::lights_in_view, &LightsInView::max>(result_case);
     case Needed::lights_of_type:
       return most_of_any_type(result_case);
     case Needed::lights_in_scene:
-      return number_at(result_case, "/lights");
+      return number<&Case::lights>(result_case);
     case Needed::longest_list:
-      return number_at(result_case, "/occupancy/lights_per_cell/max");
+      return number<&Case::occupancy, &result::Occupancy::lights_per_cell, &result::LightsPerCell::max>(result_case);
     case Needed::entries_per_cell:
       if (const std::optional<double> entries = entries_in(result_case)) return per_cell(*entries, result_case);
       return {};
@@ -80,7 +81,7 @@ std::optional<double> seen_in_case(const Json& result_case, Needed needed) {
 // The most that was seen of it, over all cameras; none where the result does not say.
 std::optional<std::uint64_t> most_seen(const SizedStructure& structure, Needed needed) {
   std::uint64_t most = 0;
-  for (const Json* result_case : structure.cases) {
+  for (const Case* result_case : structure.cases) {
     const std::optional<double> value = seen_in_case(*result_case, needed);
     if (!value) return {};
     most = std::max(most, static_cast<std::uint64_t>(*value));
@@ -92,10 +93,9 @@ std::optional<std::uint64_t> most_seen(const SizedStructure& structure, Needed n
 // of any.
 std::optional<std::uint64_t> most_lights(const SizedStructure& structure, Needed needed) {
   std::uint64_t most = 0;
-  for (const Json* result_case : structure.cases) {
-    const std::optional<double> lights = number_at(*result_case, "/lights");
-    if (!lights) return {};
-    most = std::max(most, static_cast<std::uint64_t>(*lights));
+  for (const Case* result_case : structure.cases) {
+    if (!result_case->lights) return {};
+    most = std::max(most, *result_case->lights);
   }
   std::uint64_t added = 0;
   for (const FoundFrame& found : structure.searches)

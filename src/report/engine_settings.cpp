@@ -11,7 +11,6 @@
 #include "report/columns.h"
 #include "report/engine_limits.h"
 #include "report/found_frames.h"
-#include "report/json_values.h"
 #include "report/size_words.h"
 
 namespace clusterbench::report {
@@ -39,10 +38,11 @@ const char* unit_of(Needed needed) {
 
 // The call or member with the grid as it is asked for: of tiles that have grown before they did.
 std::string filled_in(const char* call, const SizedStructure& structure) {
-  const Json& grid = (*structure.cases.front())["grid"];
-  Json cells = grid["cells"];
+  const result::Grid& grid = structure.cases.front()->grid;
+  result::Counts3 cells = grid.cells;
   if (!structure.grown.empty())
-    for (std::size_t axis = 0; axis < 2; ++axis) cells[axis] = structure.grown.front().asked[axis];
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      cells[axis] = static_cast<std::uint64_t>(structure.grown.front().asked[axis]);
   std::string out = call;
   const auto put = [&](const std::string& letter, const std::string& value) {
     for (std::size_t at = 0; (at = out.find(letter, at)) != std::string::npos; at += value.size()) {
@@ -52,8 +52,8 @@ std::string filled_in(const char* call, const SizedStructure& structure) {
     }
   };
   const char* letters[] = {"X", "Y", "Z"};
-  for (std::size_t axis = 0; axis < 3; ++axis) put(letters[axis], cells[axis].dump());
-  if (const Json* pixels = value_at(grid, "/tiles/pixels")) put("P", (*pixels)[0].dump());
+  for (std::size_t axis = 0; axis < 3; ++axis) put(letters[axis], std::to_string(cells[axis]));
+  if (grid.tiles && grid.tiles->pixels) put("P", std::to_string((*grid.tiles->pixels)[0]));
   return out;
 }
 

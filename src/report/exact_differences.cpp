@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "report/columns.h"
-#include "report/json_values.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
@@ -171,17 +171,18 @@ bool follows_from_nothing(const Json& differences) {
 
 }  // namespace
 
-std::string deepest_loss_text(const Json& result_case) {
-  const Json* deepest = value_at(result_case, "/error/deepest");
+std::string deepest_loss_text(const result::Case& result_case) {
+  const auto* deepest = result::part<&result::Case::error, &result::ListError::deepest>(result_case);
   if (deepest == nullptr) return "";
-  return "frame " + (*deepest)["frame"].dump() + ", cell " + (*deepest)["cell"].dump() + ", light " +
-         (*deepest)["light"].dump() + " ('" + shown((*deepest)["light_name"]) + "')";
+  return "frame " + std::to_string(deepest->frame) + ", cell " + Json(deepest->cell).dump() + ", light " +
+         std::to_string(deepest->light) + " ('" + shown(deepest->light_name) + "')";
 }
 
-Json exact_differences(const Json& base, const Json& next, bool is_margin_same) {
+Json exact_differences(const result::Case& base, const result::Case& next, bool is_margin_same) {
+  const Json base_json = result::to_json(base), next_json = result::to_json(next);
   Json found = Json::array(), differences = Json::array();
-  for (const auto& [key, value] : base.items())
-    if (is_counted(key) && next.contains(key)) walk("/" + key, value, next[key], found);
+  for (const auto& [key, value] : base_json.items())
+    if (is_counted(key) && next_json.contains(key)) walk("/" + key, value, next_json[key], found);
   for (const Json& difference : found)
     if (is_margin_same || !follows_margin(difference["what"].get<std::string>())) differences.push_back(difference);
   const bool is_better = any(differences, "better");

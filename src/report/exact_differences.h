@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "result/case.h"
+
 namespace clusterbench::report {
 
 // {"counts": "same" | "better" | "worse", "differences": [{"what": pointer, "base", "new", "is": "better" | "worse" |
@@ -13,10 +15,10 @@ namespace clusterbench::report {
 // over.
 // `is_margin_same`: allocation.margin of both; else what is recommended, and its used share, differ by that setting and
 // are passed over.
-nlohmann::ordered_json exact_differences(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next,
+nlohmann::ordered_json exact_differences(const result::Case& base, const result::Case& next,
                                          bool is_margin_same = true);
 
 // "frame 5, cell [1,0,2], light 8 ('torch')" of error.deepest; "" where there is none.
-std::string deepest_loss_text(const nlohmann::ordered_json& result_case);
+std::string deepest_loss_text(const result::Case& result_case);
 
 }  // namespace clusterbench::report

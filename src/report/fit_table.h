@@ -1,12 +1,13 @@
 #pragma once
 // What slices that follow what frames need save and risk, as a table.
 
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "result/result.h"
 
 namespace clusterbench::report {
 
 // One line per case of a grid that follows; "" without any.
-std::string fit_table(const nlohmann::ordered_json& result);
+std::string fit_table(const result::Result& result);
 
 }  // namespace clusterbench::report

@@ -10,6 +10,7 @@
 #include "core/file_text.h"
 #include "core/json_document.h"
 #include "core/text.h"
+#include "report/case_filter.h"
 #include "report/columns.h"
 #include "report/json_values.h"
 #include "report/result_file.h"
@@ -37,66 +38,69 @@ Json read_worst_case(const std::string& path) {
 
 // What is searched, whatever the scene is called and how many viewports there are beside it: grid, method, storage, how
 // lights are packed and culled, as a case's name has them.
-std::string structure_of(const Json& one) {
-  const Json& viewport = one["viewport"];
-  run::CaseNames names;
-  names.name = run::current_name(one["name"].get<std::string>());
-  names.scene = one["scene"].get<std::string>();
-  names.camera = one["camera"].get<std::string>();
-  names.viewport = viewport[0].dump() + "x" + viewport[1].dump();
+std::string structure_of(run::CaseNames names) {
+  names.name = run::current_name(names.name);
   return run::name_without_camera(names, false);
 }
 
-std::string sha256_of_scene(const Json& result, const Json& result_case) {
-  for (const Json& scene : result["scenes"])
-    if (scene["name"] == result_case["scene"]) return scene.value("sha256", "");
-  return "";
+std::string structure_of_searched(const Json& searched) {
+  run::CaseNames names;
+  names.name = searched["name"].get<std::string>();
+  names.scene = searched["scene"].get<std::string>();
+  names.camera = searched["camera"].get<std::string>();
+  names.viewport = viewport_text(searched["viewport"].get<result::Counts2>());
+  return structure_of(names);
 }
 
-// Each once, in words: "640x360 or 320x180".
-std::string viewports_text(const std::vector<const Json*>& cases) {
+std::string sha256_of_scene(const result::Result& result, const result::Case& result_case) {
+  const auto scene = std::ranges::find(result.scenes, result_case.scene, &result::Scene::name);
+  return scene == result.scenes.end() ? "" : scene->sha256;
+}
+
+// Each once, in words: "[640,360] or [320,180]".
+std::string viewports_text(const std::vector<const result::Case*>& cases) {
   std::vector<std::string> all;
-  for (const Json* one : cases)
-    if (const std::string viewport = (*one)["viewport"].dump(); std::ranges::find(all, viewport) == all.end())
+  for (const result::Case* one : cases)
+    if (const std::string viewport = Json(one->viewport).dump(); std::ranges::find(all, viewport) == all.end())
       all.push_back(viewport);
   return joined(all, " or ");
 }
 
 // The cases of its structure, camera and viewport on its scene. Of a scene that the result has several times those that
 // are called like it come first.
-std::vector<const Json*> matches_of(const std::string& path, const Json& searched, const Json& result) {
-  std::vector<const Json*> alike, seen_alike, out;
-  for (const Json& one : result["cases"]) {
-    const bool is_its_scene =
-        one["scene"] == searched["scene"] || sha256_of_scene(result, one) == searched["sha256"].get<std::string>();
-    if (is_its_scene && one["camera"] == searched["camera"] && structure_of(one) == structure_of(searched))
-      alike.push_back(&one);
+std::vector<const result::Case*> matches_of(const std::string& path, const Json& searched,
+                                            const result::Result& result) {
+  const auto scene = searched["scene"].get<std::string>(), camera = searched["camera"].get<std::string>(),
+             sha256 = searched["sha256"].get<std::string>(), structure = structure_of_searched(searched);
+  std::vector<const result::Case*> alike, seen_alike, out;
+  for (const result::Case& one : result.cases) {
+    const bool is_its_scene = one.scene == scene || sha256_of_scene(result, one) == sha256;
+    if (is_its_scene && one.camera == camera && structure_of(names_of_case(one)) == structure) alike.push_back(&one);
   }
   if (alike.empty())
-    throw Error(
-        path, "/case/name",
-        "is '" + searched["name"].get<std::string>() +
-            "', and no case here has its scene, camera, grid, method and storage" +
-            (result["cases"].empty() ? ""
-                                     : "; one of them is '" + result["cases"][0]["name"].get<std::string>() + "'"));
-  for (const Json* one : alike)
-    if ((*one)["viewport"] == searched["viewport"]) seen_alike.push_back(one);
+    throw Error(path, "/case/name",
+                "is '" + searched["name"].get<std::string>() +
+                    "', and no case here has its scene, camera, grid, method and storage" +
+                    (result.cases.empty() ? "" : "; one of them is '" + result.cases[0].name + "'"));
+  for (const result::Case* one : alike)
+    if (one->viewport == searched["viewport"].get<result::Counts2>()) seen_alike.push_back(one);
   if (seen_alike.empty())
     throw Error(path, "/case/viewport",
                 "is " + searched["viewport"].dump() + ", and here it is " + viewports_text(alike) +
                     "; search with the same --viewport");
-  for (const Json* one : seen_alike)
-    if (sha256_of_scene(result, *one) == searched["sha256"]) out.push_back(one);
+  for (const result::Case* one : seen_alike)
+    if (sha256_of_scene(result, *one) == sha256) out.push_back(one);
   if (out.empty()) throw Error(path, "/case/sha256", "is of another version of the scene; search again");
-  std::stable_partition(out.begin(), out.end(), [&](const Json* one) { return (*one)["scene"] == searched["scene"]; });
+  std::stable_partition(out.begin(), out.end(), [&](const result::Case* one) { return one->scene == scene; });
   return out;
 }
 
 // Of what the configuration asks of the scene a key; nothing where scenes differ in it and the result does not tell
 // which is whose.
-std::optional<Json> asked_of_scene(const Json& result, std::size_t scene, const char* key) {
-  const Json scenes = value_at(result, "/config/scenes") == nullptr ? Json::array() : result["config"]["scenes"];
-  if (scenes.size() == result["scenes"].size()) return scenes[scene].value(key, Json());
+std::optional<Json> asked_of_scene(const result::Result& result, std::size_t scene, const char* key) {
+  const Json* in_config = value_at(result.config, "/scenes");
+  const Json scenes = in_config == nullptr ? Json::array() : *in_config;
+  if (scenes.size() == result.scenes.size()) return scenes[scene].value(key, Json());
   std::optional<Json> asked;
   for (const Json& request : scenes) {
     const Json next = request.value(key, Json());
@@ -119,27 +123,27 @@ bool is_same_angle(const Json& a, const Json& b) {
 }
 
 // "" if the grid ends where that of the search did, or follows something from frame to frame.
-std::string other_end(const Json& searched, const Json& grid) {
-  if (const std::optional<double> end_m = number_at(searched, "/slices_m"); end_m && grid.contains("slices")) {
-    const double here_m = grid["slices"]["boundaries"].back().get<double>();
+std::string other_end(const Json& searched, const result::Grid& grid) {
+  if (const std::optional<double> end_m = number_at(searched, "/slices_m"); end_m && grid.slices) {
+    const double here_m = grid.slices->boundaries.back();
     return is_near(*end_m, here_m, here_m)
                ? ""
                : text("is %.6g m", *end_m) + text(", and the grid here ends at %.6g m", here_m);
   }
-  if (!searched.contains("bounds_m") || !grid.contains("bounds")) return "";
+  if (!searched.contains("bounds_m") || !grid.bounds || !grid.origin) return "";
   const Json& box = searched["bounds_m"];
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double origin = grid["origin"][axis].get<double>(), lo = box["min"][axis].get<double>(),
+    const double origin = (*grid.origin)[axis], lo = box["min"][axis].get<double>(),
                  hi = box["max"][axis].get<double>();
-    if (!is_near(lo, origin + grid["bounds"]["min"][axis].get<double>(), hi - lo) ||
-        !is_near(hi, origin + grid["bounds"]["max"][axis].get<double>(), hi - lo))
+    if (!is_near(lo, origin + grid.bounds->min[axis], hi - lo) ||
+        !is_near(hi, origin + grid.bounds->max[axis], hi - lo))
       return "is another box than that of the grid here";
   }
   return "";
 }
 
-void check_settings(const std::string& path, const Json& settings, const Json& result, std::size_t scene,
-                    const Json& match) {
+void check_settings(const std::string& path, const Json& settings, const result::Result& result, std::size_t scene,
+                    const result::Case& match) {
   const auto differs = [&](const std::string& key, const Json& here) {
     throw Error(path, "/case/settings/" + key,
                 "is " + settings.value(key, Json()).dump() + ", and here it is " + here.dump() +
@@ -153,27 +157,28 @@ void check_settings(const std::string& path, const Json& settings, const Json& r
       const Json here = asked->is_null() ? standard : *asked;
       if (settings.value(key, standard) != here) differs(key, here);
     }
-  const Json& rule = result["scenes"][scene]["range_rule"];
+  const Json rule = result::to_json(result.scenes[scene].range_rule);
   for (const char* key : {"cutoff_lux", "max_range"})
     if (settings["range_rule"][key] != rule[key])
       differs("range_rule", {{"cutoff_lux", rule["cutoff_lux"]}, {"max_range", rule["max_range"]}});
-  if (const std::string other = other_end(settings["grid_end"], match["grid"]); !other.empty())
+  if (const std::string other = other_end(settings["grid_end"], match.grid); !other.empty())
     throw Error(path, "/case/settings/grid_end",
                 other +
                     ": it follows from the lights of the recorded path; fix it for both, as with --set "
                     "'grids.*.slices.far=METRES' (of boxes, bounds), and search again");
 }
 
-void check_settings(const std::string& path, const Json& searched, const Json& result, const Json& match) {
+void check_settings(const std::string& path, const Json& searched, const result::Result& result,
+                    const result::Case& match) {
   if (!searched.contains("settings")) return;
-  for (std::size_t i = 0; i < result["scenes"].size(); ++i)
-    if (result["scenes"][i]["name"] == match["scene"]) check_settings(path, searched["settings"], result, i, match);
+  for (std::size_t i = 0; i < result.scenes.size(); ++i)
+    if (result.scenes[i].name == match.scene) check_settings(path, searched["settings"], result, i, match);
 }
 
 // The case that was searched: of several that are alike the first one of its settings.
-const Json& searched_case(const std::string& path, const Json& searched, const Json& result) {
-  const std::vector<const Json*> matches = matches_of(path, searched, result);
-  for (const Json* match : matches) {
+const result::Case& searched_case(const std::string& path, const Json& searched, const result::Result& result) {
+  const std::vector<const result::Case*> matches = matches_of(path, searched, result);
+  for (const result::Case* match : matches) {
     try {
       check_settings(path, searched, result, *match);
       return *match;
@@ -188,45 +193,46 @@ constexpr const char* k_not_compared =
     "an earlier version wrote it, without the field of view, the range rule and the end of the grid: whether they "
     "are those of the case here is not known; search again";
 
-// A figure that a search can make large, and where it stands. The frame that it was seen in is not that of the find.
-struct SoughtFigure {
-  const char *measure, *part, *figure;
-};
-constexpr SoughtFigure k_sought_figures[] = {{"entries", "/buffers", "/index_entries/high_water"},
-                                             {"longest", "/occupancy", "/lights_per_cell/max"},
-                                             {"lights", "/lights_in_view", "/max"}};
+// The frame that the figure was seen in is not that of the find.
+template <class Figure>
+void raise_figure(Figure& figure, std::uint64_t found, std::uint64_t& worst_frame) {
+  if (!(static_cast<double>(found) > static_cast<double>(figure))) return;
+  figure = static_cast<Figure>(found);
+  worst_frame = k_found_frame;
+}
 
-void raise_figure(Json& result_case, const std::string& part, const std::string& figure, std::uint64_t found) {
-  const std::optional<double> seen = number_at(result_case, part + figure);
-  if (!seen || static_cast<double>(found) <= *seen) return;
-  result_case[Json::json_pointer(part + figure)] = found;
-  for (const char* key : {"worst_frame", "worst_cell"}) result_case[Json::json_pointer(part)].erase(key);
+void raise_measure(result::Case& result_case, const std::string& measure, std::uint64_t found) {
+  result::Buffers& buffers = result_case.buffers;
+  if (measure == "entries") raise_figure(buffers.index_entries.high_water, found, buffers.worst_frame);
+  if (std::optional<result::Occupancy>& lists = result_case.occupancy; lists && measure == "longest")
+    raise_figure(lists->lights_per_cell.max, found, lists->worst_frame);
+  if (std::optional<result::LightsInView>& lights = result_case.lights_in_view; lights && measure == "lights")
+    raise_figure(lights->max, found, lights->worst_frame);
 }
 
 // Of structures whose size follows from what they hold; "fixed" and "linked" have theirs whatever a frame needs.
-bool has_bytes_of_needs(const Json& result_case) {
-  const Json* each = value_at(result_case, "/buffers/each");
+bool has_bytes_of_needs(const result::Buffers& buffers) {
   double needs = 0.0;
-  for (const Json& buffer : each == nullptr ? Json::array() : *each)
-    needs += buffer["high_water"].get<double>() * buffer["element_bytes"].get<double>();
-  return number_at(result_case, "/buffers/bytes/high_water") == needs;
+  if (buffers.each)
+    for (const result::Buffer& buffer : *buffers.each)
+      needs += static_cast<double>(buffer.high_water) * static_cast<double>(buffer.element_bytes);
+  return static_cast<double>(buffers.bytes.high_water) == needs;
 }
 
-void raise_to_find(Json& result_case, const FoundFrame& found) {
-  for (const SoughtFigure& row : k_sought_figures)
-    if (found.measure == row.measure) raise_figure(result_case, row.part, row.figure, found.value);
-  if (!has_bytes_of_needs(result_case)) return;
+void raise_to_find(result::Case& result_case, const FoundFrame& found) {
+  raise_measure(result_case, found.measure, found.value);
+  if (!has_bytes_of_needs(result_case.buffers)) return;
   std::uint64_t bytes = 0;
   for (const FoundFrame::Need& need : found.needs) bytes += need.elements * need.element_bytes;
-  raise_figure(result_case, "/buffers", "/bytes/high_water", bytes);
+  raise_figure(result_case.buffers.bytes.high_water, bytes, result_case.buffers.worst_frame);
 }
 
 }  // namespace
 
-FoundFrame read_found(const std::string& path, const Json& result) {
+FoundFrame read_found(const std::string& path, const result::Result& result) {
   const Json json = read_worst_case(path);
   FoundFrame out;
-  out.case_name = searched_case(path, json["case"], result)["name"].get<std::string>();
+  out.case_name = searched_case(path, json["case"], result).name;
   if (!json["case"].contains("settings")) out.not_compared = k_not_compared;
   out.measure = json["measure"]["name"].get<std::string>();
   out.value = static_cast<std::uint64_t>(std::max(0.0, json["frames"][0]["value"].get<double>()));
@@ -253,10 +259,10 @@ FoundFrame read_found(const std::string& path, const Json& result) {
   return out;
 }
 
-Json with_finds(Json result, const std::vector<FoundFrame>& found) {
-  for (Json& result_case : result["cases"])
+result::Result with_finds(result::Result result, const std::vector<FoundFrame>& found) {
+  for (result::Case& result_case : result.cases)
     for (const FoundFrame& frame : found)
-      if (frame.refusal.empty() && frame.case_name == result_case["name"]) raise_to_find(result_case, frame);
+      if (frame.refusal.empty() && frame.case_name == result_case.name) raise_to_find(result_case, frame);
   return result;
 }
 

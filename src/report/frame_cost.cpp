@@ -8,63 +8,71 @@
 #include "measure/frame_cost.h"
 #include "measure/shading.h"
 #include "report/contender.h"
-#include "report/json_values.h"
-#include "report/result_json.h"
 #include "report/sample_sets.h"
+#include "result/at.h"
+#include "result/rounding.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using result::Buffers;
+using result::Case;
+using result::Cost;
+using result::counted;
+using result::FrameBytes;
+using result::SampleSet;
+using result::Time;
+using result::Timing;
 
 // Of the picture's pixels one that is looked through stands for so many.
-double pixels_per_sample(const Json& result_case, const std::string& set, const Json& config) {
+double pixels_per_sample(const Case& result_case, const std::string& set, const Json& config) {
   const Json divisor = config.value(Json::json_pointer("/samples/" + set + "/divisor"), Json());
   if (!divisor.is_number_integer()) return 1.0;
-  const Vec2i viewport{result_case["viewport"][0].get<int>(), result_case["viewport"][1].get<int>()};
+  const Vec2i viewport{static_cast<int>(result_case.viewport[0]), static_cast<int>(result_case.viewport[1])};
   return static_cast<double>(viewport.x) * viewport.y /
          static_cast<double>(depth::PixelGrid(viewport, divisor.get<int>()).count());
 }
 
 // `wave`: "8x4" or "8x8" pixels.
-double divergence_of(const Json& result_case, const Json& counts, const std::string& wave) {
+double divergence_of(const Case& result_case, const SampleSet& counts, const std::string& wave) {
   const int lanes = wave == "8x4" ? 32 : 64;
-  if (!counts.contains("waves") || draws_lights(result_case)) return 1.0;
-  for (const Json& waves : counts["waves"])
-    if (waves["lanes"] == lanes && waves["divergence"].is_number()) return waves["divergence"].get<double>();
+  if (!counts.waves || draws_lights(result_case)) return 1.0;
+  for (const result::Waves& waves : *counts.waves)
+    if (waves.lanes == lanes && std::isfinite(waves.divergence)) return waves.divergence;
   return 1.0;
 }
 
-double pixels_of(const Json& result_case) {
-  return result_case["viewport"][0].get<double>() * result_case["viewport"][1].get<double>();
+double pixels_of(const Case& result_case) {
+  return static_cast<double>(result_case.viewport[0]) * static_cast<double>(result_case.viewport[1]);
 }
 
 // How many of a set's samples a frame shades. `weight`: a number, 0 for none, or "pixels": each of the picture's once.
-double shaded_in_frame(const Json& result_case, const std::string& set, const Json& weight, double samples,
+double shaded_in_frame(const Case& result_case, const std::string& set, const Json& weight, double samples,
                        const Json& config) {
   if (weight.is_string()) return pixels_of(result_case);
-  return weight.get<double>() * samples / result_case["frames"].get<double>() *
+  return weight.get<double>() * samples / static_cast<double>(result_case.frames) *
          pixels_per_sample(result_case, set, config);
 }
 
-double mean_per_sample(const Json& counts, const char* key) {
-  const auto samples = counts["samples"].get<double>();
-  return samples > 0.0 ? counts.value(key, 0.0) / samples : 0.0;
+double mean_per_sample(const SampleSet& counts, SampleFigure count) {
+  const auto samples = static_cast<double>(counts.samples);
+  return samples > 0.0 ? count(counts).value_or(0.0) / samples : 0.0;
 }
 
 // With the set's name; those that are there and have a weight.
 struct WeightedSet {
   std::string name;
-  const Json* counts;
+  const SampleSet* counts;
   measure::ShadedSamples shaded;
 };
 
-std::vector<WeightedSet> weighted_sets(const Json& result_case, const Json& config) {
+std::vector<WeightedSet> weighted_sets(const Case& result_case, const Json& config) {
   std::vector<WeightedSet> sets;
   for (const auto& [name, weight] : config["cost"]["weights"].items()) {
-    const Json* counts = samples_of_set(result_case, name);
+    const SampleSet* counts = samples_of_set(result_case, name);
     if (weight == 0.0 || counts == nullptr) continue;
-    const double per_frame = shaded_in_frame(result_case, name, weight, (*counts)["samples"].get<double>(), config);
+    const double per_frame = shaded_in_frame(result_case, name, weight, static_cast<double>(counts->samples), config);
     sets.push_back(
         {name, counts, shaded_samples(result_case, *counts, per_frame, config["cost"]["wave"].get<std::string>())});
   }
@@ -72,67 +80,75 @@ std::vector<WeightedSet> weighted_sets(const Json& result_case, const Json& conf
 }
 
 // Points of the whole view that have a weight, and that a method of visible surfaces does not have: it lights none.
-bool lacks_weighted_points(const Json& result_case, const Json& config) {
+bool lacks_weighted_points(const Case& result_case, const Json& config) {
   const bool is_asked = config.contains("shading") && config["shading"].value("samples", 0) > 0;
-  return is_asked && config["cost"]["weights"].value("volume", Json(0)) != 0.0 &&
-         samples_of_set(result_case, "volume") == nullptr;
+  return is_asked && config["cost"]["weights"].value("volume", Json(0)) != 0.0 && !result_case.shading;
 }
 
-double upload_bytes(const Json& result_case) {
-  return makes_lists_on_gpu(result_case) ? 0.0 : number_at(result_case, "/buffers/upload_bytes/mean").value_or(0.0);
+double upload_bytes(const Case& result_case) {
+  return makes_lists_on_gpu(result_case)
+             ? 0.0
+             : result::number<&Case::buffers, &Buffers::upload_bytes, &FrameBytes::mean>(result_case).value_or(0.0);
+}
+
+double traffic_bytes(const Case& result_case) {
+  return result::number<&Case::buffers, &Buffers::traffic_bytes, &FrameBytes::mean>(result_case).value_or(0.0);
 }
 
 // A set that a case is ranked by; shaded: how many of its samples a frame shades.
 struct RankingSet {
-  const Json* counts;
+  const SampleSet* counts;
   double shaded;
 };
 
-std::vector<RankingSet> ranking_sets(const Json& result_case) {
+const result::SetCost* cost_of_set(const Cost& cost, const std::string& name) {
+  const auto found = std::ranges::find_if(cost.sets, [&](const auto& set) { return set.first == name; });
+  return found == cost.sets.end() ? nullptr : &found->second;
+}
+
+std::vector<RankingSet> ranking_sets(const Case& result_case) {
   std::vector<RankingSet> sets;
-  const Json* paid = value_at(result_case, "/cost/sets");
-  const bool is_paid = paid != nullptr && !paid->empty();
-  for (const std::string& name : ranking_set_names(result_case))
-    sets.push_back({samples_of_set(result_case, name),
-                    is_paid ? number_at(result_case, "/cost/sets/" + name + "/samples").value_or(0.0) : 1.0});
+  const bool is_paid = result_case.cost && !result_case.cost->sets.empty();
+  for (const std::string& name : ranking_set_names(result_case)) {
+    const double shaded = is_paid ? cost_of_set(*result_case.cost, name)->samples : 1.0;
+    sets.push_back({samples_of_set(result_case, name), std::isfinite(shaded) ? shaded : 0.0});
+  }
   return sets;
 }
 
-Json cost_of(const Json& result_case, const std::vector<WeightedSet>& sets, const Json& config) {
+Cost cost_of(const Case& result_case, const std::vector<WeightedSet>& sets, const Json& config) {
   const measure::CostModel model = cost_model_of(config["cost"]);
   std::vector<measure::ShadedSamples> shaded;
-  Json sets_json = Json::object();
-  bool is_lit = !lacks_weighted_points(result_case, config);
-  double samples = 0.0, given = 0.0, needed = 0.0, counted = 0.0;
+  Cost out;
+  out.lit = !lacks_weighted_points(result_case, config);
+  double samples = 0.0, given = 0.0, needed = 0.0;
+  std::uint64_t all_needed = 0;  // of the samples themselves
   for (const WeightedSet& set : sets) {
     samples += set.shaded.samples;
     given += set.shaded.samples * set.shaded.lights;
-    needed += set.shaded.samples * mean_per_sample(*set.counts, "needed");
-    counted += number_at(*set.counts, "/needed").value_or(0.0);
+    needed += set.shaded.samples * mean_per_sample(*set.counts, result::number<&SampleSet::needed>);
+    all_needed += set.counts->needed;
     shaded.push_back(set.shaded);
-    sets_json[set.name] = {
-        {"samples", number_or_null(set.shaded.samples)},       {"lights", number_or_null(set.shaded.lights)},
-        {"divergence", number_or_null(set.shaded.divergence)}, {"reads", number_or_null(set.shaded.reads)},
-        {"read_bytes", number_or_null(set.shaded.read_bytes)}, {"ns", number_or_null(set.shaded.ns(model))}};
-    const Json& unlit = (*set.counts)["unlit"];
-    is_lit = is_lit && !(unlit.is_number() && unlit.get<double>() > measure::k_most_unlit);
+    out.sets.emplace_back(set.name, result::SetCost{counted(set.shaded.samples), counted(set.shaded.lights),
+                                                    counted(set.shaded.divergence), counted(set.shaded.reads),
+                                                    counted(set.shaded.read_bytes), counted(set.shaded.ns(model))});
+    out.lit = out.lit && !(set.counts->unlit > measure::k_most_unlit);
   }
   const measure::FrameCost cost = measure::frame_cost(
-      model, makes_lists_on_gpu(result_case) ? std::nullopt : number_at(result_case, "/timing/frame_ns/median"),
-      upload_bytes(result_case), number_at(result_case, "/buffers/traffic_bytes/mean").value_or(0.0), shaded);
-  const bool is_known = is_lit && counted >= static_cast<double>(measure::k_least_needed);
-  const auto or_null = [](const std::optional<double>& ns) { return ns ? number_or_null(*ns) : Json(); };
-  return {{"frame_ns", or_null(cost.frame_ns())},
-          {"assign_ns", or_null(cost.assign_ns)},
-          {"gpu_ns", number_or_null(cost.gpu_ns())},
-          {"upload_ns", number_or_null(cost.upload_ns)},
-          {"traffic_ns", number_or_null(cost.traffic_ns)},
-          {"read_ns", number_or_null(cost.read_ns)},
-          {"shade_ns", number_or_null(cost.shade_ns)},
-          {"lights", number_or_null(given / samples)},
-          {"overshade", is_known ? number_or_null(given / needed) : Json()},
-          {"sets", sets_json},
-          {"lit", is_lit}};
+      model,
+      makes_lists_on_gpu(result_case) ? std::nullopt
+                                      : result::number<&Case::timing, &Timing::frame_ns, &Time::median>(result_case),
+      upload_bytes(result_case), traffic_bytes(result_case), shaded);
+  out.frame_ns = counted(cost.frame_ns().value_or(result::k_none));
+  out.assign_ns = counted(cost.assign_ns.value_or(result::k_none));
+  out.gpu_ns = counted(cost.gpu_ns());
+  out.upload_ns = counted(cost.upload_ns);
+  out.traffic_ns = counted(cost.traffic_ns);
+  out.read_ns = counted(cost.read_ns);
+  out.shade_ns = counted(cost.shade_ns);
+  out.lights = counted(given / samples);
+  out.overshade = out.lit && all_needed >= measure::k_least_needed ? counted(given / needed) : result::k_none;
+  return out;
 }
 
 }  // namespace
@@ -143,75 +159,76 @@ measure::CostModel cost_model_of(const Json& constants) {
           constants.value("read_gb_per_s", 0.0)};
 }
 
-measure::ShadedSamples shaded_samples(const Json& result_case, const Json& counts, double samples,
+measure::ShadedSamples shaded_samples(const Case& result_case, const SampleSet& counts, double samples,
                                       const std::string& wave) {
   measure::ShadedSamples shaded;
   shaded.samples = samples;
-  shaded.lights = mean_per_sample(counts, "evaluated");
+  shaded.lights = mean_per_sample(counts, result::number<&SampleSet::evaluated>);
   shaded.divergence = divergence_of(result_case, counts, wave);
   if (draws_lights(result_case)) return shaded;
-  shaded.reads = mean_per_sample(counts, "reads");
-  shaded.read_bytes = mean_per_sample(counts, "read_bytes");
+  shaded.reads = mean_per_sample(counts, result::number<&SampleSet::reads>);
+  shaded.read_bytes = mean_per_sample(counts, result::number<&SampleSet::read_bytes>);
   return shaded;
 }
 
-std::optional<WholeFrame> whole_frame(const Json& result_case, const Json& config) {
-  if (number_at(result_case, "/cost/shade_ns")) {
-    const auto part = [&](const char* pointer) { return number_at(result_case, pointer).value_or(0.0); };
-    const Json& sets = result_case["cost"]["sets"];
-    WholeFrame frame{
-        {{}, part("/cost/upload_ns"), part("/cost/traffic_ns"), part("/cost/read_ns"), part("/cost/shade_ns")},
-        sets.contains("volume") && !sets.contains("opaque")};
+std::optional<WholeFrame> whole_frame(const Case& result_case, const Json& config) {
+  if (const auto shade_ns = result::number<&Case::cost, &Cost::shade_ns>(result_case)) {
+    const Cost& cost = *result_case.cost;
+    WholeFrame frame{{{},
+                      result::number<&Cost::upload_ns>(cost).value_or(0.0),
+                      result::number<&Cost::traffic_ns>(cost).value_or(0.0),
+                      result::number<&Cost::read_ns>(cost).value_or(0.0),
+                      *shade_ns},
+                     cost_of_set(cost, "volume") != nullptr && cost_of_set(cost, "opaque") == nullptr};
     if (makes_lists_on_gpu(result_case)) frame.cost.upload_ns = 0.0;  // older results have it
     return frame;
   }
-  const std::optional<double> samples = number_at(result_case, "/shading/samples");
-  if (!config.contains("cost") || !samples || *samples == 0.0) return std::nullopt;
-  return WholeFrame{measure::frame_cost(cost_model_of(config["cost"]), {}, upload_bytes(result_case),
-                                        number_at(result_case, "/buffers/traffic_bytes/mean").value_or(0.0),
-                                        {shaded_samples(result_case, result_case["shading"], pixels_of(result_case),
-                                                        config["cost"].value("wave", "8x8"))}),
-                    true};
+  if (!config.contains("cost") || !result_case.shading || result_case.shading->samples == 0) return std::nullopt;
+  return WholeFrame{
+      measure::frame_cost(cost_model_of(config["cost"]), {}, upload_bytes(result_case), traffic_bytes(result_case),
+                          {shaded_samples(result_case, *result_case.shading, pixels_of(result_case),
+                                          config["cost"].value("wave", "8x8"))}),
+      true};
 }
 
-bool makes_lists_on_gpu(const Json& result_case) {
-  const config::Preset* preset = config::find_preset(result_case.value("preset", ""));
+bool makes_lists_on_gpu(const Case& result_case) {
+  const config::Preset* preset = config::find_preset(result_case.preset.value_or(""));
   return preset != nullptr && preset->assigns_on == config::AssignsOn::gpu;
 }
 
-std::vector<const Json*> ranking_samples(const Json& result_case) {
-  std::vector<const Json*> all;
+std::vector<const SampleSet*> ranking_samples(const Case& result_case) {
+  std::vector<const SampleSet*> all;
   for (const RankingSet& set : ranking_sets(result_case)) all.push_back(set.counts);
   return all;
 }
 
-double sum_at_samples(const Json& result_case, const char* count) {
+double sum_at_samples(const Case& result_case, SampleFigure count) {
   double sum = 0.0;
-  for (const Json* set : ranking_samples(result_case)) sum += set->value(count, 0.0);
+  for (const SampleSet* set : ranking_samples(result_case)) sum += count(*set).value_or(0.0);
   return sum;
 }
 
-std::optional<double> unlit_at_samples(const Json& result_case) {
-  const Json* most = most_at_sets(result_case, "/unlit");
-  return most != nullptr ? number_at(*most, "/unlit") : std::nullopt;
+std::optional<double> unlit_at_samples(const Case& result_case) {
+  const SampleSet* most = most_at_sets(result_case, result::number<&SampleSet::unlit>);
+  return most != nullptr ? std::optional(most->unlit) : std::nullopt;
 }
 
-std::optional<double> mean_at_samples(const Json& result_case, const char* count) {
+std::optional<double> mean_at_samples(const Case& result_case, SampleFigure count) {
   double sum = 0.0, shaded = 0.0;
   for (const RankingSet& set : ranking_sets(result_case)) {
-    if (!set.counts->contains(count)) return std::nullopt;
+    if (!count(*set.counts)) return std::nullopt;
     sum += set.shaded * mean_per_sample(*set.counts, count);
     shaded += set.shaded;
   }
   return shaded > 0.0 ? std::optional(sum / shaded) : std::nullopt;
 }
 
-void add_costs(Json& cases, const Json& config) {
+void add_costs(std::vector<Case>& cases, const Json& config) {
   if (!config.contains("cost")) return;
-  for (Json& result_case : cases) {
-    result_case.erase("cost");
+  for (Case& result_case : cases) {
+    result_case.cost.reset();
     const std::vector<WeightedSet> sets = weighted_sets(result_case, config);
-    if (!sets.empty()) result_case["cost"] = cost_of(result_case, sets, config);
+    if (!sets.empty()) result_case.cost = cost_of(result_case, sets, config);
   }
 }
 

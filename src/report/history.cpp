@@ -28,17 +28,16 @@ using Json = nlohmann::ordered_json;
 constexpr int k_history_version = 1;
 
 // A run has one.
-std::string counter_of(const Json& result) {
-  for (const Json& result_case : result["cases"])
-    if (result_case.contains("count")) return result_case["count"]["source"].get<std::string>();
+std::string counter_of(const result::Result& result) {
+  for (const result::Case& result_case : result.cases)
+    if (result_case.count) return result_case.count->source;
   return "";
 }
 
-bool has_cold_times(const Json& result) {
-  const auto is_cold = [](const Json& result_case) {
-    return result_case.contains("timing") && result_case["timing"].value("caches", "") == "cold";
-  };
-  return std::any_of(result["cases"].begin(), result["cases"].end(), is_cold);
+bool has_cold_times(const result::Result& result) {
+  return std::ranges::any_of(result.cases, [](const result::Case& result_case) {
+    return result_case.timing && result_case.timing->caches == "cold";
+  });
 }
 
 // The headline, and what gates go by (docs/ci.md); what follows from others is no series.
@@ -49,33 +48,33 @@ bool is_kept(const Metric& metric) {
          (metric.is_headline || std::ranges::find(k_of_gates, metric.name) != std::end(k_of_gates));
 }
 
-Json history_line(const Json& result, const std::string& commit) {
+Json history_line(const result::Result& result, const std::string& commit) {
   Json line{{"history_version", k_history_version},
             {"commit", commit},
-            {"name", result.at("name")},
-            {"cpu", machine_name(result.at("machine"))},
-            {"simd_target", result.at("tool").at("simd_target")}};
+            {"name", result.name},
+            {"cpu", machine_name(result.machine)},
+            {"simd_target", result.tool.simd_target}};
   if (const std::string counter = counter_of(result); !counter.empty()) line["counter"] = counter;
   if (has_cold_times(result)) line["caches"] = "cold";
   line["scenes"] = Json::array();
-  for (const Json& scene : result.at("scenes")) {
-    Json stored{{"name", scene.at("name")}, {"lights", lights_text(scene)}};
-    if (scene.contains("light_digest")) stored["light_digest"] = scene["light_digest"];
+  for (const result::Scene& scene : result.scenes) {
+    Json stored{{"name", scene.name}, {"lights", lights_text(scene)}};
+    if (scene.light_digest) stored["light_digest"] = *scene.light_digest;
     line["scenes"].push_back(std::move(stored));
   }
   line["cases"] = Json::array();
-  for (const Json& result_case : result["cases"]) {
+  for (const result::Case& result_case : result.cases) {
     Json figures = Json::object();
     for (const Measured& figure : measured(result_case, true))
       if (is_kept(*figure.metric)) figures[std::string(figure.metric->name)] = figure.value;
-    line["cases"].push_back({{"id", result_case.at("id")},
-                             {"settings", result_case.value("settings", "")},
-                             {"name", result_case.at("name")},
-                             {"scene", result_case.at("scene")},
+    line["cases"].push_back({{"id", result_case.id},
+                             {"settings", result_case.settings.value_or("")},
+                             {"name", result_case.name},
+                             {"scene", result_case.scene},
                              {"figures", figures}});
-    if (!result_case.contains("camera_path")) continue;
-    line["cases"].back()["camera"] = result_case.at("camera");
-    line["cases"].back()["camera_path"] = result_case["camera_path"];
+    if (!result_case.camera_path) continue;
+    line["cases"].back()["camera"] = result_case.camera;
+    line["cases"].back()["camera_path"] = result::to_json(*result_case.camera_path);
   }
   return line;
 }
@@ -358,7 +357,7 @@ std::vector<HistoryEntry> read_history(const std::string& path) {
   return parsed_file(path, file_text(history_path(path)));
 }
 
-Addition add_to_history(const std::string& path, const Json& result, const std::string& commit) {
+Addition add_to_history(const std::string& path, const result::Result& result, const std::string& commit) {
   os::require_folder_of(path);
   os::LockedFile file(history_path(path), os::LockedFile::Held::wait);
   std::string text = file.text();

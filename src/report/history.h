@@ -1,12 +1,12 @@
 #pragma once
 // Results over commits: a file of JSON lines, one per result, with the headline figures of each case.
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "measure/change_points.h"
 #include "report/exports/metrics.h"
+#include "result/result.h"
 
 namespace clusterbench::report {
 
@@ -77,7 +77,7 @@ struct Addition {
 // there is none. One process at a time: others wait. The file, or the one that a link leads to, is replaced at once by
 // one that has all lines, so that no crash can leave half of one. Throws Error for a file that is no history, and on a
 // failed write.
-Addition add_to_history(const std::string& path, const nlohmann::ordered_json& result, const std::string& commit);
+Addition add_to_history(const std::string& path, const result::Result& result, const std::string& commit);
 
 // By case in order of first appearance, then by metric, without those that say another in another way; the changes
 // found by `rule`.

@@ -1,6 +1,7 @@
 #include "report/journal.h"
 
 #include <functional>
+#include <set>
 
 #include "config/documents.h"
 #include "config/schema_verdict.h"
@@ -69,6 +70,25 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
   return begin;
 }
 
+// Throws Error for what is not as the schema says.
+std::vector<result::Case> cases_of_run(const Json& cases, const fs::path& path) {
+  const auto refuse = [&](const std::string& violation) {
+    throw Error(path.string(), "", "does not hold the cases of a run: " + violation);
+  };
+  const nlohmann::json schema = config::result_schema();
+  nlohmann::json cases_schema = schema["properties"]["cases"];
+  cases_schema["definitions"] = schema["definitions"];  // which its parts refer to
+  const std::vector<std::string> violations = config::schema_violations(cases_schema, nlohmann::json(cases));
+  if (!violations.empty()) refuse(violations.front());
+  std::vector<result::Case> out;
+  try {
+    for (const Json& one : cases) out.push_back(result::from_json<result::Case>(one, "/" + std::to_string(out.size())));
+  } catch (const Error& error) {
+    refuse(error.where() + ": " + error.message());
+  }
+  return out;
+}
+
 }  // namespace
 
 fs::path partial_of(const fs::path& file) {
@@ -127,32 +147,22 @@ void Journal::set_earlier_aside(const std::string& header) {
 }
 
 void Journal::read_earlier(const Json& header) {
+  Json cases = Json::array();
+  std::set<std::string> ids;
   const std::size_t end = each_entry(partial_.text(), partial_path(), header, [&](Json& entry) {
-    return entry.contains("case") ? take_case(entry) : take_answer(entry);
+    if (!entry.contains("case")) return take_answer(entry);
+    if (!takes_case(entry, ids)) return false;
+    cases.push_back(std::move(entry["case"]));
+    return true;
   });
-  check_earlier();
+  earlier_cases_ = cases_of_run(cases, partial_path());
   partial_.cut_to(end);
-}
-
-void Journal::check_earlier() const {
-  const nlohmann::json schema = config::result_schema();
-  nlohmann::json cases_schema = schema["properties"]["cases"];
-  cases_schema["definitions"] = schema["definitions"];  // which its parts refer to
-  const std::vector<std::string> violations = config::schema_violations(cases_schema, nlohmann::json(earlier_cases_));
-  if (!violations.empty())
-    throw Error(partial_path().string(), "", "does not hold the cases of a run: " + violations.front());
 }
 
 std::vector<std::string> Journal::earlier_ids() const {
   std::vector<std::string> ids;
-  for (const Json& finished : earlier_cases_) ids.push_back(finished.at("id").get<std::string>());
+  for (const result::Case& finished : earlier_cases_) ids.push_back(finished.id);
   return ids;
-}
-
-bool Journal::take_case(Json& entry) {
-  if (!takes_case(entry, earlier_ids_)) return false;
-  earlier_cases_.push_back(std::move(entry["case"]));
-  return true;
 }
 
 // The digest: what launches answer has no schema that could be checked.
@@ -178,13 +188,14 @@ void Journal::add(const Json& entry) {
   partial_.append(entry.dump() + '\n');
 }
 
-void Journal::add_case(const Json& finished) {
-  add({{"case", finished}, {"sha256", sha256_hex(finished.dump())}});
+void Journal::add_case(const result::Case& finished) {
+  const Json json = result::to_json(finished);
+  add({{"case", json}, {"sha256", sha256_hex(json.dump())}});
 }
 
-void Journal::finish(const Json& result) {
+void Journal::finish(const result::Result& result) {
   try {
-    os::write_file(file_, compact_json(result));
+    os::write_file(file_, compact_json(result::to_json(result)));
   } catch (const Error& error) {
     throw Error(error.file(), "",
                 error.message() + (is_empty() ? "" : "; the cases are kept in " + partial_path().string()),

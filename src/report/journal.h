@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "os/locked_file.h"
+#include "result/result.h"
 
 namespace clusterbench::report {
 
@@ -38,13 +38,13 @@ class Journal {
   Journal& operator=(const Journal&) = delete;
 
   // Cases that an interrupted run had finished.
-  const std::vector<nlohmann::ordered_json>& earlier_cases() const { return earlier_cases_; }
+  const std::vector<result::Case>& earlier_cases() const { return earlier_cases_; }
   std::vector<std::string> earlier_ids() const;
 
   // Where the finished cases of an earlier run are now; "" if there were none, or if this run goes on with them.
   const std::filesystem::path& set_aside() const { return set_aside_; }
 
-  void add_case(const nlohmann::ordered_json& finished);
+  void add_case(const result::Case& finished);
 
   // What a launch has answered to a request, in an interrupted run.
   std::optional<nlohmann::ordered_json> earlier_answer(const nlohmann::ordered_json& request) const;
@@ -54,23 +54,20 @@ class Journal {
   bool is_empty() const { return earlier_cases_.empty() && earlier_answers_.empty() && !has_added_; }
 
   // Writes the whole result and removes FILE.partial.
-  void finish(const nlohmann::ordered_json& result);
+  void finish(const result::Result& result);
 
   const std::filesystem::path& partial_path() const { return partial_.path(); }
 
  private:
   void set_earlier_aside(const std::string& header);
   void read_earlier(const nlohmann::ordered_json& header);
-  void check_earlier() const;
   void add(const nlohmann::ordered_json& entry);
-  bool take_case(nlohmann::ordered_json& entry);
   bool take_answer(nlohmann::ordered_json& entry);
 
   std::filesystem::path file_, set_aside_;
   os::LockedFile partial_;
   bool has_added_ = false, is_finished_ = false;
-  std::vector<nlohmann::ordered_json> earlier_cases_;
-  std::set<std::string> earlier_ids_;                              // as JSON
+  std::vector<result::Case> earlier_cases_;
   std::map<std::string, nlohmann::ordered_json> earlier_answers_;  // by their requests
 };
 

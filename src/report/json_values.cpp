@@ -17,8 +17,4 @@ std::optional<double> number_at(const Json& from, const std::string& pointer) {
   return found != nullptr && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
 }
 
-std::string viewport_text(const nlohmann::ordered_json& from) {
-  return from["viewport"][0].dump() + "x" + from["viewport"][1].dump();
-}
-
 }  // namespace clusterbench::report

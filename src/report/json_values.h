@@ -1,5 +1,6 @@
 #pragma once
-// What stands at a JSON pointer of a result, and may be absent: parts that were not measured, figures that are null.
+// What stands at a JSON pointer of a configuration, or of a document that is no result, and may be absent. Fields of
+// results: result/at.h.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,8 +13,5 @@ const nlohmann::ordered_json* value_at(const nlohmann::ordered_json& from, const
 
 // Nothing where there is no number.
 std::optional<double> number_at(const nlohmann::ordered_json& from, const std::string& pointer);
-
-// "1920x1080", of what has a viewport.
-std::string viewport_text(const nlohmann::ordered_json& from);
 
 }  // namespace clusterbench::report

@@ -1,30 +1,32 @@
 #include "report/light_changes.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
-#include <utility>
 
 #include "core/pattern.h"
 #include "core/text.h"
 #include "report/case_filter.h"
 #include "report/columns.h"
-#include "report/json_values.h"
 #include "report/nothing_seen.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::CameraPath;
+using result::Case;
+using result::number;
+using result::Result;
+using result::Scene;
+using result::SceneLights;
 
 constexpr const char* k_dark = "intensity 0, black, or range 0";
 
-std::uint64_t lights_of_kind(const Json& scene, const char* kind) {
-  return scene.contains("lights") ? scene["lights"].value(kind, std::uint64_t{0}) : 0;
-}
-
-bool are_as_many(const Json& a, const Json& b) {
-  return std::ranges::all_of(std::initializer_list<const char*>{"point", "spot", "box", "directional"},
-                             [&](const char* kind) { return lights_of_kind(a, kind) == lights_of_kind(b, kind); });
+bool are_as_many(const Scene& a, const Scene& b) {
+  const SceneLights &some = a.lights, &others = b.lights;
+  return some.point == others.point && some.spot == others.spot && some.box == others.box &&
+         some.directional == others.directional;
 }
 
 // The lights of a scene as one camera sees them; the same for all grids and methods.
@@ -34,16 +36,16 @@ struct LightsOfView {
 };
 
 // Null of cases that do not tell. Older ones do not tell which lights shine; there all are taken to.
-std::optional<LightsOfView> lights_of_view(const Json& result_case) {
-  const std::optional<double> in_view = number_at(result_case, "/lights_in_view/max");
+std::optional<LightsOfView> lights_of_view(const Case& result_case) {
+  const std::optional<double> in_view = number<&Case::lights_in_view, &result::LightsInView::max>(result_case);
   if (!in_view) return std::nullopt;
-  const double all = number_at(result_case, "/lights").value_or(0.0);
-  return LightsOfView{shown(result_case["scene"]),
-                      shown(result_case["camera"]),
+  const double all = number<&Case::lights>(result_case).value_or(0.0);
+  return LightsOfView{shown(result_case.scene),
+                      shown(result_case.camera),
                       all,
-                      number_at(result_case, "/lights_lit").value_or(all),
+                      number<&Case::lights_lit>(result_case).value_or(all),
                       *in_view,
-                      number_at(result_case, "/lights_seen").value_or(*in_view)};
+                      number<&Case::lights_seen>(result_case).value_or(*in_view)};
 }
 
 std::string lights_number(double lights, const char* light = "light") {
@@ -73,8 +75,8 @@ void add_once(const std::string& line, std::vector<std::string>& lines) {
   if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
 }
 
-void add_no_lights(const Json& result, bool are_allowed, LimitFindings& findings) {
-  for (const Json& result_case : result["cases"]) {
+void add_no_lights(const Result& result, bool are_allowed, LimitFindings& findings) {
+  for (const Case& result_case : result.cases) {
     const std::optional<LightsOfView> lights = lights_of_view(result_case);
     if (!lights) continue;
     const std::string why = why_no_lights(*lights);
@@ -85,10 +87,9 @@ void add_no_lights(const Json& result, bool are_allowed, LimitFindings& findings
   }
 }
 
-bool is_view_measured(const Json& result, const std::string& skipped_name) {
-  return std::ranges::any_of(result["cases"], [&](const Json& result_case) {
-    return skipped_name.starts_with(result_case["scene"].get<std::string>() + "/" +
-                                    result_case["camera"].get<std::string>() + "/");
+bool is_view_measured(const Result& result, const std::string& skipped_name) {
+  return std::ranges::any_of(result.cases, [&](const Case& result_case) {
+    return skipped_name.starts_with(result_case.scene + "/" + result_case.camera + "/");
   });
 }
 
@@ -100,20 +101,20 @@ std::string view_of(const std::string& scene, const std::string& skipped_name) {
 }
 
 // Scenes and cameras of which all combinations were skipped.
-void add_not_measured(const Json& result, bool are_no_lights_allowed, LimitFindings& findings) {
+void add_not_measured(const Result& result, bool are_no_lights_allowed, LimitFindings& findings) {
   struct View {
     std::string name, first_reason;
     std::uint64_t combinations = 0;
     bool has_no_lights = false;
   };
   std::vector<View> views;
-  for (const Json& scene : result["scenes"])
-    for (const Json& skipped : result["skipped"]) {
-      const std::string name = skipped["name"].get<std::string>(), view = view_of(scene["name"], name);
-      if (view.empty() || is_view_measured(result, name)) continue;
+  for (const Scene& scene : result.scenes)
+    for (const result::Skipped& skipped : result.skipped) {
+      const std::string view = view_of(scene.name, skipped.name);
+      if (view.empty() || is_view_measured(result, skipped.name)) continue;
       const bool has_no_lights = lights_text(scene) == "no lights";
       auto found = std::ranges::find(views, view, &View::name);
-      if (found == views.end()) found = views.insert(views.end(), {view, shown(skipped["reason"]), 0, has_no_lights});
+      if (found == views.end()) found = views.insert(views.end(), {view, shown(skipped.reason), 0, has_no_lights});
       ++found->combinations;
     }
   for (const View& view : views) {
@@ -125,30 +126,31 @@ void add_not_measured(const Json& result, bool are_no_lights_allowed, LimitFindi
   }
 }
 
-// The result's scene that stands for the base's; null: none.
-const Json* scene_now(const Json& base, const Json& result, const Json& base_scene) {
-  return scene_before(result, base, base_scene);
+// The scene of this name; null: none.
+const Scene* scene_named(const std::vector<Scene>& scenes, const std::string& name) {
+  const auto found = std::ranges::find(scenes, name, &Scene::name);
+  return found == scenes.end() ? nullptr : &*found;
 }
 
 // Scenes, cameras and viewports of the base of which the result has no case, each once.
-void add_gone_views(const Json& result, const LightGate& gate, LimitFindings& findings) {
+void add_gone_views(const Result& result, const LightGate& gate, LimitFindings& findings) {
   const Pattern wanted(gate.filter, "--filter");
   std::vector<std::string> gone;
-  for (const Json& base_case : (*gate.base)["cases"]) {
+  for (const Case& base_case : gate.base->cases) {
     if (!is_selected(wanted, base_case)) continue;
-    const auto scenes = std::ranges::find_if((*gate.base)["scenes"],
-                                             [&](const Json& scene) { return scene["name"] == base_case["scene"]; });
-    const Json* now = scenes == (*gate.base)["scenes"].end() ? nullptr : scene_now(*gate.base, result, *scenes);
-    const auto is_of_camera = [&](const Json& result_case) {
-      return result_case["scene"] == (*now)["name"] && result_case["camera"] == base_case["camera"];
+    const Scene* then = scene_named(gate.base->scenes, base_case.scene);
+    const Scene* now = then == nullptr ? nullptr : scene_before(result, *gate.base, *then);  // that stands for it
+    const auto is_of_camera = [&](const Case& result_case) {
+      return result_case.scene == now->name && result_case.camera == base_case.camera;
     };
-    const auto is_of_view = [&](const Json& result_case) {
-      return is_of_camera(result_case) && result_case["viewport"] == base_case["viewport"];
+    const auto is_of_view = [&](const Case& result_case) {
+      return is_of_camera(result_case) && result_case.viewport == base_case.viewport;
     };
-    const bool is_there = now != nullptr && std::ranges::any_of(result["cases"], is_of_view);
-    std::string view = shown(base_case["scene"]);
-    if (now != nullptr) view += ", camera " + shown(base_case["camera"]);
-    if (now != nullptr && std::ranges::any_of(result["cases"], is_of_camera)) view += ", " + viewport_text(base_case);
+    const bool is_there = now != nullptr && std::ranges::any_of(result.cases, is_of_view);
+    std::string view = shown(base_case.scene);
+    if (now != nullptr) view += ", camera " + shown(base_case.camera);
+    if (now != nullptr && std::ranges::any_of(result.cases, is_of_camera))
+      view += ", " + viewport_text(base_case.viewport);
     if (!is_there && std::ranges::find(gone, view) == gone.end()) gone.push_back(view);
   }
   for (const std::string& view : gone)
@@ -157,10 +159,10 @@ void add_gone_views(const Json& result, const LightGate& gate, LimitFindings& fi
                               "baseline again, or leave it out (--filter)");
 }
 
-void add_changed_lights(const Json& result, const LightGate& gate, LimitFindings& findings) {
-  for (const Json& scene : result["scenes"]) {
-    const Json* before = scene_before(*gate.base, result, scene);
-    const std::string name = shown(scene["name"]);
+void add_changed_lights(const Result& result, const LightGate& gate, LimitFindings& findings) {
+  for (const Scene& scene : result.scenes) {
+    const Scene* before = scene_before(*gate.base, result, scene);
+    const std::string name = shown(scene.name);
     if (before == nullptr) {
       findings.warnings.push_back(name + ": " + gate.base_name +
                                   " has no scene of this name, so its lights are not checked");
@@ -184,26 +186,24 @@ void add_changed_lights(const Json& result, const LightGate& gate, LimitFindings
   }
 }
 
-PathSpan span_of(const Json& path) {
-  return {path["from_s"].get<double>(), path["to_s"].get<double>()};
+PathSpan span_of(const CameraPath& path) {
+  return {path.from_s, path.to_s};
 }
 
 // Figures of other frames do not compare with the baseline's, whatever the lights are.
-void add_changed_paths(const Json& result, const LightGate& gate, LimitFindings& findings) {
-  for (const Json& result_case : result["cases"]) {
-    const auto scene = std::ranges::find_if(
-        result["scenes"], [&](const Json& candidate) { return candidate["name"] == result_case["scene"]; });
-    const Json* before = scene == result["scenes"].end() ? nullptr : scene_before(*gate.base, result, *scene);
-    const Json* now = value_at(result_case, "/camera_path/digest");
-    if (before == nullptr || now == nullptr) continue;
-    const auto base_case = std::ranges::find_if((*gate.base)["cases"], [&](const Json& candidate) {
-      return candidate["scene"] == (*before)["name"] && candidate["camera"] == result_case["camera"];
+void add_changed_paths(const Result& result, const LightGate& gate, LimitFindings& findings) {
+  for (const Case& result_case : result.cases) {
+    const Scene* scene = scene_named(result.scenes, result_case.scene);
+    const Scene* before = scene == nullptr ? nullptr : scene_before(*gate.base, result, *scene);
+    const std::optional<CameraPath>& now = result_case.camera_path;
+    if (before == nullptr || !now || !now->digest) continue;
+    const auto base_case = std::ranges::find_if(gate.base->cases, [&](const Case& candidate) {
+      return candidate.scene == before->name && candidate.camera == result_case.camera;
     });
-    if (base_case == (*gate.base)["cases"].end()) continue;
-    const Json* then = value_at(*base_case, "/camera_path/digest");
-    if (then == nullptr || *then == *now) continue;
-    add_once(path_change_text(shown(result_case["scene"]), shown(result_case["camera"]),
-                              span_of((*base_case)["camera_path"]), span_of(result_case["camera_path"])) +
+    if (base_case == gate.base->cases.end()) continue;
+    const std::optional<CameraPath>& then = base_case->camera_path;
+    if (!then || !then->digest || *then->digest == *now->digest) continue;
+    add_once(path_change_text(shown(result_case.scene), shown(result_case.camera), span_of(*then), span_of(*now)) +
                  ", so budgets against " + gate.base_name + " compare other views",
              findings.warnings);
   }
@@ -219,31 +219,32 @@ std::string path_change_text(const std::string& scene, const std::string& camera
          (is_as_long ? "as long (" + words(now) + "), and another way or lens" : words(before) + ", now " + words(now));
 }
 
-std::string lights_text(const Json& scene) {
+std::string lights_text(const Scene& scene) {
+  const std::uint64_t point = scene.lights.point, spot = scene.lights.spot, box = scene.lights.box;
   std::string text;
-  for (const auto& [key, word] : {std::pair("point", "point"), std::pair("spot", "spot"), std::pair("box", "box")})
-    if (const std::uint64_t count = lights_of_kind(scene, key); count > 0)
-      text += (text.empty() ? "" : ", ") +
-              (std::string(key) == "box" && count != 1 ? std::to_string(count) + " boxes" : number_of(count, word));
+  const auto add = [&](std::uint64_t count, const std::string& words) {
+    if (count > 0) text += (text.empty() ? "" : ", ") + words;
+  };
+  add(point, number_of(point, "point"));
+  add(spot, number_of(spot, "spot"));
+  add(box, box == 1 ? "1 box" : std::to_string(box) + " boxes");
   if (text.empty()) return "no lights";
   const std::uint64_t dark = dark_lights(scene);
   return dark == 0 ? text : text + ", " + std::to_string(dark) + " of them dark";
 }
 
-LightChange light_change(const Json& base_scene, const Json& next_scene) {
-  const Json before = base_scene.value("light_digest", Json()), now = next_scene.value("light_digest", Json());
-  if (!before.is_null() && !now.is_null()) return before == now ? LightChange::none : LightChange::changed;
+LightChange light_change(const Scene& base_scene, const Scene& next_scene) {
+  const std::optional<std::string>&before = base_scene.light_digest, &now = next_scene.light_digest;
+  if (before && now) return *before == *now ? LightChange::none : LightChange::changed;
   return are_as_many(base_scene, next_scene) ? LightChange::unknown : LightChange::changed;
 }
 
-const Json* scene_before(const Json& base, const Json& next, const Json& next_scene) {
-  if (base["scenes"].size() == 1 && next["scenes"].size() == 1) return &base["scenes"][0];
-  const auto found =
-      std::ranges::find_if(base["scenes"], [&](const Json& scene) { return scene["name"] == next_scene["name"]; });
-  return found == base["scenes"].end() ? nullptr : &*found;
+const Scene* scene_before(const Result& base, const Result& next, const Scene& next_scene) {
+  if (base.scenes.size() == 1 && next.scenes.size() == 1) return &base.scenes[0];
+  return scene_named(base.scenes, next_scene.name);
 }
 
-LimitFindings light_findings(const Json& result, const LightGate& gate) {
+LimitFindings light_findings(const Result& result, const LightGate& gate) {
   LimitFindings findings;
   add_no_lights(result, gate.allows_no_lights, findings);
   add_not_measured(result, gate.allows_no_lights, findings);

@@ -2,27 +2,27 @@
 // A level that loses its lights must not look like one that became cheaper, nor a camera that no longer looks at them:
 // which lights and camera paths two results are of.
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "report/limits.h"
+#include "result/result.h"
 
 namespace clusterbench::report {
 
 // Of a result's scene: "248 points, 52 spots"; "248 points, 12 of them dark"; "no lights".
-std::string lights_text(const nlohmann::ordered_json& scene);
+std::string lights_text(const result::Scene& scene);
 
 enum class LightChange {
   none,
   changed,
   unknown  // as many of each kind, and one of the results is older than the digest of lights
 };
-LightChange light_change(const nlohmann::ordered_json& base_scene, const nlohmann::ordered_json& next_scene);
+LightChange light_change(const result::Scene& base_scene, const result::Scene& next_scene);
 
 // The base's scene of this name; where each result has one scene alone, that one. Null: none.
-const nlohmann::ordered_json* scene_before(const nlohmann::ordered_json& base, const nlohmann::ordered_json& next,
-                                           const nlohmann::ordered_json& next_scene);
+const result::Scene* scene_before(const result::Result& base, const result::Result& next,
+                                  const result::Scene& next_scene);
 
 // When a camera's path begins and ends.
 struct PathSpan {
@@ -34,15 +34,15 @@ std::string path_change_text(const std::string& scene, const std::string& camera
 
 struct LightGate {
   bool allows_no_lights = false, allows_changed_lights = false;
-  const nlohmann::ordered_json* base = nullptr;  // null: no baseline
-  std::string base_name = {};                    // as messages call it
-  std::string filter = {};  // what the result's cases were selected by; others of the base are not missed
+  const result::Result* base = nullptr;  // null: no baseline
+  std::string base_name = {};            // as messages call it
+  std::string filter = {};               // what the result's cases were selected by; others of the base are not missed
 };
 
 // Scenes without lights or with dark ones alone, cameras that never have one in view that shines, and scenes with other
 // lights than the baseline's: broken, or a warning where that is allowed. Broken also what budgets cannot be held
 // against: scenes and cameras of which nothing could be measured, and those of the baseline that the result does not
 // have. Cameras with another path than the baseline's are a warning.
-LimitFindings light_findings(const nlohmann::ordered_json& result, const LightGate& gate);
+LimitFindings light_findings(const result::Result& result, const LightGate& gate);
 
 }  // namespace clusterbench::report

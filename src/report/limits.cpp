@@ -1,9 +1,8 @@
 #include "report/limits.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -12,70 +11,138 @@
 #include "core/text.h"
 #include "report/baseline_cases.h"
 #include "report/case_filter.h"
-#include "report/json_values.h"
+#include "report/found_frames.h"
 #include "report/percent_change.h"
 #include "report/sample_sets.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::Buffers;
+using result::Case;
+using result::Cost;
+using result::Count;
+using result::DeepestMiss;
+using result::HighWater;
+using result::LightsInView;
+using result::ListError;
+using result::number;
+using result::Occupancy;
+using result::part;
+using result::PerFrame;
+using result::SampleSet;
+using result::Spread;
+using result::Time;
+using result::Timing;
+using result::WorstSampledFrame;
+using result::WorstTimedFrame;
 
-// A figure of a case: the number at `value`, by that at `divisor` or by `unit`. All are JSON pointers; "": none. It is
-// divided once, so that it is the double nearest to it, as the number of a budget is.
+template <class Record>
+using Number = std::optional<double> (*)(const Record& record);
+
+// Frame and cell; null: a figure of no such place.
+template <class Record>
+struct Place {
+  Number<Record> frame = nullptr;
+  const result::CellIndex* (*cell)(const Record& record) = nullptr;
+};
+
+// A figure of a case, or of its counts at samples: `value`, by `divisor` or by `unit`. It is divided once, so that it
+// is the double nearest to it, as the number of a budget is.
+template <class Record>
 struct FigureRow {
   const char* name;
-  const char* value;
+  Number<Record> value;
+  const char* hint = "";  // why a case may have none
   double unit = 1.0;
-  const char* frame = "";
-  const char* cell = "";
-  const char* divisor = "";
-  // Where older results lack `value`: the sum of what is at these.
-  std::array<const char*, 3> parts = {};
-};
-constexpr double k_ns_per_us = 1000.0;
-constexpr FigureRow k_figure_rows[] = {
-    {"frame_us", "/timing/frame_ns/median", k_ns_per_us},
-    {"frame_us.max", "/timing/worst_frame/ns", k_ns_per_us, "/timing/worst_frame/frame"},
-    {"frame_cost_us", "/cost/frame_ns", k_ns_per_us},
-    {"assign_us", "/timing/assign_ns/median", k_ns_per_us},
-    {"convert_us", "/timing/convert_ns/median", k_ns_per_us},
-    {"build_us", "/timing/build_ns/median", k_ns_per_us},
-    {"index_entries", "/buffers/index_entries/high_water", 1.0, "/buffers/worst_frame", "/buffers/worst_cell"},
-    {"bytes", "/buffers/bytes/high_water", 1.0, "/buffers/worst_frame", "/buffers/worst_cell"},
-    {"upload_bytes", "/buffers/upload_bytes/max"},
-    {"scratch_bytes", "/buffers/scratch_bytes"},
-    {"longest", "/occupancy/lights_per_cell/max", 1.0, "/occupancy/worst_frame", "/occupancy/worst_cell"},
-    {"pairs", "/occupancy/pairs/max"},
-    {"pairs.mean", "/occupancy/pairs/mean"},
-    {"dropped", "/buffers/overflow/dropped_pairs"},
-    {"missed", "/error/false_negatives", 1.0, "/error/deepest/frame", "/error/deepest/cell"},
-    {"excess", "/error/false_positives", 1.0, "", "", "/error/true_pairs"},
-    {"excess", "/error/excess_ratio"},
-    {"undecided", "/error/undecided"},
-    {"instructions",
-     "/count/instructions_per_frame/frame",
-     1.0,
-     "",
-     "",
-     "",
-     {"/count/instructions_per_frame/pre_cull", "/count/instructions_per_frame/assign",
-      "/count/instructions_per_frame/convert"}},
-    {"assign_instructions", "/count/instructions_per_frame/assign"},
-    {"convert_instructions", "/count/instructions_per_frame/convert"},
-    {"lights", "/lights"},
-    {"lights_lit", "/lights_lit"},
-    {"lights_seen", "/lights_seen"},
-    {"lights_seen.mean", "/lights_in_view/shining_mean"},
-    {"lights_in_view", "/lights_in_view/max", 1.0, "/lights_in_view/worst_frame"},
+  Place<Record> worst = {};
+  Number<Record> divisor = nullptr;
 };
 
-// Figures at samples: pointers in the counts of a set.
-constexpr FigureRow k_rows_at_samples[] = {
-    {"unlit", "/missed", 1.0, "/worst_frame/frame", "", "/needed"},
-    {"lost_irradiance", "/lost_irradiance"},
-    {"overshade", "/overshade"},
-    {"needed", "/needed", 1.0, "", "", "/samples"},
+// Older results have the instructions of its parts alone.
+std::optional<double> frame_instructions(const Case& result_case) {
+  if (const auto frame = number<&Case::count, &Count::instructions_per_frame, &PerFrame::frame>(result_case))
+    return frame;
+  const auto pre_cull = number<&Case::count, &Count::instructions_per_frame, &PerFrame::pre_cull>(result_case),
+             assign = number<&Case::count, &Count::instructions_per_frame, &PerFrame::assign>(result_case),
+             convert = number<&Case::count, &Count::instructions_per_frame, &PerFrame::convert>(result_case);
+  return assign ? std::optional(pre_cull.value_or(0.0) + *assign + convert.value_or(0.0)) : std::nullopt;
+}
+
+constexpr double k_ns_per_us = 1000.0;
+
+constexpr const char* k_of_times = " (--no-timing or timing.measure: false leaves times out)";
+constexpr const char* k_of_cells = " (structures without cells have none)";
+constexpr const char* k_of_truth = " (accuracy.check: false leaves errors out; structures without cells have none)";
+constexpr const char* k_of_counts = " (--count counts instructions)";
+constexpr const char* k_of_lights = " (a result of an older version tells none)";
+
+constexpr Place<Case> k_worst_buffers{number<&Case::buffers, &Buffers::worst_frame>,
+                                      part<&Case::buffers, &Buffers::worst_cell>};
+
+constexpr FigureRow<Case> k_figure_rows[] = {
+    {"frame_us", number<&Case::timing, &Timing::frame_ns, &Time::median>, k_of_times, k_ns_per_us},
+    {"frame_us.max",
+     number<&Case::timing, &Timing::worst_frame, &WorstTimedFrame::ns>,
+     k_of_times,
+     k_ns_per_us,
+     {number<&Case::timing, &Timing::worst_frame, &WorstTimedFrame::frame>}},
+    {"frame_cost_us", number<&Case::cost, &Cost::frame_ns>, "", k_ns_per_us},
+    {"assign_us", number<&Case::timing, &Timing::assign_ns, &Time::median>, k_of_times, k_ns_per_us},
+    {"convert_us", number<&Case::timing, &Timing::convert_ns, &Time::median>, k_of_times, k_ns_per_us},
+    {"build_us", number<&Case::timing, &Timing::build_ns, &Time::median>, k_of_times, k_ns_per_us},
+    {"index_entries", number<&Case::buffers, &Buffers::index_entries, &HighWater::high_water>, "", 1.0,
+     k_worst_buffers},
+    {"bytes", number<&Case::buffers, &Buffers::bytes, &HighWater::high_water>, "", 1.0, k_worst_buffers},
+    {"upload_bytes", number<&Case::buffers, &Buffers::upload_bytes, &result::FrameBytes::max>},
+    {"scratch_bytes", number<&Case::buffers, &Buffers::scratch_bytes>},
+    {"longest",
+     number<&Case::occupancy, &Occupancy::lights_per_cell, &result::LightsPerCell::max>,
+     k_of_cells,
+     1.0,
+     {number<&Case::occupancy, &Occupancy::worst_frame>, part<&Case::occupancy, &Occupancy::worst_cell>}},
+    {"pairs", number<&Case::occupancy, &Occupancy::pairs, &Spread::max>, k_of_cells},
+    {"pairs.mean", number<&Case::occupancy, &Occupancy::pairs, &Spread::mean>, k_of_cells},
+    {"dropped", number<&Case::buffers, &Buffers::overflow, &result::Overflow::dropped_pairs>},
+    {"missed",
+     number<&Case::error, &ListError::false_negatives>,
+     k_of_truth,
+     1.0,
+     {number<&Case::error, &ListError::deepest, &DeepestMiss::frame>,
+      part<&Case::error, &ListError::deepest, &DeepestMiss::cell>}},
+    {"excess",
+     number<&Case::error, &ListError::false_positives>,
+     k_of_truth,
+     1.0,
+     {},
+     number<&Case::error, &ListError::true_pairs>},
+    {"excess", number<&Case::error, &ListError::excess_ratio>, k_of_truth},
+    {"undecided", number<&Case::error, &ListError::undecided>, k_of_truth},
+    {"instructions", frame_instructions, k_of_counts},
+    {"assign_instructions", number<&Case::count, &Count::instructions_per_frame, &PerFrame::assign>, k_of_counts},
+    {"convert_instructions", number<&Case::count, &Count::instructions_per_frame, &PerFrame::convert>, k_of_counts},
+    {"lights", number<&Case::lights>, k_of_lights},
+    {"lights_lit", number<&Case::lights_lit>, k_of_lights},
+    {"lights_seen", number<&Case::lights_seen>, k_of_lights},
+    {"lights_seen.mean", number<&Case::lights_in_view, &LightsInView::shining_mean>, k_of_lights},
+    {"lights_in_view",
+     number<&Case::lights_in_view, &LightsInView::max>,
+     k_of_lights,
+     1.0,
+     {number<&Case::lights_in_view, &LightsInView::worst_frame>}},
+};
+
+constexpr FigureRow<SampleSet> k_rows_at_samples[] = {
+    {"unlit",
+     number<&SampleSet::missed>,
+     "",
+     1.0,
+     {number<&SampleSet::worst_frame, &WorstSampledFrame::frame>},
+     number<&SampleSet::needed>},
+    {"lost_irradiance", number<&SampleSet::lost_irradiance>},
+    {"overshade", number<&SampleSet::overshade>},
+    {"needed", number<&SampleSet::needed>, "", 1.0, {}, number<&SampleSet::samples>},
 };
 
 // With where it is so, and of which samples.
@@ -85,53 +152,47 @@ struct Found {
 
   double value() const { return quotient.value(); }
 };
-std::optional<double> sum_of_parts(const Json& result_case, const FigureRow& row) {
-  std::optional<double> sum;
-  for (const char* part : row.parts)
-    if (const std::optional<double> value = part != nullptr ? number_at(result_case, part) : std::nullopt)
-      sum = sum.value_or(0.0) + *value;
-  return sum;
-}
 
-std::string worst_location(const Json& result_case, const FigureRow& row) {
+template <class Record>
+std::string text_of_place(const Place<Record>& place, const Record& from) {
   std::string text;
-  for (const auto& [word, pointer] : {std::pair("frame ", row.frame), std::pair("cell ", row.cell)})
-    if (const Json* found = *pointer != '\0' ? value_at(result_case, pointer) : nullptr; found != nullptr)
-      text += (text.empty() ? "" : ", ") + std::string(word) + found->dump();
+  if (const auto frame = place.frame != nullptr ? place.frame(from) : std::nullopt) {
+    if (*frame == static_cast<double>(k_found_frame)) return "";
+    text = "frame " + std::to_string(static_cast<std::uint64_t>(*frame));
+  }
+  if (const auto* cell = place.cell != nullptr ? place.cell(from) : nullptr; cell != nullptr)
+    text += (text.empty() ? "" : ", ") + std::string("cell ") + nlohmann::ordered_json(*cell).dump();
   return text;
 }
 
-std::optional<Found> found_by(const FigureRow& row, const Json& from) {
-  std::optional<double> value = number_at(from, row.value);
-  if (!value) value = sum_of_parts(from, row);
-  if (!value) return {};
-  const double whole = *row.divisor == '\0' ? row.unit : number_at(from, row.divisor).value_or(0.0);
-  if (!(whole > 0.0)) return {};  // a share of nothing
-  return Found{{*value, whole}, worst_location(from, row)};
+template <class Record>
+std::optional<Found> found_by(const FigureRow<Record>& row, const Record& from) {
+  const std::optional<double> value = row.value(from);
+  const double whole = row.divisor == nullptr ? row.unit : row.divisor(from).value_or(0.0);
+  if (!value || !(whole > 0.0)) return {};  // a share of nothing
+  return Found{{*value, whole}, text_of_place(row.worst, from)};
 }
 
-const FigureRow* row_at_samples(const std::string& figure) {
-  const auto* const row = std::ranges::find(k_rows_at_samples, figure, &FigureRow::name);
+const FigureRow<SampleSet>* row_at_samples(const std::string& figure) {
+  const auto* const row = std::ranges::find(k_rows_at_samples, figure, &FigureRow<SampleSet>::name);
   return row == std::end(k_rows_at_samples) ? nullptr : row;
 }
 
 // Of several sets the one where it is largest: what is lacking in one is not made up for in another. Overshade of sets
 // that have weights is that of all of them, as a frame shades them.
-std::optional<Found> found_at_samples(const Json& result_case, const FigureRow& row,
+std::optional<Found> found_at_samples(const Case& result_case, const FigureRow<SampleSet>& row,
                                       const std::vector<std::string>& sets, bool is_of_ranking) {
-  std::optional<Found> most;
-  if (is_of_ranking && row.name == std::string_view("overshade") &&
-      value_at(result_case, "/cost/overshade") != nullptr) {
-    const std::optional<double> weighted = number_at(result_case, "/cost/overshade");
-    const Json* is_lit = value_at(result_case, "/cost/lit");  // older results have the ratio beside a false one
-    if (!weighted || (is_lit != nullptr && *is_lit == false)) return {};
+  const bool is_weighted = is_of_ranking && row.name == std::string_view("overshade");
+  if (const auto weighted = number<&Case::cost, &Cost::overshade>(result_case); is_weighted && weighted) {
+    if (!result_case.cost->lit) return {};  // older results have the ratio all the same
     return Found{{*weighted, 1.0}, words_of_sets(sets), joined(sets)};
   }
+  std::optional<Found> most;
   for (const std::string& set : sets) {
-    const Json* counts = samples_of_set(result_case, set);
+    const SampleSet* counts = samples_of_set(result_case, set);
     if (counts == nullptr) continue;
     // Where no light reaches a set, none is unlit, and as many are needed: 0.
-    if (number_at(*counts, "/needed") == 0.0 && row.name != std::string_view("needed")) continue;
+    if (counts->needed == 0 && row.name != std::string_view("needed")) continue;
     std::optional<Found> found = found_by(row, *counts);
     if (!found || (most && most->value() >= found->value())) continue;
     found->location = words_of_set(set) + (found->location.empty() ? "" : ", ") + found->location;
@@ -141,12 +202,12 @@ std::optional<Found> found_at_samples(const Json& result_case, const FigureRow& 
   return most;
 }
 
-std::optional<Found> found_in(const Json& result_case, const std::string& name) {
+std::optional<Found> found_in(const Case& result_case, const std::string& name) {
   const config::FigureAtSamples parts = config::figure_at_samples(name);
-  if (const FigureRow* row = row_at_samples(parts.figure))
+  if (const FigureRow<SampleSet>* row = row_at_samples(parts.figure))
     return parts.set.empty() ? found_at_samples(result_case, *row, ranking_set_names(result_case), true)
                              : found_at_samples(result_case, *row, {parts.set}, false);
-  for (const FigureRow& row : k_figure_rows)
+  for (const FigureRow<Case>& row : k_figure_rows)
     if (row.name == name)
       if (std::optional<Found> found = found_by(row, result_case)) return found;
   return {};
@@ -154,25 +215,17 @@ std::optional<Found> found_in(const Json& result_case, const std::string& name) 
 
 // Why a case may lack a figure.
 std::string reason_for_none(const std::string& figure) {
-  const auto row = std::find_if(std::begin(k_figure_rows), std::end(k_figure_rows),
-                                [&](const FigureRow& candidate) { return candidate.name == figure; });
-  const std::string_view pointer = row == std::end(k_figure_rows) ? "" : row->value;
-  if (pointer.starts_with("/timing/")) return " (--no-timing or timing.measure: false leaves times out)";
-  if (const config::FigureAtSamples parts = config::figure_at_samples(figure); row_at_samples(parts.figure)) {
-    const std::string without = parts.set.empty() || parts.set == "volume"
-                                    ? "shading.samples: 0 leaves them out, and methods of visible surfaces have none"
-                                    : "samples." + parts.set + ": {} takes such samples";
-    if (parts.figure == "overshade")
-      return " (there is none where more than 0.1 % of the lights are unlit or fewer than 100 reach the samples; " +
-             without + ")";
-    return " (no light reaches the samples; " + without + ")";
-  }
-  if (pointer.starts_with("/error/"))
-    return " (accuracy.check: false leaves errors out; structures without cells have none)";
-  if (pointer.starts_with("/count/")) return " (--count counts instructions)";
-  if (pointer.starts_with("/lights")) return " (a result of an older version tells none)";
-  if (pointer.starts_with("/occupancy/")) return " (structures without cells have none)";
-  return "";
+  const auto* const row = std::ranges::find(k_figure_rows, figure, &FigureRow<Case>::name);
+  if (row != std::end(k_figure_rows)) return row->hint;
+  const config::FigureAtSamples parts = config::figure_at_samples(figure);
+  if (row_at_samples(parts.figure) == nullptr) return "";
+  const std::string without = parts.set.empty() || parts.set == "volume"
+                                  ? "shading.samples: 0 leaves them out, and methods of visible surfaces have none"
+                                  : "samples." + parts.set + ": {} takes such samples";
+  if (parts.figure == "overshade")
+    return " (there is none where more than 0.1 % of the lights are unlit or fewer than 100 reach the samples; " +
+           without + ")";
+  return " (no light reaches the samples; " + without + ")";
 }
 
 std::string listed_names(const std::vector<std::string>& names) {
@@ -189,9 +242,9 @@ std::string is_text(const config::LimitRule& rule, const Found& found) {
 // What is said of cases, each sentence once: figures of a scene or of a view are those of many cases.
 class SaidOfCases {
  public:
-  void add(const Json& result_case, const std::string& sentence) {
+  void add(const Case& result_case, const std::string& sentence) {
     auto said = std::ranges::find(said_, sentence, &Said::sentence);
-    if (said == said_.end()) said = said_.insert(said_.end(), {sentence, result_case["name"].get<std::string>(), 0});
+    if (said == said_.end()) said = said_.insert(said_.end(), {sentence, result_case.name, 0});
     ++said->cases;
   }
   std::vector<std::string> texts() const {
@@ -213,14 +266,15 @@ class SaidOfCases {
 // One budget held against the cases that it names.
 class RuleCheck {
  public:
-  RuleCheck(const Json& result, const config::LimitRule& rule, const BaselineCases* baseline, LimitFindings& findings)
+  RuleCheck(const result::Result& result, const config::LimitRule& rule, const BaselineCases* baseline,
+            LimitFindings& findings)
       : rule_(rule), quoted_("'" + rule.text() + "'"), baseline_(baseline), findings_(findings) {
     const Pattern pattern(rule.cases, "");
-    for (const Json& result_case : result["cases"])
+    for (const Case& result_case : result.cases)
       if (is_selected(pattern, result_case)) cases_.push_back(&result_case);
   }
 
-  void check(const Json& result) {
+  void check(const result::Result& result) {
     if (cases_.empty())
       add_none(result);
     else if (rule_.is_relative)
@@ -232,9 +286,9 @@ class RuleCheck {
   }
 
  private:
-  void add_none(const Json& result) {
+  void add_none(const result::Result& result) {
     std::vector<std::string> names;
-    for (const Json& result_case : result["cases"]) names.push_back(result_case["name"].get<std::string>());
+    for (const Case& result_case : result.cases) names.push_back(result_case.name);
     findings_.broken.push_back(quoted_ + " could not be checked: " +
                                (names.empty() ? "there is no case"
                                               : "its '" + rule_.cases + "' matches no case's name" +
@@ -243,24 +297,24 @@ class RuleCheck {
 
   void check_values() {
     std::vector<std::string> without;
-    for (const Json* result_case : cases_) {
+    for (const Case* result_case : cases_) {
       bool has_none = true;
       for (const std::string& figure : figures_of({result_case}))
         if (const std::optional<Found> found = found_in(*result_case, figure)) {
           has_none = false;
           judge(*result_case, rule_.is_broken_by(found->value()), found->value(), is_text(rule_, *found));
         }
-      if (has_none) without.push_back((*result_case)["name"].get<std::string>());
+      if (has_none) without.push_back(result_case->name);
     }
     add_without(without);
   }
 
   // Of lights needed at several sets each by itself: what one of them has lost the largest one would hide. Sets of now
   // and before.
-  std::vector<std::string> figures_of(const std::vector<const Json*>& cases) const {
+  std::vector<std::string> figures_of(const std::vector<const Case*>& cases) const {
     if (rule_.figure != "needed") return {rule_.figure};
     std::vector<std::string> figures;
-    for (const Json* result_case : cases)
+    for (const Case* result_case : cases)
       for (const std::string& set : ranking_set_names(*result_case))
         if (const std::string figure = set + ".needed"; std::ranges::find(figures, figure) == figures.end())
           figures.push_back(figure);
@@ -285,9 +339,9 @@ class RuleCheck {
     }
     std::vector<std::string> not_in_base, without;
     std::string obstacle;
-    for (const Json* result_case : cases_) {
-      const std::string name = (*result_case)["name"].get<std::string>();
-      const Json* before = baseline_->case_of(*result_case);
+    for (const Case* result_case : cases_) {
+      const std::string& name = result_case->name;
+      const Case* before = baseline_->case_of(*result_case);
       if (before == nullptr) {
         not_in_base.push_back(name);
         continue;
@@ -311,7 +365,7 @@ class RuleCheck {
     add_unmatched(not_in_base, without, obstacle);
   }
 
-  void judge_change(const Json& result_case, const Found& now, const Found& then) {
+  void judge_change(const Case& result_case, const Found& now, const Found& then) {
     const double percent = percent_change(then.quotient, now.quotient);
     const std::string change =
         std::isfinite(percent) ? percent_text(percent, rule_.limit) + " against " : std::string("was ");
@@ -345,8 +399,8 @@ class RuleCheck {
                                  "; measure the baseline in the same job");
     const Pattern pattern(rule_.cases, "");
     std::vector<std::string> gone;
-    for (const Json* base_case : baseline_->gone_cases())
-      if (is_selected(pattern, *base_case)) gone.push_back((*base_case)["name"].get<std::string>());
+    for (const Case* base_case : baseline_->gone_cases())
+      if (is_selected(pattern, *base_case)) gone.push_back(base_case->name);
     if (!gone.empty())
       findings_.broken.push_back(begin + " for " + number_of(gone.size(), "case") + " of " + baseline_->name() +
                                  " that this result does not have: " + listed_names(gone) +
@@ -355,7 +409,7 @@ class RuleCheck {
 
   bool is_instructions() const { return rule_.figure.ends_with("instructions"); }
 
-  void judge(const Json& result_case, bool is_broken, double value, const std::string& text) {
+  void judge(const Case& result_case, bool is_broken, double value, const std::string& text) {
     ++findings_.checked;
     if (is_broken)
       broken_.add(result_case, text + ", and fails with " + rule_.text());
@@ -367,16 +421,16 @@ class RuleCheck {
   std::string quoted_;
   const BaselineCases* baseline_;
   LimitFindings& findings_;
-  std::vector<const Json*> cases_;
+  std::vector<const Case*> cases_;
   SaidOfCases broken_, near_;
 };
 
 // What stands between a relative budget and its baseline beside the figure itself, each answer once.
-void add_changes_since(const Json& result, const BaselineCases& baseline, LimitFindings& findings) {
+void add_changes_since(const result::Result& result, const BaselineCases& baseline, LimitFindings& findings) {
   std::map<std::string, std::vector<std::string>> names;
-  for (const Json& result_case : result["cases"])
+  for (const Case& result_case : result.cases)
     if (const std::string changes = baseline.what_changed(result_case); !changes.empty())
-      names[changes].push_back(result_case["name"].get<std::string>());
+      names[changes].push_back(result_case.name);
   for (const auto& [changes, changed_cases] : names)
     findings.warnings.push_back("changed since " + baseline.name() + " (" + number_of(changed_cases.size(), "case") +
                                 "): " + changes + "; " + listed_names(changed_cases));
@@ -384,17 +438,17 @@ void add_changes_since(const Json& result, const BaselineCases& baseline, LimitF
 
 }  // namespace
 
-std::optional<double> limit_figure(const Json& result_case, const std::string& name) {
+std::optional<double> limit_figure(const Case& result_case, const std::string& name) {
   const std::optional<Found> found = found_in(result_case, name);
   return found ? std::optional(found->value()) : std::nullopt;
 }
 
-std::string limit_figure_location(const Json& result_case, const std::string& name) {
+std::string limit_figure_location(const Case& result_case, const std::string& name) {
   const std::optional<Found> found = found_in(result_case, name);
   return found ? found->location : "";
 }
 
-LimitFindings limit_findings(const Json& result, std::span<const config::LimitRule> rules,
+LimitFindings limit_findings(const result::Result& result, std::span<const config::LimitRule> rules,
                              const BaselineCases* baseline) {
   LimitFindings findings;
   for (const config::LimitRule& rule : rules) RuleCheck(result, rule, baseline, findings).check(result);

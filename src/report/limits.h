@@ -1,23 +1,23 @@
 #pragma once
 // A result held against its budgets: `limits.fail_if` of its configuration.
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "config/limit_rules.h"
+#include "result/result.h"
 
 namespace clusterbench::report {
 
 class BaselineCases;
 
 // A figure of a case by its name in budgets (config/limit_rules.h); nothing where the case has none.
-std::optional<double> limit_figure(const nlohmann::ordered_json& result_case, const std::string& name);
+std::optional<double> limit_figure(const result::Case& result_case, const std::string& name);
 
 // "frame 9, cell [8,4,13]": where the case has that figure; "" where it does not tell.
-std::string limit_figure_location(const nlohmann::ordered_json& result_case, const std::string& name);
+std::string limit_figure_location(const result::Case& result_case, const std::string& name);
 
 // Lines with case, figure and, where they are known, frame and cell.
 struct LimitFindings {
@@ -28,7 +28,7 @@ struct LimitFindings {
   std::size_t checked = 0;             // how often a budget was held against a case
 };
 // `baseline`: what relative budgets are held against; null: there is none, and they fail.
-LimitFindings limit_findings(const nlohmann::ordered_json& result, std::span<const config::LimitRule> rules,
+LimitFindings limit_findings(const result::Result& result, std::span<const config::LimitRule> rules,
                              const BaselineCases* baseline = nullptr);
 
 }  // namespace clusterbench::report

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 
-#include "report/json_values.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // All code is GLSL first, with P_ for the structure's name, @name@ for what differs, and in_language() for both
 // languages.
@@ -174,24 +172,23 @@ std::string entry_code(const std::string& buffer, std::uint64_t bytes) {
   return word + ")";
 }
 
-std::uint64_t cells_of_case(const Json& result_case) {
-  std::uint64_t cells = 1;
-  for (const Json& axis : result_case["grid"]["cells"]) cells *= axis.get<std::uint64_t>();
-  return cells;
+std::uint64_t cells_of_case(const result::Case& result_case) {
+  const auto [x, y, z] = result_case.grid.cells;
+  return x * y * z;
 }
 
 // The most in any viewport.
 std::uint64_t cells_of_view(const SizedStructure& structure) {
   std::uint64_t most = 0;
-  for (const Json* result_case : structure.cases) most = std::max(most, cells_of_case(*result_case));
+  for (const result::Case* result_case : structure.cases) most = std::max(most, cells_of_case(*result_case));
   return most;
 }
 
 // Whether all views of a frame have as many cells as each other.
 bool has_views_alike(const SizedStructure& structure) {
-  return std::ranges::all_of(structure.cases, [&](const Json* one) {
-    return std::ranges::all_of(structure.cases, [&](const Json* other) {
-      return (*one)["viewport"] != (*other)["viewport"] || cells_of_case(*one) == cells_of_case(*other);
+  return std::ranges::all_of(structure.cases, [&](const result::Case* one) {
+    return std::ranges::all_of(structure.cases, [&](const result::Case* other) {
+      return one->viewport != other->viewport || cells_of_case(*one) == cells_of_case(*other);
     });
   });
 }
@@ -248,10 +245,10 @@ Reader runs_reader(const SizedStructure& structure) {
 std::uint64_t lights_of(const SizedStructure& structure) {
   double most = 0.0;
   bool is_culled = false;
-  for (const Json* result_case : structure.cases) {
-    const std::optional<double> kept = number_at(*result_case, "/pre_cull/kept/max");
+  for (const result::Case* one : structure.cases) {
+    const auto kept = result::number<&result::Case::pre_cull, &result::PreCull::kept, &result::MeanMax::max>(*one);
     is_culled |= kept.has_value();
-    most = std::max(most, kept ? *kept : number_at(*result_case, "/lights").value_or(0.0));
+    most = std::max(most, kept ? *kept : static_cast<double>(one->lights.value_or(0)));
   }
   for (const FoundFrame& found : structure.searches)
     if (!is_culled) most = std::max(most, static_cast<double>(found.lights));
@@ -269,7 +266,7 @@ Reader fixed_reader(const SizedStructure& structure) {
   const std::uint64_t end = lights_of(structure);
   if (end == 0) return {"", "without counts a list ends with the number of lights, and the result does not say it"};
   // What a cull leaves is numbered anew in each frame.
-  const bool is_culled = structure.cases.front()->contains("pre_cull");
+  const bool is_culled = structure.cases.front()->pre_cull.has_value();
   std::string code = substituted(substituted(k_ended, "@room@", room), "@entry@", entry);
   code = substituted(code, "@marked@", is_culled ? "@variable@" : "@constant@");
   code = substituted(code, "@set@", is_culled ? ": set it to the number of lights that the frame's cull leaves" : "");
@@ -297,12 +294,11 @@ Reader reader_of(const SizedStructure& structure) {
                             {"bitfield", bitfield_reader},
                             {"linked", linked_reader},
                             {"runs", runs_reader}};
-  const Json& first = *structure.cases.front();
-  const auto storage = first["storage"].get<std::string>();
-  if (first.contains("react")) return {"", "its tiles react, so that a cell's number is another from frame to frame"};
+  const result::Case& first = *structure.cases.front();
+  if (first.react) return {"", "its tiles react, so that a cell's number is another from frame to frame"};
   if (!structure.has_grid_cells) return {"", "its cells follow visible surfaces, and are not those of the grid"};
   for (const Row& row : k_rows)
-    if (storage.substr(0, storage.find('(')) == row.storage) return row.reader(structure);
+    if (first.storage.substr(0, first.storage.find('(')) == row.storage) return row.reader(structure);
   return {"", "it has no lists of cells but the method's own structure, which docs/methods.md describes"};
 }
 
@@ -331,8 +327,9 @@ std::string why_no_reader(const SizedStructure& structure) {
   return reader_of(structure).refusal;
 }
 
-std::string why_no_reader(const Json& cases) {
-  const Json result{{"cases", cases}};
+std::string why_no_reader(const std::vector<result::Case>& cases) {
+  result::Result result;
+  result.cases = cases;
   return why_no_reader(sized_structures(result, "", {}).front());
 }
 

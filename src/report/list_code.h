@@ -4,6 +4,7 @@
 #include <string>
 
 #include "report/named_structures.h"
+#include "result/case.h"
 
 namespace clusterbench::report {
 
@@ -22,7 +23,7 @@ std::string list_code(const NamedStructure& named, ShaderLanguage language, int&
 // Why nothing of it reads a structure's lists: "its tiles react, ..."; "" where it has them.
 std::string why_no_reader(const SizedStructure& structure);
 // The same of the cases of one structure on its cameras, as a result has them.
-std::string why_no_reader(const nlohmann::ordered_json& cases);
+std::string why_no_reader(const std::vector<result::Case>& cases);
 
 // What list_code() declares.
 std::vector<std::string> list_code_names(const NamedStructure& named);

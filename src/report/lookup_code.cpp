@@ -2,12 +2,8 @@
 
 #include <algorithm>
 
-#include "report/json_values.h"
-
 namespace clusterbench::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // All code is GLSL first, with P for the name.
 constexpr const char* k_slice_by_formula = R"(  float at = @ * P_slice_scale + P_slice_bias;
@@ -70,19 +66,17 @@ constexpr const char* k_screen_end_of_viewport =
 }
 )";
 
-std::string ivec2_of(const Json& pair) {
-  return "ivec2(" + pair[0].dump() + ", " + pair[1].dump() + ")";
+std::string ivec2_of(const result::Counts2& pair) {
+  return "ivec2(" + std::to_string(pair[0]) + ", " + std::to_string(pair[1]) + ")";
 }
 
 // Tiles across and down in a viewport, and the cell in it.
-std::string code_of_viewport(const Json& grid, const std::string& slice) {
-  const Json& tiles = grid["tiles"];
-  const bool by_pixels = tiles.contains("pixels");
-  const std::string count =
-      by_pixels ? "(ivec2(viewport) + " + ivec2_of(tiles["pixels"]) + " - 1) / " + ivec2_of(tiles["pixels"])
-                : "ivec2(P_cells.x, P_cells.y)";
+std::string code_of_viewport(const result::Tiles& tiles, const std::string& slice) {
+  const std::string count = tiles.pixels
+                                ? "(ivec2(viewport) + " + ivec2_of(*tiles.pixels) + " - 1) / " + ivec2_of(*tiles.pixels)
+                                : "ivec2(P_cells.x, P_cells.y)";
   std::string end = k_screen_end_of_viewport;
-  const std::string scale = by_pixels ? "P_tile_scale" : "(vec2(ivec2(P_cells.x, P_cells.y)) / viewport)";
+  const std::string scale = tiles.pixels ? "P_tile_scale" : "(vec2(ivec2(P_cells.x, P_cells.y)) / viewport)";
   end.replace(end.find('#'), 1, scale);
   return "// the same for any viewport, in whole pixels: for dynamic resolution\nivec2 P_tiles_of(vec2 viewport) {\n  "
          "return " +
@@ -90,35 +84,34 @@ std::string code_of_viewport(const Json& grid, const std::string& slice) {
 }
 
 // Cubical cells are as deep as they are wide on the screen, and so of one viewport.
-bool are_slices_of_viewport(const Json& grid) {
-  return grid["slices"]["scheme"].get<std::string>().starts_with("cubical");
+bool are_slices_of_viewport(const result::Slices& slices) {
+  return slices.scheme.starts_with("cubical");
 }
 
-std::string screen_code(const Json& grid) {
-  const std::string form = grid["slices"]["lookup"]["form"].get<std::string>();
-  const bool by_distance = grid["kind"] == "distance";
+std::string screen_code(const result::Grid& grid) {
+  const std::string& form = grid.slices->lookup.form;
+  const bool by_distance = grid.kind == "distance";
   std::string slice = form == "search" ? k_slice_by_search : k_slice_by_formula;
   if (const std::size_t at = slice.find('@'); at != std::string::npos)
     slice.replace(at, 1, form == "log2" ? "log2(along)" : "along");
   return std::string("// pixel: from the top left (OpenGL's gl_FragCoord: from the bottom), centres at .5; along: ") +
          (by_distance ? "length(view)" : "depth, -view.z") +
          ", in metres. -1: beside the picture, beyond the last slice\n" + k_screen_start + slice + k_screen_end +
-         (are_slices_of_viewport(grid) ? "" : code_of_viewport(grid, slice));
+         (are_slices_of_viewport(*grid.slices) ? "" : code_of_viewport(*grid.tiles, slice));
 }
 
 bool has(const std::vector<LookupConstant>& constants, const char* name) {
   return std::ranges::find(constants, name, &LookupConstant::name) != constants.end();
 }
 
-std::string code_of(const Json& result_case) {
-  const Json& grid = result_case["grid"];
+std::string code_of(const result::Case& result_case) {
+  const result::Grid& grid = result_case.grid;
   const std::vector<LookupConstant> constants = lookup_constants(result_case);
   if (has(constants, "levels") && has(constants, "finest")) return k_cascades;
   if (has(constants, "origin") && has(constants, "box_min")) return k_world;
   if (!has(constants, "tile_scale") || !has(constants, "viewport") || !has(constants, "slice_far")) return "";
-  const bool searches = grid["slices"]["lookup"]["form"] == "search";
-  if (searches ? grid["slices"]["boundaries"].size() == grid["cells"][2].get<std::size_t>() + 1 &&
-                     has(constants, "slice_boundaries")
+  const bool searches = grid.slices->lookup.form == "search";
+  if (searches ? grid.slices->boundaries.size() == grid.cells[2] + 1 && has(constants, "slice_boundaries")
                : has(constants, "slice_scale") && has(constants, "slice_bias"))
     return screen_code(grid);
   return "";
@@ -132,11 +125,11 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 }  // namespace
 
-std::string lookup_function_glsl(const std::string& name, const Json& result_case) {
+std::string lookup_function_glsl(const std::string& name, const result::Case& result_case) {
   return replaced(code_of(result_case), "P_", name + "_");
 }
 
-std::string lookup_function_hlsl(const std::string& name, const Json& result_case) {
+std::string lookup_function_hlsl(const std::string& name, const result::Case& result_case) {
   const std::string code = replaced(code_of(result_case), "ivec", "int");
   return replaced(replaced(code, "vec", "float"), "P_", name + "_");
 }

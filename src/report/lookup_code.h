@@ -1,11 +1,11 @@
 #pragma once
 // The function with which a shader finds the cell of a sample, for the constants of report/lookup_constants.h.
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "report/lookup_constants.h"
+#include "result/case.h"
 
 namespace clusterbench::report {
 
@@ -17,7 +17,7 @@ namespace clusterbench::report {
 // and gives -1 outside of the grid. The first two have another form with the viewport as a last argument, and
 // `ivec2 NAME_tiles_of(vec2 viewport)`, but for cubical cells, whose slices depend on the viewport. As the tool's own
 // lookup, but for the logarithm, which is the shader's.
-std::string lookup_function_hlsl(const std::string& name, const nlohmann::ordered_json& result_case);
-std::string lookup_function_glsl(const std::string& name, const nlohmann::ordered_json& result_case);
+std::string lookup_function_hlsl(const std::string& name, const result::Case& result_case);
+std::string lookup_function_glsl(const std::string& name, const result::Case& result_case);
 
 }  // namespace clusterbench::report

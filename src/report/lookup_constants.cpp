@@ -1,7 +1,7 @@
 #include "report/lookup_constants.h"
 
 #include "report/columns.h"
-#include "report/result_json.h"
+#include "result/rounding.h"
 
 namespace clusterbench::report {
 namespace {
@@ -9,10 +9,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Type = LookupConstant::Type;
 
-std::vector<double> numbers_of(const Json& list) {
-  std::vector<double> out;
-  for (const Json& value : list) out.push_back(value.get<double>());
-  return out;
+template <class List>
+std::vector<double> numbers_of(const List& list) {
+  return {list.begin(), list.end()};
 }
 
 // As float literals of C++, HLSL and GLSL alike.
@@ -35,44 +34,39 @@ std::string values_text(const LookupConstant& constant, const std::string& suffi
   return out;
 }
 
-void add_tiles(std::vector<LookupConstant>& out, const Json& result_case) {
-  const Json &tiles = result_case["grid"]["tiles"], &viewport = result_case["viewport"];
+void add_tiles(std::vector<LookupConstant>& out, const result::Tiles& tiles, const result::Counts2& viewport) {
   if (viewport[0] == 0 || viewport[1] == 0) return;
-  out.push_back({"viewport", Type::real, numbers_of(viewport)});
-  std::vector<double> scale;
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    const bool by_pixels = tiles.contains("pixels");
-    if (!by_pixels && !tiles.contains("count")) return;
-    scale.push_back(by_pixels ? 1.0 / tiles["pixels"][axis].get<double>()
-                              : tiles["count"][axis].get<double>() / viewport[axis].get<double>());
+  const std::vector<double> pixels = numbers_of(viewport);
+  out.push_back({"viewport", Type::real, pixels});
+  if (tiles.pixels) {
+    const auto [width, height] = *tiles.pixels;
+    out.push_back({"tile_scale", Type::real, {1.0 / static_cast<double>(width), 1.0 / static_cast<double>(height)}});
+  } else if (tiles.count) {
+    const std::vector<double> count = numbers_of(*tiles.count);
+    out.push_back({"tile_scale", Type::real, {count[0] / pixels[0], count[1] / pixels[1]}});
   }
-  out.push_back({"tile_scale", Type::real, scale});
 }
 
-void add_slices(std::vector<LookupConstant>& out, const Json& slices) {
-  const Json& lookup = slices["lookup"];
-  if (lookup["form"] == "search" && slices["boundaries"].size() > 1)
-    out.push_back({"slice_boundaries", Type::real, numbers_of(slices["boundaries"]), true});
-  for (const auto& [key, name] :
-       {std::pair("scale", "slice_scale"), std::pair("bias", "slice_bias"), std::pair("first", "slice_first")})
-    if (lookup.contains(key))
-      out.push_back({name, Type::real, {lookup[key].get<double>()}});
-    else if (name == std::string("slice_first") && lookup.contains("scale"))
-      out.push_back({name, Type::real, {0.0}});
-  if (!slices["boundaries"].empty())
-    out.push_back({"slice_far", Type::real, {slices["boundaries"].back().get<double>()}});
+void add_slices(std::vector<LookupConstant>& out, const result::Slices& slices) {
+  const result::SliceLookup& lookup = slices.lookup;
+  if (lookup.form == "search" && slices.boundaries.size() > 1)
+    out.push_back({"slice_boundaries", Type::real, slices.boundaries, true});
+  if (lookup.scale) out.push_back({"slice_scale", Type::real, {*lookup.scale}});
+  if (lookup.bias) out.push_back({"slice_bias", Type::real, {*lookup.bias}});
+  if (lookup.first || lookup.scale) out.push_back({"slice_first", Type::real, {lookup.first.value_or(0.0)}});
+  if (!slices.boundaries.empty()) out.push_back({"slice_far", Type::real, {slices.boundaries.back()}});
 }
 
 // Those that a grid does not keep over a path.
-void mark_changing(std::vector<LookupConstant>& constants, const Json& result_case) {
-  const Json& grid = result_case["grid"];
+void mark_changing(std::vector<LookupConstant>& constants, const result::Case& result_case) {
+  const result::Grid& grid = result_case.grid;
   const auto mark = [&](std::string_view beginning) {
     for (LookupConstant& constant : constants) constant.changes |= constant.name.starts_with(beginning);
   };
-  if (grid.contains("follow")) mark("origin");
-  if (grid.contains("follow") && grid["follow"] == "lights") mark("box_");
-  if (grid.contains("slices") && (grid["slices"]["scheme"] == "fit" || result_case.contains("fit"))) mark("slice_");
-  if (result_case.contains("react")) {
+  if (grid.follow) mark("origin");
+  if (grid.follow == "lights") mark("box_");
+  if (grid.slices && (grid.slices->scheme == "fit" || result_case.fit)) mark("slice_");
+  if (result_case.react) {
     mark("cells");
     mark("tile_scale");
   }
@@ -113,39 +107,38 @@ std::string declared(const std::string& prefix, const std::vector<LookupConstant
 
 }  // namespace
 
-std::vector<LookupConstant> lookup_constants(const Json& result_case) {
-  const Json& grid = result_case["grid"];
-  std::vector<LookupConstant> out{{"cells", Type::integer, numbers_of(grid["cells"])}};
-  if (grid.contains("tiles")) add_tiles(out, result_case);
-  if (grid.contains("slices")) add_slices(out, grid["slices"]);
-  if (grid.contains("levels")) out.push_back({"levels", Type::integer, {grid["levels"].get<double>()}});
-  if (grid.contains("finest")) out.push_back({"finest", Type::real, {grid["finest"].get<double>()}});
-  if (grid.contains("origin")) out.push_back({"origin", Type::precise, numbers_of(grid["origin"])});
-  if (grid.contains("bounds")) {
-    out.push_back({"box_min", Type::real, numbers_of(grid["bounds"]["min"])});
-    out.push_back({"box_max", Type::real, numbers_of(grid["bounds"]["max"])});
+std::vector<LookupConstant> lookup_constants(const result::Case& result_case) {
+  const result::Grid& grid = result_case.grid;
+  std::vector<LookupConstant> out{{"cells", Type::integer, numbers_of(grid.cells)}};
+  if (grid.tiles) add_tiles(out, *grid.tiles, result_case.viewport);
+  if (grid.slices) add_slices(out, *grid.slices);
+  if (grid.levels) out.push_back({"levels", Type::integer, {static_cast<double>(*grid.levels)}});
+  if (grid.finest) out.push_back({"finest", Type::real, {*grid.finest}});
+  if (grid.origin) out.push_back({"origin", Type::precise, numbers_of(*grid.origin)});
+  if (grid.bounds) {
+    out.push_back({"box_min", Type::real, numbers_of(grid.bounds->min)});
+    out.push_back({"box_max", Type::real, numbers_of(grid.bounds->max)});
   }
   mark_changing(out, result_case);
   return out;
 }
 
-std::string lookup_note(const Json& result_case) {
-  const Json& grid = result_case["grid"];
-  if (grid.contains("follow"))
+std::string lookup_note(const result::Case& result_case) {
+  const result::Grid& grid = result_case.grid;
+  if (grid.follow)
     return std::string("the grid follows the ") +
-           (grid["follow"] == "camera" ? "camera: origin is" : "lights in view: origin, box_min and box_max are") +
+           (*grid.follow == "camera" ? "camera: origin is" : "lights in view: origin, box_min and box_max are") +
            " the last frame's: set this frame's before a lookup";
-  if (!grid.contains("slices")) return "";
-  if (grid["slices"]["scheme"] == "fit")
+  if (!grid.slices) return "";
+  if (grid.slices->scheme == "fit")
     return "slices follow the lights: scale, bias and far are the last frame's: set this frame's before a lookup";
-  if (result_case.contains("react"))
+  if (result_case.react)
     return "tiles react: cells and tile_scale are the last frame's: set this frame's before a lookup" +
-           std::string(result_case.contains("fit") ? ", as are scale, bias, first and far" : "");
-  if (result_case.contains("fit"))
+           std::string(result_case.fit ? ", as are scale, bias, first and far" : "");
+  if (result_case.fit)
     return "slices follow what frames need: scale, bias, first and far are the last frame's: set this frame's before a "
            "lookup";
-  const Json& form = grid["slices"]["lookup"]["form"];
-  const std::string along = grid["kind"] == "distance" ? "length(view)" : "depth";
+  const std::string &form = grid.slices->lookup.form, along = grid.kind == "distance" ? "length(view)" : "depth";
   if (form == "search") return "slice = the last one whose boundary, slice_boundaries[slice], is not beyond " + along;
   return "slice = " + (form == "log2" ? "log2(" + along + ")" : along) + " * slice_scale + slice_bias";
 }
@@ -173,7 +166,7 @@ Json lookup_json(const std::vector<LookupConstant>& constants) {
   Json out = Json::object();
   for (const LookupConstant& constant : constants) {
     Json values = Json::array();
-    for (const double value : constant.values) values.push_back(number_or_null(value));
+    for (const double value : constant.values) values.push_back(result::number_json(result::counted(value), false));
     out[constant.name] = values.size() == 1 ? values[0] : values;
   }
   return out;

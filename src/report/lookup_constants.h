@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "result/case.h"
+
 namespace clusterbench::report {
 
 struct LookupConstant {
@@ -19,10 +21,10 @@ struct LookupConstant {
 };
 
 // Of a case with lists. Slices that have no formula (form "search") have their boundaries, and no scale and bias.
-std::vector<LookupConstant> lookup_constants(const nlohmann::ordered_json& result_case);
+std::vector<LookupConstant> lookup_constants(const result::Case& result_case);
 
 // What cannot be a constant, for a comment; "" where all can.
-std::string lookup_note(const nlohmann::ordered_json& result_case);
+std::string lookup_note(const result::Case& result_case);
 
 // `name`: what all begin with. Declarations end with a line break.
 std::string lookup_hlsl(const std::string& name, const std::vector<LookupConstant>& constants);

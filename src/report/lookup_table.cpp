@@ -6,23 +6,31 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using result::Lookup;
 
-std::string missed_text(const Json& way) {
-  const double needed = way["needed"].get<double>(), missed = way["missed"].get<double>();
-  return needed > 0.0 ? text("%.4f %%", 100.0 * missed / needed) : "-";
+Json ways_of(const result::Case& result_case) {
+  if (!result_case.lookup) return nullptr;
+  Json ways = Json::array();
+  for (const Lookup& way : *result_case.lookup) ways.push_back(result::to_json(way));
+  return ways;
+}
+
+std::string missed_text(const Lookup& way) {
+  return way.needed == 0 ? "-"
+                         : text("%.4f %%", 100.0 * static_cast<double>(way.missed) / static_cast<double>(way.needed));
 }
 
 // Assigners as lines, ways as columns.
 std::string lookup_block(const std::string& block, const std::vector<NamedCase>& cases) {
   Cells headings{"", "assigner"}, padding{"", "(safe padding, ulps)"};
-  for (const Json& way : (*cases.front().result_case)["lookup"]) {
-    headings.push_back(way["logarithm"].get<std::string>() + "/" + way["depth"].get<std::string>());
-    padding.push_back(way["safe_padding_ulps"].dump());
+  for (const Lookup& way : *cases.front().result_case->lookup) {
+    headings.push_back(way.logarithm + "/" + way.depth);
+    padding.push_back(std::to_string(way.safe_padding_ulps));
   }
   std::vector<Cells> rows{headings};
   for (const NamedCase& named : cases) {
     Cells row{"", named.name};
-    for (const Json& way : (*named.result_case)["lookup"]) row.push_back(missed_text(way));
+    for (const Lookup& way : *named.result_case->lookup) row.push_back(missed_text(way));
     rows.push_back(row);
   }
   rows.push_back(padding);
@@ -34,15 +42,15 @@ std::string lookup_block(const std::string& block, const std::vector<NamedCase>&
 
 }  // namespace
 
-std::string lookup_table(const Json& result) {
+std::string lookup_table(const result::Result& result) {
   std::string out;
-  for (const Json& scene : result["scenes"]) {
+  for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result["cases"], scene)) {
-      const std::vector<NamedCase> cases = distinct_cases(result["cases"], scene, block, {"lookup"});
+    for (const std::string& block : blocks_of(result.cases, scene)) {
+      const std::vector<NamedCase> cases = distinct_cases(result.cases, scene, block, ways_of);
       if (!cases.empty()) blocks += lookup_block(block, cases);
     }
-    if (!blocks.empty()) out += "lookup on " + shown(scene["name"]) + "\n" + blocks + "\n";
+    if (!blocks.empty()) out += "lookup on " + shown(scene.name) + "\n" + blocks + "\n";
   }
   if (out.empty()) return "";
   return "\n" + out +

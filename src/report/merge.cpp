@@ -17,37 +17,46 @@ using Json = nlohmann::ordered_json;
 // What cases in one result were judged by.
 constexpr const char* k_in_common[] = {"allocation", "cost", "rank_by"};
 
-bool is_measured(const Json& result) {
-  for (const Json& result_case : result.at("cases"))
-    if (result_case.contains("timing") || result_case.contains("count")) return true;
-  return false;
+bool is_measured(const result::Result& result) {
+  return std::ranges::any_of(result.cases,
+                             [](const result::Case& result_case) { return result_case.timing || result_case.count; });
+}
+
+template <class Record>
+bool are_same(const Record& one, const Record& other) {
+  return result::to_json(one) == result::to_json(other);
 }
 
 void check_origin(const NamedPart& first, const NamedPart& next) {
   for (const char* key : k_in_common)
-    if (first.result.at("config").value(key, Json()) != next.result.at("config").value(key, Json()))
+    if (first.result.config.value(key, Json()) != next.result.config.value(key, Json()))
       throw Error(next.file, std::string("/config/") + key, "is not that of " + first.file);
   if (!is_measured(first.result) && !is_measured(next.result)) return;
-  for (const char* key : {"tool", "machine"})
-    if (without_state(first.result.at(key)) != without_state(next.result.at(key)))
-      throw Error(next.file, std::string("/") + key,
-                  "is not that of " + first.file + ": times and instructions of both have no place in one result");
+  const auto refuse = [&](const char* where) {
+    throw Error(next.file, where,
+                "is not that of " + first.file + ": times and instructions of both have no place in one result");
+  };
+  if (!are_same(first.result.tool, next.result.tool)) refuse("/tool");
+  if (!are_same(without_state(first.result.machine), without_state(next.result.machine))) refuse("/machine");
 }
 
-// Appends to `all` what it has not yet; `key` tells two things apart, `where` names their list.
+// Appends to `all` what it has not yet; `key`, which is called `key_name`, tells two things apart, `where` names their
+// list.
+template <class Item>
 class Union {
  public:
-  Union(Json& all, const char* where, const char* key) : all_(all), where_(where), key_(key) {}
+  Union(std::vector<Item>& all, const char* where, std::string Item::*key, const char* key_name)
+      : all_(all), where_(where), key_(key), key_name_(key_name) {}
 
   // `may_repeat`: the same thing again is passed over.
-  void add(const Json& item, const std::string& file, bool may_repeat) {
-    const std::string name = item.at(key_).get<std::string>();
+  void add(const Item& item, const std::string& file, bool may_repeat) {
+    const std::string& name = item.*key_;
     const auto [earlier, is_new] = seen_.try_emplace(name, Place{all_.size(), file});
     if (is_new) {
       all_.push_back(item);
-    } else if (!may_repeat || all_[earlier->second.index] != item) {
+    } else if (!may_repeat || !are_same(all_[earlier->second.index], item)) {
       throw Error(file, std::string("/") + where_,
-                  std::string("has ") + key_ + " '" + name + "', and " + earlier->second.file + " has it, too" +
+                  std::string("has ") + key_name_ + " '" + name + "', and " + earlier->second.file + " has it, too" +
                       (may_repeat ? ", but it is another" : ""));
     }
   }
@@ -57,24 +66,27 @@ class Union {
     std::size_t index;
     std::string file;
   };
-  Json& all_;
-  const char *where_, *key_;
+  std::vector<Item>& all_;
+  const char* where_;
+  std::string Item::*key_;
+  const char* key_name_;
   std::map<std::string, Place> seen_;
 };
 
 // Shards skip the same combinations, for the same reasons.
-void add_skipped(Json& all, const Json& skipped) {
-  for (const Json& skip : skipped)
-    if (std::find(all.begin(), all.end(), skip) == all.end()) all.push_back(skip);
+void add_skipped(std::vector<result::Skipped>& all, const std::vector<result::Skipped>& skipped) {
+  for (const result::Skipped& skip : skipped)
+    if (std::ranges::none_of(all, [&](const result::Skipped& other) { return are_same(other, skip); }))
+      all.push_back(skip);
 }
 
 Json merged_config(const std::vector<NamedPart>& parts) {
-  const Json& first = parts.front().result.at("config");
+  const Json& first = parts.front().result.config;
   Json all = Json::array();
   bool is_same = true;
   for (const NamedPart& part : parts) {
-    is_same = is_same && part.result.at("config") == first;
-    all.push_back(part.result.at("config"));
+    is_same = is_same && part.result.config == first;
+    all.push_back(part.result.config);
   }
   if (is_same) return first;
   Json config{{"allocation", Json::object()}};
@@ -85,10 +97,10 @@ Json merged_config(const std::vector<NamedPart>& parts) {
 }
 
 std::string merged_name(const std::vector<NamedPart>& parts) {
-  std::string name = parts.front().result.at("name").get<std::string>();
+  std::string name = parts.front().result.name;
   std::string last = name;
   for (const NamedPart& part : parts) {
-    const std::string next = part.result.at("name").get<std::string>();
+    const std::string& next = part.result.name;
     if (next != last) name += " + " + next;
     last = next;
   }
@@ -97,29 +109,27 @@ std::string merged_name(const std::vector<NamedPart>& parts) {
 
 }  // namespace
 
-Json merged(const std::vector<NamedPart>& parts) {
-  const Json& first = parts.front().result;
-  Json scenes = Json::array(), cases = Json::array(), skipped = Json::array();
+result::Result merged(const std::vector<NamedPart>& parts) {
+  const result::Result& first = parts.front().result;
+  result::Result out;
+  out.schema_version = first.schema_version;
+  out.name = merged_name(parts);
+  out.tool = first.tool;
+  out.machine = without_state(first.machine);
+  out.config = merged_config(parts);
   std::vector<std::string> failed;
-  Union scene_union(scenes, "scenes", "name"), case_union(cases, "cases", "id");
+  Union<result::Scene> scenes(out.scenes, "scenes", &result::Scene::name, "name");
+  Union<result::Case> cases(out.cases, "cases", &result::Case::id, "id");
   for (const NamedPart& part : parts) {
     check_origin(parts.front(), part);
-    for (const Json& scene : part.result.at("scenes")) scene_union.add(scene, part.file, true);
-    for (const Json& result_case : part.result.at("cases")) case_union.add(result_case, part.file, false);
-    add_skipped(skipped, part.result.at("skipped"));
-    for (const Json& failure : part.result.value("failed", Json::array())) failed.push_back(failure.get<std::string>());
+    for (const result::Scene& scene : part.result.scenes) scenes.add(scene, part.file, true);
+    for (const result::Case& result_case : part.result.cases) cases.add(result_case, part.file, false);
+    add_skipped(out.skipped, part.result.skipped);
+    if (part.result.failed) failed.insert(failed.end(), part.result.failed->begin(), part.result.failed->end());
   }
-  Json out{{"schema_version", first.at("schema_version")},
-           {"name", merged_name(parts)},
-           {"tool", first.at("tool")},
-           {"machine", without_state(first.at("machine"))},
-           {"config", merged_config(parts)},
-           {"scenes", scenes},
-           {"cases", cases},
-           {"pareto_front", fronts(scenes, cases, first)},
-           {"skipped", skipped}};
+  out.pareto_front = fronts(out.scenes, out.cases, first);
   add_presets(out, first);
-  out["conclusions"] = conclusions_of(out, first);
+  out.conclusions = conclusions_of(out, first);
   conclude_failures(out, failed);
   return out;
 }

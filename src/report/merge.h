@@ -1,21 +1,22 @@
 #pragma once
 // Several results as one: shards of a configuration, several configurations, counts of several machines.
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "result/result.h"
 
 namespace clusterbench::report {
 
 struct NamedPart {
   std::string file;
-  nlohmann::ordered_json result;
+  result::Result result;
 };
 
 // All cases in order of the parts; scenes once; fronts anew. `tool` and `machine` are the first part's, the
 // configuration is theirs if all have the same, else {"allocation", "merged": [all of them]}. Throws Error that names
 // both files for a case that two parts have, for two scenes of one name, for different allocation rules, and for times
 // or instructions of different programs or machines: what is counted exactly needs no machine.
-nlohmann::ordered_json merged(const std::vector<NamedPart>& parts);
+result::Result merged(const std::vector<NamedPart>& parts);
 
 }  // namespace clusterbench::report

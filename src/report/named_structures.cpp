@@ -35,7 +35,7 @@ std::string identifier(const std::string& name) {
 
 // What tells two lookups apart. A function that takes the viewport is the same for all, and what a program sets in each
 // frame is no difference.
-Json lookup_key(const Json& result_case, LookupsOf lookups) {
+Json lookup_key(const result::Case& result_case, LookupsOf lookups) {
   std::vector<LookupConstant> constants = lookup_constants(result_case);
   const std::string name = "lookup";
   if (lookups == LookupsOf::all_viewports &&
@@ -44,7 +44,8 @@ Json lookup_key(const Json& result_case, LookupsOf lookups) {
       return constant.name == "viewport" || constant.name == "tile_scale" || constant.name == "cells" ||
              constant.changes;
     });
-    constants.push_back({"slices", LookupConstant::Type::integer, {result_case["grid"]["cells"].back().get<double>()}});
+    constants.push_back(
+        {"slices", LookupConstant::Type::integer, {static_cast<double>(result_case.grid.cells.back())}});
   }
   return {lookup_note(result_case), lookup_json(constants)};
 }
@@ -53,8 +54,8 @@ Json lookup_key(const Json& result_case, LookupsOf lookups) {
 std::vector<NamedLookup> lookups_of(const SizedStructure& structure, LookupsOf lookups) {
   std::vector<NamedLookup> out;
   std::vector<Json> known;
-  for (const Json* result_case : structure.cases) {
-    if ((*result_case)["storage"] == "own") continue;
+  for (const result::Case* result_case : structure.cases) {
+    if (result_case->storage == "own") continue;
     const Json key = lookup_key(*result_case, lookups);
     const auto at = static_cast<std::size_t>(std::ranges::find(known, key) - known.begin());
     if (at == known.size()) {
@@ -77,7 +78,7 @@ void give_name(NamedStructure& named, const std::string& name) {
       lookup.name = name + "_lookup";
       continue;
     }
-    const std::string camera = identifier((*lookup.cases.front())["camera"].get<std::string>());
+    const std::string camera = identifier(lookup.cases.front()->camera);
     std::string unique = camera;
     for (int number = 2; !cameras.insert(unique).second; ++number) unique = camera + "_" + std::to_string(number);
     lookup.name = name + "_" + unique + "_lookup";

@@ -1,18 +1,19 @@
 #pragma once
 // Sized structures under names that C++, HLSL and GLSL can have.
 
-#include <nlohmann/json.hpp>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "report/allocation.h"
+#include "result/case.h"
 
 namespace clusterbench::report {
 
 // Constants with which samples find their cells. Cameras whose grids are equal share them.
 struct NamedLookup {
-  std::string name;                                  // "street_frustum_64px_lookup"
-  std::vector<const nlohmann::ordered_json*> cases;  // one per camera and viewport, with the same constants
+  std::string name;                        // "street_frustum_64px_lookup"
+  std::vector<const result::Case*> cases;  // one per camera and viewport, with the same constants
 };
 
 // Constants are of a viewport; a shader's function has a form that takes any, and so is one for all.

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "report/columns.h"
-#include "report/json_values.h"
 #include "report/sample_sets.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::Case;
+using result::LightsInView;
+using result::SampleSet;
 
 // They are in lists like others, and samples get them; but of light that is not there nothing can be lost.
 
@@ -22,21 +25,18 @@ struct SeenAtSamples {
   std::optional<double> ground_m;
 };
 
-void add_set(const Json& counts, SeenAtSamples& seen) {
-  const std::optional<double> samples = number_at(counts, "/samples");
-  if (!samples) return;
+void add_set(const SampleSet& counts, SeenAtSamples& seen) {
   ++seen.sets;
-  seen.samples += *samples;
-  seen.needed += number_at(counts, "/needed").value_or(0.0);
-  if (const std::optional<double> ground_m = number_at(counts, "/ground_m")) seen.ground_m = ground_m;
+  seen.samples += static_cast<double>(counts.samples);
+  seen.needed += static_cast<double>(counts.needed);
+  if (counts.ground_m) seen.ground_m = counts.ground_m;
 }
 
-void add_case(const Json& result_case, RankedBy by, SeenAtSamples& seen) {
+void add_case(const Case& result_case, RankedBy by, SeenAtSamples& seen) {
   if (by == RankedBy::no_samples) return;
-  const bool is_costed = result_case.contains("cost");
   for (const std::string& set : ranking_set_names(result_case)) {
-    const Json& counts = *samples_of_set(result_case, set);
-    if (is_costed || set != "volume" || number_at(counts, "/samples").value_or(0.0) > 0.0) add_set(counts, seen);
+    const SampleSet& counts = *samples_of_set(result_case, set);
+    if (result_case.cost || set != "volume" || counts.samples > 0) add_set(counts, seen);
   }
 }
 
@@ -50,21 +50,20 @@ std::string of_samples(const SeenAtSamples& seen) {
 
 }  // namespace
 
-std::uint64_t dark_lights(const Json& scene) {
-  const std::optional<double> counted = number_at(scene, "/lights/dark");
-  return static_cast<std::uint64_t>(counted ? *counted : number_at(scene, "/range_rule/dark").value_or(0.0));
+std::uint64_t dark_lights(const result::Scene& scene) {
+  return scene.lights.dark ? *scene.lights.dark : scene.range_rule.dark.value_or(0);
 }
 
-std::string why_nothing_is_seen(const std::vector<const Json*>& cases, RankedBy by) {
+std::string why_nothing_is_seen(const std::vector<const Case*>& cases, RankedBy by) {
   if (cases.empty()) return "";
-  const auto has_none = [&](const char* pointer) {
-    return std::ranges::all_of(cases, [&](const Json* one) { return number_at(*one, pointer) == 0.0; });
+  const auto has_none = [&](std::optional<double> (*lights)(const Case&)) {
+    return std::ranges::all_of(cases, [&](const Case* one) { return lights(*one) == 0.0; });
   };
-  if (has_none("/lights")) return "the scene has no point or spot lights";
-  if (has_none("/lights_in_view/max")) return "no light is in view in any frame";
-  if (has_none("/lights_seen")) return k_all_lights_dark;
+  if (has_none(result::number<&Case::lights>)) return "the scene has no point or spot lights";
+  if (has_none(result::number<&Case::lights_in_view, &LightsInView::max>)) return "no light is in view in any frame";
+  if (has_none(result::number<&Case::lights_seen>)) return k_all_lights_dark;
   SeenAtSamples seen;
-  for (const Json* one : cases) {
+  for (const Case* one : cases) {
     SeenAtSamples of_case;
     add_case(*one, by, of_case);
     if (of_case.sets == 0) return "";  // ranked without samples
@@ -74,25 +73,25 @@ std::string why_nothing_is_seen(const std::vector<const Json*>& cases, RankedBy 
   return of_samples(seen);
 }
 
-std::vector<std::string> views_of_dark_lights(const Json& result) {
+std::vector<std::string> views_of_dark_lights(const result::Result& result) {
   std::vector<std::string> views;
-  for (const Json& result_case : result["cases"]) {
-    const bool has_lights = number_at(result_case, "/lights_in_view/max").value_or(0.0) > 0.0;
-    if (!has_lights || number_at(result_case, "/lights_seen") != 0.0) continue;
+  for (const Case& result_case : result.cases) {
+    const bool has_lights = result_case.lights_in_view && result_case.lights_in_view->max > 0;
+    if (!has_lights || result_case.lights_seen != 0u) continue;
     const std::string view =
-        shown(result_case["scene"]) + ", camera " + shown(result_case["camera"]) + ": " + k_all_lights_dark;
+        shown(result_case.scene) + ", camera " + shown(result_case.camera) + ": " + k_all_lights_dark;
     if (std::ranges::find(views, view) == views.end()) views.push_back(view);
   }
   return views;
 }
 
-std::set<std::string> ids_of_nothing_seen(const Json& cases) {
-  std::map<std::string, std::vector<const Json*>> views;
-  for (const Json& one : cases) views[Json{one["scene"], one["camera"], one["viewport"]}.dump()].push_back(&one);
+std::set<std::string> ids_of_nothing_seen(const std::vector<Case>& cases) {
+  std::map<std::tuple<std::string, std::string, result::Counts2>, std::vector<const Case*>> views;
+  for (const Case& one : cases) views[{one.scene, one.camera, one.viewport}].push_back(&one);
   std::set<std::string> ids;
   for (const auto& [_, of_view] : views) {
     if (why_nothing_is_seen(of_view, RankedBy::samples).empty()) continue;
-    for (const Json* one : of_view) ids.insert((*one)["id"].get<std::string>());
+    for (const Case* one : of_view) ids.insert(one->id);
   }
   return ids;
 }

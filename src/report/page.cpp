@@ -40,8 +40,8 @@ std::string page(const std::vector<NamedResult>& results, const std::string& com
   Json data{{"command", command}, {"results", Json::array()}, {"pictures", Json::array()}};
   for (const NamedResult& named : results)
     data["results"].push_back({{"file", named.file},
-                               {"result", named.result},
-                               {"doubts", timing_doubts(named.result["cases"])},
+                               {"result", result::to_json(named.result)},
+                               {"doubts", timing_doubts(named.result.cases)},
                                {"ratios", ratio_rankings(named.result)},
                                {"costs", page_costs(named.result)}});
   for (const PagePicture& picture : pictures)

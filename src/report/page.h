@@ -7,11 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "result/result.h"
+
 namespace clusterbench::report {
 
 struct NamedResult {
   std::string file;  // as the reader of the page should know it
-  nlohmann::ordered_json result;
+  result::Result result;
 };
 
 // A picture of cases, as a part of the page.

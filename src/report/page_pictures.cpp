@@ -33,7 +33,7 @@ std::string base64_of(std::string_view bytes) {
 std::set<std::string> case_ids_of(const std::vector<NamedResult>& results) {
   std::set<std::string> ids;
   for (const NamedResult& named : results)
-    for (const auto& one : named.result.at("cases")) ids.insert(one.at("id").get<std::string>());
+    for (const result::Case& one : named.result.cases) ids.insert(one.id);
   return ids;
 }
 

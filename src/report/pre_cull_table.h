@@ -1,12 +1,13 @@
 #pragma once
 // What pre-culls remove, take and lose, as a table for people.
 
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "result/result.h"
 
 namespace clusterbench::report {
 
 // Per scene and grid: one line per assigner and pre-cull; "" where nothing is culled.
-std::string pre_cull_table(const nlohmann::ordered_json& result);
+std::string pre_cull_table(const result::Result& result);
 
 }  // namespace clusterbench::report

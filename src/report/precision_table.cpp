@@ -3,52 +3,68 @@
 #include <set>
 
 #include "report/columns.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using result::Case;
+using result::ListError;
+using result::MeanMax;
+using result::number;
+using result::Precision;
 
 const Cells k_precision_headings{"", "assigner", "lights", "missed", "deepest", "pairs", "extra"};
 
 Cells precision_row(const NamedCase& named) {
-  const Json& result_case = *named.result_case;
-  const bool has_lost = result_case.contains("error") && result_case["error"]["false_negatives"] != 0;
+  const Case& result_case = *named.result_case;
+  const bool has_lost = result_case.error && result_case.error->false_negatives != 0;
   return {"",
           named.name,
-          result_case["precision"]["label"].get<std::string>(),
-          text_at(result_case, "/error/false_negatives", "%.0f"),
-          has_lost ? text_at(result_case, "/error/deepest_miss", "%.3g %%", 100.0) : "-",
-          short_count(result_case, "/occupancy/pairs/mean"),
-          text_at(result_case, "/precision/extra_pairs/ratio", "%+.2f %%", 100.0)};
+          result_case.precision->label,
+          text_of(number<&Case::error, &ListError::false_negatives>(result_case), "%.0f"),
+          has_lost ? text_of(number<&Case::error, &ListError::deepest_miss>(result_case), "%.3g %%", 100.0) : "-",
+          short_count(number<&Case::occupancy, &result::Occupancy::pairs, &result::Spread::mean>(result_case)),
+          text_of(number<&Case::precision, &Precision::extra_pairs, &result::ExtraPairs::ratio>(result_case),
+                  "%+.2f %%", 100.0)};
+}
+
+// What tells two cases of a method apart.
+Json parts_of(const Case& result_case) {
+  Json parts;
+  if (result_case.precision) parts["precision"] = result::to_json(*result_case.precision);
+  if (result_case.error) parts["error"] = result::to_json(*result_case.error);
+  if (result_case.occupancy) parts["occupancy"] = result::to_json(*result_case.occupancy);
+  return parts;
 }
 
 // Cases of a block, once per method, precision and what that loses. The precision has a column of its own.
-std::vector<NamedCase> precision_lines(const Json& cases, const Json& scene, const std::string& block) {
-  std::vector<NamedCase> lines = distinct_cases(cases, scene, block, {"precision", "error", "occupancy"});
-  std::erase_if(lines, [](const NamedCase& line) { return !line.result_case->contains("precision"); });
+std::vector<NamedCase> precision_lines(const std::vector<Case>& cases, const result::Scene& scene,
+                                       const std::string& block) {
+  std::vector<NamedCase> lines = distinct_cases(cases, scene, block, parts_of);
+  std::erase_if(lines, [](const NamedCase& line) { return !line.result_case->precision; });
   for (NamedCase& line : lines) {
-    const Json& result_case = *line.result_case;
+    const Case& result_case = *line.result_case;
     const std::string storage = line.name.substr(method_name(result_case).size());
-    line.name = shown(result_case["assigner"]["label"]) + storage;
+    line.name = shown(result_case.assigner.label) + storage;
   }
   return lines;
 }
 
-std::string loss_text(const Json& precision) {
-  const auto metres = [&](const char* key) {
-    const std::string pointer = std::string("/") + key;
-    return text_at(precision, (pointer + "/mean").c_str(), "%.3g") + " m, at most " +
-           text_at(precision, (pointer + "/max").c_str(), "%.3g") + " m";
-  };
-  const std::string name = precision["packing"];
-  std::string text = "  " + name + ": positions are off by " + metres("position_error_m") + "; safe inflation " +
-                     metres("safe_inflation_m") + "\n";
-  const Json& beyond = precision["unrepresentable"];
-  if (beyond["lights"] != 0)
-    text += "  " + name + " cannot hold up to " + number_of(beyond["lights"].get<std::uint64_t>(), "light") + " in " +
-            number_of(beyond["frames"].get<std::uint64_t>(), "frame") +
-            " (too far, too large or without end): here they stay in float32,\n" +
+std::string metres(const MeanMax& length) {
+  return text_of(number<&MeanMax::mean>(length), "%.3g") + " m, at most " +
+         text_of(number<&MeanMax::max>(length), "%.3g") + " m";
+}
+
+std::string loss_text(const Precision& precision) {
+  const std::string& name = precision.packing;
+  std::string text = "  " + name + ": positions are off by " + metres(precision.position_error_m) +
+                     "; safe inflation " + metres(precision.safe_inflation_m) + "\n";
+  const result::Unrepresentable& beyond = precision.unrepresentable;
+  if (beyond.lights != 0)
+    text += "  " + name + " cannot hold up to " + number_of(beyond.lights, "light") + " in " +
+            number_of(beyond.frames, "frame") + " (too far, too large or without end): here they stay in float32,\n" +
             "  an engine's conversion makes them infinite or cuts them off\n";
   return text;
 }
@@ -58,9 +74,8 @@ std::string precision_block(const std::string& block, const std::vector<NamedCas
   std::set<std::string> told;
   std::vector<Cells> rows{k_precision_headings};
   for (const NamedCase& named : lines) {
-    const Json& precision = (*named.result_case)["precision"];
-    const std::string packing = precision["packing"];
-    if (packing != "float32" && told.insert(packing).second) out += loss_text(precision);
+    const Precision& precision = *named.result_case->precision;
+    if (precision.packing != "float32" && told.insert(precision.packing).second) out += loss_text(precision);
     rows.push_back(precision_row(named));
   }
   const std::vector<std::size_t> widths = widths_of(rows);
@@ -70,15 +85,15 @@ std::string precision_block(const std::string& block, const std::vector<NamedCas
 
 }  // namespace
 
-std::string precision_table(const Json& result) {
+std::string precision_table(const result::Result& result) {
   std::string out;
-  for (const Json& scene : result["scenes"]) {
+  for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result["cases"], scene)) {
-      const std::vector<NamedCase> lines = precision_lines(result["cases"], scene, block);
+    for (const std::string& block : blocks_of(result.cases, scene)) {
+      const std::vector<NamedCase> lines = precision_lines(result.cases, scene, block);
       if (!lines.empty()) blocks += precision_block(block, lines);
     }
-    if (!blocks.empty()) out += "precision of " + shown(scene["name"]) + "\n" + blocks + "\n";
+    if (!blocks.empty()) out += "precision of " + shown(scene.name) + "\n" + blocks + "\n";
   }
   if (out.empty()) return "";
   return "\n" + out +

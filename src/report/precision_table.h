@@ -1,12 +1,13 @@
 #pragma once
 // What packing lights loses and what inflation costs, as a table for people.
 
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "result/result.h"
 
 namespace clusterbench::report {
 
 // Per scene and grid: what each packing loses, then one line per assigner and precision; "" where no light is packed.
-std::string precision_table(const nlohmann::ordered_json& result);
+std::string precision_table(const result::Result& result);
 
 }  // namespace clusterbench::report

@@ -2,10 +2,10 @@
 // What a case of a preset loses, by what causes, and whether its samples are enough to say that none of it is seen.
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "report/frame_cost.h"
+#include "result/case.h"
 
 namespace clusterbench::report {
 
@@ -27,6 +27,6 @@ struct PresetLosses {
   bool loses_pairs() const { return missed() > 0 || dropped > 0 || limited > 0; }
 };
 
-PresetLosses preset_losses(const nlohmann::ordered_json& result_case);
+PresetLosses preset_losses(const result::Case& result_case);
 
 }  // namespace clusterbench::report

@@ -1,8 +1,8 @@
 #include "report/preset_ranking.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "config/presets.h"
@@ -11,28 +11,29 @@
 #include "report/columns.h"
 #include "report/contender.h"
 #include "report/frame_cost.h"
-#include "report/json_values.h"
 #include "report/nothing_seen.h"
 #include "report/preset_losses.h"
 #include "report/preset_words.h"
-#include "report/result_json.h"
 #include "report/sample_sets.h"
+#include "result/at.h"
+#include "result/rounding.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::Case;
+using result::number;
 
 // Cases that see the same.
 struct View {
   std::string scene, camera;
-  Json viewport;
+  result::Counts2 viewport;
 
   friend bool operator==(const View&, const View&) = default;
 };
 
-View view_of(const Json& result_case) {
-  return {result_case["scene"].get<std::string>(), result_case["camera"].get<std::string>(), result_case["viewport"]};
+View view_of(const Case& result_case) {
+  return {result_case.scene, result_case.camera, result_case.viewport};
 }
 
 // One threshold for whatever lights are lost by: samples that lack more are not the same picture. Samples that need few
@@ -66,10 +67,10 @@ void give_places(std::vector<RankedPreset>& rows) {
   }
 }
 
-std::vector<RankedPreset> ranked(const std::vector<const Json*>& cases, const Json& config) {
+std::vector<RankedPreset> ranked(const std::vector<const Case*>& cases, const result::Json& config) {
   const std::string unseen = why_nothing_is_seen(cases, RankedBy::samples);
   std::vector<RankedPreset> rows;
-  for (const Json* result_case : cases) {
+  for (const Case* result_case : cases) {
     RankedPreset row{result_case, {},    whole_frame(*result_case, config), preset_losses(*result_case), 0,
                      &config,     unseen};
     row.standing = standing_of(row);
@@ -80,90 +81,99 @@ std::vector<RankedPreset> ranked(const std::vector<const Json*>& cases, const Js
   return rows;
 }
 
-Json line_json(const RankedPreset& row, const RankedPreset& first) {
+result::RankedPreset line_of(const RankedPreset& row, const RankedPreset& first) {
   const auto part = [&](double measure::FrameCost::*ns) {
-    return row.frame ? number_or_null(row.frame->cost.*ns) : Json();
+    return row.frame ? result::counted(row.frame->cost.*ns) : result::k_none;
   };
-  return {{"id", (*row.result_case)["id"]},
-          {"preset", (*row.result_case)["preset"]},
-          {"standing", name_of(row.standing)},
-          {"place", row.standing == PresetStanding::unknown ? Json() : Json(row.place)},
-          {"gpu_ns", row.frame ? number_or_null(row.gpu_ns()) : Json()},
-          {"upload_ns", part(&measure::FrameCost::upload_ns)},
-          {"read_ns", part(&measure::FrameCost::read_ns)},
-          {"shade_ns", part(&measure::FrameCost::shade_ns)},
-          {"lights_per_sample", number_or_null(mean_at_samples(*row.result_case, "evaluated").value_or(NAN))},
-          {"unlit", number_or_null(row.losses.unlit.value_or(NAN))},
-          {"missed_in_view", row.losses.is_compared ? Json(row.losses.missed()) : Json()},
-          {"why", preset_reason(row, first)}};
+  const std::optional<double> lights = mean_at_samples(*row.result_case, number<&result::SampleSet::evaluated>);
+  result::RankedPreset line;
+  line.id = row.result_case->id;
+  line.preset = *row.result_case->preset;
+  line.standing = name_of(row.standing);
+  auto& place = line.place.emplace();
+  if (row.standing != PresetStanding::unknown) place.emplace(static_cast<std::uint64_t>(row.place));
+  line.gpu_ns = row.frame ? result::counted(row.gpu_ns()) : result::k_none;
+  line.upload_ns = part(&measure::FrameCost::upload_ns);
+  line.read_ns = part(&measure::FrameCost::read_ns);
+  line.shade_ns = part(&measure::FrameCost::shade_ns);
+  if (lights) line.lights_per_sample = result::counted(*lights);
+  line.unlit = row.losses.unlit ? result::counted(*row.losses.unlit) : result::k_none;
+  auto& missed = line.missed_in_view.emplace();
+  if (row.losses.is_compared) missed.emplace(static_cast<std::int64_t>(row.losses.missed()));
+  line.why = preset_reason(row, first);
+  return line;
 }
 
-Json ranking_of(const View& view, const std::vector<RankedPreset>& rows) {
-  Json list = Json::array(), alike = Json::array();
+result::PresetRanking ranking_of(const View& view, const std::vector<RankedPreset>& rows) {
+  const Case& any_case = *rows.front().result_case;
+  result::PresetRanking out;
+  out.scene = view.scene;
+  out.camera = view.camera;
+  out.viewport = {static_cast<std::int64_t>(view.viewport[0]), static_cast<std::int64_t>(view.viewport[1])};
+  out.frames = any_case.frames;
+  if (const auto& lights = any_case.lights_in_view)
+    out.lights_in_view = result::RankedLights{lights->mean, static_cast<double>(lights->max)};
+  std::vector<std::string>& alike = out.alike.emplace();
+  for (const RankedPreset* row : taken_presets(rows)) alike.push_back(row->result_case->id);
+  if (!alike.empty()) out.best = alike.front();
+  out.text = preset_conclusion(rows);
   const RankedPreset* first = &rows.front();
   for (const RankedPreset& row : rows) {
     if (row.standing != first->standing) first = &row;
-    list.push_back(line_json(row, *first));
+    out.cases.push_back(line_of(row, *first));
   }
-  for (const RankedPreset* row : taken_presets(rows)) alike.push_back((*row->result_case)["id"]);
-  Json out{{"scene", view.scene},
-           {"camera", view.camera},
-           {"viewport", view.viewport},
-           {"frames", (*rows.front().result_case)["frames"]},
-           {"best", alike.empty() ? Json() : alike.front()},
-           {"alike", alike},
-           {"cases", list},
-           {"text", preset_conclusion(rows)}};
-  if (const Json* lights = value_at(*rows.front().result_case, "/lights_in_view"))
-    out["lights_in_view"] = {{"mean", (*lights)["mean"]}, {"max", (*lights)["max"]}};
   return out;
 }
 
 // Of older results: none had places.
-std::string place_text(const Json& line) {
-  if (!line.contains("place")) return "";
-  const std::string standing = line["standing"].get<std::string>();
-  if (standing == name_of(PresetStanding::lists)) return std::to_string(line["place"].get<int>());
-  return standing == name_of(PresetStanding::searched) ? "s" + std::to_string(line["place"].get<int>()) : "-";
+std::string place_text(const result::RankedPreset& line) {
+  if (!line.place) return "";
+  const std::string place = line.place->has_value() ? std::to_string(**line.place) : "-";
+  if (line.standing == name_of(PresetStanding::lists)) return place;
+  return line.standing == name_of(PresetStanding::searched) ? "s" + place : "-";
 }
 
 // Of an engine that assigns on a GPU the time here is none of its own; older results have it.
-std::string assign_text(const Json& result_case) {
-  const config::Preset* preset = config::find_preset(result_case["preset"].get<std::string>());
+std::string assign_text(const Case& result_case) {
+  const config::Preset* preset = config::find_preset(result_case.preset.value_or(""));
   if (preset != nullptr && preset->assigns_on == config::AssignsOn::gpu) return "gpu";
-  return text_at(result_case, "/timing/assign_ns/median", "%.1f", 1e-3);
+  return text_of(number<&Case::timing, &result::Timing::assign_ns, &result::Time::median>(result_case), "%.1f", 1e-3);
 }
 
-std::string shown_line(const Json& line, const Json& cases, const Json& best, Cells& cells) {
-  const auto found =
-      std::ranges::find_if(cases, [&](const Json& result_case) { return result_case["id"] == line["id"]; });
-  if (found == cases.end()) return "";
-  cells = {line["id"] == best ? "*" : "",
-           line["preset"].get<std::string>(),
-           place_text(line),
-           text_at(line, "/gpu_ns", "%.0f", 1e-3),
-           text_at(line, "/upload_ns", "%.1f", 1e-3),
-           text_at(line, "/read_ns", "%.1f", 1e-3),
-           text_at(line, "/lights_per_sample", "%.2f"),
-           text_at(*found, "/occupancy/lights_per_cell/max", "%.0f"),
-           short_count(*found, "/buffers/bytes/high_water"),
-           short_count(*found, "/buffers/overflow/dropped_pairs"),
-           short_count(line, "/missed_in_view"),
-           line.value("standing", "") == name_of(PresetStanding::unknown) ? "-" : unlit_text(number_at(line, "/unlit")),
-           assign_text(*found)};
-  return "  " + shown(line["preset"]) + " " + shown(line["why"]) + ".\n";
+// Null where there is none.
+const Case* case_of(const std::string& id, const std::vector<Case>& cases) {
+  const auto found = std::ranges::find(cases, id, &Case::id);
+  return found == cases.end() ? nullptr : &*found;
 }
 
-std::string heading(const Json& ranking, const Json& cases) {
+Cells cells_of(const result::RankedPreset& line, const Case& result_case, bool is_best) {
+  using Line = result::RankedPreset;
+  return {
+      is_best ? "*" : "",
+      line.preset,
+      place_text(line),
+      text_of(number<&Line::gpu_ns>(line), "%.0f", 1e-3),
+      text_of(number<&Line::upload_ns>(line), "%.1f", 1e-3),
+      text_of(number<&Line::read_ns>(line), "%.1f", 1e-3),
+      text_of(number<&Line::lights_per_sample>(line), "%.2f"),
+      text_of(number<&Case::occupancy, &result::Occupancy::lights_per_cell, &result::LightsPerCell::max>(result_case),
+              "%.0f"),
+      short_count(static_cast<double>(result_case.buffers.bytes.high_water)),
+      short_count(static_cast<double>(result_case.buffers.overflow.dropped_pairs)),
+      short_count(number<&Line::missed_in_view>(line)),
+      line.standing == name_of(PresetStanding::unknown) ? "-" : unlit_text(number<&Line::unlit>(line)),
+      assign_text(result_case)};
+}
+
+std::string heading(const result::PresetRanking& ranking, const std::vector<Case>& cases) {
   std::string out =
-      "\npresets: " + shown(ranking["scene"]) + "/" + shown(ranking["camera"]) + ", " + viewport_text(ranking);
-  if (ranking.contains("frames")) out += ", " + number_of(ranking["frames"].get<std::uint64_t>(), "frame");
-  if (ranking.contains("lights_in_view"))
-    out += "; lights in view: " + text_at(ranking, "/lights_in_view/mean", "%.3g") + " on average, " +
-           text_at(ranking, "/lights_in_view/max", "%.0f") + " at most";
-  const Json& first = ranking["cases"].front()["id"];
-  const auto found = std::ranges::find_if(cases, [&](const Json& result_case) { return result_case["id"] == first; });
-  const std::vector<std::string> sets = found == cases.end() ? std::vector<std::string>{} : ranking_set_names(*found);
+      "\npresets: " + shown(ranking.scene) + "/" + shown(ranking.camera) + ", " + viewport_text(ranking.viewport);
+  if (ranking.frames) out += ", " + number_of(*ranking.frames, "frame");
+  if (const auto& lights = ranking.lights_in_view)
+    out += "; lights in view: " + text_of(number<&result::RankedLights::mean>(*lights), "%.3g") + " on average, " +
+           text_of(number<&result::RankedLights::max>(*lights), "%.0f") + " at most";
+  const Case* first = case_of(ranking.cases.front().id, cases);
+  const std::vector<std::string> sets = first == nullptr ? std::vector<std::string>{} : ranking_set_names(*first);
   return out + (sets.empty() ? "" : "; samples: " + words_of_sets(sets)) + "\n";
 }
 
@@ -185,73 +195,74 @@ constexpr const char* k_legend =
 
 }  // namespace
 
-Json preset_facts(const Json& cases, const Json& skipped) {
-  Json facts = Json::array();
+std::vector<result::Preset> preset_facts(const std::vector<Case>& cases, const std::vector<result::Skipped>& skipped) {
+  std::vector<result::Preset> facts;
   for (const config::Preset& preset : config::presets()) {
-    const auto is_of = [&](const Json& entry) { return entry.value("preset", "") == preset.name; };
+    const auto is_of = [&](const auto& entry) { return entry.preset == preset.name; };
     if (std::ranges::none_of(cases, is_of) && std::ranges::none_of(skipped, is_of)) continue;
-    facts.push_back({{"name", preset.name},
-                     {"engine", preset.engine},
-                     {"version", preset.version},
-                     {"evidence", config::name_of(preset.evidence)},
-                     {"summary", preset.summary},
-                     {"source", preset.source},
-                     {"approximated", preset.approximated},
-                     {"unverified", preset.unverified},
-                     {"assigns_on", config::name_of(preset.assigns_on)}});
-    if (const std::uint64_t most = config::most_lights(preset); most > 0) facts.back()["most_lights"] = most;
-    if (preset.has_mistakes()) facts.back()["mistakes"] = preset.mistakes;
+    result::Preset& fact = facts.emplace_back();
+    fact.name = preset.name;
+    fact.engine = preset.engine;
+    fact.version = preset.version;
+    fact.evidence = config::name_of(preset.evidence);
+    if (preset.has_mistakes()) fact.mistakes = preset.mistakes;
+    fact.summary = preset.summary;
+    fact.source = preset.source;
+    fact.approximated = preset.approximated;
+    fact.unverified = preset.unverified;
+    if (const std::uint64_t most = config::most_lights(preset); most > 0) fact.most_lights = most;
+    fact.assigns_on = config::name_of(preset.assigns_on);
   }
   return facts;
 }
 
-Json preset_rankings(const Json& scenes, const Json& cases, const Json& origin) {
-  std::vector<std::pair<View, std::vector<const Json*>>> views;
-  for (const Json& result_case : cases) {
-    if (!result_case.contains("preset")) continue;
+std::vector<result::PresetRanking> preset_rankings(const std::vector<result::Scene>& scenes,
+                                                   const std::vector<Case>& cases, const result::Result& origin) {
+  std::vector<std::pair<View, std::vector<const Case*>>> views;
+  for (const Case& result_case : cases) {
+    if (!result_case.preset) continue;
     const View view = view_of(result_case);
     auto found = std::ranges::find_if(views, [&](const auto& other) { return other.first == view; });
     if (found == views.end()) found = views.insert(views.end(), {view, {}});
     found->second.push_back(&result_case);
   }
-  Json rankings = Json::array();
+  std::vector<result::PresetRanking> rankings;
   for (const auto& [view, members] : views)
-    for (const Json& scene : scenes)
-      if (scene["name"] == view.scene) rankings.push_back(ranking_of(view, ranked(members, origin.at("config"))));
+    for (const result::Scene& scene : scenes)
+      if (scene.name == view.scene) rankings.push_back(ranking_of(view, ranked(members, origin.config)));
   return rankings;
 }
 
-std::string preset_table(const Json& result) {
-  if (!result.contains("preset_rankings")) return "";
+std::string preset_table(const result::Result& result) {
+  if (!result.preset_rankings) return "";
   std::string out;
-  for (const Json& ranking : result["preset_rankings"]) {
+  for (const result::PresetRanking& ranking : *result.preset_rankings) {
     std::vector<Cells> rows{{"", "preset", "place", "gpu us", "upload", "read", "lights", "longest", "bytes", "dropped",
                              "missed", "unlit", "assign"}};
     std::string reasons;
-    for (const Json& line : ranking["cases"]) {
-      Cells cells;
-      const std::string reason = shown_line(line, result["cases"], ranking["best"], cells);
-      if (reason.empty()) continue;
-      rows.push_back(cells);
-      reasons += reason;
+    for (const result::RankedPreset& line : ranking.cases) {
+      const Case* result_case = case_of(line.id, result.cases);
+      if (result_case == nullptr) continue;
+      rows.push_back(cells_of(line, *result_case, ranking.best == line.id));
+      reasons += "  " + shown(line.preset) + " " + shown(line.why) + ".\n";
     }
     const std::vector<std::size_t> widths = widths_of(rows);
-    out += heading(ranking, result["cases"]);
+    out += heading(ranking, result.cases);
     for (const Cells& row : rows) out += aligned(row, widths);
     out += reasons;
   }
-  for (const Json& skipped : result["skipped"])
-    if (skipped.contains("preset"))
-      out += "  " + shown(skipped["preset"]) + " is not measured: " + shown(skipped["reason"]) + ".\n";
+  for (const result::Skipped& skipped : result.skipped)
+    if (skipped.preset) out += "  " + shown(*skipped.preset) + " is not measured: " + shown(skipped.reason) + ".\n";
   return out + k_legend;
 }
 
-std::string preset_conclusions(const Json& result) {
+std::string preset_conclusions(const result::Result& result) {
+  if (!result.preset_rankings) return "";
   std::string out;
-  for (const Json& ranking : result.value("preset_rankings", Json::array()))
-    if (ranking.contains("text"))
-      out += "conclusion: presets for " + shown(ranking["scene"]) + "/" + shown(ranking["camera"]) + ": " +
-             shown(ranking["text"]) + ".\n";
+  for (const result::PresetRanking& ranking : *result.preset_rankings)
+    if (ranking.text)
+      out += "conclusion: presets for " + shown(ranking.scene) + "/" + shown(ranking.camera) + ": " +
+             shown(*ranking.text) + ".\n";
   return out;
 }
 

@@ -11,15 +11,18 @@
 #include "report/json_values.h"
 #include "report/nothing_seen.h"
 #include "report/sample_sets.h"
+#include "result/at.h"
 #include "run/grid_facts.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::Case;
+using result::number;
+using result::SampleSet;
 
 std::string name(const RankedPreset& row) {
-  return (*row.result_case)["preset"].get<std::string>();
+  return *row.result_case->preset;
 }
 
 const config::Preset* preset_of(const RankedPreset& row) {
@@ -55,21 +58,22 @@ std::string lost_pairs_text(std::uint64_t lost, const PresetLosses& losses) {
 }
 
 // A method that itself leaves out what is too much for a cell does not tell that from what its test misses.
-std::string full_cells(const Json& result_case) {
-  const auto most = number_at(result_case, "/assigner/params/most");
-  const auto longest = number_at(result_case, "/occupancy/lights_per_cell/max");
+std::string full_cells(const Case& result_case) {
+  const auto most = number_at(result_case.assigner.params, "/most");
+  const auto longest =
+      number<&Case::occupancy, &result::Occupancy::lights_per_cell, &result::LightsPerCell::max>(result_case);
   if (!most || !longest || *longest < *most) return "";
   return ", or cells are full (room for " + number_of(static_cast<std::uint64_t>(*most), "light") + " per cell)";
 }
 
 // Of tiles that react and whose lists do not fit even so: the engine has room for them with storage buffers alone.
 std::string room_text(const RankedPreset& row) {
-  const auto over = number_at(*row.result_case, "/react/frames/over");
-  if (!over || *over == 0.0 || (*row.result_case)["react"]["to"] != "entries") return "";
+  const auto& react = row.result_case->react;
+  if (!react || react->frames.over == 0 || react->to != "entries") return "";
   return "with storage buffers, where its lists grow, as the figures of its row are; without them there is room for " +
-         text("%.0f entries, ", *number_at(*row.result_case, "/react/most")) + text("%.0f of ", *over) +
-         number_of((*row.result_case)["frames"].get<std::uint64_t>(), "frame") +
-         (*over == 1.0 ? " does not fit, and lacks lights" : " do not fit, and lack lights");
+         std::to_string(react->most) + " entries, " + std::to_string(react->frames.over) + " of " +
+         number_of(row.result_case->frames, "frame") +
+         (react->frames.over == 1 ? " does not fit, and lacks lights" : " do not fit, and lack lights");
 }
 
 // What to know of the preset before it is taken: "the fallback on the CPU, ..."; "" where nothing is known.
@@ -77,8 +81,7 @@ std::string remark_of(const RankedPreset& row) {
   const config::Preset* preset = preset_of(row);
   std::vector<std::string> remarks;
   if (preset != nullptr && !std::string(preset->remark).empty()) remarks.emplace_back(preset->remark);
-  if (const std::string limit = at_surfaces_text((*row.result_case)["assigner"]["name"].get<std::string>());
-      !limit.empty())
+  if (const std::string limit = at_surfaces_text(row.result_case->assigner.name); !limit.empty())
     remarks.push_back(limit);
   return joined(remarks, "; ");
 }
@@ -89,16 +92,15 @@ bool is_from_memory(const RankedPreset& row) {
   return preset != nullptr && preset->evidence == config::Evidence::memory;
 }
 
-bool has_slices_without_camera_far(const RankedPreset& row) {
-  const Json* note = value_at(*row.result_case, "/grid/note");
-  const Json* boundaries = value_at(*row.result_case, "/grid/slices/boundaries");
-  return note != nullptr && boundaries != nullptr && boundaries->size() > 2 &&
-         note->get_ref<const std::string&>().find(run::k_no_far_plane) != std::string::npos;
+// What the note on its grid says of where slices end.
+bool has_note(const RankedPreset& row, const char* words) {
+  const auto& note = row.result_case->grid.note;
+  return note && note->find(words) != std::string::npos;
 }
 
-bool ends_with_lights(const RankedPreset& row) {
-  return (*row.result_case)["grid"]["note"].get_ref<const std::string&>().find(run::k_ends_with_lights) !=
-         std::string::npos;
+bool has_slices_without_camera_far(const RankedPreset& row) {
+  const auto& slices = row.result_case->grid.slices;
+  return slices && slices->boundaries.size() > 2 && has_note(row, run::k_no_far_plane);
 }
 
 // Of cameras without a far plane: where slices end that follow it in the engine, and how to give it. "" where costs do
@@ -107,8 +109,8 @@ std::string far_text(const std::vector<RankedPreset>& rows) {
   std::vector<std::string> by_engine, by_lights;
   for (const RankedPreset& row : rows) {
     if (!has_slices_without_camera_far(row)) continue;
-    const double end_m = (*row.result_case)["grid"]["slices"]["boundaries"].back().get<double>();
-    (ends_with_lights(row) ? by_lights : by_engine).push_back(name(row) + text(" at %.4g m", end_m));
+    const double end_m = row.result_case->grid.slices->boundaries.back();
+    (has_note(row, run::k_ends_with_lights) ? by_lights : by_engine).push_back(name(row) + text(" at %.4g m", end_m));
   }
   if (by_engine.empty() && by_lights.empty()) return "";
   std::string out = "costs depend on the far plane, which the camera does not have: slices end ";
@@ -121,25 +123,25 @@ std::string far_text(const std::vector<RankedPreset>& rows) {
 // What is lost to a limit of lights; "" where nothing in view is.
 std::string limit_loss(const RankedPreset& row) {
   std::string out;
-  for (const Json& warning : row.result_case->value("warnings", Json::array()))
-    if (warning["kind"] == "too_many_lights") out = warning["text"].get<std::string>();
+  for (const result::Warning& warning : row.result_case->warnings)
+    if (warning.kind == "too_many_lights") out = warning.text;
   if (row.losses.by_limit == 0) return out;
   return out + (out.empty() ? "" : "; ") + "the limit removes " + lost_pairs_text(row.losses.by_limit, row.losses);
 }
 
 // Lights and pairs that are not listed, for each cause; whether samples lack them is told beside.
 std::vector<std::string> loss_texts(const RankedPreset& row) {
-  const Json& result_case = *row.result_case;
+  const Case& result_case = *row.result_case;
   std::vector<std::string> ways;
   if (const std::string limit = limit_loss(row); !limit.empty()) ways.push_back(limit);
-  const Json& overflow = result_case["buffers"]["overflow"];
+  const result::Overflow& overflow = result_case.buffers.overflow;
   if (row.losses.dropped > 0)
-    ways.push_back("drops " + number_of(overflow["lights"].size(), "light") + " in some cells of " +
-                   number_of(overflow["frames"].get<std::uint64_t>(), "frame") + shortage(row));
+    ways.push_back("drops " + number_of(overflow.lights.size(), "light") + " in some cells of " +
+                   number_of(overflow.frames, "frame") + shortage(row));
   if (row.losses.by_method > 0)
     ways.push_back("its test misses cells that the light reaches" + full_cells(result_case) + ": " +
                    lost_pairs_text(row.losses.by_method, row.losses));
-  if (const double outside = sum_at_samples(result_case, "missed_outside"); outside > 0.0)
+  if (const double outside = sum_at_samples(result_case, number<&SampleSet::missed_outside>); outside > 0.0)
     ways.push_back(percent(outside / row.losses.needed) + " of the lights that samples need lie beyond its grid");
   return ways;
 }
@@ -160,7 +162,7 @@ std::string samples_words(const RankedPreset& row) {
 
 // Of the samples by which presets are ranked.
 bool has_samples(const RankedPreset& row) {
-  return sum_at_samples(*row.result_case, "samples") > 0.0;
+  return sum_at_samples(*row.result_case, number<&SampleSet::samples>) > 0.0;
 }
 
 // Where samples do not tell whether what is lost is seen.
@@ -172,8 +174,8 @@ std::string undecided_loss(const RankedPreset& row) {
   std::string out = "its samples need " + needed_lights_text(row) + ", too few to tell whether ";
   if (row.losses.loses_pairs()) return out + "what it loses is seen";
   if (row.losses.outside > 0.0) {
-    const auto beyond =
-        static_cast<std::uint64_t>(number_at(*row.result_case, "/lights_beyond_grid/max").value_or(0.0));
+    const auto& lights = row.result_case->lights_beyond_grid;
+    const std::uint64_t beyond = lights ? lights->max : 0;
     return out + "it loses any beyond its grid, which ends before the view does" +
            (beyond > 0 ? " (" + number_of(beyond, "light") + " in view may reach there, in the frame with most)" : "");
   }
@@ -195,16 +197,17 @@ std::string light_text(const RankedPreset& row) {
 
 // Without what it costs beside others.
 std::string load_text(const RankedPreset& row) {
-  const Json& result_case = *row.result_case;
+  const Case& result_case = *row.result_case;
   std::string out;
-  if (const auto lights = mean_at_samples(result_case, "evaluated"))
-    out = text("%.3g", *lights) + text(" lights per sample (%.3g needed)", *mean_at_samples(result_case, "needed"));
+  if (const auto lights = mean_at_samples(result_case, number<&SampleSet::evaluated>))
+    out = text("%.3g", *lights) +
+          text(" lights per sample (%.3g needed)", *mean_at_samples(result_case, number<&SampleSet::needed>));
   const bool is_read_priced = row.frame && row.frame->cost.read_ns > 0.0;
-  if (const auto bytes = mean_at_samples(result_case, "read_bytes"); bytes && is_read_priced)
+  if (const auto bytes = mean_at_samples(result_case, number<&SampleSet::read_bytes>); bytes && is_read_priced)
     out += ", for which it fetches " + read_size_text(*bytes);
   if (makes_lists_on_gpu(result_case))
     return out + (out.empty() ? "" : "; ") + "nothing to upload: the GPU makes its lists, which is not in its cost";
-  const auto upload = number_at(result_case, "/buffers/upload_bytes/mean");
+  const auto upload = number<&Case::buffers, &result::Buffers::upload_bytes, &result::FrameBytes::mean>(result_case);
   return out + (out.empty() || !upload ? "" : ", ") + (upload ? read_size_text(*upload) + " uploaded a frame" : "");
 }
 
@@ -318,12 +321,13 @@ std::string choice_text(const PresetChoice& choice, const std::string& of) {
 
 // How samples come to need enough lights: those of the whole view by more points, surfaces by more rays.
 std::string remedy(const RankedPreset& row) {
-  const std::vector<const Json*> sets = ranking_samples(*row.result_case);
+  const std::vector<const SampleSet*> sets = ranking_samples(*row.result_case);
   if (sets.empty()) return "--set shading.samples=1024 takes samples";
   const double more = 1.5 * k_least_needed_to_choose / std::max(1.0, row.losses.needed);
-  if (value_at(*row.result_case, "/samples/opaque") == nullptr) {
-    const double frames = number_at(*row.result_case, "/frames").value_or(1.0);
-    const double count = std::min(1e7, std::ceil(more * (*sets.front())["samples"].get<double>() / frames / 1e3) * 1e3);
+  if (result::part<&Case::samples, &result::SampleSets::opaque>(*row.result_case) == nullptr) {
+    const auto samples = static_cast<double>(sets.front()->samples);
+    const auto frames = static_cast<double>(row.result_case->frames);
+    const double count = std::min(1e7, std::ceil(more * samples / frames / 1e3) * 1e3);
     return text("--set shading.samples=%.0f", std::max(count, 1e3)) +
            " takes more, --set samples.opaque.ground=lowest those on a floor";
   }
@@ -336,8 +340,9 @@ std::string remedy(const RankedPreset& row) {
 std::string doubt_text(const std::vector<RankedPreset>& rows) {
   const RankedPreset& first = rows.front();
   if (!first.unseen.empty()) {
-    const bool can_samples_tell = number_at(*first.result_case, "/lights_seen") != 0.0 &&
-                                  number_at(*first.result_case, "/lights_in_view/max") != 0.0 && has_samples(first);
+    const auto& in_view = first.result_case->lights_in_view;
+    const bool can_samples_tell =
+        first.result_case->lights_seen != 0u && !(in_view && in_view->max == 0) && has_samples(first);
     return first.unseen + (can_samples_tell ? "; " + remedy(first) : "");
   }
   if (!first.losses.has_few_samples()) return "";

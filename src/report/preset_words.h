@@ -8,6 +8,7 @@
 
 #include "report/frame_cost.h"
 #include "report/preset_losses.h"
+#include "result/case.h"
 
 namespace clusterbench::report {
 
@@ -19,7 +20,7 @@ enum class PresetStanding : std::uint8_t { lists, searched, lacks_lights, unknow
 const char* name_of(PresetStanding standing);  // "lists", "searched", "lacks_lights", "unknown"
 
 struct RankedPreset {
-  const nlohmann::ordered_json* result_case = nullptr;
+  const result::Case* result_case = nullptr;
   PresetStanding standing = PresetStanding::unknown;
   std::optional<WholeFrame> frame;  // what it costs the GPU; none without samples
   PresetLosses losses;

@@ -7,20 +7,23 @@
 #include "core/text.h"
 #include "report/columns.h"
 #include "report/contender.h"
-#include "report/json_values.h"
 #include "report/result_json.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using result::Case;
+using result::Result;
+using result::Timing;
 
-bool is_beside(const Json& a, const Json& b) {
-  return a["scene"] == b["scene"] && block_of(a) == block_of(b);
+bool is_beside(const Case& a, const Case& b) {
+  return a.scene == b.scene && block_of(a) == block_of(b);
 }
 
 struct Timed {
-  const Json* result_case = nullptr;
+  const Case* result_case = nullptr;
   run::Contender contender;
   double frame_ns = 0.0;
 };
@@ -31,22 +34,22 @@ struct Block {
   std::vector<Timed> cases;
 };
 
-std::string name_of_case(const Json& result_case, bool across_grids) {
-  return (across_grids ? result_case["grid"]["name"].get<std::string>() + " / " : "") + method_name(result_case) +
-         " / " + storage_name(result_case);
+std::string name_of_case(const Case& result_case, bool across_grids) {
+  return (across_grids ? result_case.grid.name + " / " : "") + method_name(result_case) + " / " +
+         storage_name(result_case);
 }
 
-std::string name_of_block(const Json& result_case, bool across_grids) {
-  return across_grids ? "camera " + result_case["camera"].get<std::string>() + ", " + viewport_text(result_case)
+std::string name_of_block(const Case& result_case, bool across_grids) {
+  return across_grids ? "camera " + result_case.camera + ", " + viewport_text(result_case.viewport)
                       : block_of(result_case);
 }
 
 // In the order of the cases.
-std::vector<Block> timed_blocks(const Json& result, const RatioRequest& request) {
+std::vector<Block> timed_blocks(const Result& result, const RatioRequest& request) {
   const Pattern pattern(request.methods, "--methods");
   std::vector<Block> blocks;
-  for (const Json& result_case : result["cases"]) {
-    const std::optional<double> frame_ns = number_at(result_case, "/timing/frame_ns/median");
+  for (const Case& result_case : result.cases) {
+    const auto frame_ns = result::number<&Case::timing, &Timing::frame_ns, &result::Time::median>(result_case);
     // The method's name alone as well, so that one pattern serves with grids and without.
     const auto is_wanted = [&](bool with_grid) { return pattern.is_in(name_of_case(result_case, with_grid)); };
     if (!frame_ns || frame_rounds(result_case).empty() ||
@@ -54,8 +57,8 @@ std::vector<Block> timed_blocks(const Json& result, const RatioRequest& request)
       continue;
     const std::string name = name_of_block(result_case, request.across_grids);
     auto block = std::ranges::find_if(
-        blocks, [&](const Block& had) { return result_case["scene"] == had.scene && name == had.name; });
-    if (block == blocks.end()) block = blocks.insert(block, Block{result_case["scene"], name, {}});
+        blocks, [&](const Block& had) { return result_case.scene == had.scene && name == had.name; });
+    if (block == blocks.end()) block = blocks.insert(block, Block{result_case.scene, name, {}});
     block->cases.push_back({&result_case, contender_of(result_case), *frame_ns});
   }
   for (Block& block : blocks) std::ranges::stable_sort(block.cases, {}, &Timed::frame_ns);
@@ -65,7 +68,7 @@ std::vector<Block> timed_blocks(const Json& result, const RatioRequest& request)
 // Of a case beside another one, for the page; null without a ratio.
 Json beside(const Timed& timed, const Timed& other, const std::optional<measure::Ratio>& ratio) {
   if (!ratio || timed.result_case == other.result_case) return {};
-  return {{"id", (*other.result_case)["id"]},
+  return {{"id", other.result_case->id},
           {"ratio", six_digits(ratio->ratio)},
           {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}}};
 }
@@ -90,8 +93,8 @@ Json pairs_of(const Block& block, std::uint64_t seed) {
 Json block_json(const Block& block, std::uint64_t seed, bool across_grids) {
   Json out{{"scene", block.scene}, {"name", block.name}, {"cases", Json::array()}};
   for (const Timed& timed : block.cases)
-    out["cases"].push_back({{"id", (*timed.result_case)["id"]},
-                            {"name", (*timed.result_case)["name"]},
+    out["cases"].push_back({{"id", timed.result_case->id},
+                            {"name", timed.result_case->name},
                             {"label", name_of_case(*timed.result_case, across_grids)},
                             {"frame_ns", six_digits(timed.frame_ns)},
                             {"samples_search", samples_search(*timed.result_case)}});
@@ -193,20 +196,20 @@ std::string csv_row(const std::vector<std::string>& names, double ratio, const m
 
 }  // namespace
 
-std::optional<measure::Ratio> ratio_of_cases(const Json& result, const Json& numerator, const Json& denominator,
+std::optional<measure::Ratio> ratio_of_cases(const Result& result, const Case& numerator, const Case& denominator,
                                              RankBy by) {
   if (!is_beside(numerator, denominator)) return std::nullopt;
   return run::ratio_between(contender_of(numerator, by), contender_of(denominator, by), seed_of(result));
 }
 
-bool takes_longer(const Json& result, const Json& numerator, const Json& denominator, RankBy by) {
+bool takes_longer(const Result& result, const Case& numerator, const Case& denominator, RankBy by) {
   return measure::takes_longer(ratio_of_cases(result, numerator, denominator, by));
 }
 
-Json ratios_of(const Json& result, const RatioRequest& request) {
+Json ratios_of(const Result& result, const RatioRequest& request) {
   Json out{{"ratios_version", k_ratios_version},
-           {"name", result["name"]},
-           {"tool", result["tool"]},
+           {"name", result.name},
+           {"tool", result::to_json(result.tool)},
            {"across_grids", request.across_grids},
            {"blocks", Json::array()}};
   for (const Block& block : timed_blocks(result, request))
@@ -214,7 +217,7 @@ Json ratios_of(const Json& result, const RatioRequest& request) {
   return out;
 }
 
-Json ratio_rankings(const Json& result) {
+Json ratio_rankings(const Result& result) {
   RatioRequest request;
   request.across_grids = true;
   Json out = Json::array();
@@ -226,7 +229,7 @@ Json ratio_rankings(const Json& result) {
       const Timed &timed = block.cases[i], &fastest = block.cases.front(), &above = block.cases[i == 0 ? 0 : i - 1];
       const auto to_fastest = run::ratio_between(timed.contender, fastest.contender, seed_of(result)),
                  to_above = run::ratio_between(timed.contender, above.contender, seed_of(result));
-      out.push_back({{"id", (*timed.result_case)["id"]},
+      out.push_back({{"id", timed.result_case->id},
                      {"fastest", beside(timed, fastest, to_fastest)},
                      {"above", beside(timed, above, to_above)},
                      {"is_like_above", i > 0 && to_above && !measure::takes_longer(to_above)}});

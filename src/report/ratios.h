@@ -10,6 +10,7 @@
 
 #include "measure/time_statistics.h"
 #include "report/contender.h"
+#include "result/result.h"
 
 namespace clusterbench::report {
 
@@ -17,13 +18,12 @@ inline constexpr int k_ratios_version = 1;
 
 // Frame time (or cost) of `numerator` / that of `denominator`, two cases of a grid; nullopt where other launches have
 // measured them.
-std::optional<measure::Ratio> ratio_of_cases(const nlohmann::ordered_json& result,
-                                             const nlohmann::ordered_json& numerator,
-                                             const nlohmann::ordered_json& denominator, RankBy by = RankBy::frame_time);
+std::optional<measure::Ratio> ratio_of_cases(const result::Result& result, const result::Case& numerator,
+                                             const result::Case& denominator, RankBy by = RankBy::frame_time);
 
 // False unless that ratio says that `numerator` takes longer, with 95 % certainty.
-bool takes_longer(const nlohmann::ordered_json& result, const nlohmann::ordered_json& numerator,
-                  const nlohmann::ordered_json& denominator, RankBy by = RankBy::frame_time);
+bool takes_longer(const result::Result& result, const result::Case& numerator, const result::Case& denominator,
+                  RankBy by = RankBy::frame_time);
 
 struct RatioRequest {
   std::string methods;        // a regular expression; all: empty
@@ -32,11 +32,11 @@ struct RatioRequest {
 
 // Of each grid (or view) the timed cases, the fastest first, and the ratio of any two, the slower by the faster one:
 // docs/results.md, `clusterbench schema ratios`. "blocks" is empty where nothing is timed.
-nlohmann::ordered_json ratios_of(const nlohmann::ordered_json& result, const RatioRequest& request);
+nlohmann::ordered_json ratios_of(const result::Result& result, const RatioRequest& request);
 
 // Of each timed case with lists the pairs of a ranking over all grids of its scene, camera and viewport, for the page:
 // {"id", "fastest": {"id", "ratio", "ci95"} or null, "above": the same of the next faster one, "is_like_above"}.
-nlohmann::ordered_json ratio_rankings(const nlohmann::ordered_json& result);
+nlohmann::ordered_json ratio_rankings(const result::Result& result);
 
 // Of what ratios_of() gives: a ranking, with each case beside the fastest one and beside the one before it, or with
 // `all_pairs` each case beside each faster one.

@@ -1,96 +1,101 @@
 #include "report/reaction_table.h"
 
-#include <functional>
-
 #include "report/case_sides.h"
 #include "report/columns.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::Case;
+using result::number;
+using result::Reaction;
+using result::Saved;
 
-std::string of_frames(const Json& result_case, const char* pointer) {
-  return text_at(result_case, pointer, "%.0f") + " of " + text_at(result_case, "/frames", "%.0f");
+std::string of_frames(const Case& result_case, std::uint64_t frames) {
+  return std::to_string(frames) + " of " + std::to_string(result_case.frames);
 }
 
-std::string tiles_text(const Json& tiles) {
-  return std::to_string(tiles[0].get<int>()) + "x" + std::to_string(tiles[1].get<int>());
+std::string tiles_text(const result::Counts2& tiles) {
+  return std::to_string(tiles[0]) + "x" + std::to_string(tiles[1]);
 }
 
 const Cells k_reaction_headings{"",        "assigner", "storage", "reacted", "over",   "fewest",
                                 "changed", "entries",  "bytes",   "pairs",   "excess", "evaluated"};
 
-Cells reaction_row(const Json& result_case) {
-  const Json& react = result_case["react"];
-  const Json saved = react.contains("saved") ? react["saved"] : Json{{"evaluated", Json::object()}};
-  const auto saving = [&](const char* key) { return against_other(saved, key); };
+Cells reaction_row(const Case& result_case) {
+  const Reaction& react = *result_case.react;
+  const Saved saved = react.saved.value_or(Saved());
   return {"",
           method_name(result_case),
           storage_name(result_case),
-          of_frames(result_case, "/react/frames/reacted"),
-          text_at(result_case, "/react/frames/over", "%.0f"),
-          tiles_text(react["tiles"]["fewest"]),
-          text_at(result_case, "/react/moves/changed", "%.0f"),
-          saving("index_entries"),
-          saving("bytes"),
-          saving("pairs"),
-          saving("false_positives"),
+          of_frames(result_case, react.frames.reacted),
+          std::to_string(react.frames.over),
+          tiles_text(react.tiles.fewest),
+          std::to_string(react.moves.changed),
+          against_other(number<&Saved::index_entries>(saved)),
+          against_other(number<&Saved::bytes>(saved)),
+          against_other(number<&Saved::pairs>(saved)),
+          against_other(number<&Saved::false_positives>(saved)),
           evaluated_against_other(saved)};
 }
 
-std::string reaction_text(const Json& react) {
-  const bool is_of_lists = react["to"] == "entries";
-  return "tiles asked for: " + tiles_text(react["tiles"]["asked"]) + "; room for " + text_at(react, "/most", "%.0f") +
-         (is_of_lists ? " entries of " + shown(react["of"]) : " words of masks") + ", needed " +
-         text_at(react, "/needed/min", "%.0f") + " to " + text_at(react, "/needed/max", "%.0f");
+std::string reaction_text(const Reaction& react) {
+  const bool is_of_lists = react.to == "entries";
+  return "  tiles asked for: " + tiles_text(react.tiles.asked) + "; room for " + std::to_string(react.most) +
+         (is_of_lists ? " entries of " + shown(react.of.value_or("")) : " words of masks") + ", needed " +
+         text_of(number<&result::Extremes::min>(react.needed), "%.0f") + " to " +
+         text_of(number<&result::Extremes::max>(react.needed), "%.0f") + "\n";
 }
 
 const Cells k_fallback_headings{"", "assigner", "storage", "frames", "cells", "entries", "bytes", "evaluated"};
 
-Cells fallback_row(const Json& result_case) {
-  const Json& saved = result_case["fallback"]["saved"];
+Cells fallback_row(const Case& result_case) {
+  const result::Fallback& fallback = *result_case.fallback;
   return {"",
           method_name(result_case),
           storage_name(result_case),
-          of_frames(result_case, "/fallback/frames"),
-          text_at(result_case, "/fallback/cells", "%.0f"),
-          against_other(saved, "index_entries"),
-          against_other(saved, "bytes"),
-          evaluated_against_other(saved)};
+          of_frames(result_case, fallback.frames),
+          std::to_string(fallback.cells),
+          against_other(number<&Saved::index_entries>(fallback.saved)),
+          against_other(number<&Saved::bytes>(fallback.saved)),
+          evaluated_against_other(fallback.saved)};
+}
+
+std::string no_text(const result::Fallback&) {
+  return "";
 }
 
 // A block per grid with lines of its cases that have a part.
-std::string table_beside(const Json& result, const char* part, const std::string& title, const Cells& headings,
-                         const std::function<Cells(const Json&)>& to_row,
-                         const std::function<std::string(const Json&)>& to_text) {
+template <class Part>
+std::string table_beside(const result::Result& result, std::optional<Part> Case::*part, const std::string& title,
+                         const Cells& headings, Cells (*to_row)(const Case&), std::string (*to_text)(const Part&)) {
   std::string out;
-  for (const Json& scene : result["scenes"]) {
+  for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result["cases"], scene)) {
+    for (const std::string& block : blocks_of(result.cases, scene)) {
       std::vector<Cells> rows{headings};
-      const Json* any = nullptr;
-      for (const Json& result_case : result["cases"]) {
-        if (!result_case.contains(part) || result_case["scene"] != scene["name"] || block_of(result_case) != block)
-          continue;
+      const Part* any = nullptr;
+      for (const Case& result_case : result.cases) {
+        if (!(result_case.*part) || result_case.scene != scene.name || block_of(result_case) != block) continue;
         rows.push_back(to_row(result_case));
-        any = &result_case[part];
+        any = &*(result_case.*part);
       }
       if (any == nullptr) continue;
       blocks += " " + block + "\n" + to_text(*any);
       const std::vector<std::size_t> widths = widths_of(rows);
       for (const Cells& row : rows) blocks += aligned(row, widths);
     }
-    if (!blocks.empty()) out += title + " of " + shown(scene["name"]) + "\n" + blocks + "\n";
+    if (!blocks.empty()) out += title + " of " + shown(scene.name) + "\n" + blocks + "\n";
   }
   return out;
 }
 
 }  // namespace
 
-std::string reaction_table(const Json& result) {
-  const std::string out = table_beside(result, "react", "tiles that react", k_reaction_headings, reaction_row,
-                                       [](const Json& react) { return "  " + reaction_text(react) + "\n"; });
+std::string reaction_table(const result::Result& result) {
+  const std::string out =
+      table_beside(result, &Case::react, "tiles that react", k_reaction_headings, reaction_row, reaction_text);
   if (out.empty()) return "";
   return "\n" + out +
          "reacted: frames with other tiles than asked for. over: frames whose own tiles have more than there is\nroom "
@@ -100,9 +105,9 @@ std::string reaction_table(const Json& result) {
          "asked for; below 0 is saved. entries, bytes: high water. excess: false positives.\n";
 }
 
-std::string fallback_table(const Json& result) {
-  const std::string out = table_beside(result, "fallback", "lists that have no room", k_fallback_headings, fallback_row,
-                                       [](const Json&) { return std::string(); });
+std::string fallback_table(const result::Result& result) {
+  const std::string out =
+      table_beside(result, &Case::fallback, "lists that have no room", k_fallback_headings, fallback_row, no_text);
   if (out.empty()) return "";
   return "\n" + out +
          "frames: with a cell that reads all lights for want of room. cells: such cells, over all frames. entries to "

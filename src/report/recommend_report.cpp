@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <tuple>
 
@@ -14,15 +15,15 @@
 #include "report/columns.h"
 #include "report/contender.h"
 #include "report/frame_cost.h"
-#include "report/json_values.h"
 #include "report/limits.h"
 #include "report/list_code.h"
-#include "report/machine.h"
 #include "report/nothing_seen.h"
 #include "report/result_json.h"
 #include "report/sample_sets.h"
 #include "report/timing_warnings.h"
+#include "result/at.h"
 #include "run/gate.h"
+#include "run/records/records.h"
 #include "run/scene_facts.h"
 #include "scene/digests.h"
 
@@ -30,6 +31,10 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using result::Case;
+using result::Cost;
+using result::SampleSet;
+using result::SampleSets;
 
 // How a figure of several cameras is made of theirs.
 enum class OverCameras : std::uint8_t { largest, sum, mean };
@@ -65,23 +70,24 @@ FigureKind figure_kind(const std::string& name) {
 constexpr const char* k_unlit_in_view = "volume.unlit";
 constexpr const char *k_gpu_cost = "gpu_cost_us", *k_evaluated = "evaluated", *k_read_bytes = "read_bytes";
 
-std::optional<double> figure_of(const Json& result_case, const std::string& name) {
+std::optional<double> figure_of(const Case& result_case, const std::string& name) {
   if (name == k_gpu_cost) {
-    const std::optional<double> ns = number_at(result_case, "/cost/gpu_ns");
+    const std::optional<double> ns = result::number<&Case::cost, &Cost::gpu_ns>(result_case);
     return ns ? std::optional(1e-3 * *ns) : std::nullopt;
   }
-  if (name != k_evaluated && name != k_read_bytes) return limit_figure(result_case, name);
-  return mean_at_samples(result_case, name.c_str());
+  if (name == k_evaluated) return mean_at_samples(result_case, result::number<&SampleSet::evaluated>);
+  if (name == k_read_bytes) return mean_at_samples(result_case, result::number<&SampleSet::read_bytes>);
+  return limit_figure(result_case, name);
 }
 
 // Nothing where a camera lacks it.
-std::optional<double> figure_over(const Json& cases, const std::string& name) {
+std::optional<double> figure_over(const std::vector<Case>& cases, const std::string& name) {
   const OverCameras over = figure_kind(name).over;
   double all = 0.0, weights = 0.0;
-  for (const Json& result_case : cases) {
+  for (const Case& result_case : cases) {
     const std::optional<double> value = figure_of(result_case, name);
     if (!value) return {};
-    const double weight = over == OverCameras::mean ? result_case["frames"].get<double>() : 1.0;
+    const double weight = over == OverCameras::mean ? static_cast<double>(result_case.frames) : 1.0;
     all = over == OverCameras::largest ? std::max(all, *value) : all + weight * *value;
     weights += weight;
   }
@@ -89,9 +95,9 @@ std::optional<double> figure_over(const Json& cases, const std::string& name) {
   return over == OverCameras::mean ? all / weights : all;
 }
 
-Json cases_json(std::span<const run::CaseResult> cases, const Json& config) {
-  Json out = Json::array();
-  for (const run::CaseResult& case_result : cases) out.push_back(case_to_json(case_result));
+std::vector<Case> records_of(std::span<const run::CaseResult> cases, const Json& config) {
+  std::vector<Case> out;
+  for (const run::CaseResult& case_result : cases) out.push_back(run::record_of(case_result));
   add_costs(out, config);
   return out;
 }
@@ -103,9 +109,9 @@ bool stays_broken(const config::LimitRule& rule) {
 
 // The largest figure that breaks a constraint, nothing where none does. What somebody asks for and a case has no figure
 // of, as a structure without lists has no longest one, is not satisfied: NaN.
-std::optional<double> breaking_figure(const Json& cases, const Constraint& constraint) {
+std::optional<double> breaking_figure(const std::vector<Case>& cases, const Constraint& constraint) {
   std::optional<double> largest;
-  for (const Json& result_case : cases) {
+  for (const Case& result_case : cases) {
     const std::optional<double> value = figure_of(result_case, constraint.rule.figure);
     if (!value && constraint.is_given) return std::numeric_limits<double>::quiet_NaN();
     if (!constraint.is_given && constraint.rule.figure == k_unlit_in_view &&
@@ -117,10 +123,9 @@ std::optional<double> breaking_figure(const Json& cases, const Constraint& const
 }
 
 // A run would fail for it, or its cost is that of less light.
-bool fails(const Json& cases, bool is_cost) {
-  return std::ranges::any_of(cases, [&](const Json& result_case) {
-    const Json* lit = value_at(result_case, "/cost/lit");
-    return !result_case["failures"].empty() || (is_cost && lit != nullptr && *lit == false);
+bool fails(const std::vector<Case>& cases, bool is_cost) {
+  return std::ranges::any_of(cases, [&](const Case& result_case) {
+    return !result_case.failures.empty() || (is_cost && result_case.cost && !result_case.cost->lit);
   });
 }
 
@@ -160,7 +165,7 @@ std::vector<std::string> constraint_texts(const Question& question) {
 // A finalist with what it is ranked by.
 struct Ranked {
   std::size_t candidate = 0;
-  Json cases;
+  std::vector<Case> cases;
   double objective = 0.0, bytes = 0.0;
   std::uint64_t cells = 0;
   std::vector<std::size_t> broken;
@@ -169,42 +174,43 @@ struct Ranked {
   bool is_feasible() const { return broken.empty() && std::isfinite(objective); }
   // Of those that are alike the least is chosen: one that lights more than opaque surfaces before others.
   auto smaller() const {
-    const bool is_limited = is_at_surfaces(cases[0]["assigner"]["name"].get<std::string>());
+    const bool is_limited = is_at_surfaces(cases[0].assigner.name);
     return std::tuple(is_limited, bytes, cells, candidate);
   }
 };
 
 // Frame times of all cameras as one: round by round their mean by frames.
-run::Contender pooled(const Json& cases, RankBy by) {
+run::Contender pooled(const std::vector<Case>& cases, RankBy by) {
   run::Contender all = contender_of(cases[0], by);
   std::vector<double> sum(all.rounds_ns.size(), 0.0);
   double frames = 0.0;
-  for (const Json& result_case : cases) {
+  for (const Case& result_case : cases) {
     const run::Contender contender = contender_of(result_case, by);
     if (contender.rounds_ns.size() != sum.size()) return {};
-    const double weight = result_case["frames"].get<double>();
+    const auto weight = static_cast<double>(result_case.frames);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * contender.rounds_ns[i];
     frames += weight;
   }
   for (double& ns : sum) ns /= frames;
   all.rounds_ns = std::move(sum);
-  all.grid = cases[0]["grid"].dump();
+  all.grid = result::to_json(cases[0].grid).dump();
   return all;
 }
 
 // The modelled cost of a frame: of all cameras the mean by frames.
-measure::FrameCost cost_over(const Json& cases) {
-  const auto mean = [&](const char* figure) {
+measure::FrameCost cost_over(const std::vector<Case>& cases) {
+  const auto mean = [&](std::optional<double> (*figure)(const Case&)) {
     double sum = 0.0, frames = 0.0;
-    for (const Json& result_case : cases) {
-      const double weight = result_case["frames"].get<double>();
-      sum += weight * number_at(result_case, figure).value_or(0.0);
+    for (const Case& result_case : cases) {
+      const auto weight = static_cast<double>(result_case.frames);
+      sum += weight * figure(result_case).value_or(0.0);
       frames += weight;
     }
     return sum / frames;
   };
-  return {mean("/cost/assign_ns"), mean("/cost/upload_ns"), mean("/cost/traffic_ns"), mean("/cost/read_ns"),
-          mean("/cost/shade_ns")};
+  return {mean(result::number<&Case::cost, &Cost::assign_ns>), mean(result::number<&Case::cost, &Cost::upload_ns>),
+          mean(result::number<&Case::cost, &Cost::traffic_ns>), mean(result::number<&Case::cost, &Cost::read_ns>),
+          mean(result::number<&Case::cost, &Cost::shade_ns>)};
 }
 
 // How much longer one takes than another, where the objective is a time with rounds.
@@ -221,7 +227,7 @@ std::vector<Ranked> ranked(const config::Config& config, const search::View& vie
   std::vector<Ranked> all;
   for (const search::Finalist& finalist : found.finalists) {
     const search::Verdict& verdict = found.records[finalist.candidate].verdict;
-    all.push_back({finalist.candidate, cases_json(finalist.cases, resolved), verdict.objective, verdict.bytes,
+    all.push_back({finalist.candidate, records_of(finalist.cases, resolved), verdict.objective, verdict.bytes,
                    view.candidates[finalist.candidate].cells, verdict.broken,
                    view.candidates[finalist.candidate].is_apart});
   }
@@ -322,18 +328,17 @@ Json ranked_json(const config::Config& config, const search::View& view, const R
 }
 
 // Lights that reach the samples which a cost is that of, of all cameras.
-double needed_over(const Json& cases) {
+double needed_over(const std::vector<Case>& cases) {
   double needed = 0.0;
-  for (const Json& result_case : cases) needed += sum_at_samples(result_case, "needed");
+  for (const Case& result_case : cases) needed += sum_at_samples(result_case, result::number<&SampleSet::needed>);
   return needed;
 }
 
 // What speaks against the times of all that is ranked.
-Json doubts_of(const std::vector<Ranked>& all) {
-  Json cases = Json::array();
+std::vector<std::string> doubts_of(const std::vector<Ranked>& all) {
+  std::vector<Case> cases;
   for (const Ranked& ranked : all)
-    if (ranked.is_feasible())
-      for (const Json& one : ranked.cases) cases.push_back(one);
+    if (ranked.is_feasible()) cases.insert(cases.end(), ranked.cases.begin(), ranked.cases.end());
   return timing_doubts(cases, "leave times out (--no-timing)");
 }
 
@@ -345,11 +350,11 @@ std::string why_nothing_is_seen(const search::Found& found, const config::Config
     return light.type == scene::LightType::point || light.type == scene::LightType::spot;
   }));
   if (lights > 0 && scene.boxes.empty() && scene::count_dark_lights(scene).all == lights) return k_all_lights_dark;
-  Json all = Json::array();
+  std::vector<Case> all;
   for (const search::Finalist& finalist : found.finalists)
-    for (const Json& one : cases_json(finalist.cases, config.resolved)) all.push_back(one);
-  std::vector<const Json*> cases;
-  for (const Json& one : all) cases.push_back(&one);
+    std::ranges::move(records_of(finalist.cases, config.resolved), std::back_inserter(all));
+  std::vector<const Case*> cases;
+  for (const Case& one : all) cases.push_back(&one);
   return why_nothing_is_seen(cases, rests_on_samples(question.objective) ? RankedBy::samples : RankedBy::no_samples);
 }
 
@@ -523,7 +528,7 @@ bool needs_times(const ObjectiveFigure& objective, const std::vector<Constraint>
 
 search::Judge judge_of(const Question& question, const nlohmann::json& config) {
   return [question, resolved = Json(config)](std::span<const run::CaseResult> results) {
-    const Json cases = cases_json(results, resolved);
+    const std::vector<Case> cases = records_of(results, resolved);
     search::Verdict verdict;
     verdict.objective = figure_over(cases, question.objective.name).value_or(std::numeric_limits<double>::quiet_NaN());
     verdict.bytes = figure_over(cases, "bytes").value_or(0.0);
@@ -601,7 +606,8 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
         coarsest = &ranked;
     if (coarsest != &all[0]) out["coarsest"] = ranked_json(config, view, *coarsest, all[0], question);
     out["runners_up"] = runners_up_json(config, view, all, question);
-    if (const Json* height = value_at(all[0].cases[0], "/samples/opaque/ground_m")) out["ground_m"] = *height;
+    if (const auto height = result::number<&Case::samples, &SampleSets::opaque, &SampleSet::ground_m>(all[0].cases[0]))
+      out["ground_m"] = result::number_json(*height, false);
     if (const std::string why = why_no_reader(all[0].cases); !why.empty()) out["no_reader"] = why;
     if (question.objective.is_cost) out["needed_at_samples"] = needed_over(all[0].cases);
     out["samples"] = ranking_set_names(all[0].cases[0]);
@@ -626,8 +632,8 @@ Json recommendation_to_json(const config::Config& config, const Question& questi
   const ObjectiveFigure& objective = question.objective;
   return {{"recommendation_version", k_recommendation_version},
           {"name", config.name},
-          {"tool", tool_to_json(run::tool_facts())},
-          {"machine", machine_to_json(run::machine_facts())},
+          {"tool", result::to_json(run::record_of(run::tool_facts()))},
+          {"machine", result::to_json(run::record_of(run::machine_facts()))},
           {"config", config.resolved},
           {"objective", {{"figure", objective.name}, {"meaning", objective.meaning}, {"timed", objective.is_timed}}},
           {"answers", answers}};

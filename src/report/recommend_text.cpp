@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "report/answer_conclusion.h"
 #include "report/columns.h"
-#include "report/conclusion.h"
 #include "report/json_values.h"
 #include "report/recommend_report.h"
 #include "report/sample_sets.h"
@@ -41,7 +41,7 @@ Cells candidate_row(const std::string& mark, const Json& record, const std::stri
           figure("bytes"),
           figure("longest"),
           figure("read_bytes"),
-          text_at(record, "/overshade", "%.2f")};
+          text_of(number_at(record, "/overshade"), "%.2f")};
 }
 
 // Times are compared within rounds, so that their ratio is known better than either of them.
@@ -84,7 +84,7 @@ std::string excluded_text(const Json& answer, const Json& objective) {
     const Json& best = row["best"];
     rows.push_back({" ", row["constraint"], row["excluded"].dump(), row["alone"].dump(),
                     best.is_null() ? "-" : shown(best["name"].get<std::string>()),
-                    best.is_null() ? "-" : text_at(best, "/by_best", "%.3g x"),
+                    best.is_null() ? "-" : text_of(number_at(best, "/by_best"), "%.3g x"),
                     best.is_null() ? "-" : best["frames"].dump()});
   }
   return rows.size() > 1 ? table_of(rows) : "";
@@ -125,7 +125,8 @@ std::string searched_text(const Json& answer, const std::string& figure) {
 }
 
 std::string answer_text(const Json& answer, const Json& objective) {
-  std::string out = shown(answer["scene"].get<std::string>()) + ", " + viewport_text(answer) + ", " +
+  std::string out = shown(answer["scene"].get<std::string>()) + ", " +
+                    viewport_text(answer["viewport"].get<result::Counts2>()) + ", " +
                     number_of(answer["frames"].get<std::uint64_t>(), "frame") + ": " +
                     number_of(answer["candidates"].get<std::uint64_t>(), "candidate") + "\n";
   const auto figure = objective["figure"].get<std::string>();

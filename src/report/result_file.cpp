@@ -6,7 +6,6 @@
 #include "core/file_text.h"
 #include "core/json_document.h"
 #include "report/case_filter.h"
-#include "report/result_json.h"
 
 namespace clusterbench::report {
 namespace {
@@ -34,6 +33,14 @@ void check(const std::string& path, const Json& result) {
     throw Error(path, "", "is not a valid result: " + violations.front() + "; `clusterbench validate` lists all");
 }
 
+result::Result record_of(const std::string& path, const Json& json) {
+  try {
+    return result::from_json<result::Result>(json);
+  } catch (const Error& error) {
+    throw Error(path, "", "is not a valid result: " + error.where() + ": " + error.message());
+  }
+}
+
 }  // namespace
 
 void refuse_history(const std::string& path, std::string_view text) {
@@ -41,20 +48,21 @@ void refuse_history(const std::string& path, std::string_view text) {
     throw Error(path, "", "is a history of results, which `clusterbench history show` reads; wanted is a single one");
 }
 
-Json read_result(const std::string& path) {
+result::Result read_result(const std::string& path) {
   const std::string text = file_text(path);
   if (text.empty()) throw Error(path, "", "is empty");
   if (is_journal(text))
     throw Error(path, "", "is what an unfinished run left; `clusterbench run` with --resume makes a result of it");
   refuse_history(path, text);
-  Json result = read_json<Json>(text, path);
-  if (const config::Document document = config::document_of(result); document != config::Document::result)
+  const Json json = read_json<Json>(text, path);
+  if (const config::Document document = config::document_of(json); document != config::Document::result)
     throw Error(path, "",
                 document == config::Document::config
                     ? "is not a result file of `clusterbench run`"
                     : "is "s + config::row_of(document).title + "; wanted is one of `clusterbench run`");
-  config::check_version(path, result, config::row_of(config::Document::result));
-  check(path, result);
+  config::check_version(path, json, config::row_of(config::Document::result));
+  check(path, json);
+  result::Result result = record_of(path, json);
   use_current_names(result);
   return result;
 }

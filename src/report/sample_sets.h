@@ -2,10 +2,12 @@
 // Of which samples a figure is: a case has several sets of them, and is ranked by those that cost something
 // (frame_cost.h). Tables, budgets and sentences name the sets in the same words.
 
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "result/case.h"
 
 namespace clusterbench::report {
 
@@ -15,27 +17,28 @@ std::string words_of_set(const std::string& set);
 std::string words_of_sets(const std::vector<std::string>& sets);
 
 // The counts of a case's set of samples; null without them.
-const nlohmann::ordered_json* samples_of_set(const nlohmann::ordered_json& result_case, const std::string& set);
+const result::SampleSet* samples_of_set(const result::Case& result_case, const std::string& set);
 
 // The sets that a case is ranked by: those that cost something; without any, visible surfaces if they are asked for,
 // else points of the whole view. Empty without samples.
-std::vector<std::string> ranking_set_names(const nlohmann::ordered_json& result_case);
+std::vector<std::string> ranking_set_names(const result::Case& result_case);
 
 // Cases that have no samples while others of their scene, camera and viewport have some: of what they leave unlit
 // nothing is known.
-std::set<std::string> ids_without_samples(const nlohmann::ordered_json& cases);
+std::set<std::string> ids_without_samples(const std::vector<result::Case>& cases);
 
 // Of points of the view, where no surface is, and of no surfaces beside.
-bool ranks_at_random_depths(const nlohmann::ordered_json& result_case);
+bool ranks_at_random_depths(const result::Case& result_case);
 
 // Behind a column's heading: " (opaque)", of several sets " (weighted)"; "" of points of the whole view where the case
 // has no other samples.
-std::string heading_of_sets(const nlohmann::ordered_json& result_case);
+std::string heading_of_sets(const result::Case& result_case);
 // " (opaque)", of several sets " (weighted)", of none "".
 std::string heading_of_sets(const std::vector<std::string>& sets);
 
-// Of the sets that a case is ranked by the one with the largest number at a JSON pointer ("/unlit"); null where none
-// has one.
-const nlohmann::ordered_json* most_at_sets(const nlohmann::ordered_json& result_case, const char* pointer);
+// A number of a set: result::number<&result::SampleSet::unlit>.
+using SampleFigure = std::optional<double> (*)(const result::SampleSet& set);
+// Of the sets that a case is ranked by the one with the largest number of a kind; null where none has one.
+const result::SampleSet* most_at_sets(const result::Case& result_case, SampleFigure figure);
 
 }  // namespace clusterbench::report

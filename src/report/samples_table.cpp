@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "measure/samples.h"
 #include "report/columns.h"
 #include "report/sample_sets.h"
 
@@ -9,49 +10,40 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using result::SampleSet;
 
-double set_per_sample(const Json& set, const char* key) {
-  return set[key].get<double>() / set["samples"].get<double>();
+Json sets_of(const result::Case& result_case) {
+  return result_case.samples ? result::to_json(*result_case.samples) : Json();
+}
+
+double per_sample(const SampleSet& set, std::uint64_t lights) {
+  return static_cast<double>(lights) / static_cast<double>(set.samples);
 }
 
 // Lights given per sample, and key is unlit or has no answer.
-std::string given_text(const Json& set) {
-  if (set["samples"] == 0) return "none";
-  if (set["unanswered"] == set["samples"]) return "no answer";
-  const double unlit = set["unlit"].is_number() ? set["unlit"].get<double>() : 0.0;
-  return text("%.2f", set_per_sample(set, "evaluated")) + (unlit > 0.0 ? text(", %.3g %% unlit", 100.0 * unlit) : "");
+std::string given_text(const SampleSet& set) {
+  if (set.samples == 0) return "none";
+  if (set.unanswered == set.samples) return "no answer";
+  return text("%.2f", per_sample(set, set.evaluated)) +
+         (set.unlit > 0.0 ? text(", %.3g %% unlit", 100.0 * set.unlit) : "");
 }
 
-// All of a case by name, points of the whole view first.
-std::vector<std::pair<std::string, const Json*>> all_sets_of(const Json& result_case) {
-  std::vector<std::pair<std::string, const Json*>> sets;
-  if (const Json* volume = samples_of_set(result_case, "volume")) sets.emplace_back("volume", volume);
-  for (const auto& [name, set] : result_case["samples"].items()) sets.emplace_back(shown(name), &set);
-  return sets;
-}
-
-// Nothing where a case does not have the set, as methods that need depth have no points of the whole view.
-const Json* set_of(const Json& result_case, const std::string& name) {
-  for (const auto& [own, set] : all_sets_of(result_case))
-    if (own == name) return set;
-  return nullptr;
-}
-
-// Of all cases, points of the whole view first.
+// Those that any of the cases has: methods that need depth have no points of the whole view.
 std::vector<std::string> set_names(const std::vector<NamedCase>& cases) {
   std::vector<std::string> names;
-  for (const NamedCase& named : cases)
-    for (const auto& [name, set] : all_sets_of(*named.result_case))
-      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-  std::stable_partition(names.begin(), names.end(), [](const std::string& name) { return name == "volume"; });
+  for (std::size_t i = 0; i < measure::k_sample_set_count; ++i) {
+    const std::string name = measure::name_of(static_cast<measure::SampleSet>(i));
+    const auto has = [&](const NamedCase& named) { return samples_of_set(*named.result_case, name) != nullptr; };
+    if (std::ranges::any_of(cases, has)) names.push_back(name);
+  }
   return names;
 }
 
 // Lights that reach a sample: the same for all cases that have the set.
 std::string needed_text(const std::string& name, const std::vector<NamedCase>& cases) {
   for (const NamedCase& named : cases)
-    if (const Json* set = set_of(*named.result_case, name); set != nullptr && (*set)["samples"] != 0)
-      return text("%.2f", set_per_sample(*set, "needed"));
+    if (const SampleSet* set = samples_of_set(*named.result_case, name); set != nullptr && set->samples != 0)
+      return text("%.2f", per_sample(*set, set->needed));
   return "-";
 }
 
@@ -67,7 +59,7 @@ std::string samples_block(const std::string& block, const std::vector<NamedCase>
   for (const NamedCase& named : cases) {
     Cells row{"", named.name};
     for (const std::string& name : names) {
-      const Json* set = set_of(*named.result_case, name);
+      const SampleSet* set = samples_of_set(*named.result_case, name);
       row.push_back(set == nullptr ? "-" : given_text(*set));
     }
     rows.push_back(row);
@@ -80,15 +72,15 @@ std::string samples_block(const std::string& block, const std::vector<NamedCase>
 
 }  // namespace
 
-std::string samples_table(const Json& result) {
+std::string samples_table(const result::Result& result) {
   std::string out;
-  for (const Json& scene : result["scenes"]) {
+  for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result["cases"], scene)) {
-      const std::vector<NamedCase> cases = distinct_cases(result["cases"], scene, block, {"samples"});
+    for (const std::string& block : blocks_of(result.cases, scene)) {
+      const std::vector<NamedCase> cases = distinct_cases(result.cases, scene, block, sets_of);
       if (!cases.empty()) blocks += samples_block(block, cases);
     }
-    if (!blocks.empty()) out += "lights per sample of " + shown(scene["name"]) + "\n" + blocks + "\n";
+    if (!blocks.empty()) out += "lights per sample of " + shown(scene.name) + "\n" + blocks + "\n";
   }
   if (out.empty()) return "";
   return "\n" + out +

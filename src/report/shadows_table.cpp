@@ -2,68 +2,81 @@
 
 #include "report/columns.h"
 #include "report/json_values.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using result::BeforeAfter;
+using result::Case;
+using result::MeanMax;
+using result::number;
+using result::ShadowCull;
+using result::ShadowCullSamples;
+using result::Shadows;
+using result::SharedFrusta;
+using result::Timing;
 
 const Cells k_cull_headings{"",          "assigner", "map",   "texels", "pairs", "true",
                             "evaluated", "lit",      "wrong", "lost",   "MiB",   "step us"};
 
-std::string percent_at(const Json& json, const char* pointer) {
-  return text_at(json, pointer, "%.2f %%", 100.0);
+std::string percent(const std::optional<double>& share) {
+  return text_of(share, "%.2f %%", 100.0);
 }
 
-// A count per sample.
-std::string per_visible_sample(const Json& cull, const char* pointer) {
-  if (!cull.contains("opaque") || cull["opaque"]["samples"] == 0) return "-";
-  return text_at(cull, pointer, "%.2f", 1.0 / cull["opaque"]["samples"].get<double>());
+std::string per_visible_sample(const ShadowCull& cull, std::optional<double> (*count)(const ShadowCullSamples&)) {
+  if (!cull.opaque || cull.opaque->samples == 0) return "-";
+  return text_of(count(*cull.opaque), "%.2f", 1.0 / static_cast<double>(cull.opaque->samples));
+}
+
+std::string step_text(const Case& result_case, std::size_t index) {
+  const auto* times = result::part<&Case::timing, &Timing::shadow_cull>(result_case);
+  if (times == nullptr || index >= times->size()) return "-";
+  return text_of(number<&result::ShadowCullTimes::step_ns, &MeanMax::mean>((*times)[index]), "%.0f", 1e-3);
 }
 
 Cells cull_row(const NamedCase& named, std::size_t index) {
-  const Json& cull = (*named.result_case)["shadows"]["culls"][index];
-  const std::string evaluated = per_visible_sample(cull, "/opaque/evaluated/before"),
-                    kept = per_visible_sample(cull, "/opaque/evaluated/after");
-  const std::string step = "/timing/shadow_cull/" + std::to_string(index) + "/step_ns/mean";
+  const ShadowCull& cull = (*named.result_case->shadows->culls)[index];
+  const std::string evaluated = per_visible_sample(cull, number<&ShadowCullSamples::evaluated, &BeforeAfter::before>),
+                    kept = per_visible_sample(cull, number<&ShadowCullSamples::evaluated, &BeforeAfter::after>);
   return {"",
           named.name,
-          text_at(cull, "/resolution", "%.0f"),
-          cull["texels"].get<std::string>(),
-          percent_at(cull, "/pairs/removed"),
-          percent_at(cull, "/true_pairs/removed"),
+          std::to_string(cull.resolution),
+          cull.texels,
+          percent(number<&ShadowCull::pairs, &BeforeAfter::removed>(cull)),
+          percent(number<&ShadowCull::true_pairs, &BeforeAfter::removed>(cull)),
           evaluated == "-" ? "-" : evaluated + " to " + kept,
-          per_visible_sample(cull, "/opaque/lit"),
-          text_at(cull, "/opaque/wrongly_removed", "%.0f"),
-          text_at(cull, "/opaque/lost_irradiance", "%.3g %%", 100.0),
-          text_at(cull, "/maps/bytes", "%.2f", 0x1p-20),
-          text_at(*named.result_case, step.c_str(), "%.0f", 1e-3)};
+          per_visible_sample(cull, number<&ShadowCullSamples::lit>),
+          text_of(number<&ShadowCull::opaque, &ShadowCullSamples::wrongly_removed>(cull), "%.0f"),
+          text_of(number<&ShadowCull::opaque, &ShadowCullSamples::lost_irradiance>(cull), "%.3g %%", 100.0),
+          text("%.2f", 0x1p-20 * static_cast<double>(cull.maps.bytes)),
+          step_text(*named.result_case, index)};
 }
 
-std::string frusta_text(const Json& frusta) {
-  const auto mean_max = [&](const char* key, const char* format) {
-    const std::string pointer = std::string("/") + key;
-    return text_at(frusta, (pointer + "/mean").c_str(), format) + " (at most " +
-           text_at(frusta, (pointer + "/max").c_str(), format) + ")";
-  };
-  std::string out = "  spots in view per frame: " + mean_max("spots", "%.4g") +
-                    "; maps if they share: " + mean_max("maps", "%.4g") + ", " + percent_at(frusta, "/saved") +
-                    " saved\n";
-  if (frusta["most_members"].get<std::uint64_t>() < 2) return out;
-  return out + "  up to " + std::to_string(frusta["most_members"].get<std::uint64_t>()) +
-         " in a map; its frustum's volume: " + mean_max("volume/over_largest", "%.3g") + " of the largest member's, " +
-         mean_max("volume/over_sum", "%.3g") + " of all together\n";
+std::string mean_max(const MeanMax& value, const char* format) {
+  return text_of(number<&MeanMax::mean>(value), format) + " (at most " + text_of(number<&MeanMax::max>(value), format) +
+         ")";
+}
+
+std::string frusta_text(const SharedFrusta& frusta) {
+  std::string out = "  spots in view per frame: " + mean_max(frusta.spots, "%.4g") +
+                    "; maps if they share: " + mean_max(frusta.maps, "%.4g") + ", " +
+                    percent(number<&SharedFrusta::saved>(frusta)) + " saved\n";
+  if (frusta.most_members < 2) return out;
+  return out + "  up to " + std::to_string(frusta.most_members) +
+         " in a map; its frustum's volume: " + mean_max(frusta.volume.over_largest, "%.3g") +
+         " of the largest member's, " + mean_max(frusta.volume.over_sum, "%.3g") + " of all together\n";
 }
 
 std::string shadows_block(const std::string& block, const std::vector<NamedCase>& lines) {
   std::string out = " " + block + "\n";
-  const Json& first = (*lines.front().result_case)["shadows"];
-  if (first.contains("frusta")) out += frusta_text(first["frusta"]);
+  const Shadows& first = *lines.front().result_case->shadows;
+  if (first.frusta) out += frusta_text(*first.frusta);
   std::vector<Cells> rows{k_cull_headings};
   for (const NamedCase& named : lines) {
-    const Json& shadows = (*named.result_case)["shadows"];
-    for (std::size_t i = 0; shadows.contains("culls") && i < shadows["culls"].size(); ++i)
-      rows.push_back(cull_row(named, i));
+    const Shadows& shadows = *named.result_case->shadows;
+    for (std::size_t i = 0; shadows.culls && i < shadows.culls->size(); ++i) rows.push_back(cull_row(named, i));
   }
   if (rows.size() == 1) return out;
   const std::vector<std::size_t> widths = widths_of(rows);
@@ -71,20 +84,24 @@ std::string shadows_block(const std::string& block, const std::vector<NamedCase>
   return out;
 }
 
+Json part_of(const Case& result_case) {
+  return result_case.shadows ? result::to_json(*result_case.shadows) : Json();
+}
+
 }  // namespace
 
-std::string shadows_table(const Json& result) {
+std::string shadows_table(const result::Result& result) {
   std::string out;
   bool has_culls = false;
-  for (const Json& scene : result["scenes"]) {
+  for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result["cases"], scene)) {
-      const std::vector<NamedCase> lines = distinct_cases(result["cases"], scene, block, {"shadows"});
+    for (const std::string& block : blocks_of(result.cases, scene)) {
+      const std::vector<NamedCase> lines = distinct_cases(result.cases, scene, block, part_of);
       if (lines.empty()) continue;
       blocks += shadows_block(block, lines);
-      for (const NamedCase& named : lines) has_culls = has_culls || (*named.result_case)["shadows"].contains("culls");
+      for (const NamedCase& named : lines) has_culls = has_culls || named.result_case->shadows->culls;
     }
-    if (!blocks.empty()) out += "shadows of " + shown(scene["name"]) + "\n" + blocks + "\n";
+    if (!blocks.empty()) out += "shadows of " + shown(scene.name) + "\n" + blocks + "\n";
   }
   if (out.empty()) return "";
   out = "\n" + out;
@@ -95,7 +112,7 @@ std::string shadows_table(const Json& result) {
          "evaluated: lights per visible sample, before and after; lit: those that a shadow ray finds lit.\n"
          "wrong: lit ones that were taken out, over all samples and frames, and the share of irradiance that is lost "
          "with them.\n" +
-         (value_at(result, "/config/samples/opaque") == nullptr
+         (value_at(result.config, "/samples/opaque") == nullptr
               ? "Without samples.opaque nothing is known of visible surfaces.\n"
               : "");
 }

@@ -20,16 +20,17 @@
 #include "report/size_code.h"
 #include "report/size_table.h"
 #include "report/size_words.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-AllocationRules rules_of(const Json& result, const SizeRequest& request) {
+AllocationRules rules_of(const result::Result& result, const SizeRequest& request) {
   AllocationRules rules;
-  rules.margin = request.margin.value_or(number_at(result, "/config/allocation/margin").value_or(rules.margin));
-  rules.warn_at = request.warn_at.value_or(number_at(result, "/config/allocation/warn_at").value_or(rules.warn_at));
+  rules.margin = request.margin.value_or(number_at(result.config, "/allocation/margin").value_or(rules.margin));
+  rules.warn_at = request.warn_at.value_or(number_at(result.config, "/allocation/warn_at").value_or(rules.warn_at));
   rules.rounding = request.rounding == "page"           ? Rounding::page
                    : request.rounding == "power-of-two" ? Rounding::power_of_two
                                                         : Rounding::none;
@@ -39,9 +40,9 @@ AllocationRules rules_of(const Json& result, const SizeRequest& request) {
 // Smaller is better. Structures of a method's own come after all lists: what samples pay for them differs.
 auto rank(const SizedStructure& structure) {
   bool loses = false, is_own = false;
-  for (const Json* result_case : structure.cases) {
-    loses |= (*result_case)["loses_lights"].get<bool>() || !(*result_case)["failures"].empty();
-    is_own |= (*result_case)["storage"] == "own";
+  for (const result::Case* result_case : structure.cases) {
+    loses |= result_case->loses_lights || !result_case->failures.empty();
+    is_own |= result_case->storage == "own";
   }
   return std::pair(loses, is_own);
 }
@@ -49,17 +50,18 @@ auto rank(const SizedStructure& structure) {
 // Of a frame of each camera together.
 double time_of(const SizedStructure& structure) {
   double sum = 0.0;
-  for (const Json* result_case : structure.cases)
-    sum += number_at(*result_case, "/timing/frame_ns/median").value_or(std::numeric_limits<double>::infinity());
+  for (const result::Case* one : structure.cases)
+    sum += result::number<&result::Case::timing, &result::Timing::frame_ns, &result::Time::median>(*one).value_or(
+        std::numeric_limits<double>::infinity());
   return sum;
 }
 
 // Whether frames of some camera take longer than the other's: as far as is known, lest noise decides.
-bool is_slower(const Json& result, const SizedStructure& structure, const SizedStructure& fastest) {
+bool is_slower(const result::Result& result, const SizedStructure& structure, const SizedStructure& fastest) {
   bool is_known = false;
-  for (const Json* mine : structure.cases)
-    for (const Json* other : fastest.cases) {
-      if ((*mine)["camera"] != (*other)["camera"]) continue;
+  for (const result::Case* mine : structure.cases)
+    for (const result::Case* other : fastest.cases) {
+      if (mine->camera != other->camera) continue;
       const std::optional<measure::Ratio> ratio = ratio_of_cases(result, *mine, *other);
       is_known |= ratio.has_value();
       if (ratio && measure::takes_longer(ratio)) return true;
@@ -69,7 +71,7 @@ bool is_slower(const Json& result, const SizedStructure& structure, const SizedS
 
 // Of structures of one grid that lose no light the fastest; of those that may be as fast, the one with the least
 // memory, and of those a method with SIMD.
-const SizedStructure& best_of(const Json& result, std::vector<const SizedStructure*> all) {
+const SizedStructure& best_of(const result::Result& result, std::vector<const SizedStructure*> all) {
   const auto least_rank =
       rank(**std::ranges::min_element(all, {}, [](const auto* structure) { return rank(*structure); }));
   std::erase_if(all, [&](const auto* structure) { return rank(*structure) != least_rank; });
@@ -85,7 +87,7 @@ const SizedStructure& best_of(const Json& result, std::vector<const SizedStructu
 
 // By what was seen alone, which finds do not change: what a search was for is what is printed. Of a group's structures
 // those that a search was for, whatever it found; else the one that the result's conclusion takes.
-std::vector<std::size_t> best_of_groups(const Json& result, const std::vector<SizedStructure>& seen,
+std::vector<std::size_t> best_of_groups(const result::Result& result, const std::vector<SizedStructure>& seen,
                                         const std::vector<SizedStructure>& with_finds) {
   std::vector<std::string> order;
   std::map<std::string, std::vector<const SizedStructure*>> groups;
@@ -119,7 +121,7 @@ Json spread_json(const FrameSpread& spread) {
 
 Json buffer_json(const SizedBuffer& buffer, const std::string& name, const std::vector<FoundFrame>& searches) {
   Json worst{{"camera", buffer.worst_camera}, {"frame", buffer.worst_frame}};
-  if (!buffer.worst_cell.is_null()) worst["cell"] = buffer.worst_cell;
+  if (buffer.worst_cell) worst["cell"] = *buffer.worst_cell;
   Json out{{"name", buffer.name},
            {"identifier", name},
            {"element_bytes", buffer.element_bytes},
@@ -149,20 +151,20 @@ Json buffer_json(const SizedBuffer& buffer, const std::string& name, const std::
   return out;
 }
 
-Json cameras_of(const std::vector<const Json*>& cases) {
-  Json out = Json::array();
-  for (const Json* result_case : cases)
-    if (std::ranges::find(out, (*result_case)["camera"]) == out.end()) out.push_back((*result_case)["camera"]);
+std::vector<std::string> cameras_of(const std::vector<const result::Case*>& cases) {
+  std::vector<std::string> out;
+  for (const result::Case* result_case : cases)
+    if (std::ranges::find(out, result_case->camera) == out.end()) out.push_back(result_case->camera);
   return out;
 }
 
 Json structure_json(const NamedStructure& named) {
   const SizedStructure& structure = named.structure;
-  const Json& first = *structure.cases.front();
-  Json out{{"name", structure.name},        {"identifier", named.name},
-           {"scene", first["scene"]},       {"cameras", cameras_of(structure.cases)},
-           {"grid", first["grid"]["name"]}, {"assigner", first["assigner"]["label"]},
-           {"storage", first["storage"]},   {"bytes", structure.bytes()},
+  const result::Case& first = *structure.cases.front();
+  Json out{{"name", structure.name},      {"identifier", named.name},
+           {"scene", first.scene},        {"cameras", cameras_of(structure.cases)},
+           {"grid", first.grid.name},     {"assigner", first.assigner.label},
+           {"storage", first.storage},    {"bytes", structure.bytes()},
            {"frames", structure.frames()}};
   for (const std::vector<std::string>& view : structure.views) out["views"].push_back(view);
   for (const GuestSamples& guest : structure.guest_samples)
@@ -178,8 +180,7 @@ Json structure_json(const NamedStructure& named) {
   const std::string unseen = nothing_seen_text(structure);
   out["nothing_seen"] = unseen.empty() ? Json() : Json(unseen);
   std::uint64_t dropped = 0;
-  for (const Json* result_case : structure.cases)
-    dropped += (*result_case)["buffers"]["overflow"]["dropped_pairs"].get<std::uint64_t>();
+  for (const result::Case* result_case : structure.cases) dropped += result_case->buffers.overflow.dropped_pairs;
   out["dropped_pairs"] = dropped;
   if (const std::vector<std::string> notes = grid_notes(structure); !notes.empty()) out["grid_notes"] = notes;
   if (const std::vector<std::string> notes = limit_notes(structure); !notes.empty()) out["limit_notes"] = notes;
@@ -211,13 +212,14 @@ std::string size_json(const std::vector<NamedStructure>& structures, std::size_t
 }
 
 // By what one structure is chosen.
-std::string best_words(const Json& result) {
-  const bool has_times = std::ranges::any_of(result["cases"], [](const Json& one) { return one.contains("timing"); });
+std::string best_words(const result::Result& result) {
+  const bool has_times =
+      std::ranges::any_of(result.cases, [](const result::Case& one) { return one.timing.has_value(); });
   return has_times ? "the fastest structure that loses no light, or of those that may be as fast the smallest"
                    : "the smallest structure that loses no light";
 }
 
-std::string remark(const Json& result, const std::vector<SizedStructure>& shown, std::size_t all) {
+std::string remark(const result::Result& result, const std::vector<SizedStructure>& shown, std::size_t all) {
   if (shown.size() == all) return "";
   const bool has_taken = std::ranges::any_of(shown, &SizedStructure::is_taken);
   const bool has_searched = std::ranges::any_of(shown, [](const auto& one) { return !one.searches.empty(); });
@@ -227,20 +229,20 @@ std::string remark(const Json& result, const std::vector<SizedStructure>& shown,
 }
 
 std::string method_of(const SizedStructure& structure) {
-  const Json& first = *structure.cases.front();
-  return first["assigner"]["label"].get<std::string>() + "/" + first["storage"].get<std::string>();
+  const result::Case& first = *structure.cases.front();
+  return first.assigner.label + "/" + first.storage;
 }
 
 // "frustum 16x9 x 24 exponential/exact-fast/packed": a name that --filter takes.
 std::string name_in_scene(const SizedStructure& structure) {
-  const std::string scene = structure.cases.front()->at("scene").get<std::string>() + "/";
+  const std::string scene = structure.cases.front()->scene + "/";
   return structure.name.starts_with(scene) ? structure.name.substr(scene.size()) : structure.name;
 }
 
 // That the conclusion of the result takes it, and for which cameras, where it serves others, too.
 std::string taken_text(const SizedStructure& structure) {
-  const bool serves_others = std::ranges::any_of(structure.cases, [&](const Json* one) {
-    return std::ranges::find(structure.taken_by, one->at("camera").get<std::string>()) == structure.taken_by.end();
+  const bool serves_others = std::ranges::any_of(structure.cases, [&](const result::Case* one) {
+    return std::ranges::find(structure.taken_by, one->camera) == structure.taken_by.end();
   });
   return std::string("taken by the conclusion of the result") +
          (serves_others
@@ -249,14 +251,13 @@ std::string taken_text(const SizedStructure& structure) {
 }
 
 // That the result's conclusion takes another method, and how the same is named here; "" where there is none.
-std::string other_method_text(const Json& result, const SizedStructure& chosen,
+std::string other_method_text(const result::Result& result, const SizedStructure& chosen,
                               const std::vector<SizedStructure>& all) {
   const auto is_of_its_scene = [&](const SizedStructure& one) {
-    return one.is_taken() && one.cases.front()->at("scene") == chosen.cases.front()->at("scene");
+    return one.is_taken() && one.cases.front()->scene == chosen.cases.front()->scene;
   };
   const auto taken = std::ranges::find_if(all, is_of_its_scene);
-  if (taken == all.end() || method_of(*taken) == method_of(chosen) || chosen.cases.front()->contains("preset"))
-    return "";
+  if (taken == all.end() || method_of(*taken) == method_of(chosen) || chosen.cases.front()->preset) return "";
   const auto same = std::ranges::find_if(
       all, [&](const SizedStructure& one) { return one.group == chosen.group && method_of(one) == method_of(*taken); });
   return "the conclusion of the result takes another method, " + name_in_scene(*taken) + "; this is " +
@@ -264,7 +265,8 @@ std::string other_method_text(const Json& result, const SizedStructure& chosen,
          (same == all.end() ? "" : "; that method here: --filter '" + name_in_scene(*same) + "'");
 }
 
-std::vector<SizedStructure> chosen_structures(const Json& result, const SizeRequest& request, std::size_t& count) {
+std::vector<SizedStructure> chosen_structures(const result::Result& result, const SizeRequest& request,
+                                              std::size_t& count) {
   const AllocationRules rules = rules_of(result, request);
   std::vector<SizedStructure> all = sized_structures(result, request.filter, rules, request.scope);
   count = all.size();
@@ -282,17 +284,13 @@ std::vector<SizedStructure> chosen_structures(const Json& result, const SizeRequ
   return chosen;
 }
 
-double entries_of(const Json& result_case) {
-  return number_at(result_case, "/buffers/index_entries/high_water").value_or(0.0);
-}
-
 // Of each camera that has a grid of its own, and of its viewports the one that needs most.
-std::vector<const Json*> cases_to_search(const SizedStructure& structure) {
-  std::vector<const Json*> all;
-  for (const Json* result_case : structure.cases) {
-    if (structure.is_guest((*result_case)["camera"].get<std::string>())) continue;
-    const auto known =
-        std::ranges::find_if(all, [&](const Json* one) { return (*one)["camera"] == (*result_case)["camera"]; });
+std::vector<const result::Case*> cases_to_search(const SizedStructure& structure) {
+  const auto entries_of = [](const result::Case& one) { return one.buffers.index_entries.high_water; };
+  std::vector<const result::Case*> all;
+  for (const result::Case* result_case : structure.cases) {
+    if (structure.is_guest(result_case->camera)) continue;
+    const auto known = std::ranges::find(all, result_case->camera, &result::Case::camera);
     if (known == all.end())
       all.push_back(result_case);
     else if (entries_of(*result_case) > entries_of(**known))
@@ -303,17 +301,15 @@ std::vector<const Json*> cases_to_search(const SizedStructure& structure) {
 
 // Those of the engine's preset.
 void keep_engine(std::vector<SizedStructure>& structures, const std::string& engine) {
-  std::erase_if(structures, [&](const SizedStructure& structure) {
-    const Json& first = *structure.cases.front();
-    return !first.contains("preset") || first["preset"] != engine;
-  });
+  std::erase_if(structures, [&](const SizedStructure& structure) { return structure.cases.front()->preset != engine; });
   if (structures.empty())
     throw Error("", "--engine",
                 "no case is of the preset '" + engine + "'; measure it: clusterbench size LEVEL --engine " + engine);
 }
 
 // Those that are printed.
-std::vector<SizedStructure> printed_structures(const Json& result, const SizeRequest& request, std::size_t& count) {
+std::vector<SizedStructure> printed_structures(const result::Result& result, const SizeRequest& request,
+                                               std::size_t& count) {
   std::vector<SizedStructure> chosen = chosen_structures(result, request, count);
   if (!request.engine.empty()) keep_engine(chosen, request.engine);
   return chosen;
@@ -334,24 +330,20 @@ std::vector<std::string> sized_measures(const std::string& storage, const std::s
   return {measure_of_buffers(storage)};
 }
 
-std::vector<SizedCase> sized_cases(const Json& result, const SizeRequest& request) {
+std::vector<SizedCase> sized_cases(const result::Result& result, const SizeRequest& request) {
   std::size_t count = 0;
   std::vector<SizedCase> out;
   for (const SizedStructure& structure : printed_structures(result, request, count))
-    for (const Json* result_case : cases_to_search(structure)) {
-      out.push_back({structure.name,
-                     (*result_case)["name"].get<std::string>(),
-                     sized_measures((*result_case)["storage"].get<std::string>(), request.engine),
-                     "",
-                     {}});
-      if ((*result_case)["camera"] != request.scope.grid_of) continue;
+    for (const result::Case* result_case : cases_to_search(structure)) {
+      out.push_back({structure.name, result_case->name, sized_measures(result_case->storage, request.engine), "", {}});
+      if (result_case->camera != request.scope.grid_of) continue;
       out.back().grid_case = out.back().name;
       out.back().guests = structure.guests;
     }
   return out;
 }
 
-std::vector<std::string> sized_from_nothing(const Json& result, const SizeRequest& request) {
+std::vector<std::string> sized_from_nothing(const result::Result& result, const SizeRequest& request) {
   std::size_t count = 0;
   std::vector<std::string> out;
   for (const SizedStructure& structure : printed_structures(result, request, count))
@@ -359,7 +351,7 @@ std::vector<std::string> sized_from_nothing(const Json& result, const SizeReques
   return out;
 }
 
-std::string size_report(const Json& result, const SizeRequest& request) {
+std::string size_report(const result::Result& result, const SizeRequest& request) {
   const AllocationRules rules = rules_of(result, request);
   if (!request.name.empty() && request.format == "table")
     throw Error("", "--name", "names what is printed as code, and a table has no names; give --format, too");

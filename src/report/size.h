@@ -1,12 +1,12 @@
 #pragma once
 // The report of `clusterbench size`: what to allocate (report/allocation.h), as a table, as code or as JSON.
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "report/allocation.h"
+#include "result/result.h"
 
 namespace clusterbench::report {
 
@@ -48,14 +48,14 @@ struct SizedCase {
   std::string grid_case;              // where one camera's grid serves others: the case of that camera
   std::vector<std::string> guests;    // those others
 };
-std::vector<SizedCase> sized_cases(const nlohmann::ordered_json& result, const SizeRequest& request);
+std::vector<SizedCase> sized_cases(const result::Result& result, const SizeRequest& request);
 
 // Of the structures that are printed those whose sizes are of nothing, since no frame had a light in view or in a list
 // and no search found any: name and reason.
-std::vector<std::string> sized_from_nothing(const nlohmann::ordered_json& result, const SizeRequest& request);
+std::vector<std::string> sized_from_nothing(const result::Result& result, const SizeRequest& request);
 
 // Throws Error if the filter is no regex or matches no case, and for a name that no language takes, that a table would
 // not show, or that more than one structure would have.
-std::string size_report(const nlohmann::ordered_json& result, const SizeRequest& request);
+std::string size_report(const result::Result& result, const SizeRequest& request);
 
 }  // namespace clusterbench::report

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/text.h"
-#include "report/json_values.h"
+#include "report/columns.h"
 #include "report/list_code.h"
 #include "report/lookup_code.h"
 #include "report/lookup_constants.h"
@@ -13,8 +13,6 @@
 
 namespace clusterbench::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // A name from a scene file within one comment line: no line may end early or run on, not even by a trigraph.
 std::string comment_text(std::string name) {
@@ -55,10 +53,8 @@ std::string buffer_comment(const SizedBuffer& buffer, const SizedStructure& stru
 
 std::string cameras_text(const SizedStructure& structure) {
   std::vector<std::string> cameras;
-  for (const Json* result_case : structure.cases)
-    if (const auto camera = (*result_case)["camera"].get<std::string>();
-        std::ranges::find(cameras, camera) == cameras.end())
-      cameras.push_back(camera);
+  for (const result::Case* result_case : structure.cases)
+    if (std::ranges::find(cameras, result_case->camera) == cameras.end()) cameras.push_back(result_case->camera);
   std::string out = (cameras.size() == 1 ? "camera " : "cameras ") + joined(cameras);
   for (const std::vector<std::string>& view : structure.views)
     out += "; in one buffer in one frame: " + joined(view, " + ");
@@ -68,8 +64,9 @@ std::string cameras_text(const SizedStructure& structure) {
 std::string structure_comment(const SizedStructure& structure) {
   std::string out = comment_line(structure.name) + comment_line("  " + cameras_text(structure));
   std::vector<std::string> viewports;
-  for (const Json* result_case : structure.cases)
-    if (const std::string one = viewport_text(*result_case); std::ranges::find(viewports, one) == viewports.end())
+  for (const result::Case* result_case : structure.cases)
+    if (const std::string one = viewport_text(result_case->viewport);
+        std::ranges::find(viewports, one) == viewports.end())
       viewports.push_back(one);
   if (viewports.size() > 1) out += comment_line("  viewports " + joined(viewports));
   if (!structure.choice.empty()) out += comment_line("  " + structure.choice);
@@ -99,12 +96,11 @@ std::string shader_buffer(const SizedBuffer& buffer, const std::string& name, co
 }
 
 std::string lookup_text(const NamedLookup& lookup, SizeLanguage language, bool is_only_one) {
-  const Json& result_case = *lookup.cases.front();
+  const result::Case& result_case = *lookup.cases.front();
   std::string out;
   if (!is_only_one)
-    for (const Json* of_camera : lookup.cases)
-      out += comment_line("  lookup of camera " + (*of_camera)["camera"].get<std::string>() + " at " +
-                          viewport_text(*of_camera));
+    for (const result::Case* of_camera : lookup.cases)
+      out += comment_line("  lookup of camera " + of_camera->camera + " at " + viewport_text(of_camera->viewport));
   if (const std::string note = lookup_note(result_case); !note.empty()) out += comment_line("  lookup: " + note);
   const std::vector<LookupConstant> constants = lookup_constants(result_case);
   if (language == SizeLanguage::cpp) return out + lookup_cpp(lookup.name, constants);

@@ -5,13 +5,10 @@
 
 #include "core/text.h"
 #include "report/columns.h"
-#include "report/json_values.h"
 #include "report/size_words.h"
 
 namespace clusterbench::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // A column: its heading, and what it says of a buffer.
 struct BufferColumn {
@@ -102,9 +99,9 @@ std::string worst_lines(const SizedStructure& structure) {
 // Of all cameras; "" of a structure without lists.
 std::string longest_line(const SizedStructure& structure) {
   double longest = 0.0;
-  for (const Json* result_case : structure.cases)
-    if (!structure.is_guest((*result_case)["camera"].get<std::string>()))
-      longest = std::max(longest, number_at(*result_case, "/occupancy/lights_per_cell/max").value_or(0.0));
+  for (const result::Case* one : structure.cases)
+    if (one->occupancy && !structure.is_guest(one->camera))
+      longest = std::max(longest, one->occupancy->lights_per_cell.max);
   return longest == 0.0 ? "" : "  longest list: " + number_of(static_cast<std::uint64_t>(longest), "light") + "\n";
 }
 
@@ -131,10 +128,11 @@ std::string note_lines(const SizedStructure& structure) {
 
 // "2 cameras, 602 frames", and which of them are in one frame.
 std::string counted_text(const SizedStructure& structure) {
-  std::set<std::string> cameras, viewports;
-  for (const Json* result_case : structure.cases) {
-    cameras.insert((*result_case)["camera"].get<std::string>());
-    viewports.insert((*result_case)["viewport"].dump());
+  std::set<std::string> cameras;
+  std::set<result::Counts2> viewports;
+  for (const result::Case* result_case : structure.cases) {
+    cameras.insert(result_case->camera);
+    viewports.insert(result_case->viewport);
   }
   for (const std::string& guest : structure.guests) cameras.erase(guest);
   std::string out = number_of(cameras.size(), "camera") + ", " + number_of(structure.frames(), "frame");

@@ -9,11 +9,13 @@
 #include "measure/shading.h"
 #include "report/buffer_tail.h"
 #include "report/columns.h"
-#include "report/json_values.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
-
 namespace {
+
+using result::Case;
+using result::number;
 
 std::string rounding_text(const AllocationRules& rules) {
   const char* rounding = rules.rounding == Rounding::page           ? ", rounded up to whole pages of 4 KiB"
@@ -82,9 +84,10 @@ std::string found_text(const SizedBuffer& buffer, const SizedStructure& structur
 
 // Lists of all sizes of the picture in one allocation, of tiles that are cut otherwise in each.
 bool has_viewports_of_pixel_tiles(const SizedStructure& structure) {
-  std::set<std::string> viewports;
-  for (const nlohmann::ordered_json* result_case : structure.cases) viewports.insert((*result_case)["viewport"].dump());
-  return viewports.size() > 1 && value_at(*structure.cases.front(), "/grid/tiles/pixels") != nullptr;
+  std::set<result::Counts2> viewports;
+  for (const Case* result_case : structure.cases) viewports.insert(result_case->viewport);
+  const std::optional<result::Tiles>& tiles = structure.cases.front()->grid.tiles;
+  return viewports.size() > 1 && tiles && tiles->pixels;
 }
 
 bool lacks_lights(const GuestSamples& guest) {
@@ -145,7 +148,7 @@ std::vector<MarkLine> mark_lines(const SizedBuffer& buffer, const SizedStructure
 
 std::string worst_text(const SizedBuffer& buffer) {
   return "camera " + buffer.worst_camera + ", frame " + std::to_string(buffer.worst_frame) +
-         (buffer.worst_cell.is_null() ? "" : ", cell " + buffer.worst_cell.dump());
+         (buffer.worst_cell ? ", cell " + result::Json(*buffer.worst_cell).dump() : "");
 }
 
 std::string share_text(std::uint64_t part, std::uint64_t whole) {
@@ -155,13 +158,12 @@ std::string share_text(std::uint64_t part, std::uint64_t whole) {
 std::vector<std::string> grid_notes(const SizedStructure& structure) {
   std::vector<std::pair<std::string, std::vector<std::string>>> notes;  // each with its cameras
   std::set<std::string> cameras;
-  for (const nlohmann::ordered_json* result_case : structure.cases) {
-    const nlohmann::ordered_json& grid = (*result_case)["grid"];
-    const auto camera = (*result_case)["camera"].get<std::string>();
+  for (const Case* result_case : structure.cases) {
+    const std::string& camera = result_case->camera;
     if (structure.is_guest(camera)) continue;
     cameras.insert(camera);
-    if (!grid.contains("note")) continue;
-    const auto note = grid["note"].get<std::string>();
+    if (!result_case->grid.note) continue;
+    const std::string& note = *result_case->grid.note;
     auto known = std::ranges::find(notes, note, [](const auto& entry) { return entry.first; });
     if (known == notes.end()) known = notes.insert(known, {note, {}});
     if (std::ranges::find(known->second, camera) == known->second.end()) known->second.push_back(camera);
@@ -183,18 +185,18 @@ std::vector<std::string> grid_notes(const SizedStructure& structure) {
 std::vector<std::string> limit_notes(const SizedStructure& structure) {
   std::map<std::string, double> most_removed;  // by the step
   std::vector<std::string> notes;
-  for (const nlohmann::ordered_json* result_case : structure.cases) {
-    const nlohmann::ordered_json* steps = value_at(*result_case, "/pre_cull/steps");
-    for (const nlohmann::ordered_json& step : steps == nullptr ? nlohmann::ordered_json::array() : *steps) {
-      const auto label = step["label"].get<std::string>();
-      const double removed = number_at(step, "/removed/max").value_or(0.0);
-      if (label.starts_with("most(") && removed > 0.0) most_removed[label] = std::max(most_removed[label], removed);
-    }
-    const double asked = number_at(*result_case, "/react/fixed/index_entries").value_or(0.0);
-    if (asked > 0.0 && number_at(*result_case, "/react/frames/reacted").value_or(0.0) > 0.0)
-      notes.push_back("tiles of camera " + (*result_case)["camera"].get<std::string>() +
-                      " have grown for want of room; those that were asked for need up to " + text("%.0f", asked) +
-                      " entries");
+  for (const Case* result_case : structure.cases) {
+    if (result_case->pre_cull)
+      for (const result::PreCullStep& step : result_case->pre_cull->steps) {
+        const double removed = number<&result::PreCullStep::removed, &result::MeanMax::max>(step).value_or(0.0);
+        if (step.label.starts_with("most(") && removed > 0.0)
+          most_removed[step.label] = std::max(most_removed[step.label], removed);
+      }
+    const std::optional<result::Reaction>& react = result_case->react;
+    if (react && react->fixed && react->fixed->index_entries > 0 && react->frames.reacted > 0)
+      notes.push_back("tiles of camera " + result_case->camera +
+                      " have grown for want of room; those that were asked for need up to " +
+                      std::to_string(react->fixed->index_entries) + " entries");
   }
   for (const auto& [label, removed] : most_removed)
     notes.push_back(label + " took up to " + text("%.0f", removed) + " lights from a frame, and no list here has them");
@@ -218,14 +220,15 @@ bool lack_lights(const std::vector<GuestSamples>& guests) {
 }
 
 std::string nothing_seen_text(const SizedStructure& structure) {
-  const auto has_none = [&](const char* pointer) {
-    return std::ranges::all_of(structure.cases, [&](const nlohmann::ordered_json* result_case) {
-      return number_at(*result_case, pointer).value_or(1.0) == 0.0;
-    });
+  const auto has_none = [&](std::optional<double> (*lights)(const Case&)) {
+    return std::ranges::all_of(structure.cases,
+                               [&](const Case* result_case) { return lights(*result_case).value_or(1.0) == 0.0; });
   };
   constexpr const char* k_says_nothing = "the frames that were counted say nothing of what frames with lights need";
-  if (has_none("/lights_in_view/max")) return std::string("NO LIGHT was ever in view: ") + k_says_nothing;
-  if (has_none("/occupancy/lights_per_cell/max")) return std::string("NO LIST ever had a light: ") + k_says_nothing;
+  if (has_none(number<&Case::lights_in_view, &result::LightsInView::max>))
+    return std::string("NO LIGHT was ever in view: ") + k_says_nothing;
+  if (has_none(number<&Case::occupancy, &result::Occupancy::lights_per_cell, &result::LightsPerCell::max>))
+    return std::string("NO LIST ever had a light: ") + k_says_nothing;
   return "";
 }
 
@@ -236,11 +239,11 @@ bool is_sized_from_nothing(const SizedStructure& structure) {
 
 std::string dropped_text(const SizedStructure& structure) {
   std::uint64_t pairs = 0, cells = 0, frames = 0;
-  for (const nlohmann::ordered_json* result_case : structure.cases) {
-    const nlohmann::ordered_json& overflow = (*result_case)["buffers"]["overflow"];
-    pairs += overflow["dropped_pairs"].get<std::uint64_t>();
-    cells += overflow["cells"].get<std::uint64_t>();
-    frames += overflow["frames"].get<std::uint64_t>();
+  for (const Case* result_case : structure.cases) {
+    const result::Overflow& overflow = result_case->buffers.overflow;
+    pairs += overflow.dropped_pairs;
+    cells += overflow.cells;
+    frames += overflow.frames;
   }
   if (pairs == 0) return "";
   return number_of(pairs, "pair") + " dropped in " + number_of(cells, "cell") + " of " + number_of(frames, "frame");

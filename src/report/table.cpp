@@ -10,7 +10,6 @@
 #include "report/columns.h"
 #include "report/fit_table.h"
 #include "report/frame_cost.h"
-#include "report/json_values.h"
 #include "report/limits.h"
 #include "report/lookup_table.h"
 #include "report/pre_cull_table.h"
@@ -24,20 +23,33 @@
 #include "report/stability_table.h"
 #include "report/timing_warnings.h"
 #include "report/warnings.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::Case;
+using result::Cost;
+using result::ListError;
+using result::number;
+using result::SampleSet;
+using result::Time;
+using result::Timing;
 
 constexpr const char* k_red = "\033[31m";
 constexpr const char* k_bold = "\033[1m";
 constexpr const char* k_plain = "\033[0m";
 
-constexpr const char* k_instructions = "/count/instructions_per_frame/assign";
+using CaseFigure = std::optional<double> (*)(const Case& result_case);
+constexpr CaseFigure k_frame_ns = number<&Case::timing, &Timing::frame_ns, &Time::median>,
+                     k_instructions =
+                         number<&Case::count, &result::Count::instructions_per_frame, &result::PerFrame::assign>,
+                     k_excess = number<&Case::error, &ListError::excess_ratio>,
+                     k_frame_cost_ns = number<&Case::cost, &Cost::frame_ns>,
+                     k_gpu_cost_ns = number<&Case::cost, &Cost::gpu_ns>;
 
 struct Line {
-  const Json* result_case = nullptr;
+  const Case* result_case = nullptr;
   Cells cells;
   bool has_failed = false;
   std::pair<bool, double> sort_key;
@@ -49,61 +61,58 @@ struct Extras {
        dropped = false, cold = false, launches = false, costs = false, searched = false;
 };
 
-std::string time_text(const Json& result_case, const char* pointer) {
-  const std::optional<double> ns = number_at(result_case, pointer);
+std::string time_text(const std::optional<double>& ns) {
   if (!ns) return "-";
   const double us = *ns / 1e3;
   return text(us < 10.0 ? "%.2f" : us < 1000.0 ? "%.1f" : "%.0f", us);
 }
 
-std::string worst_text(const Json& result_case) {
-  const Json* frame = value_at(result_case, "/timing/worst_frame/frame");
-  return frame == nullptr ? "-" : time_text(result_case, "/timing/worst_frame/ns") + " @" + frame->dump();
+std::string worst_text(const Case& result_case) {
+  using result::WorstTimedFrame;
+  const auto* worst = result::part<&Case::timing, &Timing::worst_frame>(result_case);
+  return worst == nullptr ? "-" : time_text(number<&WorstTimedFrame::ns>(*worst)) + " @" + std::to_string(worst->frame);
 }
 
 // The pairs of the frames that the time is of; without times those of all frames.
-std::string pairs_text(const Json& result_case) {
-  return short_count(
-      result_case, number_at(result_case, "/timing/frame_ns/median") ? "/timing/pairs/mean" : "/occupancy/pairs/mean");
+std::string pairs_text(const Case& result_case) {
+  return short_count(k_frame_ns(result_case)
+                         ? number<&Case::timing, &Timing::pairs, &result::TimedPairs::mean>(result_case)
+                         : number<&Case::occupancy, &result::Occupancy::pairs, &result::Spread::mean>(result_case));
 }
 
 // Of the samples that the case is ranked by, as `unlit`.
-std::string lost_lux_text(const Json& result_case, const char* what) {
-  const Json* most = most_at_sets(result_case, what);
-  const std::optional<double> loses = number_at(most != nullptr ? *most : result_case, "/lost_lux");
-  if (loses && *loses == 0.0) return "0";
-  return most != nullptr ? text_at(*most, what, "%.3g") : "-";
+std::string lost_lux_text(const Case& result_case, SampleFigure what) {
+  const SampleSet* most = most_at_sets(result_case, what);
+  if (most == nullptr) return "-";
+  return most->lost_lux == 0.0 ? "0" : text_of(what(*most), "%.3g");
 }
 
 // What the star goes by; lists that leave lights out are short.
-std::string overshade_text(const Json& result_case) {
+std::string overshade_text(const Case& result_case) {
   const std::optional<double> overshade = limit_figure(result_case, "overshade");
   return overshade ? text("%.2f", *overshade) : "-";
 }
 
 // Bytes of the structure that a sample reads to know its lights.
-std::string read_bytes_text(const Json& result_case) {
-  const std::optional<double> bytes = mean_at_samples(result_case, "read_bytes");
+std::string read_bytes_text(const Case& result_case) {
+  const std::optional<double> bytes = mean_at_samples(result_case, number<&SampleSet::read_bytes>);
   return bytes ? text(*bytes < 100.0 ? "%.3g" : "%.0f", *bytes) : "-";
 }
 
 // Where nothing is timed what the GPU does.
-std::string cost_text(const Json& result_case) {
-  return time_text(result_case, number_at(result_case, "/cost/frame_ns") ? "/cost/frame_ns" : "/cost/gpu_ns");
+std::string cost_text(const Case& result_case) {
+  const std::optional<double> frame_ns = k_frame_cost_ns(result_case);
+  return time_text(frame_ns ? frame_ns : k_gpu_cost_ns(result_case));
 }
 
 // By cost those that leave lights out come last: theirs is not the cost of the same picture.
-std::pair<bool, double> sort_key(const Json& result_case, RankBy by) {
+std::pair<bool, double> sort_key(const Case& result_case, RankBy by) {
   if (by == RankBy::frame_cost)
-    for (const char* pointer : {"/cost/frame_ns", "/cost/gpu_ns"})
-      if (const auto found = number_at(result_case, pointer)) return {!result_case["cost"].value("lit", true), *found};
-  for (const char* pointer : {"/timing/frame_ns/median", k_instructions, "/error/excess_ratio"})
-    if (const auto found = number_at(result_case, pointer)) return {false, *found};
+    for (const CaseFigure figure : {k_frame_cost_ns, k_gpu_cost_ns})
+      if (const auto found = figure(result_case)) return {!result_case.cost->lit, *found};
+  for (const CaseFigure figure : {k_frame_ns, k_instructions, k_excess})
+    if (const auto found = figure(result_case)) return {false, *found};
   return {false, 0.0};
-}
-
-bool has_failed(const Json& result_case) {
-  return !result_case["failures"].empty();
 }
 
 constexpr const char* k_frame_heading = "frame us";
@@ -111,47 +120,67 @@ constexpr const char* k_cost_heading = "cost us";
 
 struct Column {
   const char* heading;
-  std::string (*text)(const Json& result_case);
+  std::string (*text)(const Case& result_case);
   bool Extras::*needed = nullptr;  // left out where the table has none of it
   bool is_at_samples = false;      // the heading says of which
 };
 constexpr bool k_at_samples = true;
 
 constexpr Column k_columns[] = {
-    {k_frame_heading, [](const Json& result_case) { return time_text(result_case, "/timing/frame_ns/median"); },
-     &Extras::times},
+    {k_frame_heading, [](const Case& result_case) { return time_text(k_frame_ns(result_case)); }, &Extras::times},
     {"±", frame_interval_text, &Extras::times},
     {"worst us", worst_text, &Extras::times},
-    {"assign", [](const Json& result_case) { return time_text(result_case, "/timing/assign_ns/median"); },
+    {"assign",
+     [](const Case& result_case) {
+       return time_text(number<&Case::timing, &Timing::assign_ns, &Time::median>(result_case));
+     },
      &Extras::times},
-    {"convert", [](const Json& result_case) { return time_text(result_case, "/timing/convert_ns/median"); },
+    {"convert",
+     [](const Case& result_case) {
+       return time_text(number<&Case::timing, &Timing::convert_ns, &Time::median>(result_case));
+     },
      &Extras::conversions},
-    {"build", [](const Json& result_case) { return time_text(result_case, "/timing/build_ns/median"); },
+    {"build",
+     [](const Case& result_case) {
+       return time_text(number<&Case::timing, &Timing::build_ns, &Time::median>(result_case));
+     },
      &Extras::builds},
     {k_cost_heading, cost_text, &Extras::costs},
-    {"instr", [](const Json& result_case) { return short_count(result_case, k_instructions); }, &Extras::instructions},
+    {"instr", [](const Case& result_case) { return short_count(k_instructions(result_case)); }, &Extras::instructions},
     {"pairs", pairs_text},
-    {"ns/pair", [](const Json& result_case) { return text_at(result_case, "/timing/ns_per_pair", "%.2f"); },
+    {"ns/pair",
+     [](const Case& result_case) { return text_of(number<&Case::timing, &Timing::ns_per_pair>(result_case), "%.2f"); },
      &Extras::times},
-    {"excess", [](const Json& result_case) { return text_at(result_case, "/error/excess_ratio", "%.1f %%", 100.0); }},
-    {"missed", [](const Json& result_case) { return text_at(result_case, "/error/false_negatives", "%.0f"); }},
-    {"dropped", [](const Json& result_case) { return short_count(result_case, "/buffers/overflow/dropped_pairs"); },
+    {"excess", [](const Case& result_case) { return text_of(k_excess(result_case), "%.1f %%", 100.0); }},
+    {"missed",
+     [](const Case& result_case) {
+       return text_of(number<&Case::error, &ListError::false_negatives>(result_case), "%.0f");
+     }},
+    {"dropped",
+     [](const Case& result_case) {
+       return short_count(static_cast<double>(result_case.buffers.overflow.dropped_pairs));
+     },
      &Extras::dropped},
-    {"lost lx", [](const Json& result_case) { return lost_lux_text(result_case, "/lost_lux"); }, &Extras::dropped},
-    {"worst lx", [](const Json& result_case) { return lost_lux_text(result_case, "/darkest/lost_lux"); },
+    {"lost lx", [](const Case& result_case) { return lost_lux_text(result_case, number<&SampleSet::lost_lux>); },
      &Extras::dropped},
-    {"unlit", [](const Json& result_case) { return unlit_text(unlit_at_samples(result_case)); }, &Extras::samples,
+    {"worst lx",
+     [](const Case& result_case) {
+       return lost_lux_text(result_case, number<&SampleSet::darkest, &result::DarkestSample::lost_lux>);
+     },
+     &Extras::dropped},
+    {"unlit", [](const Case& result_case) { return unlit_text(unlit_at_samples(result_case)); }, &Extras::samples,
      k_at_samples},
     {"overshade", overshade_text, &Extras::samples, k_at_samples},
     {"read", read_bytes_text, &Extras::searched},
-    {"bytes", [](const Json& result_case) { return short_count(result_case, "/buffers/bytes/high_water"); }},
+    {"bytes",
+     [](const Case& result_case) { return short_count(static_cast<double>(result_case.buffers.bytes.high_water)); }},
 };
 
 bool is_shown(const Column& column, const Extras& extras) {
   return column.needed == nullptr || extras.*column.needed;
 }
 
-Cells headings(const Extras& extras, const Json& sampled) {
+Cells headings(const Extras& extras, const Case& sampled) {
   Cells cells{"", "assigner"};
   for (const Column& column : k_columns)
     if (is_shown(column, extras))
@@ -160,23 +189,22 @@ Cells headings(const Extras& extras, const Json& sampled) {
 }
 
 // The case of a block that has the most sets of samples: headings are of these.
-const Json& most_sampled(const std::vector<const Json*>& cases) {
-  return **std::ranges::max_element(cases, {}, [](const Json* one) { return ranking_set_names(*one).size(); });
+const Case& most_sampled(const std::vector<const Case*>& cases) {
+  return **std::ranges::max_element(cases, {}, [](const Case* one) { return ranking_set_names(*one).size(); });
 }
 
 // Cases that samples search stand together, and so name their grids, where they use them.
-std::string table_label(const Json& result_case, const Extras& extras) {
+std::string table_label(const Case& result_case, const Extras& extras) {
   std::string label = method_name(result_case);
   if (extras.storages) label += " / " + storage_name(result_case);
-  const assign::AssignerDescriptor* assigner =
-      assign::find_assigner(result_case["assigner"]["name"].get<std::string>());
+  const assign::AssignerDescriptor* assigner = assign::find_assigner(result_case.assigner.name);
   if (samples_search(result_case) && (assigner == nullptr || !assigner->own_without_grid))
-    label += ", " + shown(result_case["grid"]["name"]);
+    label += ", " + shown(result_case.grid.name);
   return label;
 }
 
 // At samples only of the sets in the heading: of fewer ones a figure is another.
-Line line_of(const Json& result_case, bool is_on_front, const Extras& extras, RankBy by,
+Line line_of(const Case& result_case, bool is_on_front, const Extras& extras, RankBy by,
              const std::vector<std::string>& sets) {
   const bool is_of_sets = ranking_set_names(result_case) == sets;
   Line line;
@@ -186,57 +214,52 @@ Line line_of(const Json& result_case, bool is_on_front, const Extras& extras, Ra
   for (const Column& column : k_columns)
     if (is_shown(column, extras))
       line.cells.push_back(column.is_at_samples && !is_of_sets ? "-" : column.text(result_case));
-  line.has_failed = has_failed(result_case);
+  line.has_failed = !result_case.failures.empty();
   line.sort_key = sort_key(result_case, by);
   return line;
 }
 
-std::set<std::string> ids_on_front(const Json& result) {
+std::set<std::string> ids_on_front(const result::Result& result) {
   std::set<std::string> ids;
-  for (const Json& front : result["pareto_front"])
-    for (const Json& id : front["ids"]) ids.insert(id.get<std::string>());
+  for (const result::Front& front : result.pareto_front) ids.insert(front.ids.begin(), front.ids.end());
   return ids;
 }
 
-Extras extras_of(const Json& cases) {
+Extras extras_of(const std::vector<Case>& cases) {
   Extras extras;
   std::set<std::string> storages;
-  for (const Json& result_case : cases) {
-    storages.insert(result_case["storage"].get<std::string>());
-    extras.times |= number_at(result_case, "/timing/frame_ns/median").has_value();
-    extras.conversions |= number_at(result_case, "/timing/convert_ns/median").has_value();
-    extras.builds |= number_at(result_case, "/timing/builds_per_frame").value_or(0.0) != 0.0;
-    extras.instructions |= result_case.contains("count");
-    extras.cold |= result_case.contains("timing") && result_case["timing"].value("caches", "") == "cold";
-    extras.launches |= result_case.contains("timing") && result_case["timing"].value("launches", 1) > 1;
+  for (const Case& result_case : cases) {
+    storages.insert(result_case.storage);
+    extras.times |= k_frame_ns(result_case).has_value();
+    extras.conversions |= number<&Case::timing, &Timing::convert_ns, &Time::median>(result_case).has_value();
+    extras.builds |= number<&Case::timing, &Timing::builds_per_frame>(result_case).value_or(0.0) != 0.0;
+    extras.instructions |= result_case.count.has_value();
+    extras.cold |= result_case.timing && result_case.timing->caches == "cold";
+    extras.launches |= result_case.timing && result_case.timing->launches > 1u;
     extras.samples |= !ranking_set_names(result_case).empty();
-    extras.costs |= result_case.contains("cost");
+    extras.costs |= result_case.cost.has_value();
     extras.searched |= samples_search(result_case) && !ranking_set_names(result_case).empty();
-    extras.dropped |= result_case["buffers"]["overflow"]["dropped_pairs"] != 0;
+    extras.dropped |= result_case.buffers.overflow.dropped_pairs != 0;
   }
   extras.storages = storages.size() > 1;
   return extras;
 }
 
 // What counted, on which instruction sets: "callgrind (AVX2)". "" where nothing did.
-std::string counters(const Json& cases) {
+std::string counters(const std::vector<Case>& cases) {
   std::set<std::string> names;
-  for (const Json& result_case : cases)
-    if (result_case.contains("count"))
-      names.insert(result_case["count"]["source"].get<std::string>() + " (" +
-                   result_case["count"]["simd_target"].get<std::string>() + ")");
+  for (const Case& result_case : cases)
+    if (result_case.count) names.insert(result_case.count->source + " (" + result_case.count->simd_target + ")");
   return joined(std::vector<std::string>(names.begin(), names.end()));
 }
 
-std::string scene_heading(const Json& scene) {
-  const Json& lights = scene["lights"];
-  return shown(scene["name"]) + "  (" + number_of(lights["point"].get<std::uint64_t>(), "point") + ", " +
-         number_of(lights["spot"].get<std::uint64_t>(), "spot") + ", " +
-         number_of(scene["frames"].get<std::uint64_t>(), "frame") + ")";
+std::string scene_heading(const result::Scene& scene) {
+  return shown(scene.name) + "  (" + number_of(scene.lights.point, "point") + ", " +
+         number_of(scene.lights.spot, "spot") + ", " + number_of(scene.frames, "frame") + ")";
 }
 
 // Rows that are not known to take longer than those above them. True if there are any.
-bool mark_alike(const Json& result, const Cells& heads, RankBy by, std::vector<Line>& lines) {
+bool mark_alike(const result::Result& result, const Cells& heads, RankBy by, std::vector<Line>& lines) {
   const char* const heading = by == RankBy::frame_cost ? k_cost_heading : k_frame_heading;
   const auto column = std::find(heads.begin(), heads.end(), heading) - heads.begin();
   if (column == static_cast<std::ptrdiff_t>(heads.size())) return false;
@@ -252,9 +275,9 @@ bool mark_alike(const Json& result, const Cells& heads, RankBy by, std::vector<L
 }
 
 // Of which samples the figures are.
-std::string sets_text(const Json& cases) {
+std::string sets_text(const std::vector<Case>& cases) {
   std::vector<std::string> lines;
-  for (const Json& result_case : cases) {
+  for (const Case& result_case : cases) {
     const std::vector<std::string> sets = ranking_set_names(result_case);
     if (sets.empty()) continue;
     const std::string heading = heading_of_sets(result_case);
@@ -267,7 +290,7 @@ std::string sets_text(const Json& cases) {
 }
 
 // Of the marks and columns that the table has.
-std::string legend(const Json& cases, const Extras& extras, RankBy by, bool has_front, bool is_complete) {
+std::string legend(const std::vector<Case>& cases, const Extras& extras, RankBy by, bool has_front, bool is_complete) {
   std::string out;
   if (has_front)
     out += std::string("* ") + (extras.samples ? "at most 0.1 % unlit, and " : "") +
@@ -313,16 +336,15 @@ std::string legend(const Json& cases, const Extras& extras, RankBy by, bool has_
 // The blocks of a scene: of each grid the cases with lists, then of each view those that samples search.
 struct TableBlock {
   std::string heading;
-  std::vector<const Json*> cases;
+  std::vector<const Case*> cases;
 };
-std::vector<TableBlock> table_blocks(const Json& cases, const Json& scene) {
+std::vector<TableBlock> table_blocks(const std::vector<Case>& cases, const result::Scene& scene) {
   std::vector<TableBlock> lists, searched;
-  for (const Json& result_case : cases) {
-    if (result_case["scene"] != scene["name"]) continue;
+  for (const Case& result_case : cases) {
+    if (result_case.scene != scene.name) continue;
     const bool is_searched = samples_search(result_case);
     std::string heading = block_of(result_case);
-    if (is_searched)
-      heading = "structures that samples search" + heading.substr(shown(result_case["grid"]["name"]).size());
+    if (is_searched) heading = "structures that samples search" + heading.substr(shown(result_case.grid.name).size());
     std::vector<TableBlock>& blocks = is_searched ? searched : lists;
     auto found = std::ranges::find(blocks, heading, &TableBlock::heading);
     if (found == blocks.end()) found = blocks.insert(blocks.end(), {heading, {}});
@@ -333,17 +355,16 @@ std::vector<TableBlock> table_blocks(const Json& cases, const Json& scene) {
 }
 
 // With the reason where all have one, and with what takes boxes where that is what most methods lack.
-std::string skipped_text(const Json& skipped) {
+std::string skipped_text(const std::vector<result::Skipped>& skipped) {
   if (skipped.empty()) return "";
   std::set<std::string> reasons;
   bool takes_no_boxes = false;
-  for (const Json& skipped_case : skipped) {
-    const auto reason = skipped_case["reason"].get<std::string>();
-    reasons.insert(reason);
-    takes_no_boxes = takes_no_boxes || reason.ends_with(" takes no boxes");
+  for (const result::Skipped& skipped_case : skipped) {
+    reasons.insert(skipped_case.reason);
+    takes_no_boxes = takes_no_boxes || skipped_case.reason.ends_with(" takes no boxes");
   }
   std::string out = number_of(skipped.size(), "combination") + " of grid, method and storage left out";
-  out += reasons.size() == 1 ? ": " + shown(Json(*reasons.begin())) + ".\n"
+  out += reasons.size() == 1 ? ": " + shown(*reasons.begin()) + ".\n"
                              : ", since they do not go together (`skipped` in the result).\n";
   if (!takes_no_boxes) return out;
   std::vector<std::string> names;
@@ -354,26 +375,25 @@ std::string skipped_text(const Json& skipped) {
 
 }  // namespace
 
-std::string render_table(const Json& result, bool colour) {
-  const Json& cases = result["cases"];
+std::string render_table(const result::Result& result, bool colour) {
+  const std::vector<Case>& cases = result.cases;
   const std::set<std::string> on_front = ids_on_front(result);
   const std::string counted_by = counters(cases);
   const Extras extras = extras_of(cases);
   const RankBy by = rank_by(result);
   bool is_complete = true, has_alike = false;
   std::string out;
-  for (const Json& scene : result["scenes"]) {
+  for (const result::Scene& scene : result.scenes) {
     const std::vector<TableBlock> blocks = table_blocks(cases, scene);
     if (blocks.empty()) continue;
     out += (colour ? k_bold : "") + scene_heading(scene) + (colour ? k_plain : "") + "\n";
     for (const TableBlock& block : blocks) {
-      const Json& sampled = most_sampled(block.cases);
+      const Case& sampled = most_sampled(block.cases);
       const std::vector<std::string> sets = ranking_set_names(sampled);
       const Cells heads = headings(extras, sampled);
       std::vector<Line> lines;
-      for (const Json* result_case : block.cases)
-        lines.push_back(
-            line_of(*result_case, on_front.contains((*result_case)["id"].get<std::string>()), extras, by, sets));
+      for (const Case* result_case : block.cases)
+        lines.push_back(line_of(*result_case, on_front.contains(result_case->id), extras, by, sets));
       std::stable_sort(lines.begin(), lines.end(),
                        [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
       has_alike |= mark_alike(result, heads, by, lines);
@@ -392,7 +412,7 @@ std::string render_table(const Json& result, bool colour) {
   out += legend(cases, extras, by, !on_front.empty(), is_complete);
   if (has_alike) out += "~: not measurably slower than the row above (`clusterbench ratio`).\n";
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
-  out += skipped_text(result["skipped"]);
+  out += skipped_text(result.skipped);
   return out + samples_table(result) + lookup_table(result) + stability_table(result) + fit_table(result) +
          reaction_table(result) + fallback_table(result) + precision_table(result) + pre_cull_table(result) +
          shadows_table(result) + preset_table(result) + notes_text(result) + warnings_text(result) +

@@ -1,8 +1,9 @@
 #pragma once
 // A result as a table for people.
 
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "result/result.h"
 
 namespace clusterbench::report {
 
@@ -10,6 +11,6 @@ namespace clusterbench::report {
 // the stability of lists and the precision of lights where they were measured, then warnings. At most 132 columns for
 // usual names. `colour`:
 // with terminal escapes.
-std::string render_table(const nlohmann::ordered_json& result, bool colour);
+std::string render_table(const result::Result& result, bool colour);
 
 }  // namespace clusterbench::report

@@ -1,31 +1,37 @@
 #include "report/timing_warnings.h"
 
+#include <cmath>
 #include <optional>
 
 #include "core/text.h"
 #include "measure/time_statistics.h"
 #include "report/columns.h"
 #include "report/contender.h"
-#include "report/json_values.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::Case;
+using result::Disturbed;
+using result::Interval;
+using result::number;
+using result::Time;
+using result::Timing;
 
 constexpr double k_wide = 0.1;           // half of an interval, of its time
 constexpr double k_others_cores = 0.1;   // busy with other programs
 constexpr double k_stolen_cores = 0.02;  // a guest sees little of its host's load
 
 // 0 where it was not measured.
-double timing_number(const Json& result_case, const std::string& name) {
-  return number_at(result_case, "/timing/" + name).value_or(0.0);
+double frame_ns(const Case& result_case) {
+  return number<&Case::timing, &Timing::frame_ns, &Time::median>(result_case).value_or(0.0);
 }
 
 // The cases that a doubt is about: how many, and the worst.
 class Doubt {
  public:
-  void add(const Json& result_case, double badness) {
+  void add(const Case& result_case, double badness) {
     ++count_;
     if (worst_ != nullptr && badness <= badness_) return;
     worst_ = &result_case;
@@ -33,33 +39,26 @@ class Doubt {
   }
   bool is_any() const { return count_ > 0; }
   double badness() const { return badness_; }
-  const Json& worst() const { return *worst_; }
-  std::string name() const { return shown((*worst_)["name"]); }
+  const Case& worst() const { return *worst_; }
+  std::string name() const { return shown(worst_->name); }
   std::string cases(std::size_t timed) const { return std::to_string(count_) + " of " + number_of(timed, "time"); }
 
  private:
   std::size_t count_ = 0;
-  const Json* worst_ = nullptr;
+  const Case* worst_ = nullptr;
   double badness_ = 0.0;
 };
 
-bool has_interval(const Json& result_case) {
-  return result_case["timing"]["frame_ns"]["ci95"][0].is_number() &&
-         result_case["timing"]["frame_ns"]["ci95"][1].is_number();
+bool is_known(const Interval& interval) {
+  return std::isfinite(interval[0]) && std::isfinite(interval[1]);
 }
 
-// Of a time above 0.
-double half_of_interval(const Json& result_case) {
-  return 0.5 * (timing_number(result_case, "frame_ns/ci95/1") - timing_number(result_case, "frame_ns/ci95/0")) /
-         timing_number(result_case, "frame_ns/median");
-}
-
-std::optional<measure::TwoModes> modes_of(const Json& result_case) {
+std::optional<measure::TwoModes> modes_of(const Case& result_case) {
   return measure::two_modes(frame_rounds(result_case));
 }
 
-std::string more_launches(const Json& result_case) {
-  return "--launches " + std::to_string(4 * result_case["timing"].value("launches", 1));
+std::string more_launches(const Case& result_case) {
+  return "--launches " + std::to_string(4 * result_case.timing->launches.value_or(1));
 }
 
 std::string unknown_warning(const Doubt& unknown, std::size_t timed) {
@@ -97,23 +96,26 @@ void add_machine_warnings(std::vector<std::string>& out, const Doubt& others, co
 
 }  // namespace
 
-std::vector<std::string> timing_doubts(const Json& cases, const std::string& without_times) {
+std::vector<std::string> timing_doubts(const std::vector<Case>& cases, const std::string& without_times) {
   Doubt unknown, wide, two, others, stolen, hot;
   std::size_t timed = 0;
-  for (const Json& result_case : cases) {
-    if (timing_number(result_case, "frame_ns/median") <= 0.0) continue;
+  for (const Case& result_case : cases) {
+    const double ns = frame_ns(result_case);
+    if (ns <= 0.0) continue;
     ++timed;
     const auto check = [&](Doubt& doubt, double badness, double most) {
       if (badness > most) doubt.add(result_case, badness);
     };
-    if (has_interval(result_case))
-      check(wide, half_of_interval(result_case), k_wide);
+    const Interval& ci95 = result_case.timing->frame_ns.ci95;
+    if (is_known(ci95))
+      check(wide, 0.5 * (ci95[1] - ci95[0]) / ns, k_wide);
     else
       unknown.add(result_case, 0.0);
     if (const auto modes = modes_of(result_case)) two.add(result_case, modes->high / modes->low);
-    check(others, timing_number(result_case, "disturbed/others_cores"), k_others_cores);
-    check(stolen, timing_number(result_case, "disturbed/stolen_cores"), k_stolen_cores);
-    check(hot, timing_number(result_case, "disturbed/throttled"), 0.0);
+    const Disturbed disturbed = result_case.timing->disturbed.value_or(Disturbed());
+    check(others, disturbed.others_cores, k_others_cores);
+    check(stolen, disturbed.stolen_cores, k_stolen_cores);
+    check(hot, static_cast<double>(disturbed.throttled), 0.0);
   }
   std::vector<std::string> out;
   if (unknown.is_any()) out.push_back(unknown_warning(unknown, timed));
@@ -123,7 +125,7 @@ std::vector<std::string> timing_doubts(const Json& cases, const std::string& wit
   return out;
 }
 
-std::string timing_warnings(const Json& cases) {
+std::string timing_warnings(const std::vector<Case>& cases) {
   std::string out;
   for (const std::string& doubt : timing_doubts(cases)) out += "warning: " + doubt + "\n";
   return out;

@@ -245,11 +245,11 @@ struct Case {
         "asks for it (shadow_cull, shadow_frusta)");
   FIELD(std::optional<Timing>, timing, "Wall times");
   FIELD(std::optional<Details>, details, "Chosen frames cell by cell");
+  FIELD(std::optional<Count>, count, "Instructions of what is timed, with --count");
   FIELD(std::optional<Cost>, cost,
         "What a frame costs with its shading, by the model and the constants of config.cost; where samples of a set "
         "with a weight are asked for",
         "", "one frame, mean over all frames");
-  FIELD(std::optional<Count>, count, "Instructions of what is timed, with --count");
   END_RECORD;
 };
 

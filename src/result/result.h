@@ -168,16 +168,16 @@ struct Preset {
               "publication was read. memory: neither. Absent in older results")
             .one_of({"ran", "read", "memory"})
             .late());
-  FIELD(std::optional<std::string>, mistakes,
-        "That the engine has as it is shipped, which config.as_shipped models; absent where none is modelled");
   FIELD(std::string, summary, "The scheme in a line");
   FIELD(std::string, source, "What was read");
   FIELD(std::string, approximated, "What is not as there; empty where nothing is known to differ");
   FIELD(std::string, unverified, "What stands on memory alone; empty where all was read");
-  FIELD(std::optional<std::uint64_t>, most_lights,
-        About("That it takes in a frame; absent where no such limit is known", "count", "one frame").at_least(1));
   FIELD(std::optional<std::string>, assigns_on,
         About("Where the engine makes its lists: those of a GPU are not uploaded").one_of({"cpu", "gpu"}));
+  FIELD(std::optional<std::uint64_t>, most_lights,
+        About("That it takes in a frame; absent where no such limit is known", "count", "one frame").at_least(1));
+  FIELD(std::optional<std::string>, mistakes,
+        "That the engine has as it is shipped, which config.as_shipped models; absent where none is modelled");
   END_RECORD;
 };
 
@@ -217,6 +217,7 @@ struct RankedPreset {
         "Lights that samples loop over, by config.cost; where the scene has no surfaces, each pixel shaded once at a "
         "random depth. Absent in older results",
         "ns", "one frame");
+  FIELD(double, lights_per_sample, "Lights given at a sample of these sets, mean", "count", "all samples");
   FIELD(std::optional<double>, unlit,
         "Share of the lights that its samples need and lack: of the sets that cost something the one that lacks most, "
         "else on visible surfaces if they are asked for, else in the whole view; null where no sample needs a light. "
@@ -226,7 +227,6 @@ struct RankedPreset {
         "Pairs that the lists lack, without those of lights beside the view; null where lists were not compared with "
         "the truth. Absent in older results",
         "pairs", "all frames");
-  FIELD(double, lights_per_sample, "Lights given at a sample of these sets, mean", "count", "all samples");
   FIELD(std::string, why, "What speaks for and against it here, as text");
   END_RECORD;
 };
@@ -238,16 +238,16 @@ struct PresetRanking {
   FIELD(Size2, viewport, "As the cases': width, height", "pixels", "the cases");
   FIELD(std::optional<std::uint64_t>, frames,
         About("Of each case; absent in older results", "count", "each case").at_least(1));
-  FIELD(std::optional<RankedLights>, lights_in_view, "As the cases'; absent in older results", "lights", "the frames");
   FIELD(Nullable<std::string>, best,
         "Id of the case with lists that costs the GPU least of those whose samples lack at most 0.1 % of the lights "
         "that they need; null where there is none");
   FIELD(std::optional<std::vector<std::string>>, alike,
         "Ids of best and of the cases that the model cannot tell from it; absent in older results");
-  FIELD(std::optional<std::string>, text,
-        "What to take, against what, by how much, and how sure that is, as text; absent in older results");
   FIELD(std::vector<RankedPreset>, cases,
         "Best first: by standing, then by gpu_ns, or by the share of lights that samples lack");
+  FIELD(std::optional<std::string>, text,
+        "What to take, against what, by how much, and how sure that is, as text; absent in older results");
+  FIELD(std::optional<RankedLights>, lights_in_view, "As the cases'; absent in older results", "lights", "the frames");
   END_RECORD;
 };
 
@@ -309,7 +309,6 @@ struct Result {
         "they are made");
   FIELD(std::optional<std::string>, command, "The command line. Absent where nothing is timed");
   FIELD(Tool, tool, "The program that measured");
-  FIELD(std::optional<Baseline>, baseline, "The other program of run --baseline-binary");
   FIELD(Machine, machine, "Where it was measured");
   FIELD(Json, config,
         About("The configuration with every default (`clusterbench schema config`)").shaped(k_config_shape));
@@ -320,21 +319,22 @@ struct Result {
         "time (beyond the interval of their ratio), bytes and overshade together, and better in one; where "
         "config.rank_by is frame_cost, in cost and bytes. What draws lights has no lists, so its bytes count as "
         "unknown. Only cases that are eligible, and none that samples search");
-  FIELD(std::optional<std::vector<std::string>>, failed,
-        "What the run failed for beside the failures of its cases, a line each: budgets (limits.fail_if), lights that "
-        "are missing, what a baseline has, a program beside it. conclusions then take nothing. Absent where it failed "
-        "for none of these");
+  FIELD(std::vector<Skipped>, skipped, "Combinations that cannot be");
   FIELD(std::optional<std::vector<Preset>>, presets,
         "What is known of the presets that cases are of, as `clusterbench list presets` tells it; absent without any");
   FIELD(std::optional<std::vector<PresetRanking>>, preset_rankings,
         "Per scene, camera and viewport the cases of presets beside each other; absent without any");
-  FIELD(std::vector<Skipped>, skipped, "Combinations that cannot be");
   FIELD(std::optional<std::vector<Conclusion>>, conclusions,
         "Per scene, camera and viewport what to take by this result, and how sure that is. Of the cases that lose "
         "nothing that their samples see, that which costs least: frame time and, where samples were asked for, upload, "
         "reading and shading by the model of config.cost. Of those that the times cannot tell apart, or the model "
         "(within 5 %), one whose samples lack nothing comes before others, then one on the front, then the one with "
         "the fewest bytes. Presets are ranked by themselves. Absent in older results");
+  FIELD(std::optional<std::vector<std::string>>, failed,
+        "What the run failed for beside the failures of its cases, a line each: budgets (limits.fail_if), lights that "
+        "are missing, what a baseline has, a program beside it. conclusions then take nothing. Absent where it failed "
+        "for none of these");
+  FIELD(std::optional<Baseline>, baseline, "The other program of run --baseline-binary");
   END_RECORD;
 };
 

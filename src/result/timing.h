@@ -81,9 +81,9 @@ struct ShadowCullTimes {
 struct BaselineLaunch {
   RECORD(BaselineLaunch);
   FIELD(std::vector<double>, base_ns,
-        About("Times of the other program", "ns", "the rounds of a launch").finite().items(1, 0));
+        About("Times of the other program", "ns", "the rounds of a launch").finite().items(1, 0).as_fraction());
   FIELD(std::vector<double>, new_ns,
-        About("Times of this program", "ns", "the rounds of a launch").finite().items(1, 0));
+        About("Times of this program", "ns", "the rounds of a launch").finite().items(1, 0).as_fraction());
   END_RECORD;
 };
 
@@ -200,7 +200,6 @@ struct Timing {
   FIELD(double, floor_ratio,
         "assign_ns by write_floor_ns, both with warm caches: how far the assignment is from only writing its result",
         "ratio", "the rounds");
-  FIELD(std::optional<BaselineTimes>, baseline, "Rounds beside another program (run --baseline-binary)");
   FIELD(
       std::optional<AgainstFirst>, against_first,
       "How much longer than the group's first assigner; absent of that one. A group: scene, camera, viewport and grid");
@@ -209,6 +208,7 @@ struct Timing {
               "", "the measuring of the group")
             .late());
   FIELD(std::optional<FitTimes>, fit, "Of slices that follow what frames need");
+  FIELD(std::optional<BaselineTimes>, baseline, "Rounds beside another program (run --baseline-binary)");
   END_RECORD;
 };
 

@@ -7,8 +7,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace clusterbench;
   return fuzz::answered([&] {
-    const nlohmann::ordered_json result = report::read_result(fuzz::written(data, size, ".json").string());
+    const result::Result result = report::read_result(fuzz::written(data, size, ".json").string());
     static_cast<void>(report::gate_failures(result));
-    static_cast<void>(report::fronts(result["scenes"], result["cases"], result));
+    static_cast<void>(report::fronts(result.scenes, result.cases, result));
   });
 }

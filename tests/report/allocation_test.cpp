@@ -7,8 +7,9 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "records.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
+#include "run/records/records.h"
 
 namespace clusterbench::report {
 namespace {
@@ -23,7 +24,7 @@ struct NeedOfCamera {
 
 Json case_of_camera(const NeedOfCamera& need, std::uint64_t theoretical_max, std::uint64_t element_bytes = 1,
                     std::uint64_t step = 1) {
-  Json out = case_to_json(testing::case_by_hand(need.camera, "aabb", 1.0));
+  Json out = result::to_json(run::record_of(testing::case_by_hand(need.camera, "aabb", 1.0)));
   out["camera"] = need.camera;
   out["name"] = "hall/" + need.camera + "/frustum 64px/aabb/packed";
   out["frames"] = need.elements.size();
@@ -40,14 +41,12 @@ Json case_of_camera(const NeedOfCamera& need, std::uint64_t theoretical_max, std
   return out;
 }
 
-Json result_of(const std::vector<Json>& cases) {
-  Json result = Json::object();
-  result["cases"] = cases;
-  return result;
+result::Result result_of(const std::vector<Json>& cases) {
+  return test::result_of({{"cases", cases}});
 }
 
 SizedBuffer sized(const std::vector<Json>& cases, const AllocationRules& rules = {}) {
-  const Json result = result_of(cases);
+  const result::Result result = result_of(cases);
   const std::vector<SizedStructure> structures = sized_structures(result, "", rules);
   EXPECT_EQ(structures.size(), 1u);
   EXPECT_EQ(structures[0].buffers.size(), 1u);
@@ -65,7 +64,7 @@ TEST(Allocation, serves_all_cameras_of_a_scene_and_names_the_frame_that_decides)
   EXPECT_EQ(buffer.high_water, 30u);
   EXPECT_EQ(buffer.worst_camera, "fly") << "the first of those that are equal";
   EXPECT_EQ(buffer.worst_frame, 3u);
-  EXPECT_EQ(buffer.worst_cell, Json({1, 2, 3}));
+  EXPECT_EQ(buffer.worst_cell, (result::CellIndex{{1, 2, 3}}));
   EXPECT_EQ(buffer.theoretical_max, 100u) << "the largest: grids may differ";
   ASSERT_EQ(buffer.paths.size(), 3u);
   EXPECT_EQ(buffer.paths[1].camera, "fly");
@@ -189,7 +188,7 @@ TEST(Allocation, cases_without_frames_have_no_spread) {
 TEST(Allocation, results_of_earlier_versions_have_entries_and_headers) {
   Json old = case_of_camera({"walk", {9}}, 100);
   old["buffers"].erase("each");
-  const Json result = result_of({old});
+  const result::Result result = result_of({old});
   const std::vector<SizedBuffer> buffers = sized_structures(result, "", {})[0].buffers;
   ASSERT_EQ(buffers.size(), 2u);
   EXPECT_EQ(buffers[0].name, "entries");
@@ -201,12 +200,13 @@ TEST(Allocation, results_of_earlier_versions_have_entries_and_headers) {
 }
 
 TEST(Allocation, cases_of_one_name_and_camera_are_structures_of_their_own) {
-  const Json one = case_of_camera({"walk", {9}}, 100), result = result_of({one, one});
+  const Json one = case_of_camera({"walk", {9}}, 100);
+  const result::Result result = result_of({one, one});
   EXPECT_EQ(sized_structures(result, "", {}).size(), 2u);
 }
 
 TEST(Allocation, the_filter_selects_cases_by_name) {
-  const Json result = result_of({case_of_camera({"walk", {9}}, 100), case_of_camera({"fly", {70}}, 100)});
+  const result::Result result = result_of({case_of_camera({"walk", {9}}, 100), case_of_camera({"fly", {70}}, 100)});
   EXPECT_EQ(sized_structures(result, "/walk/", {})[0].buffers[0].high_water, 9u);
   EXPECT_THROW(sized_structures(result, "no such", {}), Error);
   EXPECT_THROW(sized_structures(result, "(", {}), Error);

@@ -11,15 +11,16 @@
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::Case;
+using result::Result;
 using Lines = std::vector<std::string>;
 
-Json baseline_json(const run::Result& result = testing::result_by_hand()) {
-  return result_to_json(result, {});
+Result baseline_record(const run::Result& result = testing::result_by_hand()) {
+  return record_of(result, {});
 }
 
 // Of a level that has another file and other lights, with so many more in the longest list of `aabb`.
-Json changed_level(std::uint64_t longest) {
+Result changed_level(std::uint64_t longest) {
   run::Result result = testing::result_by_hand();
   result.scenes[0].sha256 = std::string(64, 'c');
   result.scenes[0].points = 12;
@@ -27,17 +28,18 @@ Json changed_level(std::uint64_t longest) {
   for (run::CaseResult& changed : result.cases) changed.id += " changed";
   result.planned_ids = {"slow changed", "fast changed"};
   result.cases[1].occupancy->lights_per_cell.max = static_cast<double>(longest);
-  return result_to_json(result, {});
+  return record_of(result, {});
 }
 
-LimitFindings against(const Json& base, const Json& result, const std::string& rule, const std::string& filter = "") {
+LimitFindings against(const Result& base, const Result& result, const std::string& rule,
+                      const std::string& filter = "") {
   const config::LimitRule rules[] = {config::limit_rule(rule, "", "--fail-if")};
   const BaselineCases cases(base, result, filter, "base.json");
   return limit_findings(result, rules, &cases);
 }
 
 TEST(BaselineLimits, fail_by_the_change_in_percent_and_say_both_numbers) {
-  const Json base = baseline_json(), next = changed_level(8);
+  const Result base = baseline_record(), next = changed_level(8);
   EXPECT_EQ(against(base, next, "longest > +5 %").broken,
             (Lines{"hall/walk/frustum 64px/aabb/packed: longest is 8 (frame 1, cell [1,1,1]), +14.3 % against 7 in "
                    "base.json, and fails with longest > +5 %"}));
@@ -48,42 +50,42 @@ TEST(BaselineLimits, fail_by_the_change_in_percent_and_say_both_numbers) {
 }
 
 TEST(BaselineLimits, of_a_changed_level_say_what_has_changed) {
-  const Lines warnings = against(baseline_json(), changed_level(7), "longest > +5 %").warnings;
+  const Lines warnings = against(baseline_record(), changed_level(7), "longest > +5 %").warnings;
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0],
             "changed since base.json (2 cases): the scene itself (sha256), its lights (9 points, 1 spot, now 12 "
             "points, 1 spot); hall/walk/frustum 64px/brute-force/packed, hall/walk/frustum "
             "64px/aabb/packed");
-  EXPECT_EQ(against(baseline_json(), baseline_json(), "longest > +5 %").warnings, Lines{});
+  EXPECT_EQ(against(baseline_record(), baseline_record(), "longest > +5 %").warnings, Lines{});
 }
 
 TEST(BaselineLimits, match_a_renamed_scene_where_each_result_has_one) {
-  Json next = changed_level(8);
-  next["scenes"][0]["name"] = "hall-v2";
-  for (Json& result_case : next["cases"]) result_case["scene"] = "hall-v2";
-  EXPECT_EQ(against(baseline_json(), next, "longest > +5 %").broken.size(), 1u);
+  Result next = changed_level(8);
+  next.scenes[0].name = "hall-v2";
+  for (Case& result_case : next.cases) result_case.scene = "hall-v2";
+  EXPECT_EQ(against(baseline_record(), next, "longest > +5 %").broken.size(), 1u);
 }
 
 TEST(BaselineLimits, from_nothing_are_exceeded_by_anything) {
   run::Result base = testing::result_by_hand();
   base.cases[1].occupancy->lights_per_cell.max = 0.0;
-  const Lines broken = against(baseline_json(base), baseline_json(), "aabb: longest > +5 %").broken;
+  const Lines broken = against(baseline_record(base), baseline_record(), "aabb: longest > +5 %").broken;
   ASSERT_EQ(broken.size(), 1u);
   EXPECT_NE(broken[0].find("longest is 7 (frame 1, cell [1,1,1]), was 0 in base.json"), std::string::npos) << broken[0];
 }
 
 TEST(BaselineLimits, that_match_nothing_fail_on_either_side) {
-  Json fewer = baseline_json();
-  fewer["cases"].erase(1);
-  EXPECT_EQ(against(fewer, baseline_json(), "longest > +5 %").broken,
+  Result fewer = baseline_record();
+  fewer.cases.pop_back();
+  EXPECT_EQ(against(fewer, baseline_record(), "longest > +5 %").broken,
             (Lines{"'longest > +5 %' could not be checked for 1 case that base.json does not have (of that camera, "
                    "viewport, grid, method and structure): hall/walk/frustum 64px/aabb/packed; measure the baseline "
                    "again, or name cases before a colon"}));
-  EXPECT_EQ(against(baseline_json(), fewer, "longest > +5 %").broken,
+  EXPECT_EQ(against(baseline_record(), fewer, "longest > +5 %").broken,
             (Lines{"'longest > +5 %' could not be checked for 1 case of base.json that this result does not have: "
                    "hall/walk/frustum 64px/aabb/packed; measure the baseline again, or name cases before a colon"}));
-  EXPECT_EQ(against(baseline_json(), fewer, "longest > +5 %", "brute").broken, Lines{}) << "--filter leaves it out";
-  EXPECT_EQ(against(baseline_json(), fewer, "brute: longest > +5 %").broken, Lines{});
+  EXPECT_EQ(against(baseline_record(), fewer, "longest > +5 %", "brute").broken, Lines{}) << "--filter leaves it out";
+  EXPECT_EQ(against(baseline_record(), fewer, "brute: longest > +5 %").broken, Lines{});
   const config::LimitRule rules[] = {config::limit_rule("longest > +5 %", "", "--fail-if")};
   EXPECT_EQ(limit_findings(fewer, rules).broken,
             (Lines{"'longest > +5 %' could not be checked: there is no baseline (--baseline FILE)"}));
@@ -94,31 +96,32 @@ TEST(BaselineLimits, of_instructions_hold_only_what_was_counted_alike) {
   for (run::Result* result : {&base, &next})
     for (run::CaseResult& counted : result->cases) testing::add_count(counted);
   next.cases[1].count->assign.instructions = 44000;  // of 40,000; 3,001 of conversion beside them
-  const Json before = baseline_json(base), now = baseline_json(next);
+  const Result before = baseline_record(base), now = baseline_record(next);
   EXPECT_EQ(against(before, now, "instructions > +9 %").broken.size(), 1u);
   EXPECT_EQ(against(before, now, "instructions > +9.5 %").broken, Lines{}) << "of both together it is 9.3 %";
   EXPECT_EQ(against(before, now, "assign_instructions > +9.5 %").broken.size(), 1u);
   EXPECT_EQ(against(before, now, "convert_instructions > +0.1 %").broken, Lines{});
   next.machine.cpu = "another processor";
-  const Lines broken = against(before, baseline_json(next), "instructions > +50 %").broken;
+  const Lines broken = against(before, baseline_record(next), "instructions > +50 %").broken;
   ASSERT_EQ(broken.size(), 1u);
   EXPECT_NE(broken[0].find("instructions do not compare, /machine/cpu is \"a processor\" and \"another processor\""),
             std::string::npos)
       << broken[0];
-  EXPECT_EQ(against(before, baseline_json(next), "longest > +5 %").broken, Lines{}) << "counts are the same everywhere";
-  EXPECT_EQ(against(baseline_json(), now, "instructions > +5 %").broken.size(), 1u) << "the base has none";
+  EXPECT_EQ(against(before, baseline_record(next), "longest > +5 %").broken, Lines{})
+      << "counts are the same everywhere";
+  EXPECT_EQ(against(baseline_record(), now, "instructions > +5 %").broken.size(), 1u) << "the base has none";
 }
 
 TEST(BaselineLimits, of_a_figure_that_the_baseline_is_too_old_for_fail_and_say_so) {
-  Json older = baseline_json();
-  for (Json& result_case : older["cases"]) result_case.erase("lights_lit");
-  EXPECT_EQ(against(older, baseline_json(), "lights_lit < -10 %").broken,
+  Result older = baseline_record();
+  for (Case& result_case : older.cases) result_case.lights_lit.reset();
+  EXPECT_EQ(against(older, baseline_record(), "lights_lit < -10 %").broken,
             (Lines{"'lights_lit < -10 %' could not be checked: no case has lights_lit here and in base.json (a result "
                    "of an older version tells none)"}));
 }
 
 TEST(LightGate, fails_where_the_lights_are_not_those_of_the_baseline) {
-  const Json base = baseline_json(), next = changed_level(7);
+  const Result base = baseline_record(), next = changed_level(7);
   const LightGate gate{.base = &base, .base_name = "base.json"};
   EXPECT_EQ(light_findings(next, gate).broken,
             (Lines{"hall: its lights are not those of base.json: 9 points, 1 spot then, 12 points, 1 spot now "
@@ -130,28 +133,27 @@ TEST(LightGate, fails_where_the_lights_are_not_those_of_the_baseline) {
 }
 
 TEST(LightGate, tells_moved_lights_by_their_digest_and_older_results_by_their_number) {
-  const Json next = baseline_json();
-  Json base = next;
+  const Result next = baseline_record();
+  Result base = next;
   const auto gate = [&] { return LightGate{.base = &base, .base_name = "base.json"}; };
-  base["scenes"][0]["light_digest"] = "another";
+  base.scenes[0].light_digest = "another";
   ASSERT_EQ(light_findings(next, gate()).broken.size(), 1u);
   EXPECT_NE(light_findings(next, gate()).broken[0].find("still 9 points, 1 spot, some of them moved or changed"),
             std::string::npos);
-  base["scenes"][0].erase("light_digest");
+  base.scenes[0].light_digest.reset();
   EXPECT_EQ(light_findings(next, gate()).broken, Lines{});
   EXPECT_EQ(light_findings(next, gate()).warnings.size(), 1u) << "not sure";
-  base["scenes"][0]["lights"]["point"] = 8;
+  base.scenes[0].lights.point = 8;
   EXPECT_EQ(light_findings(next, gate()).broken.size(), 1u);
 }
 
 TEST(LightGate, tells_a_camera_that_has_another_path) {
   const auto with_path = [](double to_s, const char* digest) {
-    Json json = baseline_json();
-    for (Json& result_case : json["cases"])
-      result_case["camera_path"] = {{"from_s", 0}, {"to_s", to_s}, {"digest", digest}};
-    return json;
+    Result out = baseline_record();
+    for (Case& result_case : out.cases) result_case.camera_path = {0.0, to_s, digest};
+    return out;
   };
-  const Json base = with_path(15.0, "a");
+  const Result base = with_path(15.0, "a");
   const LightGate gate{.base = &base, .base_name = "base.json"};
   EXPECT_EQ(light_findings(with_path(15.0, "a"), gate).warnings, Lines{});
   EXPECT_EQ(light_findings(with_path(7.5, "b"), gate).warnings,
@@ -162,13 +164,13 @@ TEST(LightGate, tells_a_camera_that_has_another_path) {
 }
 
 TEST(LightGate, fails_where_there_are_no_lights_or_none_is_ever_in_view) {
-  Json result = baseline_json();
+  Result result = baseline_record();
   EXPECT_EQ(light_findings(result, {}).broken, Lines{});
-  result["cases"][0]["lights_in_view"]["max"] = result["cases"][1]["lights_in_view"]["max"] = 0;
+  for (Case& result_case : result.cases) result_case.lights_in_view->max = 0;
   EXPECT_EQ(light_findings(result, {}).broken,
             (Lines{"hall, camera walk: none of 10 lights is ever in view, so budgets say nothing of it "
                    "(--allow-no-lights, limits.allow_no_lights, if that is meant)"}));
-  result["cases"][0]["lights"] = result["cases"][1]["lights"] = 0;
+  for (Case& result_case : result.cases) result_case.lights = 0;
   EXPECT_EQ(light_findings(result, {}).broken, (Lines{"hall: has no point or spot lights, so budgets say nothing of it "
                                                       "(--allow-no-lights, limits.allow_no_lights, if "
                                                       "that is meant)"}));
@@ -177,21 +179,21 @@ TEST(LightGate, fails_where_there_are_no_lights_or_none_is_ever_in_view) {
 }
 
 // Of the ten lights of the level so many shine, and so many of these in view.
-void set_lit(Json& result, int lit, int seen) {
-  result["scenes"][0]["lights"]["dark"] = 10 - lit;
-  for (Json& result_case : result["cases"]) {
-    result_case["lights_lit"] = lit;
-    result_case["lights_seen"] = seen;
+void set_lit(Result& result, std::uint64_t lit, std::uint64_t seen) {
+  result.scenes[0].lights.dark = 10 - lit;
+  for (Case& result_case : result.cases) {
+    result_case.lights_lit = lit;
+    result_case.lights_seen = seen;
   }
 }
 
 TEST(LightGate, fails_where_all_lights_are_dark) {
-  Json result = baseline_json();
+  Result result = baseline_record();
   set_lit(result, 7, 5);
   EXPECT_EQ(light_findings(result, {}).broken, Lines{});
   EXPECT_EQ(light_findings(result, {}).warnings, Lines{}) << "the scene's own warnings tell of some";
-  const Json base = baseline_json();
-  result["scenes"][0]["light_digest"] = "another";
+  const Result base = baseline_record();
+  result.scenes[0].light_digest = "another";
   const Lines fewer = light_findings(result, {.base = &base, .base_name = "base.json"}).broken;
   ASSERT_EQ(fewer.size(), 1u);
   EXPECT_NE(fewer[0].find("9 points, 1 spot then, 9 points, 1 spot, 3 of them dark now"), std::string::npos)
@@ -204,7 +206,7 @@ TEST(LightGate, fails_where_all_lights_are_dark) {
 }
 
 TEST(LightGate, fails_where_the_lights_in_view_are_dark_and_others_are_not) {
-  Json result = baseline_json();
+  Result result = baseline_record();
   set_lit(result, 4, 0);
   EXPECT_EQ(light_findings(result, {}).broken,
             (Lines{"hall, camera walk: none of 4 lit lights is ever in view (of 10 lights 6 are dark: intensity 0, "
@@ -216,72 +218,71 @@ TEST(LightGate, fails_where_the_lights_in_view_are_dark_and_others_are_not) {
 }
 
 TEST(LightGate, takes_lights_of_older_results_as_lit) {
-  Json result = baseline_json();
-  for (Json& result_case : result["cases"])
-    for (const char* key : {"lights_lit", "lights_seen"}) result_case.erase(key);
+  Result result = baseline_record();
+  for (Case& result_case : result.cases)
+    for (auto* count : {&result_case.lights_lit, &result_case.lights_seen}) count->reset();
   EXPECT_EQ(light_findings(result, {}).broken, Lines{});
   EXPECT_EQ(light_findings(result, {}).warnings, Lines{});
 }
 
-// The level of `json` as a second one, "attic", behind the first.
-Json with_attic(Json json) {
-  json["scenes"].push_back(json["scenes"][0]);
-  json["scenes"].back()["name"] = "attic";
-  for (std::size_t i = 0, count = json["cases"].size(); i < count; ++i) {
-    Json copy = json["cases"][i];
-    copy["scene"] = "attic";
-    copy["name"] = "attic" + copy["name"].get<std::string>().substr(4);
-    json["cases"].push_back(copy);
+// Its level as a second one, "attic", behind the first.
+Result with_attic(Result result) {
+  result.scenes.push_back(result.scenes[0]);
+  result.scenes.back().name = "attic";
+  for (std::size_t i = 0, count = result.cases.size(); i < count; ++i) {
+    Case copy = result.cases[i];
+    copy.scene = "attic";
+    copy.name = "attic" + copy.name.substr(4);
+    result.cases.push_back(copy);
   }
-  return json;
+  return result;
 }
 
 TEST(LightGate, fails_where_a_level_or_a_camera_of_the_baseline_is_missing) {
-  const Json base = with_attic(baseline_json()), both = base, hall = baseline_json();
+  const Result base = with_attic(baseline_record()), both = base, hall = baseline_record();
   const LightGate gate{.base = &base, .base_name = "base.json"};
   EXPECT_EQ(light_findings(both, gate).broken, Lines{});
   EXPECT_EQ(light_findings(hall, gate).broken,
             (Lines{"attic: was measured in base.json, and this result has no case of it, so budgets say nothing of it; "
                    "measure it or the baseline again, or leave it out (--filter)"}));
-  Json renamed = hall;
-  renamed["scenes"][0]["name"] = "hall-v2";
-  for (Json& result_case : renamed["cases"]) result_case["scene"] = "hall-v2";
+  Result renamed = hall;
+  renamed.scenes[0].name = "hall-v2";
+  for (Case& result_case : renamed.cases) result_case.scene = "hall-v2";
   EXPECT_EQ(light_findings(renamed, gate).broken.size(), 2u) << "of two levels, neither";
   const LightGate filtered{.base = &base, .base_name = "base.json", .filter = "^hall/"};
   EXPECT_EQ(light_findings(hall, filtered).broken, Lines{});
-  Json other_camera = both;
-  for (Json& result_case : other_camera["cases"])
-    if (result_case["scene"] == "attic") result_case["camera"] = "fly";
+  Result other_camera = both;
+  for (Case& result_case : other_camera.cases)
+    if (result_case.scene == "attic") result_case.camera = "fly";
   const Lines broken = light_findings(other_camera, gate).broken;
   ASSERT_EQ(broken.size(), 1u);
   EXPECT_TRUE(broken[0].starts_with("attic, camera walk: was measured in base.json")) << broken[0];
-  Json other_viewport = both;
-  for (Json& result_case : other_viewport["cases"]) result_case["viewport"] = {640, 360};
+  Result other_viewport = both;
+  for (Case& result_case : other_viewport.cases) result_case.viewport = {640, 360};
   EXPECT_EQ(light_findings(other_viewport, gate).broken.size(), 2u) << "nothing is compared";
   EXPECT_TRUE(light_findings(other_viewport, gate).broken[0].starts_with("hall, camera walk, 1920x1080: was measured"))
       << light_findings(other_viewport, gate).broken[0];
 }
 
 TEST(LightGate, fails_where_nothing_of_a_level_could_be_measured) {
-  Json result = with_attic(baseline_json());
+  Result result = with_attic(baseline_record());
   for (std::size_t i = 0; i < 2; ++i) {
-    result["skipped"].push_back(
-        {{"name", result["cases"].back()["name"]}, {"reason", "slices.count: must be at least 1"}});
-    result["cases"].erase(result["cases"].size() - 1);
+    result.skipped.push_back({result.cases.back().name, "slices.count: must be at least 1", {}});
+    result.cases.pop_back();
   }
   EXPECT_EQ(light_findings(result, {}).broken,
             (Lines{"attic/walk: none of its 2 combinations could be measured, so budgets say nothing of it: "
                    "slices.count: must be at least 1"}));
   EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).broken.size(), 1u) << "it has lights";
-  for (const char* kind : {"point", "spot"}) result["scenes"][1]["lights"][kind] = 0;
+  result.scenes[1].lights.point = result.scenes[1].lights.spot = 0;
   const Lines broken = light_findings(result, {}).broken;
   ASSERT_EQ(broken.size(), 1u);
   EXPECT_TRUE(broken[0].starts_with("attic/walk: has no point or spot lights, and none of its 2 combinations"))
       << broken[0];
   EXPECT_EQ(light_findings(result, {.allows_no_lights = true}).broken, Lines{});
-  Json one_left = with_attic(baseline_json());
-  one_left["skipped"].push_back({{"name", "attic/walk/frustum/brute-force/packed"}, {"reason", "too many pairs"}});
-  one_left["skipped"].push_back({{"name", "hall/samples visible"}, {"reason", "the scene has no triangles"}});
+  Result one_left = with_attic(baseline_record());
+  one_left.skipped.push_back({"attic/walk/frustum/brute-force/packed", "too many pairs", {}});
+  one_left.skipped.push_back({"hall/samples visible", "the scene has no triangles", {}});
   EXPECT_EQ(light_findings(one_left, {}).broken, Lines{});
 }
 

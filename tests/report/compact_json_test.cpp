@@ -21,7 +21,7 @@ std::vector<std::string> lines_of(const Json& value) {
 }
 
 TEST(CompactJson, is_the_same_value) {
-  const Json result = result_to_json(testing::judged(testing::result_by_hand()), {});
+  const Json result = result::to_json(record_of(testing::judged(testing::result_by_hand()), {}));
   EXPECT_EQ(Json::parse(compact_json(result)), result);
   EXPECT_EQ(compact_json(Json::object()), "{}\n");
   const Json odd{{"a \"b\"", nullptr}, {"none", Json::array()}, {"text", "line\nfeed, {brace}"}};
@@ -51,7 +51,7 @@ TEST(CompactJson, begins_each_of_several_objects_in_a_line_of_its_own) {
 }
 
 TEST(CompactJson, of_a_result_is_a_fraction_of_one_number_a_line) {
-  const Json result = result_to_json(testing::result_by_hand(), {});
+  const Json result = result::to_json(record_of(testing::result_by_hand(), {}));
   const std::string indented = result.dump(1), text = compact_json(result);
   EXPECT_LT(4 * std::count(text.begin(), text.end(), '\n'), std::count(indented.begin(), indented.end(), '\n'));
 }

@@ -6,6 +6,8 @@
 
 #include "config/documents.h"
 #include "config/schema_verdict.h"
+#include "records.h"
+#include "report/answer_conclusion.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"
 #include "report/table.h"
@@ -21,7 +23,7 @@ const Json k_usual_model = {{"ns_per_light", 0.02},      {"ns_per_read", 0.005},
                             {"weights", {{"opaque", 1}}}};
 
 Json valid_json(const run::Result& result) {
-  Json json = result_to_json(result, {});
+  Json json = result::to_json(record_of(result, {}));
   EXPECT_EQ(config::schema_violations(config::result_schema(), nlohmann::json::parse(json.dump())),
             std::vector<std::string>{});
   return json;
@@ -51,7 +53,8 @@ TEST(Conclusion, takes_the_fastest_and_says_against_what_by_how_much_and_how_sur
       has_words(conclusion,
                 "frustum 64px/brute-force/packed costs 2.71 times as much (95 % interval of the times: 2.71 to 2.71)"))
       << conclusion["text"];
-  EXPECT_EQ(conclusions_text(valid_json(result)), "conclusion: " + conclusion["text"].get<std::string>() + "\n");
+  EXPECT_EQ(conclusions_text(test::result_of(valid_json(result))),
+            "conclusion: " + conclusion["text"].get<std::string>() + "\n");
 }
 
 TEST(Conclusion, short_lists_pay_for_the_time_to_make_them) {
@@ -271,7 +274,8 @@ TEST(Conclusion, where_nothing_is_seen_no_case_has_a_star) {
     EXPECT_EQ(json["pareto_front"][0]["ids"], Json::array());
     EXPECT_TRUE(json["conclusions"][0]["take"].is_null());
     EXPECT_TRUE(has_words(json["conclusions"][0], std::string("nothing to take: ") + why)) << json["conclusions"][0];
-    EXPECT_EQ(render_table(json, false).find("\n  * "), std::string::npos) << render_table(json, false);
+    const std::string table = render_table(test::result_of(json), false);
+    EXPECT_EQ(table.find("\n  * "), std::string::npos) << table;
   }
 }
 
@@ -286,7 +290,9 @@ TEST(Conclusion, of_a_run_that_failed_nothing_is_taken_and_it_says_for_what) {
                               {"cases", Json::array()},
                               {"text", "take fast"}}};
   json["conclusions"][0]["by_prices"] = {1.1, 1.2};
-  conclude_failures(json, {"hall: too many", "hall: too few"});
+  result::Result failed = test::result_of(json);
+  conclude_failures(failed, {"hall: too many", "hall: too few"});
+  json = result::to_json(failed);
   EXPECT_EQ(json["failed"], Json({"hall: too many", "hall: too few"}));
   const Json& conclusion = json["conclusions"][0];
   for (const char* key : {"take", "against", "ratio", "ci95"}) EXPECT_TRUE(conclusion[key].is_null()) << key;
@@ -294,7 +300,7 @@ TEST(Conclusion, of_a_run_that_failed_nothing_is_taken_and_it_says_for_what) {
   EXPECT_EQ(conclusion["alike"], Json::array());
   const std::string why = "the run FAILED: hall: too many (and for 1 other reason)";
   EXPECT_EQ(conclusion["text"], "hall, camera walk, 1920x1080: nothing to take: " + why + ".");
-  EXPECT_EQ(failed_conclusion(json), "none, since " + why);
+  EXPECT_EQ(failed_conclusion(failed), "none, since " + why);
   EXPECT_TRUE(json["preset_rankings"][0]["best"].is_null());
   EXPECT_EQ(json["preset_rankings"][0]["text"], "nothing to take: " + why);
   EXPECT_EQ(config::schema_violations(config::result_schema(), nlohmann::json::parse(json.dump())),
@@ -327,7 +333,7 @@ TEST(Conclusion, what_is_not_conservative_is_not_taken_for_having_lost_nothing_h
   for (run::CaseResult& one : result.cases) one.conservative = one.exact = false;
   testing::lose_a_light(result.cases[0]);
   const run::Result judged = testing::judged(result);
-  const Json conclusion = only_conclusion(judged), json = result_to_json(judged, {});
+  const Json conclusion = only_conclusion(judged), json = result::to_json(record_of(judged, {}));
   EXPECT_TRUE(conclusion["take"].is_null());
   EXPECT_TRUE(has_words(conclusion, "each loses lights, or (1) lost none here and is not conservative"))
       << conclusion["text"];

@@ -7,6 +7,7 @@
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "report/result_json.h"
+#include "run/records/records.h"
 #include "run/walk.h"
 
 namespace clusterbench::report {
@@ -29,12 +30,12 @@ run::Result detailed(const std::string& details, int threads = 1, const std::str
 }
 
 std::string text(const run::Result& result) {
-  return case_to_json(result.cases.at(0))["details"].dump();
+  return result::to_json(run::record_of(result.cases.at(0)))["details"].dump();
 }
 
 TEST(DetailsJson, follows_the_schema) {
   run::Result result = detailed(R"({"frames": [0, 2, 9]})");
-  Json json = result_to_json(result, {});
+  Json json = result::to_json(record_of(result, {}));
   EXPECT_EQ(config::schema_violations(config::result_schema(), json), std::vector<std::string>{});
   const Json& details = json["cases"][0]["details"];
   EXPECT_EQ(details["frames"].size(), 2u);
@@ -42,12 +43,12 @@ TEST(DetailsJson, follows_the_schema) {
   EXPECT_EQ(details["frames"][1]["camera"]["eye"], (Json{0.0, 0.0, -2.0}));
   EXPECT_EQ(details["frames"][1]["camera"]["far_m"], 64.0);
   result.cases[0].details->frames[0].projection.far_m = std::numeric_limits<double>::infinity();
-  json = result_to_json(result, {});
+  json = result::to_json(record_of(result, {}));
   EXPECT_EQ(config::schema_violations(config::result_schema(), json), std::vector<std::string>{});
 }
 
 TEST(DetailsJson, a_result_without_details_does_not_speak_of_them) {
-  EXPECT_FALSE(case_to_json(detailed("null").cases.at(0)).contains("details"));
+  EXPECT_FALSE(run::record_of(detailed("null").cases.at(0)).details.has_value());
 }
 
 TEST(DetailsJson, never_has_more_than_max_bytes) {

@@ -8,6 +8,7 @@
 
 #include "config/documents.h"
 #include "config/schema_verdict.h"
+#include "records.h"
 #include "report/exports/metrics.h"
 #include "report/limits.h"
 #include "report/ratios.h"
@@ -46,7 +47,7 @@ run::Result costly(const std::string& rank_by = "frame_time") {
 }
 
 Json of(const run::Result& result) {
-  return result_to_json(result, {});
+  return result::to_json(record_of(result, {}));
 }
 
 TEST(FrameCosts, a_ray_stands_for_its_block_of_pixels_and_sets_without_a_weight_for_nothing) {
@@ -126,7 +127,7 @@ TEST(FrameCosts, reading_is_charged_and_what_samples_search_is_on_no_front) {
     result.config["rank_by"] = by;
     const Json ranked = of(result);
     EXPECT_EQ(ranked["pareto_front"][0]["ids"].dump().find("walked"), std::string::npos) << by;
-    const std::string table = render_table(ranked, false);
+    const std::string table = render_table(test::result_of(ranked), false);
     EXPECT_NE(table.find(" structures that samples search, camera walk, 1920x1080"), std::string::npos) << table;
     EXPECT_GT(table.find("bvh / no lists"), table.find(" structures that samples search,")) << table;
   }
@@ -145,8 +146,8 @@ TEST(FrameCosts, samples_that_need_few_lights_say_no_overshade_anywhere) {
     run::Result result = costly();
     for (run::CaseResult& one : result.cases) one.samples[0].counts.needed = needed;
     const Json json = of(result);
-    EXPECT_EQ(limit_figure(json["cases"][1], "overshade").has_value(), needed >= 100u);
-    EXPECT_EQ(limit_figure(json["cases"][1], "opaque.overshade").has_value(), needed >= 100u);
+    EXPECT_EQ(limit_figure(test::case_of(json["cases"][1]), "overshade").has_value(), needed >= 100u);
+    EXPECT_EQ(limit_figure(test::case_of(json["cases"][1]), "opaque.overshade").has_value(), needed >= 100u);
     EXPECT_EQ(json["cases"][1]["cost"]["overshade"].is_null(), needed < 100u);
   }
 }
@@ -177,15 +178,16 @@ TEST(FrameCosts, rank_rows_and_decide_the_front_where_the_configuration_says_so)
   EXPECT_EQ(ids(by_time), Json({"slow", "fast"})) << "by time, bytes and overshade, which slow has less of";
   EXPECT_EQ(ids(by_cost), Json({"slow"})) << "three lights instead of four";
   const auto is_first = [](const Json& result, const char* method) {
-    const std::string table = render_table(result, false);
+    const std::string table = render_table(test::result_of(result), false);
     return table.find(method) < table.find(method == std::string("aabb ") ? "brute-force " : "aabb ");
   };
   EXPECT_TRUE(is_first(by_time, "aabb "));
   EXPECT_TRUE(is_first(by_cost, "brute-force "));
-  EXPECT_NE(render_table(by_cost, false).find("cost us"), std::string::npos);
-  EXPECT_EQ(render_table(of(result_by_hand()), false).find("cost us"), std::string::npos);
-  EXPECT_TRUE(takes_longer(by_cost, by_cost["cases"][1], by_cost["cases"][0], RankBy::frame_cost));
-  EXPECT_TRUE(takes_longer(by_cost, by_cost["cases"][0], by_cost["cases"][1]));
+  EXPECT_NE(render_table(test::result_of(by_cost), false).find("cost us"), std::string::npos);
+  EXPECT_EQ(render_table(record_of(result_by_hand(), {}), false).find("cost us"), std::string::npos);
+  const result::Result result = test::result_of(by_cost);
+  EXPECT_TRUE(takes_longer(result, result.cases[1], result.cases[0], RankBy::frame_cost));
+  EXPECT_TRUE(takes_longer(result, result.cases[0], result.cases[1]));
 }
 
 TEST(FrameCosts, without_times_rank_by_what_the_gpu_does) {
@@ -194,7 +196,8 @@ TEST(FrameCosts, without_times_rank_by_what_the_gpu_does) {
   const Json json = of(result);
   EXPECT_TRUE(json["cases"][0]["cost"]["frame_ns"].is_null());
   EXPECT_EQ(json["pareto_front"][0]["ids"], Json({"slow"}));
-  EXPECT_LT(render_table(json, false).find("brute-force "), render_table(json, false).find("aabb "));
+  const std::string table = render_table(test::result_of(json), false);
+  EXPECT_LT(table.find("brute-force "), table.find("aabb "));
 }
 
 // Lists that are not there are not the smallest ones.
@@ -226,7 +229,7 @@ TEST(FrameCosts, a_case_that_lacks_lights_at_samples_with_a_weight_is_on_no_fron
   const Json json = of(result);
   EXPECT_EQ(json["cases"][0]["cost"]["lit"], false);
   EXPECT_EQ(json["pareto_front"][0]["ids"], Json({"fast"}));
-  const std::string table = render_table(json, false);
+  const std::string table = render_table(test::result_of(json), false);
   EXPECT_LT(table.find("aabb "), table.find("brute-force ")) << "which would be cheaper";
   EXPECT_NE(table.find("lacks up to 0.2 % of the lights that opaque samples need"), std::string::npos) << table;
 }
@@ -251,18 +254,18 @@ TEST(FrameCosts, table_and_budgets_have_overshade_and_unlit_of_the_samples_that_
   for (run::CaseResult& one : result.cases) one.samples[0].counts.missed = 1;
   result.cases[0].shading->missed = 1;  // of 200 at points in the view
   const Json json = of(result);
-  const std::string table = render_table(json, false);
+  const std::string table = render_table(test::result_of(json), false);
   EXPECT_NE(table.find("unlit (opaque)  overshade (opaque)"), std::string::npos) << table;
   EXPECT_NE(table.find("opaque: visible surfaces.\n"), std::string::npos) << table;
   EXPECT_EQ(table.find("0.50 %"), std::string::npos) << "of another set, unnamed\n" << table;
   EXPECT_NE(table.find("0.10 %              259.20"), std::string::npos) << table;
-  const Json& one = json["cases"][1];
+  const result::Case one = test::case_of(json["cases"][1]);
   EXPECT_NEAR(*limit_figure(one, "overshade"), 259.2, 1e-9);
   EXPECT_NEAR(*limit_figure(one, "opaque.overshade"), 259.2, 1e-9);
   EXPECT_EQ(limit_figure(one, "volume.overshade"), 1.5);
   EXPECT_EQ(limit_figure(one, "unlit"), 0.001);
   EXPECT_EQ(limit_figure(one, "volume.unlit"), 0.0);
-  EXPECT_EQ(limit_figure(json["cases"][0], "volume.unlit"), 0.005);
+  EXPECT_EQ(limit_figure(test::case_of(json["cases"][0]), "volume.unlit"), 0.005);
   EXPECT_EQ(limit_figure(one, "fog.unlit"), std::nullopt);
 }
 
@@ -273,19 +276,20 @@ TEST(FrameCosts, of_several_sets_overshade_is_weighted_and_unlit_that_of_the_one
     one.samples.push_back({measure::SampleSet::fog, fog, {}});
   }
   const Json json = of(result);
-  const std::string table = render_table(json, false);
+  const std::string table = render_table(test::result_of(json), false);
   EXPECT_NE(table.find("unlit (weighted)  overshade (weighted)"), std::string::npos) << table;
   EXPECT_NE(table.find("weighted: fog froxels, visible surfaces, by the weights of the key `cost`; unlit: of the set "
                        "that lacks most.\n"),
             std::string::npos)
       << table;
-  EXPECT_EQ(limit_figure(json["cases"][0], "unlit"), 0.001);
-  EXPECT_EQ(limit_figure_location(json["cases"][0], "unlit"), "fog froxels");
-  EXPECT_EQ(limit_figure(json["cases"][0], "overshade"), json["cases"][0]["cost"]["overshade"].get<double>());
+  const result::Case one = test::case_of(json["cases"][0]);
+  EXPECT_EQ(limit_figure(one, "unlit"), 0.001);
+  EXPECT_EQ(limit_figure_location(one, "unlit"), "fog froxels");
+  EXPECT_EQ(limit_figure(one, "overshade"), one.cost->overshade);
 }
 
 TEST(FrameCosts, without_sets_of_samples_the_legend_says_that_they_are_random_points_in_the_view) {
-  const std::string table = render_table(of(result_by_hand()), false);
+  const std::string table = render_table(record_of(result_by_hand(), {}), false);
   EXPECT_NE(table.find("unlit  overshade  bytes"), std::string::npos) << table;
   EXPECT_NE(table.find("samples: random points in the view.\n"), std::string::npos) << table;
 }

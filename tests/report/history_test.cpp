@@ -30,7 +30,7 @@ class History : public ::testing::Test {
     run::Result result = testing::result_by_hand();
     result.machine.cpu = cpu;
     result.cases[1] = testing::case_by_hand("fast", "aabb", assign_ns);
-    add_to_history(file_, result_to_json(result, {}), commit);
+    add_to_history(file_, record_of(result, {}), commit);
   }
   // Commits a1, a2, ..., whose times differ by 0.2 % at most.
   void add_many(const std::string& commits, int count, double assign_ns, const std::string& cpu = "a processor") {
@@ -77,8 +77,8 @@ run::Result hall_with(int points, std::uint64_t bytes) {
 }
 
 TEST_F(History, fewer_lights_are_told_first_and_are_not_better) {
-  add_to_history(file_, result_to_json(hall_with(9, 232), {}), "a");
-  const Addition addition = add_to_history(file_, result_to_json(hall_with(0, 16), {}), "b");
+  add_to_history(file_, record_of(hall_with(9, 232), {}), "a");
+  const Addition addition = add_to_history(file_, record_of(hall_with(0, 16), {}), "b");
   EXPECT_EQ(addition.light_changes,
             std::vector<std::string>{"the lights of hall have changed: 9 points, 1 spot, now 1 spot"});
   const std::vector<HistoryEntry> history = read_history(file_);
@@ -92,9 +92,8 @@ TEST_F(History, fewer_lights_are_told_first_and_are_not_better) {
 }
 
 TEST_F(History, of_the_same_lights_fewer_bytes_are_better) {
-  add_to_history(file_, result_to_json(hall_with(9, 232), {}), "a");
-  EXPECT_EQ(add_to_history(file_, result_to_json(hall_with(9, 200), {}), "b").light_changes,
-            std::vector<std::string>{});
+  add_to_history(file_, record_of(hall_with(9, 232), {}), "a");
+  EXPECT_EQ(add_to_history(file_, record_of(hall_with(9, 200), {}), "b").light_changes, std::vector<std::string>{});
   const std::vector<HistoryEntry> history = read_history(file_);
   EXPECT_EQ(light_changes_in(history), std::vector<std::string>{});
   EXPECT_NE(history_text(series_of(history, {}), 2, false).find("232 to 200, -13.8 %, better"), std::string::npos);
@@ -105,7 +104,7 @@ TEST_F(History, figures_of_another_camera_path_are_neither_better_nor_worse) {
   const auto walk = [](double to_s, const char* digest, std::uint64_t bytes) {
     run::Result result = hall_with(9, bytes);
     for (run::CaseResult& walked : result.cases) walked.camera_path = {0.0, to_s, digest};
-    return result_to_json(result, {});
+    return record_of(result, {});
   };
   add_to_history(file_, walk(15.0, "a", 232), "a");
   const Addition addition = add_to_history(file_, walk(7.5, "b", 200), "b");
@@ -123,24 +122,24 @@ TEST_F(History, figures_of_another_camera_path_are_neither_better_nor_worse) {
 }
 
 TEST_F(History, a_job_that_runs_again_is_held_against_the_commit_before) {
-  add_to_history(file_, result_to_json(hall_with(9, 232), {}), "a");
-  const Json gone = result_to_json(hall_with(0, 16), {});
+  add_to_history(file_, record_of(hall_with(9, 232), {}), "a");
+  const result::Result gone = record_of(hall_with(0, 16), {});
   add_to_history(file_, gone, "b");
   EXPECT_EQ(add_to_history(file_, gone, "b").light_changes.size(), 1u);
   EXPECT_EQ(add_to_history(file_, gone, "c").light_changes.size(), 0u);
 }
 
 // The hall by another name, with the cases that go with it.
-Json level(const std::string& name) {
-  Json json = result_to_json(hall_with(9, 232), {});
-  json["scenes"][0]["name"] = name;
-  for (Json& result_case : json["cases"]) result_case["scene"] = name;
-  return json;
+result::Result level(const std::string& name) {
+  result::Result result = record_of(hall_with(9, 232), {});
+  result.scenes[0].name = name;
+  for (result::Case& result_case : result.cases) result_case.scene = name;
+  return result;
 }
 
 TEST_F(History, a_level_that_is_missing_is_told_once_and_by_its_name) {
-  Json both = level("hall");
-  both["scenes"].push_back(level("attic")["scenes"][0]);
+  result::Result both = level("hall");
+  both.scenes.push_back(level("attic").scenes[0]);
   add_to_history(file_, both, "a");
   const Addition gone = add_to_history(file_, level("hall"), "b");
   EXPECT_EQ(gone.light_changes, std::vector<std::string>{"attic is missing, which a has (9 points, 1 spot)"});
@@ -168,8 +167,7 @@ TEST_F(History, lines_of_older_versions_leave_the_lights_open) {
     "simd_target": "scalar", "cases": [{"id": "fast", "name": "hall/walk/frustum 64px/aabb/packed",
     "settings": "settings of aabb", "figures": {"list_bytes": 300}}]})");
   write(older.dump() + "\n");
-  EXPECT_EQ(add_to_history(file_, result_to_json(hall_with(9, 232), {}), "b").light_changes,
-            std::vector<std::string>{});
+  EXPECT_EQ(add_to_history(file_, record_of(hall_with(9, 232), {}), "b").light_changes, std::vector<std::string>{});
   const std::string text = history_text(series_of(read_history(file_), {}), 2, false);
   EXPECT_NE(text.find("300 to 232, -22.7 %, perhaps of other lights, which older lines do not tell"), std::string::npos)
       << text;
@@ -200,7 +198,7 @@ TEST_F(History, other_settings_begin_a_series_of_their_own_and_are_told) {
     result.cases[1].settings = "others";
     result.planned_ids[1] = result.cases[1].id;
     result.cases[1].buffers.bytes.high_water = 500;
-    add_to_history(file_, result_to_json(result, {}), commit);
+    add_to_history(file_, record_of(result, {}), commit);
   }
   const std::vector<Series> all = series_of(read_history(file_), {});
   EXPECT_EQ(bytes_of_fast(all).values.size(), 7u);
@@ -222,7 +220,7 @@ TEST_F(History, a_level_that_changes_goes_on_in_the_same_series) {
     result.cases[1] = testing::case_by_hand("fast of another level", "aabb", 3000.0);
     result.planned_ids[1] = result.cases[1].id;
     result.cases[1].buffers.bytes.high_water = 500;
-    add_to_history(file_, result_to_json(result, {}), commit);
+    add_to_history(file_, record_of(result, {}), commit);
   }
   const std::string said = history_text(series_of(read_history(file_), {}), 9, false);
   EXPECT_NE(said.find("at b1: 232 to 500"), std::string::npos) << said;
@@ -268,7 +266,7 @@ TEST_F(History, times_with_cold_caches_do_not_go_on_a_series_of_warm_ones) {
     result.machine.cpu = "a processor";
     result.cases[1] = testing::case_by_hand("fast", "aabb", 6000.0 + i);
     result.cases[1].timing->is_cold = true;
-    add_to_history(file_, result_to_json(result, {}), "b" + std::to_string(i));
+    add_to_history(file_, record_of(result, {}), "b" + std::to_string(i));
   }
   const std::vector<Series> all = series_of(read_history(file_), {});
   EXPECT_EQ(times_of_fast(all).values.size(), 7u);
@@ -277,9 +275,9 @@ TEST_F(History, times_with_cold_caches_do_not_go_on_a_series_of_warm_ones) {
 
 TEST_F(History, counts_change_at_their_first_other_value) {
   run::Result result = testing::result_by_hand();
-  add_to_history(file_, result_to_json(result, {}), "c1");
+  add_to_history(file_, record_of(result, {}), "c1");
   result.cases[1].buffers.bytes.high_water += 100;
-  add_to_history(file_, result_to_json(result, {}), "c2");
+  add_to_history(file_, record_of(result, {}), "c2");
   const std::string said = history_text(series_of(read_history(file_), {}), 2, false);
   EXPECT_NE(said.find("list_bytes (bytes)\n"), std::string::npos) << said;
   EXPECT_NE(said.find("at c2: 232 to 332, +43.1 %, worse\n"), std::string::npos) << said;
@@ -293,7 +291,7 @@ TEST_F(History, instructions_change_beyond_what_counting_leaves_open) {
     result.cases[1].count->source = source;
     for (const double value : {40000.0, instructions}) {
       result.cases[1].count->assign.instructions = static_cast<std::uint64_t>(value);
-      add_to_history(file_, result_to_json(result, {}), "c");
+      add_to_history(file_, record_of(result, {}), "c");
     }
     std::size_t found = 0;
     for (const Series& series : series_of(read_history(file_), {.min_change = 0.0})) found += series.changes.size();
@@ -328,7 +326,7 @@ TEST_F(History, the_same_commit_again_stands_beside_itself_and_the_same_result_o
   const auto again = [&](double assign_ns) {
     run::Result result = testing::result_by_hand();
     result.cases[1] = testing::case_by_hand("fast", "aabb", assign_ns);
-    return add_to_history(file_, result_to_json(result, {}), "c2");
+    return add_to_history(file_, record_of(result, {}), "c2");
   };
   const std::string before = text();
   EXPECT_FALSE(again(3000.0).is_added);
@@ -364,7 +362,7 @@ TEST_F(History, a_link_stays_and_its_target_gets_the_line) {
 TEST_F(History, what_is_no_regular_file_is_refused_and_stays) {
   ASSERT_EQ(mkfifo(file_.c_str(), 0600), 0);
   for (const std::string& path : {file_, std::string("/dev/null"), std::string("/dev/stdout")}) {
-    EXPECT_THROW(add_to_history(path, result_to_json(testing::result_by_hand(), {}), "c1"), Error) << path;
+    EXPECT_THROW(add_to_history(path, record_of(testing::result_by_hand(), {}), "c1"), Error) << path;
     EXPECT_THROW(read_history(path), Error) << path;
   }
   EXPECT_TRUE(fs::is_fifo(file_));

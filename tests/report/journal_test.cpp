@@ -8,8 +8,9 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "report/compact_json.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
+#include "run/records/records.h"
 
 namespace clusterbench::report {
 namespace {
@@ -19,15 +20,29 @@ using Json = nlohmann::ordered_json;
 
 const Json k_header{{"config", "a"}};
 
-Json case_named(const std::string& id) {
-  Json entry = case_to_json(testing::result_by_hand().cases[0]);
-  entry["id"] = id;
-  return entry;
+result::Case case_named(const std::string& id) {
+  result::Case finished = run::record_of(testing::result_by_hand().cases[0]);
+  finished.id = id;
+  return finished;
+}
+
+result::Result result_named(const std::string& name) {
+  result::Result result;
+  result.name = name;
+  return result;
+}
+
+std::string written(const result::Result& result) {
+  return compact_json(result::to_json(result));
 }
 
 // As a run writes it.
 std::string line_of(const Json& finished) {
   return Json{{"case", finished}, {"sha256", sha256_hex(finished.dump())}}.dump();
+}
+
+std::string line_of(const result::Case& finished) {
+  return line_of(result::to_json(finished));
 }
 
 std::string text_of(const fs::path& path) {
@@ -68,12 +83,12 @@ TEST_F(JournalTest, a_link_stays_and_its_target_gets_the_result) {
   {
     Journal journal(link, k_header, false, 100);
     EXPECT_EQ(journal.partial_path(), target.string() + ".partial") << "where the next run looks for it, link or not";
-    journal.finish(Json{{"is", "new"}});
+    journal.finish(result_named("new"));
   }
   EXPECT_TRUE(fs::is_symlink(file_));
   EXPECT_TRUE(fs::is_symlink(link));
   EXPECT_FALSE(fs::is_symlink(target));
-  EXPECT_EQ(Json::parse(text_of(target)), (Json{{"is", "new"}}));
+  EXPECT_EQ(text_of(target), written(result_named("new")));
 }
 
 TEST_F(JournalTest, a_circle_of_links_is_an_error) {
@@ -105,7 +120,7 @@ TEST_F(JournalTest, another_broken_line_is_an_error_that_names_it) {
   EXPECT_EQ(refusal_with(line_of(case_named("second"))), "");
   EXPECT_NE(refusal_with(R"({"case": {"id": "seco)").find("line 3: is not what a run writes"), std::string::npos);
   EXPECT_NE(refusal_with("7").find("line 3: is not what a run writes"), std::string::npos);
-  EXPECT_NE(refusal_with(line_of({{"id", 7}})).find("does not hold the cases of a run: /1"), std::string::npos);
+  EXPECT_NE(refusal_with(line_of(Json{{"id", 7}})).find("does not hold the cases of a run: /1"), std::string::npos);
 }
 
 TEST_F(JournalTest, a_new_start_sets_finished_cases_aside_under_a_name_that_is_free) {
@@ -204,8 +219,8 @@ TEST_F(JournalTest, a_second_run_to_the_same_file_is_refused_while_the_first_goe
       EXPECT_NE(std::string(error.what()).find("another run is writing here"), std::string::npos) << error.what();
     }
   }
-  first.finish(Json{{"cases", 1}});
-  EXPECT_EQ(text_of(file_), "{\"cases\": 1}\n");
+  first.finish(result_named("whole"));
+  EXPECT_EQ(text_of(file_), written(result_named("whole")));
   const Journal later(file_, k_header, false, 100);
   EXPECT_EQ(later.set_aside(), "");
 }
@@ -228,9 +243,8 @@ TEST_F(JournalTest, finishing_replaces_the_file_and_removes_the_journal) {
   std::ofstream(file_) << "old";
   Journal journal(file_, k_header, false, 100);
   journal.add_case(case_named("first"));
-  journal.finish(Json{{"cases", 1}});
-  std::ifstream in(file_);
-  EXPECT_EQ(Json::parse(in), (Json{{"cases", 1}}));
+  journal.finish(result_named("whole"));
+  EXPECT_EQ(text_of(file_), written(result_named("whole")));
   EXPECT_FALSE(fs::exists(journal.partial_path()));
 }
 

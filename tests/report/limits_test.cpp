@@ -8,6 +8,7 @@
 
 #include "config/documents.h"
 #include "places.h"
+#include "records.h"
 #include "report/baseline_cases.h"
 #include "report/exports/metrics.h"
 
@@ -31,9 +32,14 @@ Json case_with_budget_figures() {
     "shading": {"samples": 500, "missed": 1, "needed": 1000, "lost_irradiance": 0.25, "overshade": 1.5, "worst_frame": {"frame": 3}}})");
 }
 
-LimitFindings findings_of(const std::string& rule, Json entry = case_with_budget_figures()) {
+// Of a result with these cases.
+LimitFindings findings_in(const Json& cases, const std::string& rule) {
   const config::LimitRule rules[] = {config::limit_rule(rule, "", "--fail-if")};
-  return limit_findings(Json{{"cases", Json::array({std::move(entry)})}}, rules);
+  return limit_findings(test::result_of(Json{{"cases", cases}}), rules);
+}
+
+LimitFindings findings_of(const std::string& rule, const Json& entry = case_with_budget_figures()) {
+  return findings_in(Json::array({entry}), rule);
 }
 
 std::string broken_by(const std::string& rule) {
@@ -73,13 +79,11 @@ TEST(Limits, what_breaks_one_is_told_with_case_frame_and_cell) {
 
 TEST(Limits, times_are_in_microseconds_what_they_are_in_nanoseconds) {
   for (int ns = 1; ns < 5000; ns += 7) {
-    Json result{{"cases", {{{"name", "a"}, {"timing", {{"frame_ns", {{"median", ns}}}}}}}}};
+    const Json entry{{"name", "a"}, {"timing", {{"frame_ns", {{"median", ns}}}}}};
     char budget[48];
     std::snprintf(budget, sizeof budget, "%d.%03d", ns / 1000, ns % 1000);
-    const config::LimitRule above[] = {config::limit_rule("frame_us > " + std::string(budget), "", "")};
-    const config::LimitRule at[] = {config::limit_rule("frame_us == " + std::string(budget), "", "")};
-    EXPECT_EQ(limit_findings(result, above).broken.size(), 0u) << ns;
-    EXPECT_EQ(limit_findings(result, at).broken.size(), 1u) << ns;
+    EXPECT_EQ(findings_of("frame_us > " + std::string(budget), entry).broken.size(), 0u) << ns;
+    EXPECT_EQ(findings_of("frame_us == " + std::string(budget), entry).broken.size(), 1u) << ns;
   }
 }
 
@@ -146,8 +150,7 @@ TEST(Limits, samples_that_no_light_reaches_need_none) {
 
 TEST(Limits, what_some_cases_have_is_held_there_and_the_others_are_named) {
   const Json cases = Json::array({Json{{"name", "a"}}, case_with_budget_figures(), Json{{"name", "c"}}});
-  const config::LimitRule rules[] = {config::limit_rule("pairs > 9000", "", "--fail-if")};
-  const LimitFindings findings = limit_findings(Json{{"cases", cases}}, rules);
+  const LimitFindings findings = findings_in(cases, "pairs > 9000");
   EXPECT_EQ(findings.broken, Lines{});
   EXPECT_EQ(findings.unchecked, (Lines{"'pairs > 9000' was not checked for 2 cases without pairs (structures without "
                                        "cells have none): a ..."}));
@@ -163,10 +166,7 @@ TEST(Limits, a_frames_time_is_never_made_of_its_parts) {
 
 TEST(Limits, before_a_colon_name_cases_and_what_they_match_has_to_have_the_figure) {
   const Json cases = Json::array({Json{{"name", "a/own"}}, case_with_budget_figures()});
-  const auto of = [&](const std::string& rule) {
-    const config::LimitRule rules[] = {config::limit_rule(rule, "", "--fail-if")};
-    return limit_findings(Json{{"cases", cases}}, rules);
-  };
+  const auto of = [&](const std::string& rule) { return findings_in(cases, rule); };
   EXPECT_EQ(of("bounds: longest > 63").broken.size(), 1u);
   EXPECT_EQ(of("bounds: longest > 64").broken, Lines{});
   EXPECT_EQ(of("bounds: longest > 64").unchecked, Lines{});
@@ -197,15 +197,14 @@ TEST(Limits, of_a_case_by_its_name_as_it_is_printed_are_held_against_it) {
 }
 
 TEST(Limits, of_a_result_without_cases_fail) {
-  const config::LimitRule rules[] = {config::limit_rule("longest > 64", "", "--fail-if")};
-  EXPECT_EQ(limit_findings(Json{{"cases", Json::array()}}, rules).broken,
+  EXPECT_EQ(findings_in(Json::array(), "longest > 64").broken,
             (Lines{"'longest > 64' could not be checked: there is no case"}));
 }
 
 TEST(Limits, older_results_without_a_frames_instructions_have_their_sum) {
   Json entry = case_with_budget_figures();
   entry["count"]["instructions_per_frame"].erase("frame");
-  EXPECT_EQ(limit_figure(entry, "instructions"), 42000.0);
+  EXPECT_EQ(limit_figure(test::case_of(entry), "instructions"), 42000.0);
 }
 
 // The rows of docs/results.md on the names of a figure: its cells without marks.
@@ -241,10 +240,9 @@ TEST(Limits, the_table_of_names_in_the_documents_is_that_of_budgets_results_and_
     const std::vector<std::string> broken = findings_of(row[2] + " > 500", entry).broken;
     ASSERT_EQ(broken.size(), 1u) << row[2];
     EXPECT_EQ(broken[0].find("could not be checked"), std::string::npos) << row[2] << " is not at " << pointer;
-    const auto metrics = export_metrics();
-    EXPECT_NE(std::find_if(metrics.begin(), metrics.end(),
-                           [&](const Metric& metric) { return metric.name == row[4] && metric.pointer == pointer; }),
-              metrics.end())
+    const std::vector<Measured> exported = measured(test::case_of(entry), true);
+    EXPECT_TRUE(std::ranges::any_of(
+        exported, [&](const Measured& one) { return one.metric->name == row[4] && one.value == 1e6; }))
         << row[4] << " is not " << pointer;
   }
 }
@@ -261,12 +259,13 @@ TEST(Limits, every_figure_can_be_read_and_stands_in_the_schema_that_documents_it
 
 // A budget in percent of one set is never held against another one.
 TEST(Limits, a_change_is_of_the_same_samples_or_could_not_be_checked) {
-  Json base{{"cases", Json::array()}, {"scenes", Json::array()}, {"tool", Json::object()}, {"machine", Json::object()}};
-  base["cases"].push_back(Json::parse(R"({"id": "a", "name": "hall/walk/frustum/bounds/packed", "scene": "hall",
+  result::Result base;
+  base.cases.push_back(
+      test::case_of(Json::parse(R"({"id": "a", "name": "hall/walk/frustum/bounds/packed", "scene": "hall",
     "camera": "walk", "viewport": [8, 8], "grid": {"name": "frustum"}, "assigner": {"name": "bounds", "label": "bounds"},
-    "storage": "packed", "shading": {"missed": 1, "needed": 1000}})"));
-  Json now = base;
-  now["cases"][0]["samples"] = {{"opaque", {{"missed", 1}, {"needed", 100}}}};
+    "storage": "packed", "shading": {"missed": 1, "needed": 1000}})")));
+  result::Result now = base;
+  now.cases[0].samples.emplace().opaque = result::SampleSet{.needed = 100, .missed = 1};
   const BaselineCases baseline(base, now, "", "base.json");
   const auto broken = [&](const std::string& text) {
     const config::LimitRule rules[] = {config::limit_rule(text, "", "--fail-if")};

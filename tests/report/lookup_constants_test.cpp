@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "records.h"
+
 namespace clusterbench::report {
 namespace {
 
@@ -22,17 +24,19 @@ Json case_by_hand() {
 }
 
 std::string glsl_of(const Json& result_case) {
-  return lookup_glsl("x", lookup_constants(result_case));
+  return lookup_glsl("x", lookup_constants(test::case_of(result_case)));
 }
 std::string hlsl_of(const Json& result_case) {
-  return lookup_hlsl("x", lookup_constants(result_case));
+  return lookup_hlsl("x", lookup_constants(test::case_of(result_case)));
+}
+std::string cpp_of(const Json& result_case) {
+  return lookup_cpp("x", lookup_constants(test::case_of(result_case)));
 }
 
 TEST(LookupConstants, what_a_grid_keeps_over_a_path_is_constant) {
   EXPECT_NE(glsl_of(case_by_hand()).find("const float x_slice_far = 100.0;"), std::string::npos);
   EXPECT_NE(hlsl_of(case_by_hand()).find("static const float x_slice_far = 100.0;"), std::string::npos);
-  EXPECT_NE(lookup_cpp("x", lookup_constants(case_by_hand())).find("inline constexpr float slice_far = 100.0f;"),
-            std::string::npos);
+  EXPECT_NE(cpp_of(case_by_hand()).find("inline constexpr float slice_far = 100.0f;"), std::string::npos);
 }
 
 TEST(LookupConstants, what_changes_from_frame_to_frame_is_a_variable_that_the_shader_sets) {
@@ -41,8 +45,8 @@ TEST(LookupConstants, what_changes_from_frame_to_frame_is_a_variable_that_the_sh
   EXPECT_NE(glsl_of(fitted).find("\nfloat x_slice_far = 100.0;"), std::string::npos) << glsl_of(fitted);
   EXPECT_NE(hlsl_of(fitted).find("\nstatic float x_slice_scale = "), std::string::npos) << hlsl_of(fitted);
   EXPECT_NE(glsl_of(fitted).find("const vec2 x_tile_scale"), std::string::npos) << "tiles stay";
-  EXPECT_NE(lookup_cpp("x", lookup_constants(fitted)).find("inline float slice_far = 100.0f;"), std::string::npos);
-  EXPECT_NE(lookup_note(fitted).find("set this frame's before a lookup"), std::string::npos);
+  EXPECT_NE(cpp_of(fitted).find("inline float slice_far = 100.0f;"), std::string::npos);
+  EXPECT_NE(lookup_note(test::case_of(fitted)).find("set this frame's before a lookup"), std::string::npos);
 
   Json reacts = case_by_hand();
   reacts["react"] = Json::object();

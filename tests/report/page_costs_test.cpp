@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "records.h"
+
 namespace clusterbench::report {
 namespace {
 
@@ -20,7 +22,7 @@ TEST(PageCosts, are_those_of_making_lists_and_of_what_the_model_adds) {
   Json untimed = costly_case("b", true), lossy = costly_case("c", false);
   untimed.erase("timing");
   const Json result{{"config", Json::object()}, {"cases", Json::array({costly_case("a", true), untimed, lossy})}};
-  const Json costs = page_costs(result);
+  const Json costs = page_costs(test::result_of(result));
   ASSERT_EQ(costs.size(), 2U) << "none of what loses lights";
   EXPECT_EQ(costs[0], (Json{{"id", "a"}, {"ns", 10000.0}, {"gpu_ns", 7000.0}}));
   EXPECT_EQ(costs[1], (Json{{"id", "b"}, {"ns", 7000.0}, {"gpu_ns", 7000.0}}));
@@ -29,13 +31,13 @@ TEST(PageCosts, are_those_of_making_lists_and_of_what_the_model_adds) {
 TEST(PageCosts, are_not_those_of_engines_that_make_their_lists_on_the_gpu_and_were_timed_here) {
   Json preset = costly_case("a", true);
   preset["preset"] = "unreal";
-  EXPECT_TRUE(page_costs({{"config", Json::object()}, {"cases", Json::array({preset})}}).empty());
+  EXPECT_TRUE(page_costs(test::result_of({{"config", Json::object()}, {"cases", Json::array({preset})}})).empty());
 }
 
 TEST(PageCosts, are_none_without_a_model) {
   Json plain = costly_case("a", true);
   plain.erase("cost");
-  EXPECT_TRUE(page_costs({{"config", Json::object()}, {"cases", Json::array({plain})}}).empty());
+  EXPECT_TRUE(page_costs(test::result_of({{"config", Json::object()}, {"cases", Json::array({plain})}})).empty());
 }
 
 }  // namespace

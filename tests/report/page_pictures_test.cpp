@@ -41,7 +41,13 @@ Json picture_entry(const std::string& file, const std::string& case_id) {
   return {{"file", file}, {"kind", "lights"}, {"frame", 3}, {"cases", {case_id}}, {"text", "Lights per pixel."}};
 }
 
-const std::vector<NamedResult> k_one_case = {{"result.json", {{"cases", {{{"id", "a1"}}}}}}};
+std::vector<NamedResult> results_with_case(const std::string& id) {
+  result::Result result;
+  result.cases.emplace_back().id = id;
+  return {{"result.json", result}};
+}
+
+const std::vector<NamedResult> k_one_case = results_with_case("a1");
 
 std::string refusal_of_pictures(const fs::path& folder) {
   try {

@@ -17,17 +17,23 @@ TEST(Page, a_string_cannot_end_the_script_that_it_stands_in) {
   EXPECT_EQ(Json::parse(text), value);
 }
 
-Json empty_result(const char* name) {
-  return {{"name", name}, {"config", Json::object()}, {"cases", Json::array()}};
+result::Result empty_result(const char* name) {
+  result::Result result;
+  result.name = name;
+  result.config = Json::object();
+  return result;
 }
 
 TEST(Page, holds_the_results_and_the_command_once) {
   if (!page_obstacle().empty()) GTEST_SKIP() << page_obstacle();
   const std::string html = page({{"a.json", empty_result("first")}, {"b.json", empty_result("second")}}, "the command");
-  EXPECT_NE(html.find(R"({"command":"the command","results":[{"file":"a.json","result":{"name":"first",)"),
-            std::string::npos);
-  EXPECT_NE(html.find(R"(,"doubts":[],"ratios":[],"costs":[]},{"file":"b.json","result":{"name":"second",)"),
-            std::string::npos);
+  EXPECT_NE(
+      html.find(R"({"command":"the command","results":[{"file":"a.json","result":{"schema_version":0,"name":"first",)"),
+      std::string::npos);
+  EXPECT_NE(
+      html.find(
+          R"(,"doubts":[],"ratios":[],"costs":[]},{"file":"b.json","result":{"schema_version":0,"name":"second",)"),
+      std::string::npos);
   EXPECT_EQ(html.find(k_results_mark), std::string::npos);
 }
 

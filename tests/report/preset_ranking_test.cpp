@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "records.h"
 #include "report/preset_words.h"
 #include "run/grid_facts.h"
 
@@ -61,9 +62,16 @@ Json lacking(Json result_case, std::uint64_t missed) {
   return result_case;
 }
 
-Json ranking_of_cases(const Json& cases) {
-  const Json scenes = Json::array({{{"name", "level"}}});
-  return preset_rankings(scenes, cases, {{"config", {{"cost", Json::object()}}}})[0];
+Json ranking_of_cases(const Json& cases, const Json& config = {{"cost", Json::object()}}) {
+  result::Scene scene;
+  scene.name = "level";
+  result::Result origin;
+  origin.config = config;
+  return result::to_json(preset_rankings({scene}, test::cases_of(cases), origin).at(0));
+}
+
+std::string preset_table_of(const Json& ranking, const Json& cases) {
+  return preset_table(test::result_of({{"preset_rankings", Json::array({ranking})}, {"cases", cases}}));
 }
 
 std::vector<std::string> order(const Json& ranking) {
@@ -127,8 +135,8 @@ TEST(PresetRanking, lists_that_a_gpu_makes_are_not_uploaded) {
 
 TEST(PresetRanking, a_time_on_the_cpu_is_shown_only_of_engines_that_assign_there) {
   const Json cases{preset_case("three-js", 0, 1e4, 2e5), preset_case("filament", 1e3, 1e4, 4e5)};
-  const Json result{
-      {"preset_rankings", Json::array({ranking_of_cases(cases)})}, {"cases", cases}, {"skipped", Json::array()}};
+  const result::Result result =
+      test::result_of({{"preset_rankings", Json::array({ranking_of_cases(cases)})}, {"cases", cases}});
   const std::string table = preset_table(result);
   const auto line = [&](const std::string& preset) {
     const std::size_t at = table.find(" " + preset + " ");
@@ -196,8 +204,7 @@ TEST(PresetRanking, lights_lost_to_a_limit_are_no_small_loss_where_few_are_neede
   EXPECT_NE(text.find("samples need only 1 light"), std::string::npos) << text;
   EXPECT_NE(text.find("not ranked: playcanvas"), std::string::npos) << text;
   const Json cases{with_few_samples(limited, 1), with_few_samples(whole, 1)};
-  const std::string table =
-      preset_table({{"preset_rankings", Json::array({ranking})}, {"cases", cases}, {"skipped", Json::array()}});
+  const std::string table = preset_table_of(ranking, cases);
   EXPECT_NE(table.find(" 450      -"), std::string::npos) << table << "a share of one light is none";
   const Json enough = ranking_of_cases({with_few_samples(limited, 1000), with_few_samples(whole, 1000)});
   EXPECT_EQ(enough["best"], "id-playcanvas") << "of a thousand that samples need none is lost";
@@ -218,8 +225,7 @@ TEST(PresetRanking, lists_that_drop_miss_or_are_not_compared_are_unknown_where_f
 
 TEST(PresetRanking, more_samples_are_the_remedy_for_few) {
   const auto text_of = [](const Json& result_case, const Json& config) {
-    const Json scenes = Json::array({{{"name", "level"}}});
-    return preset_rankings(scenes, Json::array({result_case}), {{"config", config}})[0]["text"].get<std::string>();
+    return ranking_of_cases(Json::array({result_case}), config)["text"].get<std::string>();
   };
   Json surfaces = with_few_samples(preset_case("bevy", 1e3, 1e4, 4e5), 100);
   const std::string rays = text_of(surfaces, {{"samples", {{"opaque", {{"divisor", 16}}}}}});
@@ -273,8 +279,7 @@ TEST(PresetRanking, pairs_of_lights_beside_the_view_are_no_loss) {
   const Json ranking = ranking_of_cases(cases);
   const std::string why = ranking["cases"][0]["why"];
   EXPECT_TRUE(why.starts_with("loses nothing;")) << why;
-  const std::string table =
-      preset_table({{"preset_rankings", Json::array({ranking})}, {"cases", cases}, {"skipped", Json::array()}});
+  const std::string table = preset_table_of(ranking, cases);
   EXPECT_EQ(table.find(" 80 "), std::string::npos) << table;
   EXPECT_EQ(ranking_of_cases(Json::array({with_few_samples(culled, 5)}))["cases"][0]["standing"], "lists");
 }
@@ -469,8 +474,7 @@ TEST(PresetRanking, older_results_have_no_places_and_are_shown) {
                                        {"gpu_ns", 1.0},
                                        {"lights_per_sample", 12.0},
                                        {"why", "loses nothing"}}})}};
-  const std::string table =
-      preset_table({{"preset_rankings", Json::array({ranking})}, {"cases", cases}, {"skipped", Json::array()}});
+  const std::string table = preset_table_of(ranking, cases);
   EXPECT_NE(table.find("filament loses nothing."), std::string::npos) << table;
 }
 

@@ -18,7 +18,7 @@
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::Result;
 
 // The camera looks along -z in the first frame and along +z in the second; what stands aside is in neither.
 enum class Place : std::uint8_t { ahead, behind, aside };
@@ -57,7 +57,7 @@ Figures counted(const Lamps& lamps) {
           std::max(in_frame(Place::ahead), in_frame(Place::behind))};
 }
 
-Json measured(const Lamps& lamps) {
+Result measured(const Lamps& lamps) {
   run::testing::Walk walk(R"("grids": [{"kind": "frustum", "tiles": {"count": [1, 1]},
       "slices": {"scheme": "list", "boundaries": [0.5, 64]}}], "assigners": ["brute-force"],
       "shading": {"samples": 0}, "accuracy": {"check": false})",
@@ -75,7 +75,7 @@ Json measured(const Lamps& lamps) {
     if (lamp.shine == Shine::black) light.color = Vec3d(0.0);
     if (lamp.shine == Shine::hidden) walk.plan.scenes[0].scene.nodes.back().visible = false;
   }
-  return result_to_json(walk.run(), {});
+  return record_of(walk.run(), {});
 }
 
 class RandomLevels {
@@ -135,7 +135,7 @@ int sign_of(std::int64_t value) {
   return value < 0 ? -1 : value > 0 ? 1 : 0;
 }
 
-bool is_kept(const Json& result, const std::string& budget, const BaselineCases* baseline = nullptr) {
+bool is_kept(const Result& result, const std::string& budget, const BaselineCases* baseline = nullptr) {
   const config::LimitRule rules[] = {config::limit_rule(budget, "", "--fail-if")};
   const LimitFindings findings = limit_findings(result, rules, baseline);
   EXPECT_EQ(findings.checked, 1u) << budget;
@@ -146,7 +146,7 @@ TEST(RandomGates, budgets_break_exactly_where_figures_that_were_counted_by_hand_
   RandomLevels levels(1);
   for (int tries = 0; tries < 60; ++tries) {
     const Lamps lamps = levels.level();
-    const Json result = measured(lamps);
+    const Result result = measured(lamps);
     for (const char* name : k_names) {
       const std::int64_t value = counted(lamps).of(name);
       for (const std::int64_t low : {value - 1, value, value + 1})
@@ -172,7 +172,7 @@ TEST(RandomGates, budgets_in_percent_break_exactly_where_changes_that_were_count
   RandomLevels levels(2);
   for (int tries = 0; tries < 60; ++tries) {
     const Lamps before = levels.level(), after = levels.changed(before);
-    const Json base = measured(before), result = measured(after);
+    const Result base = measured(before), result = measured(after);
     const BaselineCases baseline(base, result, "", "base.json");
     for (const char* name : k_names) {
       const std::int64_t then = counted(before).of(name), now = counted(after).of(name);
@@ -192,7 +192,7 @@ struct Verdict {
 
 // As `run --baseline base.json --allow-changed-lights --fail-if ...` judges, without that flag, and with
 // --allow-no-lights, too.
-Verdict verdict_of(const Json& base, const Json& result) {
+Verdict verdict_of(const Result& base, const Result& result) {
   const BaselineCases baseline(base, result, "", "base.json");
   const bool holds =
       is_kept(result, "lights_lit < -0 %", &baseline) && is_kept(result, "lights_seen < -0 %", &baseline);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/random.h"
+#include "records.h"
 #include "report/baseline_cases.h"
 #include "report/limits.h"
 #include "report/result_by_hand.h"
@@ -41,7 +42,7 @@ Needed changed(Needed sets, SplitMix64& random) {
 }
 
 Json result_of_sets(const Needed& sets) {
-  Json result = result_to_json(testing::result_by_hand(), {});
+  Json result = result::to_json(record_of(testing::result_by_hand(), {}));
   Json one = result["cases"][0];
   one.erase("shading");
   Json counts = Json::object(), costs = Json::object();
@@ -56,7 +57,7 @@ Json result_of_sets(const Needed& sets) {
 }
 
 bool is_green(const Needed& before, const Needed& after) {
-  const Json base = result_of_sets(before), result = result_of_sets(after);
+  const result::Result base = test::result_of(result_of_sets(before)), result = test::result_of(result_of_sets(after));
   const config::LimitRule rules[] = {config::limit_rule("needed < -5 %", "", "--fail-if")};
   const BaselineCases cases(base, result, "", "base.json");
   return limit_findings(result, rules, &cases).broken.empty();

@@ -137,7 +137,7 @@ class RandomPresets : public ::testing::Test {
     const config::Config config = config::parse_config(
         R"({"scenes": [{"path": ")" + file.string() + R"(", "camera": "*"}], )" + settings + "}", "c.json");
     const run::Plan plan = run::make_plan(config, "");
-    return result_to_json(run::run_plan(config, plan, {}, {}, std::atomic<bool>{false}), {});
+    return result::to_json(record_of(run::run_plan(config, plan, {}, {}, std::atomic<bool>{false}), {}));
   }
 
  private:

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "report/result_by_hand.h"
@@ -15,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Cases whose frames take these times in so many launches of equally many rounds.
-Json timed_result(const std::vector<std::vector<double>>& samples, int launches = 3) {
+result::Result timed_result(const std::vector<std::vector<double>>& samples, int launches = 3) {
   run::Result result;
   result.config = {{"seed", 1}};
   run::SceneResult scene;
@@ -31,11 +34,11 @@ Json timed_result(const std::vector<std::vector<double>>& samples, int launches 
     result.cases.push_back(case_result);
     result.planned_ids.push_back(case_result.id);
   }
-  return result_to_json(result, {});
+  return record_of(result, {});
 }
 
 // a and b rise and fall together, b a little above; c is as b, but for noise.
-Json three_methods() {
+result::Result three_methods() {
   return timed_result({{1000, 1010, 2000, 2020, 1500, 1510},
                        {1100, 1110, 2200, 2220, 1650, 1660},
                        {1110, 1100, 2230, 2215, 1640, 1670}});
@@ -54,8 +57,8 @@ RatioRequest over_all_grids() {
 }
 
 TEST(Ratios, any_two_methods_of_a_grid_have_one) {
-  const Json result = three_methods();
-  const Json& cases = result["cases"];
+  const result::Result result = three_methods();
+  const std::vector<result::Case>& cases = result.cases;
   const auto there = ratio_of_cases(result, cases[1], cases[0]), back = ratio_of_cases(result, cases[0], cases[1]);
   ASSERT_TRUE(there && back);
   EXPECT_NEAR(there->ratio, 1.1, 0.005);
@@ -68,19 +71,20 @@ TEST(Ratios, any_two_methods_of_a_grid_have_one) {
 }
 
 TEST(Ratios, are_not_formed_over_grids_caches_or_unequal_rounds) {
-  Json result = three_methods();
-  Json other = result["cases"][1];
-  other["grid"]["name"] = "another";
-  EXPECT_FALSE(ratio_of_cases(result, result["cases"][0], other));
-  other = result["cases"][1];
-  other["timing"]["caches"] = "warm";
-  EXPECT_FALSE(ratio_of_cases(result, result["cases"][0], other));
-  other = result["cases"][1];
-  other["timing"]["frame_ns"]["samples"].erase(0);
-  EXPECT_FALSE(ratio_of_cases(result, result["cases"][0], other));
-  other = result["cases"][1];
-  other["timing"]["frame_ns"]["samples"][0] = 0.0;
-  EXPECT_FALSE(ratio_of_cases(result, result["cases"][0], other));
+  const result::Result result = three_methods();
+  const result::Case &first = result.cases[0], &second = result.cases[1];
+  result::Case other = second;
+  other.grid.name = "another";
+  EXPECT_FALSE(ratio_of_cases(result, first, other));
+  other = second;
+  other.timing->caches = "warm";
+  EXPECT_FALSE(ratio_of_cases(result, first, other));
+  other = second;
+  other.timing->frame_ns.samples.erase(other.timing->frame_ns.samples.begin());
+  EXPECT_FALSE(ratio_of_cases(result, first, other));
+  other = second;
+  other.timing->frame_ns.samples[0] = 0.0;
+  EXPECT_FALSE(ratio_of_cases(result, first, other));
 }
 
 TEST(Ratios, stand_in_a_ranking_and_between_all_pairs) {
@@ -112,8 +116,8 @@ TEST(Ratios, as_json_are_what_their_schema_says_and_what_the_table_says) {
 }
 
 TEST(Ratios, of_two_grids_are_those_of_the_same_launches) {
-  Json result = three_methods();
-  result["cases"][1]["grid"]["name"] = "frustum 32px";
+  result::Result result = three_methods();
+  result.cases[1].grid.name = "frustum 32px";
   EXPECT_EQ(ratios_of(result, {})["blocks"].size(), 2u);
   const Json all = ratios_of(result, over_all_grids());
   ASSERT_EQ(all["blocks"].size(), 1u);
@@ -147,9 +151,9 @@ TEST(Ratios, of_too_few_launches_or_rounds_have_no_interval_anywhere) {
   for (const auto& [samples, launches] :
        {std::pair{std::vector<std::vector<double>>{{1000, 1010, 1020, 1030}, {2100, 2110, 2120, 2130}}, 2},
         {{{1000}, {2100}}, 1}}) {
-    const Json result = timed_result(samples, launches);
-    EXPECT_EQ(result["cases"][1]["timing"]["frame_ns"]["ci95"], (Json{nullptr, nullptr}));
-    EXPECT_FALSE(takes_longer(result, result["cases"][1], result["cases"][0]));
+    const result::Result result = timed_result(samples, launches);
+    for (const double end : result.cases[1].timing->frame_ns.ci95) EXPECT_TRUE(std::isnan(end));
+    EXPECT_FALSE(takes_longer(result, result.cases[1], result.cases[0]));
     const std::string ranking = ratio_table(ratios_of(result, {}), false), table = render_table(result, false);
     EXPECT_NE(ranking.find("  ~ method-b / packed"), std::string::npos) << ranking;
     EXPECT_NE(ranking.find(" (unknown)"), std::string::npos) << ranking;
@@ -172,25 +176,25 @@ TEST(Ratios, the_table_of_a_run_marks_rows_that_are_not_told_from_the_one_above)
 }
 
 TEST(TimingWarnings, say_what_speaks_against_times_and_what_to_try) {
-  Json cases = timed_result({{1000, 1010, 1001, 1004, 1003, 1002}})["cases"];
+  const std::vector<result::Case> cases = timed_result({{1000, 1010, 1001, 1004, 1003, 1002}}).cases;
   EXPECT_EQ(timing_warnings(cases), "");
-  const auto with = [&](const char* key, double value) {
-    Json changed = cases;
-    changed[0]["timing"]["disturbed"][key] = value;
+  const auto with = [&](const result::Disturbed& disturbed) {
+    std::vector<result::Case> changed = cases;
+    changed[0].timing->disturbed = disturbed;
     return timing_warnings(changed);
   };
-  EXPECT_NE(with("others_cores", 0.5).find("0.5 processors busy"), std::string::npos);
-  EXPECT_EQ(with("others_cores", 0.05), "");
-  EXPECT_NE(with("stolen_cores", 0.05).find("other guests"), std::string::npos);
-  EXPECT_NE(with("throttled", 3).find("heat 3 times"), std::string::npos);
+  EXPECT_NE(with({0.5, 0.0, 0}).find("0.5 processors busy"), std::string::npos);
+  EXPECT_EQ(with({0.05, 0.0, 0}), "");
+  EXPECT_NE(with({0.0, 0.05, 0}).find("other guests"), std::string::npos);
+  EXPECT_NE(with({0.0, 0.0, 3}).find("heat 3 times"), std::string::npos);
 
-  const std::string wide = timing_warnings(three_methods()["cases"]);
+  const std::string wide = timing_warnings(three_methods().cases);
   EXPECT_NE(wide.find("3 of 3 times with intervals wider than ±10 %"), std::string::npos) << wide;
   EXPECT_NE(wide.find("--launches 12"), std::string::npos) << wide;
 
   std::vector<double> alternating;
   for (int i = 0; i < 18; ++i) alternating.push_back(i % 2 == 0 ? 1000.0 + i : 1200.0 + i);
-  const std::string two = timing_warnings(timed_result({alternating})["cases"]);
+  const std::string two = timing_warnings(timed_result({alternating}).cases);
   EXPECT_NE(two.find("1 of 1 time in two groups, as at 1.008 and 1.209 us"), std::string::npos) << two;
 }
 

@@ -7,6 +7,7 @@
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "report/result_by_hand.h"
+#include "run/records/records.h"
 
 namespace clusterbench::report {
 namespace {
@@ -20,6 +21,14 @@ using testing::judged;
 using testing::lose_a_light;
 using testing::result_by_hand;
 
+Json json_of(const run::Result& result, const std::vector<result::Case>& earlier_cases = {}) {
+  return result::to_json(record_of(result, earlier_cases));
+}
+
+Json json_of(const run::CaseResult& case_result) {
+  return result::to_json(run::record_of(case_result));
+}
+
 std::vector<std::string> violations(const Json& result) {
   return config::schema_violations(config::result_schema(), nlohmann::json::parse(result.dump()));
 }
@@ -31,7 +40,7 @@ TEST(ResultJson, is_what_the_schema_says) {
   add_precision(result.cases[0]);
   add_count(result.cases[0]);
   result.cases[0].timing->against_first = run::Versus{"aabb", {3.0, {2.9, 3.1}}};
-  EXPECT_EQ(violations(result_to_json(result, {})), std::vector<std::string>{});
+  EXPECT_EQ(violations(json_of(result)), std::vector<std::string>{});
 }
 
 // Adds what an object lacks of its schema's "x-written", which older results of the same schema_version may lack.
@@ -47,7 +56,7 @@ void add_unwritten(const nlohmann::json& schema, const nlohmann::json& value, st
 
 TEST(ResultJson, holds_all_that_results_of_before_may_lack) {
   const nlohmann::json schema = config::result_schema();
-  nlohmann::json result = result_to_json(result_by_hand(), {});
+  nlohmann::json result = json_of(result_by_hand());
   std::vector<std::string> lacking;
   add_unwritten(schema, result, lacking);
   EXPECT_EQ(lacking, std::vector<std::string>{});
@@ -64,7 +73,7 @@ TEST(ResultJson, without_truth_samples_and_times_is_what_the_schema_says) {
     case_result.shading.reset();
     case_result.timing.reset();
   }
-  const Json json = result_to_json(result, {});
+  const Json json = json_of(result);
   EXPECT_EQ(violations(json), std::vector<std::string>{});
   EXPECT_FALSE(json["cases"][0].contains("error"));
   EXPECT_FALSE(json["cases"][0].contains("timing"));
@@ -79,7 +88,7 @@ TEST(ResultJson, instructions_are_those_of_one_frame) {
   add_count(result.cases[1]);
   result.cases[1].count->assign.cycles = 5000;
   result.cases[1].count->convert->cycles = 1000;
-  const Json json = result_to_json(result, {}), count = json["cases"][0]["count"];
+  const Json json = json_of(result), count = json["cases"][0]["count"];
   EXPECT_EQ(count["source"], "callgrind");
   EXPECT_EQ(count["simd_target"], "AVX2");
   EXPECT_EQ(count["frames"], 2);
@@ -93,7 +102,7 @@ TEST(ResultJson, instructions_are_those_of_one_frame) {
 TEST(ResultJson, stability_stands_beside_the_truths_own) {
   run::Result result = result_by_hand();
   add_stability(result.cases[0]);
-  const Json stability = result_to_json(result, {})["cases"][0]["stability"];
+  const Json stability = json_of(result)["cases"][0]["stability"];
   EXPECT_EQ(stability["steps"], 10);
   EXPECT_EQ(stability["changed"]["method"], (Json{{"total", 20}, {"mean", 2.0}, {"max", 9}}));
   EXPECT_EQ(stability["changed"]["truth"], (Json{{"total", 16}, {"mean", 1.6}, {"max", 4}}));
@@ -108,7 +117,7 @@ TEST(ResultJson, a_method_that_changes_less_than_the_truth_has_a_negative_excess
   add_stability(result.cases[0]);
   result.cases[0].stability->method.changes = 12;
   result.cases[0].stability->truth.flickers = 0;
-  const Json json = result_to_json(result, {});
+  const Json json = json_of(result);
   EXPECT_EQ(json["cases"][0]["stability"]["excess_churn"], (Json{{"pairs", -4}, {"ratio", -0.25}}));
   EXPECT_EQ(json["cases"][0]["stability"]["excess_flickers"], (Json{{"count", 3}, {"ratio", nullptr}}));
   EXPECT_EQ(violations(json), std::vector<std::string>{});
@@ -127,7 +136,7 @@ run::Result with_half() {
 }
 
 TEST(ResultJson, precision_tells_what_is_lost_and_the_pairs_against_float32) {
-  const Json json = result_to_json(with_half(), {});
+  const Json json = json_of(with_half());
   const Json &plain = json["cases"][1]["precision"], &half = json["cases"][2]["precision"];
   EXPECT_EQ(half["packing"], "half");
   EXPECT_EQ(half["inflate"], true);
@@ -146,7 +155,7 @@ TEST(ResultJson, precision_tells_what_is_lost_and_the_pairs_against_float32) {
 TEST(ResultJson, without_its_case_in_float32_there_are_no_extra_pairs) {
   run::Result result = with_half();
   result.cases.erase(result.cases.begin() + 1);
-  const Json json = result_to_json(result, {});
+  const Json json = json_of(result);
   EXPECT_EQ(json["cases"][1]["precision"]["extra_pairs"], (Json{{"mean", nullptr}, {"ratio", nullptr}}));
   EXPECT_EQ(violations(json), std::vector<std::string>{});
 }
@@ -158,7 +167,7 @@ TEST(ResultJson, what_is_no_number_is_null) {
   case_result.shading->needed = 0;    // overshade of nothing
   case_result.timing->ns_per_pair = std::numeric_limits<double>::quiet_NaN();
   case_result.timing->floor_ratio = std::numeric_limits<double>::infinity();
-  const Json json = result_to_json(result, {});
+  const Json json = json_of(result);
   EXPECT_TRUE(json["cases"][0]["error"]["excess_ratio"].is_null());
   EXPECT_TRUE(json["cases"][0]["shading"]["overshade"].is_null());
   EXPECT_TRUE(json["cases"][0]["timing"]["ns_per_pair"].is_null());
@@ -167,7 +176,7 @@ TEST(ResultJson, what_is_no_number_is_null) {
 }
 
 TEST(ResultJson, holds_the_figures_under_their_names) {
-  const Json entry = case_to_json(case_by_hand("id", "aabb", 3000.0));
+  const Json entry = json_of(case_by_hand("id", "aabb", 3000.0));
   EXPECT_EQ(entry["occupancy"]["pairs"]["max"], 40.0);
   EXPECT_EQ(entry["occupancy"]["lights_per_cell"]["histogram"],
             (Json{{"lights_per_entry", 1}, {"cells", {10, 20, 18}}}));
@@ -186,7 +195,7 @@ TEST(ResultJson, holds_the_figures_under_their_names) {
 }
 
 TEST(ResultJson, cells_are_told_as_x_y_z) {
-  const Json entry = case_to_json(case_by_hand("id", "aabb", 3000.0));
+  const Json entry = json_of(case_by_hand("id", "aabb", 3000.0));
   EXPECT_EQ(entry["occupancy"]["worst_cell"], (Json{1, 1, 1}));
   EXPECT_EQ(entry["buffers"]["worst_cell"], (Json{3, 2, 1}));
 }
@@ -194,8 +203,8 @@ TEST(ResultJson, cells_are_told_as_x_y_z) {
 TEST(ResultJson, cases_of_an_interrupted_run_stand_in_the_plans_order) {
   run::Result whole = result_by_hand();
   whole.planned_ids = {"first", "slow", "fast"};
-  const Json json = result_to_json(whole, {case_to_json(case_by_hand("first", "planes", 1.0)),
-                                           case_to_json(case_by_hand("not planned", "planes", 1.0))});
+  const Json json = json_of(whole, {run::record_of(case_by_hand("first", "planes", 1.0)),
+                                    run::record_of(case_by_hand("not planned", "planes", 1.0))});
   ASSERT_EQ(json["cases"].size(), 3u);
   EXPECT_EQ(json["cases"][0]["id"], "first");
   EXPECT_EQ(json["cases"][1]["id"], "slow");
@@ -205,50 +214,49 @@ TEST(Front, a_case_that_leaves_out_lights_is_on_no_front) {
   run::Result result = result_by_hand();
   for (run::CaseResult& case_result : result.cases)
     if (case_result.id == "fast") case_result.buffers.dropped_pairs = 1;
-  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow"}));
+  EXPECT_EQ(json_of(result)["pareto_front"][0]["ids"], (Json{"slow"}));
 }
 
 TEST(Front, of_equal_lists_only_the_fastest_case_is_on_it) {
-  EXPECT_EQ(result_to_json(result_by_hand(), {})["pareto_front"],
-            (Json::array({{{"scene", "hall"}, {"ids", {"fast"}}}})));
+  EXPECT_EQ(json_of(result_by_hand())["pareto_front"], (Json::array({{{"scene", "hall"}, {"ids", {"fast"}}}})));
 }
 
 TEST(Front, cases_of_different_views_do_not_beat_each_other) {
   run::Result result = result_by_hand();
   result.cases[1].camera = "empty corner";
-  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow", "fast"}));
+  EXPECT_EQ(json_of(result)["pareto_front"][0]["ids"], (Json{"slow", "fast"}));
   result = result_by_hand();
   result.cases[1].viewport = {640, 360};
-  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow", "fast"}));
+  EXPECT_EQ(json_of(result)["pareto_front"][0]["ids"], (Json{"slow", "fast"}));
 }
 
 TEST(Front, packed_lights_beat_others_only_where_they_lose_nothing) {
   run::Result result = with_half();
   result.cases[2].timing->frame_ns = measure::time_stats(std::vector(6, 1.0), 1);
-  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"fast half+inflate"}));
+  EXPECT_EQ(json_of(result)["pareto_front"][0]["ids"], (Json{"fast half+inflate"}));
 }
 
 TEST(Front, times_whose_ratio_may_be_one_say_nothing) {
   run::Result result = result_by_hand();
   result.cases[0].timing->frame_ns =
       measure::time_stats(std::vector{3000.0, 12000.0, 3000.0, 12000.0, 3000.0, 12000.0}, 1);
-  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow", "fast"}));
+  EXPECT_EQ(json_of(result)["pareto_front"][0]["ids"], (Json{"slow", "fast"}));
   result.cases[1].timing->frame_ns =
       measure::time_stats(std::vector{2900.0, 11900.0, 2900.0, 11900.0, 2900.0, 11900.0}, 1);
-  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"fast"}))
+  EXPECT_EQ(json_of(result)["pareto_front"][0]["ids"], (Json{"fast"}))
       << "their intervals overlap, and in each round it is the slower one";
 }
 
 TEST(Front, a_case_that_fails_or_leaves_more_than_a_thousandth_unlit_is_on_no_front) {
   run::Result result = result_by_hand();
   lose_a_light(result.cases[1]);
-  EXPECT_EQ(result_to_json(judged(result), {})["pareto_front"][0]["ids"], (Json{"slow"}));
+  EXPECT_EQ(json_of(judged(result))["pareto_front"][0]["ids"], (Json{"slow"}));
   result = result_by_hand();
   result.cases[1].shading->needed = 2000;
   result.cases[1].shading->missed = 2;
-  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"fast"}));
+  EXPECT_EQ(json_of(result)["pareto_front"][0]["ids"], (Json{"fast"}));
   result.cases[1].shading->missed = 3;
-  EXPECT_EQ(result_to_json(result, {})["pareto_front"][0]["ids"], (Json{"slow"}));
+  EXPECT_EQ(json_of(result)["pareto_front"][0]["ids"], (Json{"slow"}));
 }
 
 TEST(ResultJson, sets_of_samples_stand_under_their_names) {
@@ -259,7 +267,7 @@ TEST(ResultJson, sets_of_samples_stand_under_their_names) {
   counts.total_lux = 100.0;
   counts.darkest = {3, 10.5f, 20.25f, 7.0};
   result.cases[0].samples = {{measure::SampleSet::fog, counts, measure::Coherence{}}};
-  const Json json = result_to_json(result, {}), &fog = json["cases"][0]["samples"]["fog"];
+  const Json json = json_of(result), &fog = json["cases"][0]["samples"]["fog"];
   EXPECT_EQ(fog["unanswered"], 2);
   EXPECT_EQ(fog["lost_lux"], 0.5);
   EXPECT_EQ(fog["reads"], 900);
@@ -277,7 +285,7 @@ TEST(ResultJson, what_samples_lack_is_told_by_place_and_worst_frame) {
   case_result.shading->missed = 50;
   case_result.shading->missed_outside = 40;
   case_result.shading->worst = {1, 30, 90};
-  const Json json = result_to_json(result, {}), &shading = json["cases"][0]["shading"];
+  const Json json = json_of(result), &shading = json["cases"][0]["shading"];
   EXPECT_EQ(shading["unlit"], 0.25);
   EXPECT_EQ(shading["missed_in_cells"], 10);
   EXPECT_EQ(shading["missed_outside"], 40);
@@ -293,7 +301,7 @@ TEST(ResultJson, what_to_know_of_a_case_is_written_with_it_and_decides_the_front
   run::Result result = result_by_hand();
   result.cases[1].buffers.dropped_pairs = 7;
   result.cases[1].buffers.overflowing_cells = result.cases[1].buffers.overflowing_frames = 1;
-  const Json json = result_to_json(result, {});
+  const Json json = json_of(result);
   EXPECT_EQ(json["cases"][0]["warnings"], Json::array());
   EXPECT_EQ(json["cases"][0]["eligible"], true);
   EXPECT_EQ(json["cases"][1]["warnings"],
@@ -305,14 +313,14 @@ TEST(ResultJson, what_to_know_of_a_case_is_written_with_it_and_decides_the_front
 
 TEST(ResultJson, date_command_clock_and_load_are_there_where_something_is_timed) {
   run::Result result = result_by_hand();
-  const Json without = result_to_json(result, {});
+  const Json without = json_of(result);
   for (const char* key : {"date", "command"}) EXPECT_FALSE(without.contains(key));
   for (const char* key : {"clock_mhz", "load"}) EXPECT_FALSE(without["machine"].contains(key));
   result.date = "2026-01-02T03:04:05Z";
   result.command = "clusterbench run a.glb";
   result.machine.clock = os::Clock{2400.4, 3000.0};
   result.machine.load = run::LoadFacts{0.5, 1.5};
-  const Json with = result_to_json(result, {});
+  const Json with = json_of(result);
   EXPECT_EQ(with["date"], "2026-01-02T03:04:05Z");
   EXPECT_EQ(with["command"], "clusterbench run a.glb");
   EXPECT_EQ(with["machine"]["clock_mhz"], (Json{{"now", 2400}, {"max", 3000}}));
@@ -325,7 +333,7 @@ TEST(ResultJson, times_have_six_digits_and_shares_nine) {
   case_result.timing->assign_ns.median = 1234567.891;
   case_result.timing->ns_per_pair = 1.0 / 3.0;
   case_result.error->true_pairs = 7;
-  const Json json = case_to_json(case_result);
+  const Json json = json_of(case_result);
   EXPECT_EQ(json["timing"]["assign_ns"]["median"].dump(), "1234570");
   EXPECT_EQ(json["timing"]["ns_per_pair"].dump(), "0.333333");
   EXPECT_EQ(json["error"]["excess_ratio"].dump(), "1.71428571");
@@ -335,13 +343,13 @@ TEST(ResultJson, of_few_needed_lights_there_is_no_overshade) {
   run::Result result = result_by_hand();
   result.cases[0].shading->needed = 99;
   result.cases[1].shading->needed = 100;
-  const Json json = result_to_json(result, {});
+  const Json json = json_of(result);
   EXPECT_TRUE(json["cases"][0]["shading"]["overshade"].is_null());
   EXPECT_EQ(json["cases"][1]["shading"]["overshade"], 3.0);
 }
 
 TEST(ResultJson, time_and_pairs_are_of_the_same_frames) {
-  const Json timing = case_to_json(case_by_hand("id", "aabb", 3000.0))["timing"];
+  const Json timing = json_of(case_by_hand("id", "aabb", 3000.0))["timing"];
   EXPECT_EQ(timing["frame_ns"]["median"], 3500.0);
   EXPECT_EQ(timing["pairs"], (Json{{"mean", 25.0}, {"max", 40}}));
   EXPECT_EQ(timing["ns_per_pair"], 140.0);
@@ -350,12 +358,13 @@ TEST(ResultJson, time_and_pairs_are_of_the_same_frames) {
 
 TEST(Gate, failures_are_written_and_told_with_the_name_of_their_case) {
   run::Result result = result_by_hand();
-  EXPECT_TRUE(gate_failures(result_to_json(judged(result), {})).empty());
+  EXPECT_TRUE(gate_failures(record_of(judged(result), {})).empty());
   lose_a_light(result.cases[1]);
-  const Json json = result_to_json(judged(result), {});
+  const result::Result failed = record_of(judged(result), {});
+  const Json json = result::to_json(failed);
   EXPECT_EQ(json["cases"][1]["failures"][0]["kind"], "lost_pairs");
   EXPECT_EQ(violations(json), std::vector<std::string>{});
-  const auto failures = gate_failures(json);
+  const auto failures = gate_failures(failed);
   ASSERT_EQ(failures.size(), 1u);
   for (const char* part :
        {"hall/walk/frustum 64px/aabb/packed: lost", "3 of 48", "frame 5", "[1,1,1]", "light 8", "torch", "12.5 %"})

@@ -7,6 +7,7 @@
 #include "config/schema_verdict.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "records.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"
 #include "report/size.h"
@@ -22,7 +23,7 @@ SizeRequest marks_request(const std::string& format) {
 }
 
 std::string marks_of(const run::Result& result, const SizeRequest& request) {
-  return size_report(result_to_json(result, {}), request);
+  return size_report(record_of(result, {}), request);
 }
 
 MarksJson sized_json(const run::Result& result, SizeRequest request) {
@@ -256,7 +257,7 @@ TEST(SizeMarks, each_camera_is_searched_and_of_its_viewports_the_one_that_needs_
   request.scope.over_viewports = true;
   const auto names_of = [&](const run::Result& result) {
     std::vector<std::string> names;
-    for (const SizedCase& sized : sized_cases(result_to_json(result, {}), request)) names.push_back(sized.name);
+    for (const SizedCase& sized : sized_cases(record_of(result, {}), request)) names.push_back(sized.name);
     return names;
   };
   EXPECT_EQ(names_of(result_of_cameras({small, large})), std::vector{large.name});
@@ -354,14 +355,14 @@ TEST(SizeMarks, views_that_name_no_camera_or_no_two_are_refused_with_those_that_
 }
 
 TEST(SizeMarks, an_engines_own_value_without_room_for_the_margin_is_not_called_enough) {
-  nlohmann::ordered_json json = result_to_json(result_of_cameras({camera_of_marks("walk", {10, 40})}), {});
+  nlohmann::ordered_json json = result::to_json(record_of(result_of_cameras({camera_of_marks("walk", {10, 40})}), {}));
   SizeRequest request = marks_request("table");
   request.engine = "playcanvas";
   json["cases"][0]["preset"] = "playcanvas";
   json["cases"][0]["lights"] = 2000;
   const auto told = [&](int longest) {
     json["cases"][0]["occupancy"]["lights_per_cell"]["max"] = longest;
-    return size_report(json, request);
+    return size_report(test::result_of(json), request);
   };
   EXPECT_NE(
       told(200).find("maxLightsPerCell: 255 (the engine's own 255 is enough for what was seen, not for the margin)"),
@@ -375,15 +376,15 @@ TEST(SizeMarks, an_engines_own_value_without_room_for_the_margin_is_not_called_e
 
 // Bevy's tiles follow the viewport, so each has a structure of its own; its setting is one of the whole program.
 TEST(SizeMarks, of_several_structures_that_share_an_engines_setting_the_largest_value_is_told_to_be_set) {
-  nlohmann::ordered_json json = result_to_json(
-      result_of_cameras({camera_of_marks("walk", {10, 40}, 1, "960x540 "), camera_of_marks("walk", {10, 40})}), {});
+  nlohmann::ordered_json json = result::to_json(record_of(
+      result_of_cameras({camera_of_marks("walk", {10, 40}, 1, "960x540 "), camera_of_marks("walk", {10, 40})}), {}));
   for (std::size_t i = 0; i < 2; ++i) {
     json["cases"][i]["preset"] = "bevy";
     json["cases"][i]["buffers"]["index_entries"]["high_water"] = 40000 - 10000 * i;
   }
   SizeRequest request = marks_request("table");
   request.engine = "bevy";
-  const std::string text = size_report(json, request);
+  const std::string text = size_report(test::result_of(json), request);
   EXPECT_NE(
       text.find("The engine has one setting for all 2 above, which is the largest:\n"
                 "  GlobalClusterSettings::view_cluster_bindings_max_indices: 80000 (the engine comes with 16384)"),
@@ -394,12 +395,12 @@ TEST(SizeMarks, of_several_structures_that_share_an_engines_setting_the_largest_
       << text;
   EXPECT_NE(text.find("  ClusterConfig: leave it alone"), std::string::npos) << text;
   request.format = "json";
-  const MarksJson structures = MarksJson::parse(size_report(json, request))["structures"];
+  const MarksJson structures = MarksJson::parse(size_report(test::result_of(json), request))["structures"];
   for (const MarksJson& structure : structures)
     EXPECT_EQ(structure["settings"]["limits"][0]["value_for_all"], 80000) << structure;
   json["cases"].erase(1);
   request.format = "table";
-  EXPECT_EQ(size_report(json, request).find("one setting for all"), std::string::npos);
+  EXPECT_EQ(size_report(test::result_of(json), request).find("one setting for all"), std::string::npos);
 }
 
 TEST(SizeMarks, a_camera_whose_name_has_a_comma_is_told_how_to_be_named) {
@@ -554,14 +555,16 @@ TEST(SizeMarks, of_cameras_that_stand_still_it_is_said_that_they_tell_nothing_of
 }
 
 TEST(SizeMarks, frames_of_one_number_that_are_at_other_times_are_not_added) {
-  nlohmann::ordered_json result = result_to_json(
-      result_of_cameras({camera_of_marks("one", {10, 40, 20}), camera_of_marks("two", {30, 5, 21})}), {});
+  nlohmann::ordered_json result = result::to_json(
+      record_of(result_of_cameras({camera_of_marks("one", {10, 40, 20}), camera_of_marks("two", {30, 5, 21})}), {}));
   SizeRequest request = with_views({"one,two"});
-  const auto buffer = [&] { return MarksJson::parse(size_report(result, request))["structures"][0]["buffers"][0]; };
+  const auto buffer = [&] {
+    return MarksJson::parse(size_report(test::result_of(result), request))["structures"][0]["buffers"][0];
+  };
   const auto table = [&] {
     SizeRequest asked = request;
     asked.format = "table";
-    return size_report(result, asked);
+    return size_report(test::result_of(result), asked);
   };
   const char* untold = "does not tell whether frames of one number are of one time";
   for (nlohmann::ordered_json& one : result["cases"]) one.erase("camera_path");

@@ -287,14 +287,14 @@ constexpr std::size_t k_per_grid = 3000;
 // Reads so many samples for each lookup, one lookup after the other.
 std::string shader_that_looks_up(const run::Result& result, const std::vector<LookedUp>& all, bool is_hlsl,
                                  bool names_viewport = false) {
-  const nlohmann::ordered_json json = result_to_json(result, {});
-  const auto structures = nlohmann::json::parse(size_report(json, {"", false, "json"}))["structures"];
+  const result::Result record = record_of(result, {});
+  const auto structures = nlohmann::json::parse(size_report(record, {"", false, "json"}))["structures"];
   std::string out = is_hlsl ? "RWStructuredBuffer<float> samples : register(u0);\nRWStructuredBuffer<int> cells : "
                               "register(u1);\n"
                             : "#version 450\nlayout(local_size_x = 1) in;\n"
                               "layout(std430, binding = 0) buffer In { float samples[]; };\n"
                               "layout(std430, binding = 1) buffer Out { int cells[]; };\n";
-  out += size_report(json, {"", false, is_hlsl ? "hlsl" : "glsl"});
+  out += size_report(record, {"", false, is_hlsl ? "hlsl" : "glsl"});
   out += is_hlsl ? "[numthreads(1, 1, 1)] void main() {\n" : "void main() {\n";
   const std::string real2 = is_hlsl ? "float2" : "vec2", real3 = is_hlsl ? "float3" : "vec3";
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -395,23 +395,23 @@ TEST_F(SizeShaders, compile_whatever_cases_are_called) {
     result.planned_ids.push_back(one.id);
     result.cases.push_back(one);
   }
-  const nlohmann::ordered_json json = result_to_json(result, {});
+  const result::Result record = record_of(result, {});
   EXPECT_TRUE(compiles(
-      "#version 450\nlayout(local_size_x = 1) in;\n" + size_report(json, {"", true, "glsl"}) + "void main() {}\n",
+      "#version 450\nlayout(local_size_x = 1) in;\n" + size_report(record, {"", true, "glsl"}) + "void main() {}\n",
       false));
-  EXPECT_TRUE(compiles(size_report(json, {"", true, "hlsl"}) + "[numthreads(1, 1, 1)] void main() {}\n", true));
+  EXPECT_TRUE(compiles(size_report(record, {"", true, "hlsl"}) + "[numthreads(1, 1, 1)] void main() {}\n", true));
 }
 
 TEST_F(SizeShaders, compile_in_a_fragment_shader_of_opengl_es) {
-  const nlohmann::ordered_json json = result_to_json(testing::result_by_hand(), {});
-  write("x.frag", "#version 310 es\n" + size_report(json, {"", false, "glsl"}) +
+  const result::Result record = record_of(testing::result_by_hand(), {});
+  write("x.frag", "#version 310 es\n" + size_report(record, {"", false, "glsl"}) +
                       "out vec4 colour;\nvoid main() { colour = vec4(1.0); }\n");
   EXPECT_TRUE(does("glslangValidator -S frag " + path("x.frag")));
 }
 
 TEST(SizeShaderText, says_from_where_pixels_count_in_opengl_as_well) {
-  const nlohmann::ordered_json json = result_to_json(result_of_lookups(all_lookups()), {});
-  EXPECT_NE(size_report(json, {"", false, "glsl"}).find("from the top left (OpenGL's gl_FragCoord: from the bottom)"),
+  const result::Result record = record_of(result_of_lookups(all_lookups()), {});
+  EXPECT_NE(size_report(record, {"", false, "glsl"}).find("from the top left (OpenGL's gl_FragCoord: from the bottom)"),
             std::string::npos);
 }
 
@@ -675,9 +675,9 @@ TEST(SizeEncodings, every_storage_of_lists_has_a_reader_and_what_has_none_says_w
   }
   run::Result result = testing::result_by_hand();
   for (run::CaseResult& one : result.cases) one.storage_label = "own";
-  const std::string own = size_report(result_to_json(result, {}), {"", true, "glsl"});
+  const std::string own = size_report(record_of(result, {}), {"", true, "glsl"});
   EXPECT_NE(own.find("// no function here reads its lists: it has no lists of cells"), std::string::npos) << own;
-  const nlohmann::json json = nlohmann::json::parse(size_report(result_to_json(result, {}), {"", true, "json"}));
+  const nlohmann::json json = nlohmann::json::parse(size_report(record_of(result, {}), {"", true, "json"}));
   EXPECT_NE(json["structures"][0]["no_reader"].get<std::string>().find("it has no lists of cells"), std::string::npos);
 }
 
@@ -691,8 +691,8 @@ TEST_P(SizeLookups, read_the_nth_light_of_a_cell_out_of_each_form_of_buffers) {
     SizeRequest request{"", false, "json"};
     request.margin = 1.0;
     request.rounding = "none";
-    const nlohmann::ordered_json json = result_to_json(result, {});
-    const auto structures = nlohmann::json::parse(size_report(json, request))["structures"];
+    const result::Result record = record_of(result, {});
+    const auto structures = nlohmann::json::parse(size_report(record, request))["structures"];
     request.format = GetParam() ? "hlsl" : "glsl";
     std::vector<std::uint32_t> words;
     std::string defines, body;
@@ -709,7 +709,7 @@ TEST_P(SizeLookups, read_the_nth_light_of_a_cell_out_of_each_form_of_buffers) {
               n + ") cells[" + at + " + 8 * c" + n + " + 1 + int(k" + n + ")] = int(" + name + "_index_at(c" + n +
               ", k" + n + "));\n  }\n";
     }
-    ASSERT_TRUE(compiles(program_of(defines + size_report(json, request), body, GetParam()), GetParam()));
+    ASSERT_TRUE(compiles(program_of(defines + size_report(record, request), body, GetParam()), GetParam()));
     const std::vector<std::int32_t> read = answers(words, all.size() * lists.size() * k_most);
     ASSERT_EQ(read.size(), all.size() * lists.size() * k_most);
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -749,12 +749,12 @@ TEST_P(SizeLookups, read_the_lists_of_the_vth_view_and_nothing_outside_of_its_gr
       {1, 2},  {4}, {9, 11, 35}};
   constexpr int k_cells = 7, k_stride = 8;
   const std::vector<Encoded> all = encodings(lists, false);
-  const nlohmann::ordered_json json = result_to_json(result_of_views(all, k_cells), {});
+  const result::Result record = record_of(result_of_views(all, k_cells), {});
   SizeRequest request{"", false, "json"};
   request.margin = 1.0;
   request.rounding = "none";
   request.scope.views = {"left,right"};
-  const auto structures = nlohmann::json::parse(size_report(json, request))["structures"];
+  const auto structures = nlohmann::json::parse(size_report(record, request))["structures"];
   request.format = GetParam() ? "hlsl" : "glsl";
   std::vector<std::uint32_t> words;
   std::string defines, body;
@@ -768,9 +768,9 @@ TEST_P(SizeLookups, read_the_lists_of_the_vth_view_and_nothing_outside_of_its_gr
             "_cells_of_view; ++c) {\n      int at = " + at + " + 8 * (8 * v + c + 1);\n      cells[at] = int(" + name +
             "_list_of(v, c).lights);\n      for (int k = 0; k < cells[at]; ++k) cells[at + 1 + k] = int(" + name +
             "_index_at(v, c, uint(k)));\n    }\n";
-    EXPECT_NE(size_report(json, request).find(name + "_cells_of_view = 7;"), std::string::npos);
+    EXPECT_NE(size_report(record, request).find(name + "_cells_of_view = 7;"), std::string::npos);
   }
-  ASSERT_TRUE(compiles(program_of(defines + size_report(json, request), body, GetParam()), GetParam()));
+  ASSERT_TRUE(compiles(program_of(defines + size_report(record, request), body, GetParam()), GetParam()));
   const std::vector<std::int32_t> read = answers(words, all.size() * 2 * 8 * k_stride);
   ASSERT_EQ(read.size(), all.size() * 2 * 8 * k_stride);
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -788,8 +788,8 @@ TEST_P(SizeLookups, read_the_lists_of_the_vth_view_and_nothing_outside_of_its_gr
 TEST_P(SizeLookups, compile_with_the_buffers_that_the_include_declares) {
   const CellLists lists{{1, 2}, {}, {3}};
   const std::vector<Encoded> all = encodings(lists, false);
-  const nlohmann::ordered_json json = result_to_json(result_of_encodings(all, 3, false), {});
-  const std::string text = size_report(json, {"", false, GetParam() ? "hlsl" : "glsl"});
+  const result::Result record = record_of(result_of_encodings(all, 3, false), {});
+  const std::string text = size_report(record, {"", false, GetParam() ? "hlsl" : "glsl"});
   EXPECT_TRUE(compiles((GetParam() ? "" : "#version 450\nlayout(local_size_x = 1) in;\n") + text + text +
                            (GetParam() ? "[numthreads(1, 1, 1)] void main() {}\n" : "void main() {}\n"),
                        GetParam()))

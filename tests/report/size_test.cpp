@@ -11,6 +11,7 @@
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "core/error.h"
+#include "records.h"
 #include "report/result_by_hand.h"
 #include "report/result_json.h"
 
@@ -21,14 +22,14 @@ namespace fs = std::filesystem;
 using testing::result_by_hand;
 
 std::string size_of(const run::Result& result, const SizeRequest& request = {"", true, "cpp"}) {
-  return size_report(result_to_json(result, {}), request);
+  return size_report(record_of(result, {}), request);
 }
 
 // Without --all, and without a conclusion, as where scenes are counted.
 std::string best_of(const run::Result& result, const std::string& format = "cpp") {
-  nlohmann::ordered_json json = result_to_json(result, {});
-  json["conclusions"] = nlohmann::ordered_json::array();
-  return size_report(json, {"", false, format});
+  result::Result record = record_of(result, {});
+  record.conclusions.emplace();
+  return size_report(record, {"", false, format});
 }
 
 TEST(Size, of_each_grid_the_fastest_structure_that_loses_nothing_is_shown_under_the_name_of_the_grid) {
@@ -230,7 +231,7 @@ TEST(Size, json_has_every_number_and_is_as_its_schema_says) {
 
 // An older result, one by hand: whatever the schema allows.
 TEST(Size, every_format_takes_results_with_holes) {
-  const nlohmann::ordered_json whole = result_to_json(result_by_hand(), {});
+  const nlohmann::ordered_json whole = result::to_json(record_of(result_by_hand(), {}));
   std::vector<nlohmann::ordered_json> results(5, whole);
   for (auto& entry : results[0]["cases"]) entry["buffers"].erase("each");
   for (auto& entry : results[1]["cases"])
@@ -242,7 +243,7 @@ TEST(Size, every_format_takes_results_with_holes) {
     ASSERT_EQ(config::schema_violations(config::result_schema(), nlohmann::json(result)), std::vector<std::string>{});
     for (const bool all : {false, true})
       for (const std::string& format : size_formats()) {
-        const std::string report = size_report(result, {"", all, format});
+        const std::string report = size_report(test::result_of(result), {"", all, format});
         EXPECT_NE(report.find("64px"), std::string::npos) << format << report;
         if (format == "json") {
           EXPECT_EQ(
@@ -454,7 +455,7 @@ run::Result result_that_takes_the_slow_one() {
 
 TEST(Size, of_a_result_what_its_conclusion_takes_comes_first_and_other_methods_are_told) {
   const run::Result result = result_that_takes_the_slow_one();
-  ASSERT_EQ(result_to_json(result, {})["conclusions"][0]["take"], "slow");
+  ASSERT_EQ(record_of(result, {}).conclusions->front().take.value(), "slow");
   const nlohmann::json sized = nlohmann::json::parse(size_of(result, {"", false, "json"}))["structures"];
   ASSERT_EQ(sized.size(), 2u);
   EXPECT_EQ(sized[0]["name"], "hall/frustum 64px/brute-force/packed");

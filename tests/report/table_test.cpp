@@ -19,7 +19,7 @@ using testing::lose_a_light;
 using testing::result_by_hand;
 
 std::string table_of(const run::Result& result, bool colour = false) {
-  return render_table(result_to_json(result, {}), colour);
+  return render_table(record_of(result, {}), colour);
 }
 
 std::vector<std::string> lines_of(const std::string& text) {

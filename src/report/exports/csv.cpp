@@ -50,7 +50,7 @@ std::string heading(const ExportResult& result) {
     if (!has_column(metric, result)) continue;
     const std::string name = csv_column(metric);
     line += "," + name;
-    if (!metric.interval.empty()) line += "," + name + "_low," + name + "_high";
+    if (metric.interval != nullptr) line += "," + name + "_low," + name + "_high";
   }
   return line + "\n";
 }
@@ -62,7 +62,7 @@ std::string row(const ExportResult& result, const ExportCase& export_case) {
     if (!has_column(metric, result)) continue;
     const Measured* figure = find_figure(export_case, metric.name);
     line += "," + (figure == nullptr ? "" : exact_number(figure->value));
-    if (metric.interval.empty()) continue;
+    if (metric.interval == nullptr) continue;
     const bool is_known = figure != nullptr && figure->ci95.is_known();
     line += is_known ? "," + exact_number(figure->ci95.low) + "," + exact_number(figure->ci95.high) : ",,";
   }

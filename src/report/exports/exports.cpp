@@ -1,16 +1,17 @@
 #include "report/exports/exports.h"
 
+#include <cmath>
+
 #include "core/error.h"
 #include "core/text.h"
+#include "report/columns.h"
 #include "report/exports/formats.h"
-#include "report/json_values.h"
 #include "report/machine.h"
 
 namespace clusterbench::report {
-
 namespace {
 
-using Json = nlohmann::ordered_json;
+using result::Case;
 
 constexpr ExportFormat k_formats[] = {
     {"google-benchmark", "Google Benchmark's JSON, a repetition per round, for its compare.py", "json",
@@ -23,69 +24,47 @@ constexpr ExportFormat k_formats[] = {
     {"markdown", "What failed and a table, for comments and pages", "md", markdown},
 };
 
-std::string string_at(const Json& from, const char* pointer) {
-  const Json* found = value_at(from, pointer);
-  return found != nullptr && found->is_string() ? found->get<std::string>() : "";
-}
-
-std::string needed_text(const Json& result_case, std::size_t index, const char* key) {
-  std::string text = string_at(result_case, (std::string("/") + key).c_str());
+void require(const std::string& text, std::size_t index, const std::string& key) {
   if (text.empty()) throw Error("", "/cases/" + std::to_string(index) + "/" + key, "is missing");
-  return text;
 }
 
-// "" where a case lacks it.
-std::vector<std::pair<std::string, std::string>> parts_of(const Json& result_case) {
-  const Json *width = value_at(result_case, "/viewport/0"), *height = value_at(result_case, "/viewport/1");
-  const std::string viewport = width != nullptr && height != nullptr ? width->dump() + "x" + height->dump() : "";
-  const std::string precision = string_at(result_case, "/precision/label"),
-                    pre_cull = string_at(result_case, "/pre_cull/label");
-  return {{"scene", string_at(result_case, "/scene")},
-          {"camera", string_at(result_case, "/camera")},
-          {"viewport", viewport},
-          {"grid", string_at(result_case, "/grid/name")},
-          {"assigner", string_at(result_case, "/assigner/label") + (pre_cull.empty() ? "" : " after " + pre_cull)},
-          {"precision", precision.empty() ? "float32" : precision},
-          {"storage", string_at(result_case, "/storage")}};
+std::vector<std::pair<std::string, std::string>> parts_of(const Case& result_case) {
+  const std::string pre_cull = result_case.pre_cull ? result_case.pre_cull->label : "";
+  return {{"scene", result_case.scene},
+          {"camera", result_case.camera},
+          {"viewport", viewport_text(result_case.viewport)},
+          {"grid", result_case.grid.name},
+          {"assigner", result_case.assigner.label + (pre_cull.empty() ? "" : " after " + pre_cull)},
+          {"precision", result_case.precision ? result_case.precision->label : "float32"},
+          {"storage", result_case.storage}};
 }
 
-ExportCase read_case(const Json& result_case, std::size_t index, bool all) {
-  const bool has_frame_time = value_at(result_case, "/timing/frame_ns") != nullptr;
-  ExportCase out{needed_text(result_case, index, "id"),
-                 needed_text(result_case, index, "name"),
-                 measured(result_case, all),
-                 has_frame_time ? "frame_time" : "assign_time",
-                 {},
-                 0};
-  const Json *samples =
-                 value_at(result_case, has_frame_time ? "/timing/frame_ns/samples" : "/timing/assign_ns/samples"),
-             *frames = value_at(result_case, "/timing/frames_timed");
-  if (samples != nullptr)
-    for (const Json& sample : *samples)
-      if (sample.is_number()) out.samples_ns.push_back(sample.get<double>());
-  if (frames != nullptr && frames->is_number_integer()) out.frames_timed = frames->get<int>();
-  out.parts = parts_of(result_case);
+ExportCase read_case(const Case& result_case, std::size_t index, bool all) {
+  require(result_case.id, index, "id");
+  require(result_case.name, index, "name");
+  ExportCase out{result_case.id, result_case.name, measured(result_case, all), {}, 0, parts_of(result_case)};
+  if (!result_case.timing) return out;
+  for (const double sample : result_case.timing->frame_ns.samples)
+    if (std::isfinite(sample)) out.samples_ns.push_back(sample);
+  out.frames_timed = static_cast<int>(result_case.timing->frames_timed);
   return out;
 }
 
-ExportResult read(const Json& result, bool all) {
+ExportResult read(const result::Result& result, bool all) {
   ExportResult out;
   out.all = all;
-  out.name = string_at(result, "/name");
-  out.version = string_at(result, "/tool/version");
-  out.git_sha = string_at(result, "/tool/git_sha");
-  out.compiler = string_at(result, "/tool/compiler");
-  out.flags = string_at(result, "/tool/flags");
-  out.build_type = string_at(result, "/tool/build_type");
-  out.simd_target = string_at(result, "/tool/simd_target");
-  out.machine = machine_name(result["machine"]);
-  out.os = string_at(result, "/machine/os");
-  if (const Json* cores = value_at(result, "/machine/cores"); cores != nullptr && cores->is_number_integer())
-    out.cores = cores->get<int>();
-  if (const Json* failed = value_at(result, "/failed"); failed != nullptr && failed->is_array())
-    for (const Json& sentence : *failed) out.failed.push_back(sentence.get<std::string>());
-  for (std::size_t index = 0; index < result["cases"].size(); ++index)
-    out.cases.push_back(read_case(result["cases"][index], index, all));
+  out.name = result.name;
+  out.version = result.tool.version;
+  out.git_sha = result.tool.git_sha;
+  out.compiler = result.tool.compiler;
+  out.flags = result.tool.flags;
+  out.build_type = result.tool.build_type;
+  out.simd_target = result.tool.simd_target;
+  out.machine = machine_name(result.machine);
+  out.os = result.machine.os;
+  out.cores = static_cast<int>(result.machine.cores);
+  out.failed = result.failed.value_or(std::vector<std::string>());
+  for (const Case& result_case : result.cases) out.cases.push_back(read_case(result_case, out.cases.size(), all));
   return out;
 }
 
@@ -104,7 +83,7 @@ const ExportFormat& export_format(const std::string& name) {
   throw Error("", "export", "no format '" + name + "'" + did_you_mean(name, names) + "; there are: " + joined(names));
 }
 
-std::string exported(const Json& result, const ExportFormat& format, bool all) {
+std::string exported(const result::Result& result, const ExportFormat& format, bool all) {
   return format.write(read(result, all));
 }
 

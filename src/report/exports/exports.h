@@ -1,13 +1,13 @@
 #pragma once
 // Results in the formats of other tools. Adding one is a file in this folder and its row in exports.cpp.
 
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "report/exports/metrics.h"
+#include "result/result.h"
 
 namespace clusterbench::report {
 
@@ -15,8 +15,7 @@ namespace clusterbench::report {
 struct ExportCase {
   std::string id, name;
   std::vector<Measured> figures;
-  std::string_view time;           // the metric of the samples: assign_time of results that do not tell a frame's
-  std::vector<double> samples_ns;  // of the rounds, in order; empty if nothing was timed
+  std::vector<double> samples_ns;  // frame times of the rounds, in order; empty if nothing was timed
   int frames_timed = 0;
   // What the name is made of: "scene", "camera", "viewport", "grid", "assigner", "precision", "storage", in this order.
   std::vector<std::pair<std::string, std::string>> parts{};
@@ -45,7 +44,7 @@ const ExportFormat& export_format(const std::string& name);
 
 // The result in the format: its headline figures, or all of the table. Throws Error where a case lacks what each has,
 // and where the format has no place for anything that was measured.
-std::string exported(const nlohmann::ordered_json& result, const ExportFormat& format, bool all);
+std::string exported(const result::Result& result, const ExportFormat& format, bool all);
 
 // The figure of that name, or null.
 const Measured* find_figure(const ExportCase& export_case, std::string_view name);

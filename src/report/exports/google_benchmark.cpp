@@ -12,6 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::string_view k_time = "frame_time";  // the metric of the samples
+
 double mean(const std::vector<double>& samples) {
   return std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
 }
@@ -46,7 +48,7 @@ Json repetition(const ExportCase& export_case, std::size_t family, std::size_t i
   out["repetition_index"] = index;
   add_time(out, export_case.samples_ns[index], export_case.frames_timed);
   for (const Measured& figure : export_case.figures)
-    if (figure.metric->name != export_case.time) out[std::string(figure.metric->name)] = figure.value;
+    if (figure.metric->name != k_time) out[std::string(figure.metric->name)] = figure.value;
   return out;
 }
 
@@ -70,7 +72,7 @@ std::string google_benchmark(const ExportResult& result) {
   Json& all = out["benchmarks"];
   for (std::size_t family = 0; family < result.cases.size(); ++family) {
     const ExportCase& export_case = result.cases[family];
-    const Measured* median = find_figure(export_case, export_case.time);
+    const Measured* median = find_figure(export_case, k_time);
     if (export_case.samples_ns.empty() || median == nullptr) continue;
     for (std::size_t index = 0; index < export_case.samples_ns.size(); ++index)
       all.push_back(repetition(export_case, family, index));

@@ -1,85 +1,137 @@
 #include "report/exports/metrics.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
-#include "report/json_values.h"
+#include "result/at.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using enum Basis;
 using enum Better;
+using result::AgainstFirst;
+using result::Buffers;
+using result::Case;
+using result::Changed;
+using result::Churn;
+using result::Cost;
+using result::Count;
+using result::ExtraPairs;
+using result::Flickers;
+using result::FrameBytes;
+using result::HighWater;
+using result::LightsInView;
+using result::LightsPerCell;
+using result::ListError;
+using result::number;
+using result::Occupancy;
+using result::Overflow;
+using result::part;
+using result::PerFrame;
+using result::Precision;
+using result::SampleSet;
+using result::Spread;
+using result::Stability;
+using result::Time;
+using result::TimedPairs;
+using result::Timing;
+using result::WorstTimedFrame;
 
 constexpr bool k_headline = true, k_detail = false;
 
 constexpr Metric k_metrics[] = {
-    {"frame_time", "ns", "/timing/frame_ns/median", "/timing/frame_ns/ci95", smaller, k_headline},
-    {"worst_frame_time", "ns", "/timing/worst_frame/ns", "/timing/worst_frame/ci95", smaller, k_headline},
-    {"assign_time", "ns", "/timing/assign_ns/median", "/timing/assign_ns/ci95", smaller, k_headline},
-    {"convert_time", "ns", "/timing/convert_ns/median", "/timing/convert_ns/ci95", smaller, k_headline},
-    {"frame_cost", "ns", "/cost/frame_ns", "", smaller, k_headline},
-    {"frame_instructions", "instructions", "/count/instructions_per_frame/frame", "", smaller, k_headline},
-    {"assign_instructions", "instructions", "/count/instructions_per_frame/assign", "", smaller, k_headline},
-    {"speedup", "ratio", "/timing/against_first/ratio", "/timing/against_first/ci95", bigger, k_headline, 1.0},
-    {"pair_rate", "pairs/s", "/timing/ns_per_pair", "", bigger, k_headline, 1e9},
-    {"list_bytes", "bytes", "/buffers/bytes/high_water", "", smaller, k_headline},
-    {"excess_ratio", "ratio", "/error/excess_ratio", "", smaller, k_headline},
-    {"missed_pairs", "pairs", "/error/false_negatives", "", smaller, k_headline},
-    {"unlit", "ratio", "/shading/unlit", "", smaller, k_headline},
-    {"dropped_pairs", "pairs", "/buffers/overflow/dropped_pairs", "", smaller, k_headline},
-    {"overshade", "ratio", "/shading/overshade", "", smaller, k_headline},
-    {"lights", "lights", "/lights", "", neither, k_headline},
-    {"lights_lit", "lights", "/lights_lit", "", neither, k_headline},
-    {"lights_seen", "lights", "/lights_seen", "", neither, k_headline},
-    {"lights_in_view_max", "lights", "/lights_in_view/max", "", neither, k_headline},
+    {"frame_time", "ns", smaller, derived, k_headline, number<&Case::timing, &Timing::frame_ns, &Time::median>,
+     part<&Case::timing, &Timing::frame_ns, &Time::ci95>},
+    {"worst_frame_time", "ns", smaller, derived, k_headline,
+     number<&Case::timing, &Timing::worst_frame, &WorstTimedFrame::ns>,
+     part<&Case::timing, &Timing::worst_frame, &WorstTimedFrame::ci95>},
+    {"assign_time", "ns", smaller, time, k_headline, number<&Case::timing, &Timing::assign_ns, &Time::median>,
+     part<&Case::timing, &Timing::assign_ns, &Time::ci95>},
+    {"convert_time", "ns", smaller, time, k_headline, number<&Case::timing, &Timing::convert_ns, &Time::median>,
+     part<&Case::timing, &Timing::convert_ns, &Time::ci95>},
+    {"frame_cost", "ns", smaller, derived, k_headline, number<&Case::cost, &Cost::frame_ns>},
+    {"frame_instructions", "instructions", smaller, instructions, k_headline,
+     number<&Case::count, &Count::instructions_per_frame, &PerFrame::frame>},
+    {"assign_instructions", "instructions", smaller, instructions, k_headline,
+     number<&Case::count, &Count::instructions_per_frame, &PerFrame::assign>},
+    {"speedup", "ratio", bigger, time, k_headline, number<&Case::timing, &Timing::against_first, &AgainstFirst::ratio>,
+     part<&Case::timing, &Timing::against_first, &AgainstFirst::ci95>, 1.0},
+    {"pair_rate", "pairs/s", bigger, derived, k_headline, number<&Case::timing, &Timing::ns_per_pair>, nullptr, 1e9},
+    {"list_bytes", "bytes", smaller, count, k_headline,
+     number<&Case::buffers, &Buffers::bytes, &HighWater::high_water>},
+    {"excess_ratio", "ratio", smaller, count, k_headline, number<&Case::error, &ListError::excess_ratio>},
+    {"missed_pairs", "pairs", smaller, count, k_headline, number<&Case::error, &ListError::false_negatives>},
+    {"unlit", "ratio", smaller, count, k_headline, number<&Case::shading, &SampleSet::unlit>},
+    {"dropped_pairs", "pairs", smaller, count, k_headline,
+     number<&Case::buffers, &Buffers::overflow, &Overflow::dropped_pairs>},
+    {"overshade", "ratio", smaller, count, k_headline, number<&Case::shading, &SampleSet::overshade>},
+    {"lights", "lights", neither, count, k_headline, number<&Case::lights>},
+    {"lights_lit", "lights", neither, count, k_headline, number<&Case::lights_lit>},
+    {"lights_seen", "lights", neither, count, k_headline, number<&Case::lights_seen>},
+    {"lights_in_view_max", "lights", neither, count, k_headline, number<&Case::lights_in_view, &LightsInView::max>},
 
-    {"tests_done", "tests", "/tests_done", "", smaller, k_detail},
-    {"fallbacks", "pairs", "/fallbacks", "", smaller, k_detail},
-    {"lights_seen_mean", "lights", "/lights_in_view/shining_mean", "", neither, k_detail},
-    {"lights_in_view_mean", "lights", "/lights_in_view/mean", "", neither, k_detail},
-    {"pairs_mean", "pairs", "/occupancy/pairs/mean", "", neither, k_detail},
-    {"pairs_max", "pairs", "/occupancy/pairs/max", "", neither, k_detail},
-    {"lights_per_cell_mean", "lights", "/occupancy/lights_per_cell/mean", "", neither, k_detail},
-    {"lights_per_cell_p99", "lights", "/occupancy/lights_per_cell/p99", "", neither, k_detail},
-    {"lights_per_cell_max", "lights", "/occupancy/lights_per_cell/max", "", neither, k_detail},
-    {"occupied_fraction", "ratio", "/occupancy/occupied_fraction/mean", "", neither, k_detail},
-    {"entries_high_water", "entries", "/buffers/index_entries/high_water", "", smaller, k_detail},
-    {"entries_recommended", "entries", "/buffers/index_entries/recommended", "", smaller, k_detail},
-    {"bytes_recommended", "bytes", "/buffers/bytes/recommended", "", smaller, k_detail},
-    {"upload_bytes_mean", "bytes", "/buffers/upload_bytes/mean", "", smaller, k_detail},
-    {"gpu_cost", "ns", "/cost/gpu_ns", "", smaller, k_detail},
-    {"traffic_bytes_mean", "bytes", "/buffers/traffic_bytes/mean", "", smaller, k_detail},
-    {"upload_bytes_max", "bytes", "/buffers/upload_bytes/max", "", smaller, k_detail},
-    {"scratch_bytes", "bytes", "/buffers/scratch_bytes", "", smaller, k_detail},
-    {"true_pairs", "pairs", "/error/true_pairs", "", neither, k_detail},
-    {"reported_pairs", "pairs", "/error/reported_pairs", "", neither, k_detail},
-    {"false_positives", "pairs", "/error/false_positives", "", smaller, k_detail},
-    {"miss_ratio", "ratio", "/error/miss_ratio", "", smaller, k_detail},
-    {"deepest_miss", "ratio", "/error/deepest_miss", "", smaller, k_detail},
-    {"undecided", "pairs", "/error/undecided", "", smaller, k_detail},
-    {"samples_needed", "lights", "/shading/needed", "", neither, k_detail},
-    {"samples_missed", "lights", "/shading/missed", "", smaller, k_detail},
-    {"samples_missed_outside", "lights", "/shading/missed_outside", "", smaller, k_detail},
-    {"lost_irradiance", "ratio", "/shading/lost_irradiance", "", smaller, k_detail},
-    {"changed_pairs", "pairs", "/stability/changed/method/mean", "", smaller, k_detail},
-    {"flickers", "pairs", "/stability/flickers/method", "", smaller, k_detail},
-    {"extra_pairs", "pairs", "/precision/extra_pairs/mean", "", smaller, k_detail},
-    {"build_time", "ns", "/timing/build_ns/median", "/timing/build_ns/ci95", smaller, k_detail},
-    {"pairs_timed", "pairs", "/timing/pairs/mean", "", neither, k_detail},
-    {"builds_per_frame", "builds", "/timing/builds_per_frame", "", smaller, k_detail},
-    {"time_per_pair", "ns", "/timing/ns_per_pair", "", smaller, k_detail},
-    {"write_floor", "ns", "/timing/write_floor_ns", "", neither, k_detail},
-    {"floor_ratio", "ratio", "/timing/floor_ratio", "", smaller, k_detail},
-    {"build_instructions", "instructions", "/count/instructions_per_build", "", smaller, k_detail},
-    {"convert_instructions", "instructions", "/count/instructions_per_frame/convert", "", smaller, k_detail},
-    {"assign_cycles", "cycles", "/count/cycles_per_frame/assign", "", smaller, k_detail},
-    {"convert_cycles", "cycles", "/count/cycles_per_frame/convert", "", smaller, k_detail},
+    {"tests_done", "tests", smaller, count, k_detail, number<&Case::tests_done>},
+    {"fallbacks", "pairs", smaller, count, k_detail, number<&Case::fallbacks>},
+    {"lights_seen_mean", "lights", neither, count, k_detail,
+     number<&Case::lights_in_view, &LightsInView::shining_mean>},
+    {"lights_in_view_mean", "lights", neither, count, k_detail, number<&Case::lights_in_view, &LightsInView::mean>},
+    {"pairs_mean", "pairs", neither, count, k_detail, number<&Case::occupancy, &Occupancy::pairs, &Spread::mean>},
+    {"pairs_max", "pairs", neither, count, k_detail, number<&Case::occupancy, &Occupancy::pairs, &Spread::max>},
+    {"lights_per_cell_mean", "lights", neither, count, k_detail,
+     number<&Case::occupancy, &Occupancy::lights_per_cell, &LightsPerCell::mean>},
+    {"lights_per_cell_p99", "lights", neither, count, k_detail,
+     number<&Case::occupancy, &Occupancy::lights_per_cell, &LightsPerCell::p99>},
+    {"lights_per_cell_max", "lights", neither, count, k_detail,
+     number<&Case::occupancy, &Occupancy::lights_per_cell, &LightsPerCell::max>},
+    {"occupied_fraction", "ratio", neither, count, k_detail,
+     number<&Case::occupancy, &Occupancy::occupied_fraction, &Spread::mean>},
+    {"entries_high_water", "entries", smaller, count, k_detail,
+     number<&Case::buffers, &Buffers::index_entries, &HighWater::high_water>},
+    {"entries_recommended", "entries", smaller, count, k_detail,
+     number<&Case::buffers, &Buffers::index_entries, &HighWater::recommended>},
+    {"bytes_recommended", "bytes", smaller, count, k_detail,
+     number<&Case::buffers, &Buffers::bytes, &HighWater::recommended>},
+    {"upload_bytes_mean", "bytes", smaller, count, k_detail,
+     number<&Case::buffers, &Buffers::upload_bytes, &FrameBytes::mean>},
+    {"gpu_cost", "ns", smaller, count, k_detail, number<&Case::cost, &Cost::gpu_ns>},
+    {"traffic_bytes_mean", "bytes", smaller, count, k_detail,
+     number<&Case::buffers, &Buffers::traffic_bytes, &FrameBytes::mean>},
+    {"upload_bytes_max", "bytes", smaller, count, k_detail,
+     number<&Case::buffers, &Buffers::upload_bytes, &FrameBytes::max>},
+    {"scratch_bytes", "bytes", smaller, count, k_detail, number<&Case::buffers, &Buffers::scratch_bytes>},
+    {"true_pairs", "pairs", neither, count, k_detail, number<&Case::error, &ListError::true_pairs>},
+    {"reported_pairs", "pairs", neither, count, k_detail, number<&Case::error, &ListError::reported_pairs>},
+    {"false_positives", "pairs", smaller, count, k_detail, number<&Case::error, &ListError::false_positives>},
+    {"miss_ratio", "ratio", smaller, count, k_detail, number<&Case::error, &ListError::miss_ratio>},
+    {"deepest_miss", "ratio", smaller, count, k_detail, number<&Case::error, &ListError::deepest_miss>},
+    {"undecided", "pairs", smaller, count, k_detail, number<&Case::error, &ListError::undecided>},
+    {"samples_needed", "lights", neither, count, k_detail, number<&Case::shading, &SampleSet::needed>},
+    {"samples_missed", "lights", smaller, count, k_detail, number<&Case::shading, &SampleSet::missed>},
+    {"samples_missed_outside", "lights", smaller, count, k_detail, number<&Case::shading, &SampleSet::missed_outside>},
+    {"lost_irradiance", "ratio", smaller, count, k_detail, number<&Case::shading, &SampleSet::lost_irradiance>},
+    {"changed_pairs", "pairs", smaller, count, k_detail,
+     number<&Case::stability, &Stability::changed, &Changed::method, &Churn::mean>},
+    {"flickers", "pairs", smaller, count, k_detail, number<&Case::stability, &Stability::flickers, &Flickers::method>},
+    {"extra_pairs", "pairs", smaller, count, k_detail,
+     number<&Case::precision, &Precision::extra_pairs, &ExtraPairs::mean>},
+    {"build_time", "ns", smaller, time, k_detail, number<&Case::timing, &Timing::build_ns, &Time::median>,
+     part<&Case::timing, &Timing::build_ns, &Time::ci95>},
+    {"pairs_timed", "pairs", neither, count, k_detail, number<&Case::timing, &Timing::pairs, &TimedPairs::mean>},
+    {"builds_per_frame", "builds", smaller, count, k_detail, number<&Case::timing, &Timing::builds_per_frame>},
+    {"time_per_pair", "ns", smaller, derived, k_detail, number<&Case::timing, &Timing::ns_per_pair>},
+    {"write_floor", "ns", neither, time, k_detail, number<&Case::timing, &Timing::write_floor_ns>},
+    {"floor_ratio", "ratio", smaller, derived, k_detail, number<&Case::timing, &Timing::floor_ratio>},
+    {"build_instructions", "instructions", smaller, instructions, k_detail,
+     number<&Case::count, &Count::instructions_per_build>},
+    {"convert_instructions", "instructions", smaller, instructions, k_detail,
+     number<&Case::count, &Count::instructions_per_frame, &PerFrame::convert>},
+    {"assign_cycles", "cycles", smaller, instructions, k_detail,
+     number<&Case::count, &Count::cycles_per_frame, &PerFrame::assign>},
+    {"convert_cycles", "cycles", smaller, instructions, k_detail,
+     number<&Case::count, &Count::cycles_per_frame, &PerFrame::convert>},
 };
-
-bool is_interval(const Json& value) {
-  return value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
-}
 
 // A quotient by nothing is not a figure.
 std::optional<double> figure(const Metric& metric, double value) {
@@ -87,37 +139,26 @@ std::optional<double> figure(const Metric& metric, double value) {
   return value > 0.0 ? std::optional(metric.dividend / value) : std::nullopt;
 }
 
-std::optional<Measured> measured_by(const Json& result_case, const Metric& metric) {
-  const std::optional<double> found = number_at(result_case, std::string(metric.pointer));
+std::optional<Measured> measured_by(const Case& result_case, const Metric& metric) {
+  const std::optional<double> found = metric.value(result_case);
   if (!found) return {};
   const std::optional<double> value = figure(metric, *found);
   if (!value) return {};
   Measured out{&metric, *value, {}};
-  const Json* interval = metric.interval.empty() ? nullptr : value_at(result_case, std::string(metric.interval));
-  if (interval == nullptr || !is_interval(*interval)) return out;
-  const double a = figure(metric, (*interval)[0].get<double>()).value_or(*value);
-  const double b = figure(metric, (*interval)[1].get<double>()).value_or(*value);
+  const result::Interval* ends = metric.interval == nullptr ? nullptr : metric.interval(result_case);
+  if (ends == nullptr || !std::isfinite((*ends)[0]) || !std::isfinite((*ends)[1])) return out;
+  const double a = figure(metric, (*ends)[0]).value_or(*value), b = figure(metric, (*ends)[1]).value_or(*value);
   out.ci95 = {std::min(a, b), std::max(a, b)};
   return out;
 }
 
 }  // namespace
 
-Basis basis_of(const Metric& metric) {
-  constexpr std::string_view k_derived[] = {"/timing/frame_ns/median", "/timing/worst_frame/ns", "/timing/ns_per_pair",
-                                            "/timing/floor_ratio", "/cost/frame_ns"};
-  if (std::find(std::begin(k_derived), std::end(k_derived), metric.pointer) != std::end(k_derived))
-    return Basis::derived;
-  if (metric.pointer == "/timing/pairs/mean" || metric.pointer == "/timing/builds_per_frame") return Basis::count;
-  if (metric.pointer.starts_with("/timing/")) return Basis::time;
-  return metric.pointer.starts_with("/count/") ? Basis::instructions : Basis::count;
-}
-
 std::span<const Metric> export_metrics() {
   return k_metrics;
 }
 
-std::vector<Measured> measured(const Json& result_case, bool all) {
+std::vector<Measured> measured(const Case& result_case, bool all) {
   std::vector<Measured> out;
   for (const Metric& metric : k_metrics)
     if (metric.is_headline || all)

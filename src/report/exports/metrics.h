@@ -1,12 +1,13 @@
 #pragma once
 // The figures of a case that other tools are given. Names and units are stable; a figure is one row of the table.
 
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "measure/time_statistics.h"
+#include "result/case.h"
 
 namespace clusterbench::report {
 
@@ -21,16 +22,19 @@ enum class Basis {
 };
 
 struct Metric {
-  std::string_view name;      // lower-case words with underscores
-  std::string_view unit;      // "ns", "bytes", "pairs", "ratio", ...
-  std::string_view pointer;   // of the value in a result's case, as a JSON pointer
-  std::string_view interval;  // of its 95 % interval [low, high]; "" if it has none
+  std::string_view name;  // lower-case words with underscores
+  std::string_view unit;  // "ns", "bytes", "pairs", "ratio", ...
   Better better;
-  bool is_headline;       // exported unless everything is asked for
+  Basis basis;
+  bool is_headline;  // exported unless everything is asked for
+  std::optional<double> (*value)(const result::Case& result_case);
+  const result::Interval* (*interval)(const result::Case& result_case) = nullptr;  // 95 %; null if it has none
   double dividend = 0.0;  // the figure is dividend / value where this is not 0
 };
 
-Basis basis_of(const Metric& metric);
+inline Basis basis_of(const Metric& metric) {
+  return metric.basis;
+}
 
 // Headline first, else in the order of the result.
 std::span<const Metric> export_metrics();
@@ -42,6 +46,6 @@ struct Measured {
 };
 
 // What the case has of the table: absent and null figures are left out.
-std::vector<Measured> measured(const nlohmann::ordered_json& result_case, bool all);
+std::vector<Measured> measured(const result::Case& result_case, bool all);
 
 }  // namespace clusterbench::report
