@@ -159,10 +159,6 @@ export type Result = {
   date?: string; // When the run began: UTC, ISO 8601. Absent where nothing is timed, so that such results are the same whenever they are made
   command?: string; // The command line. Absent where nothing is timed
   tool: Tool; // The program that measured
-  baseline?: {
-    tool: Tool; // As `tool` of this result's own program
-    is_same_program?: boolean; // true: it is this program's own file, byte for byte; else absent
-  }; // The other program of run --baseline-binary
   machine: {
     cpu: string; // The processor's name
     family?: string; // The vendor's number, on ARM the implementer's; absent if unknown
@@ -631,6 +627,22 @@ export type Result = {
       ns_per_pair: number | null; // frame_ns.median / pairs.mean; null without pairs in lists [ns, over the timed frames]
       write_floor_ns: number | null; // Per frame: time to copy its finished lists once as the standard `packed` holds them, headers and indices, from buffers of the frame into others of the frame [ns, over the rounds]
       floor_ratio: number | null; // assign_ns by write_floor_ns, both with warm caches: how far the assignment is from only writing its result [ratio, over the rounds]
+      against_first?: {
+        assigner: string; // Label of the first assigner
+        ratio: number | null; // This case's frame time by that of the group's first assigner in the same storage: median of the rounds' ratios [ratio, over the rounds]
+        ci95: Interval; // 95 % interval of the ratio [ratio, over the rounds]
+      }; // How much longer than the group's first assigner; absent of that one. A group: scene, camera, viewport and grid
+      disturbed?: {
+        others_cores: number | null; // Processors that other programs of the machine kept busy meanwhile, in the mean [processors]
+        stolen_cores: number | null; // Processors that other guests of the host took meanwhile, in the mean [processors]
+        throttled: number; // Times that processors slowed down because of heat; 0 where Linux does not count them [times]
+      }; // What else went on while the cases of this grid, camera and viewport were measured, over all launches [over the measuring of the group]
+      fit?: {
+        follow_ns: Time; // Finding what a frame needs, and making its grid; in no other time. Building a method for the grid is in assign_ns [ns, over the rounds]
+        unfitted_ns: Time; // frame_ns of the same case in the grid that does not follow [ns, over the rounds]
+        ratio: number | null; // frame_ns by unfitted_ns: median of the rounds' ratios [ratio, over the rounds]
+        ci95: Interval; // 95 % interval of the ratio [ratio, over the rounds]
+      }; // Of slices that follow what frames need
       baseline?: {
         launches: Array<{
           base_ns: number[]; // Times of the other program [ns, over the rounds of a launch]
@@ -650,22 +662,6 @@ export type Result = {
           new_pairs: number; // Pairs of this program [pairs, over all frames]
         }; // Where both programs' lists first differ
       }; // Rounds beside another program (run --baseline-binary)
-      against_first?: {
-        assigner: string; // Label of the first assigner
-        ratio: number | null; // This case's frame time by that of the group's first assigner in the same storage: median of the rounds' ratios [ratio, over the rounds]
-        ci95: Interval; // 95 % interval of the ratio [ratio, over the rounds]
-      }; // How much longer than the group's first assigner; absent of that one. A group: scene, camera, viewport and grid
-      disturbed?: {
-        others_cores: number | null; // Processors that other programs of the machine kept busy meanwhile, in the mean [processors]
-        stolen_cores: number | null; // Processors that other guests of the host took meanwhile, in the mean [processors]
-        throttled: number; // Times that processors slowed down because of heat; 0 where Linux does not count them [times]
-      }; // What else went on while the cases of this grid, camera and viewport were measured, over all launches [over the measuring of the group]
-      fit?: {
-        follow_ns: Time; // Finding what a frame needs, and making its grid; in no other time. Building a method for the grid is in assign_ns [ns, over the rounds]
-        unfitted_ns: Time; // frame_ns of the same case in the grid that does not follow [ns, over the rounds]
-        ratio: number | null; // frame_ns by unfitted_ns: median of the rounds' ratios [ratio, over the rounds]
-        ci95: Interval; // 95 % interval of the ratio [ratio, over the rounds]
-      }; // Of slices that follow what frames need
     }; // Wall times
     details?: {
       max_bytes: number; // Most bytes that the configuration allows [bytes, over the case]
@@ -720,6 +716,14 @@ export type Result = {
         not_on_path: number[]; // Frames that the configuration names and the path does not have [frame, over the path]
       }; // What was asked for and is not in the result
     }; // Chosen frames cell by cell
+    count?: {
+      source: "perf" | "callgrind"; // Hardware counters or valgrind's callgrind; compare counts of one source only
+      simd_target: string; // Instruction set of the counted code; callgrind offers fewer than the machine has
+      frames: number; // Frames that are counted: those that are timed [frames, over the path]
+      instructions_per_build: number; // Preparation for a grid; as it may take memory, some tens of instructions depend on the heap [instructions, over one build]
+      instructions_per_frame: PerFrame; // Instructions of one frame [instructions]
+      cycles_per_frame?: PerFrame; // Cycles of one frame; absent where only instructions are counted [cycles]
+    }; // Instructions of what is timed, with --count
     cost?: {
       frame_ns: number | null; // assign_ns + gpu_ns; null where nothing is timed, and of presets whose engine makes its lists on a GPU, which is not timed here [ns]
       assign_ns: number | null; // timing.frame_ns.median: assignment and conversion [ns]
@@ -740,45 +744,36 @@ export type Result = {
       }>; // By name, those that are asked for, have a weight and are there
       lit: boolean; // None of these sets lacks more than 0.001 of the lights that it needs. A case that does is on no front over cost
     }; // What a frame costs with its shading, by the model and the constants of config.cost; where samples of a set with a weight are asked for [over one frame, mean over all frames]
-    count?: {
-      source: "perf" | "callgrind"; // Hardware counters or valgrind's callgrind; compare counts of one source only
-      simd_target: string; // Instruction set of the counted code; callgrind offers fewer than the machine has
-      frames: number; // Frames that are counted: those that are timed [frames, over the path]
-      instructions_per_build: number; // Preparation for a grid; as it may take memory, some tens of instructions depend on the heap [instructions, over one build]
-      instructions_per_frame: PerFrame; // Instructions of one frame [instructions]
-      cycles_per_frame?: PerFrame; // Cycles of one frame; absent where only instructions are counted [cycles]
-    }; // Instructions of what is timed, with --count
   }>; // One method on one grid in one storage, along one camera's path
   pareto_front: Array<{
     scene: string; // Name of one of scenes
     ids: string[]; // Ids of the cases with a star, in the order of cases
   }>; // Per scene the cases on the Pareto front: no other one of the same camera and viewport is as good in frame time (beyond the interval of their ratio), bytes and overshade together, and better in one; where config.rank_by is frame_cost, in cost and bytes. What draws lights has no lists, so its bytes count as unknown. Only cases that are eligible, and none that samples search
-  failed?: string[]; // What the run failed for beside the failures of its cases, a line each: budgets (limits.fail_if), lights that are missing, what a baseline has, a program beside it. conclusions then take nothing. Absent where it failed for none of these
+  skipped: Array<{
+    name: string; // As of a case, as far as all of the skipped combinations share it
+    reason: string; // Why, as text
+    preset?: string; // That it is of; absent for the configuration's own clusterings
+  }>; // Combinations that cannot be
   presets?: Array<{
     name: string; // As a case's preset
     engine: string; // Whose scheme it is
     version?: string; // Of its code or publication: a release, a commit, a year; absent in older results
     evidence?: "ran" | "read" | "memory"; // ran: the engine's own code, or a transcription of it, was run and its lists compared. read: its code or publication was read. memory: neither. Absent in older results
-    mistakes?: string; // That the engine has as it is shipped, which config.as_shipped models; absent where none is modelled
     summary: string; // The scheme in a line
     source: string; // What was read
     approximated: string; // What is not as there; empty where nothing is known to differ
     unverified: string; // What stands on memory alone; empty where all was read
-    most_lights?: number; // That it takes in a frame; absent where no such limit is known [count, over one frame]
     assigns_on?: "cpu" | "gpu"; // Where the engine makes its lists: those of a GPU are not uploaded
+    most_lights?: number; // That it takes in a frame; absent where no such limit is known [count, over one frame]
+    mistakes?: string; // That the engine has as it is shipped, which config.as_shipped models; absent where none is modelled
   }>; // What is known of the presets that cases are of, as `clusterbench list presets` tells it; absent without any
   preset_rankings?: Array<{
     scene: string; // Name of one of scenes
     camera: string; // As the cases'
     viewport: [number, number]; // As the cases': width, height [pixels, over the cases]
     frames?: number; // Of each case; absent in older results [count, over each case]
-    lights_in_view?: {
-      mean: number | null; // Mean
-      max: number | null; // Of the frame with most
-    }; // As the cases'; absent in older results [lights, over the frames]
     best: string | null; // Id of the case with lists that costs the GPU least of those whose samples lack at most 0.1 % of the lights that they need; null where there is none
     alike?: string[]; // Ids of best and of the cases that the model cannot tell from it; absent in older results
-    text?: string; // What to take, against what, by how much, and how sure that is, as text; absent in older results
     cases: Array<{
       id: string; // Of the case
       preset: string; // Of the case
@@ -788,17 +783,17 @@ export type Result = {
       upload_ns?: number | null; // Of the lists, by config.cost: 0 where the engine makes them on a GPU. Absent in older results [ns, over one frame]
       read_ns?: number | null; // What samples read to know their lights, by config.cost. Absent in older results [ns, over one frame]
       shade_ns?: number | null; // Lights that samples loop over, by config.cost; where the scene has no surfaces, each pixel shaded once at a random depth. Absent in older results [ns, over one frame]
+      lights_per_sample: number | null; // Lights given at a sample of these sets, mean [count, over all samples]
       unlit?: number | null; // Share of the lights that its samples need and lack: of the sets that cost something the one that lacks most, else on visible surfaces if they are asked for, else in the whole view; null where no sample needs a light. Absent in older results [ratio, over the lights that samples need]
       missed_in_view?: number | null; // Pairs that the lists lack, without those of lights beside the view; null where lists were not compared with the truth. Absent in older results [pairs, over all frames]
-      lights_per_sample: number | null; // Lights given at a sample of these sets, mean [count, over all samples]
       why: string; // What speaks for and against it here, as text
     }>; // Best first: by standing, then by gpu_ns, or by the share of lights that samples lack
+    text?: string; // What to take, against what, by how much, and how sure that is, as text; absent in older results
+    lights_in_view?: {
+      mean: number | null; // Mean
+      max: number | null; // Of the frame with most
+    }; // As the cases'; absent in older results [lights, over the frames]
   }>; // Per scene, camera and viewport the cases of presets beside each other; absent without any
-  skipped: Array<{
-    name: string; // As of a case, as far as all of the skipped combinations share it
-    reason: string; // Why, as text
-    preset?: string; // That it is of; absent for the configuration's own clusterings
-  }>; // Combinations that cannot be
   conclusions?: Array<{
     scene: string; // Name of one of scenes
     camera: string; // As in cases
@@ -811,4 +806,9 @@ export type Result = {
     by_prices?: [number | null, number | null]; // From and to what ratio goes as each price of config.cost (of uploading, drawing, reading, looping) takes values between half and twice its own; absent where nothing is modelled, and in older results [ratio, over the samples]
     text: string; // The same for people
   }>; // Per scene, camera and viewport what to take by this result, and how sure that is. Of the cases that lose nothing that their samples see, that which costs least: frame time and, where samples were asked for, upload, reading and shading by the model of config.cost. Of those that the times cannot tell apart, or the model (within 5 %), one whose samples lack nothing comes before others, then one on the front, then the one with the fewest bytes. Presets are ranked by themselves. Absent in older results
+  failed?: string[]; // What the run failed for beside the failures of its cases, a line each: budgets (limits.fail_if), lights that are missing, what a baseline has, a program beside it. conclusions then take nothing. Absent where it failed for none of these
+  baseline?: {
+    tool: Tool; // As `tool` of this result's own program
+    is_same_program?: boolean; // true: it is this program's own file, byte for byte; else absent
+  }; // The other program of run --baseline-binary
 };

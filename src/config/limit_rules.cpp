@@ -28,7 +28,7 @@ constexpr LimitFigure k_figures[] = {
     {"bytes", "bytes of indices and headers in the fullest frame"},
     {"upload_bytes", "bytes to copy in the largest frame"},
     {"scratch_bytes", "bytes of the method's own memory"},
-    {"longest", "lights in the fullest cell of any frame"},
+    {"longest", "lights in the fullest cell of any frame, before a storage drops any"},
     {"pairs", "(cell, light) pairs in the fullest frame"},
     {"pairs.mean", "(cell, light) pairs of a frame, mean of all frames"},
     {"dropped", "pairs that the storage dropped, over all frames"},

@@ -122,11 +122,18 @@ bool is_same_angle(const Json& a, const Json& b) {
          std::abs(left->angle_rad - right->angle_rad) < 1e-9;
 }
 
+// Slices whose cells have a shape end with the one that holds the end that was asked for.
+bool ends_at(const result::Slices& slices, double end_m) {
+  const double last_m = slices.boundaries.back();
+  return is_near(end_m, last_m, last_m) ||
+         (slices.scheme.starts_with("cubical") && end_m > slices.boundaries.end()[-2] && end_m < last_m);
+}
+
 // "" if the grid ends where that of the search did, or follows something from frame to frame.
 std::string other_end(const Json& searched, const result::Grid& grid) {
   if (const std::optional<double> end_m = number_at(searched, "/slices_m"); end_m && grid.slices) {
     const double here_m = grid.slices->boundaries.back();
-    return is_near(*end_m, here_m, here_m)
+    return ends_at(*grid.slices, *end_m)
                ? ""
                : text("is %.6g m", *end_m) + text(", and the grid here ends at %.6g m", here_m);
   }

@@ -337,7 +337,7 @@ class RuleCheck {
       findings_.broken.push_back(quoted_ + " could not be checked: there is no baseline (--baseline FILE)");
       return;
     }
-    std::vector<std::string> not_in_base, without;
+    std::vector<std::string> not_in_base, without, in_one;
     std::string obstacle;
     for (const Case* result_case : cases_) {
       const std::string& name = result_case->name;
@@ -360,8 +360,13 @@ class RuleCheck {
         else
           judge_change(*result_case, *now, *then);
       }
-      if (has_none || lacks_one) without.push_back(name);
+      if (has_none) without.push_back(name);
+      if (lacks_one) in_one.push_back(name);
     }
+    if (!in_one.empty())
+      findings_.broken.push_back(quoted_ + " could not be checked for " + number_of(in_one.size(), "case") +
+                                 ", since only one of this result and " + baseline_->name() + " has " + rule_.figure +
+                                 reason_for_none(rule_.figure) + ": " + listed_names(in_one));
     add_unmatched(not_in_base, without, obstacle);
   }
 

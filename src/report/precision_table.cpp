@@ -31,7 +31,7 @@ Cells precision_row(const NamedCase& named) {
 }
 
 // What tells two cases of a method apart.
-Json parts_of(const Case& result_case) {
+Json precision_of(const Case& result_case) {
   Json parts;
   if (result_case.precision) parts["precision"] = result::to_json(*result_case.precision);
   if (result_case.error) parts["error"] = result::to_json(*result_case.error);
@@ -42,7 +42,7 @@ Json parts_of(const Case& result_case) {
 // Cases of a block, once per method, precision and what that loses. The precision has a column of its own.
 std::vector<NamedCase> precision_lines(const std::vector<Case>& cases, const result::Scene& scene,
                                        const std::string& block) {
-  std::vector<NamedCase> lines = distinct_cases(cases, scene, block, parts_of);
+  std::vector<NamedCase> lines = distinct_cases(cases, scene, block, precision_of);
   std::erase_if(lines, [](const NamedCase& line) { return !line.result_case->precision; });
   for (NamedCase& line : lines) {
     const Case& result_case = *line.result_case;

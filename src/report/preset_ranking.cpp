@@ -178,20 +178,21 @@ std::string heading(const result::PresetRanking& ranking, const std::vector<Case
 }
 
 constexpr const char* k_legend =
-    "* costs the GPU least, by the key `cost`, of the lists whose samples lack at most 0.1 % of the lights that they "
-    "need; presets\nfrom memory alone do not count. place: 1 + the number of presets "
-    "that "
-    "are clearly cheaper (by\nover 5 %, also with each price halved or doubled), so that one that costs more can have "
-    "the "
-    "better place. s: samples search the\nstructure, ranked apart, since no GPU has measured what that costs. -: "
-    "samples "
-    "lack more lights, or need fewer than 1000, too few\nto say so. gpu, upload, read: us of a frame by the model; "
-    "lists "
-    "that a GPU makes are not uploaded, and what it pays to make them\nis not counted. lights: that a sample is given, "
-    "on "
-    "average. dropped, missed: pairs that cells in view lack, seen or not; unlit:\nwhat samples lack decides. assign: "
-    "us "
-    "of one core here, of engines that assign on the CPU; gpu: a time here would not be the\nengine's.\n";
+    "* costs the GPU least, by the key `cost`, of the lists whose samples lack at most 0.1 % of the lights that "
+    "they need; presets from\n"
+    "memory alone do not count. place: 1 + the number of presets that are clearly cheaper (by over 5 %, also "
+    "with each price halved or\n"
+    "doubled), so that one that costs more can have the better place. s: samples search the structure, ranked "
+    "apart, since no GPU has\n"
+    "measured what that costs. -: samples lack more lights, or need fewer than 1000, too few to say so. gpu, "
+    "upload, read: us of a\n"
+    "frame by the model; lists that a GPU makes are not uploaded, and what it pays to make them is not counted. "
+    "lights: that a sample\n"
+    "is given, on average. longest: the longest list, before a cap drops any. dropped, missed: pairs that cells "
+    "in view lack, seen or\n"
+    "not; unlit: what samples lack decides. assign: us of one core here, of engines that assign on the CPU; gpu: "
+    "a time here would not\n"
+    "be the engine's.\n";
 
 }  // namespace
 

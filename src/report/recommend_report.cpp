@@ -80,12 +80,18 @@ std::optional<double> figure_of(const Case& result_case, const std::string& name
   return limit_figure(result_case, name);
 }
 
-// Nothing where a camera lacks it.
+bool is_of_samples(const std::string& name) {
+  return name == k_evaluated || name == k_read_bytes || config::is_at_samples(name);
+}
+
+// Nothing where a camera lacks it. One that sees no surface has no samples, and no part in figures of samples.
 std::optional<double> figure_over(const std::vector<Case>& cases, const std::string& name) {
   const OverCameras over = figure_kind(name).over;
   double all = 0.0, weights = 0.0;
   for (const Case& result_case : cases) {
     const std::optional<double> value = figure_of(result_case, name);
+    if (!value && is_of_samples(name) && sum_at_samples(result_case, result::number<&SampleSet::samples>) == 0.0)
+      continue;
     if (!value) return {};
     const double weight = over == OverCameras::mean ? static_cast<double>(result_case.frames) : 1.0;
     all = over == OverCameras::largest ? std::max(all, *value) : all + weight * *value;

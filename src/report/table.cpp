@@ -300,7 +300,7 @@ std::string legend(const std::vector<Case>& cases, const Extras& extras, RankBy 
                                      : "bytes and overshade") +
            " and as good in the rest.\n" +
            (extras.times ? "Times that are not known to differ count as equal.\n"
-                         : "Of cases that are equal in all, one ending in -fast has it.\n");
+                         : "Of cases that are equal in all, a method gives way to its faster form (-fast).\n");
   if (extras.times)
     out += std::string("frame: time to make a frame's lists") + (extras.cold ? " with cold caches" : "") + ", assign" +
            (extras.conversions ? " + convert" : "") + "; ±: half of its 95 % interval" +

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/lights_in_view.h"
+
 namespace clusterbench::run {
 
 void LightReach::add(const view::Frame& frame) {
@@ -11,8 +13,9 @@ void LightReach::add(const view::Frame& frame) {
     const Vec3d lo = light.position - light.range_m, hi = light.position + light.range_m;
     lo_ = is_empty_ ? lo : glm::min(lo_, lo);
     hi_ = is_empty_ ? hi : glm::max(hi_, hi);
-    far_m_ = std::max(far_m_, glm::length(light.position - frame.view_space.origin) + light.range_m);
     is_empty_ = false;
+    if (grid::is_in_view(frame, light))
+      far_m_ = std::max(far_m_, glm::length(light.position - frame.view_space.origin) + light.range_m);
   }
 }
 

@@ -13,7 +13,7 @@ class LightReach {
   // The box around their balls; without extent at the origin where there are none.
   const Vec3d& lo() const { return lo_; }
   const Vec3d& hi() const { return hi_; }
-  // How far they reach at most from the eyes of the frames.
+  // How far those in view of a frame reach at most from its eye: what is behind it, or beside its view, is in no cell.
   double far_m() const { return far_m_; }
 
  private:

@@ -80,18 +80,17 @@ std::string dark_lights(const SceneData& data) {
     return light.type == scene::LightType::point || light.type == scene::LightType::spot;
   });
   std::string out = std::to_string(dark) + " of " + number_of(static_cast<std::size_t>(lights), "light") +
-                    (dark == 1 ? " is" : " are") + " dark (intensity 0, black, or range 0); ";
+                    (dark == 1 ? " is" : " are") + " dark (intensity 0, black, range 0, or invisible); ";
   if (without_range < dark)
     out +=
         "lists and all figures but lights_lit and lights_seen (and its mean) count those with a range, engines do not";
   if (without_range == 0) return out;
   return out + (without_range < dark ? "; " : "") + std::to_string(without_range) +
          (without_range == 1
-              ? " has no range but that of its intensity, which is 0: no list has it, and sizes are without it; give "
-                "it "
-                "a range to size for when it is on"
-              : " have no range but that of their intensity, which is 0: no list has them, and sizes are without them; "
-                "give them ranges to size for when they are on");
+              ? " reaches nothing (invisible all the time, or of intensity 0 without a range in the file): no list has "
+                "it, and sizes are without it; with a range, and visible, it is sized for when it is on"
+              : " reach nothing (invisible all the time, or of intensity 0 without a range in the file): no list has "
+                "them, and sizes are without them; with ranges, and visible, they are sized for when they are on");
 }
 
 SceneResult scene_result(const SceneData& data, const config::SceneRequest& request,

@@ -45,9 +45,9 @@ TEST(DarkLights, are_nothing_that_a_run_takes_a_clustering_by) {
 
 TEST(DarkLights, are_told_by_every_command_that_chooses) {
   const Folder folder;
-  const std::string level =
-                        folder.write("level.gltf", level_of(row_of(8, -1.0, 7))).string() + k_small + " --no-timing ",
-                    told = "warning: level: 7 of 8 lights are dark (intensity 0, black, or range 0); lists and all";
+  const std::string
+      level = folder.write("level.gltf", level_of(row_of(8, -1.0, 7))).string() + k_small + " --no-timing ",
+      told = "warning: level: 7 of 8 lights are dark (intensity 0, black, range 0, or invisible); lists and all";
   for (const std::string& command :
        {"run " + level + "-o " + (folder / "result.json").string(), "recommend " + level}) {
     const Outcome done = tool(command);
@@ -65,7 +65,9 @@ TEST(DarkLights, without_a_range_are_said_to_be_in_no_list) {
   for (nlohmann::json& light : level["extensions"]["KHR_lights_punctual"]["lights"])
     if (light["intensity"] == 0.0) light.erase("range");
   const Outcome size = tool("size " + folder.write("level.gltf", level.dump()).string() + k_small + " -q");
-  EXPECT_TRUE(contains(size.err, "3 have no range but that of their intensity, which is 0: no list has them"))
+  EXPECT_TRUE(contains(
+      size.err,
+      "3 reach nothing (invisible all the time, or of intensity 0 without a range in the file): no list has them"))
       << size.err;
   EXPECT_FALSE(contains(size.err, "engines do not")) << size.err;
   EXPECT_EQ(size.err.find("are dark"), size.err.rfind("are dark")) << "once: " << size.err;
@@ -112,6 +114,35 @@ TEST(DarkLights, without_a_range_change_nothing_wherever_they_are) {
       add_lamp(level, {{"type", "point"}, {"intensity", 0.0}}, random.between(-far_m, far_m),
                random.between(-far_m, far_m), random.between(-far_m, far_m));
     }
+    EXPECT_EQ(figures(level), without) << level;
+  }
+}
+
+// Lights that shine, but behind the camera: slices and samples end where those in view do.
+TEST(LightsOutOfView, change_neither_where_slices_end_nor_where_samples_lie) {
+  const Folder folder;
+  const auto figures = [&](const nlohmann::json& of) {
+    const std::string result = (folder / "result.json").string();
+    const Outcome run = tool("run " + folder.write("level.gltf", of.dump()).string() +
+                             " --viewport 320x180 --grid frustum,distance --tiles 64 --slices 8 --assigner "
+                             "exact-fast,distance-fast --no-timing -q --set 'samples.fog={}' -o " +
+                             result);
+    EXPECT_EQ(run.code, 0) << run.err;
+    nlohmann::json out = nlohmann::json::array();
+    for (const nlohmann::json& one : nlohmann::json::parse(file_text(result))["cases"])
+      out.push_back({one["name"], one["grid"], one["occupancy"], one["shading"], one["samples"]});
+    return out;
+  };
+  SplitMix64 random(50);
+  for (int draw = 0; draw < tries(16); ++draw) {
+    SCOPED_TRACE("draw " + std::to_string(draw));
+    nlohmann::json level = nlohmann::json::parse(level_of({}, random.below(2) == 0));
+    level["extensionsUsed"] = {"KHR_lights_punctual"};
+    for (std::uint64_t i = 0, count = 1 + random.below(8); i < count; ++i)
+      add_lamp(level, {{"type", "point"}, {"range", random.between(0.5, 4.0)}}, random.between(-2.0, 2.0),
+               random.between(-12.0, -2.0));
+    const nlohmann::json without = figures(level);
+    add_lamp(level, {{"type", "point"}, {"range", 3.0}}, random.between(-9.0, 9.0), random.between(4.0, 5000.0));
     EXPECT_EQ(figures(level), without) << level;
   }
 }
@@ -182,7 +213,8 @@ TEST(DarkLights, are_sized_with_a_warning) {
   const std::string lit = folder.write("level.gltf", level_of(row_of(8, -1.0, 7))).string();
   const std::string some = tool("size " + lit + k_small + " -q").err;
   EXPECT_FALSE(contains(some, "all lights in view are dark")) << some;
-  EXPECT_TRUE(contains(some, "warning: level: 7 of 8 lights are dark (intensity 0, black, or range 0)")) << some;
+  EXPECT_TRUE(contains(some, "warning: level: 7 of 8 lights are dark (intensity 0, black, range 0, or invisible)"))
+      << some;
 }
 
 // Random points: lit, dark or black, with a range or without, ahead or behind.
@@ -226,8 +258,8 @@ TEST(DarkLights, at_random_are_counted_where_they_are_said_to_be) {
     const auto [told, result] = measured(lamps.level);
     EXPECT_EQ(result["scenes"][0]["lights"]["dark"], lamps.dark);
     const std::string all = std::to_string(lamps.dark) + " of " + std::to_string(lamps.all) + " light",
-                      unlisted = lamps.without_range == 1 ? "1 has no range but"
-                                                          : std::to_string(lamps.without_range) + " have no range but";
+                      unlisted = lamps.without_range == 1 ? "1 reaches nothing"
+                                                          : std::to_string(lamps.without_range) + " reach nothing";
     EXPECT_EQ(contains(told, all), lamps.dark > 0) << told;
     EXPECT_EQ(contains(told, unlisted), lamps.without_range > 0) << told;
     EXPECT_EQ(contains(told, "count those with a range"), lamps.without_range < lamps.dark) << told;

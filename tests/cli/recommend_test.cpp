@@ -583,5 +583,20 @@ TEST(Recommend, refuses_what_makes_no_sense_and_says_which_flag_it_is) {
   EXPECT_EQ(file_text(config), space()) << "the input is not overwritten";
 }
 
+// Of a camera that looks into the sky there are no samples, and nothing is known against any candidate.
+TEST(Recommend, by_figures_of_samples_goes_by_the_cameras_that_see_surfaces) {
+  const Folder folder;
+  nlohmann::json level = nlohmann::json::parse(level_of(row_of(6)));
+  level["scenes"][0]["nodes"].push_back(level["nodes"].size());
+  level["nodes"].push_back({{"name", "sky"}, {"camera", 0}, {"rotation", {0.70710678, 0.0, 0.0, 0.70710678}}});
+  const std::string flags =
+      " --viewport 320x180 --grid frustum --tiles 16x9t --slices 4,8 --assigner exact-fast "
+      "--no-timing -q --set samples.opaque.ground=lowest --set 'scenes.*.camera=*' --by ";
+  for (const char* figure : {"evaluated", "read_bytes"}) {
+    const Outcome done = tool("recommend " + folder.write("level.gltf", level.dump()).string() + flags + figure);
+    EXPECT_EQ(done.code, 0) << done.out << done.err;
+  }
+}
+
 }  // namespace
 }  // namespace clusterbench::test

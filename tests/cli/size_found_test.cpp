@@ -67,6 +67,23 @@ TEST_F(SizeFound, a_search_of_other_settings_is_refused_with_what_differs) {
   EXPECT_EQ(size("--found " + same).code, 2);
 }
 
+// Cells as deep as they are wide: the last slice ends behind the end that was asked for.
+TEST_F(SizeFound, finds_in_slices_of_a_shape_are_taken_where_the_end_is_the_same) {
+  const std::string file = (folder_ / "shape.json").string();
+  for (const std::string scheme : {"cubical", "cubical-first"}) {
+    const std::string flags = " -q --viewport 640x360 --grid frustum --tiles 64 --scheme " + scheme +
+                              " --assigner exact-fast --set storages=packed --set 'scenes.*.frames=3' " + scene_;
+    const test::Outcome found =
+        test::tool("worst-case --random 0 --evaluations 20 -o " + file + " --set 'grids.*.slices.far=40'" + flags);
+    ASSERT_EQ(found.code, 0) << found.err;
+    for (const auto& [far_m, code] : {std::pair("40", 0), std::pair("30", 2), std::pair("60", 2)}) {
+      const test::Outcome done =
+          test::tool("size --found " + file + " --set 'grids.*.slices.far=" + far_m + "'" + flags);
+      EXPECT_EQ(done.code, code) << scheme << " to " << far_m << ": " << done.err;
+    }
+  }
+}
+
 TEST_F(SizeFound, finds_for_each_of_two_viewports_are_taken_in_any_order_and_for_no_other) {
   const std::string small = search("small.json", "", "320x180"), large = search("large.json", "", "640x360");
   const auto sized = [&](const std::string& files) {

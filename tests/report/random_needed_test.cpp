@@ -52,7 +52,10 @@ Json result_of_sets(const Needed& sets) {
   }
   one["samples"] = counts;
   one["cost"] = {{"sets", costs}, {"lit", true}};
-  result["cases"] = Json::array({one});
+  Json other = result["cases"][1];  // of another method, which has samples of its own and does not change
+  other["samples"] = {{"opaque", {{"samples", k_samples}, {"evaluated", 9}, {"needed", 9}, {"missed", 0}}}};
+  other["cost"] = {{"sets", {{"opaque", {{"samples", 1.0}}}}}, {"lit", true}};
+  result["cases"] = Json::array({one, other});
   return result;
 }
 
@@ -63,8 +66,9 @@ bool is_green(const Needed& before, const Needed& after) {
   return limit_findings(result, rules, &cases).broken.empty();
 }
 
+// Without any set before and after there is nothing to hold, and the other case is held.
 bool is_held(const Needed& before, const Needed& after) {
-  if (before.empty() || before.size() != after.size()) return false;
+  if (before.size() != after.size()) return false;
   for (const auto& [set, then] : before) {
     const auto now = after.find(set);
     if (now == after.end() || 100 * now->second < 95 * then) return false;

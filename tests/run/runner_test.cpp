@@ -269,8 +269,7 @@ TEST(Runner, a_grid_that_far_at_most_cuts_does_not_say_that_no_light_lies_beyond
   EXPECT_NE(cut.find("the grid ends at 20 m, its slices' far_at_most"), std::string::npos) << cut;
   walk.config.grids[0].slices.far_at_most_m = 0.0;
   const std::string note = walk.run().cases.at(0).grid["note"];
-  EXPECT_NE(note.find("beyond which no light of the path reaches, and lists depend on that"), std::string::npos)
-      << note;
+  EXPECT_NE(note.find("beyond which no light in view reaches, and lists depend on that"), std::string::npos) << note;
   walk.config.grids[0].slices.far_default_m = 700.0;
   const std::string usual = walk.run().cases.at(0).grid["note"];
   EXPECT_NE(usual.find("the camera has no far plane: the grid ends at 700 m, as that of the engine's own cameras"),

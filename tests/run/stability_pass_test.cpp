@@ -160,6 +160,7 @@ TEST(StabilityPass, a_piece_of_a_path_keeps_the_paths_grids) {
   walk.add_light({0, 0, -6}, 3);
   const SceneData& data = walk.plan.scenes[0];
   scene::CameraPath segment = data.paths[0];
+  segment.shots.erase(segment.shots.begin(), segment.shots.begin() + 3);  // nearer to the light
   segment.shots.resize(2);
   const PathFrames whole(data.scene, data.paths[0], {100, 100});
   EXPECT_NE(PathFrames(data.scene, segment, {100, 100}).far_m(), whole.far_m());
