@@ -128,7 +128,7 @@ result::PresetRanking ranking_of(const View& view, const std::vector<RankedPrese
 // Of older results: none had places.
 std::string place_text(const result::RankedPreset& line) {
   if (!line.place) return "";
-  const std::string place = line.place->has_value() ? std::to_string(**line.place) : "-";
+  std::string place = line.place->has_value() ? std::to_string(**line.place) : "-";
   if (line.standing == name_of(PresetStanding::lists)) return place;
   return line.standing == name_of(PresetStanding::searched) ? "s" + place : "-";
 }
