@@ -10,7 +10,7 @@ function(clusterbench_report_page TARGET)
   set(CLUSTERBENCH_NO_PAGE "${OBSTACLE}" PARENT_SCOPE)
   if(OBSTACLE)
     message(STATUS "Leaving out the pages of `clusterbench report` and `history show`: ${OBSTACLE}")
-    file(CONFIGURE OUTPUT ${EMBEDDED} CONTENT "#include \"report/page_template.h\"
+    file(CONFIGURE OUTPUT ${EMBEDDED} CONTENT "#include \"report/page/page_template.h\"
 
 namespace clusterbench::report {
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks the structure that CONTRIBUTING.md describes: scripts/check_layers.py [ROOT].
 
-Fails on an #include against the order of layers, or of the folders of src/geom and src/assign, on a library included
+Fails on an #include against the order of layers, or of the folders of src/geom, src/assign and src/report, on a library included
 outside of its one home, on a file of src/assign/assigners without its line in registry.inc (or a line without its file),
 and on a circle of includes.
 """
@@ -20,6 +20,8 @@ FOLDERS = {
              ["spot"]],
     "assign": [["contract", "simd"], ["lists"], ["cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
                ["box_grid", "depth_bins", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],
+    "report": [["cases"], ["comparing", "documents", "presets", "searches"], ["gates", "sizing", "tables", "exports", "page"],
+               ["choosing", "history"], ["results"]],
 }
 
 # Library header -> the only layers that include it.

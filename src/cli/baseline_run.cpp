@@ -7,7 +7,7 @@
 #include "cli/rounds_protocol.h"
 #include "core/error.h"
 #include "core/file_text.h"
-#include "report/baseline_rounds.h"
+#include "report/results/baseline_rounds.h"
 #include "run/passes/timing_pass.h"
 
 namespace clusterbench::cli {

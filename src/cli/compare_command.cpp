@@ -7,10 +7,10 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "core/text.h"
-#include "report/case_filter.h"
-#include "report/compare.h"
-#include "report/compare_advice.h"
-#include "report/result_file.h"
+#include "report/cases/case_filter.h"
+#include "report/comparing/compare.h"
+#include "report/comparing/compare_advice.h"
+#include "report/documents/result_file.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include "config/presets.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "report/engine_limits.h"
+#include "report/sizing/engine_limits.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -5,8 +5,8 @@
 #include "cli/commands.h"
 #include "cli/export_files.h"
 #include "cli/output.h"
-#include "report/case_filter.h"
-#include "report/result_file.h"
+#include "report/cases/case_filter.h"
+#include "report/documents/result_file.h"
 
 namespace clusterbench::cli {
 namespace {

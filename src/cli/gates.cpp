@@ -6,10 +6,10 @@
 #include "cli/output.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "report/baseline_cases.h"
-#include "report/baseline_changes.h"
-#include "report/light_changes.h"
-#include "report/result_file.h"
+#include "report/documents/result_file.h"
+#include "report/gates/baseline_cases.h"
+#include "report/gates/baseline_changes.h"
+#include "report/gates/light_gate.h"
 
 namespace clusterbench::cli {
 namespace {

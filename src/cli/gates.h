@@ -8,7 +8,7 @@
 #include "cli/command.h"
 #include "config/config.h"
 #include "core/error.h"
-#include "report/limits.h"
+#include "report/gates/limits.h"
 #include "result/result.h"
 
 namespace clusterbench::cli {

@@ -7,9 +7,9 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "core/text.h"
-#include "report/history.h"
-#include "report/history_page.h"
-#include "report/result_file.h"
+#include "report/documents/result_file.h"
+#include "report/history/history.h"
+#include "report/history/history_page.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report/journal.h"
+#include "report/documents/journal.h"
 #include "run/runner.h"
 
 namespace clusterbench::cli {

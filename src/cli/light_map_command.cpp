@@ -8,7 +8,7 @@
 #include "cli/output.h"
 #include "cli/run_inputs.h"
 #include "core/text.h"
-#include "report/light_map_report.h"
+#include "report/searches/light_map_report.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
-#include "report/merge.h"
-#include "report/result_file.h"
+#include "report/documents/result_file.h"
+#include "report/results/merge.h"
 
 namespace clusterbench::cli {
 namespace {

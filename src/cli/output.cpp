@@ -7,7 +7,7 @@
 #include "core/text.h"
 #include "os/standard_streams.h"
 #include "os/terminal.h"
-#include "report/compact_json.h"
+#include "report/documents/compact_json.h"
 
 namespace clusterbench::cli {
 

@@ -8,8 +8,8 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "core/text.h"
-#include "report/ratios.h"
-#include "report/result_file.h"
+#include "report/comparing/ratios.h"
+#include "report/documents/result_file.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -16,7 +16,7 @@
 #include "config/presets.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
-#include "report/recommend_report.h"
+#include "report/choosing/recommend_report.h"
 #include "run/sweep.h"
 #include "search/recommend.h"
 #include "search/recommend_space.h"

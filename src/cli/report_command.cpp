@@ -5,10 +5,11 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "core/text.h"
-#include "report/case_filter.h"
-#include "report/page.h"
-#include "report/page_pictures.h"
-#include "report/result_file.h"
+#include "report/cases/case_filter.h"
+#include "report/documents/result_file.h"
+#include "report/page/page.h"
+#include "report/page/page_pictures.h"
+#include "report/results/kept_cases.h"
 
 namespace clusterbench::cli {
 namespace {

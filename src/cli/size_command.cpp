@@ -21,11 +21,11 @@
 #include "core/json_document.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
-#include "report/engine_settings.h"
-#include "report/found_frames.h"
-#include "report/nothing_seen.h"
-#include "report/result_file.h"
-#include "report/size.h"
+#include "report/cases/nothing_seen.h"
+#include "report/documents/result_file.h"
+#include "report/sizing/engine_settings.h"
+#include "report/sizing/found_frames.h"
+#include "report/sizing/size.h"
 
 namespace clusterbench::cli {
 namespace {

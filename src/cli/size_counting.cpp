@@ -13,8 +13,8 @@
 #include "core/json_document.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
-#include "report/columns.h"
-#include "report/result_json.h"
+#include "report/cases/columns.h"
+#include "report/results/result_record.h"
 #include "run/estimate.h"
 #include "run/runner.h"
 

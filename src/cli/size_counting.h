@@ -7,7 +7,7 @@
 
 #include "cli/run_inputs.h"
 #include "config/config.h"
-#include "report/allocation.h"
+#include "report/sizing/allocation.h"
 #include "result/result.h"
 #include "run/runner.h"
 #include "run/sweep.h"

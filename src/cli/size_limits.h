@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "config/config.h"
-#include "report/allocation.h"
+#include "report/sizing/allocation.h"
 #include "run/sweep.h"
 
 namespace clusterbench::cli {

@@ -7,7 +7,7 @@
 
 #include "cli/search_options.h"
 #include "cli/size_counting.h"
-#include "report/size.h"
+#include "report/sizing/size.h"
 
 namespace clusterbench::cli {
 

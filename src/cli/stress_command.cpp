@@ -9,7 +9,7 @@
 #include "cli/terminal.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
-#include "report/stress_report.h"
+#include "report/searches/stress_report.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -12,7 +12,7 @@
 #include "cli/terminal.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
-#include "report/worst_case_report.h"
+#include "report/searches/worst_case_report.h"
 #include "scene/write_gltf.h"
 #include "search/replay_config.h"
 #include "search/worst_case.h"

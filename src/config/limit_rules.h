@@ -1,7 +1,7 @@
 #pragma once
 // Budgets that fail a run: "frame_us.max > 200", "lights_in_view 200..300", "exact-fast: longest > +5 %",
 // "opaque.unlit > 0".
-// report/limits.h holds results against them.
+// report/gates/limits.h holds results against them.
 
 #include <span>
 #include <string>

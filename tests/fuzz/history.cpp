@@ -1,6 +1,6 @@
 // A history of results, and what everything that reads one makes of it.
 
-#include "report/history.h"
+#include "report/history/history.h"
 
 #include "fuzz/input.h"
 

@@ -1,6 +1,6 @@
 // What an interrupted run left beside its result, and the run that goes on from it.
 
-#include "report/journal.h"
+#include "report/documents/journal.h"
 #include "fuzz/input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,7 @@
 // The index of a folder of pictures, as `report` reads it.
 
 #include "fuzz/input.h"
-#include "report/page_pictures.h"
+#include "report/page/page_pictures.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace clusterbench;

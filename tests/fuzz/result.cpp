@@ -1,8 +1,8 @@
 // A result read back, and what everything that reads one asks it first.
 
 #include "fuzz/input.h"
-#include "report/result_file.h"
-#include "report/result_json.h"
+#include "report/documents/result_file.h"
+#include "report/results/result_record.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace clusterbench;

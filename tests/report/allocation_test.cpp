@@ -1,4 +1,4 @@
-#include "report/allocation.h"
+#include "report/sizing/allocation.h"
 
 #include <gtest/gtest.h>
 

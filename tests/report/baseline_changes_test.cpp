@@ -1,12 +1,12 @@
 // What a run says of an earlier result beside the budgets: which figures have moved, from what to what.
 
-#include "report/baseline_changes.h"
+#include "report/gates/baseline_changes.h"
 
 #include <gtest/gtest.h>
 
-#include "report/baseline_cases.h"
+#include "report/gates/baseline_cases.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
+#include "report/results/result_record.h"
 
 namespace clusterbench::report {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "report/baseline_cases.h"
-#include "report/light_changes.h"
-#include "report/limits.h"
+#include "report/gates/baseline_cases.h"
+#include "report/gates/light_gate.h"
+#include "report/gates/limits.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
+#include "report/results/result_record.h"
 
 namespace clusterbench::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/compact_json.h"
+#include "report/documents/compact_json.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
+#include "report/results/result_record.h"
 
 namespace clusterbench::report {
 namespace {

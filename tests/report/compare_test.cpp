@@ -1,4 +1,4 @@
-#include "report/compare.h"
+#include "report/comparing/compare.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "records.h"
-#include "report/compare_advice.h"
+#include "report/comparing/compare_advice.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
+#include "report/results/result_record.h"
 
 namespace clusterbench::report {
 namespace {

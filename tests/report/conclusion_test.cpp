@@ -1,16 +1,16 @@
 // What a result says is to be done.
 
-#include "report/conclusion.h"
+#include "report/choosing/conclusion.h"
 
 #include <gtest/gtest.h>
 
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "records.h"
-#include "report/answer_conclusion.h"
+#include "report/choosing/answer_conclusion.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
-#include "report/table.h"
+#include "report/results/result_record.h"
+#include "report/tables/table.h"
 
 namespace clusterbench::report {
 namespace {

@@ -6,7 +6,7 @@
 #include "config/config.h"
 #include "config/documents.h"
 #include "config/schema_verdict.h"
-#include "report/result_json.h"
+#include "report/results/result_record.h"
 #include "run/records/records.h"
 #include "run/walk.h"
 

@@ -15,7 +15,7 @@
 #include "core/error.h"
 #include "records.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
+#include "report/results/result_record.h"
 
 namespace clusterbench::report {
 namespace {

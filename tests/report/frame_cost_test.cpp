@@ -1,6 +1,7 @@
 // Costs of a result's cases, and what is ranked by them.
 
-#include "report/frame_cost.h"
+#include "report/cases/frame_cost.h"
+#include "report/cases/figures.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +10,12 @@
 #include "config/documents.h"
 #include "config/schema_verdict.h"
 #include "records.h"
+#include "report/comparing/ratios.h"
 #include "report/exports/metrics.h"
-#include "report/limits.h"
-#include "report/ratios.h"
+#include "report/gates/limits.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
-#include "report/table.h"
+#include "report/results/result_record.h"
+#include "report/tables/table.h"
 
 namespace clusterbench::report {
 namespace {

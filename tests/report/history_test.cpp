@@ -1,4 +1,4 @@
-#include "report/history.h"
+#include "report/history/history.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -9,10 +9,10 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "report/history_page.h"
-#include "report/page_template.h"
+#include "report/history/history_page.h"
+#include "report/page/page_template.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
+#include "report/results/result_record.h"
 
 namespace clusterbench::report {
 namespace {

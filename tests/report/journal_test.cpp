@@ -1,4 +1,4 @@
-#include "report/journal.h"
+#include "report/documents/journal.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "report/compact_json.h"
+#include "report/documents/compact_json.h"
 #include "report/result_by_hand.h"
 #include "run/records/records.h"
 

@@ -1,4 +1,5 @@
-#include "report/limits.h"
+#include "report/gates/limits.h"
+#include "report/cases/figures.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,8 @@
 #include "config/documents.h"
 #include "places.h"
 #include "records.h"
-#include "report/baseline_cases.h"
 #include "report/exports/metrics.h"
+#include "report/gates/baseline_cases.h"
 
 namespace clusterbench::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/merge.h"
+#include "report/results/merge.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include "config/schema_verdict.h"
 #include "core/error.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
+#include "report/results/result_record.h"
 
 namespace clusterbench::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/page_costs.h"
+#include "report/page/page_costs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "report/page_pictures.h"
+#include "report/page/page_pictures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "report/page.h"
+#include "report/page/page.h"
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "report/page_template.h"
+#include "report/page/page_template.h"
 
 namespace clusterbench::report {
 namespace {

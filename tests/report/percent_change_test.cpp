@@ -1,6 +1,6 @@
 // Budgets in percent at their own boundaries, against whole numbers and fractions of them.
 
-#include "report/percent_change.h"
+#include "report/cases/percent_change.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // Presets beside each other: by what carries over to the engines, and by what samples see.
 
-#include "report/preset_ranking.h"
+#include "report/presets/preset_ranking.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "records.h"
-#include "report/preset_words.h"
+#include "report/presets/preset_words.h"
 #include "run/grid_facts.h"
 
 namespace clusterbench::report {

@@ -9,10 +9,10 @@
 #include <tuple>
 
 #include "core/random.h"
-#include "report/baseline_cases.h"
-#include "report/light_changes.h"
-#include "report/limits.h"
-#include "report/result_json.h"
+#include "report/gates/baseline_cases.h"
+#include "report/gates/light_gate.h"
+#include "report/gates/limits.h"
+#include "report/results/result_record.h"
 #include "run/walk.h"
 
 namespace clusterbench::report {

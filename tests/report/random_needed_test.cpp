@@ -7,10 +7,10 @@
 
 #include "core/random.h"
 #include "records.h"
-#include "report/baseline_cases.h"
-#include "report/limits.h"
+#include "report/gates/baseline_cases.h"
+#include "report/gates/limits.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
+#include "report/results/result_record.h"
 
 namespace clusterbench::report {
 namespace {

@@ -13,8 +13,8 @@
 #include "config/presets.h"
 #include "core/random.h"
 #include "effort.h"
-#include "report/json_values.h"
-#include "report/result_json.h"
+#include "report/cases/json_values.h"
+#include "report/results/result_record.h"
 #include "run/runner.h"
 
 namespace clusterbench::report {

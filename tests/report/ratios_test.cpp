@@ -1,4 +1,4 @@
-#include "report/ratios.h"
+#include "report/comparing/ratios.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 
 #include "config/documents.h"
 #include "config/schema_verdict.h"
+#include "report/cases/timing_warnings.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
-#include "report/table.h"
-#include "report/timing_warnings.h"
+#include "report/results/result_record.h"
+#include "report/tables/table.h"
 
 namespace clusterbench::report::testing {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "report/recommend_report.h"
+#include "report/choosing/recommend_report.h"
 
 namespace clusterbench::report {
 namespace {

@@ -1,4 +1,5 @@
-#include "report/result_json.h"
+#include "report/cases/failures.h"
+#include "report/results/result_record.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include "core/random.h"
 #include "records.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
-#include "report/size.h"
+#include "report/results/result_record.h"
+#include "report/sizing/size.h"
 
 namespace clusterbench::report {
 namespace {

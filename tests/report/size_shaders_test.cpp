@@ -20,8 +20,8 @@
 #include "core/random.h"
 #include "grid/grid.h"
 #include "report/result_by_hand.h"
-#include "report/result_json.h"
-#include "report/size.h"
+#include "report/results/result_record.h"
+#include "report/sizing/size.h"
 #include "run/grid_facts.h"
 
 namespace clusterbench::report {

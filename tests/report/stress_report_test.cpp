@@ -11,7 +11,7 @@
 #include "geom/filter/light_filter.h"
 #include "geom/light_meets_cell.h"
 #include "geom/shapes/verdict.h"
-#include "report/stress_report.h"
+#include "report/searches/stress_report.h"
 #include "run/runner.h"
 #include "stress/contact.h"
 #include "stress/stress_run.h"

@@ -4,9 +4,9 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "report/columns.h"
+#include "report/cases/columns.h"
+#include "report/documents/machine.h"
 #include "report/exports/formats.h"
-#include "report/machine.h"
 
 namespace clusterbench::report {
 namespace {

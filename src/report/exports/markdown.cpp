@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "report/columns.h"
+#include "report/cases/columns.h"
 #include "report/exports/formats.h"
 
 namespace clusterbench::report {

@@ -1,0 +1,12 @@
+#include "report/cases/failures.h"
+
+namespace clusterbench::report {
+
+std::vector<std::string> gate_failures(const result::Result& result) {
+  std::vector<std::string> lines;
+  for (const result::Case& result_case : result.cases)
+    for (const result::Failure& failure : result_case.failures) lines.push_back(result_case.name + ": " + failure.text);
+  return lines;
+}
+
+}  // namespace clusterbench::report

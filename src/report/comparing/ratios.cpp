@@ -1,0 +1,290 @@
+#include "report/comparing/ratios.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/pattern.h"
+#include "core/text.h"
+#include "report/cases/columns.h"
+#include "report/cases/contender.h"
+#include "report/cases/json_values.h"
+#include "result/at.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using result::Case;
+using result::Result;
+using result::Timing;
+
+bool is_beside(const Case& a, const Case& b) {
+  return a.scene == b.scene && block_of(a) == block_of(b);
+}
+
+struct Timed {
+  const Case* result_case = nullptr;
+  run::Contender contender;
+  double frame_ns = 0.0;
+};
+
+// Cases whose times are held against each other, the fastest first.
+struct Block {
+  std::string scene, name;
+  std::vector<Timed> cases;
+};
+
+std::string name_of_case(const Case& result_case, bool across_grids) {
+  return (across_grids ? result_case.grid.name + " / " : "") + method_name(result_case) + " / " +
+         storage_name(result_case);
+}
+
+std::string name_of_block(const Case& result_case, bool across_grids) {
+  return across_grids ? "camera " + result_case.camera + ", " + viewport_text(result_case.viewport)
+                      : block_of(result_case);
+}
+
+// In the order of the cases.
+std::vector<Block> timed_blocks(const Result& result, const RatioRequest& request) {
+  const Pattern pattern(request.methods, "--methods");
+  std::vector<Block> blocks;
+  for (const Case& result_case : result.cases) {
+    const auto frame_ns = result::number<&Case::timing, &Timing::frame_ns, &result::Time::median>(result_case);
+    // The method's name alone as well, so that one pattern serves with grids and without.
+    const auto is_wanted = [&](bool with_grid) { return pattern.is_in(name_of_case(result_case, with_grid)); };
+    if (!frame_ns || frame_rounds(result_case).empty() ||
+        !(is_wanted(false) || (request.across_grids && is_wanted(true))))
+      continue;
+    const std::string name = name_of_block(result_case, request.across_grids);
+    auto block = std::ranges::find_if(
+        blocks, [&](const Block& had) { return result_case.scene == had.scene && name == had.name; });
+    if (block == blocks.end()) block = blocks.insert(block, Block{result_case.scene, name, {}});
+    block->cases.push_back({&result_case, contender_of(result_case), *frame_ns});
+  }
+  for (Block& block : blocks) std::ranges::stable_sort(block.cases, {}, &Timed::frame_ns);
+  return blocks;
+}
+
+// Of a case beside another one, for the page; null without a ratio.
+Json beside(const Timed& timed, const Timed& other, const std::optional<measure::Ratio>& ratio) {
+  if (!ratio || timed.result_case == other.result_case) return {};
+  return {{"id", other.result_case->id},
+          {"ratio", six_digits(ratio->ratio)},
+          {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}}};
+}
+
+Json pairs_of(const Block& block, std::uint64_t seed) {
+  Json pairs = Json::array();
+  for (std::size_t i = 1; i < block.cases.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const run::Contender &slower = block.cases[i].contender, &faster = block.cases[j].contender;
+      const std::optional<measure::Ratio> ratio = run::ratio_between(slower, faster, seed);
+      if (!ratio) continue;
+      pairs.push_back({{"case", i},
+                       {"other", j},
+                       {"ratio", six_digits(ratio->ratio)},
+                       {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}},
+                       {"over", slower.grid == faster.grid ? "rounds" : "launches"},
+                       {"takes_longer", measure::takes_longer(ratio)}});
+    }
+  return pairs;
+}
+
+Json block_json(const Block& block, std::uint64_t seed, bool across_grids) {
+  Json out{{"scene", block.scene}, {"name", block.name}, {"cases", Json::array()}};
+  for (const Timed& timed : block.cases)
+    out["cases"].push_back({{"id", timed.result_case->id},
+                            {"name", timed.result_case->name},
+                            {"label", name_of_case(*timed.result_case, across_grids)},
+                            {"frame_ns", six_digits(timed.frame_ns)},
+                            {"samples_search", samples_search(*timed.result_case)}});
+  out["pairs"] = pairs_of(block, seed);
+  return out;
+}
+
+// A block's pairs by the indices of their cases.
+class PairIndex {
+ public:
+  explicit PairIndex(const Json& block) : cases_(block["cases"].size()), pairs_(cases_ * cases_, nullptr) {
+    for (const Json& pair : block["pairs"])
+      pairs_[pair["case"].get<std::size_t>() * cases_ + pair["other"].get<std::size_t>()] = &pair;
+  }
+
+  // Of a slower case and a faster one; nullptr where they have no ratio.
+  const Json* find(std::size_t slower, std::size_t faster) const { return pairs_[slower * cases_ + faster]; }
+
+ private:
+  std::size_t cases_;
+  std::vector<const Json*> pairs_;
+};
+
+measure::Interval interval_of(const Json& pair) {
+  const Json &low = pair["ci95"][0], &high = pair["ci95"][1];
+  return low.is_number() && high.is_number() ? measure::Interval{low, high} : measure::Interval{};
+}
+
+std::string ratio_text(const Json* pair) {
+  if (pair == nullptr) return "-";
+  const measure::Interval ci95 = interval_of(*pair);
+  const std::string ratio = text("%.2f", (*pair)["ratio"].get<double>());
+  if (!ci95.is_known()) return ratio + " (" + k_unknown_interval + ")";
+  return ratio + text(" (%.2f", ci95.low) + text(" to %.2f)", ci95.high);
+}
+
+bool is_longer(const Json* pair) {
+  return pair != nullptr && (*pair)["takes_longer"].get<bool>();
+}
+
+std::string label_at(const Json& block, std::size_t index) {
+  return shown(block["cases"][index]["label"]);
+}
+
+std::vector<Cells> ranking(const Json& block) {
+  std::vector<Cells> rows{{"", "assigner", "frame us", "/ fastest", "/ row above"}};
+  const PairIndex pairs(block);
+  for (std::size_t i = 0; i < block["cases"].size(); ++i) {
+    const Json* above = i > 0 ? pairs.find(i, i - 1) : nullptr;
+    rows.push_back({i > 0 && !is_longer(above) ? "~" : "", label_at(block, i),
+                    text("%.2f", block["cases"][i]["frame_ns"].get<double>() / 1e3),
+                    i == 0 ? "" : ratio_text(pairs.find(i, 0)), i == 0 ? "" : ratio_text(above)});
+  }
+  return rows;
+}
+
+std::vector<Cells> pair_rows(const Json& block) {
+  std::vector<Cells> rows{{"", "assigner", "/ assigner", "ratio"}};
+  const PairIndex pairs(block);
+  for (std::size_t i = 1; i < block["cases"].size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Json* pair = pairs.find(i, j);
+      rows.push_back({is_longer(pair) ? "" : "~", label_at(block, i), label_at(block, j), ratio_text(pair)});
+    }
+  return rows;
+}
+
+std::vector<Cells> rows_of(const Json& block, bool all_pairs) {
+  return all_pairs ? pair_rows(block) : ranking(block);
+}
+
+std::string legend_of(const Json& ratios, bool all_pairs) {
+  bool has_unknown = false;
+  for (const Json& block : ratios["blocks"])
+    for (const Json& pair : block["pairs"]) has_unknown |= !interval_of(pair).is_known();
+  const bool has_searched = std::ranges::any_of(ratios["blocks"], [](const Json& block) {
+    return std::ranges::any_of(block["cases"], [](const Json& one) { return one.value("samples_search", false); });
+  });
+  const std::string unknown = has_unknown ? k_unknown_interval + (": " + what_intervals_take()) + ".\n" : "";
+  return unknown + std::string("Ratios of frame times of the same ") +
+         (ratios["across_grids"].get<bool>() ? "rounds, or of other grids of the same launches" : "rounds") +
+         ", median and 95 % interval; not the quotient of the two times.\n~: the interval does not say that " +
+         (all_pairs ? "the first takes longer.\n" : "it takes longer than the row above.\n") +
+         (has_searched ? "Without lists: samples search the structure, which these times leave out.\n" : "");
+}
+
+std::string csv_field(const std::string& words) {
+  std::string out = "\"";
+  for (const char c : printable(words)) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string csv_row(const std::vector<std::string>& names, double ratio, const measure::Interval& interval) {
+  std::string row;
+  for (const std::string& name : names) row += csv_field(name) + ",";
+  row += text("%.4f,", ratio);
+  return row + (interval.is_known() ? text("%.4f,", interval.low) + text("%.4f\n", interval.high) : ",\n");
+}
+
+}  // namespace
+
+std::optional<measure::Ratio> ratio_of_cases(const Result& result, const Case& numerator, const Case& denominator,
+                                             RankBy by) {
+  if (!is_beside(numerator, denominator)) return std::nullopt;
+  return run::ratio_between(contender_of(numerator, by), contender_of(denominator, by), seed_of(result));
+}
+
+bool takes_longer(const Result& result, const Case& numerator, const Case& denominator, RankBy by) {
+  return measure::takes_longer(ratio_of_cases(result, numerator, denominator, by));
+}
+
+Json ratios_of(const Result& result, const RatioRequest& request) {
+  Json out{{"ratios_version", k_ratios_version},
+           {"name", result.name},
+           {"tool", result::to_json(result.tool)},
+           {"across_grids", request.across_grids},
+           {"blocks", Json::array()}};
+  for (const Block& block : timed_blocks(result, request))
+    out["blocks"].push_back(block_json(block, seed_of(result), request.across_grids));
+  return out;
+}
+
+Json ratio_rankings(const Result& result) {
+  RatioRequest request;
+  request.across_grids = true;
+  Json out = Json::array();
+  std::vector<Block> blocks = timed_blocks(result, request);
+  for (Block& block : blocks)
+    std::erase_if(block.cases, [](const Timed& timed) { return samples_search(*timed.result_case); });
+  for (const Block& block : blocks)
+    for (std::size_t i = 0; i < block.cases.size(); ++i) {
+      const Timed &timed = block.cases[i], &fastest = block.cases.front(), &above = block.cases[i == 0 ? 0 : i - 1];
+      const auto to_fastest = run::ratio_between(timed.contender, fastest.contender, seed_of(result)),
+                 to_above = run::ratio_between(timed.contender, above.contender, seed_of(result));
+      out.push_back({{"id", timed.result_case->id},
+                     {"fastest", beside(timed, fastest, to_fastest)},
+                     {"above", beside(timed, above, to_above)},
+                     {"is_like_above", i > 0 && to_above && !measure::takes_longer(to_above)}});
+    }
+  return out;
+}
+
+std::string ratio_table(const Json& ratios, bool all_pairs) {
+  std::string out, scene;
+  for (const Json& block : ratios["blocks"]) {
+    if (block["scene"] != scene) out += shown(block["scene"]) + "\n";
+    scene = block["scene"].get<std::string>();
+    const std::vector<Cells> rows = rows_of(block, all_pairs);
+    const std::vector<std::size_t> widths = widths_of(rows);
+    out += " " + shown(block["name"]) + "\n";
+    for (const Cells& row : rows) out += aligned(row, widths);
+  }
+  if (out.empty()) return out;
+  return out + "\n" + legend_of(ratios, all_pairs);
+}
+
+std::string ratio_markdown(const Json& ratios, bool all_pairs) {
+  std::string out;
+  for (const Json& block : ratios["blocks"]) {
+    out += "### " + markdown_cell(block["scene"]) + ", " + markdown_cell(block["name"]) + "\n\n";
+    const std::vector<Cells> rows = rows_of(block, all_pairs);
+    for (const Cells& row : rows) {
+      out += "|";
+      for (const std::string& cell : row) out += " " + markdown_cell(cell) + " |";
+      out += "\n";
+      if (&row == &rows.front()) out += all_pairs ? "|---|---|---|---:|\n" : "|---|---|---:|---:|---:|\n";
+    }
+    out += "\n";
+  }
+  return out + legend_of(ratios, all_pairs);
+}
+
+std::string ratio_csv(const Json& ratios) {
+  const bool across_grids = ratios["across_grids"].get<bool>();
+  std::string out =
+      across_grids ? "scene,view,case,other,ratio,low,high\n" : "scene,grid,method,other,ratio,low,high\n";
+  for (const Json& block : ratios["blocks"]) {
+    const PairIndex pairs(block);
+    const Json& cases = block["cases"];
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      for (std::size_t j = 0; j < cases.size(); ++j) {
+        const Json* pair = pairs.find(std::max(i, j), std::min(i, j));
+        if (pair == nullptr) continue;
+        const double ratio = (*pair)["ratio"];
+        const measure::Interval ci95 = interval_of(*pair);
+        const std::vector<std::string> names{block["scene"], block["name"], cases[i]["label"], cases[j]["label"]};
+        out += i > j ? csv_row(names, ratio, ci95) : csv_row(names, 1.0 / ratio, {1.0 / ci95.high, 1.0 / ci95.low});
+      }
+  }
+  return out;
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,48 @@
+#pragma once
+// How much longer one method takes than another. Cases of one scene, camera, viewport and grid are measured in the same
+// rounds, and so any two of them have a ratio, round by round, that is far steadier than their times. Those of other
+// grids have one launch by launch (measure/side_by_side.h).
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/time_statistics.h"
+#include "report/cases/contender.h"
+#include "result/result.h"
+
+namespace clusterbench::report {
+
+inline constexpr int k_ratios_version = 1;
+
+// Frame time (or cost) of `numerator` / that of `denominator`, two cases of a grid; nullopt where other launches have
+// measured them.
+std::optional<measure::Ratio> ratio_of_cases(const result::Result& result, const result::Case& numerator,
+                                             const result::Case& denominator, RankBy by = RankBy::frame_time);
+
+// False unless that ratio says that `numerator` takes longer, with 95 % certainty.
+bool takes_longer(const result::Result& result, const result::Case& numerator, const result::Case& denominator,
+                  RankBy by = RankBy::frame_time);
+
+struct RatioRequest {
+  std::string methods;        // a regular expression; all: empty
+  bool across_grids = false;  // all grids of a scene, camera and viewport together
+};
+
+// Of each grid (or view) the timed cases, the fastest first, and the ratio of any two, the slower by the faster one:
+// docs/results.md, `clusterbench schema ratios`. "blocks" is empty where nothing is timed.
+nlohmann::ordered_json ratios_of(const result::Result& result, const RatioRequest& request);
+
+// Of each timed case with lists the pairs of a ranking over all grids of its scene, camera and viewport, for the page:
+// {"id", "fastest": {"id", "ratio", "ci95"} or null, "above": the same of the next faster one, "is_like_above"}.
+nlohmann::ordered_json ratio_rankings(const result::Result& result);
+
+// Of what ratios_of() gives: a ranking, with each case beside the fastest one and beside the one before it, or with
+// `all_pairs` each case beside each faster one.
+std::string ratio_table(const nlohmann::ordered_json& ratios, bool all_pairs);
+std::string ratio_markdown(const nlohmann::ordered_json& ratios, bool all_pairs);
+// All pairs, both ways around; an interval that is unknown is empty.
+std::string ratio_csv(const nlohmann::ordered_json& ratios);
+
+}  // namespace clusterbench::report

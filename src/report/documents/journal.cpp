@@ -1,0 +1,208 @@
+#include "report/documents/journal.h"
+
+#include <functional>
+#include <set>
+
+#include "config/documents.h"
+#include "config/schema_verdict.h"
+#include "core/error.h"
+#include "core/file_text.h"
+#include "core/json_document.h"
+#include "core/text.h"
+#include "os/output_file.h"
+#include "report/cases/json_values.h"
+#include "report/documents/compact_json.h"
+
+namespace clusterbench::report {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// The lines of a run begin so; what a program that died has left of one, too.
+bool begins_as_an_entry(std::string_view line) {
+  for (const std::string_view start : {R"({"case":)", R"({"request":)"})
+    if (line.starts_with(start) || start.starts_with(line)) return true;
+  return line.find_first_not_of('\0') == std::string_view::npos;  // a disk that lost its power
+}
+
+std::string header_line(const Json& header) {
+  return Json{{"header", header}}.dump() + '\n';
+}
+
+// Of this program or an older one, and nothing behind it.
+bool is_header_alone(std::string_view text) {
+  if (!text.ends_with('\n') || text.find('\n') + 1 != text.size()) return false;
+  const Json line = json_or_discarded<Json>(text);
+  return line.is_object() && line.size() == 1 && line.contains("header") && line["header"].is_object() &&
+         line["header"].contains("config");
+}
+
+// Whether a line holds a case as it was measured, and one that is not among `ids`, as JSON, to which it is added.
+bool takes_case(const Json& entry, std::set<std::string>& ids) {
+  const Json* id = value_at(entry, "/case/id");
+  return id != nullptr && entry.value("sha256", Json()) == sha256_hex(entry["case"].dump()) &&
+         ids.insert(id->dump()).second;
+}
+
+// Calls take(entry) for each line behind the header, which returns whether it is one that a run writes. Returns where
+// the last whole line ends.
+std::size_t each_entry(const std::string& text, const fs::path& path, const Json& header,
+                       const std::function<bool(Json& entry)>& take) {
+  std::size_t begin = 0;
+  for (int number = 1; begin < text.size(); ++number) {
+    const std::size_t end = text.find('\n', begin);
+    const bool is_cut = end == std::string::npos;  // the line that was being written when the run ended
+    if (is_cut && number > 1 && begins_as_an_entry(std::string_view(text).substr(begin))) break;
+    if (is_cut && number == 1 && header_line(header).starts_with(text)) break;
+    Json entry = json_or_discarded<Json>(std::string_view(text).substr(begin, end - begin));
+    const auto refuse = [&](const std::string& what) {
+      throw Error(path.string(), "line " + std::to_string(number),
+                  what + "; without --resume the run begins anew and the file is kept under another name");
+    };
+    if (is_cut) refuse("is not what a run writes");
+    if (number == 1 && (!entry.is_object() || !entry.contains("header"))) refuse("does not say what was run");
+    if (number == 1 && entry["header"] != header)
+      refuse("is an interrupted run of another configuration, --count, scene or build");
+    if (number > 1 && !(entry.is_object() && take(entry))) refuse("is not what a run writes");
+    begin = end + 1;
+  }
+  return begin;
+}
+
+// Throws Error for what is not as the schema says.
+std::vector<result::Case> cases_of_run(const Json& cases, const fs::path& path) {
+  const auto refuse = [&](const std::string& violation) {
+    throw Error(path.string(), "", "does not hold the cases of a run: " + violation);
+  };
+  const nlohmann::json schema = config::result_schema();
+  nlohmann::json cases_schema = schema["properties"]["cases"];
+  cases_schema["definitions"] = schema["definitions"];  // which its parts refer to
+  const std::vector<std::string> violations = config::schema_violations(cases_schema, nlohmann::json(cases));
+  if (!violations.empty()) refuse(violations.front());
+  std::vector<result::Case> out;
+  try {
+    for (const Json& one : cases) out.push_back(result::from_json<result::Case>(one, "/" + std::to_string(out.size())));
+  } catch (const Error& error) {
+    refuse(error.where() + ": " + error.message());
+  }
+  return out;
+}
+
+}  // namespace
+
+fs::path partial_of(const fs::path& file) {
+  const fs::path target = os::output_target(file).path;
+  std::error_code none;
+  if (fs::is_directory(target, none)) throw Error(file.string(), "", "is a directory; name a file for the result");
+  return target.string() + ".partial";
+}
+
+std::vector<std::string> finished_ids(const fs::path& file, const Json& header) {
+  const fs::path partial = partial_of(file);
+  std::vector<std::string> ids;
+  std::error_code none;
+  if (!fs::exists(fs::symlink_status(partial, none))) return ids;
+  if (!fs::is_regular_file(fs::symlink_status(partial, none)))
+    throw Error(partial.string(), "", "is no regular file, and a run leaves no other");
+  std::set<std::string> known;
+  each_entry(file_text(partial.string()), partial, header, [&](const Json& entry) {
+    if (!entry.contains("case")) return true;
+    if (!takes_case(entry, known)) return false;
+    if (const Json& id = entry["case"]["id"]; id.is_string()) ids.push_back(id);
+    return true;
+  });
+  return ids;
+}
+
+Journal::Journal(const fs::path& file, const Json& header, bool resume, std::uint64_t expected_bytes)
+    : file_(file), partial_(partial_of(file)) {
+  os::OutputFile(file_).probe();
+  if (resume)
+    read_earlier(header);
+  else
+    set_earlier_aside(header_line(header));
+  partial_.check_room(expected_bytes);
+  if (!partial_.text().empty()) return;
+  try {
+    partial_.append(header_line(header));
+  } catch (const Error&) {
+    partial_.empty();
+    throw;
+  }
+}
+
+Journal::~Journal() {
+  if (!is_finished_ && is_empty()) partial_.remove();
+}
+
+// A header alone, or its beginning, holds nothing that was measured.
+void Journal::set_earlier_aside(const std::string& header) {
+  const std::string text = partial_.text();
+  if (text.empty()) return;
+  if (header.starts_with(text) || is_header_alone(text))
+    partial_.empty();
+  else
+    set_aside_ = partial_.move_text_beside();
+}
+
+void Journal::read_earlier(const Json& header) {
+  Json cases = Json::array();
+  std::set<std::string> ids;
+  const std::size_t end = each_entry(partial_.text(), partial_path(), header, [&](Json& entry) {
+    if (!entry.contains("case")) return take_answer(entry);
+    if (!takes_case(entry, ids)) return false;
+    cases.push_back(std::move(entry["case"]));
+    return true;
+  });
+  earlier_cases_ = cases_of_run(cases, partial_path());
+  partial_.cut_to(end);
+}
+
+std::vector<std::string> Journal::earlier_ids() const {
+  std::vector<std::string> ids;
+  for (const result::Case& finished : earlier_cases_) ids.push_back(finished.id);
+  return ids;
+}
+
+// The digest: what launches answer has no schema that could be checked.
+bool Journal::take_answer(Json& entry) {
+  if (!entry.contains("request") || !entry.contains("answer")) return false;
+  if (entry.value("sha256", Json()) != sha256_hex(entry["request"].dump() + entry["answer"].dump())) return false;
+  earlier_answers_[entry["request"].dump()] = std::move(entry["answer"]);
+  return true;
+}
+
+std::optional<Json> Journal::earlier_answer(const Json& request) const {
+  const auto found = earlier_answers_.find(request.dump());
+  return found == earlier_answers_.end() ? std::nullopt : std::optional(found->second);
+}
+
+void Journal::add_answer(const Json& request, const Json& answer) {
+  const std::string digest = sha256_hex(request.dump() + answer.dump());
+  add({{"request", request}, {"answer", answer}, {"sha256", digest}});
+}
+
+void Journal::add(const Json& entry) {
+  has_added_ = true;
+  partial_.append(entry.dump() + '\n');
+}
+
+void Journal::add_case(const result::Case& finished) {
+  const Json json = result::to_json(finished);
+  add({{"case", json}, {"sha256", sha256_hex(json.dump())}});
+}
+
+void Journal::finish(const result::Result& result) {
+  try {
+    os::write_file(file_, compact_json(result::to_json(result)));
+  } catch (const Error& error) {
+    throw Error(error.file(), "",
+                error.message() + (is_empty() ? "" : "; the cases are kept in " + partial_path().string()),
+                error.code());
+  }
+  is_finished_ = true;
+  partial_.remove();
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,247 @@
+#include "report/gates/limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include "core/pattern.h"
+#include "core/text.h"
+#include "report/cases/case_filter.h"
+#include "report/cases/figures.h"
+#include "report/cases/sample_sets.h"
+#include "report/gates/baseline_cases.h"
+#include "result/at.h"
+
+namespace clusterbench::report {
+namespace {
+
+using result::Case;
+
+std::string listed_names(const std::vector<std::string>& names) {
+  constexpr std::size_t k_most = 3;
+  const std::size_t shown_names = std::min(names.size(), k_most);
+  return joined(std::span(names).first(shown_names)) + (names.size() > k_most ? " ..." : "");
+}
+
+std::string is_text(const config::LimitRule& rule, const Figure& found) {
+  return rule.figure + " is " + config::budget_number(found.value()) +
+         (found.location.empty() ? "" : " (" + found.location + ")");
+}
+
+// What is said of cases, each sentence once: figures of a scene or of a view are those of many cases.
+class SaidOfCases {
+ public:
+  void add(const Case& result_case, const std::string& sentence) {
+    auto said = std::ranges::find(said_, sentence, &Said::sentence);
+    if (said == said_.end()) said = said_.insert(said_.end(), {sentence, result_case.name, 0});
+    ++said->cases;
+  }
+  std::vector<std::string> texts() const {
+    std::vector<std::string> out;
+    for (const Said& said : said_)
+      out.push_back(said.first_case +
+                    (said.cases > 1 ? " and " + number_of(said.cases - 1, "other case") + ": " : ": ") + said.sentence);
+    return out;
+  }
+
+ private:
+  struct Said {
+    std::string sentence, first_case;
+    std::size_t cases = 0;
+  };
+  std::vector<Said> said_;
+};
+
+// One budget held against the cases that it names.
+class RuleCheck {
+ public:
+  RuleCheck(const result::Result& result, const config::LimitRule& rule, const BaselineCases* baseline,
+            LimitFindings& findings)
+      : rule_(rule), quoted_("'" + rule.text() + "'"), baseline_(baseline), findings_(findings) {
+    const Pattern pattern(rule.cases, "");
+    for (const Case& result_case : result.cases)
+      if (is_selected(pattern, result_case)) cases_.push_back(&result_case);
+  }
+
+  void check(const result::Result& result) {
+    if (cases_.empty())
+      add_none(result);
+    else if (rule_.is_relative)
+      check_changes();
+    else
+      check_values();
+    for (const std::string& text : broken_.texts()) findings_.broken.push_back(text);
+    for (const std::string& text : near_.texts()) findings_.near.push_back(text);
+  }
+
+ private:
+  void add_none(const result::Result& result) {
+    std::vector<std::string> names;
+    for (const Case& result_case : result.cases) names.push_back(result_case.name);
+    findings_.broken.push_back(quoted_ + " could not be checked: " +
+                               (names.empty() ? "there is no case"
+                                              : "its '" + rule_.cases + "' matches no case's name" +
+                                                    pattern_hint(rule_.cases) + "; there are: " + listed_names(names)));
+  }
+
+  void check_values() {
+    std::vector<std::string> without;
+    for (const Case* result_case : cases_) {
+      bool has_none = true;
+      for (const std::string& figure : figures_of({result_case}))
+        if (const std::optional<Figure> found = case_figure(*result_case, figure)) {
+          has_none = false;
+          judge(*result_case, rule_.is_broken_by(found->value()), found->value(), is_text(rule_, *found));
+        }
+      if (has_none) without.push_back(result_case->name);
+    }
+    add_without(without);
+  }
+
+  // Of lights needed at several sets each by itself: what one of them has lost the largest one would hide. Sets of now
+  // and before.
+  std::vector<std::string> figures_of(const std::vector<const Case*>& cases) const {
+    if (rule_.figure != "needed") return {rule_.figure};
+    std::vector<std::string> figures;
+    for (const Case* result_case : cases)
+      for (const std::string& set : ranking_set_names(*result_case))
+        if (const std::string figure = set + ".needed"; std::ranges::find(figures, figure) == figures.end())
+          figures.push_back(figure);
+    return figures.size() > 1 ? figures : std::vector{rule_.figure};
+  }
+
+  // Whoever names cases means them; a budget of all is held against those that can have the figure.
+  void add_without(const std::vector<std::string>& without) {
+    const std::string hint = why_no_figure(rule_.figure);
+    if (without.size() == cases_.size())
+      findings_.broken.push_back(quoted_ + " could not be checked: no case has " + rule_.figure + hint);
+    else if (!without.empty())
+      (rule_.cases.empty() ? findings_.unchecked : findings_.broken)
+          .push_back(quoted_ + " was not checked for " + number_of(without.size(), "case") + " without " +
+                     rule_.figure + hint + ": " + without.front() + (without.size() > 1 ? " ..." : ""));
+  }
+
+  void check_changes() {
+    if (baseline_ == nullptr) {
+      findings_.broken.push_back(quoted_ + " could not be checked: there is no baseline (--baseline FILE)");
+      return;
+    }
+    std::vector<std::string> not_in_base, without, in_one;
+    std::string obstacle;
+    for (const Case* result_case : cases_) {
+      const std::string& name = result_case->name;
+      const Case* before = baseline_->case_of(*result_case);
+      if (before == nullptr) {
+        not_in_base.push_back(name);
+        continue;
+      }
+      const std::string why = is_instructions() ? baseline_->obstacle_to_instructions(*result_case) : "";
+      bool has_none = true, lacks_one = false;
+      for (const std::string& figure : figures_of({result_case, before})) {
+        const std::optional<Figure> now = case_figure(*result_case, figure), then = case_figure(*before, figure);
+        has_none = has_none && !now && !then;
+        if (!now || !then)
+          lacks_one = lacks_one || now || then;
+        else if (!why.empty())
+          obstacle = why;
+        else if (now->samples != then->samples)
+          add_other_samples(name, *now, *then);
+        else
+          judge_change(*result_case, *now, *then);
+      }
+      if (has_none) without.push_back(name);
+      if (lacks_one) in_one.push_back(name);
+    }
+    if (!in_one.empty())
+      findings_.broken.push_back(quoted_ + " could not be checked for " + number_of(in_one.size(), "case") +
+                                 ", since only one of this result and " + baseline_->name() + " has " + rule_.figure +
+                                 why_no_figure(rule_.figure) + ": " + listed_names(in_one));
+    add_unmatched(not_in_base, without, obstacle);
+  }
+
+  void judge_change(const Case& result_case, const Figure& now, const Figure& then) {
+    const double percent = percent_change(then.quotient, now.quotient);
+    const std::string change =
+        std::isfinite(percent) ? percent_text(percent, rule_.limit) + " against " : std::string("was ");
+    judge(result_case, is_broken_by_change(rule_, then.quotient, now.quotient), percent,
+          is_text(rule_, now) + ", " + change + config::budget_number(then.value()) + " in " + baseline_->name());
+  }
+
+  void add_other_samples(const std::string& name, const Figure& now, const Figure& then) {
+    findings_.broken.push_back(quoted_ + " could not be checked for " + name + ": " + rule_.figure +
+                               " is at samples of " + now.samples + " here and of " + then.samples + " in " +
+                               baseline_->name() + "; name one set, as in 'volume." + rule_.figure + "'");
+  }
+
+  void add_unmatched(const std::vector<std::string>& not_in_base, const std::vector<std::string>& without,
+                     const std::string& obstacle) {
+    const std::string begin = quoted_ + " could not be checked";
+    if (!not_in_base.empty())
+      findings_.broken.push_back(
+          begin + " for " + number_of(not_in_base.size(), "case") + " that " + baseline_->name() +
+          " does not have (of that camera, viewport, grid, method and structure): " + listed_names(not_in_base) +
+          "; measure the baseline again, or name cases before a colon");
+    const std::string hint = why_no_figure(rule_.figure);
+    if (!without.empty() && without.size() == cases_.size())
+      findings_.broken.push_back(begin + ": no case has " + rule_.figure + " here and in " + baseline_->name() + hint);
+    else if (!without.empty())
+      (rule_.cases.empty() ? findings_.unchecked : findings_.broken)
+          .push_back(quoted_ + " was not checked for " + number_of(without.size(), "case") + " without " +
+                     rule_.figure + " here or in " + baseline_->name() + hint + ": " + listed_names(without));
+    if (!obstacle.empty())
+      findings_.broken.push_back(begin + ": instructions do not compare, " + obstacle +
+                                 "; measure the baseline in the same job");
+    const Pattern pattern(rule_.cases, "");
+    std::vector<std::string> gone;
+    for (const Case* base_case : baseline_->gone_cases())
+      if (is_selected(pattern, *base_case)) gone.push_back(base_case->name);
+    if (!gone.empty())
+      findings_.broken.push_back(begin + " for " + number_of(gone.size(), "case") + " of " + baseline_->name() +
+                                 " that this result does not have: " + listed_names(gone) +
+                                 "; measure the baseline again, or name cases before a colon");
+  }
+
+  bool is_instructions() const { return rule_.figure.ends_with("instructions"); }
+
+  void judge(const Case& result_case, bool is_broken, double value, const std::string& text) {
+    ++findings_.checked;
+    if (is_broken)
+      broken_.add(result_case, text + ", and fails with " + rule_.text());
+    else if (rule_.is_near(value))
+      near_.add(result_case, text + ", near the budget " + rule_.text());
+  }
+
+  const config::LimitRule& rule_;
+  std::string quoted_;
+  const BaselineCases* baseline_;
+  LimitFindings& findings_;
+  std::vector<const Case*> cases_;
+  SaidOfCases broken_, near_;
+};
+
+// What stands between a relative budget and its baseline beside the figure itself, each answer once.
+void add_changes_since(const result::Result& result, const BaselineCases& baseline, LimitFindings& findings) {
+  std::map<std::string, std::vector<std::string>> names;
+  for (const Case& result_case : result.cases)
+    if (const std::string changes = baseline.what_changed(result_case); !changes.empty())
+      names[changes].push_back(result_case.name);
+  for (const auto& [changes, changed_cases] : names)
+    findings.warnings.push_back("changed since " + baseline.name() + " (" + number_of(changed_cases.size(), "case") +
+                                "): " + changes + "; " + listed_names(changed_cases));
+}
+
+}  // namespace
+
+LimitFindings limit_findings(const result::Result& result, std::span<const config::LimitRule> rules,
+                             const BaselineCases* baseline) {
+  LimitFindings findings;
+  for (const config::LimitRule& rule : rules) RuleCheck(result, rule, baseline, findings).check(result);
+  const bool is_relative = std::ranges::any_of(rules, [](const config::LimitRule& rule) { return rule.is_relative; });
+  if (is_relative && baseline != nullptr) add_changes_since(result, *baseline, findings);
+  return findings;
+}
+
+}  // namespace clusterbench::report

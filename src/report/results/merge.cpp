@@ -1,0 +1,137 @@
+#include "report/results/merge.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/error.h"
+#include "report/cases/contender.h"
+#include "report/choosing/conclusion.h"
+#include "report/documents/machine.h"
+#include "report/results/result_record.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What cases in one result were judged by.
+constexpr const char* k_in_common[] = {"allocation", "cost", "rank_by"};
+
+bool is_measured(const result::Result& result) {
+  return std::ranges::any_of(result.cases,
+                             [](const result::Case& result_case) { return result_case.timing || result_case.count; });
+}
+
+template <class Record>
+bool are_same(const Record& one, const Record& other) {
+  return result::to_json(one) == result::to_json(other);
+}
+
+void check_origin(const NamedPart& first, const NamedPart& next) {
+  for (const char* key : k_in_common)
+    if (first.result.config.value(key, Json()) != next.result.config.value(key, Json()))
+      throw Error(next.file, std::string("/config/") + key, "is not that of " + first.file);
+  if (!is_measured(first.result) && !is_measured(next.result)) return;
+  const auto refuse = [&](const char* where) {
+    throw Error(next.file, where,
+                "is not that of " + first.file + ": times and instructions of both have no place in one result");
+  };
+  if (!are_same(first.result.tool, next.result.tool)) refuse("/tool");
+  if (!are_same(without_state(first.result.machine), without_state(next.result.machine))) refuse("/machine");
+}
+
+// Appends to `all` what it has not yet; `key`, which is called `key_name`, tells two things apart, `where` names their
+// list.
+template <class Item>
+class Union {
+ public:
+  Union(std::vector<Item>& all, const char* where, std::string Item::*key, const char* key_name)
+      : all_(all), where_(where), key_(key), key_name_(key_name) {}
+
+  // `may_repeat`: the same thing again is passed over.
+  void add(const Item& item, const std::string& file, bool may_repeat) {
+    const std::string& name = item.*key_;
+    const auto [earlier, is_new] = seen_.try_emplace(name, Place{all_.size(), file});
+    if (is_new) {
+      all_.push_back(item);
+    } else if (!may_repeat || !are_same(all_[earlier->second.index], item)) {
+      throw Error(file, std::string("/") + where_,
+                  std::string("has ") + key_name_ + " '" + name + "', and " + earlier->second.file + " has it, too" +
+                      (may_repeat ? ", but it is another" : ""));
+    }
+  }
+
+ private:
+  struct Place {
+    std::size_t index;
+    std::string file;
+  };
+  std::vector<Item>& all_;
+  const char* where_;
+  std::string Item::*key_;
+  const char* key_name_;
+  std::map<std::string, Place> seen_;
+};
+
+// Shards skip the same combinations, for the same reasons.
+void add_skipped(std::vector<result::Skipped>& all, const std::vector<result::Skipped>& skipped) {
+  for (const result::Skipped& skip : skipped)
+    if (std::ranges::none_of(all, [&](const result::Skipped& other) { return are_same(other, skip); }))
+      all.push_back(skip);
+}
+
+Json merged_config(const std::vector<NamedPart>& parts) {
+  const Json& first = parts.front().result.config;
+  Json all = Json::array();
+  bool is_same = true;
+  for (const NamedPart& part : parts) {
+    is_same = is_same && part.result.config == first;
+    all.push_back(part.result.config);
+  }
+  if (is_same) return first;
+  Json config{{"allocation", Json::object()}};
+  for (const char* key : k_in_common)
+    if (first.contains(key)) config[key] = first[key];
+  config["merged"] = all;
+  return config;
+}
+
+std::string merged_name(const std::vector<NamedPart>& parts) {
+  std::string name = parts.front().result.name;
+  std::string last = name;
+  for (const NamedPart& part : parts) {
+    const std::string& next = part.result.name;
+    if (next != last) name += " + " + next;
+    last = next;
+  }
+  return name;
+}
+
+}  // namespace
+
+result::Result merged(const std::vector<NamedPart>& parts) {
+  const result::Result& first = parts.front().result;
+  result::Result out;
+  out.schema_version = first.schema_version;
+  out.name = merged_name(parts);
+  out.tool = first.tool;
+  out.machine = without_state(first.machine);
+  out.config = merged_config(parts);
+  std::vector<std::string> failed;
+  Union<result::Scene> scenes(out.scenes, "scenes", &result::Scene::name, "name");
+  Union<result::Case> cases(out.cases, "cases", &result::Case::id, "id");
+  for (const NamedPart& part : parts) {
+    check_origin(parts.front(), part);
+    for (const result::Scene& scene : part.result.scenes) scenes.add(scene, part.file, true);
+    for (const result::Case& result_case : part.result.cases) cases.add(result_case, part.file, false);
+    add_skipped(out.skipped, part.result.skipped);
+    if (part.result.failed) failed.insert(failed.end(), part.result.failed->begin(), part.result.failed->end());
+  }
+  out.pareto_front = fronts(out.scenes, out.cases, first);
+  add_presets(out, first);
+  out.conclusions = conclusions_of(out, first);
+  conclude_failures(out, failed);
+  return out;
+}
+
+}  // namespace clusterbench::report

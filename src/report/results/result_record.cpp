@@ -1,0 +1,108 @@
+#include "report/results/result_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "report/cases/contender.h"
+#include "report/cases/frame_cost.h"
+#include "report/cases/nothing_seen.h"
+#include "report/cases/sample_sets.h"
+#include "report/choosing/conclusion.h"
+#include "report/presets/preset_ranking.h"
+#include "result/at.h"
+#include "result/rounding.h"
+#include "run/gate.h"
+#include "run/records/records.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using result::Case;
+using result::Occupancy;
+using result::Spread;
+
+// Pairs per frame against the same case in float32; null where there is none.
+void add_extra_pairs(std::vector<Case>& cases) {
+  std::map<std::string, double> pairs;
+  for (const Case& result_case : cases)
+    pairs[result_case.name] =
+        result::number<&Case::occupancy, &Occupancy::pairs, &Spread::mean>(result_case).value_or(result::k_none);
+  for (Case& result_case : cases) {
+    if (!result_case.precision) continue;
+    const std::string& name = result_case.name;
+    const std::string label = "/" + result_case.precision->label;
+    const bool is_packed = result_case.precision->packing != "float32";
+    const auto plain = pairs.find(is_packed ? name.substr(0, name.size() - label.size()) : name);
+    const double mean = plain == pairs.end() ? result::k_none : plain->second, extra = pairs[name] - mean;
+    result_case.precision->extra_pairs = {result::counted(extra), result::counted(extra / mean)};
+  }
+}
+
+std::vector<Case> in_plan_order(const run::Result& result, const std::vector<Case>& earlier_cases) {
+  std::map<std::string, Case> by_id;
+  for (const Case& result_case : earlier_cases) by_id[result_case.id] = result_case;
+  for (const run::CaseResult& case_result : result.cases) by_id[case_result.id] = run::record_of(case_result);
+  std::vector<Case> cases;
+  for (const std::string& id : result.planned_ids)
+    if (const auto found = by_id.find(id); found != by_id.end()) cases.push_back(found->second);
+  return cases;
+}
+
+std::optional<std::string> known(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(text);
+}
+
+}  // namespace
+
+std::vector<result::Front> fronts(const std::vector<result::Scene>& scenes, const std::vector<Case>& cases,
+                                  const result::Result& origin) {
+  std::vector<run::Contender> all;
+  std::set<std::string> unknown = ids_of_nothing_seen(cases);
+  unknown.merge(ids_without_samples(cases));
+  for (const Case& result_case : cases)
+    if (!unknown.contains(result_case.id)) all.push_back(contender_of(result_case, rank_by(origin)));
+  const std::vector<std::string> ids = run::on_front(all, seed_of(origin));
+  const std::set<std::string> best(ids.begin(), ids.end());
+  std::vector<result::Front> list;
+  for (const result::Scene& scene : scenes) {
+    result::Front& front = list.emplace_back();
+    front.scene = scene.name;
+    for (const Case& result_case : cases)
+      if (result_case.scene == scene.name && best.contains(result_case.id)) front.ids.push_back(result_case.id);
+  }
+  return list;
+}
+
+void add_presets(result::Result& result, const result::Result& origin) {
+  std::vector<result::Preset> facts = preset_facts(result.cases, result.skipped);
+  if (facts.empty()) return;
+  result.preset_rankings = preset_rankings(result.scenes, result.cases, origin);
+  result.presets = std::move(facts);
+}
+
+result::Result record_of(const run::Result& result, const std::vector<Case>& earlier_cases) {
+  result::Result out;
+  out.schema_version = k_schema_version;
+  out.name = result.config_name;
+  out.date = known(result.date);
+  out.command = known(result.command);
+  out.tool = run::record_of(result.tool);
+  out.machine = run::record_of(result.machine);
+  out.config = result.config;
+  for (const run::SceneResult& scene : result.scenes) out.scenes.push_back(run::record_of(scene));
+  out.cases = in_plan_order(result, earlier_cases);
+  add_extra_pairs(out.cases);
+  add_costs(out.cases, out.config);
+  out.pareto_front = fronts(out.scenes, out.cases, out);
+  for (const run::Skipped& skipped : result.skipped)
+    out.skipped.push_back({skipped.name, skipped.reason, known(skipped.preset)});
+  add_presets(out, out);
+  out.conclusions = conclusions_of(out, out);
+  conclude_failures(out, {});
+  return out;
+}
+
+}  // namespace clusterbench::report

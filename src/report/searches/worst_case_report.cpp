@@ -1,0 +1,246 @@
+#include "report/searches/worst_case_report.h"
+
+#include <numbers>
+
+#include "core/text.h"
+#include "report/cases/columns.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using search::WorstCase;
+
+Json vector_json(const Vec3d& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+Json box_json(const search::Box& box) {
+  return {{"min", vector_json(box.lo)}, {"max", vector_json(box.hi)}};
+}
+
+// A count as a whole number.
+Json figure_json(double value, search::Measure measure) {
+  if (measure == search::Measure::evaluated) return value;
+  return static_cast<std::uint64_t>(value);
+}
+
+const char* name_of(search::Ended ended) {
+  constexpr const char* k_names[] = {"evaluations", "seconds", "signal"};
+  return k_names[static_cast<int>(ended)];
+}
+
+// In the order in which the search numbers them.
+std::vector<std::string> light_names(const scene::Scene& scene) {
+  std::vector<std::string> names;
+  for (const scene::Light& light : scene.lights)
+    if (light.type != scene::LightType::directional) names.push_back(light.name);
+  return names;
+}
+
+Json frame_json(const search::FoundFrame& frame, const WorstCaseFacts& facts, const std::vector<std::string>& names) {
+  const search::FrameChoice& at = frame.choice;
+  Json out{{"value", figure_json(frame.value, facts.request.measure)},
+           {"eye_m", vector_json(at.eye)},
+           {"direction", vector_json(search::direction_of(at.rotation))},
+           {"rotation", {at.rotation.x, at.rotation.y, at.rotation.z, at.rotation.w}},
+           {"moment", at.moment},
+           {"added_lights", Json::array()},
+           {"moved_lights", Json::array()}};
+  for (std::size_t i = 0; i < at.extra_lights.size(); ++i)
+    out["added_lights"].push_back(
+        {{"position_m", vector_json(at.extra_lights[i])}, {"range_m", facts.request.extra_ranges_m[i]}});
+  for (const auto& [light, position] : at.moved)
+    out["moved_lights"].push_back({{"light", names[light]}, {"position_m", vector_json(position)}});
+  return out;
+}
+
+// Where slices end, or how far boxes reach, that do not follow something: made up from the recorded path, if the camera
+// or the configuration does not say it.
+Json grid_end_json(const grid::GridSpec& spec) {
+  if (spec.has_bounds && spec.follow == grid::Follow::nothing)
+    return {{"bounds_m", box_json({spec.bounds_lo_m, spec.bounds_hi_m})}};
+  const bool is_fixed = spec.has_tiles() && spec.slices.far_m > 0.0 && !spec.slices.fit &&
+                        spec.slices.scheme != grid::Scheme::fit && spec.slices.scheme != grid::Scheme::list;
+  if (is_fixed) return {{"slices_m", spec.slices.far_m}};
+  return nullptr;
+}
+
+// As a configuration has it: "90h"; null: the file's own.
+Json fov_json(const std::optional<scene::FieldOfView>& fov) {
+  if (!fov) return nullptr;
+  return text("%.12g", fov->angle_rad * 180.0 / std::numbers::pi) + (fov->is_horizontal ? "h" : "v");
+}
+
+// What else of the configuration a find is of, besides what the case's name tells.
+Json settings_json(const WorstCaseFacts& facts) {
+  const config::SceneRequest& request = facts.config.scenes[facts.case_plan.scene];
+  return {
+      {"fov", fov_json(request.camera.field_of_view)},
+      {"far", request.camera.far_m ? Json(*request.camera.far_m) : Json()},
+      {"camera_fit", request.camera.fit == scene::CameraFit::vertical ? "vertical" : "contain"},
+      {"boxes", request.boxes},
+      {"range_rule", {{"cutoff_lux", request.range_rule.cutoff_lux}, {"max_range", request.range_rule.max_range_m}}},
+      {"grid_end", grid_end_json(facts.config.grids[facts.case_plan.grid])}};
+}
+
+Json case_json(const WorstCaseFacts& facts) {
+  const run::CasePlan& case_plan = facts.case_plan;
+  const run::SceneData& data = facts.plan.scenes[case_plan.scene];
+  const Vec2i viewport = facts.config.viewports[case_plan.viewport];
+  return {{"name", case_plan.name},
+          {"id", case_plan.id},
+          {"scene", data.scene.name},
+          {"sha256", data.scene.sha256},
+          {"camera", data.paths[case_plan.camera].camera},
+          {"viewport", {viewport.x, viewport.y}},
+          {"grid", facts.config.grids[case_plan.grid].name()},
+          {"assigner", facts.config.assigners[case_plan.assigner].label()},
+          {"storage", run::storage_label(facts.config, case_plan)},
+          {"settings", settings_json(facts)}};
+}
+
+Json space_json(const WorstCase& found, const WorstCaseFacts& facts) {
+  Json out{{"eyes_m", box_json(found.eyes)},
+           {"floor", nullptr},
+           {"directions", found.directions},
+           {"moments", found.moments},
+           {"lights", found.own_lights},
+           {"added_ranges_m", facts.request.extra_ranges_m},
+           {"added_within_m", box_json(found.lights)},
+           {"move_m", facts.request.move_m},
+           {"flags", search::space_flags(facts.request)}};
+  if (facts.request.walkable)
+    out["floor"] = {{"triangles", found.floor_triangles},
+                    {"area_m2", found.floor_area_m2},
+                    {"eye_height_m", facts.request.eye_height_m}};
+  return out;
+}
+
+std::size_t case_count(const run::Plan& plan) {
+  std::size_t count = 0;
+  for (const run::GroupPlan& group : plan.groups) count += group.cases.size();
+  return count;
+}
+
+std::string figure_text(double value) {
+  return text("%.10g", value);
+}
+
+std::string vector_text(Vec3d v) {
+  for (int axis = 0; axis < 3; ++axis) v[axis] += 0.0;  // no "-0"
+  return text("(%.4g", v.x) + text(", %.4g", v.y) + text(", %.4g)", v.z);
+}
+
+std::string line(std::string name, const std::string& rest) {
+  constexpr std::size_t k_width = 13;
+  name.resize(k_width, ' ');
+  return "  " + name + rest + "\n";
+}
+
+std::string ratio_text(double value, double other) {
+  return other > 0.0 ? text("; the worst frame has %.3g times as many", value / other) : std::string();
+}
+
+std::string frames_text(const WorstCase& found, const WorstCaseFacts& facts) {
+  std::string out;
+  for (std::size_t i = 0; i < found.frames.size(); ++i) {
+    const search::FoundFrame& frame = found.frames[i];
+    const search::FrameChoice& at = frame.choice;
+    std::string rest = figure_text(frame.value) + " at " + vector_text(at.eye) + " m, looks along " +
+                       vector_text(search::direction_of(at.rotation));
+    if (found.moments > 1) rest += ", lights of moment " + std::to_string(at.moment);
+    if (!at.moved.empty()) rest += ", " + number_of(at.moved.size(), "light") + " moved";
+    out += line("frame " + std::to_string(i), rest);
+    for (std::size_t k = 0; k < at.extra_lights.size(); ++k)
+      out += line("", "added light at " + vector_text(at.extra_lights[k]) +
+                          text(" m, range %g m", facts.request.extra_ranges_m[k]));
+  }
+  return out;
+}
+
+// Whether what was searched for is less than a random frame has.
+bool is_random_one(const WorstCase& found) {
+  return !found.stages.empty() && found.random.frames > 0 && found.random.max > found.stages.back().best;
+}
+
+}  // namespace
+
+Json worst_case_to_json(const WorstCase& found, const WorstCaseFacts& facts) {
+  const search::Measure measure = facts.request.measure;
+  const search::MeasureRow& row = search::row_of(measure);
+  const std::vector<std::string> names = light_names(facts.plan.scenes[facts.case_plan.scene].scene);
+  Json out{{"schema_version", 1},
+           {"kind", "worst-case"},
+           {"case", case_json(facts)},
+           {"other_cases", case_count(facts.plan) - 1},
+           {"measure", {{"name", row.name}, {"unit", row.unit}, {"figure", row.figure}}},
+           {"seed", facts.request.seed},
+           {"evaluations", found.evaluations},
+           {"evaluations_allowed", facts.request.evaluations},
+           {"ended", name_of(found.ended)},
+           {"space", space_json(found, facts)},
+           {"stages", Json::array()},
+           {"frames", Json::array()},
+           {"recorded",
+            {{"frames", found.recorded.frames},
+             {"max", figure_json(found.recorded.max, measure)},
+             {"frame", found.recorded.frame}}},
+           {"random", nullptr},
+           {"theoretical_max", nullptr},
+           {"buffers", Json::array()},
+           {"lights_in_view", {{"all", found.lights_in_view}, {"dark", found.dark_in_view}}},
+           {"written", nullptr},
+           {"warnings", found.warnings}};
+  for (const search::Stage& stage : found.stages)
+    out["stages"].push_back(
+        {{"name", stage.name}, {"evaluations", stage.evaluations}, {"best", figure_json(stage.best, measure)}});
+  for (const search::FoundFrame& frame : found.frames) out["frames"].push_back(frame_json(frame, facts, names));
+  if (found.random.frames > 0)
+    out["random"] = {
+        {"frames", found.random.frames}, {"max", figure_json(found.random.max, measure)}, {"mean", found.random.mean}};
+  if (found.theoretical_max) out["theoretical_max"] = figure_json(*found.theoretical_max, measure);
+  for (const assign::BufferNeed& need : found.buffers)
+    out["buffers"].push_back({{"name", need.name},
+                              {"elements", need.elements},
+                              {"theoretical_max", need.most},
+                              {"element_bytes", need.element_bytes}});
+  if (!facts.scene_file.empty()) out["written"] = {{"scene", facts.scene_file}, {"config", facts.config_file}};
+  return out;
+}
+
+std::string worst_case_text(const WorstCase& found, const WorstCaseFacts& facts) {
+  const search::MeasureRow& row = search::row_of(facts.request.measure);
+  std::string out = facts.case_plan.name + "\n";
+  out += line("measure", std::string(row.name) + ": " + row.summary);
+  if (const std::size_t others = case_count(facts.plan) - 1; others > 0)
+    out += line("others", number_of(others, "case") + " not searched; --filter chooses");
+  if (const std::string flags = search::space_flags(facts.request); !flags.empty()) out += line("space", flags);
+  if (found.frames.empty()) return out + line("worst", "nothing was tried");
+  const double worst = std::ranges::max(found.frames, {}, &search::FoundFrame::value).value;
+  out += line("worst", figure_text(worst) + " " + row.unit + ", found in " +
+                           number_of(static_cast<std::uint64_t>(found.evaluations), "evaluation") +
+                           (is_random_one(found) ? " and the random frames" : "") + " (seed " +
+                           std::to_string(facts.request.seed) + ")");
+  if (found.random.frames > 0)
+    out += line("random", figure_text(found.random.max) + " at most in " +
+                              number_of(static_cast<std::uint64_t>(found.random.frames), "random frame") +
+                              ratio_text(worst, found.random.max));
+  out += line("recorded", figure_text(found.recorded.max) + " at most in " +
+                              number_of(static_cast<std::uint64_t>(found.recorded.frames), "frame") +
+                              " of the path (frame " + std::to_string(found.recorded.frame) + ")" +
+                              ratio_text(worst, found.recorded.max));
+  if (found.theoretical_max)
+    out += line("theoretical", figure_text(*found.theoretical_max) +
+                                   text("; the worst frame is %.3g %% of it",
+                                        *found.theoretical_max > 0.0 ? 100.0 * worst / *found.theoretical_max : 0.0));
+  out += frames_text(found, facts);
+  for (const std::string& warning : found.warnings) out += line("warning", warning);
+  if (found.ended == search::Ended::seconds)
+    out += line("warning", "--seconds ended the search: the next one can end elsewhere");
+  if (!facts.config_file.empty())
+    out += line("replay", "clusterbench run " + shell_command(std::vector<std::string>{facts.config_file}));
+  return out;
+}
+
+}  // namespace clusterbench::report

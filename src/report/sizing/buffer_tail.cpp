@@ -1,0 +1,117 @@
+#include "report/sizing/buffer_tail.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/text.h"
+#include "report/cases/columns.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What capacities are named for: at 60 frames per second once in half an hour.
+constexpr double k_rare = 1e-5;
+
+Json chance_json(const measure::Chance& chance) {
+  return {{"estimate", chance.estimate}, {"ci95", {chance.ci95.low, chance.ci95.high}}};
+}
+
+// What k_rare of the frames exceed; never more than there can be.
+measure::Tail::Capacity capacity_for_rare(const measure::Tail& tail, const SizedBuffer& buffer) {
+  measure::Tail::Capacity rare = tail.capacity_for(k_rare);
+  rare.estimate = std::min(rare.estimate, buffer.theoretical_max);
+  rare.upper = std::min(rare.upper.value_or(buffer.theoretical_max), buffer.theoretical_max);
+  return rare;
+}
+
+// The upper end first: on paths whose frames change slowly the estimate itself is often far too low.
+std::string chance_text(const measure::Chance& chance) {
+  if (!(chance.ci95.high > 0.0)) return "no frame";
+  const std::string estimate = chance.estimate > 0.0 ? one_in_text(chance.estimate) : "none";
+  return "at most " + one_in_text(chance.ci95.high) + " frames (by the fit " + estimate + ")";
+}
+
+// Of cameras that stand still, as far as the buffer tells: that they say nothing of other views; "" of others.
+std::string still_text(const SizedBuffer& buffer) {
+  if (!buffer.depends_on_view || buffer.is_all() || buffer.paths.empty()) return "";
+  std::uint64_t frames = 0;
+  for (const PathNeed& path : buffer.paths) {
+    const bool is_merged = path.frames_per_entry > 1 && path.elements.size() > 1;
+    if (path.elements.empty() || is_merged) return "";
+    if (std::ranges::adjacent_find(path.elements, std::ranges::not_equal_to()) != path.elements.end()) return "";
+    frames += path.frames_per_entry * path.elements.size();
+  }
+  const bool is_one = frames == 1, has_cameras = buffer.paths.size() > 1;
+  return std::string(is_one ? "one frame says nothing of other views"
+                     : has_cameras
+                         ? "each camera needs the same in all its frames, as one that stands still: they say nothing "
+                           "of other views"
+                         : "all " + number_of(frames, "frame") +
+                               " need the same, as of a camera that stands still: they say nothing of other views") +
+         (buffer.found ? "; the search looked at some"
+                       : "; animate the camera over what it will show, or search with --worst-case");
+}
+
+}  // namespace
+
+std::string one_in_text(double chance) {
+  if (!(chance > 0.0)) return "never";
+  const double frames = 1.0 / chance;
+  if (frames < 9.5) return "1 in " + text("%.1f", frames);
+  double power = 1.0;
+  int digits = 0;
+  while (frames >= 9.5 * power) power *= 10.0, ++digits;
+  const double leading = std::round(frames / power);
+  if (digits >= 5 && leading == 1.0) return "1 in 10^" + std::to_string(digits);
+  if (digits >= 7) return "1 in " + text("%g", leading) + "*10^" + std::to_string(digits);
+  return "1 in " + text("%.0f", leading * power);
+}
+
+std::optional<measure::TailEstimate> tail_of(const SizedBuffer& buffer) {
+  if (buffer.is_all() || !buffer.spread || buffer.spread->min == buffer.spread->max) return {};
+  std::vector<measure::PathNeeds> paths;
+  for (const PathNeed& path : buffer.paths) paths.push_back({path.elements, path.frames_per_entry});
+  return measure::tail_of(paths);
+}
+
+std::string tail_text(const SizedBuffer& buffer) {
+  if (const std::string still = still_text(buffer); !still.empty()) return buffer.name + ": " + still;
+  const std::optional<measure::TailEstimate> found = tail_of(buffer);
+  if (!found) return "";
+  if (!found->tail) return buffer.name + ": no estimate: " + found->refusal;
+  const measure::Tail& tail = *found->tail;
+  const measure::Tail::Capacity rare = capacity_for_rare(tail, buffer);
+  return buffer.name + (tail.fits ? ": above " : ": NO GOOD FIT, do not rely on it: above ") +
+         std::to_string(buffer.capacity) + " in " + chance_text(tail.chance_above(buffer.capacity)) +
+         "; for 1 in 10^5 allocate " + std::to_string(*rare.upper) + " (by the fit " + std::to_string(rare.estimate) +
+         "); from " + number_of(tail.peaks, "peak");
+}
+
+Json tail_json(const SizedBuffer& buffer) {
+  if (const std::string still = still_text(buffer); !still.empty()) return {{"refusal", still}};
+  const std::optional<measure::TailEstimate> found = tail_of(buffer);
+  if (!found) return nullptr;
+  if (!found->tail) return {{"refusal", found->refusal}};
+  const measure::Tail& tail = *found->tail;
+  const measure::Tail::Capacity rare = capacity_for_rare(tail, buffer);
+  Json out{{"above_capacity", chance_json(tail.chance_above(buffer.capacity))},
+           {"above_high_water", chance_json(tail.chance_above(buffer.high_water))},
+           {"capacity_for_1_in_100000", {{"estimate", rare.estimate}, {"upper", *rare.upper}}}};
+  out["fits"] = tail.fits;
+  out["fit_p"] = tail.fit_p;
+  out["frames"] = tail.frames;
+  out["threshold"] = tail.threshold;
+  out["frames_above"] = tail.frames_above;
+  out["peaks"] = tail.peaks;
+  out["cut_peaks"] = tail.cut_peaks;
+  out["extremal_index"] = tail.extremal_index;
+  out["shape"] = tail.shape;
+  out["scale"] = tail.scale;
+  if (tail.end) out["end"] = *tail.end;
+  out["is_upper_bound"] = tail.has_merged_frames;
+  return out;
+}
+
+}  // namespace clusterbench::report

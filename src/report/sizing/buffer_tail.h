@@ -1,0 +1,27 @@
+#pragma once
+// How likely a frame that was not recorded exceeds what a buffer has: words and JSON of measure/peaks_over_threshold.h.
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "measure/peaks_over_threshold.h"
+#include "report/sizing/allocation.h"
+
+namespace clusterbench::report {
+
+// Over all cameras. None for a buffer that no frame can exceed, that every frame needs the same of, or without frames.
+std::optional<measure::TailEstimate> tail_of(const SizedBuffer& buffer);
+
+// "indices: above 51398 in no frame, as far as the fit tells (at most 1 in 30000); 1 in 10^5 frames above 31000 (at
+// most 35000)", and what speaks against it; or "indices: no estimate: 7 of the 20 independent peaks it needs ...". ""
+// where there is no estimate.
+std::string tail_text(const SizedBuffer& buffer);
+
+// Null where there is no estimate; with "refusal" alone where there can be none.
+nlohmann::ordered_json tail_json(const SizedBuffer& buffer);
+
+// "1 in 30000", "1 in 10^7", "never" for 0. One digit, so that it does not look more certain than it is.
+std::string one_in_text(double chance);
+
+}  // namespace clusterbench::report

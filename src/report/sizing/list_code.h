@@ -1,0 +1,32 @@
+#pragma once
+// The functions with which a shader reads a cell's lights out of the buffers of report/sizing/allocation.h, in HLSL and
+// GLSL.
+
+#include <string>
+
+#include "report/sizing/named_structures.h"
+#include "result/case.h"
+
+namespace clusterbench::report {
+
+enum class ShaderLanguage : std::uint8_t { hlsl, glsl };
+
+// Buffers, and for a structure NAME
+//   NAME_list NAME_list_of(int cell)              where a cell's list is and how many lights it has
+//   uint NAME_index_at(NAME_list list, uint n)    its nth light, points before spots before boxes; n below list.lights
+//   uint NAME_index_at(int cell, uint n)          the same in one step
+// for packed, fixed, bitfield, linked and runs. Buffers are of 32-bit words; a shader that has them elsewhere
+// (bindless, or a ByteAddressBuffer) defines NAME_BUFFER_word(i) before the include, and then none is declared. `slot`:
+// the first binding or register that is free; grows by those that are taken. A comment that says why where there is no
+// such function.
+std::string list_code(const NamedStructure& named, ShaderLanguage language, int& slot);
+
+// Why nothing of it reads a structure's lists: "its tiles react, ..."; "" where it has them.
+std::string why_no_reader(const SizedStructure& structure);
+// The same of the cases of one structure on its cameras, as a result has them.
+std::string why_no_reader(const std::vector<result::Case>& cases);
+
+// What list_code() declares.
+std::vector<std::string> list_code_names(const NamedStructure& named);
+
+}  // namespace clusterbench::report

@@ -1,0 +1,17 @@
+#pragma once
+// Allocations as code: a C++ header with a run-time check, or constants and lookups of a shader.
+
+#include <string>
+#include <vector>
+
+#include "report/sizing/named_structures.h"
+
+namespace clusterbench::report {
+
+enum class SizeLanguage : std::uint8_t { cpp, hlsl, glsl };
+
+// `remark`: a comment for the head, or "". Above each structure a comment says what was seen and where.
+std::string size_code(SizeLanguage language, const std::vector<NamedStructure>& structures, const std::string& remark,
+                      const AllocationRules& rules);
+
+}  // namespace clusterbench::report

@@ -1,0 +1,91 @@
+#include "report/tables/samples_table.h"
+
+#include <algorithm>
+
+#include "measure/samples.h"
+#include "report/cases/columns.h"
+#include "report/cases/sample_sets.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using result::SampleSet;
+
+Json sets_of(const result::Case& result_case) {
+  return result_case.samples ? result::to_json(*result_case.samples) : Json();
+}
+
+double per_sample(const SampleSet& set, std::uint64_t lights) {
+  return static_cast<double>(lights) / static_cast<double>(set.samples);
+}
+
+// Lights given per sample, and key is unlit or has no answer.
+std::string given_text(const SampleSet& set) {
+  if (set.samples == 0) return "none";
+  if (set.unanswered == set.samples) return "no answer";
+  return text("%.2f", per_sample(set, set.evaluated)) +
+         (set.unlit > 0.0 ? text(", %.3g %% unlit", 100.0 * set.unlit) : "");
+}
+
+// Those that any of the cases has: methods that need depth have no points of the whole view.
+std::vector<std::string> set_names(const std::vector<NamedCase>& cases) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < measure::k_sample_set_count; ++i) {
+    const std::string name = measure::name_of(static_cast<measure::SampleSet>(i));
+    const auto has = [&](const NamedCase& named) { return samples_of_set(*named.result_case, name) != nullptr; };
+    if (std::ranges::any_of(cases, has)) names.push_back(name);
+  }
+  return names;
+}
+
+// Lights that reach a sample: the same for all cases that have the set.
+std::string needed_text(const std::string& name, const std::vector<NamedCase>& cases) {
+  for (const NamedCase& named : cases)
+    if (const SampleSet* set = samples_of_set(*named.result_case, name); set != nullptr && set->samples != 0)
+      return text("%.2f", per_sample(*set, set->needed));
+  return "-";
+}
+
+// Methods as lines, sets as columns.
+std::string samples_block(const std::string& block, const std::vector<NamedCase>& cases) {
+  const std::vector<std::string> names = set_names(cases);
+  Cells headings{"", "assigner"}, needed{"", "(needed)"};
+  for (const std::string& name : names) {
+    headings.push_back(name);
+    needed.push_back(needed_text(name, cases));
+  }
+  std::vector<Cells> rows{headings, needed};
+  for (const NamedCase& named : cases) {
+    Cells row{"", named.name};
+    for (const std::string& name : names) {
+      const SampleSet* set = samples_of_set(*named.result_case, name);
+      row.push_back(set == nullptr ? "-" : given_text(*set));
+    }
+    rows.push_back(row);
+  }
+  const std::vector<std::size_t> widths = widths_of(rows);
+  std::string out = " " + block + "\n";
+  for (const Cells& row : rows) out += aligned(row, widths);
+  return out;
+}
+
+}  // namespace
+
+std::string samples_table(const result::Result& result) {
+  std::string out;
+  for (const result::Scene& scene : result.scenes) {
+    std::string blocks;
+    for (const std::string& block : blocks_of(result.cases, scene)) {
+      const std::vector<NamedCase> cases = distinct_cases(result.cases, scene, block, sets_of);
+      if (!cases.empty()) blocks += samples_block(block, cases);
+    }
+    if (!blocks.empty()) out += "lights per sample of " + shown(scene.name) + "\n" + blocks + "\n";
+  }
+  if (out.empty()) return "";
+  return "\n" + out +
+         "lights that a sample is given, by set, and those that reach it (needed). volume: random points in the view.\n"
+         "unlit: share of the needed ones that are not given. no answer: all samples lie outside of the cells.\n";
+}
+
+}  // namespace clusterbench::report

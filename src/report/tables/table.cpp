@@ -1,0 +1,422 @@
+#include "report/tables/table.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "assign/contract/assigner.h"
+#include "core/text.h"
+#include "report/cases/columns.h"
+#include "report/cases/figures.h"
+#include "report/cases/frame_cost.h"
+#include "report/cases/sample_sets.h"
+#include "report/cases/timing_warnings.h"
+#include "report/comparing/ratios.h"
+#include "report/presets/preset_ranking.h"
+#include "report/tables/fit_table.h"
+#include "report/tables/lookup_table.h"
+#include "report/tables/pre_cull_table.h"
+#include "report/tables/precision_table.h"
+#include "report/tables/reaction_table.h"
+#include "report/tables/samples_table.h"
+#include "report/tables/shadows_table.h"
+#include "report/tables/stability_table.h"
+#include "report/tables/warnings.h"
+#include "result/at.h"
+
+namespace clusterbench::report {
+namespace {
+
+using result::Case;
+using result::Cost;
+using result::ListError;
+using result::number;
+using result::SampleSet;
+using result::Time;
+using result::Timing;
+
+constexpr const char* k_red = "\033[31m";
+constexpr const char* k_bold = "\033[1m";
+constexpr const char* k_plain = "\033[0m";
+
+using CaseFigure = std::optional<double> (*)(const Case& result_case);
+constexpr CaseFigure k_frame_ns = number<&Case::timing, &Timing::frame_ns, &Time::median>,
+                     k_instructions =
+                         number<&Case::count, &result::Count::instructions_per_frame, &result::PerFrame::assign>,
+                     k_excess = number<&Case::error, &ListError::excess_ratio>,
+                     k_frame_cost_ns = number<&Case::cost, &Cost::frame_ns>,
+                     k_gpu_cost_ns = number<&Case::cost, &Cost::gpu_ns>;
+
+struct Line {
+  const Case* result_case = nullptr;
+  Cells cells;
+  bool has_failed = false;
+  std::pair<bool, double> sort_key;
+};
+
+// What some cases have and others have not.
+struct Extras {
+  bool storages = false, times = false, conversions = false, builds = false, instructions = false, samples = false,
+       dropped = false, cold = false, launches = false, costs = false, searched = false;
+};
+
+std::string time_text(const std::optional<double>& ns) {
+  if (!ns) return "-";
+  const double us = *ns / 1e3;
+  return text(us < 10.0 ? "%.2f" : us < 1000.0 ? "%.1f" : "%.0f", us);
+}
+
+std::string worst_text(const Case& result_case) {
+  using result::WorstTimedFrame;
+  const auto* worst = result::part<&Case::timing, &Timing::worst_frame>(result_case);
+  return worst == nullptr ? "-" : time_text(number<&WorstTimedFrame::ns>(*worst)) + " @" + std::to_string(worst->frame);
+}
+
+// The pairs of the frames that the time is of; without times those of all frames.
+std::string pairs_text(const Case& result_case) {
+  return short_count(k_frame_ns(result_case)
+                         ? number<&Case::timing, &Timing::pairs, &result::TimedPairs::mean>(result_case)
+                         : number<&Case::occupancy, &result::Occupancy::pairs, &result::Spread::mean>(result_case));
+}
+
+// Of the samples that the case is ranked by, as `unlit`.
+std::string lost_lux_text(const Case& result_case, SampleFigure what) {
+  const SampleSet* most = most_at_sets(result_case, what);
+  if (most == nullptr) return "-";
+  return most->lost_lux == 0.0 ? "0" : text_of(what(*most), "%.3g");
+}
+
+// What the star goes by; lists that leave lights out are short.
+std::string overshade_text(const Case& result_case) {
+  const std::optional<double> overshade = limit_figure(result_case, "overshade");
+  return overshade ? text("%.2f", *overshade) : "-";
+}
+
+// Bytes of the structure that a sample reads to know its lights.
+std::string read_bytes_text(const Case& result_case) {
+  const std::optional<double> bytes = mean_at_samples(result_case, number<&SampleSet::read_bytes>);
+  return bytes ? text(*bytes < 100.0 ? "%.3g" : "%.0f", *bytes) : "-";
+}
+
+// Where nothing is timed what the GPU does.
+std::string cost_text(const Case& result_case) {
+  const std::optional<double> frame_ns = k_frame_cost_ns(result_case);
+  return time_text(frame_ns ? frame_ns : k_gpu_cost_ns(result_case));
+}
+
+// By cost those that leave lights out come last: theirs is not the cost of the same picture.
+std::pair<bool, double> sort_key(const Case& result_case, RankBy by) {
+  if (by == RankBy::frame_cost)
+    for (const CaseFigure figure : {k_frame_cost_ns, k_gpu_cost_ns})
+      if (const auto found = figure(result_case)) return {!result_case.cost->lit, *found};
+  for (const CaseFigure figure : {k_frame_ns, k_instructions, k_excess})
+    if (const auto found = figure(result_case)) return {false, *found};
+  return {false, 0.0};
+}
+
+constexpr const char* k_frame_heading = "frame us";
+constexpr const char* k_cost_heading = "cost us";
+
+struct Column {
+  const char* heading;
+  std::string (*text)(const Case& result_case);
+  bool Extras::*needed = nullptr;  // left out where the table has none of it
+  bool is_at_samples = false;      // the heading says of which
+};
+constexpr bool k_at_samples = true;
+
+constexpr Column k_columns[] = {
+    {k_frame_heading, [](const Case& result_case) { return time_text(k_frame_ns(result_case)); }, &Extras::times},
+    {"±", frame_interval_text, &Extras::times},
+    {"worst us", worst_text, &Extras::times},
+    {"assign",
+     [](const Case& result_case) {
+       return time_text(number<&Case::timing, &Timing::assign_ns, &Time::median>(result_case));
+     },
+     &Extras::times},
+    {"convert",
+     [](const Case& result_case) {
+       return time_text(number<&Case::timing, &Timing::convert_ns, &Time::median>(result_case));
+     },
+     &Extras::conversions},
+    {"build",
+     [](const Case& result_case) {
+       return time_text(number<&Case::timing, &Timing::build_ns, &Time::median>(result_case));
+     },
+     &Extras::builds},
+    {k_cost_heading, cost_text, &Extras::costs},
+    {"instr", [](const Case& result_case) { return short_count(k_instructions(result_case)); }, &Extras::instructions},
+    {"pairs", pairs_text},
+    {"ns/pair",
+     [](const Case& result_case) { return text_of(number<&Case::timing, &Timing::ns_per_pair>(result_case), "%.2f"); },
+     &Extras::times},
+    {"excess", [](const Case& result_case) { return text_of(k_excess(result_case), "%.1f %%", 100.0); }},
+    {"missed",
+     [](const Case& result_case) {
+       return text_of(number<&Case::error, &ListError::false_negatives>(result_case), "%.0f");
+     }},
+    {"dropped",
+     [](const Case& result_case) {
+       return short_count(static_cast<double>(result_case.buffers.overflow.dropped_pairs));
+     },
+     &Extras::dropped},
+    {"lost lx", [](const Case& result_case) { return lost_lux_text(result_case, number<&SampleSet::lost_lux>); },
+     &Extras::dropped},
+    {"worst lx",
+     [](const Case& result_case) {
+       return lost_lux_text(result_case, number<&SampleSet::darkest, &result::DarkestSample::lost_lux>);
+     },
+     &Extras::dropped},
+    {"unlit", [](const Case& result_case) { return unlit_text(unlit_at_samples(result_case)); }, &Extras::samples,
+     k_at_samples},
+    {"overshade", overshade_text, &Extras::samples, k_at_samples},
+    {"read", read_bytes_text, &Extras::searched},
+    {"bytes",
+     [](const Case& result_case) { return short_count(static_cast<double>(result_case.buffers.bytes.high_water)); }},
+};
+
+bool is_shown(const Column& column, const Extras& extras) {
+  return column.needed == nullptr || extras.*column.needed;
+}
+
+Cells headings(const Extras& extras, const Case& sampled) {
+  Cells cells{"", "assigner"};
+  for (const Column& column : k_columns)
+    if (is_shown(column, extras))
+      cells.push_back(column.heading + (column.is_at_samples ? heading_of_sets(sampled) : std::string()));
+  return cells;
+}
+
+// The case of a block that has the most sets of samples: headings are of these.
+const Case& most_sampled(const std::vector<const Case*>& cases) {
+  return **std::ranges::max_element(cases, {}, [](const Case* one) { return ranking_set_names(*one).size(); });
+}
+
+// Cases that samples search stand together, and so name their grids, where they use them.
+std::string table_label(const Case& result_case, const Extras& extras) {
+  std::string label = method_name(result_case);
+  if (extras.storages) label += " / " + storage_name(result_case);
+  const assign::AssignerDescriptor* assigner = assign::find_assigner(result_case.assigner.name);
+  if (samples_search(result_case) && (assigner == nullptr || !assigner->own_without_grid))
+    label += ", " + shown(result_case.grid.name);
+  return label;
+}
+
+// At samples only of the sets in the heading: of fewer ones a figure is another.
+Line line_of(const Case& result_case, bool is_on_front, const Extras& extras, RankBy by,
+             const std::vector<std::string>& sets) {
+  const bool is_of_sets = ranking_set_names(result_case) == sets;
+  Line line;
+  line.result_case = &result_case;
+  const std::string label = table_label(result_case, extras);
+  line.cells = {is_on_front ? "*" : "", label};
+  for (const Column& column : k_columns)
+    if (is_shown(column, extras))
+      line.cells.push_back(column.is_at_samples && !is_of_sets ? "-" : column.text(result_case));
+  line.has_failed = !result_case.failures.empty();
+  line.sort_key = sort_key(result_case, by);
+  return line;
+}
+
+std::set<std::string> ids_on_front(const result::Result& result) {
+  std::set<std::string> ids;
+  for (const result::Front& front : result.pareto_front) ids.insert(front.ids.begin(), front.ids.end());
+  return ids;
+}
+
+Extras extras_of(const std::vector<Case>& cases) {
+  Extras extras;
+  std::set<std::string> storages;
+  for (const Case& result_case : cases) {
+    storages.insert(result_case.storage);
+    extras.times |= k_frame_ns(result_case).has_value();
+    extras.conversions |= number<&Case::timing, &Timing::convert_ns, &Time::median>(result_case).has_value();
+    extras.builds |= number<&Case::timing, &Timing::builds_per_frame>(result_case).value_or(0.0) != 0.0;
+    extras.instructions |= result_case.count.has_value();
+    extras.cold |= result_case.timing && result_case.timing->caches == "cold";
+    extras.launches |= result_case.timing && result_case.timing->launches > 1u;
+    extras.samples |= !ranking_set_names(result_case).empty();
+    extras.costs |= result_case.cost.has_value();
+    extras.searched |= samples_search(result_case) && !ranking_set_names(result_case).empty();
+    extras.dropped |= result_case.buffers.overflow.dropped_pairs != 0;
+  }
+  extras.storages = storages.size() > 1;
+  return extras;
+}
+
+// What counted, on which instruction sets: "callgrind (AVX2)". "" where nothing did.
+std::string counters(const std::vector<Case>& cases) {
+  std::set<std::string> names;
+  for (const Case& result_case : cases)
+    if (result_case.count) names.insert(result_case.count->source + " (" + result_case.count->simd_target + ")");
+  return joined(std::vector<std::string>(names.begin(), names.end()));
+}
+
+std::string scene_heading(const result::Scene& scene) {
+  return shown(scene.name) + "  (" + number_of(scene.lights.point, "point") + ", " +
+         number_of(scene.lights.spot, "spot") + ", " + number_of(scene.frames, "frame") + ")";
+}
+
+// Rows that are not known to take longer than those above them. True if there are any.
+bool mark_alike(const result::Result& result, const Cells& heads, RankBy by, std::vector<Line>& lines) {
+  const char* const heading = by == RankBy::frame_cost ? k_cost_heading : k_frame_heading;
+  const auto column = std::find(heads.begin(), heads.end(), heading) - heads.begin();
+  if (column == static_cast<std::ptrdiff_t>(heads.size())) return false;
+  bool has_some = false;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (!ratio_of_cases(result, *lines[i].result_case, *lines[i - 1].result_case, by) ||
+        takes_longer(result, *lines[i].result_case, *lines[i - 1].result_case, by))
+      continue;
+    lines[i].cells[static_cast<std::size_t>(column)].insert(0, "~");
+    has_some = true;
+  }
+  return has_some;
+}
+
+// Of which samples the figures are.
+std::string sets_text(const std::vector<Case>& cases) {
+  std::vector<std::string> lines;
+  for (const Case& result_case : cases) {
+    const std::vector<std::string> sets = ranking_set_names(result_case);
+    if (sets.empty()) continue;
+    const std::string heading = heading_of_sets(result_case);
+    std::string line = heading.empty() ? "samples" : heading.substr(2, heading.size() - 3);
+    line += ": " + words_of_sets(sets);
+    if (sets.size() > 1) line += ", by the weights of the key `cost`; unlit: of the set that lacks most";
+    if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+  }
+  return lines.empty() ? "" : joined(lines, ". ") + ".\n";
+}
+
+// Of the marks and columns that the table has.
+std::string legend(const std::vector<Case>& cases, const Extras& extras, RankBy by, bool has_front, bool is_complete) {
+  std::string out;
+  if (has_front)
+    out += std::string("* ") + (extras.samples ? "at most 0.1 % unlit, and " : "") +
+           "no other case of its camera is better in one of " +
+           (by == RankBy::frame_cost ? "cost and bytes"
+            : extras.times           ? "time, bytes and overshade"
+                                     : "bytes and overshade") +
+           " and as good in the rest.\n" +
+           (extras.times ? "Times that are not known to differ count as equal.\n"
+                         : "Of cases that are equal in all, a method gives way to its faster form (-fast).\n");
+  if (extras.times)
+    out += std::string("frame: time to make a frame's lists") + (extras.cold ? " with cold caches" : "") + ", assign" +
+           (extras.conversions ? " + convert" : "") + "; ±: half of its 95 % interval" +
+           (extras.launches ? " between launches" : "") + ", both sides where one is above 20 %" +
+           ".\nworst: the slowest timed frame, @ its number; the frame with most pairs is always timed.\n";
+  if (extras.builds) out += "build: preparing the method for a changed grid; it is part of assign.\n";
+  if (extras.costs)
+    out += std::string("cost: ") + (extras.times ? "frame, and " : "") +
+           "upload, and reading and shading of the frame's samples, by the model of the key `cost`.\n";
+  if (!is_complete) out += "-: not measured, or not comparable.\n";
+  out += std::string("pairs: (cell, light) per frame") + (extras.times ? ", of the timed frames" : "") +
+         ".\nexcess: false positives in % of true pairs. missed: true pairs that are not listed.\n";
+  if (extras.dropped)
+    out +=
+        "dropped: pairs that the storage has no room for, over all frames. lost, worst: irradiance that samples lack, "
+        "mean and most.\n";
+  if (extras.samples)
+    out +=
+        "unlit: share of the lights that samples need and are not given. overshade: lights given at samples / lights "
+        "needed.\n" +
+        sets_text(cases);
+  if (extras.searched)
+    out +=
+        "structures that samples search: no lists; each sample finds its lights in a hierarchy or in masks of bits, "
+        "and\n" +
+        std::string(extras.times ? "the times above are without that" : "that is not in their bytes") +
+        ". They have no star: no GPU has measured the search (the key `cost` has a "
+        "model "
+        "of it). read: bytes that a\nsample reads to know its lights.\n";
+  return out + "bytes: headers and indices, largest of all frames.\n";
+}
+
+// The blocks of a scene: of each grid the cases with lists, then of each view those that samples search.
+struct TableBlock {
+  std::string heading;
+  std::vector<const Case*> cases;
+};
+std::vector<TableBlock> table_blocks(const std::vector<Case>& cases, const result::Scene& scene) {
+  std::vector<TableBlock> lists, searched;
+  for (const Case& result_case : cases) {
+    if (result_case.scene != scene.name) continue;
+    const bool is_searched = samples_search(result_case);
+    std::string heading = block_of(result_case);
+    if (is_searched) heading = "structures that samples search" + heading.substr(shown(result_case.grid.name).size());
+    std::vector<TableBlock>& blocks = is_searched ? searched : lists;
+    auto found = std::ranges::find(blocks, heading, &TableBlock::heading);
+    if (found == blocks.end()) found = blocks.insert(blocks.end(), {heading, {}});
+    found->cases.push_back(&result_case);
+  }
+  lists.insert(lists.end(), searched.begin(), searched.end());
+  return lists;
+}
+
+// With the reason where all have one, and with what takes boxes where that is what most methods lack.
+std::string skipped_text(const std::vector<result::Skipped>& skipped) {
+  if (skipped.empty()) return "";
+  std::set<std::string> reasons;
+  bool takes_no_boxes = false;
+  for (const result::Skipped& skipped_case : skipped) {
+    reasons.insert(skipped_case.reason);
+    takes_no_boxes = takes_no_boxes || skipped_case.reason.ends_with(" takes no boxes");
+  }
+  std::string out = number_of(skipped.size(), "combination") + " of grid, method and storage left out";
+  out += reasons.size() == 1 ? ": " + shown(*reasons.begin()) + ".\n"
+                             : ", since they do not go together (`skipped` in the result).\n";
+  if (!takes_no_boxes) return out;
+  std::vector<std::string> names;
+  for (const assign::AssignerDescriptor* method : assign::assigner_descriptors())
+    if (method->boxes && !method->naive) names.push_back(method->name);
+  return out + "Boxes are taken by " + joined(names) + ".\n";
+}
+
+}  // namespace
+
+std::string render_table(const result::Result& result, bool colour) {
+  const std::vector<Case>& cases = result.cases;
+  const std::set<std::string> on_front = ids_on_front(result);
+  const std::string counted_by = counters(cases);
+  const Extras extras = extras_of(cases);
+  const RankBy by = rank_by(result);
+  bool is_complete = true, has_alike = false;
+  std::string out;
+  for (const result::Scene& scene : result.scenes) {
+    const std::vector<TableBlock> blocks = table_blocks(cases, scene);
+    if (blocks.empty()) continue;
+    out += (colour ? k_bold : "") + scene_heading(scene) + (colour ? k_plain : "") + "\n";
+    for (const TableBlock& block : blocks) {
+      const Case& sampled = most_sampled(block.cases);
+      const std::vector<std::string> sets = ranking_set_names(sampled);
+      const Cells heads = headings(extras, sampled);
+      std::vector<Line> lines;
+      for (const Case* result_case : block.cases)
+        lines.push_back(line_of(*result_case, on_front.contains(result_case->id), extras, by, sets));
+      std::stable_sort(lines.begin(), lines.end(),
+                       [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
+      has_alike |= mark_alike(result, heads, by, lines);
+      std::vector<Cells> rows{heads};
+      for (const Line& line : lines) {
+        rows.push_back(line.cells);
+        is_complete = is_complete && std::find(line.cells.begin(), line.cells.end(), "-") == line.cells.end();
+      }
+      const std::vector<std::size_t> widths = widths_of(rows);
+      out += " " + block.heading + "\n" + aligned(heads, widths);
+      for (const Line& line : lines)
+        out += line.has_failed && colour ? k_red + aligned(line.cells, widths) + k_plain : aligned(line.cells, widths);
+    }
+    out += "\n";
+  }
+  out += legend(cases, extras, by, !on_front.empty(), is_complete);
+  if (has_alike) out += "~: not measurably slower than the row above (`clusterbench ratio`).\n";
+  if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
+  out += skipped_text(result.skipped);
+  return out + samples_table(result) + lookup_table(result) + stability_table(result) + fit_table(result) +
+         reaction_table(result) + fallback_table(result) + precision_table(result) + pre_cull_table(result) +
+         shadows_table(result) + preset_table(result) + notes_text(result) + warnings_text(result) +
+         timing_warnings(cases);
+}
+
+}  // namespace clusterbench::report

@@ -1,0 +1,121 @@
+#include "report/tables/warnings.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/text.h"
+#include "report/cases/columns.h"
+#include "report/cases/sample_sets.h"
+
+namespace clusterbench::report {
+namespace {
+
+using result::Case;
+using result::Scene;
+
+std::string scene_warnings(const std::vector<Scene>& scenes) {
+  std::string out;
+  for (const Scene& scene : scenes)
+    for (const std::string& warning : scene.warnings)
+      out += "warning: " + shown(scene.name) + ": " + shown(warning) + "\n";
+  return out;
+}
+
+// One line for all cases of which the same is to be known: lists of one grid lack what lies outside of it, whatever
+// made them. Lost pairs have a column, and that nothing was checked is what the run was told.
+std::string case_warnings(const std::vector<Case>& cases) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> told;  // what, and of which cases
+  for (const Case& result_case : cases)
+    for (const result::Warning& warning : result_case.warnings) {
+      if (warning.kind == "unchecked" || warning.kind == "lost_pairs") continue;
+      const std::string message = shown(warning.text);
+      const auto same = std::find_if(told.begin(), told.end(), [&](const auto& had) { return had.first == message; });
+      (same == told.end() ? told.emplace_back(message, std::vector<std::string>{}) : *same)
+          .second.push_back(shown(result_case.name));
+    }
+  std::string out;
+  for (const auto& [message, names] : told)
+    out += "warning: " + names.front() +
+           (names.size() > 1 ? " and " + number_of(names.size() - 1, "more case") : std::string()) + ": " + message +
+           "\n";
+  return out;
+}
+
+// Lists that leave lights out are short, and cost little.
+std::string cost_warning(const std::vector<Case>& cases) {
+  const Case* first = nullptr;
+  std::size_t count = 0;
+  double most = 0.0;
+  std::string where;
+  for (const Case& result_case : cases) {
+    if (!result_case.cost || result_case.cost->lit) continue;
+    if (count++ == 0) first = &result_case;
+    for (const auto& [set, paid] : result_case.cost->sets) {
+      const result::SampleSet* counts = samples_of_set(result_case, set);
+      if (counts == nullptr || !(counts->unlit > most)) continue;
+      most = counts->unlit;
+      where = set;
+    }
+  }
+  if (first == nullptr) return "";
+  return "warning: " + shown(first->name) +
+         (count > 1 ? " and " + number_of(count - 1, "more case") + " lack" : std::string(" lacks")) + " up to " +
+         text("%.3g %%", 100.0 * most) + " of the lights that " + where +
+         " samples need: what they cost is not the cost of the same picture (--set cost.weights." + where +
+         "=0 leaves that set out)\n";
+}
+
+// Of all lights that have an end, given or made.
+std::string ranges_text(const result::RangeRule& rule) {
+  if (!rule.ranges) return "";
+  return "; the scene's ranges: least " + text("%.3g m", rule.ranges->least) +
+         text(", median %.3g m", rule.ranges->median) + text(", greatest %.3g m", rule.ranges->greatest);
+}
+
+// What is to be known of grids, once for all of whose cases it is so.
+std::string grid_notes(const std::vector<Case>& cases) {
+  std::map<std::string, std::set<std::string>> cameras_of;  // by scene
+  for (const Case& result_case : cases) cameras_of[result_case.scene].insert(result_case.camera);
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes;  // what, and of which grids
+  for (const Case& result_case : cases) {
+    if (!result_case.grid.note) continue;
+    const std::string note = shown(*result_case.grid.note),
+                      camera = cameras_of[result_case.scene].size() > 1 ? ", camera " + shown(result_case.camera)
+                                                                        : std::string(),
+                      grid = shown(result_case.scene) + camera + ", " + shown(result_case.grid.name);
+    auto same = std::ranges::find_if(notes, [&](const auto& had) { return had.first == note; });
+    if (same == notes.end()) same = notes.insert(notes.end(), {note, {}});
+    if (std::ranges::find(same->second, grid) == same->second.end()) same->second.push_back(grid);
+  }
+  std::string out;
+  for (const auto& [note, grids] : notes)
+    out += "note: " + grids.front() +
+           (grids.size() > 1 ? " and " + number_of(grids.size() - 1, "more grid") : std::string()) + ": " + note + "\n";
+  return out;
+}
+
+}  // namespace
+
+std::string notes_text(const result::Result& result) {
+  std::string out;
+  for (const Scene& scene : result.scenes) {
+    const result::RangeRule& rule = scene.range_rule;
+    const std::uint64_t made = rule.from_intensity + rule.clamped;
+    // Where the rule's longest range cuts most lights off the scene's own warning says so.
+    if (made == 0 || 2 * rule.clamped > made + rule.given) continue;
+    out += "note: " + shown(scene.name) + ": " + number_of(made, "light") +
+           (made == 1 ? " has no range; it ends where it falls to " : " have no range; they end where they fall to ") +
+           text("%g", rule.cutoff_lux) + " lux, at most " + text("%g", rule.max_range) + " m (range_rule)" +
+           ranges_text(rule) + "\n";
+  }
+  return out + grid_notes(result.cases);
+}
+
+std::string warnings_text(const result::Result& result) {
+  return scene_warnings(result.scenes) + case_warnings(result.cases) + cost_warning(result.cases);
+}
+
+}  // namespace clusterbench::report
