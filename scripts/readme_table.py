@@ -46,7 +46,7 @@ def best_of_grids(result):
 
 
 def grids(result):
-    rows = ["| grid | method (with lists the fastest) | µs to make the lists | overshade | unlit | kB with reserve |",
+    rows = ["| grid | method | µs to make the lists | overshade | unlit | kB with reserve |",
             "|---|---|---:|---:|---:|---:|"]
     for case in best_of_grids(result):
         size = case["buffers"]["bytes"]["recommended"] / 1e3
