@@ -128,9 +128,11 @@ TEST(LightsOutOfView, change_neither_where_slices_end_nor_where_samples_lie) {
                              "exact-fast,distance-fast --no-timing -q --set 'samples.fog={}' -o " +
                              result);
     EXPECT_EQ(run.code, 0) << run.err;
+    const nlohmann::json read = nlohmann::json::parse(file_text(result));
     nlohmann::json out = nlohmann::json::array();
-    for (const nlohmann::json& one : nlohmann::json::parse(file_text(result))["cases"])
+    for (const nlohmann::json& one : read["cases"])
       out.push_back({one["name"], one["grid"], one["occupancy"], one["shading"], one["samples"]});
+    EXPECT_EQ(out.size(), 2u);
     return out;
   };
   SplitMix64 random(50);
