@@ -84,7 +84,7 @@ const text = (name, template) => `std::string_view ${name}() {
   return {k_template, sizeof k_template - 1};
 }
 `;
-const cpp = (report, history) => `#include "report/page_template.h"
+const cpp = (report, history) => `#include "report/page/page_template.h"
 
 namespace clusterbench::report {
 

@@ -109,6 +109,10 @@ std::string shell_command(std::span<const std::string> words) {
   return joined(quoted, " ");
 }
 
+void add_once(const std::string& line, std::vector<std::string>& lines) {
+  if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+}
+
 std::string number_of(std::uint64_t count, std::string_view word) {
   return std::to_string(count) + " " + std::string(word) + (count == 1 ? "" : "s");
 }

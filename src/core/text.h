@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace clusterbench {
 
@@ -18,6 +19,9 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
 
 // "a, b, c".
 std::string joined(std::span<const std::string> words, std::string_view separator = ", ");
+
+// Appends a line that is not among them yet.
+void add_once(const std::string& line, std::vector<std::string>& lines);
 
 // "1 light", "2 lights", "0 lights": a word whose plural has an s.
 std::string number_of(std::uint64_t count, std::string_view word);

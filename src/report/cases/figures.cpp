@@ -138,13 +138,6 @@ constexpr FigureRow<SampleSet> k_rows_at_samples[] = {
     {"needed", number<&SampleSet::needed>, "", 1.0, {}, number<&SampleSet::samples>},
 };
 
-std::string location, samples = {};
-
-double value() const {
-  return quotient.value();
-}
-};
-
 template <class Record>
 std::string text_of_place(const Place<Record>& place, const Record& from) {
   std::string text;

@@ -28,10 +28,6 @@ constexpr const char* k_instructions =
 constexpr const char* k_of_view[] = {"lights", "lights_lit", "lights_seen", "lights_seen.mean", "lights_in_view"};
 constexpr const char* k_of_case[] = {"index_entries", "bytes", "longest", "pairs.mean", k_instructions};
 
-void add_once(const std::string& line, Lines& lines) {
-  if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
-}
-
 // With its viewport where the others have the same name, which does not show it.
 std::string names_of(const std::vector<const Case*>& cases, const std::vector<const Case*>& others) {
   Lines names;

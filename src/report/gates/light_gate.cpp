@@ -66,10 +66,6 @@ std::string why_no_lights(const LightsOfView& lights) {
          ")";
 }
 
-void add_once(const std::string& line, std::vector<std::string>& lines) {
-  if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
-}
-
 void add_no_lights(const Result& result, bool are_allowed, LimitFindings& findings) {
   for (const Case& result_case : result.cases) {
     const std::optional<LightsOfView> lights = lights_of_view(result_case);
@@ -165,7 +161,7 @@ void add_changed_lights(const Result& result, const LightGate& gate, LimitFindin
                                   lights_text(*before) + ", as now), but not which");
     if (change != LightChange::changed) continue;
     const std::string text = name + ": its lights are not those of " + gate.base_name + ": " +
-                             (are_as_many(*before, scene) && dark_lights(*before) == dark_lights(scene)
+                             (lights_text(*before) == lights_text(scene)
                                   ? "still " + lights_text(scene) + ", some of them moved or changed"
                                   : counts);
     if (gate.allows_changed_lights)

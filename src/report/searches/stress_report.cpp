@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string percent(double share) {
+std::string share_in_percent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
   return text;
@@ -129,7 +129,7 @@ std::string in_lines(const stress::StressCell& cell) {
   std::string text = cell.hard_case + " " + cell.method + ": " + std::to_string(cell.misses) + " of " +
                      number_of(cell.true_pairs, "pair") + " lost";
   if (cell.deepest)
-    text += ", the deepest " + percent(cell.deepest->depth) + " of its range inside (" + cell.deepest->trial +
+    text += ", the deepest " + share_in_percent(cell.deepest->depth) + " of its range inside (" + cell.deepest->trial +
             ", cell " + std::to_string(cell.deepest->cell) + ", light " + std::to_string(cell.deepest->light) + ")";
   return text;
 }
@@ -165,7 +165,7 @@ void print_extra(std::ostream& out, const stress::StressResult& result) {
         whole += cell.true_pairs;
       }
     if (whole > 0)
-      out << "  " << method.label << ": " << percent(static_cast<double>(extra) / static_cast<double>(whole)) << "\n";
+      out << "  " << method.label << ": " << share_in_percent(static_cast<double>(extra) / static_cast<double>(whole)) << "\n";
   }
 }
 
@@ -193,7 +193,7 @@ void print_searches(std::ostream& out, const stress::StressResult& result) {
   for (const stress::SearchResult& search : result.searches) {
     out << "  " << search.method << ": " << search.tries << " tries, ";
     if (search.deepest)
-      out << search.misses << " lost, the deepest " << percent(search.deepest->depth) << " of its range inside\n";
+      out << search.misses << " lost, the deepest " << share_in_percent(search.deepest->depth) << " of its range inside\n";
     else
       out << "none lost, margin " << search.least_margin << "\n";
     if (search.undecided > 0) out << "    " << search.undecided << " more not listed, and undecided\n";
@@ -258,7 +258,7 @@ std::vector<std::string> stress_failures(const stress::StressResult& result) {
   for (const stress::SearchResult& search : result.searches)
     if (search.deepest && method_of(result, search.method).conservative)
       failures.push_back("H31 " + search.method + ": " + number_of(search.misses, "light") + " lost, the deepest " +
-                         percent(search.deepest->depth) + " of its range inside");
+                         share_in_percent(search.deepest->depth) + " of its range inside");
   for (const stress::SearchResult& search : result.searches)
     if (search.undecided > 0 && method_of(result, search.method).conservative)
       failures.push_back("H31 " + search.method + ": " + number_of(search.undecided, "light") +
