@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Checks the structure that CONTRIBUTING.md describes: scripts/check_layers.py [ROOT].
 
-Fails on an #include against the order of layers, or of the folders of src/geom, src/assign and src/report, on a library included
-outside of its one home, on a file of src/assign/assigners without its line in registry.inc (or a line without its file),
-and on a circle of includes.
+Fails on an #include against the order of layers, or of the folders within a layer (FOLDERS), on a library included outside
+of its one home, on a file of src/assign/assigners without its line in registry.inc (or a line without its file), and on a
+circle of includes.
 """
 import pathlib
 import re
@@ -20,6 +20,7 @@ FOLDERS = {
              ["spot"]],
     "assign": [["contract", "simd"], ["lists"], ["cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
                ["box_grid", "depth_bins", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],
+    "measure": [["truth", "statistics"], ["lists", "samples"], ["shadows", "light_maps"]],
     "report": [["cases"], ["comparing", "documents", "presets", "searches"], ["gates", "sizing", "tables", "exports", "page"],
                ["choosing", "history"], ["results"]],
 }

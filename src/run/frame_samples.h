@@ -6,7 +6,7 @@
 
 #include "config/config.h"
 #include "depth/depth_image.h"
-#include "measure/shading.h"
+#include "measure/samples/shading.h"
 #include "run/path_frames.h"
 #include "run/sweep.h"
 

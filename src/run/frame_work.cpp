@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/samples.h"
-#include "measure/shading.h"
+#include "measure/samples/samples.h"
+#include "measure/samples/shading.h"
 #include "run/path_frames.h"
 
 namespace clusterbench::run {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "config/config.h"
-#include "measure/front.h"
-#include "measure/side_by_side.h"
+#include "measure/statistics/front.h"
+#include "measure/statistics/side_by_side.h"
 #include "run/result.h"
 
 namespace clusterbench::run {

@@ -9,7 +9,7 @@
 
 #include "config/config.h"
 #include "depth/shadow_map.h"
-#include "measure/shadow_cull.h"
+#include "measure/shadows/shadow_cull.h"
 #include "run/path_frames.h"
 
 namespace clusterbench::run {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "grid/grid.h"
-#include "measure/cell_details.h"
+#include "measure/lists/cell_details.h"
 #include "view/frame.h"
 
 namespace clusterbench::run {

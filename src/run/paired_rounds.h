@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/time_change.h"
+#include "measure/statistics/time_change.h"
 #include "run/sweep.h"
 
 namespace clusterbench::run {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "grid/grid.h"
-#include "measure/samples.h"
+#include "measure/samples/samples.h"
 #include "run/frame_depths.h"
 #include "run/light_reach.h"
 #include "run/scene_visible_sets.h"

@@ -8,8 +8,8 @@
 
 #include "assign/contract/lists.h"
 #include "cull/pre_cull.h"
-#include "measure/packing_loss.h"
-#include "measure/samples.h"
+#include "measure/samples/packing_loss.h"
+#include "measure/samples/samples.h"
 
 namespace clusterbench::run {
 

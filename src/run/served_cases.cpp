@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "measure/shading.h"
+#include "measure/samples/shading.h"
 #include "run/path_culls.h"
 #include "run/repeated.h"
 #include "run/timed_work.h"

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "core/text.h"
-#include "measure/lights_in_view.h"
+#include "measure/lists/lights_in_view.h"
 #include "run/case_result.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/timing_pass.h"

@@ -5,7 +5,7 @@
 #include <atomic>
 
 #include "config/config.h"
-#include "measure/shading.h"
+#include "measure/samples/shading.h"
 #include "run/sweep.h"
 
 namespace clusterbench::search {

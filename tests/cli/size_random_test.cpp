@@ -11,7 +11,7 @@
 #include "cli/tool.h"
 #include "core/random.h"
 #include "effort.h"
-#include "measure/lights_in_view.h"
+#include "measure/lists/lights_in_view.h"
 #include "report/sizing/engine_settings.h"
 #include "report/sizing/size.h"
 #include "run/path_frames.h"

@@ -1,4 +1,4 @@
-#include "measure/lookup.h"
+#include "measure/samples/lookup.h"
 #include "geom/filter/light_filter.h"
 #include "geom/shapes/verdict.h"
 
@@ -9,7 +9,7 @@
 
 #include "assign/dense_check.h"
 #include "core/random.h"
-#include "measure/shading.h"
+#include "measure/samples/shading.h"
 
 #include "measure/packed_lists.h"
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "core/text.h"
-#include "measure/time_change.h"
+#include "measure/statistics/time_change.h"
 #include "result/at.h"
 #include "run/sweep.h"
 

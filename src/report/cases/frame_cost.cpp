@@ -5,8 +5,8 @@
 
 #include "config/presets.h"
 #include "depth/depth_image.h"
-#include "measure/frame_cost.h"
-#include "measure/shading.h"
+#include "measure/samples/shading.h"
+#include "measure/statistics/frame_cost.h"
 #include "report/cases/contender.h"
 #include "report/cases/sample_sets.h"
 #include "result/at.h"

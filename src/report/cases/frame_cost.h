@@ -1,13 +1,13 @@
 #pragma once
-// The cost model of a configuration (config.cost) over the cases of a result: measure/frame_cost.h.
+// The cost model of a configuration (config.cost) over the cases of a result: measure/statistics/frame_cost.h.
 
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "measure/frame_cost.h"
-#include "measure/shading.h"
+#include "measure/samples/shading.h"
+#include "measure/statistics/frame_cost.h"
 #include "report/cases/sample_sets.h"
 #include "result/case.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/text.h"
-#include "measure/side_by_side.h"
+#include "measure/statistics/side_by_side.h"
 #include "report/cases/case_filter.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"

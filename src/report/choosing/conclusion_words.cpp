@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/text.h"
-#include "measure/frame_cost.h"
+#include "measure/statistics/frame_cost.h"
 #include "report/cases/columns.h"
 #include "report/cases/frame_cost.h"
 #include "report/cases/sample_sets.h"

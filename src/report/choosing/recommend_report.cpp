@@ -11,7 +11,7 @@
 #include "config/grid_json.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "measure/side_by_side.h"
+#include "measure/statistics/side_by_side.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
 #include "report/cases/figures.h"

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "measure/frame_cost.h"
+#include "measure/statistics/frame_cost.h"
 #include "report/cases/contender.h"
 #include "report/cases/frame_cost.h"
 #include "result/result.h"

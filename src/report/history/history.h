@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/change_points.h"
+#include "measure/statistics/change_points.h"
 #include "report/exports/metrics.h"
 #include "result/result.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 #include "run/frame_lights.h"
 #include "run/path_culls.h"
 

@@ -4,7 +4,7 @@
 #include <glm/trigonometric.hpp>
 #include <memory>
 
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 #include "run/frame_lights.h"
 #include "run/path_culls.h"
 #include "scene/fine_path.h"

@@ -10,7 +10,7 @@
 // the same frames again and again, for as long as `timing.min_time_ms`.
 //
 // Processes of one program differ by more than rounds within one do (where memory lies, when it runs), so that several
-// measure, and what is computed knows which round is of which (measure/time_statistics.h).
+// measure, and what is computed knows which round is of which (measure/statistics/time_statistics.h).
 
 #include <atomic>
 #include <functional>
