@@ -9,7 +9,7 @@
 #include "config/presets.h"
 #include "grid/grid.h"
 #include "report/exports/exports.h"
-#include "scene/generate.h"
+#include "scene/generators/generate.h"
 #include "stress/hard_cases.h"
 
 namespace clusterbench::cli {

@@ -11,7 +11,7 @@
 #include "cli/commands.h"
 #include "config/presets.h"
 #include "cull/pre_cull_spec.h"
-#include "scene/generate.h"
+#include "scene/generators/generate.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -8,8 +8,8 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "run/scene_facts.h"
-#include "scene/exporters.h"
-#include "scene/gltf_files.h"
+#include "scene/gltf_document/exporters.h"
+#include "scene/gltf_document/gltf_files.h"
 
 namespace clusterbench::cli {
 

@@ -24,7 +24,7 @@ void add_config_options(Command& command, RunInputs& inputs, const std::vector<s
 // The flags that were given, in the order of config_flags().
 std::vector<config::FlagValue> flag_values(const RunInputs& inputs);
 
-bool is_scene(const std::string& path);  // by its ending or its content (scene/exporters.h)
+bool is_scene(const std::string& path);  // by its ending or its content (scene/gltf_document/exporters.h)
 
 // `first`: flags that apply before those of the command line. `standard`: what stands in place of the schema's
 // defaults. Throws Error.

@@ -13,10 +13,10 @@
 #include "cli/run_inputs.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "scene/add_views.h"
-#include "scene/generate.h"
+#include "scene/generators/generate.h"
 #include "scene/scene.h"
 #include "scene/summary.h"
+#include "scene/writers/add_views.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -13,7 +13,7 @@
 #include "core/text.h"
 #include "os/stop_signals.h"
 #include "report/searches/worst_case_report.h"
-#include "scene/write_gltf.h"
+#include "scene/writers/write_gltf.h"
 #include "search/replay_config.h"
 #include "search/worst_case.h"
 
