@@ -24,6 +24,7 @@ FOLDERS = {
     "measure": [["truth", "statistics"], ["lists", "samples"], ["shadows", "light_maps"]],
     "report": [["cases"], ["comparing", "documents", "presets", "searches"], ["gates", "sizing", "tables", "exports", "page"],
                ["choosing", "history"], ["results"]],
+    "cli": [["command_line", "output", "processes"], ["completion", "options"], ["sizing"], ["commands"]],
 }
 
 # Library header -> the only layers that include it.

@@ -805,7 +805,7 @@ MUTATIONS = [
              "return is_priced ? !are_alike(other.frame->cost, rows[i].frame->cost) : is_better(other, rows[i]);", "return true;",
              "report.PresetRanking.a_place_is_behind_all_that_are_known_to_be_better_and_no_others",
              "presets that the model cannot tell apart are ranked one behind the other"),
-    Mutation("launches-in-an-order-of-their-own", "cli/launches.cpp",
+    Mutation("launches-in-an-order-of-their-own", "cli/processes/launches.cpp",
              "std::ranges::stable_sort(group.cases, {}, place);", "",
              "cli.Recommend.gives_each_candidate_the_times_of_its_own_in_several_launches",
              "recommend gives methods of a grid each other's times"),

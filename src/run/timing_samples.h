@@ -1,6 +1,6 @@
 #pragma once
 // What one process measures of a group, before anything is computed from it. Several processes measure the same
-// (passes/timing_pass.h says why); cli/launches.h carries their samples between them.
+// (passes/timing_pass.h says why); cli/processes/launches.h carries their samples between them.
 
 #include <cstdint>
 #include <vector>

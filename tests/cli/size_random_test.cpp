@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "cli/size_counting.h"
+#include "cli/sizing/size_counting.h"
 #include "cli/tool.h"
 #include "core/random.h"
 #include "effort.h"
