@@ -11,9 +11,9 @@
 #include "core/text.h"
 #include "measure/lists/lights_in_view.h"
 #include "run/case_result.h"
+#include "run/cases/path_frames.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/timing_pass.h"
-#include "run/path_frames.h"
 
 namespace clusterbench::search {
 namespace {

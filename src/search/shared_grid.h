@@ -6,7 +6,7 @@
 
 #include "config/config.h"
 #include "measure/samples/shading.h"
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::search {
 

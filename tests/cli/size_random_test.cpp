@@ -14,7 +14,7 @@
 #include "measure/lists/lights_in_view.h"
 #include "report/sizing/engine_settings.h"
 #include "report/sizing/size.h"
-#include "run/path_frames.h"
+#include "run/cases/path_frames.h"
 #include "scene/gltf_fixture.h"
 #include "search/frame_measure.h"
 

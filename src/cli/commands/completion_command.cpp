@@ -6,7 +6,7 @@
 #include "cli/command_line/commands.h"
 #include "cli/command_line/man_page.h"
 #include "cli/completion/completion.h"
-#include "run/result.h"
+#include "run/findings/run_result.h"
 
 namespace clusterbench::cli {
 namespace {

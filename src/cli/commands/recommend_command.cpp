@@ -17,7 +17,7 @@
 #include "core/text.h"
 #include "os/stop_signals.h"
 #include "report/choosing/recommend_report.h"
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 #include "search/recommend.h"
 #include "search/recommend_space.h"
 

@@ -36,11 +36,11 @@
 #include "report/tables/table.h"
 #include "report/tables/warnings.h"
 #include "result/result.h"
+#include "run/cases/sweep.h"
 #include "run/estimate.h"
 #include "run/records/records.h"
 #include "run/runner.h"
 #include "run/scene_facts.h"
-#include "run/sweep.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "core/json_document.h"
 #include "core/text.h"
 #include "result/result.h"
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "result/result.h"
-#include "run/paired_rounds.h"
+#include "run/timing/paired_rounds.h"
 
 namespace clusterbench::cli {
 

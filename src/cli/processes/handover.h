@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::cli {
 

@@ -8,7 +8,7 @@
 #include "core/json_document.h"
 #include "os/stop_signals.h"
 #include "run/records/records.h"
-#include "run/served_cases.h"
+#include "run/timing/served_cases.h"
 
 namespace clusterbench::cli {
 namespace {

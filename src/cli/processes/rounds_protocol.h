@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "os/process.h"
-#include "run/paired_rounds.h"
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
+#include "run/timing/paired_rounds.h"
 
 namespace clusterbench::cli {
 

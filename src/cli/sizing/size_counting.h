@@ -9,8 +9,8 @@
 #include "config/config.h"
 #include "report/sizing/allocation.h"
 #include "result/result.h"
+#include "run/cases/sweep.h"
 #include "run/runner.h"
-#include "run/sweep.h"
 
 namespace clusterbench::cli {
 

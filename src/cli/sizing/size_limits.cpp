@@ -1,7 +1,7 @@
 #include "cli/sizing/size_limits.h"
 
-#include "run/path_frames.h"
-#include "run/reaction_meter.h"
+#include "run/cases/path_frames.h"
+#include "run/findings/reaction_meter.h"
 
 namespace clusterbench::cli {
 namespace {

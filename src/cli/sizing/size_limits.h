@@ -6,7 +6,7 @@
 
 #include "config/config.h"
 #include "report/sizing/allocation.h"
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::cli {
 

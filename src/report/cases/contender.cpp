@@ -7,7 +7,7 @@
 #include "report/cases/columns.h"
 #include "report/cases/figures.h"
 #include "result/at.h"
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::report {
 namespace {

@@ -22,7 +22,7 @@
 #include "report/cases/timing_warnings.h"
 #include "report/sizing/list_code.h"
 #include "result/at.h"
-#include "run/gate.h"
+#include "run/findings/gate.h"
 #include "run/records/records.h"
 #include "run/scene_facts.h"
 #include "scene/digests.h"

@@ -10,7 +10,7 @@
 #include "report/cases/contender.h"
 #include "report/cases/frame_cost.h"
 #include "result/result.h"
-#include "run/gate.h"
+#include "run/findings/gate.h"
 
 namespace clusterbench::report {
 

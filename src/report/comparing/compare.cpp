@@ -16,7 +16,7 @@
 #include "report/comparing/compare_advice.h"
 #include "report/comparing/exact_differences.h"
 #include "result/at.h"
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::report {
 namespace {

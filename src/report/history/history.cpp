@@ -18,7 +18,7 @@
 #include "report/cases/scene_lights.h"
 #include "report/documents/machine.h"
 #include "report/gates/light_gate.h"
-#include "run/case_names.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 namespace {

@@ -13,7 +13,7 @@
 #include "report/presets/preset_ranking.h"
 #include "result/at.h"
 #include "result/rounding.h"
-#include "run/gate.h"
+#include "run/findings/gate.h"
 #include "run/records/records.h"
 
 namespace clusterbench::report {

@@ -15,7 +15,7 @@
 #include "report/cases/figures.h"
 #include "report/cases/json_values.h"
 #include "report/documents/result_file.h"
-#include "run/case_names.h"
+#include "run/cases/case_names.h"
 #include "scene/camera_path.h"
 
 namespace clusterbench::report {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "measure/truth/truth.h"
-#include "run/frame_lights.h"
-#include "run/path_culls.h"
+#include "run/cases/frame_lights.h"
+#include "run/cases/path_culls.h"
 
 namespace clusterbench::run {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "measure/truth/truth.h"
-#include "run/frame_lights.h"
-#include "run/path_culls.h"
+#include "run/cases/frame_lights.h"
+#include "run/cases/path_culls.h"
 #include "scene/fine_path.h"
 
 namespace clusterbench::run {

@@ -17,10 +17,10 @@
 #include <limits>
 #include <span>
 
-#include "run/path_frames.h"
-#include "run/result.h"
-#include "run/sweep.h"
-#include "run/timing_samples.h"
+#include "run/cases/path_frames.h"
+#include "run/cases/sweep.h"
+#include "run/findings/run_result.h"
+#include "run/timing/timing_samples.h"
 
 namespace clusterbench::run {
 
