@@ -19,7 +19,7 @@ FOLDERS = {
     "geom": [["numbers"], ["shapes"], ["ball", "box", "search", "certificate", "single_precision", "projection"], ["filter"],
              ["spot"]],
     "scene": [["."], ["gltf_document"], ["gltf_scene", "writers"], ["generators"]],
-    "assign": [["contract", "simd"], ["lists"], ["cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
+    "assign": [["contract", "simd"], ["lists"], ["grid_cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
                ["box_grid", "depth_bins", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],
     "measure": [["truth", "statistics"], ["lists", "samples"], ["shadows", "light_maps"]],
     "run": [["cases"], ["timing"], ["counters"], ["findings"], ["passes", "records"]],

@@ -18,7 +18,7 @@
 #include "depth/shadow_map.h"
 #include "grid/grid.h"
 #include "measure/lists/buffers.h"
-#include "measure/samples/lookup.h"
+#include "measure/samples/lookup_check.h"
 #include "measure/samples/samples.h"
 #include "scene/camera_path.h"
 #include "scene/rig.h"

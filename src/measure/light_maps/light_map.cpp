@@ -13,7 +13,7 @@
 #include "core/text.h"
 #include "measure/light_maps/unwrap.h"
 #include "scene/animation.h"
-#include "scene/domain.h"
+#include "scene/domain_check.h"
 
 namespace clusterbench::measure {
 namespace {

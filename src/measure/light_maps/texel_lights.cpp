@@ -9,7 +9,7 @@
 #include "core/memory.h"
 #include "core/parallel.h"
 #include "geom/shapes/plane_side.h"
-#include "measure/truth/light_reach.h"
+#include "measure/truth/light_reaches_point.h"
 
 namespace clusterbench::measure {
 namespace {

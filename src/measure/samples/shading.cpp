@@ -9,7 +9,7 @@
 #include "geom/box/box_decider.h"
 #include "geom/box/quick_box.h"
 #include "measure/samples/sample_tree.h"
-#include "measure/truth/light_reach.h"
+#include "measure/truth/light_reaches_point.h"
 
 namespace clusterbench::measure {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "assign/contract/assigner.h"
 #include "report/cases/columns.h"
-#include "report/cases/figures.h"
+#include "report/cases/named_figures.h"
 #include "result/at.h"
 #include "run/cases/sweep.h"
 

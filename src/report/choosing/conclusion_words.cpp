@@ -5,8 +5,8 @@
 
 #include "core/text.h"
 #include "measure/statistics/frame_cost.h"
+#include "report/cases/case_costs.h"
 #include "report/cases/columns.h"
-#include "report/cases/frame_cost.h"
 #include "report/cases/sample_sets.h"
 
 namespace clusterbench::report {

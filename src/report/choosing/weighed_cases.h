@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "measure/statistics/frame_cost.h"
+#include "report/cases/case_costs.h"
 #include "report/cases/contender.h"
-#include "report/cases/frame_cost.h"
 #include "result/result.h"
 #include "run/findings/gate.h"
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
+#include "report/cases/case_costs.h"
 #include "report/cases/contender.h"
-#include "report/cases/frame_cost.h"
 #include "report/cases/nothing_seen.h"
 #include "report/cases/sample_sets.h"
 #include "report/choosing/conclusion.h"

@@ -19,7 +19,7 @@
 #include "run/cases/case_names.h"
 #include "run/cases/frame_work.h"
 #include "run/cases/light_reach.h"
-#include "scene/domain.h"
+#include "scene/domain_check.h"
 #include "view/frame.h"
 
 namespace clusterbench::run {

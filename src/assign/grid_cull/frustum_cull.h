@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "assign/cull/row_planes.h"
+#include "assign/grid_cull/row_planes.h"
 #include "assign/simd/lanes.h"
 #include "core/aligned_vector.h"
 #include "core/arrays.h"

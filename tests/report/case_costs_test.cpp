@@ -1,7 +1,7 @@
 // Costs of a result's cases, and what is ranked by them.
 
-#include "report/cases/frame_cost.h"
-#include "report/cases/figures.h"
+#include "report/cases/case_costs.h"
+#include "report/cases/named_figures.h"
 
 #include <gtest/gtest.h>
 

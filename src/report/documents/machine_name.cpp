@@ -1,4 +1,4 @@
-#include "report/documents/machine.h"
+#include "report/documents/machine_name.h"
 
 #include <utility>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "report/cases/figures.h"
+#include "report/cases/named_figures.h"
 
 #include <algorithm>
 #include <cmath>

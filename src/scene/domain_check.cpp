@@ -1,4 +1,4 @@
-#include "scene/domain.h"
+#include "scene/domain_check.h"
 
 #include <cmath>
 #include <cstdio>

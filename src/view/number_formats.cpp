@@ -1,4 +1,4 @@
-#include "view/formats.h"
+#include "view/number_formats.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,9 +1,9 @@
-#include "assign/cull/frustum_cull.h"
+#include "assign/grid_cull/frustum_cull.h"
 
 #include <algorithm>
 #include <cmath>
 
-#define HWY_TARGET_INCLUDE "assign/cull/frustum_cull.cpp"
+#define HWY_TARGET_INCLUDE "assign/grid_cull/frustum_cull.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per target
 
 #include "assign/simd/vectors-inl.h"

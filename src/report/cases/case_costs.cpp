@@ -1,4 +1,4 @@
-#include "report/cases/frame_cost.h"
+#include "report/cases/case_costs.h"
 
 #include <algorithm>
 #include <cmath>

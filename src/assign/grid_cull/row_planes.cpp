@@ -1,11 +1,11 @@
-#include "assign/cull/row_planes.h"
+#include "assign/grid_cull/row_planes.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "assign/cull/frustum_cull.h"
+#include "assign/grid_cull/frustum_cull.h"
 #include "assign/simd/lanes.h"
 
 namespace clusterbench::assign {

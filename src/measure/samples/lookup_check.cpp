@@ -1,4 +1,4 @@
-#include "measure/samples/lookup.h"
+#include "measure/samples/lookup_check.h"
 
 #include <algorithm>
 #include <cmath>

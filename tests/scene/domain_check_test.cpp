@@ -1,6 +1,6 @@
 // What is sampled from a scene is held to the domain at every frame, not only at the start.
 
-#include "scene/domain.h"
+#include "scene/domain_check.h"
 
 #include <gtest/gtest.h>
 

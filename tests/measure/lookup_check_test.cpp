@@ -1,4 +1,4 @@
-#include "measure/samples/lookup.h"
+#include "measure/samples/lookup_check.h"
 #include "geom/filter/light_filter.h"
 #include "geom/shapes/verdict.h"
 
