@@ -8,14 +8,15 @@
 #include "cli/output/duration.h"
 #include "cli/output/output.h"
 #include "cli/output/progress_line.h"
-#include "cli/sizing/size_limits.h"
 #include "core/file_text.h"
 #include "core/json_document.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
 #include "report/cases/columns.h"
 #include "report/results/result_record.h"
+#include "run/cases/path_frames.h"
 #include "run/estimate.h"
+#include "run/findings/reaction_meter.h"
 #include "run/runner.h"
 
 namespace clusterbench::cli {
@@ -180,6 +181,40 @@ Sampling sampling_of(const RunInputs& inputs, std::vector<config::FlagValue> fla
       if (frames_at(1e9, path) > k_least_frames)
         rate = std::max(rate, (k_least_frames - 1) / (path.shots.back().time_s - path.shots.front().time_s));
     out.flags.push_back(setting(i, "frames", R"({"rate":)" + report::text("%.6g", rate) + "}"));
+  }
+  return out;
+}
+
+bool grows_for_lists(const grid::GridSpec& spec) {
+  return spec.reaction && spec.reaction->to == grid::Reaction::To::entries;
+}
+
+// Without limits on the number of lights, and with tiles that do not grow where lists have no room. What a storage
+// drops changes no buffer's need, and tiles that follow the lights in view (mask-words) are the engine's grid itself.
+config::Config without_engine_limits(config::Config config) {
+  for (cull::PreCullSpec& spec : config.pre_culls)
+    std::erase_if(spec.steps, [](const cull::Step& step) { return std::holds_alternative<cull::MostStep>(step); });
+  for (grid::GridSpec& spec : config.grids)
+    if (grows_for_lists(spec)) spec = spec.unreacting();
+  return config;
+}
+
+// Of each case of the plan whose tiles grow in `limited`, the configuration as it was: what they come to.
+std::vector<report::GrownTiles> grown_tiles(const config::Config& limited, const run::Plan& plan) {
+  std::vector<report::GrownTiles> out;
+  for (const run::GroupPlan& group : plan.groups) {
+    const grid::GridSpec& spec = limited.grids[group.grid];
+    if (!grows_for_lists(spec)) continue;
+    const run::TileMoves moves = run::tile_moves(spec, run::path_of(limited, plan, group));
+    for (const run::CasePlan& case_plan : group.cases)
+      out.push_back({case_plan.name,
+                     spec.reaction->most,
+                     static_cast<std::uint64_t>(moves.frames),
+                     static_cast<std::uint64_t>(moves.reacted),
+                     static_cast<std::uint64_t>(moves.over),
+                     static_cast<std::uint64_t>(moves.amount.greatest),
+                     {moves.asked.x, moves.asked.y},
+                     {moves.fewest.x, moves.fewest.y}});
   }
   return out;
 }

@@ -35,8 +35,8 @@ struct SizeCounts {
 // times a second, or as often as it has keys if that is more, and less where that would be too much work; which it is
 // follows from counts and not from times. Nothing once it is to stop.
 // `all_methods`: also those with longer lists than others on the same grid, where nothing names methods. `engine`: ""
-// or whose settings are asked for: what is counted is then what the engine asks for, not what its limits make of it
-// (size_limits.h), which the settings are to be judged by.
+// or whose settings are asked for: what is counted is then what the engine asks for, not what its limits make of it,
+// which the settings are to be judged by.
 std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string& filter, bool all_methods,
                                       const std::string& engine);
 

@@ -16,7 +16,8 @@ enum class TexelTest : std::uint8_t { range, cone, facing, visibility };
 inline constexpr std::size_t k_texel_tests = 4;
 inline constexpr std::array<const char*, k_texel_tests> k_texel_test_names{"range", "cone", "facing", "visibility"};
 
-// What is asked of a light and a texel besides range and cone, which are those of `needed` samples (light_reaches_point.h).
+// What is asked of a light and a texel besides range and cone, which are those of `needed` samples
+// (light_reaches_point.h).
 struct TexelTests {
   // The light is in front of the triangle's plane, of a double-sided one not in it: exactly (geom/shapes/plane_side.h).
   bool facing = false;
