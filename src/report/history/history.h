@@ -10,7 +10,7 @@
 
 namespace clusterbench::report {
 
-// Which lights a result's scene has: light_changes.h.
+// Which lights a result's scene has: scene_lights.h.
 struct SceneLights {
   std::string scene;
   std::string digest;  // "" in results of older versions
