@@ -10,7 +10,6 @@ namespace clusterbench::measure {
 namespace {
 
 constexpr double k_level = 0.05;
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 // In double, not long double; what is not a number stays so.
 namespace policies = boost::math::policies;
@@ -80,7 +79,8 @@ Change change_of_medians(const MedianTime& base, const MedianTime& next) {
 }
 
 double half_width(const Change& change) {
-  return change.is_known() ? student_quantile(k_level, change.freedom) * change.error : k_infinity;
+  return change.is_known() ? student_quantile(k_level, change.freedom) * change.error
+                           : std::numeric_limits<double>::infinity();
 }
 
 Ratio ratio_of(const Change& change) {

@@ -13,8 +13,6 @@
 namespace clusterbench::scene {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr double k_half_turn_rad = 3.14159265358979323846;
 
 struct Face {
@@ -58,7 +56,8 @@ void check_names(const Scene& scene, const ViewsRequest& request) {
 }
 
 // Its index.
-std::size_t add_node(Json& json, const std::string& name, const Vec3d& at, const Vec4d& rotation, std::size_t camera) {
+std::size_t add_node(nlohmann::json& json, const std::string& name, const Vec3d& at, const Vec4d& rotation,
+                     std::size_t camera) {
   json["nodes"].push_back({{"name", name},
                            {"translation", {at.x, at.y, at.z}},
                            {"rotation", {rotation.x, rotation.y, rotation.z, rotation.w}},
@@ -66,7 +65,7 @@ std::size_t add_node(Json& json, const std::string& name, const Vec3d& at, const
   return json["nodes"].size() - 1;
 }
 
-void add_followers(Json& json, const Scene& scene, const ViewsRequest& request) {
+void add_followers(nlohmann::json& json, const Scene& scene, const ViewsRequest& request) {
   if (request.views.empty()) return;
   const Camera& followed = camera_to_follow(scene, request.camera);
   const auto node = static_cast<std::size_t>(scene.nodes[static_cast<std::size_t>(followed.node)].gltf_index);
@@ -80,9 +79,9 @@ void add_followers(Json& json, const Scene& scene, const ViewsRequest& request) 
 }
 
 // As far as the scene's camera sees.
-void add_faces(Json& json, const Scene& scene, const ViewsRequest& request) {
+void add_faces(nlohmann::json& json, const Scene& scene, const ViewsRequest& request) {
   if (!request.faces_at_m) return;
-  Json perspective{{"yfov", 0.5 * k_half_turn_rad}, {"aspectRatio", 1.0}, {"znear", 0.1}};
+  nlohmann::json perspective{{"yfov", 0.5 * k_half_turn_rad}, {"aspectRatio", 1.0}, {"znear", 0.1}};
   if (!scene.cameras.empty() && std::isfinite(scene.cameras.front().projection.far_m))
     perspective["zfar"] = std::max(0.2, scene.cameras.front().projection.far_m);
   json["cameras"].push_back({{"type", "perspective"}, {"perspective", perspective}});
@@ -102,7 +101,7 @@ std::string chunk(std::string content, const char* type, char padding) {
   return word(content.size()) + std::string(type, 4) + content;
 }
 
-std::string as_glb(const Json& json, const std::optional<std::string_view>& binary) {
+std::string as_glb(const nlohmann::json& json, const std::optional<std::string_view>& binary) {
   std::string chunks = chunk(json.dump(), "JSON", ' ');
   if (binary) chunks += chunk(std::string(*binary), "BIN\0", '\0');
   return "glTF" + word(2) + word(12 + chunks.size()) + chunks;
