@@ -21,7 +21,7 @@ constexpr Number k_largest = std::numeric_limits<Number>::max();
 // The whole word as a number: decimal, finite, and no larger than the type holds. The parser's own reading lets "nan"
 // pass every range and takes 2^64 for 2^64 - 1.
 template <class Number>
-std::optional<Number> number_of(const std::string& word) {
+std::optional<Number> parsed_number(const std::string& word) {
   Number value{};
   const auto [end, failed] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (failed != std::errc() || end != word.data() + word.size()) return {};
@@ -49,7 +49,7 @@ CLI::Option* with_text(CLI::Option* option) {
 template <class Number>
 CLI::Option* with_number(CLI::Option* option) {
   const auto check = [](const std::string& word) -> std::string {
-    if (number_of<Number>(word)) return "";
+    if (parsed_number<Number>(word)) return "";
     if (std::is_floating_point_v<Number>) return "takes a number, not '" + word + "'";
     return takes<Number>(
         "from " + std::to_string(std::numeric_limits<Number>::min()) + " to " + std::to_string(k_largest<Number>),
@@ -61,7 +61,7 @@ CLI::Option* with_number(CLI::Option* option) {
 template <class Number>
 void limit(CLI::Option& option, Number least, Number most, const std::string& allowed) {
   const auto check = [=](const std::string& word) -> std::string {
-    const std::optional<Number> value = number_of<Number>(word);
+    const std::optional<Number> value = parsed_number<Number>(word);
     return value && *value >= least && *value <= most ? "" : takes<Number>(allowed, word);
   };
   option.get_validator(k_of_its_type)->active(false);
