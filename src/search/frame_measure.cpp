@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "measure/lists/in_view_counts.h"
+#include "measure/lists/lights_in_view_counts.h"
 #include "measure/lists/occupancy.h"
 
 namespace clusterbench::search {

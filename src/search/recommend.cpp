@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "core/text.h"
-#include "measure/lists/in_view_counts.h"
+#include "measure/lists/lights_in_view_counts.h"
 #include "run/case_result.h"
 #include "run/cases/path_frames.h"
 #include "run/passes/accuracy_pass.h"

@@ -11,7 +11,7 @@
 #include "cli/tool.h"
 #include "core/random.h"
 #include "effort.h"
-#include "measure/lists/in_view_counts.h"
+#include "measure/lists/lights_in_view_counts.h"
 #include "report/sizing/engine_settings.h"
 #include "report/sizing/size.h"
 #include "run/cases/path_frames.h"

@@ -11,8 +11,8 @@
 
 #include "config/config.h"
 #include "measure/lists/buffers.h"
-#include "measure/lists/in_view_counts.h"
 #include "measure/lists/lights_beyond_grid.h"
+#include "measure/lists/lights_in_view_counts.h"
 #include "measure/lists/occupancy.h"
 #include "measure/lists/stability.h"
 #include "measure/samples/coherence.h"

@@ -1,4 +1,4 @@
-#include "measure/lists/in_view_counts.h"
+#include "measure/lists/lights_in_view_counts.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,6 @@
 // Which lights a frustum cull of lights keeps, and how many of them there are along a path.
 
-#include "measure/lists/in_view_counts.h"
+#include "measure/lists/lights_in_view_counts.h"
 
 #include <gtest/gtest.h>
 
