@@ -9,7 +9,7 @@ namespace {
 using nlohmann::json;
 
 // An index below `count`, if the value is one.
-std::optional<std::size_t> index_in(const json& value, std::size_t count) {
+std::optional<std::size_t> index_below(const json& value, std::size_t count) {
   const double number = value.is_number() ? value.get<double>() : -1.0;
   if (!(number >= 0.0 && number < static_cast<double>(count)) || number != std::floor(number)) return std::nullopt;
   return static_cast<std::size_t>(number);
@@ -31,8 +31,8 @@ LoadedScene loaded_scene(const JsonLocation& root, std::optional<std::size_t> wa
   LoadedScene loaded;
   loaded.nodes.assign(count, true);
   const auto chosen = wanted              ? wanted
-                      : root.has("scene") ? index_in(document["scene"], scenes.size())
-                                          : index_in(0, scenes.size());
+                      : root.has("scene") ? index_below(document["scene"], scenes.size())
+                                          : index_below(0, scenes.size());
   if (!chosen) return loaded;
   loaded.scene = *chosen;
   loaded.nodes.assign(count, false);
@@ -42,7 +42,7 @@ LoadedScene loaded_scene(const JsonLocation& root, std::optional<std::size_t> wa
   const auto visit = [&](const json& indices) {
     // Taken from the end: in the order of the list, which is that of the text as a rule.
     for (auto index = indices.rbegin(); index != indices.rend(); ++index) {
-      const auto node = index_in(*index, count);
+      const auto node = index_below(*index, count);
       if (!node || loaded.nodes[*node]) continue;
       loaded.nodes[*node] = true;
       waiting.push_back(static_cast<std::uint32_t>(*node));
