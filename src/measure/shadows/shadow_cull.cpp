@@ -11,7 +11,7 @@ namespace clusterbench::measure {
 namespace {
 
 // A frustum around a shell cell: its pyramid between the depths that the cell can have.
-geom::FrustumCell frustum_around(const geom::ShellCell& cell) {
+geom::FrustumCell frustum_around_shell(const geom::ShellCell& cell) {
   const double x = std::max(std::fabs(cell.x0), std::fabs(cell.x1)),
                y = std::max(std::fabs(cell.y0), std::fabs(cell.y1));
   const auto near = static_cast<float>(static_cast<double>(cell.distance0) / std::sqrt(1.0 + x * x + y * y));
@@ -25,7 +25,9 @@ double gap(double lo, double at, double hi) {
 // What the cell, or a body around it, is to a light.
 struct Corners {
   geom::Corners operator()(const geom::FrustumCell& cell) const { return geom::exact_corners(cell); }
-  geom::Corners operator()(const geom::ShellCell& cell) const { return geom::exact_corners(frustum_around(cell)); }
+  geom::Corners operator()(const geom::ShellCell& cell) const {
+    return geom::exact_corners(frustum_around_shell(cell));
+  }
   geom::Corners operator()(const geom::Box& cell) const { return geom::exact_corners(cell); }
 };
 
@@ -45,7 +47,7 @@ struct Distance {
     const double at = geom::nearest_depth(from.x, from.y, -from.z, slab);
     return least({gap(cell.x0 * at, from.x, cell.x1 * at), gap(cell.y0 * at, from.y, cell.y1 * at), at + from.z});
   }
-  double operator()(const geom::ShellCell& cell) const { return (*this)(frustum_around(cell)); }
+  double operator()(const geom::ShellCell& cell) const { return (*this)(frustum_around_shell(cell)); }
 
  private:
   // Less than its length by more than roundoffs, and than a depth that is only nearly the nearest makes it too long.
