@@ -12,7 +12,7 @@
 #include "geom/filter/light_filter.h"
 #include "geom/light_meets_cell.h"
 #include "geom/shapes/verdict.h"
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 #include "setting.h"
 
 namespace clusterbench {

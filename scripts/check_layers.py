@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Checks the structure that CONTRIBUTING.md describes: scripts/check_layers.py [ROOT].
 
-Fails on an #include against the order of layers, or of the folders of src/geom, src/assign and src/report, on a library included
-outside of its one home, on a file of src/assign/assigners without its line in registry.inc (or a line without its file),
-and on a circle of includes.
+Fails on an #include against the order of layers, or of the folders within a layer (FOLDERS), on a library included outside
+of its one home, on a file of src/assign/assigners without its line in registry.inc (or a line without its file), and on a
+circle of includes.
 """
 import pathlib
 import re
@@ -13,15 +13,19 @@ import sys
 LAYERS = ["core", "os", "result", "geom", "scene", "view", "depth", "grid", "cull", "assign", "measure", "config", "run", "pictures", "stress",
           "search", "report", "cli"]
 
-# The same for the folders of a layer. Those that stand side by side do not include each other; files beside the folders
-# stand above all of them.
+# The same for the folders of a layer. Those that stand side by side do not include each other. ".": the files beside the
+# folders; where it is not named they stand above all folders.
 FOLDERS = {
     "geom": [["numbers"], ["shapes"], ["ball", "box", "search", "certificate", "single_precision", "projection"], ["filter"],
              ["spot"]],
-    "assign": [["contract", "simd"], ["lists"], ["cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
+    "scene": [["."], ["gltf_document"], ["gltf_scene", "writers"], ["generators"]],
+    "assign": [["contract", "simd"], ["lists"], ["grid_cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
                ["box_grid", "depth_bins", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],
+    "measure": [["truth", "statistics"], ["lists", "samples"], ["shadows", "light_maps"]],
+    "run": [["cases"], ["timing"], ["counters"], ["findings"], ["passes", "records"]],
     "report": [["cases"], ["comparing", "documents", "presets", "searches"], ["gates", "sizing", "tables", "exports", "page"],
                ["choosing", "history"], ["results"]],
+    "cli": [["command_line", "output", "processes"], ["completion", "options"], ["sizing"], ["commands"]],
 }
 
 # Library header -> the only layers that include it.
@@ -76,23 +80,31 @@ def layer_faults(name, layer, file_includes):
                 yield f"{name}: includes {included}, whose home is {' and '.join(homes)}"
 
 
+def folder_of(parts):
+    return parts[1] if len(parts) > 2 else "."
+
+
 def floor_of(layer, folder):
-    return next((i for i, floor in enumerate(FOLDERS[layer]) if folder in floor), None)
+    return next((i for i, floor in enumerate(FOLDERS[layer]) if folder in floor),
+                len(FOLDERS[layer]) if folder == "." else None)
 
 
 def folder_faults(name, layer, folder, file_includes):
     for kind, included in file_includes:
         parts = included.split("/")
-        if kind != '"' or parts[0] != layer or (len(parts) > 2 and parts[1] == folder):
+        target = folder_of(parts)
+        if kind != '"' or parts[0] != layer or target == folder:
             continue
-        if len(parts) == 2:
-            yield f"{name}: includes {included}, but the files beside the folders of {layer} are above them"
-            continue
-        here, there = floor_of(layer, folder), floor_of(layer, parts[1])
+        here, there = floor_of(layer, folder), floor_of(layer, target)
         if here is None or there is None:
-            yield f"{name}: includes {included}, but {folder if here is None else parts[1]} is no folder of {layer} that FOLDERS knows"
-        elif there >= here:
-            yield f"{name}: includes {included}, but {layer}/{folder} is not above {layer}/{parts[1]}"
+            yield f"{name}: includes {included}, but {folder if here is None else target} is no folder of {layer} that FOLDERS knows"
+        elif there < here:
+            continue
+        elif target == ".":
+            yield f"{name}: includes {included}, but the files beside the folders of {layer} are above them"
+        else:
+            place = f"the files beside the folders of {layer} are" if folder == "." else f"{layer}/{folder} is"
+            yield f"{name}: includes {included}, but {place} not above {layer}/{target}"
 
 
 def registry_faults(src):
@@ -137,8 +149,8 @@ def faults(root):
         file_includes = includes_of(path)
         graph[str(relative)] = [name for kind, name in file_includes if kind == '"']
         yield from layer_faults(f"src/{relative}", layer, file_includes)
-        if layer in FOLDERS and len(relative.parts) > 2:
-            yield from folder_faults(f"src/{relative}", layer, relative.parts[1], file_includes)
+        if layer in FOLDERS:
+            yield from folder_faults(f"src/{relative}", layer, folder_of(relative.parts), file_includes)
     yield from circle_faults(graph)
     yield from registry_faults(src)
 

@@ -22,7 +22,7 @@ interface Series {
   changes: Change[];
 }
 
-// What src/report/history_page.cpp puts into the page.
+// What src/report/history/history_page.cpp puts into the page.
 interface HistoryData {
   entries: number;
   count: number; // of series, those that never changed included

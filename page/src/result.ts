@@ -20,7 +20,7 @@ export type Details = NonNullable<CaseResult["details"]>;
 export type FailureKind = CaseResult["failures"][number]["kind"];
 export type WarningKind = CaseResult["warnings"][number]["kind"];
 
-// What src/report/page.cpp puts into the page.
+// What src/report/page/page.cpp puts into the page.
 export interface PageData {
   command: string;
   results: { file: string; result: Result; doubts: string[]; ratios: Ranked[]; costs: FrameCost[] }[];

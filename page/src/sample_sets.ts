@@ -1,4 +1,4 @@
-// Of which samples a figure is, in the words of the table (src/report/sample_sets.h): the sets that a case is ranked
+// Of which samples a figure is, in the words of the table (src/report/cases/sample_sets.h): the sets that a case is ranked
 // by, which are those that cost something; without any, visible surfaces if they are asked for, else the whole view.
 
 import type { CaseResult, Maybe } from "./result.ts";

@@ -2,8 +2,8 @@
 
 #include <exception>
 
-#include "cli/commands.h"
-#include "cli/output.h"
+#include "cli/command_line/commands.h"
+#include "cli/output/output.h"
 #include "core/text.h"
 #include "os/standard_streams.h"
 

@@ -2,9 +2,10 @@
 
 #include <cstdlib>
 
-#include "config/config_rigs.h"
+#include "config/config_grids.h"
 #include "core/error.h"
 #include "core/file_text.h"
+#include "scene/rig.h"
 
 namespace clusterbench::config {
 namespace {
@@ -69,6 +70,21 @@ std::string chosen(const Json& scene, const char* key) {
 // Where relative paths start: beside the configuration, and of one that comes through a pipe, here.
 fs::path folder_of(const std::string& file) {
   return is_stream_name(file) ? fs::path() : fs::path(file).parent_path();
+}
+
+// A rig's axes expanded into their product. `rig` has its defaults filled in.
+std::vector<scene::RigSpec> rig_specs(const nlohmann::json& rig) {
+  std::vector<scene::RigSpec> specs;
+  for (const nlohmann::json& sized : expand_all_axes(rig, {"size"})) {
+    scene::RigSpec spec;
+    spec.lights = sized["lights"].get<int>();
+    spec.spots = sized["spots"].get<double>();
+    spec.range_m = sized["range"].get<double>();
+    spec.size_m = {sized["size"][0].get<double>(), sized["size"][1].get<double>(), sized["size"][2].get<double>()};
+    spec.seed = sized["seed"].get<std::uint64_t>();
+    specs.push_back(spec);
+  }
+  return specs;
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/pattern.h"
 #include "core/text.h"
-#include "measure/samples.h"
+#include "measure/samples/samples.h"
 
 namespace clusterbench::config {
 namespace {

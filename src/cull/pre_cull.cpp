@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "cull/view_planes.h"
-#include "view/selected_lights.h"
 
 namespace clusterbench::cull {
 namespace {
@@ -97,6 +96,31 @@ struct IsConservative {
   bool operator()(const MostStep&) const { return removed == 0; }
 };
 
+// `first`: index of the array's first light.
+void gather(const std::vector<float>& from, std::uint32_t first, std::span<const std::uint32_t> chosen,
+            std::vector<float>& to) {
+  to.resize(chosen.size());
+  for (std::size_t i = 0; i < chosen.size(); ++i) to[i] = from[chosen[i] - first];
+}
+
+// Copies the lights of these ascending indices, side by side as an engine compacts those that a cull leaves. `out`
+// keeps its memory and its `source`, which belongs to whoever made it.
+void select_lights(const view::LightArrays& all, std::span<const std::uint32_t> chosen, view::LightArrays& out) {
+  const auto first_spot = std::ranges::lower_bound(chosen, all.spots.first);
+  const auto points = static_cast<std::size_t>(first_spot - chosen.begin());
+  static_cast<view::LightRanges&>(out) =
+      view::LightRanges(static_cast<std::uint32_t>(points), static_cast<std::uint32_t>(chosen.size() - points));
+  out.space = all.space;
+  for (std::vector<float> view::LightArrays::*part :
+       {&view::LightArrays::x, &view::LightArrays::y, &view::LightArrays::z, &view::LightArrays::radius,
+        &view::LightArrays::reach})
+    gather(all.*part, 0, chosen, out.*part);
+  for (std::vector<float> view::LightArrays::*part :
+       {&view::LightArrays::axis_x, &view::LightArrays::axis_y, &view::LightArrays::axis_z,
+        &view::LightArrays::cos_angle, &view::LightArrays::sin_angle})
+    gather(all.*part, all.spots.first, chosen.subspan(points), out.*part);
+}
+
 }  // namespace
 
 PreCull::PreCull(PreCullSpec spec, std::vector<std::shared_ptr<const VisibleSets>> sets) : spec_(std::move(spec)) {
@@ -116,7 +140,7 @@ void PreCull::cull(const view::Frame& frame, const grid::Grid& grid, const view:
     std::visit(StepOnLights{frame, grid, lights, sets_[i].get(), out}, spec_.steps[i]);
     out.removed.push_back(static_cast<std::uint32_t>(before - out.kept.size()));
   }
-  view::select_lights(lights, out.kept, out.lights);
+  select_lights(lights, out.kept, out.lights);
 }
 
 void PreCull::give_source(const view::LightArrays& lights, FrameCull& out) {

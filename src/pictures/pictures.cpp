@@ -11,9 +11,9 @@
 #include "core/error.h"
 #include "pictures/file_names.h"
 #include "pictures/png.h"
-#include "run/frame_lights.h"
-#include "run/path_culls.h"
-#include "run/path_frames.h"
+#include "run/cases/frame_lights.h"
+#include "run/cases/path_culls.h"
+#include "run/cases/path_frames.h"
 
 namespace clusterbench::pictures {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pictures/map_figures.h"
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::pictures {
 

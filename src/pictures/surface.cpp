@@ -5,8 +5,8 @@
 
 #include "core/memory.h"
 #include "core/parallel.h"
-#include "measure/samples.h"
-#include "measure/shading.h"
+#include "measure/samples/samples.h"
+#include "measure/samples/shading.h"
 
 namespace clusterbench::pictures {
 namespace {

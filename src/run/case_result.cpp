@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "run/gate.h"
+#include "run/findings/gate.h"
 #include "run/grid_facts.h"
 
 namespace clusterbench::run {

@@ -1,9 +1,9 @@
 #pragma once
 // What was counted of a case, as its result: all but times, instructions, stability and details.
 
+#include "run/cases/sweep.h"
+#include "run/findings/run_result.h"
 #include "run/passes/accuracy_pass.h"
-#include "run/result.h"
-#include "run/sweep.h"
 
 namespace clusterbench::run {
 

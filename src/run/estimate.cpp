@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "run/cache_sweep.h"
 #include "run/passes/accuracy_pass.h"
-#include "run/repeated.h"
-#include "run/timed_work.h"
+#include "run/timing/cache_sweep.h"
+#include "run/timing/repeated.h"
+#include "run/timing/timed_work.h"
 
 namespace clusterbench::run {
 namespace {

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "run/cases/sweep.h"
 #include "run/passes/timing_pass.h"
 #include "run/runner.h"
-#include "run/sweep.h"
 
 namespace clusterbench::run {
 

@@ -9,11 +9,11 @@
 #include "core/text.h"
 #include "os/machine.h"
 #include "run/case_result.h"
+#include "run/cases/path_frames.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/details_pass.h"
 #include "run/passes/stability_pass.h"
 #include "run/passes/timing_pass.h"
-#include "run/path_frames.h"
 #include "run/scene_facts.h"
 
 namespace clusterbench::run {

@@ -5,9 +5,9 @@
 #include <functional>
 #include <span>
 
+#include "run/cases/sweep.h"
+#include "run/findings/run_result.h"
 #include "run/passes/count_pass.h"
-#include "run/result.h"
-#include "run/sweep.h"
 
 namespace clusterbench::run {
 

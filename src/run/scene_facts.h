@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "run/result.h"
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
+#include "run/findings/run_result.h"
 
 namespace clusterbench::run {
 

@@ -5,8 +5,8 @@
 
 #include "assign/lists/list_builder.h"
 #include "os/machine.h"
+#include "run/findings/run_result.h"
 #include "run/git_sha.h"
-#include "run/result.h"
 
 namespace clusterbench::run {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/text.h"
 #include "geom/shapes/domain.h"
 #include "scene/camera_path.h"
-#include "scene/domain.h"
+#include "scene/domain_check.h"
 
 namespace clusterbench::scene {
 namespace {

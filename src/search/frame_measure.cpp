@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "measure/lights_in_view.h"
-#include "measure/occupancy.h"
+#include "measure/lists/lights_in_view_counts.h"
+#include "measure/lists/occupancy.h"
 
 namespace clusterbench::search {
 namespace {

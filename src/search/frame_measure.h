@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "assign/contract/storage.h"
-#include "run/frame_lights.h"
-#include "run/path_culls.h"
-#include "run/path_frames.h"
-#include "run/sweep.h"
+#include "run/cases/frame_lights.h"
+#include "run/cases/path_culls.h"
+#include "run/cases/path_frames.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::search {
 

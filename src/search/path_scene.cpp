@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "run/path_frames.h"
+#include "run/cases/path_frames.h"
 
 namespace clusterbench::search {
 namespace {

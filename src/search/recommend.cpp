@@ -9,11 +9,11 @@
 #include <tuple>
 
 #include "core/text.h"
-#include "measure/lights_in_view.h"
+#include "measure/lists/lights_in_view_counts.h"
 #include "run/case_result.h"
+#include "run/cases/path_frames.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/timing_pass.h"
-#include "run/path_frames.h"
 
 namespace clusterbench::search {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::search {
 

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "run/path_frames.h"
+#include "run/cases/path_frames.h"
 #include "search/frame_measure.h"
 
 namespace clusterbench::search {

@@ -5,8 +5,8 @@
 #include <atomic>
 
 #include "config/config.h"
-#include "measure/shading.h"
-#include "run/sweep.h"
+#include "measure/samples/shading.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::search {
 

@@ -12,7 +12,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "geom/shapes/domain.h"
-#include "measure/lights_in_view.h"
+#include "measure/lists/lights_in_view_counts.h"
 #include "search/best_frames.h"
 #include "search/optimizer.h"
 

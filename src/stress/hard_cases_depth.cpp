@@ -5,7 +5,7 @@
 
 #include "assign/contract/assigner.h"
 #include "core/random.h"
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 #include "stress/contact.h"
 #include "stress/hard_cases.h"
 

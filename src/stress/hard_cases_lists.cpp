@@ -8,7 +8,7 @@
 #include "assign/contract/storage.h"
 #include "core/error.h"
 #include "core/random.h"
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 #include "stress/hard_cases.h"
 
 namespace clusterbench::stress {

@@ -14,7 +14,7 @@
 #include "geom/light_meets_cell.h"
 #include "geom/shapes/light_volume.h"
 #include "geom/shapes/verdict.h"
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 #include "stress/contact.h"
 #include "stress/stress_run.h"
 

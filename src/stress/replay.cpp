@@ -3,7 +3,7 @@
 #include "config/grid_json.h"
 #include "core/error.h"
 #include "os/output_file.h"
-#include "scene/write_gltf.h"
+#include "scene/writers/write_gltf.h"
 #include "stress/stress_run.h"
 
 namespace clusterbench::stress {

@@ -6,7 +6,7 @@
 #include "config/config.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "measure/list_errors.h"
+#include "measure/truth/list_errors.h"
 
 namespace clusterbench::stress {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "run/path_frames.h"
+#include "run/cases/path_frames.h"
 #include "scene/camera_path.h"
 
 namespace clusterbench::stress {

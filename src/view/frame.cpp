@@ -11,7 +11,7 @@
 #include "geom/shapes/domain.h"
 #include "geom/shapes/light_volume.h"
 #include "geom/single_precision/bounding_volumes.h"
-#include "scene/domain.h"
+#include "scene/domain_check.h"
 
 namespace clusterbench::view {
 namespace {

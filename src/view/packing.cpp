@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "geom/numbers/round_to_float.h"
-#include "view/formats.h"
+#include "view/number_formats.h"
 
 namespace clusterbench::view {
 namespace {

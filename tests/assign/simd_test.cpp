@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "assign/cull/frustum_cull.h"
 #include "assign/each_target.h"
+#include "assign/grid_cull/frustum_cull.h"
 #include "assign/lists/list_builder.h"
 #include "assign/settings.h"
 #include "core/random.h"

@@ -1,4 +1,4 @@
-#include "assign/cull/view_cull.h"
+#include "assign/grid_cull/view_cull.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // How long a command takes, and what is left of it, in words.
 
-#include "cli/duration.h"
+#include "cli/output/duration.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <regex>
 #include <thread>
 
-#include "cli/terminal.h"
+#include "cli/output/progress_line.h"
 #include "cli/tool.h"
 
 namespace clusterbench::cli {

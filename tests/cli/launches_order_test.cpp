@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cli/launches.h"
+#include "cli/processes/launches.h"
 #include "core/error.h"
 #include "core/random.h"
 

@@ -7,14 +7,14 @@
 #include <map>
 #include <sstream>
 
-#include "cli/size_counting.h"
+#include "cli/sizing/size_counting.h"
 #include "cli/tool.h"
 #include "core/random.h"
 #include "effort.h"
-#include "measure/lights_in_view.h"
+#include "measure/lists/lights_in_view_counts.h"
 #include "report/sizing/engine_settings.h"
 #include "report/sizing/size.h"
-#include "run/path_frames.h"
+#include "run/cases/path_frames.h"
 #include "scene/gltf_fixture.h"
 #include "search/frame_measure.h"
 

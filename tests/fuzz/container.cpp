@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fuzz/input.h"
-#include "scene/gltf_container.h"
+#include "scene/gltf_document/gltf_container.h"
 
 namespace {
 

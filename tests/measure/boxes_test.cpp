@@ -5,8 +5,8 @@
 #include "assign/settings.h"
 #include "effort.h"
 #include "geom/light_meets_cell.h"
-#include "measure/shading.h"
-#include "measure/truth.h"
+#include "measure/samples/shading.h"
+#include "measure/truth/truth.h"
 
 namespace clusterbench::measure {
 namespace {

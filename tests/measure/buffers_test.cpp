@@ -1,4 +1,4 @@
-#include "measure/buffers.h"
+#include "measure/lists/buffers.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/cell_details.h"
+#include "measure/lists/cell_details.h"
 
 #include <gtest/gtest.h>
 

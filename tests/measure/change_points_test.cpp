@@ -1,4 +1,4 @@
-#include "measure/change_points.h"
+#include "measure/statistics/change_points.h"
 
 #include <gtest/gtest.h>
 

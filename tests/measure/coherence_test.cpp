@@ -1,13 +1,13 @@
 // Waves of pixels against counts by hand.
 
-#include "measure/coherence.h"
+#include "measure/samples/coherence.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "measure/samples.h"
+#include "measure/samples/samples.h"
 
 namespace clusterbench::measure {
 namespace {

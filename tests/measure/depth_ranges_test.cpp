@@ -1,6 +1,6 @@
 // Depth that lists cover, against figures by hand and a loop over all pairs of pixels.
 
-#include "measure/depth_ranges.h"
+#include "measure/samples/depth_ranges.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "core/random.h"
-#include "measure/samples.h"
+#include "measure/samples/samples.h"
 
 namespace clusterbench::measure {
 namespace {

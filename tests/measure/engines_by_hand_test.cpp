@@ -4,7 +4,7 @@
 #include <set>
 
 #include "assign/dense_check.h"
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 
 namespace clusterbench::measure::engines_by_hand {
 namespace {

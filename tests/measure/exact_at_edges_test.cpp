@@ -5,7 +5,7 @@
 
 #include "assign/settings.h"
 #include "effort.h"
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 
 namespace clusterbench::measure {
 namespace {

@@ -1,4 +1,4 @@
-#include "measure/exceedance_clusters.h"
+#include "measure/statistics/exceedance_clusters.h"
 
 #include <gtest/gtest.h>
 

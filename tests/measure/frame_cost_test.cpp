@@ -1,6 +1,6 @@
 // The model of a frame's cost, by hand.
 
-#include "measure/frame_cost.h"
+#include "measure/statistics/frame_cost.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/front.h"
+#include "measure/statistics/front.h"
 
 #include <gtest/gtest.h>
 

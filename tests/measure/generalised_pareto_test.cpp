@@ -1,4 +1,4 @@
-#include "measure/generalised_pareto.h"
+#include "measure/statistics/generalised_pareto.h"
 
 #include <gtest/gtest.h>
 

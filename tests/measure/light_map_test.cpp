@@ -1,6 +1,6 @@
 // Lights of texels against loops over all lights and texels, and sizes against sets that are written down.
 
-#include "measure/light_map.h"
+#include "measure/light_maps/light_map.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "measure/unwrap.h"
+#include "measure/light_maps/unwrap.h"
 #include "scene/mesh_fixture.h"
 
 namespace clusterbench::measure {

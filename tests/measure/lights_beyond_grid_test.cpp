@@ -1,7 +1,7 @@
 // Which lights may reach a point in view that lies in no cell, and that none of a point at which samples lack a light
 // is left out.
 
-#include "measure/lights_beyond_grid.h"
+#include "measure/lists/lights_beyond_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "effort.h"
-#include "measure/samples.h"
-#include "measure/shading.h"
+#include "measure/samples/samples.h"
+#include "measure/samples/shading.h"
 
 namespace clusterbench::measure {
 namespace {

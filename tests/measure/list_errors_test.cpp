@@ -1,4 +1,4 @@
-#include "measure/list_errors.h"
+#include "measure/truth/list_errors.h"
 
 #include <gtest/gtest.h>
 

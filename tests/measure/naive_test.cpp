@@ -4,7 +4,7 @@
 
 #include "assign/contract/assigner_run.h"
 #include "assign/dense_check.h"
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 
 namespace clusterbench::measure {
 namespace {

@@ -1,4 +1,4 @@
-#include "measure/occupancy.h"
+#include "measure/lists/occupancy.h"
 
 #include <gtest/gtest.h>
 

@@ -11,9 +11,9 @@
 #include "core/memory.h"
 #include "effort.h"
 #include "geom/light_meets_cell.h"
-#include "measure/list_errors.h"
-#include "measure/samples.h"
-#include "measure/truth.h"
+#include "measure/samples/samples.h"
+#include "measure/truth/list_errors.h"
+#include "measure/truth/truth.h"
 #include "view/packing.h"
 
 namespace clusterbench::measure {

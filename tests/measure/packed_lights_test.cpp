@@ -7,7 +7,7 @@
 #include "assign/contract/assigner_run.h"
 #include "assign/settings.h"
 #include "effort.h"
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 #include "places.h"
 #include "view/packing.h"
 

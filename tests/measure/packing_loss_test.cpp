@@ -1,4 +1,4 @@
-#include "measure/packing_loss.h"
+#include "measure/samples/packing_loss.h"
 
 #include <gtest/gtest.h>
 

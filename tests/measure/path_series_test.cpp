@@ -1,4 +1,4 @@
-#include "measure/path_series.h"
+#include "measure/lists/path_series.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/peaks_over_threshold.h"
+#include "measure/statistics/peaks_over_threshold.h"
 
 #include <gtest/gtest.h>
 

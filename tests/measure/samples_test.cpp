@@ -1,6 +1,6 @@
 // Where the points of each set lie.
 
-#include "measure/samples.h"
+#include "measure/samples/samples.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/shading.h"
+#include "measure/samples/shading.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <set>
 
 #include "core/random.h"
-#include "measure/sample_tree.h"
-#include "measure/truth.h"
+#include "measure/samples/sample_tree.h"
+#include "measure/truth/truth.h"
 
 #include "measure/packed_lists.h"
 

@@ -1,6 +1,6 @@
 // Frusta that spots share: every point of every member is in them, and groups are held against all partitions.
 
-#include "measure/shared_frusta.h"
+#include "measure/shadows/shared_frusta.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/side_by_side.h"
+#include "measure/statistics/side_by_side.h"
 
 #include <gtest/gtest.h>
 

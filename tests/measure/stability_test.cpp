@@ -1,11 +1,11 @@
-#include "measure/stability.h"
+#include "measure/lists/stability.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/random.h"
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 
 namespace clusterbench::measure {
 namespace {

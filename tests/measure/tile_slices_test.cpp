@@ -8,8 +8,8 @@
 #include "assign/contract/assigner_run.h"
 #include "assign/settings.h"
 #include "effort.h"
-#include "measure/samples.h"
-#include "measure/shading.h"
+#include "measure/samples/samples.h"
+#include "measure/samples/shading.h"
 #include "view/packing.h"
 
 namespace clusterbench::measure {

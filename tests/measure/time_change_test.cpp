@@ -1,4 +1,4 @@
-#include "measure/time_change.h"
+#include "measure/statistics/time_change.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/time_statistics.h"
+#include "measure/statistics/time_statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 #include "assign/contract/assigner_run.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include "geom/filter/light_filter.h"
 #include "geom/light_meets_cell.h"
 #include "geom/shapes/verdict.h"
-#include "measure/truth_cells.h"
+#include "measure/truth/truth_cells.h"
 #include "places.h"
 #include "scene/camera_path.h"
 

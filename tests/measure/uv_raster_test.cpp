@@ -1,6 +1,6 @@
 // Coverage of texels against other ways to find it: clipped polygons, sides of lines, and sums of areas.
 
-#include "measure/uv_raster.h"
+#include "measure/light_maps/uv_raster.h"
 
 #include <gtest/gtest.h>
 

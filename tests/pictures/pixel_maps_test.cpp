@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "measure/shading.h"
+#include "measure/samples/shading.h"
 #include "pictures/room.h"
 
 namespace clusterbench::pictures {

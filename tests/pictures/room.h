@@ -5,8 +5,8 @@
 
 #include "assign/contract/storage.h"
 #include "pictures/pictures.h"
-#include "run/frame_lights.h"
-#include "run/path_frames.h"
+#include "run/cases/frame_lights.h"
+#include "run/cases/path_frames.h"
 #include "scene/mesh_fixture.h"
 
 namespace clusterbench::pictures::test {

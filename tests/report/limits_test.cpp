@@ -1,5 +1,5 @@
 #include "report/gates/limits.h"
-#include "report/cases/figures.h"
+#include "report/cases/named_figures.h"
 
 #include <gtest/gtest.h>
 

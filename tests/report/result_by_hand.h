@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "run/gate.h"
-#include "run/result.h"
+#include "run/findings/gate.h"
+#include "run/findings/run_result.h"
 
 namespace clusterbench::report::testing {
 

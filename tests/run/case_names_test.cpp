@@ -1,4 +1,4 @@
-#include "run/case_names.h"
+#include "run/cases/case_names.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "places.h"
+#include "run/cases/path_frames.h"
 #include "run/passes/timing_pass.h"
-#include "run/path_frames.h"
 #include "run/walk.h"
 
 namespace clusterbench::run {

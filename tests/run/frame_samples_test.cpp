@@ -1,6 +1,6 @@
 // Sets of samples from a scene's file to a case's result.
 
-#include "run/frame_samples.h"
+#include "run/cases/frame_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include "core/error.h"
 #include "effort.h"
 #include "places.h"
-#include "run/gate.h"
+#include "run/findings/gate.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/runner.h"
-#include "run/served_cases.h"
-#include "run/timed_work.h"
+#include "run/timing/served_cases.h"
+#include "run/timing/timed_work.h"
 #include "scene/mesh_fixture.h"
 
 namespace clusterbench::run {

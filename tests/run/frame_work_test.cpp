@@ -1,12 +1,12 @@
 // How many frames a run takes, and which grids are held against the truth, where it is to end soon.
 
-#include "run/frame_work.h"
+#include "run/cases/frame_work.h"
 
 #include <gtest/gtest.h>
 
 #include "config/presets.h"
 #include "places.h"
-#include "run/gate.h"
+#include "run/findings/gate.h"
 #include "run/scene_facts.h"
 #include "run/walk.h"
 

@@ -1,4 +1,4 @@
-#include "run/gate.h"
+#include "run/findings/gate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What lies in shadow, from a scene's file to a case's result.
 
-#include "run/light_shadows.h"
+#include "run/findings/light_shadows.h"
 
 #include <gtest/gtest.h>
 

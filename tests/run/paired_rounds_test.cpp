@@ -1,4 +1,4 @@
-#include "run/paired_rounds.h"
+#include "run/timing/paired_rounds.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "run/path_frames.h"
+#include "run/cases/path_frames.h"
 
 #include <gtest/gtest.h>
 

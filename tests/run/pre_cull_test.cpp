@@ -7,9 +7,9 @@
 
 #include "core/error.h"
 #include "places.h"
-#include "run/frame_lights.h"
-#include "run/path_culls.h"
-#include "run/served_cases.h"
+#include "run/cases/frame_lights.h"
+#include "run/cases/path_culls.h"
+#include "run/timing/served_cases.h"
 #include "run/walk.h"
 
 namespace clusterbench::run {

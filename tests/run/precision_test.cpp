@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "run/frame_lights.h"
-#include "run/path_frames.h"
+#include "run/cases/frame_lights.h"
+#include "run/cases/path_frames.h"
 #include "run/walk.h"
 
 namespace clusterbench::run {

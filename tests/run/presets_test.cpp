@@ -12,9 +12,9 @@
 
 #include "config/presets.h"
 #include "places.h"
-#include "run/gate.h"
+#include "run/cases/sweep.h"
+#include "run/findings/gate.h"
 #include "run/runner.h"
-#include "run/sweep.h"
 
 namespace clusterbench::run {
 namespace {

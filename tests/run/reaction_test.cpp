@@ -8,13 +8,13 @@
 #include "assign/contract/storage.h"
 #include "core/error.h"
 #include "effort.h"
-#include "measure/samples.h"
-#include "measure/truth.h"
+#include "measure/samples/samples.h"
+#include "measure/truth/truth.h"
 #include "places.h"
+#include "run/cases/path_frames.h"
 #include "run/passes/timing_pass.h"
-#include "run/path_frames.h"
 #include "run/runner.h"
-#include "run/served_cases.h"
+#include "run/timing/served_cases.h"
 
 namespace clusterbench::run {
 namespace {

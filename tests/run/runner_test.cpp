@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "run/gate.h"
+#include "run/findings/gate.h"
 #include "run/walk.h"
 
 namespace clusterbench::run {

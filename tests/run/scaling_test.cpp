@@ -5,8 +5,8 @@
 #include <map>
 
 #include "core/text.h"
+#include "run/cases/sweep.h"
 #include "run/runner.h"
-#include "run/sweep.h"
 
 namespace clusterbench::run {
 namespace {

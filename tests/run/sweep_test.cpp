@@ -1,4 +1,4 @@
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

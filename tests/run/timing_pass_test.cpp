@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "run/cache_sweep.h"
 #include "run/counters/machine_load.h"
+#include "run/timing/cache_sweep.h"
 #include "run/walk.h"
 
 namespace clusterbench::run::testing {

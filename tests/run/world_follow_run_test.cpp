@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/random.h"
-#include "run/path_frames.h"
+#include "run/cases/path_frames.h"
 #include "run/walk.h"
 
 namespace clusterbench::run {

@@ -1,4 +1,4 @@
-#include "scene/add_views.h"
+#include "scene/writers/add_views.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "scene/domain.h"
+#include "scene/domain_check.h"
 #include "scene/gltf_fixture.h"
 
 namespace clusterbench::scene {

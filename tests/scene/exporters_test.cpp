@@ -1,6 +1,6 @@
 // Files are known by their content, not by their ending.
 
-#include "scene/exporters.h"
+#include "scene/gltf_document/exporters.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "scene/gltf_draco.h"
-#include "scene/gltf_meshopt.h"
+#include "scene/gltf_document/gltf_draco.h"
+#include "scene/gltf_document/gltf_meshopt.h"
 #include "scene/mesh_fixture.h"
 
 #if __has_include(<meshoptimizer.h>)

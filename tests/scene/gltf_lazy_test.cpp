@@ -1,11 +1,11 @@
 // Large files, whose nodes and lights are read one by one: the same as small ones, and in little memory.
 
-#include "scene/gltf_lazy.h"
+#include "scene/gltf_document/gltf_lazy.h"
 
 #include <gtest/gtest.h>
 
 #include "gltf_fixture.h"
-#include "scene/gltf_container.h"
+#include "scene/gltf_document/gltf_container.h"
 
 namespace clusterbench::scene::test {
 namespace {

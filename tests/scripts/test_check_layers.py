@@ -46,6 +46,13 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(out, "src/geom/spot/a.h: includes geom/answer.h, but the files beside the folders of geom are "
                               "above them\n")
 
+    def test_files_beside_the_folders_may_be_below_them(self):
+        code, out = self.check({"scene/scene.h": "", "scene/gltf_document/a.h": '#include "scene/scene.h"\n'})
+        self.assertEqual((code, out), (0, ""))
+        code, out = self.check({"scene/scene.h": '#include "scene/gltf_document/a.h"\n', "scene/gltf_document/a.h": ""})
+        self.assertEqual((code, out), (1, "src/scene/scene.h: includes scene/gltf_document/a.h, but the files beside the folders "
+                                          "of scene are not above scene/gltf_document\n"))
+
     def test_a_folder_of_geom_includes_only_those_below(self):
         code, out = self.check({"geom/numbers/a.h": '#include "geom/shapes/b.h"\n', "geom/shapes/b.h": "",
                                 "geom/spot/c.h": '#include "geom/filter/d.h"\n#include "geom/numbers/a.h"\n'})

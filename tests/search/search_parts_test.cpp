@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
-#include "scene/write_gltf.h"
+#include "scene/writers/write_gltf.h"
 #include "search/best_frames.h"
 #include "search/optimizer.h"
 #include "search/worst_case_fixture.h"

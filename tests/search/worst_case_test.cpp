@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "run/runner.h"
-#include "scene/write_gltf.h"
+#include "scene/writers/write_gltf.h"
 #include "search/replay_config.h"
 #include "search/worst_case_fixture.h"
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <limits>
 
-#include "run/repeated.h"
-#include "run/timed_work.h"
+#include "run/timing/repeated.h"
+#include "run/timing/timed_work.h"
 
 using clusterbench::run::thread_ns;
 using clusterbench::run::TimedWork;

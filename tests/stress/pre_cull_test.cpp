@@ -10,7 +10,7 @@
 #include "cull/pre_cull.h"
 #include "cull/view_planes.h"
 #include "grid/lights_in_view.h"
-#include "measure/truth.h"
+#include "measure/truth/truth.h"
 #include "stress/hard_cases.h"
 #include "stress/random_setting.h"
 

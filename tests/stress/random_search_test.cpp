@@ -8,7 +8,7 @@
 #include "config/config.h"
 #include "places.h"
 #include "run/runner.h"
-#include "scene/write_gltf.h"
+#include "scene/writers/write_gltf.h"
 #include "stress/random_setting.h"
 #include "stress/stress_run.h"
 

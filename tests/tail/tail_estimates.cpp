@@ -4,7 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "measure/peaks_over_threshold.h"
+#include "measure/statistics/peaks_over_threshold.h"
 
 namespace {
 

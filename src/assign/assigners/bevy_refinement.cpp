@@ -8,7 +8,7 @@
 
 #include "assign/bounds/tile_planes.h"
 #include "assign/contract/light_test.h"
-#include "assign/cull/view_cull.h"
+#include "assign/grid_cull/view_cull.h"
 #include "assign/pipeline/bounded_balls.h"
 #include "assign/pipeline/light_by_light.h"
 #include "core/arrays.h"

@@ -15,7 +15,7 @@
 #include "assign/bounds/bounds_method.h"
 #include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
-#include "assign/cull/view_cull.h"
+#include "assign/grid_cull/view_cull.h"
 #include "assign/lists/radix_sort.h"
 #include "core/aligned_vector.h"
 #include "core/error.h"

@@ -13,7 +13,7 @@
 #include "assign/bounds/cell_bounds.h"
 #include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
-#include "assign/cull/view_cull.h"
+#include "assign/grid_cull/view_cull.h"
 #include "assign/occupied/pixel_depths.h"
 #include "core/arrays.h"
 #include "core/error.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "assign/contract/light_test.h"
-#include "assign/cull/view_cull.h"
 #include "assign/distance/shells.h"
+#include "assign/grid_cull/view_cull.h"
 #include "assign/pipeline/light_by_light.h"
 #include "geom/projection/disk_tangents.h"
 #include "grid/index_range.h"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "assign/contract/light_test.h"
-#include "assign/cull/view_cull.h"
 #include "assign/exact/exact_rows.h"
+#include "assign/grid_cull/view_cull.h"
 #include "assign/pipeline/light_by_light.h"
 #include "core/arrays.h"
 #include "geom/single_precision/touch_tests.h"

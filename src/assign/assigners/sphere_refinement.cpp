@@ -19,7 +19,7 @@
 #include "assign/bounds/refinement.h"
 #include "assign/bounds/tile_planes.h"
 #include "assign/contract/light_test.h"
-#include "assign/cull/view_cull.h"
+#include "assign/grid_cull/view_cull.h"
 #include "assign/pipeline/light_by_light.h"
 #include "core/arrays.h"
 

@@ -13,7 +13,7 @@
 #include "assign/bounds/bounds_method.h"
 #include "assign/contract/light_test.h"
 #include "assign/contract/storage.h"
-#include "assign/cull/view_cull.h"
+#include "assign/grid_cull/view_cull.h"
 #include "assign/occupied/first_depth.h"
 #include "assign/occupied/pixel_depths.h"
 #include "core/arrays.h"

@@ -16,9 +16,9 @@
 #include <tuple>
 #include <vector>
 
-#include "assign/cull/view_cull.h"
 #include "assign/depth_bins/sorted_masks.h"
 #include "assign/exact/exact_rows.h"
+#include "assign/grid_cull/view_cull.h"
 #include "geom/single_precision/bounding_volumes.h"
 #include "grid/index_range.h"
 

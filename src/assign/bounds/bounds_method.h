@@ -6,7 +6,7 @@
 
 #include "assign/bounds/cell_bounds.h"
 #include "assign/contract/light_test.h"
-#include "assign/cull/view_cull.h"
+#include "assign/grid_cull/view_cull.h"
 #include "assign/pipeline/light_by_light.h"
 #include "geom/single_precision/box_tests.h"
 

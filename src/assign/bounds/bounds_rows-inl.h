@@ -10,7 +10,7 @@
 
 #include "assign/bounds/boundary_axis.h"
 #include "assign/bounds/bounds_rows.h"
-#include "assign/cull/frustum_cull.h"
+#include "assign/grid_cull/frustum_cull.h"
 #include "assign/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -5,7 +5,7 @@
 #include "assign/bounds/boundary_axis.h"
 #include "assign/bounds/bounds_rows.h"
 #include "assign/box_grid/box_rows.h"
-#include "assign/cull/frustum_cull.h"
+#include "assign/grid_cull/frustum_cull.h"
 
 namespace clusterbench::assign {
 

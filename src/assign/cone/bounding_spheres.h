@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "assign/cull/frustum_cull.h"
+#include "assign/grid_cull/frustum_cull.h"
 #include "core/arrays.h"
 #include "geom/shapes/ball_and_cone.h"
 #include "view/frame.h"

@@ -6,9 +6,9 @@
 #include <span>
 
 #include "assign/contract/lists.h"
-#include "assign/cull/frustum_cull.h"
-#include "assign/cull/row_planes.h"
-#include "assign/cull/slice_bins.h"
+#include "assign/grid_cull/frustum_cull.h"
+#include "assign/grid_cull/row_planes.h"
+#include "assign/grid_cull/slice_bins.h"
 #include "assign/rows/slice_rows.h"
 #include "grid/grid.h"
 #include "view/frame.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "assign/cull/frustum_cull.h"
+#include "assign/grid_cull/frustum_cull.h"
 #include "geom/ball/ball_decider.h"
 #include "geom/projection/row_slopes.h"
 #include "geom/shapes/verdict.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "assign/cone/spot_cell_filter.h"
-#include "assign/cull/row_planes.h"
+#include "assign/grid_cull/row_planes.h"
 #include "core/arrays.h"
 #include "grid/index_range.h"
 #include "view/frame.h"

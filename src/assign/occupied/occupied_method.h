@@ -7,7 +7,7 @@
 #include "assign/bounds/bounds_method.h"
 #include "assign/contract/assigner.h"
 #include "assign/contract/light_test.h"
-#include "assign/cull/view_cull.h"
+#include "assign/grid_cull/view_cull.h"
 #include "assign/occupied/depth_parts.h"
 #include "assign/occupied/occupied_lists.h"
 

@@ -9,7 +9,7 @@
 
 #include "assign/cone/bounding_spheres.h"
 #include "assign/contract/light_test.h"
-#include "assign/cull/slice_bins.h"
+#include "assign/grid_cull/slice_bins.h"
 #include "assign/lists/list_builder.h"
 #include "assign/pipeline/bounded_balls.h"
 #include "assign/rows/slice_rows.h"

@@ -16,8 +16,8 @@
 #include <cstdint>
 #include <span>
 
-#include "assign/cull/frustum_cull.h"
-#include "assign/cull/row_planes.h"
+#include "assign/grid_cull/frustum_cull.h"
+#include "assign/grid_cull/row_planes.h"
 #include "assign/lists/list_builder.h"
 #include "assign/rows/sphere_setup.h"
 #include "core/aligned_vector.h"

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "assign/cull/frustum_cull.h"
+#include "assign/grid_cull/frustum_cull.h"
 #include "core/aligned_vector.h"
 #include "core/arrays.h"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "cli/command_tree.h"
+#include "cli/command_line/command_tree.h"
 
 namespace clusterbench::cli {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "result/result.h"
-#include "run/case_names.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 

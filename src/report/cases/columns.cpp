@@ -7,9 +7,9 @@
 #include <map>
 
 #include "core/text.h"
-#include "measure/time_change.h"
+#include "measure/statistics/time_change.h"
 #include "result/at.h"
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::report {
 namespace {

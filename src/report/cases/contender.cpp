@@ -5,9 +5,9 @@
 
 #include "assign/contract/assigner.h"
 #include "report/cases/columns.h"
-#include "report/cases/figures.h"
+#include "report/cases/named_figures.h"
 #include "result/at.h"
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "result/result.h"
-#include "run/gate.h"
+#include "run/findings/gate.h"
 
 namespace clusterbench::report {
 

@@ -1,6 +1,6 @@
 #pragma once
 // Of which samples a figure is: a case has several sets of them, and is ranked by those that cost something
-// (frame_cost.h). Tables, budgets and sentences name the sets in the same words.
+// (case_costs.h). Tables, budgets and sentences name the sets in the same words.
 
 #include <optional>
 #include <set>

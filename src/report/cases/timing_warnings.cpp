@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/text.h"
-#include "measure/time_statistics.h"
+#include "measure/statistics/time_statistics.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
 #include "result/at.h"

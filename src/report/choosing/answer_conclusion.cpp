@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/text.h"
-#include "measure/frame_cost.h"
-#include "measure/time_statistics.h"
+#include "measure/statistics/frame_cost.h"
+#include "measure/statistics/time_statistics.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
 #include "report/cases/json_values.h"

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "core/text.h"
-#include "measure/side_by_side.h"
+#include "measure/statistics/side_by_side.h"
+#include "report/cases/case_costs.h"
 #include "report/cases/case_filter.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
 #include "report/cases/failures.h"
-#include "report/cases/frame_cost.h"
 #include "report/cases/nothing_seen.h"
 #include "report/cases/sample_sets.h"
 #include "report/choosing/conclusion_words.h"

@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "core/text.h"
-#include "measure/frame_cost.h"
+#include "measure/statistics/frame_cost.h"
+#include "report/cases/case_costs.h"
 #include "report/cases/columns.h"
-#include "report/cases/frame_cost.h"
 #include "report/cases/sample_sets.h"
 
 namespace clusterbench::report {

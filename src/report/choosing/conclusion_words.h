@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/time_statistics.h"
+#include "measure/statistics/time_statistics.h"
 
 namespace clusterbench::report {
 

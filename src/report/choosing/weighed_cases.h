@@ -6,11 +6,11 @@
 #include <tuple>
 #include <vector>
 
-#include "measure/frame_cost.h"
+#include "measure/statistics/frame_cost.h"
+#include "report/cases/case_costs.h"
 #include "report/cases/contender.h"
-#include "report/cases/frame_cost.h"
 #include "result/result.h"
-#include "run/gate.h"
+#include "run/findings/gate.h"
 
 namespace clusterbench::report {
 

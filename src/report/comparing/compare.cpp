@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/text.h"
-#include "measure/time_change.h"
+#include "measure/statistics/time_change.h"
 #include "report/cases/columns.h"
 #include "report/cases/failures.h"
 #include "report/cases/json_values.h"
@@ -16,7 +16,7 @@
 #include "report/comparing/compare_advice.h"
 #include "report/comparing/exact_differences.h"
 #include "result/at.h"
-#include "run/sweep.h"
+#include "run/cases/sweep.h"
 
 namespace clusterbench::report {
 namespace {

@@ -1,14 +1,14 @@
 #pragma once
 // How much longer one method takes than another. Cases of one scene, camera, viewport and grid are measured in the same
 // rounds, and so any two of them have a ratio, round by round, that is far steadier than their times. Those of other
-// grids have one launch by launch (measure/side_by_side.h).
+// grids have one launch by launch (measure/statistics/side_by_side.h).
 
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "measure/time_statistics.h"
+#include "measure/statistics/time_statistics.h"
 #include "report/cases/contender.h"
 #include "result/result.h"
 

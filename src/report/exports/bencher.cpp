@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "report/exports/formats.h"
+#include "report/exports/export_formats.h"
 
 namespace clusterbench::report {
 namespace {

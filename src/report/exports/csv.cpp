@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "report/exports/formats.h"
+#include "report/exports/export_formats.h"
 
 namespace clusterbench::report {
 namespace {

@@ -5,8 +5,8 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "report/cases/columns.h"
-#include "report/documents/machine.h"
-#include "report/exports/formats.h"
+#include "report/documents/machine_name.h"
+#include "report/exports/export_formats.h"
 
 namespace clusterbench::report {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "core/error.h"
-#include "report/exports/formats.h"
+#include "report/exports/export_formats.h"
 
 namespace clusterbench::report {
 namespace {

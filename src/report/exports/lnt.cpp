@@ -2,7 +2,7 @@
 // suite "nts": execution_time in seconds, a value per round, and mem_bytes. More figures (--all) want a test suite that
 // names them.
 
-#include "report/exports/formats.h"
+#include "report/exports/export_formats.h"
 
 namespace clusterbench::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "report/cases/columns.h"
-#include "report/exports/formats.h"
+#include "report/exports/export_formats.h"
 
 namespace clusterbench::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "measure/time_statistics.h"
+#include "measure/statistics/time_statistics.h"
 #include "result/case.h"
 
 namespace clusterbench::report {

@@ -11,7 +11,7 @@
 
 #include "core/text.h"
 #include "report/cases/columns.h"
-#include "report/cases/figures.h"
+#include "report/cases/named_figures.h"
 #include "report/cases/percent_change.h"
 #include "report/gates/baseline_cases.h"
 

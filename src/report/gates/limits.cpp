@@ -10,7 +10,7 @@
 #include "core/pattern.h"
 #include "core/text.h"
 #include "report/cases/case_filter.h"
-#include "report/cases/figures.h"
+#include "report/cases/named_figures.h"
 #include "report/cases/sample_sets.h"
 #include "report/gates/baseline_cases.h"
 #include "result/at.h"

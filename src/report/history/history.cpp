@@ -16,9 +16,9 @@
 #include "os/locked_file.h"
 #include "os/output_file.h"
 #include "report/cases/scene_lights.h"
-#include "report/documents/machine.h"
+#include "report/documents/machine_name.h"
 #include "report/gates/light_gate.h"
-#include "run/case_names.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 namespace {

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "measure/change_points.h"
+#include "measure/statistics/change_points.h"
 #include "report/exports/metrics.h"
 #include "result/result.h"
 
 namespace clusterbench::report {
 
-// Which lights a result's scene has: light_changes.h.
+// Which lights a result's scene has: scene_lights.h.
 struct SceneLights {
   std::string scene;
   std::string digest;  // "" in results of older versions

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "report/cases/case_costs.h"
 #include "report/cases/contender.h"
-#include "report/cases/frame_cost.h"
 #include "report/cases/json_values.h"
 #include "result/at.h"
 

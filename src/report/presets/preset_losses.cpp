@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "report/cases/frame_cost.h"
+#include "report/cases/case_costs.h"
 #include "result/at.h"
 
 namespace clusterbench::report {

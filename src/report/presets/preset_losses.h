@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "report/cases/frame_cost.h"
+#include "report/cases/case_costs.h"
 #include "result/case.h"
 
 namespace clusterbench::report {

@@ -7,10 +7,10 @@
 
 #include "config/presets.h"
 #include "core/text.h"
-#include "measure/shading.h"
+#include "measure/samples/shading.h"
+#include "report/cases/case_costs.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
-#include "report/cases/frame_cost.h"
 #include "report/cases/nothing_seen.h"
 #include "report/cases/sample_sets.h"
 #include "report/presets/preset_losses.h"

@@ -14,7 +14,7 @@ std::vector<result::Preset> preset_facts(const std::vector<result::Case>& cases,
                                          const std::vector<result::Skipped>& skipped);
 
 // Per scene, camera and viewport the cases of presets: those whose samples lack no light, by what a frame costs the GPU
-// (report/cases/frame_cost.h); then those of them that samples search, among themselves; then those that lack lights,
+// (report/cases/case_costs.h); then those of them that samples search, among themselves; then those that lack lights,
 // by how many. Cases whose costs the model cannot tell apart share a place. `origin`: the result whose configuration
 // they have. Empty without presets.
 std::vector<result::PresetRanking> preset_rankings(const std::vector<result::Scene>& scenes,

@@ -5,7 +5,7 @@
 
 #include "config/presets.h"
 #include "core/text.h"
-#include "measure/shading.h"
+#include "measure/samples/shading.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
 #include "report/cases/json_values.h"

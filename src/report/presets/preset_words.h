@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report/cases/frame_cost.h"
+#include "report/cases/case_costs.h"
 #include "report/presets/preset_losses.h"
 #include "result/case.h"
 

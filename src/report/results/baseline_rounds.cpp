@@ -1,6 +1,6 @@
 #include "report/results/baseline_rounds.h"
 
-#include "measure/time_change.h"
+#include "measure/statistics/time_change.h"
 #include "result/rounding.h"
 
 namespace clusterbench::report {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "result/result.h"
-#include "run/paired_rounds.h"
+#include "run/timing/paired_rounds.h"
 
 namespace clusterbench::report {
 

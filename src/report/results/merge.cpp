@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "report/cases/contender.h"
 #include "report/choosing/conclusion.h"
-#include "report/documents/machine.h"
+#include "report/documents/machine_name.h"
 #include "report/results/result_record.h"
 
 namespace clusterbench::report {

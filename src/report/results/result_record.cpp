@@ -5,15 +5,15 @@
 #include <map>
 #include <set>
 
+#include "report/cases/case_costs.h"
 #include "report/cases/contender.h"
-#include "report/cases/frame_cost.h"
 #include "report/cases/nothing_seen.h"
 #include "report/cases/sample_sets.h"
 #include "report/choosing/conclusion.h"
 #include "report/presets/preset_ranking.h"
 #include "result/at.h"
 #include "result/rounding.h"
-#include "run/gate.h"
+#include "run/findings/gate.h"
 #include "run/records/records.h"
 
 namespace clusterbench::report {

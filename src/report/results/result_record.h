@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "result/result.h"
-#include "run/result.h"
+#include "run/findings/run_result.h"
 
 namespace clusterbench::report {
 
@@ -17,7 +17,7 @@ inline constexpr int k_schema_version = 2;
 result::Result record_of(const run::Result& result, const std::vector<result::Case>& earlier_cases);
 
 // Per scene the cases that none beats in frame time, list bytes and overshade together, or in what `origin` ranks by
-// (run/gate.h), in the order of the cases. `origin`: the result whose configuration they have.
+// (run/findings/gate.h), in the order of the cases. `origin`: the result whose configuration they have.
 std::vector<result::Front> fronts(const std::vector<result::Scene>& scenes, const std::vector<result::Case>& cases,
                                   const result::Result& origin);
 

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "core/text.h"
-#include "measure/occupancy.h"
+#include "measure/lists/occupancy.h"
 #include "report/cases/columns.h"
 
 namespace clusterbench::report {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/light_map.h"
+#include "measure/light_maps/light_map.h"
 
 namespace clusterbench::report {
 

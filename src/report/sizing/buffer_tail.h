@@ -1,11 +1,12 @@
 #pragma once
-// How likely a frame that was not recorded exceeds what a buffer has: words and JSON of measure/peaks_over_threshold.h.
+// How likely a frame that was not recorded exceeds what a buffer has: words and JSON of
+// measure/statistics/peaks_over_threshold.h.
 
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
-#include "measure/peaks_over_threshold.h"
+#include "measure/statistics/peaks_over_threshold.h"
 #include "report/sizing/allocation.h"
 
 namespace clusterbench::report {

@@ -12,10 +12,10 @@
 #include "core/text.h"
 #include "report/cases/case_filter.h"
 #include "report/cases/columns.h"
-#include "report/cases/figures.h"
 #include "report/cases/json_values.h"
+#include "report/cases/named_figures.h"
 #include "report/documents/result_file.h"
-#include "run/case_names.h"
+#include "run/cases/case_names.h"
 #include "scene/camera_path.h"
 
 namespace clusterbench::report {

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "measure/side_by_side.h"
+#include "measure/statistics/side_by_side.h"
 #include "report/cases/contender.h"
 #include "report/cases/json_values.h"
 #include "report/comparing/ratios.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/text.h"
-#include "measure/shading.h"
+#include "measure/samples/shading.h"
 #include "report/cases/columns.h"
 #include "report/sizing/buffer_tail.h"
 #include "result/at.h"

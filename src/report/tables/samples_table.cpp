@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "measure/samples.h"
+#include "measure/samples/samples.h"
 #include "report/cases/columns.h"
 #include "report/cases/sample_sets.h"
 

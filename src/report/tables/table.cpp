@@ -7,9 +7,9 @@
 
 #include "assign/contract/assigner.h"
 #include "core/text.h"
+#include "report/cases/case_costs.h"
 #include "report/cases/columns.h"
-#include "report/cases/figures.h"
-#include "report/cases/frame_cost.h"
+#include "report/cases/named_figures.h"
 #include "report/cases/sample_sets.h"
 #include "report/cases/timing_warnings.h"
 #include "report/comparing/ratios.h"

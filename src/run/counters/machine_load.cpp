@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "run/repeated.h"
+#include "run/timing/repeated.h"
 
 namespace clusterbench::run {
 

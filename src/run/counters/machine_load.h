@@ -2,7 +2,7 @@
 // What other programs take of the machine while something is measured, and whether it gets too hot.
 
 #include "os/processor_time.h"
-#include "run/timing_samples.h"
+#include "run/timing/timing_samples.h"
 
 namespace clusterbench::run {
 

@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "assign/contract/storage.h"
-#include "run/frame_lights.h"
-#include "run/frame_samples.h"
-#include "run/light_shadows.h"
-#include "run/path_culls.h"
+#include "run/cases/frame_lights.h"
+#include "run/cases/frame_samples.h"
+#include "run/cases/path_culls.h"
+#include "run/findings/light_shadows.h"
 
 namespace clusterbench::run {
 namespace {

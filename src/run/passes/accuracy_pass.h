@@ -5,11 +5,11 @@
 #include <functional>
 #include <memory>
 
-#include "run/fit_meter.h"
-#include "run/path_frames.h"
-#include "run/pre_cull_meter.h"
-#include "run/result.h"
-#include "run/sweep.h"
+#include "run/cases/path_frames.h"
+#include "run/cases/sweep.h"
+#include "run/findings/fit_meter.h"
+#include "run/findings/pre_cull_meter.h"
+#include "run/findings/run_result.h"
 
 namespace clusterbench::run {
 

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "run/timed_work.h"
+#include "run/timing/timed_work.h"
 
 namespace clusterbench::run {
 

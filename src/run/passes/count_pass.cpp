@@ -2,7 +2,7 @@
 
 #include "assign/lists/list_builder.h"
 #include "core/error.h"
-#include "run/timed_work.h"
+#include "run/timing/timed_work.h"
 
 namespace clusterbench::run {
 namespace {

@@ -5,9 +5,9 @@
 #include <functional>
 #include <map>
 
+#include "run/cases/sweep.h"
 #include "run/counters/instruction_counter.h"
-#include "run/result.h"
-#include "run/sweep.h"
+#include "run/findings/run_result.h"
 
 namespace clusterbench::run {
 

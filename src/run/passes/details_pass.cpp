@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "measure/truth.h"
-#include "run/frame_lights.h"
-#include "run/path_culls.h"
+#include "measure/truth/truth.h"
+#include "run/cases/frame_lights.h"
+#include "run/cases/path_culls.h"
 
 namespace clusterbench::run {
 namespace {

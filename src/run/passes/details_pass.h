@@ -4,7 +4,7 @@
 #include <atomic>
 #include <optional>
 
-#include "run/packed_details.h"
+#include "run/findings/packed_details.h"
 #include "run/passes/accuracy_pass.h"
 
 namespace clusterbench::run {

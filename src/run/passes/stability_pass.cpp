@@ -4,9 +4,9 @@
 #include <glm/trigonometric.hpp>
 #include <memory>
 
-#include "measure/truth.h"
-#include "run/frame_lights.h"
-#include "run/path_culls.h"
+#include "measure/truth/truth.h"
+#include "run/cases/frame_lights.h"
+#include "run/cases/path_culls.h"
 #include "scene/fine_path.h"
 
 namespace clusterbench::run {

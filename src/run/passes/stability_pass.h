@@ -5,9 +5,9 @@
 #include <functional>
 #include <optional>
 
-#include "run/path_frames.h"
-#include "run/result.h"
-#include "run/sweep.h"
+#include "run/cases/path_frames.h"
+#include "run/cases/sweep.h"
+#include "run/findings/run_result.h"
 
 namespace clusterbench::run {
 

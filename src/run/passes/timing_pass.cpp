@@ -9,12 +9,12 @@
 #include <optional>
 
 #include "core/random.h"
-#include "run/cache_sweep.h"
 #include "run/counters/machine_load.h"
-#include "run/fit_meter.h"
+#include "run/findings/fit_meter.h"
 #include "run/passes/copy_floor.h"
-#include "run/repeated.h"
-#include "run/timed_work.h"
+#include "run/timing/cache_sweep.h"
+#include "run/timing/repeated.h"
+#include "run/timing/timed_work.h"
 
 namespace clusterbench::run {
 namespace {

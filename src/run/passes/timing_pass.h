@@ -10,17 +10,17 @@
 // the same frames again and again, for as long as `timing.min_time_ms`.
 //
 // Processes of one program differ by more than rounds within one do (where memory lies, when it runs), so that several
-// measure, and what is computed knows which round is of which (measure/time_statistics.h).
+// measure, and what is computed knows which round is of which (measure/statistics/time_statistics.h).
 
 #include <atomic>
 #include <functional>
 #include <limits>
 #include <span>
 
-#include "run/path_frames.h"
-#include "run/result.h"
-#include "run/sweep.h"
-#include "run/timing_samples.h"
+#include "run/cases/path_frames.h"
+#include "run/cases/sweep.h"
+#include "run/findings/run_result.h"
+#include "run/timing/timing_samples.h"
 
 namespace clusterbench::run {
 

@@ -1,9 +1,9 @@
 #include <cmath>
 
 #include "assign/contract/assigner.h"
-#include "run/gate.h"
+#include "run/cases/sweep.h"
+#include "run/findings/gate.h"
 #include "run/records/parts.h"
-#include "run/sweep.h"
 
 namespace clusterbench::run {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "result/result.h"
-#include "run/result.h"
+#include "run/findings/run_result.h"
 
 namespace clusterbench::run {
 

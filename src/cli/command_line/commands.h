@@ -1,0 +1,34 @@
+#pragma once
+// The subcommands. Each add_* hangs one subcommand into the tree and, when the user names it, sets `action`.
+
+#include "cli/command_line/command.h"
+#include "core/error.h"
+
+namespace clusterbench::cli {
+
+using Action = std::function<ExitCode()>;
+
+void add_run(Command& program, Action& action);
+void add_compare(Command& program, Action& action);
+void add_ratio(Command& program, Action& action);
+void add_size(Command& program, Action& action);
+void add_recommend(Command& program, Action& action);
+void add_report(Command& program, Action& action);
+void add_export(Command& program, Action& action);
+void add_scene(Command& program, Action& action);
+void add_stress(Command& program, Action& action);
+void add_worst_case(Command& program, Action& action);
+void add_light_map(Command& program, Action& action);
+void add_list(Command& program, Action& action);
+void add_schema(Command& program, Action& action);
+void add_validate(Command& program, Action& action);
+void add_history(Command& program, Action& action);
+void add_merge(Command& program, Action& action);
+void add_completion(Command& program, Action& action);
+void add_man(Command& program, Action& action);
+void add_version(Command& program, Action& action);
+
+// Parses the command line and does what it says. Throws Error.
+int run_command_line(int argc, char** argv);
+
+}  // namespace clusterbench::cli

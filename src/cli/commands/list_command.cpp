@@ -1,0 +1,225 @@
+// `clusterbench list`: everything that a configuration can name, with its parameters.
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "assign/contract/assigner.h"
+#include "assign/contract/storage.h"
+#include "cli/command_line/commands.h"
+#include "config/presets.h"
+#include "cull/pre_cull_spec.h"
+#include "scene/generators/generate.h"
+
+namespace clusterbench::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const assign::ParamValue& value) {
+  return std::visit([](const auto& number) { return Json(number); }, value);
+}
+
+Json to_json(const std::vector<assign::ParamSpec>& params) {
+  Json list = Json::array();
+  for (const assign::ParamSpec& param : params) {
+    Json entry{{"name", param.name}, {"summary", param.summary}, {"default", to_json(param.standard)}};
+    if (!param.unit.empty()) entry["unit"] = param.unit;
+    if (std::isfinite(param.conservative_from)) entry["conservative_from"] = param.conservative_from;
+    if (param.is_thread_count) entry["threads"] = true;
+    if (std::holds_alternative<double>(param.standard)) entry["range"] = {param.min, param.max};
+    if (!param.choices.empty()) entry["choices"] = param.choices;
+    list.push_back(entry);
+  }
+  return list;
+}
+
+Json to_json(const assign::AssignerDescriptor& assigner) {
+  Json kinds = Json::array();
+  for (const grid::Kind kind : assigner.kinds) kinds.push_back(grid::kind_name(kind));
+  Json lights = Json::array();
+  if (assigner.points) lights.push_back("point");
+  if (assigner.spots) lights.push_back("spot");
+  if (assigner.boxes) lights.push_back("box");
+  Json needs = Json::array(), answers = Json::array();
+  if (assigner.needs.depth) needs.push_back("depth");
+  if (assigner.answers(assign::Answer::lists)) answers.push_back("lists");
+  if (assigner.answers(assign::Answer::structure)) answers.push_back("structure");
+  return Json{{"name", assigner.name},
+              {"summary", assigner.summary},
+              {"source", assigner.source},
+              {"grids", kinds},
+              {"lights", lights},
+              {"needs", needs},
+              {"answers", answers},
+              {"conservative", assigner.conservative},
+              {"exact", assigner.exact},
+              {"naive", assigner.naive},
+              {"orthographic", assigner.orthographic},
+              {"params", to_json(assigner.params)}};
+}
+
+// Tiles that depend on the viewport are those of 1920 x 1080 pixels.
+Json to_json(const config::Preset& preset) {
+  const auto parts = config::preset_parts(preset, {1920, 1080});
+  Json out{{"name", preset.name},
+           {"engine", preset.engine},
+           {"version", preset.version},
+           {"evidence", config::name_of(preset.evidence)},
+           {"summary", preset.summary},
+           {"source", preset.source},
+           {"approximated", preset.approximated},
+           {"unverified", preset.unverified},
+           {"assigns_on", config::name_of(preset.assigns_on)},
+           {"grid", parts["grid"]},
+           {"assigner", parts["assigner"]}};
+  if (parts.contains("storage")) out["storage"] = parts["storage"];
+  if (parts.contains("pre_cull")) out["pre_cull"] = parts["pre_cull"];
+  if (const std::string limit = config::limit_text(preset); !limit.empty()) out["limit"] = limit;
+  if (const std::uint64_t most = config::most_lights(preset); most > 0) out["most_lights"] = most;
+  if (preset.has_mistakes()) {
+    out["mistakes"] = preset.mistakes;
+    out["as_shipped"] = Json::parse(preset.as_shipped);
+  }
+  return out;
+}
+
+Json everything() {
+  Json all{{"assigners", Json::array()}, {"storages", Json::array()}, {"grids", Json::array()}};
+  for (const assign::AssignerDescriptor* assigner : assign::assigner_descriptors())
+    all["assigners"].push_back(to_json(*assigner));
+  for (const assign::StorageDescriptor* row : assign::storage_descriptors())
+    all["storages"].push_back(
+        {{"name", row->name}, {"summary", row->summary}, {"source", row->source}, {"params", to_json(row->params)}});
+  for (int kind = 0; kind < grid::k_kind_count; ++kind)
+    all["grids"].push_back(grid::kind_name(static_cast<grid::Kind>(kind)));
+  for (const config::Preset& preset : config::presets()) all["presets"].push_back(to_json(preset));
+  for (const cull::StepSummary& row : cull::step_summaries())
+    all["pre_culls"].push_back({{"name", row.name}, {"summary", row.summary}, {"source", row.source}});
+  for (const scene::GeneratorRow& row : scene::generators())
+    all["scenes"].push_back(
+        {{"name", row.name}, {"summary", row.summary}, {"source", row.source}, {"default_lights", row.default_lights}});
+  return all;
+}
+
+std::string word_of(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value.get<double>());
+  return text;
+}
+
+std::string words(const Json& array) {
+  std::string text;
+  for (const Json& word : array) text += (text.empty() ? "" : ", ") + word_of(word);
+  return text;
+}
+
+// Parameters that many methods share are explained at the first one. `explained`: what was explained at which.
+void print_params(const Json& row, std::map<std::string, std::string>& explained) {
+  std::map<std::string, std::string> as_for;  // method -> its parameters that this one has, too
+  for (const Json& param : row["params"]) {
+    const std::string assignment = param["name"].get<std::string>() + " = " + word_of(param["default"]);
+    const auto [earlier, is_new] = explained.emplace(param.dump(), row["name"]);
+    if (!is_new) {
+      std::string& shared = as_for[earlier->second];
+      shared += (shared.empty() ? "" : ", ") + assignment;
+      continue;
+    }
+    std::cout << "      " << assignment;
+    if (param.contains("choices")) std::cout << "  (" << words(param["choices"]) << ")";
+    if (param.contains("range"))
+      std::cout << "  (" << word_of(param["range"][0]) << " to " << word_of(param["range"][1]) << ")";
+    if (param.contains("unit")) std::cout << " " << param["unit"].get<std::string>();
+    std::cout << ": " << param["summary"].get<std::string>() << "\n";
+  }
+  for (const auto& [method, shared] : as_for) std::cout << "      " << shared << ": as for " << method << "\n";
+}
+
+// What a configuration would say, in a line.
+std::string parts_text(const Json& preset) {
+  std::string text = preset["grid"].dump() + " " + preset["assigner"].dump();
+  for (const char* part : {"storage", "pre_cull"})
+    if (preset.contains(part)) text += " " + preset[part].dump();
+  return text;
+}
+
+void print_preset(const Json& preset) {
+  const auto text = [&](const char* key) { return preset.value(key, ""); };
+  std::cout << "  " << text("name") << ": " << text("engine") << ", " << text("version") << " (" << text("evidence")
+            << "): " << text("summary") << " [" << text("source") << "]\n";
+  if (preset.contains("limit")) std::cout << "      limit: " << text("limit") << "\n";
+  for (const char* key : {"approximated", "unverified"})
+    if (!text(key).empty()) std::cout << "      " << key << ": " << text(key) << "\n";
+  if (preset.contains("mistakes")) std::cout << "      with --as-shipped: " << text("mistakes") << "\n";
+  std::cout << "      " << parts_text(preset) << "\n";
+}
+
+void print_presets(const Json& presets) {
+  std::cout
+      << "presets (tiles that follow the viewport as for 1920 x 1080; ran: the engine's own code, or a transcription "
+         "of it, was run\nand its lists compared; read: its code or publication was read; memory: neither)\n";
+  for (const Json& preset : presets) print_preset(preset);
+}
+
+void print_section(const Json& all, const char* section) {
+  if (std::string_view(section) == "presets") {
+    print_presets(all[section]);
+    return;
+  }
+  std::cout << section << "\n";
+  std::map<std::string, std::string> explained;
+  for (const Json& row : all[section]) {
+    if (row.is_string()) {
+      std::cout << "  " << row.get<std::string>() << "\n";
+      continue;
+    }
+    std::cout << "  " << row["name"].get<std::string>() << ": " << row["summary"].get<std::string>() << " ["
+              << row["source"].get<std::string>() << "]\n";
+    if (row.contains("grids"))
+      std::cout << "      grids: " << words(row["grids"]) << "; lights: " << words(row["lights"])
+                << (row["needs"].empty() ? "" : "; needs: " + words(row["needs"]))
+                << "; output: " << words(row["answers"])
+                << (row["exact"]          ? "; exact"
+                    : row["conservative"] ? "; conservative"
+                                          : "; NOT conservative")
+                << "\n";
+    if (row.contains("params")) print_params(row, explained);
+  }
+}
+
+constexpr const char* k_sections[] = {"assigners", "storages", "grids", "pre_culls", "scenes", "presets"};
+
+// `wanted`: "" for all sections.
+void print_text(const Json& all, const std::string& wanted) {
+  for (const char* section : k_sections)
+    if (wanted.empty() || wanted == section) print_section(all, section);
+  if (!wanted.empty()) return;
+  std::cout << "All keys of a configuration: docs/configuration.md, or `clusterbench schema config`\n";
+}
+
+}  // namespace
+
+void add_list(Command& program, Action& action) {
+  Command command = program.add_command(
+      "list", "Assigners, storages, grids, pre-culls, scenes and presets that exist, with their parameters");
+  auto as_json = std::make_shared<bool>(false);
+  auto section = std::make_shared<std::string>();
+  command.add_option("SECTION", *section, "Only these: assigners, storages, grids, pre_culls, scenes or presets")
+      .one_of({std::begin(k_sections), std::end(k_sections)});
+  command.add_flag("--json", *as_json, "As JSON");
+  command.when_named([as_json, section, &action] {
+    action = [as_json, section] {
+      const Json all = everything();
+      if (*as_json)
+        std::cout << (section->empty() ? all : all[*section]).dump(2) << "\n";
+      else
+        print_text(all, *section);
+      return ExitCode::ok;
+    };
+  });
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,332 @@
+// `clusterbench recommend SCENE|CONFIG`: which clustering to take, and why.
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "cli/command_line/commands.h"
+#include "cli/options/run_inputs.h"
+#include "cli/output/duration.h"
+#include "cli/output/output.h"
+#include "cli/output/progress_line.h"
+#include "cli/processes/launches.h"
+#include "config/config.h"
+#include "config/presets.h"
+#include "core/text.h"
+#include "os/stop_signals.h"
+#include "report/choosing/recommend_report.h"
+#include "run/cases/sweep.h"
+#include "search/recommend.h"
+#include "search/recommend_space.h"
+
+namespace clusterbench::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// "--frame-us-max" of "frame_us.max".
+std::string flag_of(const std::string& figure) {
+  std::string flag = "--" + figure;
+  std::ranges::replace(flag, '_', '-');
+  std::ranges::replace(flag, '.', '-');
+  return flag;
+}
+
+constexpr double k_no_limit = -1.0;
+
+struct RecommendFlags {
+  RunInputs inputs;
+  std::string output, written, objective, within = "5%", filter;
+  std::vector<double> most = std::vector<double>(config::limit_figures().size(), k_no_limit);  // by figure
+  int runners_up = 5, written_runners_up = 0;
+  bool no_timing = false, quiet = false;
+};
+
+// A share: "5%", or "5" for the same.
+double share_of(const std::string& text) {
+  const std::string number = text.ends_with('%') ? text.substr(0, text.size() - 1) : text;
+  std::size_t end = 0;
+  double percent = -1.0;
+  try {
+    percent = std::stod(number, &end);
+  } catch (const std::exception&) {
+    end = 0;
+  }
+  if (end == 0 || end != number.size() || !(percent >= 0.0 && percent <= 1000.0))
+    throw Error("", "--within", "'" + text + "' is no share; takes percents from 0 to 1000, as in 5%");
+  return percent / 100.0;
+}
+
+std::vector<config::LimitRule> rules_of(const RecommendFlags& flags, const config::Config& config) {
+  std::vector<config::LimitRule> rules = config.limits.fail_if;
+  for (const config::LimitRule& rule : rules)
+    if (rule.side != config::LimitRule::Side::above || rule.is_relative || !rule.cases.empty())
+      throw Error("", "limits.fail_if",
+                  "'" + rule.text() + "': recommend takes budgets with > or >= and a number alone");
+  for (std::size_t i = 0; i < flags.most.size(); ++i)
+    if (flags.most[i] != k_no_limit) rules.push_back({config::limit_figures()[i].name, false, flags.most[i]});
+  return rules;
+}
+
+// What a configuration asks for and no choice depends on.
+std::string asked_in_vain(const config::Config& config) {
+  std::string keys;
+  const auto add = [&](bool is_asked, const char* key) {
+    if (is_asked) keys += (keys.empty() ? "" : ", ") + std::string(key);
+  };
+  add(config.details.has_value(), "details");
+  add(config.stability.has_value(), "stability");
+  add(!config.shadow_culls.empty(), "shadow_cull");
+  add(config.shared_frusta.has_value(), "shadow_frusta");
+  return keys;
+}
+
+// `in_vain`: which keys it leaves out.
+config::Config read_input(const RecommendFlags& flags, std::string& in_vain) {
+  nlohmann::json standard = search::recommend_space();
+  standard["samples"] = {{"opaque", {{"divisor", 16}}}};
+  config::Config config = read_inputs(flags.inputs, {}, standard);
+  in_vain = asked_in_vain(config);
+  config.details.reset();
+  config.stability.reset();
+  for (const char* key : {"details", "stability"}) config.resolved[key] = nullptr;
+  config.shadow_culls.clear();
+  config.shared_frusta.reset();
+  for (const char* key : {"shadow_cull", "shadow_frusta"}) config.resolved.erase(key);
+  return config;
+}
+
+// A preset whose engine makes its lists on a GPU, which no time here is that of; "" without any.
+std::string preset_on_gpu(const config::Config& config) {
+  for (const config::PresetChoice& choice : config.presets)
+    if (config::find_preset(choice.preset)->assigns_on == config::AssignsOn::gpu) return choice.preset;
+  return "";
+}
+
+// What is least where nobody says: the modelled cost of a frame; that of the GPU alone without times, and where they
+// are not all that is to be chosen from.
+report::ObjectiveFigure objective_of(const RecommendFlags& flags, const config::Config& config) {
+  const bool has_times = !flags.no_timing && preset_on_gpu(config).empty();
+  const std::string standard = has_times ? "frame_cost_us" : "gpu_cost_us";
+  return report::objective_figure(flags.objective.empty() ? standard : flags.objective);
+}
+
+// A cost is that of samples with a weight. A scene without triangles has no surfaces to shade: then each pixel is
+// shaded once at a random depth of its view. Whether that is so.
+bool weigh_samples(config::Config& config, const run::Plan& plan) {
+  nlohmann::json& weights = config.resolved["cost"]["weights"];
+  const auto has_cost = [&](const config::SampleSetRequest& set) {
+    return weights[measure::name_of(set.set)] != 0.0 &&
+           std::ranges::all_of(plan.scenes, [&](const auto& data) { return run::set_obstacle(set, data).empty(); });
+  };
+  if (std::ranges::any_of(config.sample_sets, has_cost)) return false;
+  if (std::ranges::find(config.sample_sets, measure::SampleSet::volume, &config::SampleSetRequest::set) ==
+      config.sample_sets.end())
+    throw Error("", "--by", "a cost is that of samples, and there are none; take another figure, or shading.samples");
+  weights["volume"] = "pixels";
+  return true;
+}
+
+// Returns whether times are measured.
+bool check_timing(const RecommendFlags& flags, const report::Question& question, const config::Config& config) {
+  if (!report::needs_times(question.objective, question.constraints)) return false;
+  if (flags.no_timing) throw Error("", "--no-timing", "leaves out the times that the objective or a constraint needs");
+  if (const std::string preset = preset_on_gpu(config); !preset.empty())
+    throw Error("", "presets",
+                "'" + preset +
+                    "' makes its lists on a GPU, and a time here would not be the engine's; take --by gpu_cost_us "
+                    "and no constraint on times");
+  return true;
+}
+
+// "next: clusterbench size choice.json": what sizes the buffers of the choice, of a level over its whole paths. ""
+// where nothing is chosen, or more than one configuration holds.
+std::string next_text(const RecommendFlags& flags, const Json& recommendation) {
+  if (recommendation["answers"].size() != 1 || recommendation["answers"][0]["choice"].is_null()) return "";
+  const bool is_level = std::ranges::all_of(flags.inputs.paths, is_scene);
+  const bool is_written = !flags.written.empty() && !is_stream(flags.written);
+  std::vector<std::string> words{"clusterbench", "size", is_written ? flags.written : "choice.json"};
+  if (is_level) words.insert(words.end(), {"--set", R"(scenes.*.frames={"rate": 30})"});
+  return std::string("next: ") + (is_written ? "" : "the same with --write-config choice.json, then ") +
+         shell_command(words) + "   sizes its buffers\n";
+}
+
+ExitCode write_and_show(const RecommendFlags& flags, const Json& recommendation) {
+  if (!flags.output.empty()) write_output(flags.output, recommendation);
+  std::ostream& out = is_stream(flags.output) && !flags.output.empty() ? std::cerr : std::cout;
+  out << printable_lines(report::recommendation_text(recommendation, next_text(flags, recommendation))) << std::flush;
+  return report::all_satisfied(recommendation) ? ExitCode::ok : ExitCode::gate_failed;
+}
+
+// What the search can take, before it begins: candidates on frames.
+std::string budget_text(const run::Plan& plan, const search::View& view, const search::Request& request) {
+  const search::Halving planned = search::planned_halving(view, request);
+  std::string out = plan.scenes[view.scene].scene.name + ": " + number_of(view.candidates.size(), "candidate") + ", " +
+                    number_of(view.frames, "frame") + " of " + number_of(view.cameras.size(), "camera");
+  for (const search::Rung& rung : planned.rungs)
+    out += (&rung == planned.rungs.data() ? "; measures at most " : ", ") + std::to_string(rung.candidates) + " on " +
+           number_of(rung.frames, "frame");
+  return out + ", " + std::to_string(planned.finalists.size()) + " and what may still be better on all frames";
+}
+
+// Of answers before the stop and of the search that it ended.
+ExitCode tell_what_there_is(const config::Config& config, const report::Question& question, const Json& answers,
+                            const search::View& view, const search::Found& found) {
+  if (!answers.empty())
+    std::cerr << printable_lines(
+        report::recommendation_text(report::recommendation_to_json(config, question, answers)));
+  std::cerr << printable_lines(report::unfinished_text(view, found, question)) << std::flush;
+  return os::stopped_exit_code();
+}
+
+// The searches of a command, each with what it is about to take; no costs where nobody is told.
+struct Searches {
+  std::vector<search::View> views;
+  std::vector<search::SearchCosts> costs;
+};
+
+// The first line.
+void tell_duration(const config::Config& config, run::Plan& plan, const search::Request& request, Searches& searches) {
+  double all_s = 0.0, counting_s = 0.0;
+  std::size_t candidates = 0;
+  for (std::size_t i = 0; i < searches.views.size(); ++i) {
+    const search::View& view = searches.views[i];
+    const search::SearchCosts costs = searches.costs[i] = search::estimated_costs(config, plan, view);
+    candidates += view.candidates.size();
+    all_s += search::estimated_s(costs, view, request);
+    counting_s += search::estimated_s({costs.grid_ns, costs.candidate_ns}, view, request);
+  }
+  std::vector<std::string> shorter;
+  if (all_s - counting_s > 0.2 * all_s) shorter.push_back("--no-timing (" + duration_text(counting_s) + ")");
+  shorter.insert(shorter.end(), {"--tiles 64,128", "--slices 16", "--grid frustum", "--assigner exact-fast,aabb-fast",
+                                 "--filter TEXT"});
+  tell(wait_text(number_of(candidates, "candidate"), all_s, shorter));
+}
+
+// Behind the first line: what is left out, and what is doubtful.
+void tell_what_is_asked(const config::Config& config, const run::Plan& plan, const std::string& in_vain) {
+  if (!in_vain.empty()) tell("recommend compares costs and leaves out " + in_vain + "; run reports them");
+  tell_of_cameras(config, plan);
+}
+
+void warn_of_random_depths() {
+  tell(
+      "warning: the scene has no triangles: each pixel is shaded at a random depth, where no surface is, and surfaces "
+      "can "
+      "make another clustering the best; export the level's meshes with its lights, or take a floor: --set "
+      "samples.opaque.ground=lowest, or =Y for one at that height");
+}
+
+bool asks_for_cost(const report::Question& question) {
+  return question.objective.is_cost ||
+         std::ranges::any_of(question.constraints, [](const report::Constraint& constraint) {
+           return constraint.rule.figure.ends_with("_cost_us");
+         });
+}
+
+// All searches; the answers of those before a stop, and then the exit code of that.
+std::optional<ExitCode> search_all(const RecommendFlags& flags, const config::Config& config, run::Plan& plan,
+                                   const report::Question& question, const search::Request& request, Searches& searches,
+                                   Json& answers) {
+  const std::atomic<bool>& stop = os::stop_on_signals();
+  const run::Launcher launcher =
+      request.is_timed && config.timing.launches > 1 ? make_launcher(config, plan, nullptr, stop) : run::Launcher{};
+  ProgressLine progress(os::terminal(os::StandardStream::error), flags.quiet);
+  const search::Watch watch{[&](const run::Progress& now) { progress.show(now); }, stop,
+                            [&](const std::string& stage) { progress.stage(stage); }};
+  for (std::size_t i = 0; i < searches.views.size(); ++i) {
+    search::View& view = searches.views[i];
+    if (!flags.quiet) tell(budget_text(plan, view, request));
+    const search::Found found = search::search_view(config, plan, view, request, launcher, watch, searches.costs[i]);
+    progress.clear();
+    if (stop) return tell_what_there_is(config, question, answers, view, found);
+    answers.push_back(report::answer_to_json(config, plan, view, found, question));
+  }
+  return std::nullopt;
+}
+
+ExitCode recommend(const RecommendFlags& flags) {
+  refuse_overwriting({flags.output, flags.written}, flags.inputs.paths);
+  std::string in_vain;
+  config::Config config = read_input(flags, in_vain);
+  report::Question question{objective_of(flags, config), {}, share_of(flags.within), flags.runners_up};
+  if (config.own_pre_culls > 1)
+    throw Error(config.file.string(), "pre_cull",
+                "recommend looks for a clustering of lights that are culled in one way; found " +
+                    std::to_string(config.own_pre_culls) + " pre-culls, allowed: 1");
+  question.constraints = report::constraints_of(rules_of(flags, config));
+  const bool is_timed = check_timing(flags, question, config);
+  config.timing.measure = is_timed;
+  config.resolved["timing"]["measure"] = is_timed;
+  run::Plan plan = run::make_plan(config, flags.filter);
+  refuse_overwriting({flags.output, flags.written}, files_of(flags.inputs, config));
+  for (const std::string& output : {flags.output, flags.written})
+    if (!output.empty() && !is_stream(output)) os::OutputFile(output).probe();
+  const bool has_random_depths = asks_for_cost(question) && weigh_samples(config, plan);
+  Searches searches{search::views_of(config, plan), {}};
+  searches.costs.resize(searches.views.size());
+  if (!flags.written.empty() && searches.views.size() != 1)
+    throw Error(flags.written, "--write-config",
+                "takes one scene in one viewport; these are " + std::to_string(searches.views.size()));
+  const search::Request request{report::judge_of(question, config.resolved), is_timed, question.objective.only_grows,
+                                question.within};
+  if (!flags.quiet) tell_duration(config, plan, request, searches);
+  tell_what_is_asked(config, plan, in_vain);
+  if (has_random_depths) warn_of_random_depths();
+  Json answers = Json::array();
+  if (const auto stopped = search_all(flags, config, plan, question, request, searches, answers)) return *stopped;
+  const Json recommendation = report::recommendation_to_json(config, question, answers);
+  const ExitCode code = write_and_show(flags, recommendation);
+  if (!flags.written.empty() && code == ExitCode::ok)
+    write_output(flags.written, report::recommended_config(config, searches.views.front(), answers[0], question,
+                                                           flags.written_runners_up, flags.written));
+  return code;
+}
+
+}  // namespace
+
+void add_recommend(Command& program, Action& action) {
+  auto flags = std::make_shared<RecommendFlags>();
+  Command command = program.add_command(
+      "recommend", "Which grid, method and light structure to take for a scene, by an objective and under constraints");
+  command
+      .add_option(
+          "INPUT", flags->inputs.paths,
+          "A scene (.glb, .gltf) with a space of candidates of its own, or a configuration (.json), whose grids, "
+          "assigners and storages are the candidates")
+      .required();
+  std::vector<std::string> objectives;
+  for (const report::ObjectiveFigure& figure : report::objective_figures()) objectives.push_back(figure.name);
+  command
+      .add_option("--by", flags->objective,
+                  "What is to be least; frame_cost_us if nothing is said, gpu_cost_us without timing")
+      .one_of(objectives);
+  for (std::size_t i = 0; i < flags->most.size(); ++i) {
+    const config::LimitFigure& figure = config::limit_figures()[i];
+    if (!figure.is_choosable) continue;
+    command.add_option(flag_of(figure.name), flags->most[i], std::string("At most: ") + figure.meaning).non_negative();
+  }
+  command.add_option("--within", flags->within, "How much worse than the best a coarser grid may be").shows_standard();
+  command.add_option("--runners-up", flags->runners_up, "How many are told behind the choice")
+      .range(0, 100)
+      .shows_standard();
+  command.add_option("-o,--output", flags->output, "Write the answer as JSON to this file; -: standard output");
+  command.add_option("--write-config", flags->written, "Write a configuration of the choice alone, for `run`");
+  command
+      .add_option("--write-runners-up", flags->written_runners_up,
+                  "How many of those behind it are in that configuration, too")
+      .range(0, 100)
+      .shows_standard();
+  command
+      .add_option("--filter", flags->filter,
+                  "Only candidates whose cases' names have this in them, or match it as a regular expression")
+      .may_be_empty();
+  add_config_options(command, flags->inputs);
+  command.add_flag("--no-timing", flags->no_timing, "Nothing is timed; the answer is then the same on every machine");
+  command.add_flag("-q,--quiet", flags->quiet, "No progress; warnings stay");
+  command.when_named([flags, &action] { action = [flags] { return recommend(*flags); }; });
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,101 @@
+// `clusterbench schema config|result|comparison|ratios|recommendation|stress|worst-case|size|light-map` and
+// `clusterbench validate FILE...`.
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+
+#include "cli/command_line/commands.h"
+#include "cli/output/output.h"
+#include "config/config.h"
+#include "config/documents.h"
+#include "config/schema_verdict.h"
+#include "core/file_text.h"
+#include "core/json_document.h"
+#include "core/text.h"
+#include "result/result.h"
+#include "run/cases/sweep.h"
+
+namespace clusterbench::cli {
+namespace {
+
+ExitCode validate_written(const std::string& path, const nlohmann::json& document, const config::DocumentRow& row) {
+  config::check_version(path, document, row);
+  const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
+  for (const std::string& violation : violations) tell(path + ": " + violation);
+  if (!violations.empty()) return ExitCode::usage;
+  for (const char* part : {"case", "block", "answer", "frame", "structure", "scene"}) {
+    const std::string parts = std::string(part) + "s";
+    if (!document.contains(parts)) continue;
+    std::cout << path << ": valid, " << row.title << " with " << number_of(document[parts].size(), part) << "\n";
+    break;
+  }
+  return ExitCode::ok;
+}
+
+ExitCode validate_config(const std::string& path) {
+  const config::Config config = config::load_config(path);
+  const run::Plan plan = run::make_plan(config, "");
+  std::size_t cases = 0;
+  for (const run::GroupPlan& group : plan.groups) cases += group.cases.size();
+  std::cout << path << ": a valid configuration with " << number_of(plan.scenes.size(), "scene") << ", "
+            << number_of(cases, "case") << ", " << plan.skipped.size() << " skipped\n";
+  return ExitCode::ok;
+}
+
+ExitCode validate(const std::string& path) {
+  const nlohmann::json document = json_or_discarded<nlohmann::json>(file_text(path), JsonComments::allowed);
+  const config::DocumentRow& row = config::row_of(config::document_of(document));
+  return row.document == config::Document::config ? validate_config(path) : validate_written(path, document, row);
+}
+
+}  // namespace
+
+void add_schema(Command& program, Action& action) {
+  Command command = program.add_command("schema", "Print the JSON Schema (draft-07) of a document");
+  std::vector<std::string> names;
+  for (const config::DocumentRow& row : config::document_rows()) names.emplace_back(row.name);
+  auto name = std::make_shared<std::string>();
+  command
+      .add_option("WHICH", *name,
+                  "Of a configuration, or of what run, compare --json, ratio --json, recommend, stress, worst-case, "
+                  "size --format json or light-map write")
+      .required()
+      .one_of(names);
+  command.when_named([name, &action] {
+    action = [name] {
+      const auto rows = config::document_rows();
+      const config::DocumentRow& row = *std::ranges::find(rows, *name, &config::DocumentRow::name);
+      const bool is_result = row.document == config::Document::result;  // in the order of its fields
+      std::cout << (is_result ? result::result_schema().dump(2) : row.schema().dump(2)) << "\n";
+      return ExitCode::ok;
+    };
+  });
+}
+
+void add_validate(Command& program, Action& action) {
+  Command command =
+      program.add_command("validate", "Check configurations and what clusterbench wrote, without running anything");
+  auto paths = std::make_shared<std::vector<std::string>>();
+  command
+      .add_option("FILE", *paths,
+                  "Configurations, results, comparisons, ratios, recommendations, results of stress, worst-case and "
+                  "light-map")
+      .required();
+  command.when_named([paths, &action] {
+    action = [paths] {
+      ExitCode worst = ExitCode::ok;
+      for (const std::string& path : *paths) {
+        try {
+          if (validate(path) != ExitCode::ok) worst = ExitCode::usage;
+        } catch (const Error& error) {  // the next ones are looked at, too
+          tell(error.what());
+          worst = error.code();
+        }
+      }
+      return worst;
+    };
+  });
+}
+
+}  // namespace clusterbench::cli

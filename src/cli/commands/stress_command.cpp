@@ -1,0 +1,157 @@
+// `clusterbench stress`: every assigner on every hard case.
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "cli/command_line/commands.h"
+#include "cli/output/output.h"
+#include "cli/output/progress_line.h"
+#include "core/text.h"
+#include "os/stop_signals.h"
+#include "report/searches/stress_report.h"
+
+namespace clusterbench::cli {
+namespace {
+
+struct StressFlags {
+  std::string output, cases, methods = ".*", failures;
+  stress::StressRequest request;
+  bool quiet = false;
+};
+
+// A name for a file: "H32-naive-bounds-flaw=log-slice".
+std::string file_name(const std::string& hard_case, const std::string& method) {
+  std::string name = hard_case + "-";
+  for (const char c : method)
+    if (c == '(' || c == ',' || c == ' ')
+      name += '-';
+    else if (c != ')')
+      name += c;
+  return name;
+}
+
+const stress::StressMethod& method_of(const stress::StressResult& result, const std::string& label) {
+  for (const stress::StressMethod& method : result.methods)
+    if (method.label == label) return method;
+  throw Error("", "stress", "knows no method '" + label + "'", ExitCode::internal);
+}
+
+// Every hard case where nothing is named; none beside random settings.
+std::string cases_of(const StressFlags& flags) {
+  if (!flags.cases.empty()) return flags.cases;
+  return flags.request.random > 0 ? "none" : ".*";
+}
+
+void write_replays(const std::string& folder, const stress::StressResult& result) {
+  int written = 0;
+  const auto write = [&](const std::string& hard_case, const std::string& label,
+                         const std::optional<stress::Loss>& loss) {
+    if (!loss) return;
+    stress::write_replay(folder, file_name(hard_case, label), *loss, method_of(result, label));
+    ++written;
+  };
+  for (const stress::StressCell& cell : result.cells) write(cell.hard_case, cell.method, cell.deepest);
+  for (const stress::SearchResult& search : result.searches) write("H31", search.method, search.deepest);
+  if (result.random)
+    for (const stress::RandomFault& found : result.random->faults) {
+      stress::write_replay(folder, found.name(), found.scene, stress::methods_that_show(found.fault, result.methods));
+      ++written;
+    }
+  tell(written == 0 ? "no fault to write to " + folder
+                    : number_of(static_cast<std::uint64_t>(written), "fault") + " written to " + folder +
+                          (written == 1 ? ", a configuration" : ", each a configuration") + " for `clusterbench run`");
+}
+
+// What a search is at, in a file, for the case that it does not live to tell: removed when it has ended.
+class AtWork {
+ public:
+  explicit AtWork(const StressFlags& flags) {
+    if (flags.failures.empty() || flags.request.random == 0) return;
+    std::error_code failed;
+    std::filesystem::create_directories(flags.failures, failed);
+    path_ = std::filesystem::path(flags.failures) / "at_work.txt";
+  }
+  ~AtWork() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove(path_, ignored);
+  }
+  AtWork(const AtWork&) = delete;
+  AtWork& operator=(const AtWork&) = delete;
+
+  void write(const std::string& doing) const {
+    if (!path_.empty()) os::write_file(path_, doing + "\n");
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+ExitCode stress(const StressFlags& flags) {
+  stress::StressRequest request = flags.request;
+  request.cases = Pattern(cases_of(flags), "--cases");
+  request.methods = Pattern(flags.methods, "--methods");
+  LaterOutput output(flags.output, is_for_reading(flags.output));
+  const std::atomic<bool>& stop = os::stop_on_signals();
+  ProgressLine progress(os::terminal(os::StandardStream::error), flags.quiet);
+  const AtWork at_work(flags);
+  stress::StressListener listener;
+  listener.on_progress = [&](const std::string& doing, double done, double whole) {
+    at_work.write(doing);
+    progress.show({static_cast<std::size_t>(done), static_cast<std::size_t>(whole), done, whole, doing});
+  };
+  const stress::StressResult result = stress::run_stress(request, listener, stop);
+  progress.clear();
+  if (result.methods.empty())
+    throw Error("", "--methods", "'" + flags.methods + "' names none" + pattern_hint(flags.methods));
+  if (!result.interrupted && result.cases.empty() && result.searches.empty() &&
+      (!result.random || !flags.cases.empty()))
+    throw Error("", "--cases",
+                "'" + flags.cases + "' names none" + pattern_hint(flags.cases) + "; there are H1 to H35");
+  const bool for_reading = is_for_reading(flags.output);
+  output.write(report::stress_to_json(result, request));
+  if (!flags.quiet) report::print_stress(for_reading ? std::cout : std::cerr, result);
+  if (for_reading) tell_of_keeping();
+  if (!flags.failures.empty()) write_replays(flags.failures, result);
+  const std::vector<std::string> failures = report::stress_failures(result);
+  for (const std::string& failure : failures) tell("FAILED " + failure);
+  if (result.interrupted) {
+    tell("interrupted: what was done by then is all that is told");
+    return os::stopped_exit_code();
+  }
+  return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
+}
+
+}  // namespace
+
+void add_stress(Command& program, Action& action) {
+  auto flags = std::make_shared<StressFlags>();
+  Command command =
+      program.add_command("stress", "Every assigner on the hard cases for numerical stability, and a search for more");
+  command.add_option("-o,--output", flags->output,
+                     "JSON file; without it the JSON goes to standard output, on a terminal the table alone");
+  command.add_option("--cases", flags->cases,
+                     "Only hard cases of this name, or that match it as a regular expression (H1 .. H35)");
+  command.add_option("--methods", flags->methods,
+                     "Only methods whose name has this in it, or matches it as a regular expression");
+  command.add_option("--tries", flags->request.tries, "Tries of the search H31 per method; 0 = no search")
+      .shows_standard();
+  command
+      .add_option("--random", flags->request.random,
+                  "Check so many random settings in place of the hard cases (with --cases: beside them); setting i has "
+                  "the seed "
+                  "--seed + i")
+      .at_least(1);
+  command
+      .add_option("--seconds", flags->request.seconds,
+                  "End the search of a method, or that of random settings, after so many; 0 = by their number")
+      .non_negative()
+      .shows_standard();
+  command.add_option("--seed", flags->request.seed, "Seed of everything random").shows_standard();
+  command.add_option("--threads", flags->request.threads, "Threads; results do not depend on them").range(1, 1024);
+  command.add_option("--failures", flags->failures, "Folder for every loss or fault as a scene and a configuration");
+  command.add_flag("-q,--quiet", flags->quiet, "No progress and no table");
+  command.when_named([flags, &action] { action = [flags] { return stress(*flags); }; });
+}
+
+}  // namespace clusterbench::cli

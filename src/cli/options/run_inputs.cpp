@@ -1,0 +1,90 @@
+#include "cli/options/run_inputs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+
+#include "cli/output/output.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "run/scene_facts.h"
+#include "scene/gltf_document/exporters.h"
+#include "scene/gltf_document/gltf_files.h"
+
+namespace clusterbench::cli {
+
+void add_config_options(Command& command, RunInputs& inputs, const std::vector<std::string>& without) {
+  for (std::size_t i = 0; i < inputs.settings.size(); ++i) {
+    const config::ConfigFlag& flag = config::config_flags()[i];
+    if (std::ranges::find(without, flag.name) != without.end()) continue;
+    command.add_option(flag.name, inputs.settings[i], flag.summary).once_a_name();
+    if (std::string_view(flag.name) != "--preset") continue;
+    command.add_flag("--presets", inputs.has_all_presets, "All presets: --preset '*'");
+    command.add_flag("--as-shipped", inputs.are_as_shipped,
+                     "Presets with the known bugs of Filament, Bevy, three.js and Babylon.js, which lose lights");
+  }
+}
+
+std::vector<config::FlagValue> flag_values(const RunInputs& inputs) {
+  std::vector<config::FlagValue> all;
+  for (std::size_t i = 0; i < inputs.settings.size(); ++i) {
+    const config::ConfigFlag& flag = config::config_flags()[i];
+    const std::vector<std::string>& values = inputs.settings[i];
+    if (inputs.has_all_presets && std::string_view(flag.name) == "--preset") {
+      all.push_back({flag.name, "*"});
+      continue;
+    }
+    if (!flag.is_repeatable && !values.empty()) all.push_back({flag.name, joined(values, ",")});
+    for (const std::string& value : flag.is_repeatable ? values : std::vector<std::string>{})
+      all.push_back({flag.name, value});
+  }
+  if (inputs.are_as_shipped) all.push_back({"--set", "as_shipped=true"});
+  return all;
+}
+
+bool is_scene(const std::string& path) {
+  return scene::is_scene_file(path);
+}
+
+config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first,
+                           const nlohmann::json& standard) {
+  std::vector<config::FlagValue> flags = first;
+  const std::vector<config::FlagValue> given = flag_values(inputs);
+  flags.insert(flags.end(), given.begin(), given.end());
+  const auto scenes = static_cast<std::size_t>(std::count_if(inputs.paths.begin(), inputs.paths.end(), is_scene));
+  if (scenes == inputs.paths.size())
+    return config::default_config({inputs.paths.begin(), inputs.paths.end()}, flags, standard, inputs.preset_grid);
+  if (scenes == 0 && inputs.paths.size() == 1)
+    return config::load_config(inputs.paths.front(), flags, standard, inputs.preset_grid);
+  throw Error("", "command line",
+              "takes one configuration (.json), or one or more scenes (.glb, .gltf), not " + joined(inputs.paths));
+}
+
+std::vector<std::string> files_of_scene(const std::filesystem::path& scene) {
+  std::vector<std::string> files{scene.string()};
+  for (const std::filesystem::path& file : scene::files_named_in(scene)) files.push_back(file.string());
+  return files;
+}
+
+std::vector<std::string> files_of(const RunInputs& inputs, const config::Config& config) {
+  std::vector<std::string> files = inputs.paths;
+  for (const config::SceneRequest& scene : config.scenes)
+    if (!scene.path.empty()) std::ranges::move(files_of_scene(scene.path), std::back_inserter(files));
+  files.push_back(config.limits.baseline.string());
+  return files;
+}
+
+void tell_of_cameras(const config::Config& config, const run::Plan& plan) {
+  for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
+    const scene::Scene& scene = plan.scenes[i].scene;
+    for (const std::string& text : {run::without_field_of_view(plan.scenes[i], config.scenes[i]),
+                                    run::fewer_frames(plan.scenes[i]), run::dark_lights(plan.scenes[i])})
+      if (!text.empty()) tell("warning: " + scene.name + ": " + text);
+    const std::vector<std::string> others = scene::cameras_left_out(scene, config.scenes[i].camera);
+    if (others.empty()) continue;
+    tell("of " + scene.name + " only camera '" + plan.scenes[i].paths.front().camera + "', and not " +
+         number_of(others.size(), "other") + "; --set 'scenes.*.camera=*' takes all");
+  }
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,109 @@
+#include "cli/output/progress_line.h"
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "core/text.h"
+
+namespace clusterbench::cli {
+namespace {
+
+constexpr std::chrono::milliseconds k_redraw_every{100};
+
+std::string minutes_and_seconds(double seconds) {
+  const auto whole = static_cast<long>(std::lround(seconds));
+  char text[32];
+  std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
+  return text;
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(os::Terminal terminal, bool quiet, std::chrono::milliseconds tell_every)
+    : terminal_(terminal), quiet_(quiet), tell_every_(tell_every) {
+  if (!quiet_ && !terminal_.interactive)
+    teller_ = std::jthread([this](const std::stop_token& stop) { tell_in_silence(stop); });
+}
+
+ProgressLine::~ProgressLine() {
+  clear();
+}
+
+std::string ProgressLine::line() const {
+  const double share = last_.cost_total > 0 ? last_.cost_done / last_.cost_total : 0.0;
+  const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
+  std::string out = "[" + std::to_string(last_.cases_done) + "/" + std::to_string(last_.cases_total) + "] " +
+                    std::to_string(static_cast<int>(100.0 * share)) + " %";
+  if (share > 0.01) out += ", " + minutes_and_seconds(elapsed_s * (1.0 - share) / share) + " left";
+  return out + "  " + printable(last_.doing);
+}
+
+// In one piece, since two threads tell.
+void ProgressLine::tell_line(const std::string& line) {
+  std::cerr << line + "\n" << std::flush;
+  told_at_ = Clock::now();
+}
+
+// A step may take longer than a reader of a log waits for a sign of life.
+void ProgressLine::tell_in_silence(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (!stop.stop_requested()) {
+    changed_.wait_until(lock, stop, told_at_ + tell_every_, [] { return false; });
+    if (stop.stop_requested() || Clock::now() - told_at_ < tell_every_) continue;
+    if (has_last_)
+      tell_line(line());
+    else
+      told_at_ = Clock::now();
+  }
+}
+
+void ProgressLine::show(const run::Progress& progress) {
+  if (quiet_) return;
+  const std::scoped_lock lock(mutex_);
+  last_ = progress;
+  has_last_ = true;
+  if (!terminal_.interactive) return;
+  const auto now = Clock::now();
+  if (drawn_ && now - drawn_at_ < k_redraw_every) return;
+  drawn_at_ = now;
+  std::string text = line();
+  if (text.size() >= static_cast<std::size_t>(terminal_.columns))
+    text.resize(static_cast<std::size_t>(terminal_.columns) - 1);
+  std::cerr << "\r\033[K" << text << std::flush;
+  drawn_ = true;
+}
+
+void ProgressLine::stage(const std::string& what) {
+  if (quiet_ || terminal_.interactive) return;
+  const std::scoped_lock lock(mutex_);
+  tell_line(printable(what));
+}
+
+void ProgressLine::case_done(const run::CaseResult& done, std::size_t number, std::size_t total) {
+  if (quiet_ || terminal_.interactive) return;
+  std::string out = "[" + std::to_string(number) + "/" + std::to_string(total) + "] " + printable(done.name);
+  char figure[32];
+  if (done.error) {
+    std::snprintf(figure, sizeof figure, "%.1f", 100.0 * done.error->excess_ratio());
+    out += std::string(": excess ") + figure + " %, missed " + std::to_string(done.error->false_negatives);
+  }
+  if (done.timing) {
+    std::snprintf(figure, sizeof figure, "%.1f", done.timing->frame_ns.median / 1000.0);
+    out += std::string(", ") + figure + " us";
+  }
+  if (done.count)
+    out += ", " + std::to_string(done.count->assign.instructions / static_cast<std::uint64_t>(done.count->frames)) +
+           " instructions";
+  const std::scoped_lock lock(mutex_);
+  tell_line(out);
+}
+
+void ProgressLine::clear() {
+  const std::scoped_lock lock(mutex_);
+  has_last_ = false;
+  if (drawn_) std::cerr << "\r\033[K" << std::flush;
+  drawn_ = false;
+}
+
+}  // namespace clusterbench::cli

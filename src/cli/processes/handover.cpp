@@ -1,0 +1,56 @@
+#include "cli/processes/handover.h"
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/file_text.h"
+#include "core/json_document.h"
+
+namespace clusterbench::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* k_no_file = "-";
+
+// Where another process finds what a stream of this one is redirected from; null for all else.
+Json path_for_others(const fs::path& path) {
+  if (!is_stream_name(path)) return nullptr;
+  std::error_code failed;
+  const fs::path file = fs::canonical(path, failed);
+  return failed ? Json() : Json(file.string());
+}
+
+}  // namespace
+
+std::string file_argument(const config::Config& config) {
+  return config.file.empty() ? k_no_file : config.file.string();
+}
+
+std::string handed_over(const config::Config& config, const run::Plan& plan, std::optional<std::size_t> scene) {
+  Json scenes = Json::array();
+  for (std::size_t i = scene.value_or(0); i < (scene ? *scene + 1 : config.scenes.size()); ++i)
+    scenes.push_back({{"scene_index", i},
+                      {"path", path_for_others(config.scenes[i].path)},
+                      {"sha256", plan.scenes[i].contents_sha256()}});
+  return Json{{"config", config.resolved}, {"scenes", scenes}}.dump();
+}
+
+ReceivedRun received_run(const std::string& line, const std::string& file) {
+  const Json given = read_json<Json>(line, file);
+  ReceivedRun run{config::parse_config(given["config"].dump(), file == k_no_file ? "" : file), {}};
+  std::vector<config::SceneRequest> scenes;
+  for (const Json& scene : given["scenes"]) {
+    scenes.push_back(run.config.scenes.at(scene["scene_index"].get<std::size_t>()));
+    if (scene["path"].is_string()) scenes.back().path = scene["path"].get<std::string>();
+  }
+  run.config.scenes = std::move(scenes);
+  run.plan = run::make_plan(run.config, "");
+  for (std::size_t i = 0; i < run.plan.scenes.size(); ++i)
+    if (run.plan.scenes[i].contents_sha256() != given["scenes"][i]["sha256"])
+      throw Error(run.config.scenes[i].path.string(), "", "has changed since the run began; run again");
+  return run;
+}
+
+}  // namespace clusterbench::cli

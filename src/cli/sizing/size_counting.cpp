@@ -1,0 +1,278 @@
+#include "cli/sizing/size_counting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/output/duration.h"
+#include "cli/output/output.h"
+#include "cli/output/progress_line.h"
+#include "core/file_text.h"
+#include "core/json_document.h"
+#include "core/text.h"
+#include "os/stop_signals.h"
+#include "report/cases/columns.h"
+#include "report/results/result_record.h"
+#include "run/cases/path_frames.h"
+#include "run/estimate.h"
+#include "run/findings/reaction_meter.h"
+#include "run/runner.h"
+
+namespace clusterbench::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double k_least_rate_hz = 30.0, k_most_rate_hz = 240.0;
+constexpr int k_frames_looked_at = 3, k_least_frames = 30;
+// What counting may take if nothing else is said, by the model of frame_work_ns().
+constexpr double k_most_work_ns = 60e9;
+
+// A flag of the command line that chooses frames: --set scenes.*.frames=120.
+bool asks_for_frames(const config::FlagValue& flag) {
+  const std::string key = flag.value.substr(0, flag.value.find('='));
+  return flag.name == "--set" && key.find("scenes") != std::string::npos && key.find("frames") != std::string::npos;
+}
+
+// Of each scene of the configuration, whether frames are asked for. Scenes on the command line ask for none.
+std::vector<bool> asked_for(const RunInputs& inputs, std::size_t scenes) {
+  const bool is_flagged = std::ranges::any_of(flag_values(inputs), asks_for_frames);
+  std::vector<bool> asked(scenes, is_flagged);
+  if (is_scene(inputs.paths.front()) || is_flagged) return asked;
+  const Json file = json_or_discarded<Json>(file_text(inputs.paths.front()), JsonComments::allowed);
+  const bool is_list = file.is_object() && file.contains("scenes") && file["scenes"].is_array();
+  // Scenes that come of axes are not those of the file.
+  if (!is_list || file["scenes"].size() != scenes) return std::vector<bool>(scenes, true);
+  for (std::size_t i = 0; i < scenes; ++i)
+    asked[i] = file["scenes"][i].is_object() && file["scenes"][i].contains("frames");
+  return asked;
+}
+
+config::FlagValue setting(std::size_t scene, const std::string& key, const std::string& value) {
+  return {"--set", "scenes." + std::to_string(scene) + "." + key + "=" + value};
+}
+
+// One allocation serves all cameras; where a scene names none, all are meant.
+std::vector<config::FlagValue> all_cameras(const RunInputs& inputs) {
+  const config::Config given = read_inputs(inputs);
+  std::vector<config::FlagValue> flags;
+  const nlohmann::json& scenes = given.resolved["scenes"];
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    if (scenes[i].is_object() && scenes[i].value("camera", "").empty()) flags.push_back(setting(i, "camera", "*"));
+  return flags;
+}
+
+// Of scenes that come with no word of methods: those with exact lists, one for each kind of grid. Others have longer
+// lists, and would not be printed.
+constexpr const char* k_exact_methods = "exact-fast,distance-fast,cascades-fast,world-grid-fast";
+
+bool takes_exact_methods(const RunInputs& inputs, const std::string& filter, bool all_methods) {
+  const std::vector<config::FlagValue> flags = flag_values(inputs);
+  const bool has_presets = std::ranges::any_of(flags, [](const auto& flag) { return flag.name == "--preset"; });
+  const bool names_methods = has_presets || config::names_key(flags, "(assigners|storages|presets)") ||
+                             std::ranges::any_of(flags, [](const auto& flag) { return flag.name == "--assigner"; });
+  return is_scene(inputs.paths.front()) && filter.empty() && !all_methods && !names_methods;
+}
+
+// Nothing that only times or pictures need; lists are not compared with the truth.
+config::Config counting_only(config::Config config) {
+  config.timing.measure = false;
+  config.check_accuracy = false;
+  config.stability.reset();
+  config.lookup.reset();
+  config.details.reset();
+  config.resolved["timing"]["measure"] = false;
+  config.resolved["accuracy"]["check"] = false;
+  for (const char* key : {"stability", "lookup", "details"}) config.resolved[key] = nullptr;
+  config.shadow_culls.clear();
+  config.shared_frusta.reset();
+  for (const char* key : {"shadow_cull", "shadow_frusta"}) config.resolved.erase(key);
+  return config;
+}
+
+// Samples say whether a structure loses lights. Many frames have as many together as 30 frames would.
+void share_samples(config::Config& config, const run::Plan& plan) {
+  constexpr int k_fewest = 32;
+  std::size_t frames = 1;
+  for (const run::SceneData& data : plan.scenes)
+    for (const scene::CameraPath& path : data.paths) frames = std::max(frames, path.shots.size());
+  const double share = std::min(1.0, static_cast<double>(k_least_frames) / static_cast<double>(frames));
+  for (config::SampleSetRequest& set : config.sample_sets)
+    set.count = std::min(set.count, std::max(k_fewest, static_cast<int>(share * set.count)));
+}
+
+run::Result counts_of(const config::Config& config, const run::Plan& plan, bool quiet,
+                      std::span<const run::GroupCost> costs = {}) {
+  ProgressLine progress(os::terminal(os::StandardStream::error), quiet);
+  run::Listener listener;
+  listener.on_progress = [&](const run::Progress& now) { progress.show(now); };
+  return run::run_plan(config, plan, {}, listener, os::stop_on_signals(), {}, {}, costs);
+}
+
+// About what a frame of a case takes a core of 2020 to count: a model of what was counted, so that it is the same
+// everywhere.
+double frame_work_ns(const run::CaseResult& counted) {
+  constexpr double k_ns_per_frame = 1.2e5, k_ns_per_cell = 9.0, k_ns_per_entry = 1.8, k_ns_per_test = 1.2;
+  double cells = 1.0;
+  for (const auto& axis : counted.grid["cells"]) cells *= axis.get<double>();
+  const double frames = std::max(1, counted.frames);
+  return k_ns_per_frame + k_ns_per_cell * cells +
+         k_ns_per_entry * static_cast<double>(counted.buffers.index_entries.high_water) +
+         k_ns_per_test * static_cast<double>(counted.tests_done) / frames;
+}
+
+// How often a path of the scene is looked at each second: often enough for each of its keys.
+double rate_of(const scene::Scene& scene, const scene::PathRequest& request) {
+  scene::PathRequest keys = request;
+  keys.choice = scene::FrameChoice::keys;
+  double rate = k_least_rate_hz;
+  for (const scene::Camera& camera : scene.cameras) {
+    const std::vector<double> times = scene::camera_moments(scene, camera, keys).times_s;
+    if (times.size() < 2) continue;
+    rate = std::max(rate, static_cast<double>(times.size() - 1) / (times.back() - times.front()));
+  }
+  return std::min(k_most_rate_hz, std::ceil(rate - 1e-6));
+}
+
+double frames_at(double rate_hz, const scene::CameraPath& path) {
+  return path.shots.size() < 2 ? 1.0
+                               : std::floor((path.shots.back().time_s - path.shots.front().time_s) * rate_hz) + 1.0;
+}
+
+// What all frames of a scene take at a rate, by what a few of them take.
+double work_at(double rate_hz, const run::SceneData& data, const run::Result& few) {
+  double work = 0.0;
+  for (const run::CaseResult& counted : few.cases) {
+    const auto path = std::ranges::find(data.paths, counted.camera, &scene::CameraPath::camera);
+    if (counted.scene != data.scene.name || path == data.paths.end()) continue;
+    const double frames = path->made ? static_cast<double>(path->shots.size()) : frames_at(rate_hz, *path);
+    work += frames * frame_work_ns(counted);
+  }
+  return work;
+}
+
+struct Sampling {
+  std::vector<config::FlagValue> flags;
+  bool is_coarser = false;  // than a path has keys, or 30 a second
+};
+
+// Rates for the scenes that ask for none.
+Sampling sampling_of(const RunInputs& inputs, std::vector<config::FlagValue> flags, const std::vector<bool>& asked,
+                     const std::string& filter) {
+  Sampling out;
+  std::vector<config::FlagValue> look = flags;
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    if (!asked[i]) look.push_back(setting(i, "frames", std::to_string(k_frames_looked_at)));
+  config::Config config = counting_only(read_inputs(inputs, look));
+  config.sample_sets.clear();
+  const run::Plan plan = run::make_plan(config, filter);
+  const run::Result few = counts_of(config, plan, true);
+  out.flags = std::move(flags);
+  double all = 0.0;
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    if (!asked[i]) all += work_at(rate_of(plan.scenes[i].scene, config.scenes[i].camera), plan.scenes[i], few);
+  const double share = std::min(1.0, k_most_work_ns / std::max(1.0, all));
+  out.is_coarser = share < 1.0;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (asked[i]) continue;
+    double rate = rate_of(plan.scenes[i].scene, config.scenes[i].camera) * share;
+    for (const scene::CameraPath& path : plan.scenes[i].paths)
+      if (frames_at(1e9, path) > k_least_frames)
+        rate = std::max(rate, (k_least_frames - 1) / (path.shots.back().time_s - path.shots.front().time_s));
+    out.flags.push_back(setting(i, "frames", R"({"rate":)" + report::text("%.6g", rate) + "}"));
+  }
+  return out;
+}
+
+bool grows_for_lists(const grid::GridSpec& spec) {
+  return spec.reaction && spec.reaction->to == grid::Reaction::To::entries;
+}
+
+// Without limits on the number of lights, and with tiles that do not grow where lists have no room. What a storage
+// drops changes no buffer's need, and tiles that follow the lights in view (mask-words) are the engine's grid itself.
+config::Config without_engine_limits(config::Config config) {
+  for (cull::PreCullSpec& spec : config.pre_culls)
+    std::erase_if(spec.steps, [](const cull::Step& step) { return std::holds_alternative<cull::MostStep>(step); });
+  for (grid::GridSpec& spec : config.grids)
+    if (grows_for_lists(spec)) spec = spec.unreacting();
+  return config;
+}
+
+// Of each case of the plan whose tiles grow in `limited`, the configuration as it was: what they come to.
+std::vector<report::GrownTiles> grown_tiles(const config::Config& limited, const run::Plan& plan) {
+  std::vector<report::GrownTiles> out;
+  for (const run::GroupPlan& group : plan.groups) {
+    const grid::GridSpec& spec = limited.grids[group.grid];
+    if (!grows_for_lists(spec)) continue;
+    const run::TileMoves moves = run::tile_moves(spec, run::path_of(limited, plan, group));
+    for (const run::CasePlan& case_plan : group.cases)
+      out.push_back({case_plan.name,
+                     spec.reaction->most,
+                     static_cast<std::uint64_t>(moves.frames),
+                     static_cast<std::uint64_t>(moves.reacted),
+                     static_cast<std::uint64_t>(moves.over),
+                     static_cast<std::uint64_t>(moves.amount.greatest),
+                     {moves.asked.x, moves.asked.y},
+                     {moves.fewest.x, moves.fewest.y}});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string& filter, bool all_methods,
+                                      const std::string& engine) {
+  std::vector<config::FlagValue> flags = all_cameras(inputs);
+  const bool exact_methods = takes_exact_methods(inputs, filter, all_methods);
+  if (exact_methods) flags.push_back({"--assigner", k_exact_methods});
+  const std::vector<bool> asked = asked_for(inputs, read_inputs(inputs, flags).scenes.size());
+  const std::atomic<bool>& stop = os::stop_on_signals();
+  const bool samples = std::ranges::find(asked, false) != asked.end();
+  Sampling sampling{std::move(flags), false};
+  if (samples) sampling = sampling_of(inputs, std::move(sampling.flags), asked, filter);
+  if (stop) return {};
+  SizePlan out{counting_only(read_inputs(inputs, sampling.flags)), {}, {}, {}, sampling.is_coarser, exact_methods};
+  if (!engine.empty()) {
+    out.limited = out.config;
+    out.config = without_engine_limits(std::move(out.config));
+  }
+  out.plan = run::make_plan(out.config, filter);
+  if (samples) share_samples(out.config, out.plan);
+  return out;
+}
+
+void tell_of_size(SizePlan& plan, const std::string& then) {
+  plan.costs = run::estimated_costs(plan.config, plan.plan);
+  std::size_t frames = 0, paths = 0;
+  for (const run::SceneData& data : plan.plan.scenes)
+    for (const scene::CameraPath& path : data.paths) frames += path.shots.size(), ++paths;
+  const std::string how = plan.plan.scenes.front().paths.front().how;
+  std::string line = "counts " + number_of(frames, "frame") + " of " + number_of(paths, "camera path");
+  if (!how.empty()) line += " (" + (paths > 1 ? "the first: " : std::string()) + how + ")";
+  line = wait_text(line, run::sum_s(plan.costs),
+                   {"--set 'scenes.*.frames=30'", "--grid KIND --tiles N --slices N", "--assigner NAME"});
+  line += then + "; --set 'scenes.*.frames=N' takes N of each path";
+  if (plan.is_coarser)
+    line +=
+        ". Fewer frames than the paths have, for want of time: --grid KIND --tiles N --slices N, one structure, has "
+        "more";
+  tell(line);
+  if (plan.has_exact_methods)
+    tell("of exact lists, the shortest that there are; --assigner NAME counts those of your method");
+}
+
+std::optional<SizeCounts> counted_for_size(SizePlan plan, bool quiet) {
+  const run::Result result = counts_of(plan.config, plan.plan, quiet, plan.costs);
+  if (os::stop_on_signals()) return {};
+  for (const run::SceneResult& scene : result.scenes)
+    for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
+  if (result.cases.empty())
+    for (const run::Skipped& skipped : result.skipped) tell("skipped " + skipped.name + ": " + skipped.reason);
+  SizeCounts out{std::move(plan.config), std::move(plan.plan), report::record_of(result, {}), {}};
+  out.result.conclusions.emplace();  // nothing was compared, so nothing is taken
+  if (plan.limited) out.grown = grown_tiles(*plan.limited, out.plan);
+  return out;
+}
+
+}  // namespace clusterbench::cli

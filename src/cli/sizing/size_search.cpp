@@ -1,0 +1,186 @@
+#include "cli/sizing/size_search.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "cli/output/duration.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "os/stop_signals.h"
+#include "search/shared_grid.h"
+#include "search/worst_case.h"
+
+namespace clusterbench::cli {
+namespace {
+
+const run::CasePlan* case_named(const run::Plan& plan, const std::string& name) {
+  for (const run::GroupPlan& group : plan.groups)
+    for (const run::CasePlan& case_plan : group.cases)
+      if (case_plan.name == name) return &case_plan;
+  return nullptr;
+}
+
+// "" if frames elsewhere can be measured.
+std::string why_not(const config::Config& config, const run::CasePlan& case_plan) {
+  const assign::AssignerDescriptor& method = *assign::find_assigner(config.assigners[case_plan.assigner].name);
+  const std::optional<grid::Fit>& fit = config.grids[case_plan.grid].slices.fit;
+  const bool needs_surfaces = method.needs.depth || method.at_surfaces || (fit && fit->needs_surfaces());
+  return needs_surfaces ? "its lists follow visible surfaces, which a search does not have" : "";
+}
+
+search::Measure measure_named(const std::string& name) {
+  return std::ranges::find(search::measure_rows(), name, [](const auto& row) { return std::string(row.name); })
+      ->measure;
+}
+
+report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& sized,
+                            const search::WorstCaseRequest& request, const search::WorstCaseListener& listener,
+                            const std::atomic<bool>& stop) {
+  report::FoundFrame out;
+  out.case_name = sized.name;
+  out.measure = search::row_of(request.measure).name;
+  const run::CasePlan* case_plan = case_named(counts.plan, sized.name);
+  if (case_plan == nullptr) return out.refusal = "it is not in the plan", out;
+  out.refusal = why_not(counts.config, *case_plan);
+  if (!out.refusal.empty()) return out;
+  config::Config config = counts.config;
+  search::fix_grid(config, counts.plan, *case_plan);
+  try {
+    const search::WorstCase found = search::find_worst_case(config, counts.plan, *case_plan, request, listener, stop);
+    if (found.frames.empty())
+      return out.refusal = "its seconds were over before its first frame; allow more (--seconds)", out;
+    out.value = static_cast<std::uint64_t>(found.frames.front().value);
+    out.evaluations = found.evaluations;
+    out.seed = request.seed;
+    out.lights = found.own_lights + request.extra_ranges_m.size();
+    out.space_flags = search::space_flags(request);
+    const search::FrameChoice& worst = found.frames.front().choice;
+    const Vec3d direction = search::direction_of(worst.rotation);
+    out.lights_in_view = found.lights_in_view;
+    out.dark_in_view = found.dark_in_view;
+    out.eye_m = {worst.eye.x, worst.eye.y, worst.eye.z};
+    out.direction = {direction.x, direction.y, direction.z};
+    for (const assign::BufferNeed& need : found.buffers)
+      out.needs.push_back({need.name, need.elements, need.most, need.element_bytes});
+  } catch (const Error& error) {
+    if (error.where().starts_with("--")) throw;  // a flag that is wrong for all
+    out.refusal = error.what();
+  }
+  return out;
+}
+
+// One case of each camera of each structure that may be printed: of all, or one of each grid. With several viewports
+// for one allocation of the first.
+std::vector<const run::CasePlan*> cases_to_search(const SizePlan& plan, const report::SizeRequest& request) {
+  std::vector<const run::CasePlan*> out;
+  for (const run::GroupPlan& group : plan.plan.groups) {
+    if (group.viewport != 0 && request.scope.over_viewports) continue;
+    const std::string& camera = plan.plan.scenes[group.scene].paths[group.camera].camera;
+    if (!request.scope.grid_of.empty() && camera != request.scope.grid_of) continue;
+    std::string preset = "none yet";
+    for (const run::CasePlan& case_plan : group.cases) {
+      if (request.all || case_plan.preset != preset) out.push_back(&case_plan);
+      preset = case_plan.preset;
+    }
+  }
+  return out;
+}
+
+// The time that all searches together have left.
+class SharedSeconds {
+ public:
+  explicit SharedSeconds(double seconds) : seconds_(seconds) {}
+  // For the next of so many; 0: as long as they like.
+  double share(std::size_t searches) const {
+    if (seconds_ == 0.0) return 0.0;
+    const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    return std::max(1e-3, (seconds_ - passed) / static_cast<double>(searches));
+  }
+
+ private:
+  double seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+std::string told_of_search(const SizePlan& plan, const report::SizeRequest& request, const SearchFlags& flags) {
+  constexpr double k_most_looking_s = 2.0;
+  search::WorstCaseRequest asked = search_request(flags, plan.config);
+  asked.random = 0;
+  const SharedSeconds looking(k_most_looking_s);
+  std::size_t searches = 0, looked_at = 0;
+  double looked_at_s = 0.0;
+  for (const run::CasePlan* case_plan : cases_to_search(plan, request)) {
+    if (!why_not(plan.config, *case_plan).empty()) continue;
+    for (const std::string& measure :
+         report::sized_measures(run::storage_label(plan.config, *case_plan), request.engine)) {
+      ++searches;
+      if (looking.share(1) < 0.1) continue;
+      asked.measure = measure_named(measure);
+      config::Config config = plan.config;
+      search::fix_grid(config, plan.plan, *case_plan);
+      try {
+        looked_at_s += search::estimated_search_s(config, plan.plan, *case_plan, asked);
+        ++looked_at;
+      } catch (const Error& error) {
+        if (error.where().starts_with("--")) throw;
+        --searches;
+      }
+    }
+  }
+  if (searches == 0) return "";
+  double all_s = looked_at_s / static_cast<double>(looked_at) * static_cast<double>(searches);
+  if (asked.seconds > 0.0) all_s = std::min(all_s, asked.seconds);
+  const std::string frames = number_of(static_cast<std::uint64_t>(asked.evaluations), "frame");
+  return ", then searches " + frames + " for worse ones" +
+         (searches > 1 ? ", " + std::to_string(searches) + " times" : std::string()) + ", " + duration_text(all_s) +
+         "; --evaluations N searches fewer, --seconds N ends all searches after N seconds";
+}
+
+std::optional<std::vector<report::FoundFrame>> search_sized(const SizeCounts& counts,
+                                                            const std::vector<report::SizedCase>& cases,
+                                                            const SearchFlags& flags, bool quiet) {
+  search::WorstCaseRequest request = search_request(flags, counts.config);
+  request.random = 0;
+  const SharedSeconds seconds(request.seconds);
+  const std::atomic<bool>& stop = os::stop_on_signals();
+  ProgressLine progress(os::terminal(os::StandardStream::error), quiet);
+  std::vector<report::FoundFrame> out;
+  std::size_t searches = 0;
+  for (const report::SizedCase& sized : cases) searches += sized.measures.size();
+  for (const report::SizedCase& sized : cases)
+    for (const std::string& measure : sized.measures) {
+      request.measure = measure_named(measure);
+      request.seconds = seconds.share(searches - out.size());
+      out.push_back(found_in(counts, sized, request, search_listener(progress, out.size(), searches), stop));
+      if (stop) return {};
+    }
+  return out;
+}
+
+std::optional<std::vector<report::GuestSamples>> samples_of_guests(const SizeCounts& counts,
+                                                                   const std::vector<report::SizedCase>& cases,
+                                                                   bool quiet) {
+  constexpr int k_samples = 1024;  // of a frame
+  const std::atomic<bool>& stop = os::stop_on_signals();
+  ProgressLine progress(os::terminal(os::StandardStream::error), quiet);
+  std::vector<report::GuestSamples> out;
+  for (const report::SizedCase& sized : cases) {
+    const run::CasePlan* case_plan = case_named(counts.plan, sized.grid_case);
+    if (case_plan == nullptr) continue;
+    const std::vector<scene::CameraPath>& paths = counts.plan.scenes[case_plan->scene].paths;
+    for (std::size_t camera = 0; camera < paths.size(); ++camera) {
+      if (std::ranges::find(sized.guests, paths[camera].camera) == sized.guests.end()) continue;
+      progress.stage("samples of " + paths[camera].camera + " in the grid of " + paths[case_plan->camera].camera);
+      const measure::ShadingCounts found =
+          search::samples_in_grid_of(counts.config, counts.plan, *case_plan, camera, k_samples, stop);
+      if (stop) return {};
+      out.push_back({sized.grid_case, paths[camera].camera, found.samples, found.unanswered, found.needed, found.missed,
+                     found.missed_outside, found.worst ? found.worst->frame : 0});
+    }
+  }
+  return out;
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,29 @@
+#include "run/timing/cache_sweep.h"
+
+#include <algorithm>
+
+#include "os/machine.h"
+
+namespace clusterbench::run {
+
+std::uint64_t sweep_bytes() {
+  constexpr std::uint64_t k_unknown = 64 << 20, k_most = 1 << 30;
+  std::uint64_t all = 0;
+  for (const auto& [name, bytes] : os::caches_now()) all += bytes;
+  return all == 0 ? k_unknown : std::min(all + all / 4, k_most);
+}
+
+void CacheSweep::operator()() {
+  constexpr std::size_t k_line = 64;  // a plain store to each: memset() may write past the caches
+  ++value_;
+  for (std::size_t at = 0; at < buffer_.size(); at += k_line) buffer_[at] = value_;
+  asm volatile("" : : "r"(buffer_.data()) : "memory");  // what nobody reads would not be written
+}
+
+int cold_rounds(int rounds, std::size_t frames, std::uint64_t bytes) {
+  constexpr double k_bytes_per_s = 2e10, k_most_s = 0.1;
+  const double per_round_s = static_cast<double>(frames) * static_cast<double>(bytes) / k_bytes_per_s;
+  return std::clamp(static_cast<int>(std::min(k_most_s / per_round_s, 1e6)), 1, std::max(rounds, 1));
+}
+
+}  // namespace clusterbench::run

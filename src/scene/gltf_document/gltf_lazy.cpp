@@ -1,0 +1,198 @@
+#include "scene/gltf_document/gltf_lazy.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/json_document.h"
+
+namespace clusterbench::scene {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t k_window_bytes = std::size_t{1} << 20;
+constexpr const char* k_blank = " \t\r\n";
+
+// Members and elements of JSON text by their positions, without judging what is inside of them.
+class Walker {
+ public:
+  explicit Walker(std::string_view text) : text_(text) {}
+
+  std::size_t skip_blank(std::size_t at) const { return std::min(text_.find_first_not_of(k_blank, at), text_.size()); }
+  bool is(std::size_t at, char c) const { return at < text_.size() && text_[at] == c; }
+
+  // Behind the value that begins here; npos where it has no end.
+  std::size_t behind(std::size_t at) const {
+    if (at >= text_.size()) return std::string_view::npos;
+    if (text_[at] == '"') return behind_string(at);
+    if (text_[at] != '{' && text_[at] != '[') return std::min(text_.find_first_of(",]} \t\r\n", at), text_.size());
+    for (std::size_t depth = 0; at < text_.size(); ++at) {
+      const char c = text_[at];
+      if (c == '"') {
+        at = behind_string(at);
+        if (at == std::string_view::npos) return at;
+        --at;
+      } else if (c == '{' || c == '[') {
+        ++depth;
+      } else if ((c == '}' || c == ']') && --depth == 0) {
+        return at + 1;
+      }
+    }
+    return std::string_view::npos;
+  }
+
+  // Calls `use(key, begin, end)` for each member of the object at `at`; false where it is broken. A key with an escape
+  // is none that is looked for by its letters.
+  template <class Use>
+  bool members(std::size_t at, Use&& use) const {
+    if (!is(at, '{')) return false;
+    at = skip_blank(at + 1);
+    if (is(at, '}')) return true;
+    for (;; at = skip_blank(at + 1)) {
+      if (!is(at, '"')) return false;
+      const std::size_t key_end = behind_string(at);
+      if (key_end == std::string_view::npos) return false;
+      const std::string_view key = text_.substr(at + 1, key_end - at - 2);
+      if (key.find('\\') != std::string_view::npos) return false;
+      at = skip_blank(key_end);
+      if (!is(at, ':')) return false;
+      const std::size_t begin = skip_blank(at + 1), end = behind(begin);
+      if (end == std::string_view::npos || end == begin || !use(key, begin, end)) return false;
+      at = skip_blank(end);
+      if (is(at, '}')) return true;
+      if (!is(at, ',')) return false;
+    }
+  }
+
+  // Likewise `use(begin, end)` for each element of the array at `at`.
+  template <class Use>
+  bool elements(std::size_t at, Use&& use) const {
+    if (!is(at, '[')) return false;
+    at = skip_blank(at + 1);
+    if (is(at, ']')) return true;
+    for (;; at = skip_blank(at + 1)) {
+      const std::size_t end = behind(at);
+      if (end == std::string_view::npos || end == at || !use(at, end)) return false;
+      at = skip_blank(end);
+      if (is(at, ']')) return true;
+      if (!is(at, ',')) return false;
+    }
+  }
+
+ private:
+  std::size_t behind_string(std::size_t at) const {
+    for (++at; at < text_.size(); ++at) {
+      if (text_[at] == '\\')
+        ++at;
+      else if (text_[at] == '"')
+        return at + 1;
+    }
+    return std::string_view::npos;
+  }
+
+  std::string_view text_;
+};
+
+// Finds the long arrays, element by element.
+class LazyReader {
+ public:
+  LazyReader(std::string_view text, std::uint64_t offset) : text_(text), offset_(offset), walker_(text) {}
+
+  bool look() {
+    const std::size_t begin = walker_.skip_blank(0);
+    return walker_.members(begin, [&](std::string_view key, std::size_t at, std::size_t end) {
+      if (key == "nodes") return take(nodes_, at, end);
+      return key != "extensions" || look_for_lights(at);
+    });
+  }
+
+  // The text without what was taken.
+  std::string rest() {
+    std::sort(cuts_.begin(), cuts_.end());
+    std::string rest;
+    std::size_t kept = 0;
+    for (const auto& [begin, end] : cuts_) {
+      rest += text_.substr(kept, begin - kept);
+      kept = end;
+    }
+    return rest + std::string(text_.substr(kept));
+  }
+
+  LazyArrays arrays(const std::string& file, const TextSource& source) {
+    nodes_.shrink_to_fit();
+    lights_.shrink_to_fit();
+    // A window each: a node and its light are read in turn.
+    return {LazyArray(std::move(nodes_), file, std::make_shared<TextSource>(source)),
+            LazyArray(std::move(lights_), file, std::make_shared<TextSource>(source))};
+  }
+
+ private:
+  bool look_for_lights(std::size_t extensions) {
+    if (!walker_.is(extensions, '{')) return true;
+    return walker_.members(extensions, [&](std::string_view key, std::size_t punctual, std::size_t) {
+      if (key != "KHR_lights_punctual" || !walker_.is(punctual, '{')) return true;
+      return walker_.members(punctual, [&](std::string_view member, std::size_t at, std::size_t end) {
+        return member != "lights" || take(lights_, at, end);
+      });
+    });
+  }
+
+  // A key that is there twice is left to the parser.
+  bool take(std::vector<LazyArray::Range>& array, std::size_t begin, std::size_t end) {
+    if (!walker_.is(begin, '[')) return true;
+    if (!array.empty()) return false;
+    cuts_.emplace_back(begin + 1, end - 1);
+    return walker_.elements(begin, [&](std::size_t at, std::size_t behind) {
+      constexpr std::size_t k_longest = std::size_t{1} << 24, k_farthest = std::size_t{1} << 40;
+      const std::string_view element = text_.substr(at, behind - at);
+      if (element.size() >= k_longest || offset_ + at >= k_farthest) return false;
+      if (json_excess(element, JsonComments::refused) || !json::accept(element)) return false;
+      array.push_back({offset_ + at, element.size()});
+      return true;
+    });
+  }
+
+  std::string_view text_;
+  std::uint64_t offset_;
+  Walker walker_;
+  std::vector<LazyArray::Range> nodes_, lights_;
+  std::vector<std::pair<std::size_t, std::size_t>> cuts_;
+};
+
+}  // namespace
+
+std::string_view TextSource::at(std::uint64_t begin, std::size_t size) {
+  if (file_.empty()) return begin < memory_.size() ? memory_.substr(begin, size) : std::string_view();
+  if (begin < window_begin_ || begin + size > window_begin_ + window_.size()) {
+    window_.resize(std::max(size, k_window_bytes));
+    std::ifstream in(file_, std::ios::binary);
+    in.seekg(static_cast<std::streamoff>(begin));
+    in.read(window_.data(), static_cast<std::streamsize>(window_.size()));
+    window_.resize(static_cast<std::size_t>(in.gcount()));
+    window_begin_ = begin;
+  }
+  return std::string_view(window_).substr(begin - window_begin_, size);
+}
+
+json LazyArray::element(std::size_t index) const {
+  const Range range = elements_[index];
+  json value;
+  if (parse_json(source_->at(range.begin, range.size), value))
+    throw Error(file_, "byte " + std::to_string(range.begin), "has changed while it was read");
+  return value;
+}
+
+const LazyArray* LazyArrays::at(const std::string& pointer) const {
+  if (nodes.size() > 0 && pointer == k_lazy_nodes) return &nodes;
+  return lights.size() > 0 && pointer == k_lazy_lights ? &lights : nullptr;
+}
+
+std::optional<std::string> without_long_arrays(std::string_view text, std::uint64_t offset, const std::string& file,
+                                               const TextSource& source, LazyArrays& out) {
+  LazyReader reader(text, offset);
+  if (!reader.look()) return std::nullopt;
+  out = reader.arrays(file, source);
+  return reader.rest();
+}
+
+}  // namespace clusterbench::scene
