@@ -23,7 +23,7 @@ struct Separation {
   Real gap;
 };
 
-// Calls take(start, end) for the twelve edges.
+// Calls visit(start, end) for the twelve edges.
 template <class Real, class Visit>
 void each_edge(const std::array<Point3<Real>, 8>& corners, Visit&& visit) {
   for (unsigned corner = 0; corner < 8; ++corner)
