@@ -17,7 +17,7 @@ namespace clusterbench::assign::HWY_NAMESPACE {
 // The outward normal (any length) of a plane that touches spots in a point of their surface. At a point of the rim: the
 // plane that contains the direction `edge`, between the tangent planes of the sphere and of the cone's side. At the
 // apex, and where both tangent planes contain the edge: `fallback`.
-HWY_INLINE Point touching_plane(const SpotShapes& spots, const Point& point, const Point& edge, const Point& given) {
+HWY_INLINE Point touching_plane(const SpotShapes& spots, const Point& point, const Point& edge, const Point& fallback) {
   const Cone& cone = spots.cone;
   const Point v = point - cone.apex;
   const V square = dot(v, v), range_square = square_of(cone.range), along = dot(v, cone.axis);
@@ -32,7 +32,7 @@ HWY_INLINE Point touching_plane(const SpotShapes& spots, const Point& point, con
   const M is_held = square_of(sum) < all(0x1p-20f) * (range_square * dot(edge, edge));
   const M at_apex = square < square_of(spots.slack);
   const Point between = of_sphere * v + of_side * side;
-  return chosen(Or(at_apex, And(on_rim, is_held)), given, chosen(on_rim, between, chosen(on_sphere, v, side)));
+  return chosen(Or(at_apex, And(on_rim, is_held)), fallback, chosen(on_rim, between, chosen(on_sphere, v, side)));
 }
 
 // The region whose slope x / w is beyond a boundary to one side (1 or -1), between two slice planes and two tile
