@@ -76,8 +76,8 @@ class PixelTest {
         center_(light.of.ball.center),
         square_(light.of.ball.radius * light.of.ball.radius) {}
 
-  // The depth at which the pixel's ray leaves the ball; less than the near plane's depth if the ray meets no part of the
-  // ball beyond the near plane.
+  // The depth at which the pixel's ray leaves the ball; less than the near plane's depth if the ray meets no part of
+  // the ball beyond the near plane.
   float far_side(float x, float y) const {
     const float missed = -std::numeric_limits<float>::infinity();
     if (picture_.orthographic) {
