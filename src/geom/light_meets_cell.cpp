@@ -32,7 +32,7 @@ Verdict proven(const BallVolume& ball, const Cell& cell) {
 Verdict proven(const SpotVolume& light, const Cell& cell) {
   const SpotDecider spot(light);
   const Verdict verdict = spot.meets_quickly(cell);
-  return verdict == Verdict::uncertain ? spot.meets_after_all(cell) : verdict;
+  return verdict == Verdict::uncertain ? spot.meets_by_proof(cell) : verdict;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// Do a light's volume and a cell share a point? Touching counts. The one question that geom answers; its README.md says
-// in which steps.
+// Do a light's volume and a cell share a point? Touching counts. This is the one result that geom computes; README.md
+// lists the steps.
 
 #include "geom/shapes/cell.h"
 #include "geom/shapes/light_volume.h"
@@ -11,7 +11,7 @@ namespace clusterbench::geom {
 // Balls and boxes: exact, never uncertain. Spots: proven, or uncertain (undecided), in the order of
 // geom/spot/spot_decider.h.
 Verdict decide_meets(const LightVolume& light, const Cell& cell);
-// The same without the filter, to hold it against: slower.
+// The same without the filter, slower: a reference for tests.
 Verdict prove_meets(const LightVolume& light, const Cell& cell);
 
 }  // namespace clusterbench::geom

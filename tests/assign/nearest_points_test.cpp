@@ -38,7 +38,7 @@ TEST(BallCellsAtOnce, of_orthographic_views_touch_sides_exactly_however_depths_a
   const view::LightArrays lights = view::lights_in(frame, grid::space_of(grid, frame));
   const RowPlanes planes(grid.screen());
   on_each_target([&](const std::string& target) {
-    look_at_balls(lights, planes, cells);
+    filter_ball_cells(lights, planes, cells);
     for (std::uint32_t i = 0; i < cells.count; ++i) EXPECT_EQ(cells.touch[i], Touch::yes) << target << ", " << i;
   });
 }

@@ -14,6 +14,7 @@
 #include "assign/exact/nearest_points.h"
 #include "assign/settings.h"
 #include "effort.h"
+#include "geom/light_meets_cell.h"
 
 namespace clusterbench::assign {
 namespace {
@@ -86,10 +87,10 @@ TEST(SpotLooks, say_yes_and_no_only_where_it_is_true_on_every_target) {
     std::vector<bool> touched;
     for (std::uint32_t spot = 0; spot < close.cells.size(); ++spot) {
       pairs.add(place_of(close.grid, spot, close.cells[spot]));
-      touched.push_back(SpotJudge(close.grid, close.lights, spot).touches(close.cells[spot]));
+      touched.push_back(SpotCellTest(close.grid, close.lights, spot).touches(close.cells[spot]));
     }
     on_each_target([&](const std::string& target) {
-      look_at_cells(close.lights, planes, pairs);
+      filter_spot_cells(close.lights, planes, pairs);
       std::size_t wrong = 0, settled = 0;
       for (std::uint32_t i = 0; i < pairs.count; ++i) {
         if (pairs.touch[i] == Touch::uncertain) continue;
@@ -123,10 +124,10 @@ TEST(SpotLooks, say_nothing_wrong_of_apexes_as_good_as_at_a_corner) {
   for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot)
     for (std::uint32_t cell = 0; cell < 4; ++cell) pairs.add(place_of(grid, spot, cell));
   on_each_target([&](const std::string& target) {
-    look_at_cells(lights, planes, pairs);
+    filter_spot_cells(lights, planes, pairs);
     std::size_t wrong = 0;
     for (std::uint32_t i = 0; i < pairs.count; ++i)
-      if (pairs.touch[i] == Touch::no && SpotJudge(grid, lights, pairs.spot[i]).touches(i % 4)) ++wrong;
+      if (pairs.touch[i] == Touch::no && SpotCellTest(grid, lights, pairs.spot[i]).touches(i % 4)) ++wrong;
     EXPECT_EQ(wrong, 0u) << target;
   });
 }
@@ -142,15 +143,15 @@ TEST(SpotLooks, tell_of_nearly_all_cells_whether_cones_touch_them) {
     const RowPlanes planes = planes_of(grid);
     SpotCells missed, touched;
     for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot) {
-      SpotJudge judge(grid, lights, spot);
+      SpotCellTest cell_test(grid, lights, spot);
       const geom::BallVolume ball{geom::source_of(lights.volume(spot)), geom::range_of(lights.volume(spot))};
       for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell)
         if (geom::decide_meets(ball, grid.cell(cell)) == geom::Verdict::yes)
-          (judge.touches(cell) ? touched : missed).add(place_of(grid, spot, cell));
+          (cell_test.touches(cell) ? touched : missed).add(place_of(grid, spot, cell));
     }
     on_each_target([&](const std::string& target) {
       for (const auto& [pairs, truth] : {std::pair(&missed, Touch::no), std::pair(&touched, Touch::yes)}) {
-        look_at_cells(lights, planes, *pairs);
+        filter_spot_cells(lights, planes, *pairs);
         const auto told = std::count(pairs->touch.begin(), pairs->touch.begin() + pairs->count, truth);
         EXPECT_GT(pairs->count, 1000U) << plan.name;
         EXPECT_LE(1000 * (pairs->count - told), (truth == Touch::no ? 2 : 45) * pairs->count)
@@ -161,16 +162,16 @@ TEST(SpotLooks, tell_of_nearly_all_cells_whether_cones_touch_them) {
 }
 
 // The columns of a row that a spot touches.
-grid::IndexRange touched_columns(SpotJudge& judge, const RowPlanes& planes, const SpotCell& in_row) {
+grid::IndexRange touched_columns(SpotCellTest& cell_test, const RowPlanes& planes, const SpotCell& in_row) {
   const auto columns = static_cast<std::uint32_t>(planes.columns);
   const std::uint32_t first_cell = (in_row.slice * static_cast<std::uint32_t>(planes.rows) + in_row.row) * columns;
-  return narrowed({0, planes.columns - 1},
-                  [&](int column) { return !judge.touches(first_cell + static_cast<std::uint32_t>(column)); });
+  return trimmed({0, planes.columns - 1},
+                 [&](int column) { return !cell_test.touches(first_cell + static_cast<std::uint32_t>(column)); });
 }
 
 // RowParts of rows and what is known to be true of them, against what is found: wrong answers and settled ones.
 struct RowParts {
-  SpotTouches touches;
+  SpotContacts touches;
   std::vector<SpotCell> asked;
   std::vector<grid::IndexRange> touched;  // of the row
   std::size_t wrong = 0, settled = 0, alone = 0;
@@ -180,8 +181,8 @@ struct RowParts {
     asked.push_back(part);
     touched.push_back(in_row);
   }
-  void look(const view::LightArrays& lights, const RowPlanes& planes) {
-    touches.look(lights, planes);
+  void test(const view::LightArrays& lights, const RowPlanes& planes) {
+    touches.test(lights, planes);
     wrong = settled = alone = 0;
     for (std::uint32_t i = 0; i < touches.runs.count; ++i) {
       const Touch touch = touches.runs.touch[i];
@@ -189,7 +190,7 @@ struct RowParts {
       const int last = std::min(touched[i].last, static_cast<int>(asked[i].end_column) - 1);
       settled += touch != Touch::uncertain ? 1 : 0;
       if (touch != Touch::uncertain && (touch == Touch::yes) != (first <= last)) ++wrong;
-      const grid::IndexRange only = touches.only_columns(i, planes);
+      const grid::IndexRange only = touches.only_touched_columns(i, planes);
       alone += only.empty() ? 0 : 1;
       if (!only.empty() && (touch != Touch::yes || only.first != first || only.last != last)) ++wrong;
     }
@@ -202,14 +203,14 @@ TEST(SpotTouches, are_true_on_every_target) {
     const auto columns = static_cast<std::uint32_t>(planes.columns);
     for (std::uint32_t spot = 0; spot < close.cells.size(); spot += 3) {
       SpotCell cell = place_of(close.grid, spot, close.cells[spot]);
-      SpotJudge judge(close.grid, close.lights, spot);
-      const grid::IndexRange touched = touched_columns(judge, planes, cell);
+      SpotCellTest cell_test(close.grid, close.lights, spot);
+      const grid::IndexRange touched = touched_columns(cell_test, planes, cell);
       parts.add(cell, touched);
       parts.add({cell.spot, cell.slice, cell.row, 0, columns}, touched);
       parts.add({cell.spot, cell.slice, cell.row, 0, cell.column + 1}, touched);
     }
     on_each_target([&](const std::string& target) {
-      parts.look(close.lights, planes);
+      parts.test(close.lights, planes);
       EXPECT_EQ(parts.wrong, 0u) << target << ", " << plan.name;
       EXPECT_GT(parts.settled, parts.asked.size() / 4) << target << ", " << plan.name;
     });
@@ -237,16 +238,16 @@ TEST(SpotTouches, say_which_columns_share_a_single_point) {
     RowParts parts;
     for (std::uint32_t spot = 0; spot < lights.spots.count; ++spot)
       for (std::uint32_t slice = 0; slice < static_cast<std::uint32_t>(planes.slices); ++slice) {
-        SpotJudge judge(grid, lights, spot);
+        SpotCellTest cell_test(grid, lights, spot);
         const SpotCell below{spot, slice, rows / 2, 0, columns};
-        parts.add(below, touched_columns(judge, planes, below));
+        parts.add(below, touched_columns(cell_test, planes, below));
         for (std::uint32_t row = 0; row < rows; ++row) {
           const SpotCell left{spot, slice, row, 0, columns / 2};
-          parts.add(left, touched_columns(judge, planes, left));
+          parts.add(left, touched_columns(cell_test, planes, left));
         }
       }
     on_each_target([&](const std::string& target) {
-      parts.look(lights, planes);
+      parts.test(lights, planes);
       EXPECT_EQ(parts.wrong, 0u) << target << ", turned by " << turn;
       EXPECT_GT(parts.alone, lights.spots.count / 3) << target << ", turned by " << turn;
     });
@@ -269,11 +270,11 @@ void expect_only_what_is_true(double longer, bool usual) {
         for (std::uint32_t spot = 0; spot < close.cells.size(); spot += 3) {
           const SpotCell cell = place_of(close.grid, spot, close.cells[spot]);
           slices.add(spot, cell.slice);
-          SpotJudge judge(close.grid, close.lights, spot);
+          SpotCellTest cell_test(close.grid, close.lights, spot);
           for (std::uint32_t row = cell.row - std::min(cell.row, 1u); row <= std::min(cell.row + 1, rows - 1); ++row) {
             const std::uint32_t first_cell = (cell.slice * rows + row) * columns;
-            truth.push_back({spot, cell.slice, row, narrowed({0, planes.columns - 1}, [&](int column) {
-                               return !judge.touches(first_cell + static_cast<std::uint32_t>(column));
+            truth.push_back({spot, cell.slice, row, trimmed({0, planes.columns - 1}, [&](int column) {
+                               return !cell_test.touches(first_cell + static_cast<std::uint32_t>(column));
                              })});
           }
         }
@@ -292,11 +293,11 @@ void expect_only_what_is_true(double longer, bool usual) {
             }
             ++listed;
             EXPECT_EQ(found.slice[at], row.slice);
-            const std::uint8_t known = found.known[at];
+            const std::uint8_t known = found.proven[at];
             const auto is = [&](std::uint8_t bit) { return (known & bit) != 0; };
             const auto touches = [&](int column) { return row.columns.first <= column && column <= row.columns.last; };
             if (is(SpotRows::k_none_before) && !row.columns.empty() && row.columns.first < found.first[at]) ++wrong;
-            if (is(SpotRows::k_none_behind) && !row.columns.empty() && row.columns.last > found.last[at]) ++wrong;
+            if (is(SpotRows::k_none_after) && !row.columns.empty() && row.columns.last > found.last[at]) ++wrong;
             if (known == SpotRows::k_all && found.first[at] > found.last[at]) {
               if (!row.columns.empty()) ++wrong;
             } else {
@@ -341,7 +342,7 @@ struct SpotsInGrid {
     find_spot_rows(lights, planes, slices, found);
     for (std::vector<std::uint32_t>* list : {&found.spot, &found.slice, &found.row}) list->resize(found.count);
     for (std::vector<std::int32_t>* list : {&found.first, &found.last}) list->resize(found.count);
-    found.known.resize(found.count);
+    found.proven.resize(found.count);
     return found;
   }
 };
@@ -354,7 +355,7 @@ TEST(SpotRows, settle_nearly_all_rows_of_ordinary_spots_on_every_target) {
     SpotsInGrid in_grid(plan, spots);
     on_each_target([&](const std::string& target) {
       const SpotRows found = in_grid.rows();
-      const auto settled = static_cast<std::uint32_t>(std::ranges::count(found.known, SpotRows::k_all));
+      const auto settled = static_cast<std::uint32_t>(std::ranges::count(found.proven, SpotRows::k_all));
       EXPECT_GT(found.count, 500u) << target << ", " << plan.name;
       EXPECT_LE(100 * (found.count - settled), found.count) << target << ", " << plan.name << ": " << settled;
     });
@@ -374,7 +375,7 @@ void expect_the_same_rows_on_every_target(const testing::settings::Plan& plan,
     EXPECT_EQ(found.row, first->row) << target << ", " << plan.name;
     EXPECT_EQ(found.first, first->first) << target << ", " << plan.name;
     EXPECT_EQ(found.last, first->last) << target << ", " << plan.name;
-    EXPECT_EQ(found.known, first->known) << target << ", " << plan.name;
+    EXPECT_EQ(found.proven, first->proven) << target << ", " << plan.name;
   });
 }
 

@@ -1,4 +1,4 @@
-// The cells of the light's extents whose view-space bounding box the ball touches.
+// The cells of the light's extents whose view-space bounding box touches the ball.
 
 #include "assign/bounds/bounds_method.h"
 

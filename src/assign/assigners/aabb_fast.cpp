@@ -1,4 +1,4 @@
-// `aabb` for speed: the same lists, SIMD.
+// Fast form of `aabb`: the same lists, with SIMD.
 
 #include "assign/bounds/bounds_method.h"
 #include "assign/bounds/bounds_rows.h"

@@ -1,7 +1,7 @@
 // `babylon-masks` with the mistakes of Babylon.js. A light's rectangle is drawn from tangents to its ball, one axis at
-// a time; of a tangent point behind the eye the depth is taken for a centimetre, so that it lands on a side of the
-// picture that need not be the light's, and a rectangle that is turned over is not drawn. The tangents of an
-// orthographic view are those of a perspective. Nothing is padded.
+// a time. For a tangent point behind the eye the depth becomes one centimetre, so the point may land on the wrong side
+// of the picture; a rectangle that is turned over is not drawn. An orthographic view uses the tangents of a perspective
+// one. Nothing is padded.
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,13 @@
 namespace clusterbench::assign {
 namespace {
 
-// Along one axis of the picture, from -1 to 1 within it; `from` may lie beyond `to`.
+// Extent along one axis of the picture, from -1 to 1 within it; `from` may lie beyond `to`.
 struct Extent {
   float from, to;
 };
 
-// Of the ball's two tangents in the plane of an axis and the depth. The whole picture where the eye is in the ball, or
-// nearly.
+// The extent between the ball's two tangents in the plane of an axis and the depth. The whole picture if the eye is in
+// the ball, or nearly.
 Extent tangents(float across, float depth, float radius, float middle, float half, bool orthographic) {
   constexpr float k_least = 0.01f;
   const float squared_distance = across * across + depth * depth;
@@ -34,7 +34,7 @@ Extent tangents(float across, float depth, float radius, float middle, float hal
   return {seen(-1.0f), seen(1.0f)};
 }
 
-// Tiles whose middles a rectangle's side covers, once it is moved out to whole tiles.
+// Tiles whose middles lie within a rectangle's side, after rounding it out to whole tiles.
 grid::IndexRange tiles_covered(const Extent& extent, int count) {
   const float scale = 0.5f * static_cast<float>(count);
   const float from = std::floor((extent.from + 1.0f) * scale), to = std::ceil((extent.to + 1.0f) * scale);

@@ -1,5 +1,5 @@
-// Tile masks and depth ranges as Babylon.js has them, without its mistakes: points and spots in one order by depth,
-// spots as the balls of their ranges, tiles of the box around a ball's outline.
+// Tile masks and depth ranges as in Babylon.js, without its mistakes: points and spots in one order by depth, spots as
+// the balls of their ranges, and the tiles of the box around a ball's outline.
 
 #include "assign/bounds/cell_bounds.h"
 #include "assign/contract/light_test.h"

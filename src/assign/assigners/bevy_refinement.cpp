@@ -1,6 +1,6 @@
-// Sphere refinement as Bevy's CPU clustering does it. The row of the ball's centre is taken once, on the screen, and
-// not again after the slice's projection, which loses lights. A row that is reached at all has at least one column.
-// Spots go in as the ball of their range; then the sphere around each cell's bounding box is tested against the cone.
+// Sphere refinement as in Bevy's CPU clustering. The row of the ball's centre is found once, on the screen, and not
+// again after the projection onto the slice, which loses lights. A row that is reached has at least one column. Spots
+// are tested as the ball of their range; then the sphere around each cell's bounding box is tested against the cone.
 
 #include <cmath>
 #include <limits>
@@ -23,7 +23,7 @@ struct Refined {
   float radius;
 };
 
-// The circle in which a ball meets a plane that its centre is so far from, as a ball; false if it does not meet it.
+// The circle in which a ball meets a plane at this distance from its centre, as a ball; false if they do not meet.
 bool project(Refined& ball, float distance, const Vec3f& normal) {
   if (std::abs(distance) > ball.radius) return false;
   ball.center -= distance * normal;
@@ -77,7 +77,8 @@ class BevyRefinement final : public LightByLight<BevyRefinement> {
   std::size_t own_bytes() const { return bytes_of(columns_, rows_, cell_balls_); }
 
  private:
-  // Of the box around the ball, whose sides are taken to the screen at its near and its far end. Clamped to the grid.
+  // The cells of the box around the ball; its sides are projected to the screen at its near and its far end. Clamped to
+  // the grid.
   CellBox extents(const geom::Ball& ball) const {
     const float depth = -ball.center.z, r = ball.radius, least = std::numeric_limits<float>::min();
     const float near = std::max(least, depth - r), far = std::max(least, depth + r);
@@ -104,7 +105,7 @@ class BevyRefinement final : public LightByLight<BevyRefinement> {
 
   const std::vector<float>& depths() const { return grid_->screen().slices.boundaries; }
 
-  // None (-1) between the eye and the near end; behind the eye the first one, beyond the far end the last one.
+  // None (-1) between the eye and the near end; the first slice behind the eye, the last slice beyond the far end.
   int slice_of(float depth) const {
     if (depth < 0.0f && !grid_->screen().tiles.orthographic) return 0;
     int after = 0;
@@ -112,17 +113,18 @@ class BevyRefinement final : public LightByLight<BevyRefinement> {
     return after - 1;
   }
 
-  // Of the centre on the screen, which is upside down for one behind the eye. None (-1) above, one too many below.
+  // The row of the centre on the screen, which is upside down for a centre behind the eye. None (-1) above the screen,
+  // one too many below it.
   int row_of(const Vec3f& center) const {
     const bool orthographic = grid_->screen().tiles.orthographic;
     const float at = orthographic ? center.y : center.y / -center.z;
-    const std::vector<float>& rows = grid_->screen().tiles.y;  // descend
+    const std::vector<float>& rows = grid_->screen().tiles.y;  // descending
     int after = 0;
     while (after <= cells_.y && at <= rows[static_cast<std::size_t>(after)]) ++after;
     return after - 1;
   }
 
-  // From both ends, until a column is reached or one is left.
+  // From both ends inward, until a column is reached or one column is left.
   void add_columns(const view::LightArrays& lights, std::uint32_t light, const CellBox& box, const Refined& ball, int y,
                    int z) {
     const auto beyond = [&](int plane) {

@@ -1,4 +1,5 @@
-// All cells within a light's analytic screen and depth extents: Persson's "cube", which the finer methods cull from.
+// All cells within a light's analytic screen and depth extents: Persson's "cube", from which the finer methods remove
+// cells.
 
 #include "assign/bounds/bounds_method.h"
 
@@ -6,7 +7,7 @@ namespace clusterbench::assign {
 namespace {
 
 struct NoTest {
-  static constexpr Looks k_looks = Looks::nowhere;
+  static constexpr Candidates k_candidates = Candidates::untested_box;
   static constexpr float k_roundoffs = 0.0f;
   void build(const grid::Grid&) {}
   std::size_t capacity_bytes() const { return 0; }

@@ -1,4 +1,4 @@
-// `bounds` for speed: the same lists, SIMD.
+// Fast form of `bounds`: the same lists, with SIMD.
 
 #include "assign/bounds/bounds_rows.h"
 #include "assign/bounds/fast_bounds_method.h"

@@ -1,4 +1,4 @@
-// Boxes against cells by axis-aligned bounds alone: the coarse test. Points and spots as `aabb` has them.
+// Boxes against cells by axis-aligned bounds alone: the coarse test. Points and spots as in `aabb`.
 
 #include "assign/bounds/bounds_method.h"
 

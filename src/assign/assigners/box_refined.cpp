@@ -1,5 +1,5 @@
-// Boxes against cells by axis-aligned bounds in view space, by those of the cell in the box's own space, and by the
-// cell's sides. Points and spots as `aabb` has them.
+// Boxes against cells in three tests: axis-aligned bounds in view space, the cell's bounds in the box's own space, and
+// the cell's sides. Points and spots as in `aabb`.
 
 #include "assign/bounds/bounds_method.h"
 
@@ -7,7 +7,7 @@ namespace clusterbench::assign {
 namespace {
 
 struct RefinedBoxTest : FrustumCells {
-  // The most of its three tests.
+  // The largest of its three tests.
   static constexpr float k_roundoffs = geom::k_sides_roundoffs;
 
   bool touches(const geom::PaddedBox& box, const CellAabbs& cells, std::uint32_t cell) const {

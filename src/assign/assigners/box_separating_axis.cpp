@@ -1,4 +1,4 @@
-// Boxes against the frustum cells themselves by the separating-axis test. Points and spots as `aabb` has them.
+// Boxes against the frustum cells themselves by the separating-axis test. Points and spots as in `aabb`.
 
 #include "assign/bounds/bounds_method.h"
 

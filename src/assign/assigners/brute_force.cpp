@@ -1,5 +1,5 @@
-// Every light against every cell's view-space bounding box: what a first compute shader does, and the yardstick. Boxes
-// by their own axis-aligned bounds.
+// Every light against every cell's view-space bounding box: the method of a first compute shader, and the baseline.
+// Boxes by their own axis-aligned bounds.
 
 #include "assign/bounds/bounds_method.h"
 
@@ -7,7 +7,7 @@ namespace clusterbench::assign {
 namespace {
 
 struct EveryAabb : CellAabbs {
-  static constexpr Looks k_looks = Looks::everywhere;
+  static constexpr Candidates k_candidates = Candidates::all_cells;
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
-// A hierarchy over the lights, built anew in every frame: sorted along a Morton curve, eight neighbours to a group,
-// eight groups to a group of the next level. Asked per cell it fills lists; left as it is, samples ask it.
+// A hierarchy over the lights, rebuilt in every frame: sorted along a Morton curve, eight neighbours to a group, eight
+// groups to a group of the next level. As a list method, runs of cells query it; as a structure, samples query it.
 //
 // Roundoffs: a ball's box is off by one roundoff in each of its sides, a sample's position by one. The test of a ball
-// against a cell's box loses as much as that of `aabb`, and is the larger.
+// against a cell's box has the same error as that of `aabb`, and is the larger one.
 
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@ constexpr float k_inf = std::numeric_limits<float>::infinity();
 constexpr float k_roundoffs = CellAabbs::k_roundoffs;
 constexpr std::uint32_t k_width = 8;
 
-// Boxes of neighbours; those that are not there are empty.
+// Boxes of neighbours; unused ones are empty.
 struct alignas(k_cache_line) Group {
   float lo_x[k_width], lo_y[k_width], lo_z[k_width], hi_x[k_width], hi_y[k_width], hi_z[k_width];
 
@@ -49,7 +49,7 @@ struct alignas(k_cache_line) Group {
     }
     return box;
   }
-  // A bit for each box that touches this one.
+  // One bit for each box that touches this one.
   std::uint32_t touched(const geom::Box& box) const {
     std::uint32_t touches[k_width];
     for (std::uint32_t i = 0; i < k_width; ++i)
@@ -68,7 +68,7 @@ constexpr geom::Box k_empty_box{Vec3f(k_inf), Vec3f(-k_inf)};
 // The balls of lights of one type.
 class Tree {
  public:
-  // Level 0 has a box per ball, in the order of their codes; box i of the next one is around group i.
+  // Level 0 has one box per ball, in the order of their codes; box i of the next level is around group i.
   void build(const RadixSort<std::uint64_t>& by_code, const std::vector<geom::Ball>& balls) {
     const auto count = static_cast<std::uint32_t>(by_code.entries.size());
     order_.resize(count);
@@ -84,7 +84,7 @@ class Tree {
     }
   }
 
-  // Calls found(light) for those whose ball's box touches this one. Returns how many boxes were tested.
+  // Calls found(light) for each light whose ball's box touches this one. Returns the number of boxes tested.
   template <class Found>
   std::uint64_t each_touched(const geom::Box& box, Found&& found) const {
     if (order_.empty()) return 0;
@@ -109,7 +109,7 @@ class Tree {
     return groups * k_width;
   }
 
-  // Boxes that are stored, empty ones included.
+  // The number of stored boxes, including empty ones.
   std::uint64_t boxes() const { return std::uint64_t{order_.empty() ? 0 : begin_[levels_]} * k_width; }
   static std::uint64_t boxes_for(std::uint32_t balls) {
     std::uint64_t groups = 0;
@@ -137,8 +137,8 @@ class Tree {
     if (groups_.size() < begin_[levels_]) groups_.resize(begin_[levels_]);
   }
 
-  AlignedVector<Group> groups_;                           // level by level, from the balls' own boxes on
-  std::array<std::uint32_t, k_most_levels + 1> begin_{};  // of the levels
+  AlignedVector<Group> groups_;                           // level by level, starting with the balls' own boxes
+  std::array<std::uint32_t, k_most_levels + 1> begin_{};  // where each level begins
   std::size_t levels_ = 0;
   std::vector<std::uint32_t> order_;  // the light of each box of level 0
 };
@@ -160,7 +160,7 @@ struct Trees {
   }
 };
 
-// Every third bit of the result is one of these 21.
+// Moves each of these 21 bits to every third bit of the result.
 std::uint64_t spread(std::uint64_t bits) {
   bits = (bits | bits << 32) & 0x001f00000000ffff;
   bits = (bits | bits << 16) & 0x001f0000ff0000ff;
@@ -174,7 +174,7 @@ class TreeBuilder {
  public:
   explicit TreeBuilder(const Params& params) : test(params, k_roundoffs) {}
 
-  // Of the lights with volume for which keeps(ball).
+  // Builds the trees of the lights with volume for which keeps(ball) is true.
   template <class Keeps>
   void build(const view::LightArrays& lights, Keeps&& keeps, Trees& out) {
     balls.resize(lights.size());
@@ -218,7 +218,7 @@ class TreeBuilder {
   RadixSort<std::uint64_t> by_code_;
 };
 
-// Runs of neighbours in a row ask the hierarchy; each cell asks what its run got.
+// A run of neighbouring cells in a row queries the hierarchy; each cell is then tested against the run's result.
 class BvhLists final : public ListAssigner {
  public:
   explicit BvhLists(const Params& params) : builder_(params) {}
@@ -316,24 +316,24 @@ class BvhLists final : public ListAssigner {
   geom::Box all_{};
   std::optional<ViewCull> view_;
   std::vector<geom::SphericalCone> cones_;  // of the spots
-  BallLanes candidates_;                    // of the run at hand
-  std::vector<std::uint32_t> found_;        // of the cell at hand
+  BallLanes candidates_;                    // of the current run
+  std::vector<std::uint32_t> found_;        // of the current cell
   std::uint64_t tests_ = 0;
 };
 
-// The hierarchy as samples ask it: lights whose ball's box holds the sample. Beyond the grid, too.
+// The hierarchy as samples query it: lights whose ball's box contains the sample. Also beyond the grid.
 class LightHierarchy final : public LightStructure {
  public:
   Trees trees;
   view::LightRanges ranges;
-  std::optional<Vec3d> world_origin;  // of the space in which the lights are, if it is not view space
+  std::optional<Vec3d> world_origin;  // of the space of the lights, if it is not view space
 
   bool lights_at(const grid::Sample& sample, grid::Log2, std::vector<std::uint32_t>& out) const override {
     out.clear();
     trees.each_touched(box_at(sample), [&](std::uint32_t light) { out.push_back(light); });
     return true;
   }
-  // All boxes of each group that is visited, and the light of each that holds the sample.
+  // Counts all boxes of each visited group, and the light of each box that contains the sample.
   Reads reads_at(const grid::Sample& sample, grid::Log2) const override {
     std::uint64_t lights = 0;
     const std::uint64_t boxes = trees.each_touched(box_at(sample), [&](std::uint32_t) { ++lights; });

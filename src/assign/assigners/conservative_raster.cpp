@@ -1,9 +1,10 @@
-// Shell and fill: each light is a low-poly mesh that encloses it; a conservative rasterizer gives each tile that the
-// mesh touches its least and greatest depth (the shell), and the slices between them list the light (the fill).
+// Shell and fill: each light is a low-poly mesh around it; a conservative rasterizer finds the least and greatest depth
+// in each tile that the mesh touches (the shell), and the slices between these depths list the light (the fill).
 //
 // Roundoffs: vertices, depths and tiles are in double precision, whose errors stay below one roundoff of the light's
 // reach. A spot's axis (3 components off by half a roundoff) and its angle (a sine and a cosine off by half a roundoff)
-// turn it by less than two, which are as many of its range. All lights are grown by the sum.
+// turn it by less than two roundoffs; the displacement is that angle times its range. All lights are enlarged by the
+// sum.
 
 #include <cmath>
 
@@ -20,7 +21,7 @@ namespace {
 
 constexpr float k_raster_roundoffs = 3.0f;
 
-// How far from the eye a grid reaches.
+// The greatest distance of a grid's cells from the eye.
 double reach_of(const grid::ScreenGrid& grid) {
   const auto farther = [](float a, float b) { return std::max(std::fabs(a), std::fabs(b)); };
   const double x = farther(grid.tiles.x.front(), grid.tiles.x.back());
@@ -50,7 +51,7 @@ class ConservativeRaster final : public LightByLight<ConservativeRaster> {
   void start_frame(const view::LightArrays&) {}
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
     const Vec3d center{lights.x[light], lights.y[light], lights.z[light]};
-    // What is farther away than all cells is nothing to list: so lights without end have one.
+    // Parts beyond all cells are never listed, so lights without end can be cut there.
     const double range = std::min(double{lights.radius[light]}, glm::length(center) + grid_reach_);
     const double reach = std::fabs(center.x) + std::fabs(center.y) + std::fabs(center.z) + range;
     const double margin = double{test_.own_padding()} * 0x1p-24 * reach;
@@ -71,7 +72,7 @@ class ConservativeRaster final : public LightByLight<ConservativeRaster> {
     return {Vec3f(center), geom::rounded_up(radius)};
   }
 
-  // The coarsest level whose mesh stands off the light by no more tiles than are allowed.
+  // The coarsest level whose mesh extends past the light by no more tiles than allowed.
   int level_for(const geom::Ball& ball) const {
     if (level_ >= 0) return level_;
     const CellBox box = cell_box(*grid_, ball);
@@ -113,7 +114,7 @@ class ConservativeRaster final : public LightByLight<ConservativeRaster> {
   LightTest test_;
   Coverage coverage_;
   double largest_excess_;  // in tiles
-  int level_ = -1;         // -1: by the light's size on the screen
+  int level_ = -1;         // -1: chosen by the light's size on the screen
   LightMeshes meshes_;
   ViewCull view_;
   double grid_reach_ = 0.0;

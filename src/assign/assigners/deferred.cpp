@@ -1,10 +1,10 @@
-// Classic deferred shading: no lists; each light's ball is drawn over the picture and shades the pixels that pass its
-// depth test, each of which reads the G-buffer and blends into the target. What that costs is counted: pixels drawn
+// Classic deferred shading: no lists. Each light's ball is drawn over the picture and shades the pixels that pass its
+// depth test; each shaded pixel reads the G-buffer and blends into the target. The method counts the cost: pixels drawn
 // (tests), pixels shaded (entries), bytes read and written (traffic). A sample's lights are those that shade its pixel.
 //
-// A pixel whose surface lies in the light is always shaded: that test is padded, the ray against the ball is not.
-// Roundoffs: a surface's point, a slope times a depth, is off by 2 of each coordinate, the difference to the centre by
-// one; the squared distance and the squared radius by 5 of themselves, so their roots by 2.5.
+// A pixel whose surface lies in the light is always shaded: that test is padded, the test of the ray against the ball
+// is not. Roundoffs: a surface's point, a slope times a depth, is off by 2 of each coordinate, the difference to the
+// centre by one; the squared distance and the squared radius by 5 of themselves, so their roots by 2.5.
 
 #include <algorithm>
 #include <cmath>
@@ -33,11 +33,11 @@ struct PixelBytes {
 
 struct DrawnLight {
   TestedLight of;
-  Vec2i first{0}, last{-1};  // pixels
+  Vec2i first{0}, last{-1};  // in pixels
   float apex_reach = 0.0f;   // |x| + |y| + |z|
 };
 
-// The picture's pixels: through their centres go rays of these slopes, or (orthographic) from these places.
+// The picture's pixels: the slopes of the rays through their centres, or (orthographic) the positions of these rays.
 struct Picture {
   bool orthographic = false;
   float near = 0.0f;
@@ -49,7 +49,7 @@ struct Picture {
     return depths[static_cast<std::size_t>(row) * x.size() + static_cast<std::size_t>(column)];
   }
 
-  void take(const view::Frame& frame, const depth::DepthImage& image) {
+  void start(const view::Frame& frame, const depth::DepthImage& image) {
     orthographic = frame.projection.orthographic;
     near = static_cast<float>(frame.projection.near_m);
     x.clear();
@@ -64,10 +64,10 @@ struct Picture {
   }
 };
 
-// Whether a light shades a pixel.
+// Tests whether a light shades a pixel.
 class PixelTest {
  public:
-  // `slack`: how far off a surface's point can be, as a share of the sizes of all coordinates that it is compared by.
+  // `slack`: the error of a surface's point, relative to the sizes of all coordinates that it is compared with.
   PixelTest(const Picture& picture, const DrawnLight& light, DepthTest test, float slack)
       : picture_(picture),
         light_(light),
@@ -76,8 +76,8 @@ class PixelTest {
         center_(light.of.ball.center),
         square_(light.of.ball.radius * light.of.ball.radius) {}
 
-  // The depth at which the pixel's ray leaves the ball; below the near plane's where it does not meet the ball before
-  // that.
+  // The depth at which the pixel's ray leaves the ball; less than the near plane's depth if the ray meets no part of
+  // the ball beyond the near plane.
   float far_side(float x, float y) const {
     const float missed = -std::numeric_limits<float>::infinity();
     if (picture_.orthographic) {
@@ -88,7 +88,7 @@ class PixelTest {
     const float length = x * x + y * y + 1.0f, square = square_ * length - dot(moment, moment);
     return square >= 0.0f ? (center_.x * x + center_.y * y - center_.z + std::sqrt(square)) / length : missed;
   }
-  // Whether the ball, of which the near plane cuts off what is before it, covers the pixel.
+  // Does the ball, clipped at the near plane, cover the pixel?
   bool is_drawn(float far_side) const { return far_side >= picture_.near; }
 
   bool is_shaded(float x, float y, float depth, float far_side) const {
@@ -118,15 +118,15 @@ class PixelTest {
 
 class DrawnLights final : public LightStructure {
  public:
-  // A sample's lights are its pixel's, whatever its own depth.
+  // A sample has the lights of its pixel, whatever its own depth.
   bool lights_at(const grid::Sample& sample, grid::Log2, std::vector<std::uint32_t>& out) const override {
     out.clear();
     return each_drawn(sample, [&](const DrawnLight& light, bool is_shaded) {
       if (is_shaded) out.push_back(light.of.index);
     });
   }
-  // What is moved for the pixel, which belongs to no buffer of the method: its depth for each light that is drawn over
-  // it, G-buffer and target for each that shades it.
+  // The bytes moved for the pixel, which belong to no buffer of the method: its depth for each light drawn over it, and
+  // G-buffer and target for each light that shades it.
   Reads reads_at(const grid::Sample& sample, grid::Log2) const override {
     Reads reads;
     each_drawn(sample, [&](const DrawnLight&, bool is_shaded) {
@@ -144,7 +144,7 @@ class DrawnLights final : public LightStructure {
   StructureLimit limit() const override {
     return {std::uint64_t{light_count} * picture.x.size() * picture.y.size(), 0};
   }
-  std::vector<BufferNeed> buffers() const override { return {}; }  // what is drawn needs none
+  std::vector<BufferNeed> buffers() const override { return {}; }  // drawing needs no buffer
   std::uint32_t index_bits() const override { return 32; }
   bool has_cells() const override { return false; }
   void expand(Lists&) const override { throw Error("", "deferred", "has no cells", ExitCode::internal); }
@@ -153,14 +153,14 @@ class DrawnLights final : public LightStructure {
   float slack = 0.0f;
   PixelBytes bytes;
   std::uint32_t light_count = 0;
-  std::uint64_t drawn = 0, shaded = 0;  // pixels, of all lights
+  std::uint64_t drawn = 0, shaded = 0;  // pixels, summed over all lights
   Picture picture;
   std::vector<DrawnLight> lights;
-  Lists rows;  // of each row of pixels the lights, by their indices among `lights`
+  Lists rows;  // for each row of pixels its lights, as indices in `lights`
 
  private:
-  // Calls visit(light, whether it shades the pixel) for the lights that are drawn over the sample's pixel. False where
-  // the sample is in none.
+  // Calls visit(light, is it shading the pixel?) for the lights drawn over the sample's pixel. False if the sample is
+  // in no pixel.
   template <class Visit>
   bool each_drawn(const grid::Sample& sample, Visit&& visit) const {
     const Vec2i size = picture.size();
@@ -211,7 +211,7 @@ class Deferred final : public AssignerOf<DrawnLights> {
     out.bytes = bytes_;
     out.light_count = lights.size();
     out.drawn = out.shaded = 0;
-    out.picture.take(input.frame, checked(input.depth, tiles_.screen().tiles));
+    out.picture.start(input.frame, checked(input.depth, tiles_.screen().tiles));
     out.lights.clear();
     pairs_.start(static_cast<std::uint32_t>(input.frame.viewport.y));
     for (std::uint32_t light = 0; light < lights.size(); ++light)

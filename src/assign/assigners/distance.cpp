@@ -1,7 +1,7 @@
-// Tiles x distance shells. The directions in which a ball reaches one shell fill a circular cap around its centre's
-// direction, so a tile's cell is touched iff the cap at its widest distance meets the tile. Along a row of tiles that
-// is one interval of slopes: between the cap's tangents where they touch in the row, else where the row's planes cut
-// the cap.
+// Tiles x distance shells. The directions in which a ball reaches one shell fill a circular cap around the direction of
+// its centre. So a tile's cell is touched iff the cap at its widest distance meets the tile. Along a row of tiles that
+// is one interval of slopes: between the cap's tangents if they touch in the row, otherwise between the points where
+// the row's planes cut the cap.
 
 #include <algorithm>
 #include <cmath>
@@ -21,20 +21,21 @@ namespace {
 constexpr float k_inf = std::numeric_limits<float>::infinity();
 constexpr geom::SlopeRange k_all{-k_inf, k_inf};
 
-// The cap as a ball around the light's centre that looks the same from the eye. radius +inf: every direction.
+// The cap as a ball around the light's centre that covers the same directions from the eye. radius +inf: every
+// direction.
 struct Cap {
   float x, y, depth, radius;
 };
 
-// The distance in the shell, and in reach, at which a ball around a centre at `length` is seen widest: where its
-// tangents touch, else the nearer end.
+// The distance in the shell, and within reach, at which a ball whose centre is at distance `length` is widest as seen
+// from the eye: the distance of its tangents' touch points, or else the nearer end.
 double widest_distance(double length, double r, double distance0, double distance1) {
   const double touch = length > r ? std::sqrt((length - r) * (length + r)) : 0.0;
   return std::clamp(touch, distance0, distance1);
 }
 
-// By the angle between the centre's direction and the sphere's points at this distance:
-// cos = (d² + L² - r²) / (2 d L), and 1 ∓ cos in the form that does not cancel.
+// From the angle between the centre's direction and the sphere's points at this distance: cos = (d² + L² - r²) / (2 d
+// L), and 1 ∓ cos in the form that does not cancel.
 Cap cap_in_shell(const geom::Ball& ball, double length, double distance) {
   const double r = ball.radius, twice = 2.0 * distance * length;
   Cap cap{ball.center.x, ball.center.y, -ball.center.z, k_inf};
@@ -47,7 +48,7 @@ Cap cap_in_shell(const geom::Ball& ball, double length, double distance) {
   return cap;
 }
 
-// What the plane y = slope * depth cuts out of the cap, as slopes x / depth.
+// The section of the cap in the plane y = slope * depth, as slopes x / depth.
 geom::SlopeRange cut_by_plane(const Cap& cap, float slope) {
   if (cap.radius == k_inf) return k_all;
   const double stretch = std::sqrt(1.0 + static_cast<double>(slope) * static_cast<double>(slope));
@@ -62,8 +63,8 @@ geom::SlopeRange cut_by_plane(const Cap& cap, float slope) {
   return {static_cast<float>(cut.lo * stretch), static_cast<float>(cut.hi * stretch)};
 }
 
-// The cap's tangent with this slope x / depth, if it touches within the row: a tangent plane through the y axis touches
-// at the centre's y.
+// Does the cap's tangent with this slope x / depth touch within the row? A tangent plane through the y axis touches at
+// the centre's y.
 bool touches_in_row(const Cap& cap, float slope, float row_lo, float row_hi) {
   if (!std::isfinite(slope)) return false;
   const double x = cap.x, depth = cap.depth, r = cap.radius, s = slope;
@@ -76,7 +77,7 @@ geom::SlopeRange hull(const geom::SlopeRange& a, const geom::SlopeRange& b) {
   return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
 }
 
-// A row's plane, and what it cuts out of the cap.
+// A row's plane, and the section of the cap in it.
 struct RowCut {
   float slope;
   geom::SlopeRange cut;

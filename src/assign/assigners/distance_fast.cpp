@@ -1,4 +1,4 @@
-// `distance` for speed: the same lists, SIMD.
+// Fast form of `distance`: the same lists, with SIMD.
 
 #include "assign/distance/shell_rows.h"
 #include "assign/distance/shells.h"

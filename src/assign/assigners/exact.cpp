@@ -1,10 +1,10 @@
-// The true lists of a frustum grid, and nothing else: every pair whose volume and cell share a point.
+// The true lists of a frustum grid: exactly the pairs whose volume and cell share a point.
 //
 // The cells of one row (one slice, one row of tiles) that a light touches are one interval, because row ∩ volume is
-// convex. For a ball its ends come from the slopes' extremes in closed form, once with the radius grown by more than
-// single precision can lose and once shrunk: beyond the first no cell is touched, within the second every cell is, and
-// the few cells between are decided by exact arithmetic from the scene's own numbers. For a spot the interval of its
-// bounding ball is narrowed from both ends to the first cells that the cone does touch.
+// convex. For a ball its ends come from the slopes' extremes in closed form, once with the radius enlarged by more than
+// the error of single precision and once with it reduced: beyond the larger ball no cell is touched, within the smaller
+// one every cell is, and exact arithmetic from the scene's own numbers decides the few cells between. For a spot the
+// interval of its bounding ball is trimmed from both ends to the first cells that the cone touches.
 
 #include <algorithm>
 #include <cmath>
@@ -45,9 +45,9 @@ class Exact final : public LightByLight<Exact> {
   std::size_t own_bytes() const { return bytes_of(cell_balls_); }
 
  private:
-  // Calls take(row) for the rows that a ball may touch, and perhaps a few more.
-  template <class Take>
-  void each_row(const geom::Ball& ball, Take&& take) {
+  // Calls visit(row) for the rows that a ball may touch, and perhaps a few more.
+  template <class Visit>
+  void each_row(const geom::Ball& ball, Visit&& visit) {
     const std::vector<float>& depths = grid_->screen().slices.boundaries;
     const float depth = -ball.center.z;
     const IndexRange slices = grid::intervals_touched(depths, depth - ball.radius, depth + ball.radius);
@@ -56,7 +56,7 @@ class Exact final : public LightByLight<Exact> {
       const IndexRange rows = rows_touched(ball, depths[z], depths[z + 1]);
       for (int row = rows.first; row <= rows.last; ++row) {
         ++tests_;
-        take(row_of(grid_->screen(), slice, row));
+        visit(row_of(grid_->screen(), slice, row));
       }
     }
   }
@@ -76,24 +76,25 @@ class Exact final : public LightByLight<Exact> {
     if (std::isinf(lights.radius[light])) return pairs_.add_row(0, grid_->cell_count(), light);
     const geom::Ball larger = lights.ball(light, k_exact_roundoffs);
     if (view_.misses(larger)) return;
-    BallJudge judge(*grid_, lights, light);
+    PointLightCellTest cell_test(*grid_, lights, light);
     if (lights.reach[light] > k_most_exact_reach)
-      return add_cell_by_cell(light, [&](const Row& row, int column) { return judge.touches(row, column); });
+      return add_cell_by_cell(light, [&](const Row& row, int column) { return cell_test.touches(row, column); });
     const geom::Ball smaller = lights.ball(light, -k_exact_roundoffs);
     const RowColumns columns(grid_->screen().tiles);
     each_row(larger, [&](const Row& row) {
       const IndexRange outer = columns.touched(larger, row, geom::Errs::outward);
-      if (!outer.empty()) add_interval(row, settled(outer, columns, smaller, row, judge, fallbacks_), light);
+      if (!outer.empty())
+        add_interval(row, decided_columns(outer, columns, smaller, row, cell_test, fallbacks_), light);
     });
   }
 
   void add_spot(const view::LightArrays& lights, std::uint32_t light) {
     const SpotBalls balls(lights, light);
     if (view_.misses(balls.around())) return;
-    SpotJudge judge(*grid_, lights, light);
+    SpotCellTest cell_test(*grid_, lights, light);
     if (lights.reach[light] > k_most_exact_reach)
       return add_cell_by_cell(light, [&](const Row& row, int column) {
-        return judge.touches(row.first_cell + static_cast<std::uint32_t>(column));
+        return cell_test.touches(row.first_cell + static_cast<std::uint32_t>(column));
       });
     const RowColumns columns(grid_->screen().tiles);
     each_row(balls.around(), [&](const Row& row) {
@@ -104,9 +105,9 @@ class Exact final : public LightByLight<Exact> {
         ++tests_;
         if (!geom::cone_touches_ball(balls.cone(), cell_balls_[cell])) return true;
         ++fallbacks_;
-        return !judge.touches(cell);
+        return !cell_test.touches(cell);
       };
-      add_interval(row, narrowed(both, misses), light);
+      add_interval(row, trimmed(both, misses), light);
     });
   }
 

@@ -1,8 +1,8 @@
-// `exact` for speed. Balls outside of the view are left out a vector at a time; slice by slice the rows of many balls
+// Fast form of `exact`. Balls outside the view are culled a vector at a time. Slice by slice, the rows of many balls
 // are found at once, one ball per lane; a slice's lists are built by compression while its spans are in the cache. Rows
 // that single precision leaves uncertain, and the ends of a spot's rows, are decided as in exact.cpp. Threads share the
-// slices. Grids whose numbers single precision cannot multiply, as where slices begin a nanometre from the eye, are
-// left to `exact`: all of their rows would be uncertain.
+// slices. Grids whose numbers single precision cannot multiply, for example with slices that begin a nanometre from the
+// eye, are left to `exact`: all of their rows would be uncertain.
 
 #include <algorithm>
 #include <cmath>
@@ -69,7 +69,7 @@ class ExactFast final : public ListAssigner {
   }
 
  private:
-  // Fewer balls in slices than this are done before other threads have woken up.
+  // Fewer balls in slices than this are finished before other threads have woken up.
   static constexpr std::uint32_t k_worth_threads = 1000;
 
   // Slices first .. last - 1.
@@ -84,7 +84,7 @@ class ExactFast final : public ListAssigner {
     fallbacks_ += slices.fallbacks();
   }
 
-  // Each part finds its own lists; then all are copied to where they belong.
+  // Each part finds its own lists; then all lists are copied to their final place.
   void find_in_parts(const ExactFrame& frame, Lists& out) {
     cut_into_parts();
     thread_pool_.each(parts_.size(), [&](std::size_t i) {
@@ -115,7 +115,7 @@ class ExactFast final : public ListAssigner {
     });
   }
 
-  // About equally many balls and cells in each.
+  // Each part gets about equally many balls and cells.
   void cut_into_parts() {
     const auto slices = static_cast<std::size_t>(planes_.slices);
     const std::size_t row_cost = static_cast<std::size_t>(planes_.rows);
@@ -146,11 +146,11 @@ class ExactFast final : public ListAssigner {
   std::unique_ptr<ListAssigner> exact_;
   bool is_left_to_exact_ = false;
   const grid::Grid* grid_ = nullptr;
-  const view::LightArrays* lights_ = nullptr;  // of the frame at hand
+  const view::LightArrays* lights_ = nullptr;  // of the current frame
   RowPlanes planes_;
   BallArrays spots_;  // around their cones
   VisibleBalls visible_;
-  std::uint32_t first_spot_ = 0;  // among them
+  std::uint32_t first_spot_ = 0;  // in the balls
   SphereSetup shapes_;
   SliceBins slice_bins_;
   ExactSlices whole_;

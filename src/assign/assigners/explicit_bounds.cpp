@@ -1,4 +1,4 @@
-// The cells of a frustum grid, each cut down to the depths of its pixels; those without pixels get no list.
+// The cells of a frustum grid, each limited to the depths of its pixels; cells without pixels get no list.
 
 #include "assign/occupied/occupied_method.h"
 

@@ -1,8 +1,7 @@
-// Sphere refinement as Filament's Froxelizer does it, with its mistakes. The row and the column of the centre are taken
-// in each slice from where the centre is seen on the screen, which is mirrored for one behind the eye: it loses lights
-// in the first slice. In an orthographic view all planes between tiles go through the view axis. Nothing is padded.
-// Spots go in as the ball of their range; then the sphere around each froxel's corners is tested against the endless
-// cone.
+// Sphere refinement as in Filament's Froxelizer, with its mistakes. In each slice, the row and the column of the centre
+// come from its position on the screen, which is mirrored for a centre behind the eye: this loses lights in the first
+// slice. In an orthographic view all planes between tiles go through the view axis. Nothing is padded. Spots are tested
+// as the ball of their range; then the sphere around each froxel's corners is tested against the endless cone.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,7 @@
 namespace clusterbench::assign {
 namespace {
 
-// A ball in view space that planes cut down: its squared radius shrinks.
+// A ball in view space that planes cut: its squared radius shrinks.
 struct CutBall {
   Vec3f center;
   float squared_radius;
@@ -25,7 +24,7 @@ struct CutBall {
   bool empty() const { return !(squared_radius > 0.0f); }
 };
 
-// A place on the screen, from -1 to 1 to the right and upward within the picture.
+// A position on the screen, from -1 to 1 to the right and upward within the picture.
 struct Seen {
   float x, y;
 };
@@ -41,7 +40,7 @@ class FilamentRefinement final : public LightByLight<FilamentRefinement> {
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
     start_grid(grid);
     const grid::Tiles& tiles = grid.screen().tiles;
-    // Its planes have no offset: those of an orthographic view are all the one through the view axis.
+    // The planes have no offset: in an orthographic view all of them are the one through the view axis.
     columns_ = tile_planes(tiles.orthographic ? axis_only(tiles.x) : tiles.x, tiles.orthographic);
     rows_ = tile_planes(tiles.orthographic ? axis_only(tiles.y) : tiles.y, tiles.orthographic);
     view_ = ViewCull(grid.screen());
@@ -77,7 +76,7 @@ class FilamentRefinement final : public LightByLight<FilamentRefinement> {
   const std::vector<float>& depths() const { return grid_->screen().slices.boundaries; }
   const grid::Tiles& tiles() const { return grid_->screen().tiles; }
 
-  // Where a point is seen; of one behind the eye mirrored.
+  // The position of a point on the screen; mirrored for a point behind the eye.
   Seen on_screen(const Vec3f& p) const {
     const float w = tiles().orthographic ? 1.0f : -p.z;
     const auto across = [](float at, const std::vector<float>& sides) {
@@ -86,26 +85,26 @@ class FilamentRefinement final : public LightByLight<FilamentRefinement> {
     };
     return {across(p.x / w, tiles().x), across(p.y / w, tiles().y)};
   }
-  // Within the grid.
+  // Clamped to the grid.
   Vec2i tile_at(const Seen& seen) const {
     const float right = 0.5f * (seen.x + 1.0f), down = 0.5f * (1.0f - seen.y);
     const auto tile = [](float share, int pixels, float scale, int count) {
       const float at = share * static_cast<float>(pixels) * scale;
-      if (!(at > 0.0f)) return 0;  // also of what has no place: a point of the eye's plane on the axis
+      if (!(at > 0.0f)) return 0;  // also for NaN: a point of the eye's plane on the axis
       return static_cast<int>(std::min(at, static_cast<float>(count - 1)));
     };
     return {tile(right, tiles().viewport.x, tiles().scale_x, tiles().count.x),
             tile(down, tiles().viewport.y, tiles().scale_y, tiles().count.y)};
   }
-  // Within the grid; of what is behind the eye the first one.
+  // Clamped to the grid; the first slice for points behind the eye.
   int slice_of(float depth) const {
     int slice = 0;
     while (slice + 1 < cells_.z && depth >= depths()[static_cast<std::size_t>(slice) + 1]) ++slice;
     return slice;
   }
 
-  // Of the box around the ball, from the near plane on. Its ends to the right and above are never left of or below the
-  // picture's middle.
+  // The extents of the box around the ball, from the near plane on. Its right and upper ends are never left of or below
+  // the picture's middle.
   CellBox extents(const geom::Ball& ball) const {
     const float near = std::min(-depths().front(), ball.center.z + ball.radius), far = ball.center.z - ball.radius;
     constexpr float k_most = std::numeric_limits<float>::max();
@@ -134,7 +133,7 @@ class FilamentRefinement final : public LightByLight<FilamentRefinement> {
     }
   }
 
-  // From the first column that the rest of the ball reaches to the last one. `at`: the centre's column, row and slice.
+  // From the first to the last column that the rest of the ball reaches. `at`: the centre's column, row and slice.
   void add_columns(const view::LightArrays& lights, std::uint32_t light, const CellBox& box, const CutBall& ball,
                    const Vec3i& at) {
     int first = cells_.x, last = -1;
@@ -156,7 +155,7 @@ class FilamentRefinement final : public LightByLight<FilamentRefinement> {
       if (touches(cone, froxel_balls_[cell])) pairs_.add(cell, light);
   }
 
-  // The cone without an end: its apex is moved back so far that the ball touches it where the centre lies within. Half
+  // Against the endless cone: its apex is moved back until the ball touches the cone if its centre lies within. Half
   // angles are at least half a degree.
   bool touches(const geom::SphericalCone& cone, const geom::Ball& ball) {
     constexpr float k_least_sine = 0.00872653f, k_most_squared_cosine = 0.99992385f;
@@ -168,8 +167,8 @@ class FilamentRefinement final : public LightByLight<FilamentRefinement> {
     return along > 0.0f && along * along >= glm::dot(way, way) * squared_cosine;
   }
 
-  // The mean of the corners, and the farthest one. The first slice begins at the eye; corners of an orthographic view
-  // are where its planes meet, on the view axis.
+  // Around the mean of the corners, up to the farthest one. The first slice begins at the eye; the corners of an
+  // orthographic view are where its planes meet, on the view axis.
   geom::Ball ball_around_corners(const Vec3i& at) const {
     const auto x = static_cast<std::size_t>(at.x), z = static_cast<std::size_t>(at.z);
     const float near = at.z == 0 ? 0.0f : depths()[z], far = depths()[z + 1];

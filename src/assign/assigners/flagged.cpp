@@ -1,4 +1,4 @@
-// The cells of a frustum grid in which pixels lie; the others get no list.
+// The cells of a frustum grid that contain pixels; the others get no list.
 
 #include "assign/occupied/occupied_method.h"
 

@@ -1,4 +1,4 @@
-// The box around each light's volume in a world grid, taken whole: no test of a ball or a cone.
+// The box around each light's volume in a world grid, without a test of the ball or cone.
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 // Roundoffs, of a spot: the range along the axis, whose component is off by 1/2 (1.5); the range across, with the sine
 // off by 1/2, the root of two squared components by 2.7 and two products (5.2); three sums, of numbers up to twice the
-// reach (5). Boundaries are compared as they are.
+// reach (5). Boundaries are exact.
 constexpr float k_light_box_roundoffs = 12.0f;
 
 struct Extents {
@@ -61,7 +61,7 @@ class LightBoxes final : public LightByLight<LightBoxes> {
   std::size_t own_bytes() const { return 0; }
 
  private:
-  // Cells that the box meets along an axis, and with upper_end `ceil` the one after them, unless the box ends on the
+  // Cells that the box meets along an axis. With upper_end `ceil` also the next cell, unless the box ends on the
   // boundary before the last.
   grid::IndexRange cells_within(int axis, const Extents& box) const {
     const std::vector<float>& boundaries = *boundaries_[static_cast<std::size_t>(axis)];

@@ -1,4 +1,4 @@
-// The light's extents as engines have shipped them, each with one mistake on purpose. Spots stand as their bounding
+// The light's extents as engines have shipped them, each with one mistake on purpose. A spot is tested as its bounding
 // ball, and no radius is padded.
 
 #include <algorithm>
@@ -23,8 +23,8 @@ Flaw flaw_from(const std::string& name) {
   return name == "tile-division" ? Flaw::tile_division : Flaw::padded_tiles;
 }
 
-// Slices of exponential schemes by a logarithm that is not the lookup's: of depth / first boundary to base e, or of
-// depth / far by fast_log2. Other schemes have no logarithm to get wrong.
+// Slices of exponential schemes by a logarithm that differs from the lookup's: of depth / first boundary to base e, or
+// of depth / far by fast_log2. Other schemes have no logarithm.
 class LogSlices {
  public:
   LogSlices(const grid::Slices& slices, bool fast)
@@ -52,8 +52,8 @@ class LogSlices {
   int special_;  // slices before the logarithm begins
 };
 
-// The roots of (d² - r²) s² - 2 u d s + (u² - r²) = 0 as the textbook has them, in single precision. A ball that
-// reaches the eye's plane has one tangent ahead, a ball around the eye none.
+// The roots of (d² - r²) s² - 2 u d s + (u² - r²) = 0 in the textbook form, in single precision. A ball that reaches
+// the eye's plane has one tangent ahead, a ball around the eye none.
 geom::SlopeRange textbook_slopes(float u, float depth, float r) {
   constexpr float k_infinity = std::numeric_limits<float>::infinity();
   const float a = depth * depth - r * r, squared_tangent = u * u + depth * depth - r * r;
@@ -111,8 +111,8 @@ class NaiveBounds final : public LightByLight<NaiveBounds> {
     box = {{columns.first, rows.first, box.first.z}, {columns.last, rows.last, box.last.z}};
   }
 
-  // Tiles by whole pixels per tile: cut off (the tiles at the right and bottom are lost), or rounded up (tiles lie
-  // elsewhere than the lookup has them).
+  // Tiles by whole pixels per tile: rounded down (the tiles at the right and bottom are lost), or rounded up (tiles lie
+  // elsewhere than in the lookup).
   void shift_tiles(CellBox& box, const geom::Ball& ball) const {
     if (box.empty()) return;
     const grid::Tiles& tiles = grid_->screen().tiles;
@@ -134,7 +134,7 @@ class NaiveBounds final : public LightByLight<NaiveBounds> {
     const int up = (pixels + count - 1) / count;
     const int tile = flaw_ == Flaw::padded_tiles ? up : std::max(1, static_cast<int>(1.0 / grid_scale(pixels, count)));
     const int tiles = std::min(count, pixels / tile + (flaw_ == Flaw::padded_tiles ? 1 : 0));
-    if (tiles < 1) {  // not one whole tile fits
+    if (tiles < 1) {  // less than one whole tile fits
       last = first - 1;
       return;
     }

@@ -1,5 +1,5 @@
-// Spots as engines have tested them, each with one mistake on purpose, in the cells of the light's extents. Points are
-// left to their cell boxes.
+// Spots as engines have tested them, each with one mistake on purpose, in the cells of the light's extents. Points get
+// all cells of their boxes.
 
 #include <cmath>
 
@@ -18,7 +18,8 @@ Flaw flaw_from(const std::string& name) {
   return name == "no-range" ? Flaw::no_range : Flaw::flat_cap_ball;
 }
 
-// The ball through apex and rim of a cone with a flat cap: holds the sphere-capped one, and much more for wide angles.
+// The ball through apex and rim of a cone with a flat cap: contains the sphere-capped cone, and much more for wide
+// angles.
 geom::Ball flat_cap_ball(const geom::SphericalCone& cone) {
   const float along = cone.range / (2.0f * cone.cos_angle * cone.cos_angle);
   return {cone.apex + along * cone.axis, along};

@@ -1,5 +1,5 @@
-// tiled-2.5d with a mistake that was shipped: parts of a tile's depth are clamped to 32, and there are 32, counted from
-// 0.
+// tiled-2.5d with a mistake that was shipped: the parts of a tile's depth are clamped to 32, but 31 is the last of the
+// 32 parts.
 
 #include "assign/occupied/occupied_method.h"
 

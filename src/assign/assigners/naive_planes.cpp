@@ -1,5 +1,5 @@
-// Every light against the six planes of every cell, and nothing else: loses nothing, but takes every cell near whose
-// edges and corners a large ball passes.
+// Every light against the six planes of every cell, and no other test: loses no lights, but lists every cell whose
+// edges and corners a large ball passes nearby.
 
 #include "assign/bounds/bounds_method.h"
 
@@ -7,7 +7,7 @@ namespace clusterbench::assign {
 namespace {
 
 struct PlanesEverywhere : CellPlanes {
-  static constexpr Looks k_looks = Looks::everywhere;
+  static constexpr Candidates k_candidates = Candidates::all_cells;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Sphere refinement with its usual mistakes: the row and the column of the centre are taken once, from the whole ball,
-// and not again after each projection; nothing is padded. Spots stand as their bounding ball.
+// Sphere refinement with its usual mistakes: the row and the column of the centre are found once, from the whole ball,
+// and not again after each projection; nothing is padded. A spot is tested as its bounding ball.
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ class NaiveRefinement final : public LightByLight<NaiveRefinement> {
     }
   }
 
-  // The tile of the whole ball's centre; beyond the screen's edge: the one outside.
+  // The tile of the whole ball's centre; beyond the screen's edge, the tile just outside.
   Vec2i center_tile(const Remainder& ball) const {
     Vec2i tile{-1, -1};
     while (tile.x + 1 < static_cast<int>(columns_.size()) && column(tile.x + 1).distance(ball.x, ball.depth) >= 0.0f)

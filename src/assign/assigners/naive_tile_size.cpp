@@ -1,6 +1,6 @@
-// Tiles whose size is a whole number of pixels because the screen was divided in whole numbers: cells end before the
-// picture does, and a pixel behind the last tile gets a column, or a row, that there is none of. Its cell's number is
-// that of another cell: of the next row's first tile, of the next slice, or of none.
+// Tiles whose size is a whole number of pixels, because the screen was divided in whole numbers: cells end before the
+// picture does, and a pixel behind the last tile gets a column, or a row, that does not exist. Its cell number is that
+// of another cell: of the next row's first tile, of the next slice, or of none.
 
 #include <algorithm>
 #include <vector>
@@ -41,7 +41,7 @@ class WholeTileLists final : public LightStructure {
     packed_ = packed.make(Params(packed.params));
   }
 
-  // `grid`, that of the frame, outlives the structure's use.
+  // `grid`, the frame's own, must outlive the structure.
   void store(const grid::Grid& grid, const Lists& lists, const view::LightRanges& lights) {
     grid_ = &grid;
     packed_->start(lists.cell_count(), lights);
@@ -55,7 +55,7 @@ class WholeTileLists final : public LightStructure {
     if (cell < packed_->cell_count()) packed_->read_cell(cell, out);
     return true;
   }
-  // Beyond the buffer's end a GPU reads zeros: a header all the same.
+  // Beyond the buffer's end a GPU reads zeros; the header read counts all the same.
   Reads reads_at(const grid::Sample& sample, grid::Log2 way) const override {
     if (grid::lookup(*grid_, sample, way) < 0) return {};
     return packed_->reads_of_cell(std::min(mistaken_cell(sample, way), packed_->cell_count() - 1));
@@ -65,12 +65,12 @@ class WholeTileLists final : public LightStructure {
   StructureLimit limit() const override { return packed_->limit(); }
   std::vector<BufferNeed> buffers() const override { return packed_->buffers(); }
   std::uint32_t index_bits() const override { return packed_->index_bits(); }
-  // A sample's lights are those of other cells than its own.
+  // A sample may get the lights of another cell.
   bool has_cells() const override { return false; }
   void expand(Lists& out) const override { packed_->expand(out); }
 
  private:
-  // Of a sample that the grid has a cell for.
+  // For a sample inside the grid.
   std::uint32_t mistaken_cell(const grid::Sample& sample, grid::Log2 way) const {
     const grid::Tiles& tiles = grid_->screen().tiles;
     const Vec2i size = whole_size(tiles);

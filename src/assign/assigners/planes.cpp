@@ -1,6 +1,6 @@
-// The cells of the light's extents whose six planes each leave a part of the ball inside. Boxy: it cannot exclude a
-// ball that passes a cell's edge or corner. A frustum cell's planes are the grid's, and the extents are what those
-// planes leave, so within the extents it excludes next to nothing; it stands here to show what it costs.
+// The cells of the light's extents for which none of the six planes has the whole ball outside. It cannot exclude a
+// ball that passes a cell's edge or corner. A frustum cell's planes are the grid's, and the extents already use those
+// planes, so within the extents it excludes almost nothing; the method shows the cost of this test.
 
 #include "assign/bounds/bounds_method.h"
 
@@ -8,7 +8,7 @@ namespace clusterbench::assign {
 namespace {
 
 struct PlanesInExtents : CellPlanes {
-  static constexpr Looks k_looks = Looks::in_box;
+  static constexpr Candidates k_candidates = Candidates::in_box;
 };
 
 }  // namespace

@@ -1,13 +1,13 @@
-// Sphere refinement of a frustum grid. For each slice in a light's cell box the ball is replaced by a smaller one that
-// holds its part beyond the slice's nearer plane; for each row that one is replaced again at the row's nearer plane;
-// the columns that the rest reaches are the row's interval. Both planes of a column decide, each plane taken once from
-// either end: by one plane alone, as Persson has it, a rest behind the eye fills rows that it is beside (855 false
-// positives in place of 691 for 512 lights of 13 m). Engines have one plane (Filament): `columns` = nearest. That is
-// the plane towards the column of what the slice has left of the ball, and that column itself is always taken.
+// Sphere refinement of a frustum grid. For each slice in a light's cell box the ball is replaced by a smaller one
+// around its part beyond the slice's nearer plane; for each row that ball is replaced again at the row's nearer plane;
+// the columns that the rest reaches are the row's interval. Both planes of a column are tested, each once from either
+// end: with one plane alone, as in Persson, a rest behind the eye fills rows that it lies beside (855 false positives
+// in place of 691 for 512 lights of 13 m). Engines test one plane (Filament): `columns` = nearest. That is the plane
+// towards the column of the ball that the slice has left, and that column itself is always accepted.
 //
 // Beyond a plane at distance g from its centre, a ball of radius r lies within the ball around the centre's foot on the
-// plane with radius sqrt(r² - g²). The sides of the row's planes are taken with the centre where the slice's plane has
-// moved it: with the original centre's row a projection goes to the wrong plane and loses lights.
+// plane with radius sqrt(r² - g²). The sides of the row's planes are tested with the centre after the slice's plane has
+// moved it: the original centre's row would project onto the wrong plane and lose lights.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@
 namespace clusterbench::assign {
 namespace {
 
-// A ball in view space with its squared radius, which shrinks by what is cut off.
+// A ball in view space with its squared radius, which shrinks with each cut.
 struct Remainder {
   float x, y, depth, squared_radius;
 
@@ -39,7 +39,7 @@ Remainder cut_to_slice(Remainder ball, float depth0, float depth1) {
   return {ball.x, ball.y, nearer, ball.squared_radius - gap * gap};
 }
 
-// Between the planes of a row, which the ball's centre is so far above.
+// The part between the planes of a row; `above`, `above_bottom`: the signed distances of the ball's centre from them.
 Remainder cut_to_row(const Remainder& ball, const TilePlane& top, float above, const TilePlane& bottom,
                      float above_bottom) {
   const float below = -above_bottom;
@@ -51,13 +51,13 @@ Remainder cut_to_row(const Remainder& ball, const TilePlane& top, float above, c
   return ball;
 }
 
-// By the distances from the column's planes.
+// From the distances to the column's planes.
 bool reaches_column(const Remainder& ball, float from_left, float from_right) {
   const float gap = std::max(-from_left, from_right);
   return gap <= 0.0f || gap * gap <= ball.squared_radius;
 }
 
-// Parameters may be those of the fast form, which has none for columns.
+// The parameters may be those of the fast form, which has no `columns`.
 bool by_nearest_plane(const Params& params) {
   const auto found = params.values().find("columns");
   return found != params.values().end() && found->second == ParamValue(std::string("nearest"));
@@ -103,7 +103,7 @@ class SphereRefinement final : public LightByLight<SphereRefinement> {
     }
   }
 
-  // A row's bottom plane is the next one's top plane.
+  // A row's bottom plane is the next row's top plane.
   void add_rows(const CellBox& box, const Remainder& ball, int slice, const TestedLight& light) {
     const TilePlane* planes = rows_.data();
     const int center = by_nearest_ ? column_of(ball) : k_no_column;
@@ -117,7 +117,7 @@ class SphereRefinement final : public LightByLight<SphereRefinement> {
     }
   }
 
-  // The last column whose left plane the centre is not left of, before all or beyond all included.
+  // The last column whose left plane is not right of the centre; may be before the first or after the last column.
   int column_of(const Remainder& ball) const {
     const auto is_right_of = [&](const TilePlane& plane) { return plane.distance(ball.x, ball.depth) >= 0.0f; };
     return static_cast<int>(std::ranges::count_if(columns_, is_right_of)) - 1;
@@ -127,7 +127,7 @@ class SphereRefinement final : public LightByLight<SphereRefinement> {
     int slice, row;
   };
 
-  // `center`: the column that by_nearest_ takes as the centre's; k_no_column: both planes of each column decide.
+  // `center`: the centre's column, for by_nearest_; k_no_column: both planes of each column are tested.
   void add_columns(const CellBox& box, const Remainder& ball, int center, RowAt at, const TestedLight& light) {
     const auto distance = [&](int plane) {
       return columns_[static_cast<std::size_t>(plane)].distance(ball.x, ball.depth);

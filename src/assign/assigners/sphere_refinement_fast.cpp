@@ -1,4 +1,4 @@
-// `sphere-refinement` for speed: the same lists, SIMD.
+// Fast form of `sphere-refinement`: the same lists, with SIMD.
 
 #include "assign/bounds/bounds_rows.h"
 #include "assign/bounds/fast_bounds_method.h"

@@ -1,8 +1,8 @@
-// Every light against every cell's box as three.js does it, with its mistakes. Boxes are of tiles that are spread
-// evenly over the viewport, while samples look them up by tiles of whole pixels: where the pixels of a tile do not
-// divide the viewport, they find the lights of another place. A full cell keeps the lights that are farthest from the
-// camera's plane. Boxes of an orthographic view grow with depth as those of a perspective. Nothing is padded. Spots
-// stand as the smallest ball around them.
+// Every light against every cell's box as in three.js, with its mistakes. Boxes belong to tiles that are spread evenly
+// over the viewport, while samples look them up by tiles of whole pixels: if the tile size does not divide the
+// viewport, samples find the lights of another place. A full cell keeps the lights that are farthest from the camera's
+// plane. Boxes of an orthographic view grow with depth as those of a perspective. Nothing is padded. A spot is tested
+// as the smallest ball around it.
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ class ThreeJsBoxes final : public ListAssigner {
     std::uint32_t light;
   };
 
-  // Farthest first.
+  // Sorted, farthest first.
   void find_balls(const view::LightArrays& lights) {
     balls_.clear();
     for (std::uint32_t light = 0; light < lights.size(); ++light)
@@ -53,7 +53,7 @@ class ThreeJsBoxes final : public ListAssigner {
     std::ranges::sort(balls_, {}, [](const OrderedBall& each) { return std::pair(each.ball.center.z, each.light); });
   }
 
-  // Those that reach the slice's depths, in their order.
+  // The balls that reach the slice's depths, in their order.
   void find_reaching(int z) {
     const std::vector<float>& depths = grid_->screen().slices.boundaries;
     const float near = depths[static_cast<std::size_t>(z)], far = depths[static_cast<std::size_t>(z) + 1];
@@ -64,7 +64,7 @@ class ThreeJsBoxes final : public ListAssigner {
     }
   }
 
-  // Around a cell of even tiles, as of a perspective whose middle is the view axis.
+  // The box around a cell of even tiles, as in a perspective whose middle is the view axis.
   geom::Box box_of(const Vec3i& at) const {
     const grid::Tiles& tiles = grid_->screen().tiles;
     const std::vector<float>& depths = grid_->screen().slices.boundaries;

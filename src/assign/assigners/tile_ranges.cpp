@@ -1,4 +1,4 @@
-// As `z-binning`, but every tile has the first and the last light of each slice for itself.
+// Like `z-binning`, but every tile has its own first and last light of each slice.
 
 #include "assign/depth_bins/sorted_masks.h"
 

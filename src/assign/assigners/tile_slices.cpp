@@ -1,9 +1,10 @@
-// Slices of each tile's own: as many as the grid has and from its near to its far end, each thicker than the one before
-// it by a factor that is the tile's. It is chosen so that half of the slices lie in front of the tile's farthest opaque
-// pixel; a tile of sky takes the far end for it. All of the view has a cell, so samples in the air have their lights.
+// Each tile has its own slices: as many as the grid, from the grid's near to its far end, each thicker than the one
+// before it by the tile's own factor. The factor is chosen so that half of the slices lie in front of the tile's
+// farthest opaque pixel; a tile of sky uses the far end instead. Every point of the view has a cell, so samples in the
+// air have their lights.
 //
-// Roundoffs: of the tests the one against a box loses most (CellAabbs); extents and depth - r, depth + r lose one.
-// Where slices end is padded apart, by what the lookup can round (TileSlicing::bounds).
+// Roundoffs: of the tests the one against a box has the largest error (CellAabbs); extents and depth - r, depth + r
+// lose one. The ends of slices are padded separately, by the rounding of the lookup (TileSlicing::bounds).
 
 #include <algorithm>
 #include <cmath>
@@ -32,11 +33,11 @@ double whole_power(double base, int exponent) {
   return power;
 }
 
-// One tile's slices, as a shader derives them from the tile's growth.
+// One tile's slices, as a shader computes them from the tile's growth.
 struct TileSlicing {
   float near = 0.0f;
   int count = 1;
-  float growth = 2.0f;  // each slice is so many times as thick as the one before it
+  float growth = 2.0f;  // the ratio of a slice's thickness to that of the one before it
   float scale = 1.0f, per_octave = 1.0f;
 
   TileSlicing() = default;
@@ -46,16 +47,16 @@ struct TileSlicing {
     per_octave = static_cast<float>(1.0 / std::log2(static_cast<double>(growth)));
   }
 
-  // A shader's lookup, clamped. Every step ascends with the depth, however it is rounded (grid::Log2::rounded).
+  // A shader's lookup, clamped. Every step is monotonic in the depth, however it is rounded (grid::Log2::rounded).
   int slice_of(float depth, grid::Log2 way = grid::Log2::rounded) const {
     const float from_near = std::max(depth - near, 0.0f);
     const float slice = grid::log2_by(way, from_near * scale + 1.0f) * per_octave;
     return slice >= 1.0f ? static_cast<int>(std::min(slice, static_cast<float>(count - 1))) : 0;
   }
 
-  // Where slice `slice` begins: between these. With x = growth^slice = 1 + scale * (depth - near), three operations
-  // round x, each relative to it; the logarithm, the product and per_octave round the slice: 4 u for x and 3 u ln(x) in
-  // terms of x, with scale's own. One is added to each for terms of higher order.
+  // Bounds of the depth at which slice `slice` begins. With x = growth^slice = 1 + scale * (depth - near), three
+  // operations round x, each relative to it; the logarithm, the product and per_octave round the slice: 4 u for x and 3
+  // u ln(x) in terms of x, with scale's own. One is added to each for terms of higher order.
   struct Bounds {
     float lo, hi;
   };
@@ -74,7 +75,7 @@ class TileSliceLists final : public LightStructure {
     packed_ = packed.make(Params(packed.params));
   }
 
-  // No allocation in a steady state. `grid` outlives the structure's use.
+  // No allocation in a steady state. `grid` must outlive the structure.
   void store(const grid::Grid& grid, const std::vector<TileSlicing>& slicings, const Lists& lists,
              const view::LightRanges& lights) {
     grid_ = &grid;
@@ -90,7 +91,7 @@ class TileSliceLists final : public LightStructure {
     packed_->read_cell(static_cast<std::uint32_t>(cell), out);
     return true;
   }
-  // The tile's number, then what the list takes.
+  // Reads the tile's number, then the list.
   Reads reads_at(const grid::Sample& sample, grid::Log2 way) const override {
     const std::int64_t cell = cell_of(sample, way);
     if (cell < 0) return {};
@@ -118,7 +119,7 @@ class TileSliceLists final : public LightStructure {
   bool has_occupied_cells() const override { return true; }
   void expand(Lists& out) const override { packed_->expand(out); }
 
-  // Of each cell the depths that are looked up in it.
+  // For each cell the depths whose lookup gives it.
   grid::OccupiedCells occupied_cells() const override {
     const std::vector<std::vector<float>> begins = begins_of_tiles();
     grid::OccupiedCells out;
@@ -146,7 +147,7 @@ class TileSliceLists final : public LightStructure {
     return grid::cell_index({at.x, at.y, slicing.slice_of(depth, way)}, grid_->cells());
   }
 
-  // A number per tile, from which a shader has its slices.
+  // One number per tile, from which a shader computes its slices.
   std::uint64_t growth_bytes() const { return slicings_.size() * sizeof(float); }
 
   std::vector<std::vector<float>> begins_of_tiles() const {
@@ -215,12 +216,12 @@ class TileSlices final : public AssignerOf<TileSliceLists> {
     return tile * static_cast<std::size_t>(count()) + static_cast<std::size_t>(slice);
   }
 
-  // Half of the slices reach to this depth: (g^(n/2) - 1) / (g^n - 1) is its share of the range.
+  // Half of the slices end at this depth: (g^(n/2) - 1) / (g^n - 1) is its share of the range.
   float growth_for(float farthest) const {
     const double near = near_, range = static_cast<double>(far_) - near;
     const double share = std::clamp((static_cast<double>(farthest) - near) / range, 0x1p-23, 1.0);
     const double half = share < 0.5 ? (1.0 - share) / share : 1.0;
-    // Of very many slices the last one's thickness must still be a number.
+    // With very many slices the last one's thickness must still be finite.
     const double least = std::min(least_growth_, std::exp2(64.0 / count()));
     return static_cast<float>(std::max(least, std::pow(half, 2.0 / count())));
   }
@@ -273,9 +274,9 @@ class TileSlices final : public AssignerOf<TileSliceLists> {
   ViewCull view_;
   PixelDepths pixels_;
   DepthRanges depths_;                 // of the tiles
-  std::vector<TileSlicing> slicings_;  // the same
+  std::vector<TileSlicing> slicings_;  // of the tiles
   std::vector<geom::Box> boxes_;       // around the frame's cells
-  std::vector<geom::Ball> balls_;      // the same, where there are spots
+  std::vector<geom::Ball> balls_;      // the same, if there are spots
   PairBuffer pairs_;
   Lists lists_;
   std::uint64_t tests_ = 0;

@@ -1,14 +1,15 @@
-// As `z-binning`, but with columns for each row of tiles: those that the light's outline on the picture has there, not
-// those of the box around it.
+// Like `z-binning`, but with own columns for each row of tiles: those of the light's outline in that row, not those of
+// the box around the outline.
 //
-// Of a ball these are the slopes of its part between the row's two planes, the near and the far plane, in closed form
-// (geom/projection/row_slopes.h). A spot has the columns that both the ball of its range and the ball around its cone
-// have, between the two planes through the eye that touch the cone: their lines are the straight sides of the outline.
-// There are none where the eye lies in the cone, or in its mirror image behind the apex; then the balls decide alone.
+// For a ball these are the slopes of its part between the row's two planes and the near and the far plane, in closed
+// form (geom/projection/row_slopes.h). A spot has the columns of both the ball of its range and the ball around its
+// cone, clipped by the two planes through the eye that touch the cone: their lines are the straight sides of the
+// outline. These planes do not exist if the eye lies in the cone, or in its mirror image behind the apex; then the
+// balls alone decide.
 //
-// Roundoffs: balls are grown by k_exact_roundoffs, as `exact` grows them for the same functions. The planes are moved
-// out by k_plane_roundoffs, of which two are given, and two are the axis (three components off by half a roundoff) and
-// the angle (its sine and cosine likewise) over the light's range; planes are in double precision.
+// Roundoffs: balls are enlarged by k_exact_roundoffs, as in `exact`, which uses the same functions. The planes are
+// moved out by k_plane_roundoffs: two for the given numbers, and two for the axis (three components off by half a
+// roundoff) and the angle (its sine and cosine likewise) over the light's range; planes are in double precision.
 
 #include <algorithm>
 #include <cmath>
@@ -35,12 +36,12 @@ IndexRange common(const IndexRange& a, const IndexRange& b) {
   return {std::max(a.first, b.first), std::min(a.last, b.last)};
 }
 
-// A spot is where normal · (X, Y, 1) >= least, of a place (X, Y) of the picture.
+// A spot lies where normal · (X, Y, 1) >= least, for a position (X, Y) in the picture.
 struct OutlineSide {
   Vec3d normal{0.0};
   double least = -std::numeric_limits<double>::infinity();
 
-  // The X of it in a row of tiles. The sum is off by less than 8 roundoffs of its terms, the quotient by one.
+  // The range of X in a row of tiles. The sum is off by less than 8 roundoffs of its terms, the quotient by one.
   Slopes across(double y0, double y1) const {
     constexpr double k_infinity = std::numeric_limits<double>::infinity();
     const double up = std::max(normal.y * y0, normal.y * y1);
@@ -54,8 +55,8 @@ struct OutlineSide {
 };
 
 // The two planes along the lines of sight (through the eye, or along the view axis) that touch the cone, moved out by
-// `margin`. How well they touch it is not relied on: `least` is the least that the spot has along the normal. In x, y
-// and depth; `nearest`: no depth that matters is less.
+// `margin`. They need not touch it precisely: `least` is the spot's least value along the normal. In x, y and depth;
+// `nearest`: the least depth that matters.
 struct ConeOutline {
   OutlineSide sides[2];
 
@@ -72,7 +73,7 @@ struct ConeOutline {
     const Vec3d across = side / sine, toward_axis = glm::cross(across, ahead);
     for (const double turn : {-1.0, 1.0}) {
       const Vec3d normal = lean * toward_axis + turn * std::sqrt((1.0 - lean) * (1.0 + lean)) * across;
-      // Least of normal · u over the unit vectors u of the cone.
+      // Minimum of normal · u over the unit vectors u of the cone.
       const double along =
           glm::dot(normal, axis) * double{cone.cos_angle} - glm::length(glm::cross(normal, axis)) * cone.sin_angle;
       const double start = orthographic ? normal.x * apex.x + normal.y * apex.y : glm::dot(normal, apex);
@@ -112,7 +113,7 @@ class TileSpans final : public AssignerOf<SortedMasks<RangesOf::slices>> {
     listed_.reserve(lights.size());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
       if (!lights.is_empty(light)) find_spans(lights, light);
-    // Equal depths are told apart by slices, so that what a bin holds does not depend on the order of the lights.
+    // Equal depths are ordered by slices, so that a bin's content does not depend on the order of the lights.
     std::sort(listed_.begin(), listed_.end(), [](const Listed& a, const Listed& b) { return a.order() < b.order(); });
     out.start(*grid_, lights.size(), static_cast<std::uint32_t>(listed_.size()), form_);
     std::uint32_t rank = 0;
@@ -137,7 +138,7 @@ class TileSpans final : public AssignerOf<SortedMasks<RangesOf::slices>> {
   void find_spans(const view::LightArrays& lights, std::uint32_t light) {
     const auto padding = static_cast<float>(inflation_ * double{k_exact_roundoffs});
     const geom::Ball range = lights.ball(light, padding);
-    // The ball around a cone that was grown is not as much larger: its radius is that of the cone times 1 / (2 cos a).
+    // The ball around an enlarged cone is not enlarged as much: its radius is that of the cone times 1 / (2 cos a).
     geom::Ball ball = lights.bounding_ball(light, static_cast<float>(inflation_) * view::k_given_roundoffs);
     ball.radius = lights.is_spot(light) ? ball.radius + padding * 0x1p-24f * lights.reach[light] : range.radius;
     ++tests_;
@@ -173,7 +174,7 @@ class TileSpans final : public AssignerOf<SortedMasks<RangesOf::slices>> {
     return box.empty() ? IndexRange{} : IndexRange{box.first.y, box.last.y};
   }
 
-  // As if all slices were one.
+  // With all slices as one.
   Row whole_row(int row) const {
     const grid::ScreenGrid& screen = grid_->screen();
     return {0, screen.tiles.y_min(row), screen.tiles.y_max(row), screen.slices.boundaries.front(),
@@ -209,7 +210,7 @@ class TileSpans final : public AssignerOf<SortedMasks<RangesOf::slices>> {
   const grid::Grid* grid_ = nullptr;
   ViewCull view_;
   std::vector<Listed> listed_;
-  std::vector<IndexRange> spans_;  // row by row, of all that are listed
+  std::vector<IndexRange> spans_;  // row by row, of all listed lights
   std::uint64_t tests_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// One list for each tile of the screen, of the lights that reach it between the least and the greatest depth of its
+// One list for each tile of the screen: the lights that reach it between the least and the greatest depth of its
 // pixels.
 
 #include "assign/occupied/occupied_method.h"

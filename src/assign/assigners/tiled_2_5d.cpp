@@ -1,5 +1,5 @@
-// As tiled; and of each tile a bit for each of 32 parts of its range of depth, set where a pixel lies in it. A light
-// whose own bits meet none of them is left out.
+// Like tiled; in addition each tile has a bit for each of 32 parts of its range of depth, set if a pixel lies in that
+// part. A light whose own bits meet none of them is left out.
 
 #include "assign/occupied/occupied_method.h"
 

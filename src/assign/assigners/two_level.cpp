@@ -1,7 +1,7 @@
-// Scatter, then gather: each light goes into the coarse tiles that its extents cover, and each cell asks the lights of
-// the coarse tile that it lies in.
+// Scatter, then gather: each light is added to the coarse tiles that its extents cover, and each cell tests the lights
+// of its coarse tile.
 //
-// Roundoffs: the coarse tiles are the cells of `bounds`, a few at a time; the test of a cell is that of `aabb`.
+// Roundoffs: the coarse tiles are blocks of the cells of `bounds`; the test of a cell is that of `aabb`.
 
 #include "assign/bounds/bounds_method.h"
 
@@ -64,9 +64,9 @@ class TwoLevel final : public ListAssigner {
 
   void gather(const Vec3i& cell, Lists& out) {
     const std::uint32_t index = grid::cell_index(cell, cells_);
-    const auto asked = coarse_lists_.of(grid::cell_index({cell.x / side_, cell.y / side_, cell.z}, coarse_));
-    tests_ += asked.size();
-    for (const std::uint32_t slot : asked) {
+    const auto candidates = coarse_lists_.of(grid::cell_index({cell.x / side_, cell.y / side_, cell.z}, coarse_));
+    tests_ += candidates.size();
+    for (const std::uint32_t slot : candidates) {
       const TestedLight& light = tested_[slot];
       if (boxes_.touches(light.ball, index) && (!light.has_cone || test_.cone_touches(light, index)))
         out.lights.push_back(light.index);

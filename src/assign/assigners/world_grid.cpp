@@ -1,4 +1,4 @@
-// The world's box grid: lights come relative to its origin, along the world's axes.
+// The world's box grid: light positions are relative to its origin, along the world's axes.
 
 #include "assign/box_grid/box_grid_method.h"
 

@@ -1,4 +1,4 @@
-// `world-grid` for speed: the same lists, SIMD.
+// Fast form of `world-grid`: the same lists, with SIMD.
 
 #include "assign/box_grid/fast_box_grid_method.h"
 

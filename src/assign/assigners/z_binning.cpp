@@ -1,5 +1,5 @@
-// Lights sorted by depth; per depth bin the first and the last of them that reach it; per tile of the screen a bit for
-// each. Bins are the grid's slices.
+// Lights sorted by depth; each depth bin has the first and the last light that reach it; each tile of the screen has
+// one bit per light. Bins are the grid's slices.
 
 #include "assign/depth_bins/sorted_masks.h"
 

@@ -12,7 +12,7 @@
 
 namespace clusterbench::assign {
 
-// Balls side by side, with their lights. Keeps its memory.
+// Balls as one array per coordinate, with their lights. Keeps its memory.
 class BallLanes {
  public:
   void clear() { count_ = 0; }
@@ -26,8 +26,8 @@ class BallLanes {
   }
   std::uint32_t count() const { return count_; }
 
-  // Writes the lights of those that geom::ball_touches_box() says touch the box, in their order, and returns how many.
-  // `out` has room for k_most_lanes more than count().
+  // Writes the lights of the balls that touch the box by geom::ball_touches_box(), in their order, and returns their
+  // number. `out` has room for k_most_lanes more than count().
   std::uint32_t touching(const geom::Box& box, std::uint32_t* out) const;
 
   std::size_t capacity_bytes() const { return light_.size() * (4 * sizeof(float) + sizeof(std::uint32_t)); }
@@ -39,7 +39,7 @@ class BallLanes {
   }
 
   std::uint32_t count_ = 0;
-  AlignedVector<float> x_, y_, z_, squared_radius_;  // with room for whole vectors beyond the last
+  AlignedVector<float> x_, y_, z_, squared_radius_;  // with room for whole vectors after the last ball
   AlignedVector<std::uint32_t> light_;
 };
 

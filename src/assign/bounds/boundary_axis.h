@@ -5,7 +5,7 @@
 
 namespace clusterbench::assign {
 
-// Ascending, and where among them a value may be looked for first.
+// Ascending boundaries, with the scale for a first guess of a value's interval.
 struct BoundaryAxis {
   std::vector<float> boundaries;
   float start = 0.0f, per_length = 0.0f;

@@ -1,6 +1,6 @@
 #pragma once
-// What the plain box methods share: light by light the cells of a frustum grid within the light's box of cells, or all,
-// of which one predicate keeps some.
+// The common part of the plain box methods: light by light, the cells of a frustum grid in the light's box of cells (or
+// all cells), filtered by one predicate.
 
 #include <vector>
 
@@ -12,19 +12,19 @@
 
 namespace clusterbench::assign {
 
-// Which cells are looked at: all, or those of the light's box; or those of the box are taken as they are.
-enum class Looks { everywhere, in_box, nowhere };
+// The candidate cells of a light: all cells; the cells of the light's box; or those, accepted without a test.
+enum class Candidates { all_cells, in_box, untested_box };
 
-// A method that takes no boxes.
+// A method without boxes.
 struct NoBoxTest {
-  static constexpr bool k_takes_boxes = false;
+  static constexpr bool k_tests_boxes = false;
   std::size_t capacity_bytes() const { return 0; }
 };
 
 // CellTest: build(const grid::Grid&), bool touches(const geom::Ball&, std::uint32_t cell) const, capacity_bytes()
-// const, k_looks, and k_roundoffs: what touches() loses. With Looks::nowhere there is no touches().
-// BoxTest: k_takes_boxes, and if it is true build(const grid::Grid&), bool touches(const geom::PaddedBox&, const
-// CellTest&, std::uint32_t cell) const, k_roundoffs: what the padding has to cover; capacity_bytes() const.
+// const, k_candidates, and k_roundoffs: the error of touches(). With Candidates::untested_box there is no touches().
+// BoxTest: k_tests_boxes, and if it is true build(const grid::Grid&), bool touches(const geom::PaddedBox&, const
+// CellTest&, std::uint32_t cell) const, k_roundoffs: the error that the padding has to cover; capacity_bytes() const.
 template <class CellTest, class BoxTest = NoBoxTest>
 class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest, BoxTest>> {
   using LightByLight<CellBoxMethod>::cells_;
@@ -38,7 +38,7 @@ class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest, BoxTest>
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
     this->start_grid(grid);
     cell_test_.build(grid);
-    if constexpr (BoxTest::k_takes_boxes)
+    if constexpr (BoxTest::k_tests_boxes)
       if (kinds.boxes) box_test_.build(grid);
     view_ = ViewCull(grid.screen());
     test_.start_grid(grid, kinds);
@@ -46,12 +46,13 @@ class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest, BoxTest>
 
   void start_frame(const view::LightArrays& lights) { test_.start_frame(lights); }
   void add_light(const view::LightArrays& lights, std::uint32_t light) {
-    const CellBox box = CellTest::k_looks == Looks::everywhere ? CellBox{Vec3i(0), cells_ - 1} : extents(lights, light);
+    const CellBox box =
+        CellTest::k_candidates == Candidates::all_cells ? CellBox{Vec3i(0), cells_ - 1} : extents(lights, light);
     if (box.empty()) return;
-    if constexpr (BoxTest::k_takes_boxes)
+    if constexpr (BoxTest::k_tests_boxes)
       if (lights.is_box(light)) return add_box(lights, light, box);
     const TestedLight tested = test_.tested(lights, light);
-    if constexpr (CellTest::k_looks == Looks::nowhere) {
+    if constexpr (CellTest::k_candidates == Candidates::untested_box) {
       add_rows(box, tested);
     } else if (tested.has_cone) {
       visit(box, light, [&](std::uint32_t cell) {
@@ -72,8 +73,8 @@ class CellBoxMethod final : public LightByLight<CellBoxMethod<CellTest, BoxTest>
   }
 
   void add_box(const view::LightArrays& lights, std::uint32_t light, const CellBox& cells) {
-    // test_.padding() adds what the box's numbers have lost before: the middle's roundoff, which the tests count, too,
-    // and that of padding the radius, which no box needs.
+    // test_.padding() also covers errors from earlier steps: the middle's roundoff, which the tests count as well, and
+    // the roundoff of padding a radius, which boxes do not have.
     const float roundoffs = test_.padding(BoxTest::k_roundoffs - view::k_given_roundoffs);
     const geom::PaddedBox box = geom::padded(lights.box(light), roundoffs * (0x1p-24f * lights.reach[light]));
     visit(cells, light, [&](std::uint32_t cell) { return box_test_.touches(box, cell_test_, cell); });
@@ -124,14 +125,14 @@ class CellAabbs {
   std::vector<geom::Box> boxes_;
 };
 
-// The same, asked about the cells of a light's extents alone.
+// The same, but only for the cells of a light's extents.
 struct AabbsInExtents : CellAabbs {
-  static constexpr Looks k_looks = Looks::in_box;
+  static constexpr Candidates k_candidates = Candidates::in_box;
 };
 
 // Boxes against the cells' axis-aligned bounds by their own: the coarse test.
 struct CoarseBoxTest {
-  static constexpr bool k_takes_boxes = true;
+  static constexpr bool k_tests_boxes = true;
   static constexpr float k_roundoffs = geom::k_bounds_roundoffs;
 
   void build(const grid::Grid&) {}
@@ -141,10 +142,10 @@ struct CoarseBoxTest {
   std::size_t capacity_bytes() const { return 0; }
 };
 
-// The cells themselves, for tests of boxes that ask more than their bounds.
+// The cells themselves, for box tests that need more than the cells' bounds.
 class FrustumCells {
  public:
-  static constexpr bool k_takes_boxes = true;
+  static constexpr bool k_tests_boxes = true;
 
   void build(const grid::Grid& grid);
   std::size_t capacity_bytes() const { return cells_.capacity() * sizeof(geom::FrustumCell); }

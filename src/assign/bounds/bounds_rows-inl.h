@@ -1,5 +1,5 @@
-// Balls with their boxes of cells in vectors: where values are among boundaries, and the rows of boxes. For files that
-// are compiled once per target.
+// Vectors of balls with their boxes of cells: the search of values among boundaries, and the rows of the boxes. For
+// files that are compiled once per target.
 
 #if defined(CLUSTERBENCH_BOUNDS_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_BOUNDS_ROWS_INL_H
@@ -16,10 +16,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 
-// --- Boundaries: a guess that they themselves settle ---
+// --- Boundaries: a guess, verified with the boundaries themselves ---
 
-// passes(boundary) holds up to some boundary and for none beyond. Finds the last of boundaries `least` .. that passes,
-// or `least` (0 or -1), whether it passes or not; with -1 the last boundary is not asked. Looks first at the guess.
+// passes(boundary) is true up to some boundary and false beyond. Finds the last of boundaries `least` .. that passes,
+// or `least` (0 or -1), whether it passes or not; with -1 the last boundary is not tested. Starts at the guess.
 template <class Passes>
 HWY_INLINE VI last_passed(const std::vector<float>& boundaries, VI guess, int least, Passes&& passes) {
   const auto count = static_cast<std::int32_t>(boundaries.size()) - 1;
@@ -49,7 +49,7 @@ struct Indices {
   VI first, last;
 };
 
-// Looks first where a value is guessed to be.
+// Starts at the guessed position of a value.
 HWY_INLINE VI first_touched(const std::vector<float>& boundaries, VI guess, V low) {
   return last_passed(boundaries, guess, 0, [&](V boundary) { return boundary < low; });
 }
@@ -76,20 +76,20 @@ class Boxes {
     rows = gathered(batch.bounded.last_row, indices) - first_row + all(1);
     rows = IfThenElseZero(FirstN(DI(), batch.count), rows);
     columns = gathered(batch.bounded.last_column, indices) - first_column + all(1);
-    // Below all lights (lights are fewer than 2^31), none is uncertain.
+    // Larger than all light indices (which are below 2^31): none is uncertain.
     uncertain = IfThenElseZero(Not(lights < all(batch.first_uncertain)), all(BatchRows::k_uncertain));
   }
 
   // Leaves out the balls that do not reach the slice.
   HWY_INLINE void keep(M reaches) { rows = IfThenElseZero(RebindMask(DI(), reaches), rows); }
-  // The same, and rows other than the box's.
-  HWY_INLINE void take_rows(M reaches, const Indices& range) {
+  // The same, and limits the rows to `range`.
+  HWY_INLINE void limit_rows(M reaches, const Indices& range) {
     keep(reaches);
     first_row = range.first;
     rows = IfThenElseZero(rows > Zero(DI()), Max(range.last - range.first + all(1), Zero(DI())));
   }
 
-  // Prepares the answer; false if there are no rows.
+  // Prepares the result; false if there are no rows.
   HWY_INLINE bool start(int grid_rows, std::uint32_t count, BatchRows& out) const {
     out.lanes = static_cast<std::uint32_t>(Lanes(DI()));
     const auto row_count = static_cast<std::uint32_t>(GetLane(SumOfLanes(DI(), rows)));
@@ -103,7 +103,8 @@ class Boxes {
     return true;
   }
 
-  // The columns first .. last (counted from the box's first) as a batch's answer has them, where there are some.
+  // The columns first .. last (counted from the box's first column) in the format of BatchRows; k_none where `are_some`
+  // is false.
   HWY_INLINE VU entry(MI are_some, VI first, VI last) const {
     const VU from = BitCast(DU(), first_column + first), to = BitCast(DU(), first_column + last);
     const VU span = Or(Or(from, ShiftLeft<16>(to)), uncertain);
@@ -112,11 +113,11 @@ class Boxes {
 
   int most_columns() const { return GetLane(MaxOfLanes(DI(), IfThenElseZero(rows > Zero(DI()), columns))); }
 
-  VI indices, first_row, rows, first_column, columns;  // how many rows and columns
+  VI indices, first_row, rows, first_column, columns;  // number of rows and columns
   VU lights, uncertain;
 };
 
-// Takes each lane through its rows. entry_of(row, wanted) is the answer of the wanted lanes for their row.
+// Walks each lane through its rows. entry_of(row, wanted) is the result of the selected lanes for their row.
 template <class EntryOf>
 HWY_INLINE void walk_rows(const Boxes& boxes, int grid_rows, BatchRows& out, EntryOf&& entry_of) {
   const auto lanes = static_cast<int>(Lanes(DI()));
@@ -138,12 +139,12 @@ struct Balls {
   V x, y, depth, radius;
 };
 
-// Boxes of cells. An empty range of slices: none.
+// Boxes of cells. An empty range of slices: no cells.
 struct CellRanges {
   Indices columns, rows, slices;
 };
 
-// write(indices, array) for each number of the boxes.
+// write(indices, array) for each array of the boxes.
 template <class Write>
 HWY_INLINE void write_cells(const CellRanges& cells, BoundedBalls& out, Write&& write) {
   write(cells.columns.first, out.first_column);
@@ -154,7 +155,7 @@ HWY_INLINE void write_cells(const CellRanges& cells, BoundedBalls& out, Write&& 
   write(cells.slices.last, out.last_slice);
 }
 
-// Appends the wanted balls, without their boxes.
+// Appends the selected balls, without their boxes.
 HWY_INLINE void append_balls(M wanted, const Balls& balls, VU lights, BoundedBalls& out) {
   const auto append = [&, count = out.count](auto value, auto& to) { store_wanted(value, wanted, to.data() + count); };
   append(balls.x, out.x);
@@ -165,8 +166,8 @@ HWY_INLINE void append_balls(M wanted, const Balls& balls, VU lights, BoundedBal
   out.count += static_cast<std::uint32_t>(CountTrue(D(), wanted));
 }
 
-// Appends those of the given balls, larger by these roundoffs, that reaches(balls) does not rule out, with the boxes of
-// cells that cells_of(balls) says.
+// Appends those of the given balls, enlarged by these roundoffs, for which reaches(balls) is true, with the boxes of
+// cells from cells_of(balls).
 template <class Reaches, class CellsOf>
 HWY_INLINE void append_given(const GivenBalls& given, float roundoffs, BoundedBalls& out, Reaches&& reaches,
                              CellsOf&& cells_of) {

@@ -12,8 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
-// Takes each lane through its rows of which reaches(row) says that the ball reaches them. Their columns go from the
-// first to the last that touches(column) says it touches; they are counted from the box's first, in lockstep.
+// Walks each lane through its rows for which reaches(row) is true. The columns of a row go from the first to the last
+// for which touches(column) is true; they are counted from the box's first column, in lockstep.
 template <class Reaches, class Touches>
 HWY_INLINE void walk_columns(const Boxes& boxes, int grid_rows, BatchRows& out, Reaches&& reaches, Touches&& touches) {
   const VI beyond = all(std::numeric_limits<std::int32_t>::max());
@@ -32,7 +32,8 @@ HWY_INLINE void walk_columns(const Boxes& boxes, int grid_rows, BatchRows& out, 
   });
 }
 
-// Calls prepare(column, at) for each column of the lanes' boxes: at `at` is room for what the lanes know of it.
+// Calls prepare(column, at) for each column of the lanes' boxes; `at` is the place for the lanes' values of that
+// column.
 template <class Prepare>
 HWY_INLINE void each_column(const Boxes& boxes, int count, int grid_columns, Prepare&& prepare) {
   const VI last = all(grid_columns - 1);
@@ -40,7 +41,7 @@ HWY_INLINE void each_column(const Boxes& boxes, int count, int grid_columns, Pre
     prepare(Min(boxes.first_column + all(i), last), static_cast<std::size_t>(i) * Lanes(D()));
 }
 
-// Row by row, without scattering: the entries of a ball are all the same.
+// Row by row, without scattering: all entries of a ball are equal.
 void bounds_rows(int grid_rows, const BallBatch& batch, BatchRows& out) {
   const Boxes boxes(batch);
   if (!boxes.start(grid_rows, batch.count, out)) return;
@@ -67,7 +68,7 @@ HWY_INLINE Remainder cut_to_slice(V depth, V radius, float depth0, float depth1)
   return {nearer, radius * radius - gap * gap};
 }
 
-// A row's plane, and how far above it a ball's centre is.
+// A row's plane, and the signed distance of a ball's centre above it.
 struct RowPlane {
   V along, distance;
 };
@@ -102,7 +103,7 @@ void refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneCo
   boxes.keep(ball.is_some());
   if (!boxes.start(row_planes - 1, batch.count, out)) return;
 
-  // What a plane's distance takes of the centre's x, which no cut changes, and of its depth.
+  // The part of a plane's distance that comes from the centre's x, which no cut changes, and the factor for its depth.
   columns.reserve(planes.columns.size() * k_row_lanes);
   float *const of_x = columns.first.data(), *const of_depth = columns.second.data();
   const V x = gathered(bounded.x, boxes.indices), y = gathered(bounded.y, boxes.indices);
@@ -145,8 +146,8 @@ HWY_INLINE V squared_gap(const CellExtents::Axis& axis, VI index, V center) {
   return outside * outside;
 }
 
-// Sums of squares are rounded to what is at least each square and grows with each: so what one gap puts out of reach,
-// no other brings back, and the columns that a row's boxes reach are one interval, because the boxes' ends ascend.
+// A sum of squares is rounded to at least each square and grows with each: if one gap is out of reach, so is the sum
+// with any other gap. So the columns that a row's boxes reach are one interval, because the boxes' ends ascend.
 void box_rows(const CellExtents& cells, const BallBatch& batch, LaneColumns& columns, BatchRows& out) {
   const BoundedBalls& bounded = batch.bounded;
   Boxes boxes(batch);

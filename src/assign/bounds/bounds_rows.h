@@ -1,7 +1,7 @@
 #pragma once
-// The cells of their boxes that many balls touch: slice by slice, one ball per lane, each lane through its own rows,
-// and in each row from the box's first column to its last. What a lane does is what the scalar methods do, the same
-// operations in the same order, so the cells are the same.
+// The cells that many balls touch within their boxes: slice by slice, one ball per lane, each lane through its own
+// rows, and in each row from the box's first column to its last. A lane does the same operations as the scalar methods,
+// in the same order, so the cells are the same.
 
 #include <cstdint>
 #include <vector>
@@ -15,7 +15,7 @@
 
 namespace clusterbench::assign {
 
-// Memory for what a batch's lanes know of their columns; kept between batches.
+// Memory for the values of a batch's columns, one per lane; kept between batches.
 struct LaneColumns {
   AlignedVector<float> first, second;
 
@@ -40,7 +40,7 @@ struct RefinementPlanes {
 };
 void find_refined_rows(const RefinementPlanes& planes, const BallBatch& batch, LaneColumns& columns, BatchRows& out);
 
-// The boxes around the cells (assigners/aabb.cpp), or those that are the cells (assign/box_grid/).
+// With the boxes around the cells (assigners/aabb.cpp), or with boxes that are the cells (assign/box_grid/).
 void find_box_rows(const CellExtents& cells, const BallBatch& batch, LaneColumns& columns, BatchRows& out);
 
 }  // namespace clusterbench::assign

@@ -7,7 +7,7 @@
 
 namespace clusterbench::assign {
 
-// Frustum grids. Boundaries are compared directly, so no logarithm can disagree with them. Conservative for a ball
+// For frustum grids. Boundaries are compared directly, so no logarithm can disagree with them. Conservative for a ball
 // padded by k_cell_box_roundoffs: slopes are bounded outward in double precision, depth - r and depth + r are rounded
 // once.
 inline constexpr float k_cell_box_roundoffs = 1.0f;

@@ -24,7 +24,7 @@ struct CellExtents {
   std::size_t capacity_bytes() const { return bytes_of(x.extents, y.extents, z.extents); }
 };
 
-// Of a frustum grid.
+// The extents of a frustum grid's cells.
 CellExtents cell_extents(const grid::Grid& grid);
 
 }  // namespace clusterbench::assign

@@ -1,7 +1,7 @@
 #pragma once
-// What the fast forms of the methods by cell bounds share: the kernel of slice_by_slice.h for a frustum grid. Lights'
-// boxes of cells are found a vector at a time (frustum_bounds.h); which columns of a row they touch, Rows knows. Every
-// step gives what the scalar method gives.
+// The common part of the fast forms of the methods by cell bounds: the kernel of slice_by_slice.h for a frustum grid.
+// Lights' boxes of cells are found a vector at a time (frustum_bounds.h); Rows finds the touched columns of a row.
+// Every step has the same result as in the scalar method.
 
 #include "assign/bounds/cell_bounds.h"
 #include "assign/bounds/frustum_bounds.h"
@@ -10,8 +10,8 @@
 namespace clusterbench::assign {
 
 // Rows: Rows(const Params&), build(const grid::Grid&), void find(const BallBatch&, BatchRows&), capacity_bytes() const,
-// k_roundoffs: what they lose, bool narrows() const: whether they narrow the boxes of spots, and void narrow(CellBox&,
-// const geom::SphericalCone&) const.
+// k_roundoffs: their error, bool narrows() const: do they narrow the boxes of spots?, and void narrow(CellBox&, const
+// geom::SphericalCone&) const.
 template <class Rows>
 class FrustumKernel {
  public:
@@ -39,16 +39,16 @@ class FrustumKernel {
   }
 
  private:
-  // A spot's ball for its box and the one for its rows differ in their centres, too.
+  // A spot has different balls, with different centres, for its box and for its rows.
   void bound_spots(const KernelLights& lights, BoundedBalls& out) {
     const std::uint32_t begin = out.count;
     find_spot_balls(lights.all, lights.test.padding(k_cell_box_roundoffs), lights.test.balls_are_around_cones(),
                     spots_for_boxes_);
     bounds_.find(given_spots(lights.all, spots_for_boxes_), {0.0f, 0.0f}, out);
-    for (std::uint32_t i = begin; i < out.count; ++i) take_spot(lights, i, out);
+    for (std::uint32_t i = begin; i < out.count; ++i) add_spot(lights, i, out);
   }
 
-  void take_spot(const KernelLights& lights, std::uint32_t ball, BoundedBalls& out) const {
+  void add_spot(const KernelLights& lights, std::uint32_t ball, BoundedBalls& out) const {
     const std::uint32_t light = out.light[ball], spot = light - lights.all.spots.first;
     out.x[ball] = lights.spots.x[spot];
     out.y[ball] = lights.spots.y[spot];

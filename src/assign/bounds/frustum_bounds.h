@@ -1,6 +1,6 @@
 #pragma once
 // The boxes of cells of a frame's lights on a frustum grid, a vector at a time. Lights beside the view are left out
-// first, since most lights of a large level are.
+// first, because they are the majority in a large level.
 
 #include "assign/bounds/screen_bounds.h"
 
@@ -15,7 +15,7 @@ class FrustumBounds {
   }
   int slices() const { return boundaries_.slices(); }
 
-  // Before the first find() of a frame with so many lights.
+  // To be called before the first find() of a frame with this many lights.
   void start_frame(std::uint32_t lights) {
     visible_.count = 0;
     visible_.reserve(lights);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float k_inf = std::numeric_limits<float>::infinity();
 
-// What support() can lose, as a length, in roundoffs: of the apex 4 for n·apex; of the range 5 for the cosine to the
+// The error of support(), as a length, in roundoffs: of the apex 4 for n·apex; of the range 5 for the cosine to the
 // axis (n and the axis are rounded, products, sums), 7 for the sine, 2 for either's product with a rounded cos a or sin
 // a, so at most sqrt(7² + 9²) < 12 for their sum; 4 for the sums and the product with the range.
 float padding_of(const geom::SphericalCone& cone) {
@@ -21,11 +21,11 @@ float padding_of(const geom::SphericalCone& cone) {
 }
 
 // Largest value of n·p over the cone, n of unit length. The cone's farthest point along n is the ball's if n lies
-// within the half-angle of the axis, else the rim's, or the apex where the whole cone leans back.
+// within the half-angle of the axis, else the rim's, or the apex if the whole cone leans back.
 float support(const geom::SphericalCone& cone, const Vec3f& n) {
   if (!std::isfinite(cone.range)) return k_inf;
   const float along_axis = std::clamp(glm::dot(n, cone.axis), -1.0f, 1.0f);
-  // Not by the cosine: close to the axis and its opposite that loses half of the sine's digits, and a half-angle of
+  // Not from the cosine: close to the axis and its opposite that loses half of the sine's digits, and a half-angle of
   // nearly 90 degrees needs them.
   const float beside_axis = glm::length(glm::cross(n, cone.axis));
   const float steepest =
@@ -33,8 +33,9 @@ float support(const geom::SphericalCone& cone, const Vec3f& n) {
   return glm::dot(n, cone.apex) + cone.range * std::max(0.0f, steepest) + padding_of(cone);
 }
 
-// Narrows a range of cells, first..last, from both sides by their boundaries: the end cells go while the cone lies
-// wholly on the other side. side(i) is the unit normal of boundary i towards higher indices, and the boundary's offset.
+// Narrows a range of cells, first..last, from both sides by their boundaries: removes an end cell while the cone lies
+// wholly on the other side of its boundary. side(i) is the unit normal of boundary i towards higher indices, and the
+// boundary's offset.
 struct Side {
   Vec3f normal;
   float offset;

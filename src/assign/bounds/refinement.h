@@ -1,5 +1,6 @@
 #pragma once
-// What sphere refinement and its fast form share: the padding, the parameters, and the narrowing of a spot's cell box.
+// The common part of sphere refinement and its fast form: the padding, the parameters, and the narrowing of a spot's
+// cell box.
 
 #include <vector>
 
@@ -11,16 +12,16 @@
 namespace clusterbench::assign {
 
 // With sizes as units: the gap to a slice is off by 1. The distance to a row's plane by 3 (a rounded normal, two
-// products and a sum), so the foot on it by 3 + 2 and, seen from a column's plane, 3 + 2 + 3 more. The squares'
+// products and a sum), so the foot on it by 3 + 2 and, relative to a column's plane, 3 + 2 + 3 more. The squares'
 // roundoffs, 8 of r² in all, are 4 of r. A test that compares gap² + gap'² + gap''² with r² is off by no more than the
 // gaps' sum: 1 + 5 + 8 + 4 = 18.
 inline constexpr float k_refinement_roundoffs = 18.0f;
 
-// As light_params(); `spot` may be "narrowing", too, and is.
+// light_params(), but `spot` may also be "narrowing", which is its default.
 std::vector<ParamSpec> refinement_params();
 bool narrows(const Params& params);
 
-// Takes the cells from a box, from left, right, top, bottom, near and far, that the cone lies wholly beside.
+// Removes the cells of a box that the cone lies wholly beside, from left, right, top, bottom, near and far.
 void narrow_from_six_sides(CellBox& box, const geom::SphericalCone& cone, const std::vector<float>& depths,
                            const std::vector<TilePlane>& columns, const std::vector<TilePlane>& rows);
 

@@ -10,12 +10,12 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
-// Of balls in the picture.
+// The extents of balls in the picture.
 struct Extents {
   V low_x, high_x, low_y, high_y;
 };
 
-// Of the first `count` balls; what others have is anything.
+// Of the first `count` balls; other lanes are undefined.
 HWY_INLINE Extents extents_of(const BoxPlanes& planes, const Balls& balls, std::size_t count) {
   const Parts x(balls.x), y(balls.y), depth(balls.depth), radius(balls.radius);
   Parts low_x = x, high_x = x, low_y = y, high_y = y;
@@ -33,13 +33,13 @@ HWY_INLINE Extents extents_of(const BoxPlanes& planes, const Balls& balls, std::
   return {low_x.whole(), high_x.whole(), low_y.whole(), high_y.whole()};
 }
 
-// Those of the visible balls from `begin` on whose extents touch cells.
+// Appends the visible balls from index `begin` on whose extents touch cells.
 void find_boxes(const BoxPlanes& planes, const VisibleBalls& visible, std::uint32_t begin, const GivenBalls& given,
                 const BallPadding& padding, BoundedBalls& bounded) {
   for (std::uint32_t i = begin; i < visible.count; i += lane_count()) {
     const auto at = [&](const AlignedVector<float>& list) { return LoadU(D(), list.data() + i); };
     const VU light = LoadU(DU(), visible.light.data() + i);
-    // Beyond the last ball there is anything.
+    // Lanes beyond the last ball are undefined.
     const VU index = Min(light - all(given.lights.first), all(given.lights.count - 1));
     const V radius = gathered(given.radius, BitCast(DI(), index)), reach = gathered(given.reach, BitCast(DI(), index));
     Balls balls{at(visible.x), at(visible.y), at(visible.depth), padded(radius, reach, padding.box)};
@@ -71,7 +71,7 @@ HWY_EXPORT(find_boxes);
 
 BoxPlanes::BoxPlanes(const grid::ScreenGrid& grid)
     : depths(grid.slices.boundaries), orthographic(grid.tiles.orthographic) {
-  // An edge tile may be clipped: the first one tells the width.
+  // An edge tile may be clipped, so the first tile defines the width.
   const std::vector<float>&x = grid.tiles.x, &y = grid.tiles.y;
   columns = {x, x[0], 1.0f / (x[1] - x[0])};
   rows = {y, -y[0], 1.0f / (y[0] - y[1])};

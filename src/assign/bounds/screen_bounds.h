@@ -1,6 +1,6 @@
 #pragma once
-// The cell boxes of many balls at once: those of cell_box() (assign/bounds/cell_bounds.h), because each lane takes the
-// same operations on the same numbers in the same order, in double precision where cell_box() does.
+// The cell boxes of many balls at once. They equal those of cell_box() (assign/bounds/cell_bounds.h), because each lane
+// does the same operations on the same numbers in the same order, in double precision where cell_box() does.
 
 #include <cstdint>
 #include <vector>
@@ -24,10 +24,10 @@ struct BoxPlanes {
   int slices() const { return static_cast<int>(depths.size()) - 1; }
 };
 
-// Units of 2^-24 of a light's reach by which its ball is made larger.
+// Units of 2^-24 of a light's reach by which its ball is enlarged.
 struct BallPadding {
   float box;   // for its cell box
-  float ball;  // for the ball that is kept
+  float ball;  // for the stored ball
 };
 
 // Appends the balls of `visible` from index `begin` on that have a box of cells. They are balls of `given`.

@@ -1,5 +1,5 @@
 #pragma once
-// What `cascades` and `world-grid` share: every light against the boxes of every level, row by row.
+// The common part of `cascades` and `world-grid`: every light against the boxes of every level, row by row.
 
 #include <vector>
 

@@ -3,8 +3,8 @@
 namespace clusterbench::assign {
 namespace {
 
-// The boxes of one level. Its extents are read from cells of the top row, the left column and the farthest layer, which
-// are never holes.
+// The boxes of one level. Its extents come from cells of the top row, the left column and the farthest layer, which are
+// never holes.
 BoxGrid boxes_of_level(const grid::Grid& grid, int level) {
   const grid::CascadesGrid& cascades = grid.cascades();
   const Vec3i cells = grid.cells(), of_level = cascades.cells;

@@ -1,6 +1,6 @@
 #pragma once
 // The boxes of the grids whose cells are boxes. The broad phase of the truth (grid/broad_phase.h) finds them by itself:
-// truth shares no step with what it judges.
+// truth shares no step with the methods that it checks.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 
 namespace clusterbench::assign {
 
-// World: one level; cascades: one per level, from the finest, one after the other in the order of cells.
+// World: one level. Cascades: one level per cascade, from the finest, in the order of cells.
 std::vector<BoxGrid> box_levels(const grid::Grid& grid);
 
 }  // namespace clusterbench::assign

@@ -9,12 +9,12 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
-// Along an axis; a negated coordinate has the same distances from negated boundaries.
+// Along one axis; a negated coordinate has the same distances from negated boundaries.
 HWY_INLINE V on_axis(const RangeAxis& axis, V coordinate) {
   return axis.descends ? Neg(coordinate) : coordinate;
 }
 
-// Whether the grid as a whole is within reach. Boxes are adjacent: so is one of them, then.
+// Is the grid as a whole within reach? Then one of its boxes is, too, because they are adjacent.
 HWY_INLINE M reaches(const RangeAxis& axis, V given, V radius) {
   const V coordinate = on_axis(axis, given), start = all(axis.boundaries.front()), end = all(axis.boundaries.back());
   return Not(Or(start - coordinate > radius, coordinate - end > radius));
@@ -32,7 +32,7 @@ HWY_INLINE MI lies_in(const Indices& range, const grid::IndexRange& hole) {
   return AndNot(range.first < all(hole.first), Not(range.last > all(hole.last)));
 }
 
-// Those in the hole reach no slice.
+// Balls inside the hole reach no slice.
 HWY_INLINE CellRanges cells_of(const RangeAxes& axes, const Balls& balls) {
   CellRanges cells{range_on(axes.x, balls.x, balls.radius), range_on(axes.y, balls.y, balls.radius),
                    range_on(axes.z, Neg(balls.depth), balls.radius)};

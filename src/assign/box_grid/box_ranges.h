@@ -1,6 +1,7 @@
 #pragma once
-// Which boxes of a grid of axis-aligned boxes are within reach of many balls on each axis: indices_within()
-// (assign/box_grid/box_rows.h) a vector of balls at a time, because each lane compares the same differences.
+// The boxes of a grid of axis-aligned boxes that are within reach of many balls on each axis. The same as
+// indices_within() (assign/box_grid/box_rows.h), a vector of balls at a time, because each lane compares the same
+// differences.
 
 #include "assign/bounds/boundary_axis.h"
 #include "assign/bounds/bounds_rows.h"
@@ -28,8 +29,8 @@ struct RangeAxes {
 // The boxes' extents, for find_box_rows().
 CellExtents extents_of(const BoxGrid& boxes);
 
-// Appends those of the balls, larger by these roundoffs, that reach a box outside of the hole.
-// bounded's columns are along x, its rows along y, its slices along z, and depth is -z.
+// Appends the balls, enlarged by these roundoffs, that reach a box outside of the hole. bounded's columns are along x,
+// its rows along y, its slices along z, and depth is -z.
 void find_box_ranges(const RangeAxes& axes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded);
 
 }  // namespace clusterbench::assign

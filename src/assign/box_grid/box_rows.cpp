@@ -3,7 +3,7 @@
 namespace clusterbench::assign {
 namespace {
 
-// Takes rows of touched boxes and leaves out holes.
+// Receives rows of touched boxes and leaves out holes.
 class RowSink {
  public:
   RowSink(const BoxGrid& boxes, const LightTest& test, const TestedLight& light, PairBuffer& pairs,
@@ -37,7 +37,7 @@ class RowSink {
 IndexRange indices_within(const BoxAxis& axis, float coordinate, float r) {
   if (axis.empty()) return {};
   const bool ascending = axis.front().lo <= axis.back().lo;
-  // Both differences are monotonous along the axis, in single precision too.
+  // Both differences are monotonic along the axis, in single precision too.
   const auto before = [&](const Interval& extent) {
     return (ascending ? coordinate - extent.hi : extent.lo - coordinate) > r;
   };

@@ -1,7 +1,7 @@
 #pragma once
-// Balls and spots against a grid of axis-aligned boxes, row by row: what the assigners of world and cascades share.
-// A ball touches a box iff the squared distance from its centre to the box, summed over the axes, is at most r².
-// Along a row only x changes, so the boxes that a ball touches there are one interval.
+// Balls and spots against a grid of axis-aligned boxes, row by row: the common part of the assigners of world and
+// cascades. A ball touches a box iff the squared distance from its centre to the box, summed over the axes, is at most
+// r². Along a row only x changes, so the boxes that a ball touches there are one interval.
 
 #include <algorithm>
 #include <cstdint>
@@ -21,11 +21,11 @@ using BoxAxis = std::vector<Interval>;
 
 using grid::IndexRange;
 
-// Boxes that are numbered x fastest, then y, then z, from first_cell on.
+// Boxes, numbered along x first, then y, then z, from first_cell on.
 struct BoxGrid {
   BoxAxis x, y, z;
   std::uint32_t first_cell = 0;
-  IndexRange hole_x, hole_y, hole_z;  // boxes that take no lights; empty: none
+  IndexRange hole_x, hole_y, hole_z;  // boxes that have no lists; empty: none
 
   std::size_t capacity_bytes() const { return bytes_of(x, y, z); }
 };
@@ -43,8 +43,8 @@ inline float squared_gap(const Interval& extent, float coordinate) {
 // The indices whose extent lies within r of the coordinate.
 IndexRange indices_within(const BoxAxis& axis, float coordinate, float r);
 
-// Calls row(y, z, first_x, last_x) for each row of boxes that the ball touches, and adds the boxes that it tested to
-// `tests`. The interval is found by going inward from both ends of the ball's x range.
+// Calls row(y, z, first_x, last_x) for each row of boxes that the ball touches, and adds the number of tested boxes to
+// `tests`. Finds the interval by testing inward from both ends of the ball's x range.
 template <class Row>
 void for_each_row_touched(const BoxGrid& boxes, const geom::Ball& ball, std::uint64_t& tests, Row&& row) {
   const float squared_radius = ball.radius * ball.radius;

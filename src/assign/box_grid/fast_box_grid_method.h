@@ -1,7 +1,7 @@
 #pragma once
-// What the fast forms of `cascades` and `world-grid` share: the kernel of slice_by_slice.h for grids of boxes. Level by
-// level the ranges of boxes that balls reach are found a vector of balls at a time. Every step gives what box_rows.h
-// gives.
+// The common part of the fast forms of `cascades` and `world-grid`: the kernel of slice_by_slice.h for grids of boxes.
+// Level by level the ranges of boxes that balls reach are found a vector of balls at a time. Every step has the same
+// result as in box_rows.h.
 
 #include <vector>
 

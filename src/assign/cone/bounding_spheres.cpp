@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
-// geom::bounding_ball, or with `around_cones` not set the ball of the range.
+// As geom::bounding_ball; without `around_cones`, the ball of the range.
 void spot_balls(const view::LightArrays& lights, float roundoffs, bool around_cones, BallArrays& balls) {
   for (std::uint32_t i = 0; i < lights.spots.count; i += lane_count()) {
     const std::uint32_t left = std::min(lane_count(), lights.spots.count - i);
@@ -42,7 +42,7 @@ void spot_balls(const view::LightArrays& lights, float roundoffs, bool around_co
   }
 }
 
-// Rows are short: longer vectors would hold few cells and cost more.
+// Rows are short: longer vectors would be mostly empty and cost more.
 using Few = hn::CappedTag<float, 8>;
 using VFew = hn::Vec<Few>;
 

@@ -16,7 +16,7 @@ namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
 template <bool orthographic>
-void look_at(const view::LightArrays& lights, const RowPlanes& planes, SpotCells& cells) {
+void filter_cells_of(const view::LightArrays& lights, const RowPlanes& planes, SpotCells& cells) {
   const hn::Rebind<std::uint8_t, DU> du8;
   for (std::uint32_t first = 0; first < cells.count; first += lane_count()) {
     const GivenSpots given(lights, loaded_indices(cells.spot, first));
@@ -27,16 +27,16 @@ void look_at(const view::LightArrays& lights, const RowPlanes& planes, SpotCells
                            gathered(planes.slope, row),
                            gathered(planes.depth, slice),
                            gathered(planes.depth.data() + 1, slice)};
-    const Cells<orthographic> these(rows, gathered(planes.side, loaded_indices(cells.column, first)),
-                                    gathered(planes.side, loaded_indices(cells.end_column, first)));
-    const M plain = are_plain(planes, rows.light);
+    const CellTests<orthographic> tests(rows, gathered(planes.side, loaded_indices(cells.column, first)),
+                                        gathered(planes.side, loaded_indices(cells.end_column, first)));
+    const M in_range = fit_single_precision(planes, rows.light);
     Point lowest;
-    M common = these.holds_corner(), apart = these.is_apart(lowest);
-    const auto some_are_uncertain = [&] { return !AllTrue(D(), Or(Not(plain), Or(common, apart))); };
-    if (some_are_uncertain()) apart = Or(apart, these.is_beside_corners(lowest));
-    if (some_are_uncertain()) these.approach(common, apart);
-    common = And(common, plain);
-    apart = And(apart, plain);
+    M common = tests.has_corner_in_volume(), apart = tests.is_apart(lowest);
+    const auto some_are_uncertain = [&] { return !AllTrue(D(), Or(Not(in_range), Or(common, apart))); };
+    if (some_are_uncertain()) apart = Or(apart, tests.refine_by_cone_planes(lowest));
+    if (some_are_uncertain()) tests.refine_by_projections(common, apart);
+    common = And(common, in_range);
+    apart = And(apart, in_range);
     const auto code = [&](Touch touch) { return all(static_cast<std::uint32_t>(touch)); };
     const auto answer = IfThenElse(RebindMask(DU(), common), code(Touch::yes),
                                    IfThenElse(RebindMask(DU(), apart), code(Touch::no), code(Touch::uncertain)));
@@ -44,8 +44,8 @@ void look_at(const view::LightArrays& lights, const RowPlanes& planes, SpotCells
   }
 }
 
-void look(const view::LightArrays& lights, const RowPlanes& planes, SpotCells& cells) {
-  planes.orthographic ? look_at<true>(lights, planes, cells) : look_at<false>(lights, planes, cells);
+void filter_cells(const view::LightArrays& lights, const RowPlanes& planes, SpotCells& cells) {
+  planes.orthographic ? filter_cells_of<true>(lights, planes, cells) : filter_cells_of<false>(lights, planes, cells);
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace clusterbench::assign {
 
-HWY_EXPORT(look);
+HWY_EXPORT(filter_cells);
 
 void SpotCells::grow() {
   const std::size_t size = 2 * spot.size() + 4 * k_most_lanes;
@@ -69,9 +69,9 @@ void SpotCells::pad() {
     std::fill_n(list->begin() + count, std::min(k_most_lanes, list->size() - count), list == &end_column ? 1 : 0);
 }
 
-void look_at_cells(const view::LightArrays& lights, const RowPlanes& planes, SpotCells& cells) {
+void filter_spot_cells(const view::LightArrays& lights, const RowPlanes& planes, SpotCells& cells) {
   cells.pad();
-  HWY_DYNAMIC_DISPATCH(look)(lights, planes, cells);
+  HWY_DYNAMIC_DISPATCH(filter_cells)(lights, planes, cells);
 }
 
 }  // namespace clusterbench::assign

@@ -15,11 +15,11 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
-// What reaches farthest in the tile planes of rows and between them.
+// The extremes of a row: in its two tile planes and between them.
 template <bool orthographic>
 struct RowExtremes {
   Extremes<orthographic> outmost;
-  Point middle;  // of some of the points, and so within the spot
+  Point middle;  // mean of some of these points, and therefore inside the spot
 
   HWY_INLINE RowExtremes(const Extremes<orthographic>& between, const PlaneExtremes<orthographic>& above, M has_above,
                          const PlaneExtremes<orthographic>& below)
@@ -27,8 +27,8 @@ struct RowExtremes {
     Point sum{Zero(D()), Zero(D()), Zero(D())};
     V count = Zero(D());
     const auto add = [&](M where, const PlaneExtremes<orthographic>& in_plane) {
-      outmost.take(where, in_plane.low, Side::left);
-      outmost.take(where, in_plane.high, Side::right);
+      outmost.add(where, in_plane.low, Side::left);
+      outmost.add(where, in_plane.high, Side::right);
       add_points(And(where, in_plane.exist()), in_plane, sum, count);
     };
     const M always = FirstN(D(), Lanes(D()));
@@ -46,13 +46,13 @@ struct RowExtremes {
   }
 };
 
-// A vector of rows and what is guessed of them.
+// A vector of rows, with their guessed columns and the proofs of them.
 template <bool orthographic>
-class Ends {
+class RowEnds {
  public:
-  // `rows`: their rows of these spots' slices.
-  HWY_INLINE Ends(const RowPlanes& planes, const SpotsInSlices<orthographic>& spots, const SpotsInRows& rows,
-                  const RowExtremes<orthographic>& found)
+  // `rows`: the rows in the slices of these spots.
+  HWY_INLINE RowEnds(const RowPlanes& planes, const SpotsInSlices<orthographic>& spots, const SpotsInRows& rows,
+                     const RowExtremes<orthographic>& found)
       : planes_(planes), spots_(spots), rows_(rows), found_(found), exist_(found.outmost.exist()) {
     const V left = all(planes.left), right = all(planes.right), scale = all(planes.columns_per_slope);
     const V low = found.outmost.low.across, high = found.outmost.high.across;
@@ -75,12 +75,12 @@ class Ends {
   HWY_INLINE M none_before() const {
     return Or(is_first_column_, And(exist_, is_apart(found_.outmost.low, side(first_), all(-1.0f))));
   }
-  HWY_INLINE M none_behind() const {
+  HWY_INLINE M none_after() const {
     return Or(is_last_column_, And(exist_, is_apart(found_.outmost.high, side(last_ + all(1)), all(1.0f))));
   }
   HWY_INLINE M first_is_touched() const { return is_touched(first_); }
   HWY_INLINE M last_is_touched() const { return is_touched(Max(last_, Zero(DI()))); }
-  // All is left or right of the picture.
+  // The whole row's part is left or right of the picture.
   HWY_INLINE M is_beside_view() const { return is_beside_view_; }
 
  private:
@@ -92,11 +92,11 @@ class Ends {
     const M in_slice_plane = Or(p.depth == rows_.depth0, p.depth == rows_.depth1);
     const Point edge = chosen(in_slice_plane, y_axis(), orthographic ? depth_axis() : p);
     const Point normal = touching_plane(spots_.shapes, p, edge, {to_side, Zero(D()), Neg(along_w)});
-    return Beyond<orthographic>{boundary, to_side, rows_.y0, rows_.y1, spots_.between}.is_apart(
+    return RegionBeyond<orthographic>{boundary, to_side, rows_.y0, rows_.y1, spots_.between}.is_apart(
         rows_.cone, normal, rows_.tolerance<orthographic>(boundary, boundary));
   }
 
-  // Is there a common point near the way from an extreme to the middle?
+  // Is there a common point near the line from an extreme point to the middle?
   HWY_INLINE M is_touched(VI column) const {
     const Point& middle = found_.middle;
     const V left = side(column), right = side(column + all(1));
@@ -109,7 +109,7 @@ class Ends {
     const V part = slope * w_of<orthographic>(start.depth) - start.x;
     const V t = part / IfThenElse(span == Zero(D()), all(1.0f), span);
     const Point point = start + Min(Max(t, Zero(D())), all(1.0f)) * way;
-    const Cells<orthographic> cell(rows_, left, right);
+    const CellTests<orthographic> cell(rows_, left, right);
     const M wanted = AndNot(is_beside_view_, exist_);
     Point v = cell.near_in_cell(point - rows_.cone.apex);
     M touched = cell.is_common(v);
@@ -128,7 +128,7 @@ class Ends {
   VI first_, last_;
 };
 
-// The rows of some spots in slices, to the end of what was found.
+// Appends the rows of a block of spots in slices.
 template <bool orthographic>
 void rows_of(const RowPlanes& planes, const Table& slopes, const Slices<orthographic>& slices, SpotRows& out) {
   const hn::Rebind<std::uint8_t, DU> du8;
@@ -151,17 +151,17 @@ void rows_of(const RowPlanes& planes, const Table& slopes, const Slices<orthogra
     const V room = spots.shapes.slack * spots.between.inverse_far;
     const RowExtremes<orthographic> found(lookup.between(bottom, top, room), above, has_above, below);
     const SpotsInRows rows{spots.shapes.cone, spots.light, bottom, top, spots.between.near, spots.between.far};
-    const Ends<orthographic> ends(planes, spots, rows, found);
-    const M plain = are_plain(planes, spots.light);
-    const M none_before = And(plain, ends.none_before()), none_behind = And(plain, ends.none_behind());
-    // No row, or proven to be beside all of the picture.
-    const M is_out = Or(RebindMask(D(), row < Zero(DI())), And(ends.is_beside_view(), And(none_before, none_behind)));
+    const RowEnds<orthographic> ends(planes, spots, rows, found);
+    const M in_range = fit_single_precision(planes, spots.light);
+    const M none_before = And(in_range, ends.none_before()), none_after = And(in_range, ends.none_after());
+    // No row, or proven to be beside the whole picture.
+    const M is_out = Or(RebindMask(D(), row < Zero(DI())), And(ends.is_beside_view(), And(none_before, none_after)));
     const auto bit = [&](M where, std::uint8_t value) {
       return IfThenElseZero(RebindMask(DU(), where), all(std::uint32_t{value}));
     };
-    const VU known = Or(Or(bit(none_before, SpotRows::k_none_before), bit(none_behind, SpotRows::k_none_behind)),
-                        Or(bit(And(plain, ends.first_is_touched()), SpotRows::k_first_is_touched),
-                           bit(And(plain, ends.last_is_touched()), SpotRows::k_last_is_touched)));
+    const VU proven = Or(Or(bit(none_before, SpotRows::k_none_before), bit(none_after, SpotRows::k_none_after)),
+                         Or(bit(And(in_range, ends.first_is_touched()), SpotRows::k_first_is_touched),
+                            bit(And(in_range, ends.last_is_touched()), SpotRows::k_last_is_touched)));
     const std::uint32_t to = out.count + static_cast<std::uint32_t>(t);
     const auto store = [&](VI value, auto& list) {
       StoreU(BitCast(DU(), value), DU(), reinterpret_cast<std::uint32_t*>(list.data()) + to);
@@ -172,7 +172,7 @@ void rows_of(const RowPlanes& planes, const Table& slopes, const Slices<orthogra
     store(row, out.row);
     store(IfThenElse(out_lanes, all(1), ends.first()), out.first);
     store(IfThenZeroElse(out_lanes, ends.last()), out.last);
-    StoreU(U8FromU32(Or(known, bit(is_out, SpotRows::k_all))), du8, out.known.data() + to);
+    StoreU(U8FromU32(Or(proven, bit(is_out, SpotRows::k_all))), du8, out.proven.data() + to);
   }
   out.count += static_cast<std::uint32_t>(count);
 }
@@ -210,20 +210,20 @@ void SpotSlices::make_room() {
   grow_to(size, spot, slice);
 }
 
-// For so many rows more.
+// Makes room for this many more rows.
 void SpotRows::make_room(std::size_t rows) {
   const std::size_t listed = rows + 2 * k_most_lanes, all = count + listed;
   check_pair_count(all);
   grow_to(listed, listed_slice, listed_row);
-  if (known.size() >= all) return;
-  const std::size_t size = std::max(all, 2 * known.size());
+  if (proven.size() >= all) return;
+  const std::size_t size = std::max(all, 2 * proven.size());
   check_memory("rows of spots", size, 5 * sizeof(std::uint32_t) + sizeof(std::uint8_t));
-  grow_to(size, spot, slice, row, first, last, known);
+  grow_to(size, spot, slice, row, first, last, proven);
 }
 
 void find_spot_rows(const view::LightArrays& lights, const RowPlanes& planes, SpotSlices& slices, SpotRows& out) {
   out.count = 0;
-  // What a whole vector reads beyond the end must be indices that exist.
+  // A whole vector reads past the end: fill that part with valid indices.
   if (slices.count + k_most_lanes > slices.spot.size()) slices.make_room();
   for (std::vector<std::uint32_t>* list : {&slices.spot, &slices.slice})
     std::fill_n(list->begin() + slices.count, k_most_lanes, 0);

@@ -1,5 +1,5 @@
-// What is found once for all rows of spots in slices: the rows, proven, and the points that can be extreme between tile
-// planes. For files that are compiled once per target.
+// Stage 1, bounds, once per spot and slice: the proven range of rows, and the candidate points that all its rows share.
+// For files that are compiled once per target.
 
 #if defined(CLUSTERBENCH_SPOT_SLICES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_SPOT_SLICES_INL_H
@@ -14,17 +14,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 
-// Outwards, of a plane that touches spots in a point of their surface; any length. In points of the rim one that holds
-// the direction of an edge, between the sphere's tangent plane and that of the cone's side. At the apex, and where both
-// of these hold the edge, one that is given.
-HWY_INLINE Point touching_plane(const SpotShapes& spots, const Point& point, const Point& edge, const Point& given) {
+// The outward normal (any length) of a plane that touches spots in a point of their surface. At a point of the rim: the
+// plane that contains the direction `edge`, between the tangent planes of the sphere and of the cone's side. At the
+// apex, and where both tangent planes contain the edge: `fallback`.
+HWY_INLINE Point touching_plane(const SpotShapes& spots, const Point& point, const Point& edge, const Point& fallback) {
   const Cone& cone = spots.cone;
   const Point v = point - cone.apex;
   const V square = dot(v, v), range_square = square_of(cone.range), along = dot(v, cone.axis);
   const Point part = v - along * cone.axis;
   const V across = length(part);
   const Point side = cone.cosine * part - (cone.sine * across) * cone.axis;
-  const V off = Max(spots.slack, all(0x1p-12f) * cone.range);  // what a point can be off by
+  const V off = Max(spots.slack, all(0x1p-12f) * cone.range);  // the largest error of the point
   const M on_sphere = square >= square_of(cone.range - off);
   const V inwards = cone.sine * along - cone.cosine * across;
   const M on_rim = And(on_sphere, inwards <= off);
@@ -32,18 +32,19 @@ HWY_INLINE Point touching_plane(const SpotShapes& spots, const Point& point, con
   const M is_held = square_of(sum) < all(0x1p-20f) * (range_square * dot(edge, edge));
   const M at_apex = square < square_of(spots.slack);
   const Point between = of_sphere * v + of_side * side;
-  return chosen(Or(at_apex, And(on_rim, is_held)), given, chosen(on_rim, between, chosen(on_sphere, v, side)));
+  return chosen(Or(at_apex, And(on_rim, is_held)), fallback, chosen(on_rim, between, chosen(on_sphere, v, side)));
 }
 
-// All whose slope x / w is beyond a boundary to one side (1 or -1), between two slice planes and two tile planes.
+// The region whose slope x / w is beyond a boundary to one side (1 or -1), between two slice planes and two tile
+// planes.
 template <bool orthographic>
-struct Beyond {
+struct RegionBeyond {
   V boundary, side;
   V up0, up1;
   const SlicePlanes& planes;
 
-  // Is it apart from spots by a plane, given as its outward normal of any length? Where that has an x, it must be
-  // outwards, so that nothing is nearer than the corners at the boundary.
+  // Does a plane, given by its outward normal of any length, separate the region from the spots? The x of the normal
+  // must be 0 or point outward: then the corners at the boundary are the nearest points.
   HWY_INLINE M is_apart(const Cone& cone, const Point& normal, V tolerance) const {
     const auto corner = [&](V up, V depth) {
       const V w = w_of<orthographic>(depth);
@@ -53,49 +54,50 @@ struct Beyond {
                         Min(corner(up0, planes.far), corner(up1, planes.far)));
     const V size = length(normal);
     const M is_apart = least - extent_of(cone, normal, size) > tolerance * size;
-    // Of shorter ones, the squares of what is across the cone's axis lose digits: there already 1 u of the extent.
+    // For shorter normals the squares of the part across the cone's axis lose digits: at this length already 1 u of the
+    // extent.
     const M is_measured = size > all(1e-15f);
     return And(And(is_apart, is_measured), normal.x * side >= Zero(D()));
   }
 };
 
 // Rows that spots in slices may touch.
-struct RowsReached {
+struct RowRange {
   VI first, count;
-  MI with_top;  // what reaches farthest in the first row may be in the picture's top
+  MI with_top;  // the extreme point of the first row may be in the picture's top plane
 };
 
-// A vector of spots in slices, and which rows they touch.
+// A vector of spots in slices, and the rows that they touch.
 template <bool orthographic>
-class Reached {
+class RowBounds {
  public:
-  HWY_INLINE Reached(const RowPlanes& planes, const Table& slopes, const SpotShapes& spots, const SlicePlanes& between,
-                     V light)
+  HWY_INLINE RowBounds(const RowPlanes& planes, const Table& slopes, const SpotShapes& spots,
+                       const SlicePlanes& between, V light)
       : planes_(planes),
         slopes_(slopes),
         spots_(exchanged(spots.cone), spots.slack),
         between_(between),
         light_(light) {}
 
-  // `plain`: those of which single precision tells anything.
-  HWY_INLINE RowsReached rows(M plain) const {
+  // `in_range`: the spots whose size single precision can handle.
+  HWY_INLINE RowRange rows(M in_range) const {
     Extremes<orthographic> found;
     each_point_in_slice<orthographic>(spots_, between_,
-                                      [&](M where, const Projected& p, Side side) { found.take(where, p, side); });
+                                      [&](M where, const Projected& p, Side side) { found.add(where, p, side); });
     const V high = found.high.across + spots_.slack / w_of<orthographic>(found.high.depth);
     const V low = found.low.across - spots_.slack / w_of<orthographic>(found.low.depth);
     const Range guess = rows_between(low, high);
     const M exist = found.exist();
-    const M none_above = And(And(plain, exist), is_apart(found.high, slopes_.at(guess.first), all(1.0f)));
-    const M none_below = And(And(plain, exist), is_apart(found.low, slopes_.at(guess.end), all(-1.0f)));
+    const M none_above = And(And(in_range, exist), is_apart(found.high, slopes_.at(guess.first), all(1.0f)));
+    const M none_below = And(And(in_range, exist), is_apart(found.low, slopes_.at(guess.end), all(-1.0f)));
     const VI none = Zero(DI()), rows = all(planes_.rows);
     Range touched = {none, rows};
-    if (!AllTrue(D(), Or(And(none_above, none_below), Not(plain)))) touched = rows_of_extents(plain);
-    // Lane by lane, whatever others of the vector have: counters would differ from machine to machine.
+    if (!AllTrue(D(), Or(And(none_above, none_below), Not(in_range)))) touched = rows_of_extents(in_range);
+    // Lane by lane, independent of the other lanes: otherwise counters would differ from machine to machine.
     touched.first = IfThenElse(RebindMask(DI(), none_above), guess.first, touched.first);
     touched.end = IfThenElse(RebindMask(DI(), none_below), guess.end, touched.end);
     const V top = all(planes_.slope.front());
-    const VI end = IfThenZeroElse(RebindMask(DI(), And(plain, misses_slice())), touched.end);
+    const VI end = IfThenZeroElse(RebindMask(DI(), And(in_range, misses_slice())), touched.end);
     return {touched.first, Max(end - touched.first, none),
             And(touched.first == none, RebindMask(DI(), Not(high < top)))};
   }
@@ -106,7 +108,7 @@ class Reached {
     VI first, end;
   };
 
-  // Those that slopes up may be in.
+  // The rows that contain the slopes from `low` to `high`.
   HWY_INLINE Range rows_between(V low, V high) const {
     const V top = all(planes_.slope.front()), bottom = all(planes_.slope[static_cast<std::size_t>(planes_.rows)]);
     const V scale = all(planes_.rows_per_slope), tolerance = all(planes_.row_tolerance), zero = Zero(D());
@@ -118,25 +120,25 @@ class Reached {
             IfThenElse(is_above, none, Min(whole(Floor(Max(to, zero))) + all(1), rows))};
   }
 
-  // Proven: of plain spots those of a box around what they can have in the slice, larger by twice the tolerance, so
-  // that a quotient's rounding is in it, too; of others all.
-  HWY_INLINE Range rows_of_extents(M plain) const {
+  // Proven rows: for spots in range the rows of their bounding box in the slice, enlarged by twice the tolerance, which
+  // also covers the rounding of a quotient; for all others, all rows.
+  HWY_INLINE Range rows_of_extents(M in_range) const {
     const V room = all(2.0f) * tolerance(Zero(D())), zero = Zero(D());
-    const V up = spots_.cone.apex.x;  // x and y are exchanged
+    const V up = spots_.cone.apex.x;  // x and y are swapped
     const V high = up + extent_of(spots_.cone, x_axis(), all(1.0f)) + room;
     const V low = up - extent_of(spots_.cone, x_axis(-1.0f), all(1.0f)) - room;
     const V near = w_of<orthographic>(Max(Max(between_.near, nearest() - room), all(1e-30f)));
     const V far = w_of<orthographic>(Max(Min(between_.far, farthest() + room), all(1e-30f)));
     const Range rows = rows_between(low / IfThenElse(low < zero, near, far), high / IfThenElse(high > zero, near, far));
-    const MI is_plain = RebindMask(DI(), plain);
-    return {IfThenElseZero(is_plain, rows.first), IfThenElse(is_plain, rows.end, all(planes_.rows))};
+    const MI is_in_range = RebindMask(DI(), in_range);
+    return {IfThenElseZero(is_in_range, rows.first), IfThenElse(is_in_range, rows.end, all(planes_.rows))};
   }
 
-  // Depths of the whole spot.
+  // The least and the greatest depth of the whole spot.
   HWY_INLINE V nearest() const { return spots_.cone.apex.depth - extent_of(spots_.cone, depth_axis(-1.0f), all(1.0f)); }
   HWY_INLINE V farthest() const { return spots_.cone.apex.depth + extent_of(spots_.cone, depth_axis(), all(1.0f)); }
 
-  // What reaches farthest up and down reaches farthest across where x and y are exchanged.
+  // With x and y swapped, the extremes up and down become extremes across.
   static HWY_INLINE Cone exchanged(const Cone& cone) {
     const auto turned = [](const Point& p) { return Point{p.y, p.x, p.depth}; };
     return {turned(cone.apex), turned(cone.axis), cone.range, cone.cosine, cone.sine};
@@ -145,9 +147,9 @@ class Reached {
   HWY_INLINE M is_apart(const Projected& extreme, V boundary, V side) const {
     const V zero = Zero(D()), along_w = w_along<orthographic>(side * extreme.across);
     Point normal = touching_plane(spots_, extreme.point(), y_axis(), {side, zero, Neg(along_w)});
-    normal.y = zero;  // rows are endless to both sides
-    return Beyond<orthographic>{boundary, side, zero, zero, between_}.is_apart(spots_.cone, normal,
-                                                                               tolerance(Abs(boundary)));
+    normal.y = zero;  // rows have no ends to the left and right
+    return RegionBeyond<orthographic>{boundary, side, zero, zero, between_}.is_apart(spots_.cone, normal,
+                                                                                     tolerance(Abs(boundary)));
   }
 
   HWY_INLINE V tolerance(V across) const {
@@ -161,12 +163,12 @@ class Reached {
 
   const RowPlanes& planes_;
   const Table& slopes_;  // of the tile planes between rows
-  SpotShapes spots_;     // x and y exchanged
+  SpotShapes spots_;     // x and y swapped
   const SlicePlanes& between_;
   V light_;
 };
 
-// Spots in slices, field by field.
+// Spots in slices, one array per field.
 template <bool orthographic>
 class Slices {
  public:
@@ -185,14 +187,14 @@ class Slices {
                                    inverse_w(planes.inverse_depth.data()), inverse_w(planes.inverse_depth.data() + 1)};
       const V farthest = between.template farthest<orthographic>();
       const SpotShapes shapes(given.cone, tolerance_of<orthographic>(given.light, farthest, all(widest), all(highest)));
-      const Reached<orthographic> reached(planes, slopes, shapes, between, given.light);
-      const RowsReached rows = reached.rows(are_plain(planes, given.light));
+      const RowBounds<orthographic> bounds(planes, slopes, shapes, between, given.light);
+      const RowRange rows = bounds.rows(fit_single_precision(planes, given.light));
       SpotsInSlices<orthographic> in_slices(shapes, between, given.light);
       const MI wanted = And(rows.count > Zero(DI()), FirstN(DI(), end - i));
       int field = 0;
       const auto put = [&](V value) { store_wanted(value, wanted, values_[field++] + count_); };
       in_slices.each(put);
-      // Points that do not exist are neither above nor below anything.
+      // NaN for points that do not exist: neither above nor below anything.
       each_point_in_slice<orthographic>(shapes, between, [&](M where, const Projected& p, Side) {
         put(p.across);
         put(IfThenElse(where, p.up, all(std::numeric_limits<float>::quiet_NaN())));
@@ -207,12 +209,12 @@ class Slices {
     }
   }
 
-  // Lists the rows. The first ones of a slice may be above the picture. Returns how many.
+  // Lists the rows. The first row of a slice may be the one above the picture (-1). Returns the number of rows.
   HWY_INLINE std::int32_t list_rows(SpotRows& out) const {
     const auto n = static_cast<std::int32_t>(Lanes(DI()));
     std::int32_t count = 0;
     for (std::int32_t i = 0; i < count_; ++i) {
-      // What is written beyond a slice's end, the next one overwrites.
+      // The next slice overwrites the values written past this one's end.
       for (std::int32_t at = 0; at < row_count_[i]; at += n) {
         StoreU(all(i), DI(), out.listed_slice.data() + count + at);
         StoreU(from_on(first_row_[i] + at), DI(), out.listed_row.data() + count + at);
@@ -224,7 +226,7 @@ class Slices {
     return count;
   }
 
-  // Looks up values of slices for rows: of those that are `which` lanes after the first one.
+  // Looks up values of slices for rows: row lane i belongs to slice first + which[i].
   struct Lookup {
     const Slices& slices;
     std::int32_t first;
@@ -240,21 +242,21 @@ class Slices {
     HWY_INLINE VI spot() const { return taken(LoadU(DI(), slices.spot_ + first), which); }
     HWY_INLINE VI slice() const { return taken(LoadU(DI(), slices.slice_ + first), which); }
 
-    // Of the points that can be extreme, those between two tile planes, by and large.
+    // Of the candidate points, those between two tile planes, up to `room`.
     HWY_INLINE Extremes<orthographic> between(V bottom, V top, V room) const {
       Extremes<orthographic> found;
       const V low = bottom - room, high = top + room;
       int field = k_vectors;
-      const auto take_next = [&](Side side) {
+      const auto add_next = [&](Side side) {
         const Projected p = {(*this)(field), (*this)(field + 1), (*this)(field + 2)};
-        found.take(is_between(low, p.up, high), p, side);
+        found.add(is_between(low, p.up, high), p, side);
         field += 3;
       };
       for (int i = 0; i < k_one_sided_points; i += 2) {
-        take_next(Side::left);
-        take_next(Side::right);
+        add_next(Side::left);
+        add_next(Side::right);
       }
-      for (int i = k_one_sided_points; i < k_points_in_slice; ++i) take_next(Side::either);
+      for (int i = k_one_sided_points; i < k_points_in_slice; ++i) add_next(Side::either);
       return found;
     }
   };

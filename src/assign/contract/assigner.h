@@ -1,6 +1,6 @@
 #pragma once
-// The contract of an assigner, and the descriptor by which everything else knows it. Adding one: a file in assigners/
-// that defines its descriptor, and one line in registry.inc; or an AssignerRegistration.
+// The contract of an assigner, and the descriptor through which all other code knows it. To add one: a file in
+// assigners/ that defines its descriptor, and one line in registry.inc; or an AssignerRegistration.
 
 #include <cstdint>
 #include <limits>
@@ -21,26 +21,26 @@ namespace clusterbench::assign {
 
 using ParamValue = std::variant<bool, double, std::string>;
 
-// One parameter, as configuration, schema, `list` and the report show it.
+// One parameter, as shown by configuration, schema, `list` and the report.
 struct ParamSpec {
   std::string name;
   std::string summary;
   ParamValue standard;               // the default; its type is the parameter's type
   std::string unit;                  // "" = none
   double min = 0.0, max = 0.0;       // numbers
-  std::vector<std::string> choices;  // texts
-  bool whole = false;                // numbers: whole ones only
-  // Numbers: from here on a method that calls itself conservative is; below, lights can be lost.
+  std::vector<std::string> choices;  // for texts
+  bool whole = false;                // for numbers: only whole ones
+  // Numbers: a method that is conservative is so only from this value on; below it, lights can be lost.
   double conservative_from = -std::numeric_limits<double>::infinity();
   bool is_thread_count = false;
-  // Added after results with the method were published: at its default it is no part of a case's identity, so that they
-  // still compare.
+  // Added after results with the method were published: a default value is left out of a case's identity, so that old
+  // and new results still compare.
   bool is_late = false;
-  // Texts: what earlier versions called a choice, and its name of today. Both may be given; cases keep their identity.
+  // Texts: former names of choices, with their present names. Both are valid; cases keep their identity.
   std::vector<std::pair<std::string, std::string>> former{};
 };
 
-// A value as a choice of today, and as it was first called.
+// A value under its present name, and under its first name.
 ParamValue current_value(const ParamSpec& spec, const ParamValue& value);
 ParamValue first_value(const ParamSpec& spec, const ParamValue& value);
 
@@ -61,7 +61,7 @@ class Params {
   std::map<std::string, ParamValue> values_;
 };
 
-// Which lights a rig has: what serves none of them is not built.
+// The kinds of lights in a rig. Methods build nothing for kinds that are absent.
 struct LightKinds {
   bool spots = true, boxes = true;
 };
@@ -69,16 +69,16 @@ inline LightKinds kinds_of(const view::LightArrays& lights) {
   return {!lights.spots.empty(), !lights.boxes.empty()};
 }
 
-// What a method gets of one frame.
+// The input of a method for one frame.
 struct FrameInput {
   const view::Frame& frame;         // camera and viewport
   const view::LightArrays& lights;  // in the grid's space (grid::space_of)
-  // Of each pixel of the viewport; null where the method's descriptor does not ask for it. Nobody's time: a GPU has it
-  // from its depth prepass.
+  // The depth of each pixel of the viewport; null if the method's descriptor does not need it. Its time is not counted:
+  // a GPU gets it from its depth prepass.
   const depth::DepthImage* depth = nullptr;
 };
 
-// What a device (a GPU) took for one frame by its own clock, within the time of the assignment.
+// The time of a device (a GPU) for one frame by its own clock, within the time of the assignment.
 struct DeviceSpans {
   double upload_ns = 0.0, run_ns = 0.0, readback_ns = 0.0;
 };
@@ -87,38 +87,38 @@ class Assigner {
  public:
   virtual ~Assigner() = default;
 
-  // Called when the grid changes (a new projection), before assign, with the kinds of light that frames may bring. The
-  // grid outlives its use. Makes all that does not depend on the frame; nothing of it may be left to assign. Timed as
-  // the build.
+  // Called before assign when the grid changes (a new projection), with the kinds of light that frames may bring. The
+  // grid outlives its use. Computes everything that does not depend on the frame, so that assign does none of it. Timed
+  // as the build.
   virtual void build(const grid::Grid& grid, const LightKinds& kinds) = 0;
   // For lights of any kind.
   void build(const grid::Grid& grid) { build(grid, LightKinds{}); }
 
-  // Tests of lights against cells (or tiles, or nodes) done by the last assign: counted, not timed, so it can gate
-  // exactly.
+  // The number of tests of lights against cells (or tiles, or nodes) in the last assign: counted, not timed, so exact
+  // limits can be set on it.
   virtual std::uint64_t tests_done() const = 0;
-  // Pairs of the last assign that single precision could not decide and that were decided at greater cost.
+  // Pairs of the last assign that single precision left uncertain and that were decided at greater cost.
   virtual std::uint64_t fallbacks() const { return 0; }
-  // Of the last assign; null where nothing runs on a device.
+  // Times of the last assign; null if nothing runs on a device.
   virtual const DeviceSpans* device_spans() const { return nullptr; }
-  // Scratch memory held now.
+  // Present size of the scratch memory.
   virtual std::size_t scratch_bytes() const = 0;
 };
 
-// A method that fills a list per cell. Storages make light structures of them.
+// A method that fills one list per cell. Storages convert the lists to light structures.
 class ListAssigner : public Assigner {
  public:
-  // In a steady state (as many pairs as before or fewer) it does not allocate. Timed as the assignment.
+  // Does not allocate in a steady state (as many pairs as before or fewer). Timed as the assignment.
   virtual void assign(const FrameInput& input, Lists& out) = 0;
 };
 
-// A method that leaves a light structure of its own. Write it as an AssignerOf.
+// A method that makes its own light structure. Derive it from AssignerOf.
 class StructureAssigner : public Assigner {
  public:
-  // An empty one. Frames that are kept beside each other have a structure each.
+  // An empty structure. Frames that are kept side by side have one structure each.
   virtual std::unique_ptr<LightStructure> make_structure() const = 0;
-  // `out` is one that make_structure() made; it does not refer to this frame or to the assigner, but may to the grid.
-  // In a steady state it does not allocate. Timed as the assignment.
+  // `out` comes from make_structure(). It must not refer to this frame or to the assigner, but may refer to the grid.
+  // Does not allocate in a steady state. Timed as the assignment.
   virtual void assign(const FrameInput& input, LightStructure& out) = 0;
 };
 
@@ -132,57 +132,58 @@ class AssignerOf : public StructureAssigner {
   virtual void fill(const FrameInput& input, Structure& out) = 0;
 };
 
-// What a method answers with.
+// The form of a method's result.
 enum class Answer : std::uint8_t { lists, structure };
 
-// What a method asks for besides camera and lights. What no method asks for is not there: triangles, boxes or the
-// structure of the frame before would each be one more member, here and in FrameInput.
+// The inputs that a method needs besides camera and lights. Inputs that no method needs do not exist here: triangles,
+// boxes or the structure of the frame before would each be one more member, here and in FrameInput.
 struct Needs {
   bool depth = false;  // the depths of the picture's pixels
 };
 
-// A method as data: all that everything else knows of it.
+// A method as data: all other code knows a method only through this.
 struct AssignerDescriptor {
   std::string name;
   std::string summary;
   std::string source;                // paper or engine
-  std::vector<grid::Kind> kinds;     // grids that it fills
-  bool points = true, spots = true;  // light types that it takes
+  std::vector<grid::Kind> kinds;     // grids that it supports
+  bool points = true, spots = true;  // supported light types
   bool boxes = false;                // and oriented boxes (decals, probes)
   Needs needs{};
-  bool conservative = true;  // never misses a true pair; a miss fails the run. Parameters say when it no longer is
+  bool conservative = true;  // never misses a true pair; a miss fails the run. Some parameter values make it false
   bool exact = false;        // and reports no pair that is not true
-  bool orthographic = true;  // takes orthographic projections
+  bool orthographic = true;  // supports orthographic projections
   bool all_pairs = false;    // tests every light against every cell
-  // With depth: promises the lights of visible surfaces, and is not asked elsewhere in the view.
+  // With depth: complete only for the lights of visible surfaces; other points of the view are not tested.
   bool at_surfaces = false;
-  // Each light is drawn over its pixels, so that no lane of a wave waits for the list of another one.
+  // Each light is drawn over its pixels, so no lane of a wave waits for the list of another lane.
   bool draws_lights = false;
-  // Its own structure holds a list per cell or tile, which a sample reads as it is. Others are searched at each sample.
+  // Its own structure holds a list per cell or tile, which a sample reads as it is. Otherwise samples search the
+  // structure.
   bool own_lists = false;
-  // Its own structure is the same on every grid: it is measured once, on the first.
+  // Its own structure is the same on every grid, so it is measured only once, on the first.
   bool own_without_grid = false;
-  // A known mistake on purpose, to show what it does: left out where nothing names it.
+  // Contains a known mistake on purpose, to show its effect: runs only if a configuration names it.
   bool naive = false;
-  // Left out where nothing names it: one of many ways of engines, that default runs need not pay for.
+  // Runs only if a configuration names it: a variant of an engine that default runs can omit.
   bool by_name = false;
   std::vector<ParamSpec> params;
-  // The forms in which it answers, one or both; null: not in this one.
+  // The forms of its result, one or both; null: not available in this form.
   std::unique_ptr<ListAssigner> (*make)(const Params& params) = nullptr;
   std::unique_ptr<StructureAssigner> (*make_own)(const Params& params) = nullptr;
-  // Why it cannot run on this machine, "" if it can. Null: it always can.
+  // The reason why it cannot run on this machine, "" if it can. Null: it always can.
   std::string (*unavailable)(const Params& params) = nullptr;
 
   bool takes(grid::Kind kind) const;
   bool answers(Answer answer) const;
-  // Whether it runs where nothing is named. Those that need depth do not: their rays take long.
+  // Does it run if a configuration names no methods? Methods that need depth do not: tracing the rays takes long.
   bool is_standard() const { return !naive && !by_name && !needs.depth; }
-  // Whether samples search its own structure for their lights (a hierarchy, masks of bits): what they read and visit is
-  // counted, and no GPU has measured what that costs.
+  // Do samples search its own structure for their lights (a hierarchy, masks of bits)? Then their reads and visits are
+  // counted, but no GPU has measured their cost.
   bool own_is_searched() const { return make_own != nullptr && !own_lists && !draws_lights; }
 };
 
-// For descriptors: what makes a method of its parameters.
+// For descriptors: makes a method from its parameters.
 template <class Method>
 std::unique_ptr<ListAssigner> make_list_assigner(const Params& params) {
   return std::make_unique<Method>(params);
@@ -192,20 +193,20 @@ std::unique_ptr<StructureAssigner> make_structure_assigner(const Params& params)
   return std::make_unique<Method>(params);
 }
 
-// As the descriptor says, and with no parameter that takes it away.
+// From the descriptor, unless a parameter value makes it false.
 bool is_conservative(const AssignerDescriptor& descriptor, const Params& params);
-// How many threads it shares its work among.
+// The number of threads that share its work.
 int thread_count(const AssignerDescriptor& descriptor, const Params& params);
-// Why it cannot run here; "" if it can.
+// The reason why it cannot run here; "" if it can.
 std::string unavailability(const AssignerDescriptor& descriptor, const Params& params);
 
 // All descriptors: those of registry.inc in its order, then those registered at run time.
 std::span<const AssignerDescriptor* const> assigner_descriptors();
 
-// Adds a method to the registry for as long as it lives. Not while configurations are read or run.
+// Adds a method to the registry for as long as this object lives. Not while configurations are read or run.
 class AssignerRegistration {
  public:
-  // Throws Error if there is one of this name.
+  // Throws Error if the name is in use.
   explicit AssignerRegistration(AssignerDescriptor descriptor);
   ~AssignerRegistration();
   AssignerRegistration(const AssignerRegistration&) = delete;
@@ -218,11 +219,12 @@ class AssignerRegistration {
 };
 // nullptr if there is none.
 const AssignerDescriptor* find_assigner(const std::string& name);
-// Of methods that make the same lists, which is known to be slower without a time: 1 with SIMD, 2 the plain form beside
-// one with SIMD, 3 every light against every cell. 0: nothing is known, as of a name that nobody has.
+// Among methods that make the same lists, the ones known to be slower without measuring: 1 with SIMD, 2 the plain form
+// of a method that also has a SIMD form, 3 every light against every cell. 0: unknown, also for names that do not
+// exist.
 int slowness_of(const std::string& name);
 std::vector<std::string> assigner_names();
-// Those that run where nothing is named.
+// The methods that run if a configuration names none.
 std::vector<std::string> standard_assigner_names();
 
 }  // namespace clusterbench::assign

@@ -1,5 +1,5 @@
 #pragma once
-// A method at work in one of the forms that it answers in: for measures, which ask all methods alike.
+// Runs a method in one of its result forms: measures use this to treat all methods alike.
 
 #include <memory>
 
@@ -9,20 +9,20 @@ namespace clusterbench::assign {
 
 class AssignerRun {
  public:
-  // The descriptor answers in this form.
+  // The descriptor must support this form.
   AssignerRun(const AssignerDescriptor& descriptor, const Params& params, Answer answer);
 
   void build(const grid::Grid& grid, const LightKinds& kinds) { assigner().build(grid, kinds); }
   void build(const grid::Grid& grid) { assigner().build(grid); }
   void assign(const FrameInput& input);
 
-  // The lists as the method filled them; null if it leaves a structure of its own.
+  // The lists as the method filled them; null if it makes its own structure.
   const Lists* filled_lists() const { return lists_assigner_ ? &lists_ : nullptr; }
   // Its own structure; null if it fills lists.
   const LightStructure* structure() const { return structure_.get(); }
   bool has_cells() const { return !structure_ || structure_->has_cells(); }
   bool has_occupied_cells() const { return structure_ && structure_->has_occupied_cells(); }
-  // What each cell's samples loop over, ascending. Only with cells. Not timed.
+  // The lights that each cell's samples loop over, ascending. Only with cells. Not timed.
   const Lists& cell_lists() const;
 
   std::uint64_t tests_done() const { return assigner().tests_done(); }
@@ -33,13 +33,13 @@ class AssignerRun {
   Assigner& assigner() const;
 
   std::unique_ptr<ListAssigner> lists_assigner_;
-  std::unique_ptr<StructureAssigner> structure_assigner_;  // one of the two
+  std::unique_ptr<StructureAssigner> structure_assigner_;  // one of the two is set
   Lists lists_;
   std::unique_ptr<LightStructure> structure_;
-  mutable Lists ascending_;  // made when they are asked for
+  mutable Lists ascending_;  // computed on first use
 };
 
-// The forms of a method whose lists per cell can be compared with the truth.
+// The result forms of a method whose lists per cell can be compared with the truth.
 std::vector<Answer> answers_with_cells(const AssignerDescriptor& descriptor, const Params& params);
 
 }  // namespace clusterbench::assign

@@ -45,8 +45,8 @@ std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view
   return "";
 }
 
-// Ascending lists descend nowhere but from the end of one to the beginning of the next. All entries at once are counted
-// many times faster than list by list: compilers make vectors of that loop.
+// If all lists ascend, descents occur only between the end of one list and the beginning of the next. Counting the
+// descents over all entries at once is many times faster than list by list, because compilers vectorise that loop.
 bool are_ascending(const Lists& lists) {
   const std::uint32_t* const lights = lists.lights.data();
   std::uint32_t descents = 0, between_lists = 0;
@@ -78,7 +78,7 @@ void PairBuffer::add_row(std::uint32_t first_cell, std::uint32_t count, std::uin
   if (pairs_ > most_pairs_) check_memory("pairs of light lists", pairs_, sizeof(std::uint32_t));
 }
 
-// As a vector would by itself, but asks first.
+// Grows as a vector would, but checks the memory limit first.
 void PairBuffer::grow() {
   const std::size_t wider = std::max<std::size_t>(1, 2 * spans_.capacity());
   check_memory("spans of light lists", wider, sizeof(Span));
@@ -89,8 +89,8 @@ void PairBuffer::finish(Lists& out) {
   check_memory("pairs of light lists", pairs_, sizeof(std::uint32_t));
   check_pair_count(pairs_);
 
-  // begin[c] first counts cell c, then becomes its list's start, then its end while lights are written; shifted by one
-  // place, the ends are the starts again.
+  // begin[c] is first the count of cell c, then its list's start, and its end once the lights are written. Shifted by
+  // one place, the ends are the starts again.
   out.begin.assign(cell_count_ + std::size_t{1}, 0);
   for (const Span& span : spans_)
     for (std::uint32_t cell = span.first_cell; cell < span.first_cell + span.count; ++cell) ++out.begin[cell];

@@ -1,5 +1,5 @@
 #pragma once
-// Light lists per cell, the form in which every assigner answers and truth is kept.
+// Light lists per cell: the format of every assigner's result and of the truth.
 
 #include <cstdint>
 #include <span>
@@ -11,7 +11,7 @@
 namespace clusterbench::assign {
 
 // The lights of cell c are lights[begin[c]] .. lights[begin[c + 1] - 1]: points before spots before boxes, each once,
-// in any order besides. Truth's lists ascend.
+// otherwise in any order. The truth's lists ascend.
 struct Lists {
   std::vector<std::uint32_t> begin;  // cell count + 1
   std::vector<std::uint32_t> lights;
@@ -21,27 +21,28 @@ struct Lists {
   std::span<const std::uint32_t> of(std::uint32_t cell) const {
     return {lights.data() + begin[cell], begin[cell + 1] - begin[cell]};
   }
-  // The first one with the longest list.
+  // The first cell with the longest list.
   std::uint32_t fullest_cell() const;
   friend bool operator==(const Lists&, const Lists&) = default;
 };
 
-// What keeps these from being lists of so many cells and lights, as a sentence; "" if nothing does.
+// The reason why these are not valid lists for this number of cells and these lights, as a sentence; "" if they are
+// valid.
 std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view::LightRanges& ranges);
 
-// Whether every list ascends, as merges and binary searches want it; and makes it so.
+// Does every list ascend, as merges and binary searches need? And a function that sorts them.
 bool are_ascending(const Lists& lists);
 void make_ascending(Lists& lists);
 
-// Throws Error beyond 2^32 - 1 pairs, which is what offsets into lists can count.
+// Throws Error beyond 2^32 - 1 pairs, the limit of the offsets into lists.
 void check_pair_count(std::uint64_t pairs);
 
 // Collects pairs light by light and sorts them by cell with one counting pass. Keeps its memory between frames. Throws
-// Error where that would be more than the limit on memory (core/memory.h).
+// Error if it would need more than the memory limit (core/memory.h).
 class PairBuffer {
  public:
   void start(std::uint32_t cell_count);
-  // Lights must come in ascending order; one light's cells in any order, each once.
+  // Lights must come in ascending order; the cells of one light in any order, each once.
   void add(std::uint32_t cell, std::uint32_t light) { add_row(cell, 1, light); }
   // Cells first_cell .. first_cell + count - 1.
   void add_row(std::uint32_t first_cell, std::uint32_t count, std::uint32_t light);

@@ -1,5 +1,5 @@
 #pragma once
-// A light structure that was made of some of a rig's lights, in the rig's indices.
+// A light structure made from some of a rig's lights, with results in the rig's indices.
 
 #include <span>
 
@@ -7,13 +7,13 @@
 
 namespace clusterbench::assign {
 
-// lists' lights i become rig_lights[i], which ascend.
+// Replaces each light i of the lists by rig_lights[i]; rig_lights ascends.
 inline void map_lights(std::vector<std::uint32_t>& lights, std::span<const std::uint32_t> rig_lights) {
   for (std::uint32_t& light : lights) light = rig_lights[light];
 }
 
-// Answers as the structure does, in the rig's indices; what it takes stays that of the lights it was made of. Refers to
-// both.
+// Returns the structure's results in the rig's indices; its sizes stay those of the lights that it was made from.
+// Refers to both arguments.
 class MappedStructure final : public LightStructure {
  public:
   MappedStructure(const LightStructure& structure, std::span<const std::uint32_t> rig_lights)

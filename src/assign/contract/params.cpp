@@ -22,22 +22,22 @@ std::string number(double value) {
 
 std::string shown(const ParamValue& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  if (const auto* asked = std::get_if<double>(&value)) return number(*asked);
+  if (const auto* given = std::get_if<double>(&value)) return number(*given);
   return "'" + std::get<std::string>(value) + "'";
 }
 
-void check_number(const ParamSpec& spec, double asked) {
-  const bool fits = asked >= spec.min && asked <= spec.max && (!spec.whole || asked == std::floor(asked));
+void check_number(const ParamSpec& spec, double given) {
+  const bool fits = given >= spec.min && given <= spec.max && (!spec.whole || given == std::floor(given));
   if (!fits)
     throw Error("", spec.name,
-                "is " + number(asked) + "; allowed: " + (spec.whole ? "whole numbers from " : "") + number(spec.min) +
+                "is " + number(given) + "; allowed: " + (spec.whole ? "whole numbers from " : "") + number(spec.min) +
                     " to " + number(spec.max) + (spec.unit.empty() ? "" : " " + spec.unit));
 }
 
-void check_choice(const ParamSpec& spec, const std::string& asked) {
-  if (std::find(spec.choices.begin(), spec.choices.end(), asked) == spec.choices.end())
+void check_choice(const ParamSpec& spec, const std::string& given) {
+  if (std::find(spec.choices.begin(), spec.choices.end(), given) == spec.choices.end())
     throw Error("", spec.name,
-                "is '" + asked + "'" + did_you_mean(asked, spec.choices) + "; allowed: " + joined(spec.choices));
+                "is '" + given + "'" + did_you_mean(given, spec.choices) + "; allowed: " + joined(spec.choices));
 }
 
 const ParamSpec& spec_of(std::span<const ParamSpec> specs, const std::string& name) {
@@ -54,8 +54,8 @@ const ParamSpec& spec_of(std::span<const ParamSpec> specs, const std::string& na
 void check(const ParamSpec& spec, const ParamValue& value) {
   if (value.index() != spec.standard.index())
     throw Error("", spec.name, "is " + shown(value) + "; it must be " + type_name(spec.standard));
-  if (const auto* asked = std::get_if<double>(&value)) check_number(spec, *asked);
-  if (const auto* asked = std::get_if<std::string>(&value)) check_choice(spec, *asked);
+  if (const auto* given = std::get_if<double>(&value)) check_number(spec, *given);
+  if (const auto* given = std::get_if<std::string>(&value)) check_choice(spec, *given);
 }
 
 }  // namespace

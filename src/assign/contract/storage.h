@@ -1,5 +1,5 @@
 #pragma once
-// Structures that are made from lists: how they are kept in the buffers that an engine uploads, and what that costs.
+// Structures that are made from lists: the buffers that an engine uploads, and their cost.
 
 #include <cstdint>
 #include <memory>
@@ -15,16 +15,16 @@ namespace clusterbench::assign {
 
 class Storage : public LightStructure {
  public:
-  // For frames of this grid, which outlives the storage's use. The lookup of a sample goes through it.
+  // For frames of this grid, which must outlive the storage. Samples are looked up in the grid.
   void start(const grid::Grid& grid, const view::LightRanges& lights);
   // Without a lookup.
   virtual void start(std::uint32_t cell_count, const view::LightRanges& lights) = 0;
-  // The lights of the next lists, where they are others than at the start: no more in all, but with spots from another
-  // index on.
+  // The lights of the next lists, if they differ from those at the start: no more in total, but spots may begin at
+  // another index.
   virtual void set_types(const view::LightRanges& lights) { static_cast<void>(lights); }
   // Converts one frame's lists; no allocation in a steady state. Timed as the conversion.
   virtual void store(const Lists& lists) = 0;
-  // Appends what a shader would read of a cell: its list, less what was dropped.
+  // Appends the lights that a shader would read for a cell: its list without the dropped lights.
   virtual void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const = 0;
   virtual Reads reads_of_cell(std::uint32_t cell) const = 0;
   virtual std::uint32_t cell_count() const = 0;
@@ -35,7 +35,7 @@ class Storage : public LightStructure {
   void expand(Lists& out) const final;
 
  protected:
-  // Cells in a row of the grid; 0 without a lookup.
+  // The number of cells in a row of the grid; 0 without a lookup.
   std::uint32_t columns() const { return grid_ == nullptr ? 0 : static_cast<std::uint32_t>(grid_->cells().x); }
 
  private:
@@ -48,15 +48,15 @@ struct StorageDescriptor {
   std::string source;
   std::vector<ParamSpec> params;
   std::unique_ptr<Storage> (*make)(const Params& params);
-  // The parameters of the same storage with room for all lists, where some of them could read another list for want of
-  // room; beside it the others are measured. Null: no parameters make it so.
+  // Parameters of the same storage with room for all lists, if a full buffer could make cells read another list; the
+  // other storages are measured beside it. Null: there are no such parameters.
   std::optional<Params> (*without_fallback)(const Params& params) = nullptr;
 };
 
-// Of a storage in a configuration: as its descriptor says.
+// For a storage in a configuration, from its descriptor.
 std::optional<Params> without_fallback(const StorageDescriptor& storage, const Params& params);
 
-// For descriptors: what makes a storage of its parameters.
+// For descriptors: makes a storage from its parameters.
 template <class Kept>
 std::unique_ptr<Storage> make_storage(const Params& params) {
   return std::make_unique<Kept>(params);

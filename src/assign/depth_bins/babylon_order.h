@@ -1,7 +1,7 @@
 #pragma once
-// What `babylon-masks` and `babylon-as-shipped` share: lights in one order by depth, and ranges of that order for each
-// slice, which begin with the very first light where a slice has been reached before in a way that its first light does
-// not tell.
+// The common part of `babylon-masks` and `babylon-as-shipped`: lights in one order by depth, and a range of that order
+// for each slice. A slice's range begins with its own first light; or with the first light of all, if a light before
+// that one has already reached a slice behind it.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace clusterbench::assign {
 
-// All lights that are not empty, by the depth of their positions; they are not culled.
+// All lights that are not empty, by the depth of their positions; without culling.
 inline void sort_by_depth(const view::LightArrays& lights, std::vector<std::uint32_t>& order) {
   order.clear();
   for (std::uint32_t light = 0; light < lights.size(); ++light)
@@ -27,8 +27,8 @@ void fill_in_one_order(const grid::Grid& grid, const view::LightArrays& lights, 
   sort_by_depth(lights, order);
   const int slices = grid.cells().z;
   out.start(grid, lights.size(), static_cast<std::uint32_t>(order.size()), {.is_one_order = true});
-  // The last slice whose range has begun with the light that reached it; ranges of slices before it that no light had
-  // reached begin with the first of all, and so do those of slices without lights.
+  // The last slice whose range began with the light that reached it. Ranges of earlier slices that no light had reached
+  // begin with the first light of all, and so do those of slices without lights.
   int last_begun = -1;
   for (int z = 0; z < slices && !order.empty(); ++z) out.begin_with_first(z);
   for (std::uint32_t rank = 0; rank < order.size(); ++rank) {

@@ -1,6 +1,6 @@
 #pragma once
-// Light structures of engines that keep no lists: lights sorted by depth, a bit for each per tile of the screen, and
-// the first and the last of them for each range of depth. A sample's lights are its tile's bits within its range.
+// Light structures of engines without lists: lights sorted by depth, one bit per light for each tile of the screen, and
+// the first and the last light for each range of depth. A sample's lights are its tile's bits within its range.
 
 #include <algorithm>
 #include <array>
@@ -22,22 +22,22 @@
 
 namespace clusterbench::assign {
 
-// What has a range of its own: a slice, for all of its tiles, with ranks of 32 bits; or each cell, with ranks as narrow
-// as the rig allows, since there are many.
+// The elements that have their own range: slices (shared by all tiles), with ranks of 32 bits; or cells, with ranks as
+// narrow as the rig allows, since there are many cells.
 enum class RangesOf { slices, cells };
 
-// What a structure has besides masks of tiles and ranges.
+// Variants of the structure.
 struct MaskForm {
-  bool has_bin_masks = false;  // of each slice a bit for each of its own lights, too (Unity URP)
-  // Points and spots are sorted as one, and have one range (Babylon.js); else each type has its own.
+  bool has_bin_masks = false;  // each slice also has a bit for each of its lights (Unity URP)
+  // Points and spots are sorted together, and share one range (Babylon.js); otherwise each type has its own.
   bool is_one_order = false;
 };
 
-// Tiles and slices are the grid's, so that a cell is what its tile and its slice have in common.
+// Tiles and slices are the grid's, so a cell is the intersection of its tile and its slice.
 template <RangesOf ranges_of>
 class SortedMasks final : public LightStructure {
  public:
-  // For so many lights, of which `listed` are added.
+  // For this number of lights, of which `listed` will be added.
   void start(const grid::Grid& grid, std::uint32_t lights, std::uint32_t listed, MaskForm form = {}) {
     grid_ = &grid;
     form_ = form;
@@ -64,13 +64,13 @@ class SortedMasks final : public LightStructure {
         ranges_);
   }
 
-  // The light of a rank among the sorted ones, which come in this order, points before spots.
+  // Adds the light of a rank among the sorted ones. Ranks ascend, points before spots.
   void add(std::uint32_t rank, std::uint32_t light, std::size_t type, const CellBox& box) {
     order_[rank] = light;
     for (int y = box.first.y; y <= box.last.y; ++y) mark(rank, y, {box.first.x, box.last.x});
-    std::visit([&](auto& ranges) { take(rank, type, box, ranges); }, ranges_);
+    std::visit([&](auto& ranges) { include(rank, type, box, ranges); }, ranges_);
   }
-  // A slice's range begins with the first of all lights, whatever else is in it.
+  // A slice's range begins with the first of all lights, whatever else it contains.
   void begin_with_first(int slice) requires(ranges_of == RangesOf::slices) {
     std::visit(
         [&](auto& ranges) {
@@ -80,17 +80,17 @@ class SortedMasks final : public LightStructure {
         },
         ranges_);
   }
-  // A slice's range is empty again.
+  // Empties a slice's range.
   void begin_anew(int slice) requires(ranges_of == RangesOf::slices) {
     std::visit([&](auto& ranges) { ranges[static_cast<std::size_t>(slice)][0] = {}; }, ranges_);
   }
-  // One with columns of its own in each row of tiles, from `first_row` on.
+  // Adds a light with its own columns in each row of tiles, from `first_row` on.
   void add(std::uint32_t rank, std::uint32_t light, std::size_t type, const grid::IndexRange& slices, int first_row,
            std::span<const grid::IndexRange> columns) requires(ranges_of == RangesOf::slices) {
     order_[rank] = light;
     for (std::size_t i = 0; i < columns.size(); ++i) mark(rank, first_row + static_cast<int>(i), columns[i]);
     const CellBox box{{0, 0, slices.first}, {0, 0, slices.last}};
-    std::visit([&](auto& ranges) { take(rank, type, box, ranges); }, ranges_);
+    std::visit([&](auto& ranges) { include(rank, type, box, ranges); }, ranges_);
   }
 
   bool lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const override {
@@ -101,7 +101,7 @@ class SortedMasks final : public LightStructure {
     return true;
   }
 
-  // The range, the words that it covers of the tile's mask, and the light of each bit that is set there.
+  // Reads the range, the words of the tile's mask that it covers, and the light of each bit that is set there.
   Reads reads_at(const grid::Sample& sample, grid::Log2 way) const override {
     const std::int64_t cell = grid::lookup(*grid_, sample, way);
     if (cell < 0) return {};
@@ -160,13 +160,13 @@ class SortedMasks final : public LightStructure {
   struct Range {
     Rank first = std::numeric_limits<Rank>::max(), end = 0;
 
-    void take(std::uint32_t rank) {
+    void include(std::uint32_t rank) {
       first = std::min(first, static_cast<Rank>(rank));
       end = static_cast<Rank>(rank + 1);
     }
   };
   template <class Rank>
-  using Ranges = std::vector<std::array<Range<Rank>, view::k_punctual_types>>;  // of each type
+  using Ranges = std::vector<std::array<Range<Rank>, view::k_punctual_types>>;  // one range per type
 
   bool ranks_are_narrow() const {
     return ranges_of == RangesOf::cells && lights_ <= std::numeric_limits<std::uint16_t>::max();
@@ -193,18 +193,18 @@ class SortedMasks final : public LightStructure {
   }
 
   template <class Rank>
-  void take(std::uint32_t rank, std::size_t type, const CellBox& box, Ranges<Rank>& ranges) {
+  void include(std::uint32_t rank, std::size_t type, const CellBox& box, Ranges<Rank>& ranges) {
     if constexpr (ranges_of == RangesOf::slices) {
       for (int z = box.first.z; z <= box.last.z; ++z) {
         const auto slice = static_cast<std::size_t>(z);
-        ranges[slice][form_.is_one_order ? 0 : type].take(rank);
+        ranges[slice][form_.is_one_order ? 0 : type].include(rank);
         if (form_.has_bin_masks) bin_masks_[slice * words_ + rank / k_bits] |= 1u << rank % k_bits;
       }
     } else {
       for (int z = box.first.z; z <= box.last.z; ++z)
         for (int y = box.first.y; y <= box.last.y; ++y) {
           std::size_t cell = grid::cell_index({box.first.x, y, z}, grid_->cells());
-          for (int x = box.first.x; x <= box.last.x; ++x) ranges[cell++][type].take(rank);
+          for (int x = box.first.x; x <= box.last.x; ++x) ranges[cell++][type].include(rank);
         }
     }
   }
@@ -218,8 +218,8 @@ class SortedMasks final : public LightStructure {
     if (form_.is_one_order) std::sort(out.begin() + begin, out.end());  // a list has points before spots
   }
 
-  // Calls visit(rank of the first bit, bits) for each word of the tile's mask that the cell's ranges cover, with the
-  // bits beside the range cut off.
+  // Calls visit(rank of the first bit, bits) for each word of the tile's mask that the cell's ranges cover; bits
+  // outside of the range are cleared.
   template <class Visit>
   void each_word(std::uint32_t cell, Visit&& visit) const {
     const std::uint32_t* mask = masks_.data() + std::size_t{cell % tiles_} * words_;
@@ -246,14 +246,14 @@ class SortedMasks final : public LightStructure {
   std::uint32_t lights_ = 0, tiles_ = 0, words_ = 0;
   MaskForm form_;
   std::vector<std::uint32_t> masks_;      // tile by tile
-  std::vector<std::uint32_t> bin_masks_;  // slice by slice; empty without
+  std::vector<std::uint32_t> bin_masks_;  // slice by slice; empty without bin masks
   std::variant<Ranges<std::uint32_t>, Ranges<std::uint16_t>> ranges_;
   std::vector<std::uint32_t> order_;  // the light of each rank
 };
 
-// Fills them. Spots are the balls around their cones.
+// Fills the structure. A spot is the ball around its cone.
 //
-// Roundoffs: all that is tested are the cell boxes of balls, as `bounds-fast` finds them.
+// Roundoffs: the only tests are those of the balls' cell boxes, as in `bounds-fast`.
 template <RangesOf ranges_of>
 class SortedMasksMethod final : public AssignerOf<SortedMasks<ranges_of>> {
  public:
@@ -292,8 +292,8 @@ class SortedMasksMethod final : public AssignerOf<SortedMasks<ranges_of>> {
     return Params(light_params(), {{"spot", std::string("sphere")}, {"inflation", params.number("inflation")}});
   }
 
-  // The middles of what balls reach in depth are their centres. Balls of equal depth are sorted by their slices, so
-  // that what a range holds does not depend on the order in which the lights came.
+  // The centres of balls are also the middles of their ranges of depth. Balls of equal depth are sorted by their
+  // slices, so that a range's content does not depend on the order of the lights.
   void add_sorted(std::uint32_t begin, std::uint32_t end, std::size_t type, SortedMasks<ranges_of>& out) {
     auto& entries = by_depth_.entries;
     entries.resize(end - begin);

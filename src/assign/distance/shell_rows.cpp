@@ -13,25 +13,25 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
-// --- Which shells ---
+// --- The shells that balls reach ---
 
-// More than what the reference's caps, cuts and slopes lose: positions by some 20 roundoffs.
+// More than the error of the reference's caps, sections and slopes: positions by some 20 roundoffs.
 constexpr float k_slack_roundoffs = 64.0f;
-// Within these squares of a reach are normal numbers; elsewhere nothing is left out.
+// Between these limits, squares of a reach are normal numbers; outside of them no ball is left out.
 constexpr float k_least_reach = 1e-15f, k_most_reach = 1e18f;
 
 HWY_INLINE V outside(const TilePlane& plane, V coordinate, V depth) {
   return all(plane.across) * coordinate + all(plane.along) * depth;
 }
 
-// How far outside of one of the view's sides.
+// The distance outside of one of the view's sides.
 HWY_INLINE V side_gap(const ShellPlanes& planes, const Balls& balls) {
   const V x = balls.x, y = balls.y, depth = balls.depth;
   const V beside = Max(Neg(outside(planes.left, x, depth)), outside(planes.right, x, depth));
   return Max(beside, Max(outside(planes.top, y, depth), Neg(outside(planes.bottom, y, depth))));
 }
 
-// Larger balls; of infinite radius where squares may not be normal numbers.
+// Enlarged balls; of infinite radius if squares may not be normal numbers.
 HWY_INLINE V with_slack(const Balls& balls) {
   const V reach = Abs(balls.x) + Abs(balls.y) + Abs(balls.depth) + balls.radius;
   const M is_plain = is_between(all(k_least_reach), reach, all(k_most_reach));
@@ -52,15 +52,15 @@ HWY_INLINE CellRanges cells_of(const ShellPlanes& planes, const Balls& balls) {
 }
 
 void shells(const ShellPlanes& planes, const GivenBalls& given, float roundoffs, BoundedBalls& bounded) {
-  // A ball that holds the eye, which the reference may list in all directions of a shell, is outside of no side: they
-  // all pass through the eye.
+  // A ball around the eye, which the reference may list in all directions of a shell, is outside of no side, because
+  // all sides pass through the eye.
   const auto is_in_view = [&](const Balls& balls) { return Not(side_gap(planes, balls) > with_slack(balls)); };
   append_given(given, roundoffs, bounded, is_in_view, [&](const Balls& balls) { return cells_of(planes, balls); });
 }
 
 // --- Rows of one shell ---
 
-// Caps: balls around the lights' centres that look the same from the eye.
+// Caps: balls around the lights' centres that cover the same directions from the eye.
 class Caps {
  public:
   Caps() = default;
@@ -80,15 +80,15 @@ class Caps {
     high_ = tangent(slopes.high);
   }
 
-  // The slopes y / depth of those that reach the shell.
+  // The range of y / depth of the caps that reach the shell.
   HWY_INLINE Hull upright() const {
     const Hull slopes = disks(depth_, radius_).slope_range(y_);
     return {IfThenElse(misses_, infinite(), slopes.low), IfThenElse(misses_, Neg(infinite()), slopes.high)};
   }
 
-  // Planes y = slope * depth above the first rows.
+  // Starts with the planes y = slope * depth above the first rows.
   HWY_INLINE void start_rows(VD slope) { top_ = cut_at(slope); }
-  // The slopes x / depth in the rows above these planes; the next rows are those below them.
+  // The range of x / depth in the rows between the previous planes and these; the next call continues below.
   HWY_INLINE Hull slopes_above(VD slope) {
     const RowCut bottom = cut_at(slope);
     Hull slopes{Min(top_.cut.low, bottom.cut.low), Max(top_.cut.high, bottom.cut.high)};
@@ -105,10 +105,10 @@ class Caps {
 
  private:
   struct Tangent {
-    VD slope, touch, tolerance;  // touch: depth
+    VD slope, touch, tolerance;  // touch: a depth
     MD exists;
   };
-  // What planes cut out of the caps, as slopes x / depth.
+  // The sections of the caps in planes, as slopes x / depth.
   struct RowCut {
     VD slope;
     Hull cut;
@@ -169,7 +169,7 @@ void shell_rows(const ShellPlanes& planes, const BallBatch& batch, BatchRows& ou
     low.set(part, upright.low);
     high.set(part, upright.high);
   }
-  boxes.take_rows(low.whole() <= high.whole(), touched(planes.boundaries.rows, Neg(high.whole()), Neg(low.whole())));
+  boxes.limit_rows(low.whole() <= high.whole(), touched(planes.boundaries.rows, Neg(high.whole()), Neg(low.whole())));
   if (!boxes.start(planes.rows(), batch.count, out)) return;
   const auto slopes_at = [&](VI row) { return Parts(gathered(planes.slope, Min(row, all(planes.rows())))); };
   const Parts top = slopes_at(boxes.first_row);

@@ -1,6 +1,6 @@
 #pragma once
 // The columns that balls touch in the rows of a shell of distances: assigners/distance.cpp with one ball per lane, the
-// same operations in the same order, in double precision where it takes that.
+// same operations in the same order, in double precision where that file uses it.
 
 #include <vector>
 
@@ -23,8 +23,8 @@ struct ShellPlanes {
   std::size_t capacity_bytes() const;
 };
 
-// Appends those of the balls, larger by these roundoffs, that may reach a shell within the view, with all shells that
-// they may reach and all rows. Those left out touch no cell, not even by what rounding adds.
+// Appends the balls, enlarged by these roundoffs, that may reach a shell within the view, with all shells that they may
+// reach and all rows. The others touch no cell, not even with rounding errors.
 void find_shells(const ShellPlanes& planes, const GivenBalls& balls, float roundoffs, BoundedBalls& bounded);
 
 // The batch's slice is the shell.

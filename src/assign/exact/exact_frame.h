@@ -1,5 +1,5 @@
 #pragma once
-// A frame on a frustum grid as all threads of exact-fast see it, and its balls slice by slice.
+// A frame on a frustum grid, shared by all threads of exact-fast, with its balls sorted by slice.
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ struct ExactFrame {
   const grid::Grid& grid;
   const RowPlanes& planes;
   const view::LightArrays& lights;
-  const VisibleBalls& visible;  // first those of points; a spot's ball bounds it
+  const VisibleBalls& visible;  // points first, then spots; a spot's ball bounds the spot
   std::uint32_t first_spot;     // in `visible`
   const SphereSetup& shapes;    // of the points
   const SliceBins& balls;
@@ -40,26 +40,27 @@ struct ExactFrame {
   }
 };
 
-// The rows of some slices' points, slice by slice and batch by batch. As many batches as can be are found at once, of
-// several slices where one has fewer. pipeline/slice_lists.h takes one batch at a time: its kernels walk rows that each
-// ball's box has told them, while here a batch's rows follow from square roots and divisions, whose latency four
-// batches side by side hide.
+// Reads the rows of the points of some slices, slice by slice and batch by batch. It finds up to k_batches_at_once
+// batches together, across slices if a slice has fewer. pipeline/slice_lists.h finds one batch at a time: there the
+// rows come from each ball's box. Here a batch's rows need square roots and divisions; several batches side by side
+// hide their latency.
 class BatchReader {
  public:
-  // Of slices first .. last - 1.
+  // Starts with slices first .. last - 1.
   void start(const ExactFrame& frame, int first, int last) {
     frame_ = &frame;
     slice_ = first;
     last_ = last;
     begin_ = count_ = next_ = 0;
   }
-  // The slice's next batch, null after its last one. Slices must be read to their end, one after the other. Of batches
-  // that are found together settle(slice, batch) is called for each before one of them is returned, then finish().
-  template <class Settle, class Finish>
-  const BatchSpans* next(int slice, Settle&& settle, Finish&& finish) {
+  // The slice's next batch; null after its last one. Slices must be read to their end, in order. When several batches
+  // are found together, visit(slice, batch) is called for each of them and then finish(), before the first one is
+  // returned.
+  template <class Visit, class Finish>
+  const BatchSpans* next(int slice, Visit&& visit, Finish&& finish) {
     if (next_ == count_) {
       find_more();
-      for (std::size_t i = 0; i < count_; ++i) settle(balls_[i].slice, rows_[i]);
+      for (std::size_t i = 0; i < count_; ++i) visit(balls_[i].slice, rows_[i]);
       finish();
     }
     if (next_ == count_ || balls_[next_].slice != slice) return nullptr;
@@ -94,10 +95,10 @@ class BatchReader {
   }
 
   const ExactFrame* frame_ = nullptr;
-  int slice_ = 0, last_ = 0;  // the next one of which batches are to be found; where to stop
-  std::size_t begin_ = 0;     // among its balls
+  int slice_ = 0, last_ = 0;  // the next slice to find batches for; the end
+  std::size_t begin_ = 0;     // the first ball of that slice that is not in a batch yet
   std::array<BallsOfSlice, k_batches_at_once> balls_{};
-  std::size_t count_ = 0, next_ = 0;  // of the batches found; the next one to be read
+  std::size_t count_ = 0, next_ = 0;  // the batches found; the next one to be read
   RowBatches rows_;
 };
 

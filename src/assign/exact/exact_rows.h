@@ -1,6 +1,6 @@
 #pragma once
-// What the exact assigners share: a row's columns in closed form, single cells decided from the scene's own numbers,
-// and intervals narrowed to the cells that are touched.
+// The parts that the exact assigners share: the columns of a row in closed form (bounds), the exact test of a single
+// cell, and the trimming of a range to the cells that are touched.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 
 namespace clusterbench::assign {
 
-// One row of cells (one slice, one row of tiles): its first cell's index, and what bounds it.
+// One row of cells (one slice, one row of tiles): the index of its first cell, and its bounds.
 struct Row {
   std::uint32_t first_cell;
   float y0, y1, depth0, depth1;
@@ -36,15 +36,16 @@ inline geom::FrustumCell piece_of(const grid::Tiles& tiles, const Row& row, int 
   return {tiles.x[x], tiles.x[x + 1], row.y0, row.y1, row.depth0, row.depth1, tiles.orthographic};
 }
 
-// In single precision, in which centres and radii are: more than a centre's rounding (1) and the steps of row_slopes.h
-// (12) can add up to. Twice as many would double the decisions, which are rare; too few would lose lights.
+// In units of single-precision roundoff, as centres and radii are single precision: more than the sum of a centre's
+// rounding (1) and the steps of row_slopes.h (12). Twice as many would double the exact decisions, which are rare; too
+// few would lose lights.
 inline constexpr float k_exact_roundoffs = 32.0f;
 
-// Lights of more reach, which the domain does not have (geom/shapes/domain.h), are decided cell by cell.
+// Lights of larger reach, which are outside the domain (geom/shapes/domain.h), are decided cell by cell.
 inline constexpr float k_most_exact_reach = 1e17f;
 
-// Columns of a row that a ball touches. The answer is right for some ball whose centre and surface are off by less than
-// k_exact_roundoffs.
+// The columns of a row that a ball touches. The result is right for some ball whose centre and surface are off by less
+// than k_exact_roundoffs.
 class RowColumns {
  public:
   explicit RowColumns(const grid::Tiles& tiles) : tiles_(tiles) {}
@@ -56,7 +57,7 @@ class RowColumns {
 
  private:
   grid::IndexRange in_wedge(const geom::Ball& ball, const Row& row, geom::Errs errs) const {
-    // In double precision: where the surface nearly goes through the eye, the tangents touch too close to it for single
+    // In double precision: if the surface passes close to the eye, the tangents touch too close to it for single
     // precision.
     const geom::BallFromEye<double> visible{ball.center.x, ball.center.y, -ball.center.z, ball.radius};
     const geom::SlopeHull<double> slopes =
@@ -76,7 +77,7 @@ class RowColumns {
   const grid::Tiles& tiles_;
 };
 
-// Two balls that hold a spot; neither holds the other.
+// Two balls that each bound a spot; neither contains the other.
 class SpotBalls {
  public:
   SpotBalls(const view::LightArrays& lights, std::uint32_t light)
@@ -90,7 +91,7 @@ class SpotBalls {
   std::uint32_t light() const { return light_; }
   const geom::SphericalCone& cone() const { return cone_; }
   const geom::Ball& around() const { return around_; }
-  // All columns of a row that the spot touches, and perhaps more.
+  // All columns of a row that the spot touches, perhaps with a few more.
   grid::IndexRange touched(const RowColumns& columns, const Row& row) const {
     const grid::IndexRange around = columns.touched(around_, row, geom::Errs::outward),
                            in_range = columns.touched(range_, row, geom::Errs::outward);
@@ -104,10 +105,10 @@ class SpotBalls {
   geom::Ball around_, range_;
 };
 
-// Decides cells of one point light. Made for every light, and cheap until the first question.
-class BallJudge {
+// The exact test of cells against one point light. Constructed for every light, and cheap until the first test.
+class PointLightCellTest {
  public:
-  BallJudge(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
+  PointLightCellTest(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
       : tiles_(grid.screen().tiles), lights_(lights), light_(light) {}
 
   bool touches(const Row& row, int column) {
@@ -125,15 +126,15 @@ class BallJudge {
   std::optional<geom::BallDecider> decider_;
 };
 
-// The same of a spot.
-class SpotJudge {
+// The exact test of cells against one spot.
+class SpotCellTest {
  public:
-  SpotJudge(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
+  SpotCellTest(const grid::Grid& grid, const view::LightArrays& lights, std::uint32_t light)
       : grid_(grid), lights_(lights), light_(light) {}
 
   std::uint32_t light() const { return light_; }
 
-  // is_close: known to be touched or missed by a hair.
+  // is_close: the caller knows that contact or gap is tiny.
   bool touches(std::uint32_t cell, bool is_close = false) {
     if (!decider_) decider_.emplace(std::get<geom::SpotVolume>(lights_.volume(light_)));
     return decider_->meets(grid_.cell(cell), is_close) != geom::Verdict::no;
@@ -151,27 +152,28 @@ inline grid::IndexRange hull(const grid::IndexRange& a, const grid::IndexRange& 
   return {std::min(a.first, b.first), std::max(a.last, b.last)};
 }
 
-// The cells of a range without those at its ends that misses(column) says are not touched. All cells between two
-// touched ones are, so only the ends are asked.
+// Removes the cells at both ends of a range for which misses(column) is true. Only the ends need tests, because all
+// cells between two touched cells are touched.
 template <class Misses>
-grid::IndexRange narrowed(grid::IndexRange range, Misses&& misses) {
+grid::IndexRange trimmed(grid::IndexRange range, Misses&& misses) {
   while (!range.empty() && misses(range.first)) ++range.first;
   while (range.last > range.first && misses(range.last)) --range.last;
   return range;
 }
 
-// The columns of a row that a point light touches, all of them within `outer`. What single precision leaves uncertain
-// is asked of the judge, which adds to `questions`.
-inline grid::IndexRange settled(const grid::IndexRange& outer, const RowColumns& columns, const geom::Ball& smaller,
-                                const Row& row, BallJudge& judge, std::uint64_t& questions) {
+// The columns of a row that a point light touches; `outer` contains all of them. cell_test decides the columns that
+// single precision leaves uncertain; each of these tests adds 1 to `decisions`.
+inline grid::IndexRange decided_columns(const grid::IndexRange& outer, const RowColumns& columns,
+                                        const geom::Ball& smaller, const Row& row, PointLightCellTest& cell_test,
+                                        std::uint64_t& decisions) {
   const grid::IndexRange inner = columns.touched(smaller, row, geom::Errs::inward);
   if (outer.first == inner.first && outer.last == inner.last) return outer;
   const auto misses = [&](int column) {
     if (inner.holds(column)) return false;
-    ++questions;
-    return !judge.touches(row, column);
+    ++decisions;
+    return !cell_test.touches(row, column);
   };
-  return hull(inner, narrowed(outer, misses));
+  return hull(inner, trimmed(outer, misses));
 }
 
 }  // namespace clusterbench::assign

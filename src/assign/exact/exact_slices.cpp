@@ -8,7 +8,7 @@ using grid::IndexRange;
 
 namespace {
 
-// As BatchRows has it.
+// In the format of BatchRows.
 std::uint32_t span_of(const IndexRange& columns) {
   if (columns.empty()) return BatchRows::k_none;
   return ColumnSpan::of(static_cast<std::uint32_t>(columns.first), static_cast<std::uint32_t>(columns.last));
@@ -21,7 +21,7 @@ void ExactSlices::find(const ExactFrame& frame, int first, int last, Lists& out)
   tests_ = fallbacks_ = 0;
   const auto rows = static_cast<std::uint32_t>(frame.planes.rows);
   uncertain_.reserve(k_most_uncertain);
-  questions_.reserve(2 * k_most_uncertain);
+  end_cells_.reserve(2 * k_most_uncertain);
   spots_.find(frame, first, last);
   batches_.start(frame, first, last);
   spans_.start(static_cast<std::uint32_t>(last - first), rows, static_cast<std::uint32_t>(frame.planes.columns), out);
@@ -34,13 +34,13 @@ void ExactSlices::find(const ExactFrame& frame, int first, int last, Lists& out)
 }
 
 std::size_t ExactSlices::scratch_bytes() const {
-  return spots_.capacity_bytes() + spans_.capacity_bytes() + batches_.capacity_bytes() + questions_.capacity_bytes() +
+  return spots_.capacity_bytes() + spans_.capacity_bytes() + batches_.capacity_bytes() + end_cells_.capacity_bytes() +
          uncertain_.capacity() * sizeof(UncertainSpan);
 }
 
 void ExactSlices::add_points(int slice) {
-  const auto take = [&](int of_slice, BatchSpans& batch) { ask_about_spans(of_slice, batch); };
-  while (const BatchSpans* batch = batches_.next(slice, take, [&] { settle_spans(); })) {
+  const auto collect = [&](int of_slice, BatchSpans& batch) { collect_uncertain_spans(of_slice, batch); };
+  while (const BatchSpans* batch = batches_.next(slice, collect, [&] { decide_spans(); })) {
     tests_ += batch->tests;
     if (batch->tests != 0)
       spans_.add_rows(batch->first_row, batch->last_row, batch->sizes.data(), batch->columns.data(),
@@ -48,7 +48,7 @@ void ExactSlices::add_points(int slice) {
   }
 }
 
-void ExactSlices::ask_about_spans(int slice, BatchSpans& batch) {
+void ExactSlices::collect_uncertain_spans(int slice, BatchSpans& batch) {
   int row = batch.first_row;
   std::uint32_t row_end = batch.uncertain_count == 0 ? 0 : batch.sizes[static_cast<std::size_t>(row)];
   for (std::uint32_t i = 0; i < batch.uncertain_count; ++i) {
@@ -67,26 +67,26 @@ void ExactSlices::ask_about_spans(int slice, BatchSpans& batch) {
       entry = span_of(span.columns);
       continue;
     }
-    // What is asked later is not counted: it depends on what the machine could answer before.
-    fallbacks_ += span.asks_first && span.asks_last && span.columns.count() > 1 ? 2 : 1;
+    // Later tests are not counted: their number depends on the machine's vectors.
+    fallbacks_ += span.tests_first && span.tests_last && span.columns.count() > 1 ? 2 : 1;
     const float reach = frame_->lights.reach[light];
     if (!(frame_->planes.least_reach <= reach && reach <= k_most_row_reach)) {
-      entry = span_of(touched_anywhere(span));
+      entry = span_of(decided_without_filter(span));
       continue;
     }
-    if (uncertain_.size() == k_most_uncertain) settle_spans();
+    if (uncertain_.size() == k_most_uncertain) decide_spans();
     uncertain_.push_back(span);
   }
 }
 
-void ExactSlices::settle_spans() {
+void ExactSlices::decide_spans() {
   while (!uncertain_.empty()) {
-    questions_.count = 0;
-    for (UncertainSpan& span : uncertain_) ask(span);
-    look_at_balls(frame_->lights, frame_->planes, questions_);
+    end_cells_.count = 0;
+    for (UncertainSpan& span : uncertain_) add_end_cells(span);
+    filter_ball_cells(frame_->lights, frame_->planes, end_cells_);
     std::size_t kept = 0;
     for (UncertainSpan& span : uncertain_) {
-      if (is_settled(span))
+      if (is_decided(span))
         *span.entry = span_of(span.columns);
       else
         uncertain_[kept++] = span;
@@ -95,51 +95,52 @@ void ExactSlices::settle_spans() {
   }
 }
 
-void ExactSlices::ask(UncertainSpan& span) {
-  span.first_question = questions_.count;
-  if (span.asks_first) questions_.add(span.light, span.slice, span.row, span.columns.first);
-  if (span.asks_last && !(span.asks_first && span.columns.count() == 1))
-    questions_.add(span.light, span.slice, span.row, span.columns.last);
+void ExactSlices::add_end_cells(UncertainSpan& span) {
+  span.first_test = end_cells_.count;
+  if (span.tests_first) end_cells_.add(span.light, span.slice, span.row, span.columns.first);
+  if (span.tests_last && !(span.tests_first && span.columns.count() == 1))
+    end_cells_.add(span.light, span.slice, span.row, span.columns.last);
 }
 
-bool ExactSlices::is_settled(UncertainSpan& span) const {
-  std::uint32_t next = span.first_question;
+bool ExactSlices::is_decided(UncertainSpan& span) const {
+  std::uint32_t next = span.first_test;
   const auto touches = [&](int column) {
-    const Touch touch = questions_.touch[next++];
+    const Touch touch = end_cells_.touch[next++];
     if (touch != Touch::uncertain) return touch == Touch::yes;
-    BallJudge judge(frame_->grid, frame_->lights, span.light);
-    return judge.touches(row_of(frame_->grid.screen(), span.slice, span.row), column);
+    PointLightCellTest cell_test(frame_->grid, frame_->lights, span.light);
+    return cell_test.touches(row_of(frame_->grid.screen(), span.slice, span.row), column);
   };
   IndexRange& columns = span.columns;
-  const bool is_one = columns.count() == 1, asked_first = span.asks_first;
-  if (span.asks_first) {
-    span.asks_first = !touches(columns.first);
-    if (span.asks_first) ++columns.first;
+  const bool is_one = columns.count() == 1, tested_first = span.tests_first;
+  if (span.tests_first) {
+    span.tests_first = !touches(columns.first);
+    if (span.tests_first) ++columns.first;
   }
-  if (span.asks_last) {
-    if (is_one && asked_first) {
-      span.asks_last = false;
+  if (span.tests_last) {
+    if (is_one && tested_first) {
+      span.tests_last = false;
     } else {
-      span.asks_last = !touches(columns.last);
-      if (span.asks_last) --columns.last;
+      span.tests_last = !touches(columns.last);
+      if (span.tests_last) --columns.last;
     }
   }
-  // One column that one of the ends has been found to be is touched.
-  if (columns.count() == 1 && !(span.asks_first && span.asks_last)) return true;
-  return columns.empty() || !(span.asks_first || span.asks_last);
+  // If only one column is left and one end has found it touched, the span is final.
+  if (columns.count() == 1 && !(span.tests_first && span.tests_last)) return true;
+  return columns.empty() || !(span.tests_first || span.tests_last);
 }
 
-IndexRange ExactSlices::touched_anywhere(const UncertainSpan& span) const {
+IndexRange ExactSlices::decided_without_filter(const UncertainSpan& span) const {
   const Row row = row_of(frame_->grid.screen(), span.slice, span.row);
-  BallJudge judge(frame_->grid, frame_->lights, span.light);
+  PointLightCellTest cell_test(frame_->grid, frame_->lights, span.light);
   if (frame_->lights.reach[span.light] > k_most_exact_reach)
-    return narrowed(span.columns, [&](int column) { return !judge.touches(row, column); });
+    return trimmed(span.columns, [&](int column) { return !cell_test.touches(row, column); });
   const RowColumns row_columns(frame_->grid.screen().tiles);
   const IndexRange outer =
       row_columns.touched(frame_->lights.ball(span.light, k_exact_roundoffs), row, geom::Errs::outward);
   if (outer.empty()) return {};
-  std::uint64_t questions = 0;
-  return settled(outer, row_columns, frame_->lights.ball(span.light, -k_exact_roundoffs), row, judge, questions);
+  std::uint64_t decisions = 0;
+  return decided_columns(outer, row_columns, frame_->lights.ball(span.light, -k_exact_roundoffs), row, cell_test,
+                         decisions);
 }
 
 }  // namespace clusterbench::assign

@@ -1,6 +1,6 @@
 #pragma once
-// The true lists of some slices of a frustum grid: what a thread of exact-fast does. Spots come first, all
-// slices at once, so that their questions fill vectors; then slice by slice the points' rows and the lists. Keeps its
+// The true lists of some slices of a frustum grid: the work of one thread of exact-fast. Spots come first, for all
+// slices at once, so that their tests fill vectors; then, slice by slice, the points' rows and the lists. Keeps its
 // memory between frames.
 
 #include "assign/exact/exact_rows.h"
@@ -11,7 +11,7 @@ namespace clusterbench::assign {
 
 class ExactSlices {
  public:
-  // Lists of the cells of slices first .. last - 1, numbered from the first one's on.
+  // Lists of the cells of slices first .. last - 1; cell 0 is the first cell of slice `first`.
   void find(const ExactFrame& frame, int first, int last, Lists& out);
 
   std::uint64_t tests() const { return tests_ + spots_.tests(); }
@@ -19,32 +19,32 @@ class ExactSlices {
   std::size_t scratch_bytes() const;
 
  private:
-  // A span of a batch whose ends may be beyond the cells that are touched.
+  // A span of a batch whose ends may extend past the touched cells.
   struct UncertainSpan {
-    std::uint32_t* entry;  // of the batch
+    std::uint32_t* entry;  // in the batch
     std::uint32_t light;
     int slice, row;
     grid::IndexRange columns;
-    bool asks_first, asks_last;    // whether that column is touched
-    std::uint32_t first_question;  // of one or two
+    bool tests_first, tests_last;  // the column at that end needs a test
+    std::uint32_t first_test;      // index in end_cells_, of one or two tests
   };
-  // Vectors of questions are full, and memory does not depend on the lights.
+  // Enough to fill vectors of tests, while memory does not depend on the lights.
   static constexpr std::size_t k_most_uncertain = 64;
 
   void add_points(int slice);
-  void ask_about_spans(int slice, BatchSpans& batch);
-  void settle_spans();
-  void ask(UncertainSpan& span);
-  // Takes the answers. False if more is to be asked.
-  bool is_settled(UncertainSpan& span) const;
-  // Without a question before.
-  grid::IndexRange touched_anywhere(const UncertainSpan& span) const;
+  void collect_uncertain_spans(int slice, BatchSpans& batch);
+  void decide_spans();
+  void add_end_cells(UncertainSpan& span);
+  // Applies the results of the tests. False if the span needs more tests.
+  bool is_decided(UncertainSpan& span) const;
+  // The span's touched columns without the filter, for lights outside its range.
+  grid::IndexRange decided_without_filter(const UncertainSpan& span) const;
 
   const ExactFrame* frame_ = nullptr;
   SpotSpans spots_;
   BatchReader batches_;
   std::vector<UncertainSpan> uncertain_;
-  BallCells questions_;
+  BallCells end_cells_;
   ListBuilder spans_;
   std::uint64_t tests_ = 0, fallbacks_ = 0;
 };

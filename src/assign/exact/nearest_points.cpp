@@ -13,8 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
-// geom::Bounded, one per lane; but what errors lose when they are added and multiplied, fewer than a hundred times, is
-// made up for where they are used, by enlarged().
+// geom::Bounded, one per lane. Sums and products of errors are themselves rounded; enlarged() makes up for fewer than a
+// hundred such operations, where the errors are used.
 struct Bound {
   VD value, error;
 };
@@ -24,7 +24,7 @@ HWY_INLINE Bound exactly(VD value) {
 }
 HWY_INLINE VD enlarged(VD error) {
   const VD larger = error * all(1.0 + 0x1p-44) + all(0x1p-1000);
-  return IfThenZeroElse(error == Zero(DD()), larger);  // what is no number stays none
+  return IfThenZeroElse(error == Zero(DD()), larger);  // NaN stays NaN
 }
 HWY_INLINE Bound operator+(const Bound& a, const Bound& b) {
   const VD sum = a.value + b.value, from_b = sum - a.value;
@@ -34,8 +34,8 @@ HWY_INLINE Bound operator+(const Bound& a, const Bound& b) {
 HWY_INLINE Bound operator-(const Bound& a, const Bound& b) {
   return a + Bound{Neg(b.value), b.error};
 }
-// What a product loses, up to its sign: what a fused multiply and subtract finds, or else the products of halves of 26
-// bits (Veltkamp's split), for factors below 2^990.
+// The rounding error of a product, up to its sign: from a fused multiply and subtract, or else from the products of
+// halves of 26 bits (Veltkamp's split), for factors below 2^990.
 HWY_INLINE VD lost_by_product(VD a, VD b, VD product) {
 #if HWY_NATIVE_FMA
   return MulSub(a, b, product);
@@ -48,20 +48,21 @@ HWY_INLINE VD lost_by_product(VD a, VD b, VD product) {
   return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
 #endif
 }
-// What a product loses is always a double, if it is not below what a double can hold; neither are the products of
-// errors nothing where they are.
+// The rounding error of a product is always a double, unless it underflows. The products of errors must not underflow
+// to 0 either.
 HWY_INLINE Bound operator*(const Bound& a, const Bound& b) {
   const VD zero = Zero(DD());
   const VD product = a.value * b.value, lost = Abs(lost_by_product(a.value, b.value, product));
   const VD size_of_a = Abs(a.value) + a.error, size_of_b = Abs(b.value) + b.error;
-  const MD is_something = And(size_of_a > zero, size_of_b > zero);
+  const MD is_nonzero = And(size_of_a > zero, size_of_b > zero);
   const MD is_rough = Or(Abs(product) < all(0x1p-900), a.error + b.error > zero);
-  const VD rounding = Max(lost, IfThenElseZero(And(is_something, is_rough), all(0x1p-1000)));
+  const VD rounding = Max(lost, IfThenElseZero(And(is_nonzero, is_rough), all(0x1p-1000)));
   const VD of_a = a.error * size_of_b, of_b = Abs(a.value) * b.error;
   return {product, of_a + of_b + rounding};
 }
 
-// How far a centre is outside of low <= at <= high, and which side's slope makes it change with depth (0: neither's).
+// The distance of a centre outside of low <= at <= high, and the slope of the side that makes it change with depth (0:
+// none).
 struct Gap {
   Bound size;
   VD slope;
@@ -72,7 +73,7 @@ HWY_INLINE Gap gap_between(const Bound& low, const Bound& at, const Bound& high,
   const Bound below = low - at, above = at - high;
   const MD is_below = below.value > above.value;
   const VD value = Max(below.value, above.value);
-  // Beyond one side for certain, it is not beyond the other: only that side's error counts.
+  // If it is certainly beyond one side, it is not beyond the other: only that side's error counts.
   const VD larger = enlarged(Max(below.error, above.error));
   const VD own = enlarged(IfThenElse(is_below, below.error, above.error));
   const VD error = IfThenElse(value >= own, own, larger);
@@ -83,7 +84,7 @@ HWY_INLINE Gap gap_between(const Bound& low, const Bound& at, const Bound& high,
   return {{Max(value, zero), IfThenElse(is_outside, error, inside)}, slope, is_below, is_outside};
 }
 
-// Half the slope, along depth, of a gap's square.
+// Half the derivative of a gap's square along depth.
 HWY_INLINE Bound half_slope(const Gap& gap, VD slope_low, VD slope_high) {
   const Bound product = exactly(gap.slope) * gap.size;
   const VD unsure = (Abs(slope_low) + Abs(slope_high)) * gap.size.error;
@@ -94,14 +95,14 @@ HWY_INLINE VD gathered_wide(const std::vector<float>& from, VH indices) {
   return PromoteTo(DD(), GatherIndex(DF(), from.data(), indices));
 }
 
-// What is known of each lane, to touch[0] and on.
+// Writes the result of each lane to touch[0] and following.
 HWY_INLINE void store_touches(MD touches, MD misses, Touch* touch) {
   const unsigned yes = bits_of(DD(), touches), no = bits_of(DD(), misses);
   for (std::size_t lane = 0; lane < Lanes(DD()); ++lane)
     touch[lane] = (yes >> lane & 1) != 0 ? Touch::yes : (no >> lane & 1) != 0 ? Touch::no : Touch::uncertain;
 }
 
-// Neighbouring cells of a row as one: those between two planes of columns.
+// Neighbouring cells of a row, tested as one cell: those between two planes of columns.
 struct RowRuns {
   VH light, slice, row, column, end_column;
 };
@@ -137,11 +138,11 @@ class BallRuns {
     depth_ = {Neg(z.value), z.error};
   }
 
-  // The run's nearest point, about: where was looked for it, and what was measured there. As in geom/ball.
+  // The run's nearest point, approximately: the depth at which it was computed, and the values there. As in geom/ball.
   struct Nearest {
     Gap x, y;
-    Bound depth, along;  // along: from the centre's depth
-    Bound excess;        // of the squared distance over that of the surface
+    Bound depth, along;  // along: relative to the centre's depth
+    Bound excess;        // the squared distance minus the squared radius
   };
   HWY_INLINE Nearest nearest() const {
     const VD at = nearest_depth();
@@ -156,8 +157,9 @@ class BallRuns {
         found.x.size * found.x.size + found.y.size * found.y.size + found.along * found.along - squared_range_;
     return found;
   }
-  // Half the slope, along depth, of the squared distance is at most this, in directions that lead to the run's
-  // nearest point: this is how much less deep or deeper that can be, and its square how much nearer.
+  // An upper bound of half the derivative of the squared distance along depth, in directions that lead to the run's
+  // nearest point. So that point's depth differs by at most this bound, and its squared distance is smaller by at most
+  // the square of this bound.
   HWY_INLINE VD steepness(const Nearest& found) const {
     const VD zero = Zero(DD());
     if (orthographic_) return zero;
@@ -167,18 +169,18 @@ class BallRuns {
     const VD rises = IfThenElseZero(found.depth.value > depth0_, slope_error + slope.value);
     return enlarged(Max(zero, Max(falls, rises)));
   }
-  // A square too small for a double is not nothing.
+  // A square that underflows must not become 0.
   static HWY_INLINE VD undershoot(VD steepness) {
     const VD square = Max(enlarged(steepness * steepness), all(0x1p-1000));
     return IfThenElseZero(steepness > Zero(DD()), square);
   }
 
   const Bound& x() const { return x_; }
-  // Along planes of the runs, the longest way for a metre of depth is less.
+  // Along planes of the runs, the length of a step of one metre in depth is less than this.
   VD longest_way() const { return all(1.0) + (Max(Abs(x0_), Abs(x1_)) + Max(Abs(y0_), Abs(y1_))); }
 
  private:
-  // A coordinate of a vector in a space. Where cameras stand straight, only one of its terms is not 0.
+  // A coordinate of a vector in a space. For cameras that stand straight only one of its terms is not 0.
   static HWY_INLINE Bound turned(const Mat3d& rotation, int row, const Bound (&vector)[3]) {
     Bound sum = exactly(Zero(DD()));
     for (int column = 0; column < 3; ++column)
@@ -189,8 +191,8 @@ class BallRuns {
   HWY_INLINE Bound plane(VD slope, const Bound& depth) const {
     return orthographic_ ? exactly(slope) : exactly(slope) * depth;
   }
-  // Is the nearest point surely as deep as the centre? Then it is looked at there, however deep that is, and the way to
-  // it is as exact as the coordinates across. So are all touches of planes through the eye's own axes.
+  // Is the nearest point certainly at the centre's depth? Then it is computed at that depth, and the vector to it is as
+  // exact as the coordinates across. This is the case for all contacts with planes through the eye's own axes.
   HWY_INLINE MD is_level_at(VD at) const {
     const VD zero = Zero(DD()), error = enlarged(depth_.error);
     const MD is_within = And(depth0_ < depth_.value - error, depth_.value + error < depth1_);
@@ -223,7 +225,7 @@ class BallRuns {
   Bound x_, y_, depth_, squared_range_;
 };
 
-void look_at_ball_cells(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells) {
+void filter_balls(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells) {
   const std::size_t lanes = Lanes(DD());
   for (std::size_t first = 0; first < cells.count; first += lanes) {
     const auto load = [&](const std::vector<std::int32_t>& from) { return LoadU(DH(), from.data() + first); };
@@ -240,9 +242,9 @@ void look_at_ball_cells(const view::LightArrays& lights, const RowPlanes& planes
   }
 }
 
-// How far inside of the cone's side a way from the apex ends, which changes by no more than the way does. The cone is
-// given in single precision: the axis of length 1 to 5 u, all numbers off by u of themselves, u = 2^-24. So this is off
-// by less than 20 u of the way's length.
+// The margin of the end of a vector from the apex inside the cone's side. It changes by no more than the vector does.
+// The cone is given in single precision: the axis of length 1 to 5 u, all numbers off by u of themselves, u = 2^-24. So
+// this is off by less than 20 u of the vector's length.
 HWY_INLINE VD cone_margin(const view::LightArrays& lights, VH spot, const PointOf<VD>& way) {
   const auto of = [&](const std::vector<float>& list) { return gathered_wide(list, spot); };
   const PointOf<VD> axis{of(lights.axis_x), of(lights.axis_y), Neg(of(lights.axis_z))};
@@ -251,12 +253,12 @@ HWY_INLINE VD cone_margin(const view::LightArrays& lights, VH spot, const PointO
 }
 constexpr double k_cone_error = 0x1p-19;  // 32 u
 
-// From the centre to a gap's other end.
+// The signed distance from the centre to the other end of a gap.
 HWY_INLINE VD across(const Gap& gap) {
   return IfThenElse(gap.is_below, gap.size.value, Neg(gap.size.value));
 }
 
-void look_at_spot_runs(const view::LightArrays& lights, const RowPlanes& planes, SpotTouches& out) {
+void test_contacts(const view::LightArrays& lights, const RowPlanes& planes, SpotContacts& out) {
   const SpotCells& runs = out.runs;
   const std::size_t lanes = Lanes(DD());
   const VD zero = Zero(DD());
@@ -270,8 +272,8 @@ void look_at_spot_runs(const view::LightArrays& lights, const RowPlanes& planes,
     const BallRuns::Nearest nearest = balls.nearest();
     const VD error = enlarged(nearest.excess.error), excess = nearest.excess.value;
     const VD steep = balls.steepness(nearest), undershoot = BallRuns::undershoot(steep);
-    // The nearest point is no farther from the point that was looked at than `shift`; common points are no farther
-    // from it than `play`.
+    // The nearest point is no farther than `shift` from the computed point; common points are no farther than `play`
+    // from the nearest point.
     const VD shift = enlarged(steep * balls.longest_way());
     const VD play_square = enlarged(Max(zero, Neg(excess)) + (error + undershoot));
     const VD play = enlarged(Sqrt(play_square));
@@ -285,9 +287,9 @@ void look_at_spot_runs(const view::LightArrays& lights, const RowPlanes& planes,
     const MD is_beside = margin + all(2.0) * (shift + play) < Neg(tolerance);
 
     const VD reach = gathered_wide(lights.reach, light);
-    const MD is_plain = And(all(double{planes.least_reach}) <= reach, reach <= all(double{k_most_row_reach}));
-    const MD touches = And(is_plain, And(excess <= Neg(error), is_in_cone));
-    const MD misses = And(is_plain, Or(excess - undershoot > error, is_beside));
+    const MD is_in_range = And(all(double{planes.least_reach}) <= reach, reach <= all(double{k_most_row_reach}));
+    const MD touches = And(is_in_range, And(excess <= Neg(error), is_in_cone));
+    const MD misses = And(is_in_range, Or(excess - undershoot > error, is_beside));
     const auto store = [&](VD value, std::vector<double>& list) { StoreU(value, DD(), list.data() + first); };
     const MD is_x_sure = And(nearest.x.is_outside, nearest.x.size.value > all(2.0) * nearest.x.size.error);
     store(balls.x().value, out.x);
@@ -295,12 +297,12 @@ void look_at_spot_runs(const view::LightArrays& lights, const RowPlanes& planes,
     store(nearest.depth.value, out.depth);
     store(enlarged(nearest.depth.error), out.depth_error);
     store_touches(touches, misses, out.runs.touch.data() + first);
-    const MD is_alone = And(And(touches, is_exact), Or(is_x_sure, Not(nearest.x.is_outside)));
-    const unsigned alone = bits_of(DD(), is_alone);
+    const MD is_only_point = And(And(touches, is_exact), Or(is_x_sure, Not(nearest.x.is_outside)));
+    const unsigned only_point = bits_of(DD(), is_only_point);
     const unsigned outside = bits_of(DD(), nearest.x.is_outside), below = bits_of(DD(), nearest.x.is_below);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const auto is = [&](unsigned mask) { return (mask >> lane & 1) != 0; };
-      out.is_alone[first + lane] = is(alone);
+      out.is_only_point[first + lane] = is(only_point);
       out.side[first + lane] = static_cast<std::int8_t>(!is(outside) ? 0 : is(below) ? -1 : 1);
     }
   }
@@ -313,33 +315,33 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace clusterbench::assign {
 
-HWY_EXPORT(look_at_ball_cells);
-HWY_EXPORT(look_at_spot_runs);
+HWY_EXPORT(filter_balls);
+HWY_EXPORT(test_contacts);
 
-void look_at_balls(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells) {
+void filter_ball_cells(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells) {
   if (cells.count == 0) return;
-  // What a whole vector reads beyond the end must be indices that exist.
+  // A whole vector reads past the end: fill that part with valid indices.
   for (std::vector<std::int32_t>* list : {&cells.light, &cells.slice, &cells.row, &cells.column})
     std::fill_n(list->begin() + cells.count, k_most_lanes, 0);
-  HWY_DYNAMIC_DISPATCH(look_at_ball_cells)(lights, planes, cells);
+  HWY_DYNAMIC_DISPATCH(filter_balls)(lights, planes, cells);
 }
 
-void SpotTouches::look(const view::LightArrays& lights, const RowPlanes& planes) {
+void SpotContacts::test(const view::LightArrays& lights, const RowPlanes& planes) {
   if (runs.count == 0) return;
   runs.pad();
   for (std::vector<double>* list : {&x, &x_error, &depth, &depth_error}) list->resize(runs.spot.size());
-  is_alone.resize(runs.spot.size());
+  is_only_point.resize(runs.spot.size());
   side.resize(runs.spot.size());
-  HWY_DYNAMIC_DISPATCH(look_at_spot_runs)(lights, planes, *this);
+  HWY_DYNAMIC_DISPATCH(test_contacts)(lights, planes, *this);
 }
 
-grid::IndexRange SpotTouches::only_columns(std::uint32_t index, const RowPlanes& planes) const {
+grid::IndexRange SpotContacts::only_touched_columns(std::uint32_t index, const RowPlanes& planes) const {
   using geom::Bounded;
   const grid::IndexRange none{},
       columns{static_cast<int>(runs.column[index]), static_cast<int>(runs.end_column[index]) - 1};
   const Bounded at_x(x[index], x_error[index]), at_depth(depth[index], depth_error[index]);
   // At the eye all columns meet.
-  if (is_alone[index] == 0 || (!planes.orthographic && !at_depth.is_surely_above(0.0))) return none;
+  if (is_only_point[index] == 0 || (!planes.orthographic && !at_depth.is_surely_above(0.0))) return none;
   if (side[index] < 0) return {columns.first, columns.first};
   if (side[index] > 0) return {columns.last, columns.last};
   const auto plane = [&](int column) {
@@ -355,12 +357,12 @@ grid::IndexRange SpotTouches::only_columns(std::uint32_t index, const RowPlanes&
   const int middle = std::min(column, columns.last);
   grid::IndexRange touched{middle, middle};
   const Bounded beyond_left = at_x - plane(middle), before_right = plane(middle + 1) - at_x;
-  const auto is_nothing = [](const Bounded& number) { return number.value == 0.0 && number.error == 0.0; };
-  if (is_nothing(beyond_left))
+  const auto is_zero = [](const Bounded& number) { return number.value == 0.0 && number.error == 0.0; };
+  if (is_zero(beyond_left))
     touched.first = std::max(columns.first, middle - 1);
   else if (!beyond_left.is_surely_above(0.0))
     return none;
-  if (is_nothing(before_right))
+  if (is_zero(before_right))
     touched.last = std::min(columns.last, middle + 1);
   else if (!before_right.is_surely_above(0.0))
     return none;

@@ -1,7 +1,8 @@
 #pragma once
-// Do lights touch cells of a frustum grid? Many pairs at once, by the point of the cells that is nearest to a light's
-// centre: in doubles with a bound of their error, as geom::BallDecider does before it turns to exact numbers (its
-// answers are the same; which pairs are left uncertain is not).
+// Stage 2 of the cascade (cone/spot_rows.h), a filter by nearest points: do lights touch cells of a frustum grid? For
+// many pairs at once it finds the point of the cells that is nearest to a light's centre, in doubles with an error
+// bound, as geom::BallDecider does before it uses exact numbers. Its answers are the same; it may leave other pairs
+// uncertain.
 
 #include <cstdint>
 #include <vector>
@@ -14,13 +15,13 @@
 
 namespace clusterbench::assign {
 
-// Pairs of a ball and a cell, and the answers. Whole vectors can be read and written beyond `count`.
+// Pairs of a ball and a cell, and the results. Whole vectors can be read and written beyond `count`.
 struct BallCells {
   std::uint32_t count = 0;
-  std::vector<std::int32_t> light, slice, row, column;  // of endless lights nothing is said
+  std::vector<std::int32_t> light, slice, row, column;  // for lights without end the result has no meaning
   std::vector<Touch> touch;
 
-  // Before the first add().
+  // Must be called before the first add().
   void reserve(std::size_t most) { grow_to(most + k_most_lanes, light, slice, row, column, touch); }
   void add(std::uint32_t of_light, int in_slice, int in_row, int in_column) {
     light[count] = static_cast<std::int32_t>(of_light);
@@ -31,26 +32,26 @@ struct BallCells {
   std::size_t capacity_bytes() const { return bytes_of(light, slice, row, column, touch); }
 };
 
-// `planes`: those of the grid in whose space the lights are.
-void look_at_balls(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells);
+// `planes`: of the grid in whose space the lights are.
+void filter_ball_cells(const view::LightArrays& lights, const RowPlanes& planes, BallCells& cells);
 
-// Spots that may just touch runs of cells. If the nearest point lies at the range, or beyond, it tells whether there is
-// a common point; on lattices, where nothing or little is rounded, it does even where it is the only one, and then says
-// in which columns.
-struct SpotTouches {
+// Spots that may touch runs of cells in a single point. A run is decided if its nearest point lies at the spot's range
+// or beyond it. On lattices, where little or nothing is rounded, this also works if that point is the only common one;
+// then the touched columns are known, too.
+struct SpotContacts {
   SpotCells runs;
-  // Of the nearest point, from the eye.
+  // The nearest point, relative to the eye.
   std::vector<double> x, x_error, depth, depth_error;
-  std::vector<std::uint8_t> is_alone;  // the only one that is shared
-  std::vector<std::int8_t> side;       // -1: on the run's left side, 1: on its right one
+  std::vector<std::uint8_t> is_only_point;  // flag: the nearest point is the only common one
+  std::vector<std::int8_t> side;            // -1: it is on the run's left side, 1: on its right side
 
-  // Spots of less reach than planes.least_reach, or of more than k_most_row_reach, are left uncertain.
-  void look(const view::LightArrays& lights, const RowPlanes& planes);
-  // Columns of a run that are touched, and no others of it are: where a point is all that is shared. Empty where that
-  // is not known.
-  grid::IndexRange only_columns(std::uint32_t index, const RowPlanes& planes) const;
+  // Spots of reach below planes.least_reach or above k_most_row_reach stay uncertain.
+  void test(const view::LightArrays& lights, const RowPlanes& planes);
+  // The columns of a run that are touched, if they are known, that is, if there is only one common point. Otherwise
+  // empty.
+  grid::IndexRange only_touched_columns(std::uint32_t index, const RowPlanes& planes) const;
   std::size_t capacity_bytes() const {
-    return runs.capacity_bytes() + bytes_of(x, x_error, depth, depth_error, is_alone, side);
+    return runs.capacity_bytes() + bytes_of(x, x_error, depth, depth_error, is_only_point, side);
   }
 };
 

@@ -12,7 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace clusterbench::assign::HWY_NAMESPACE {
 namespace {
 
-// The sides of the picture as planes through the eye (orthographic: along the view axis), and the grid's ends in depth.
+// The sides of the picture as planes through the eye (orthographic: along the view axis), and the depths at which the
+// grid begins and ends.
 class View {
  public:
   explicit View(const RowPlanes& planes)
@@ -24,7 +25,7 @@ class View {
         near_(planes.depth.front()),
         far_(planes.depth.back()) {}
 
-  // How far a point is outside, at least.
+  // A lower bound of the distance of a point outside.
   HWY_INLINE V gap(V x, V y, V depth) const {
     const V across = Max(Neg(beyond(left_, x, depth)), beyond(right_, x, depth));
     const V up = Max(beyond(top_, y, depth), Neg(beyond(bottom_, y, depth)));
@@ -47,8 +48,8 @@ class View {
   float near_, far_;
 };
 
-// Where depths are among the slice planes: a search by halves, the first ones of them in registers, as are those
-// halfway between them.
+// Searches depths among the slice planes by bisection. The first levels of the search are in registers, and so are the
+// planes halfway between those.
 class SliceSearch {
  public:
   explicit SliceSearch(const RowPlanes& planes)
@@ -59,7 +60,7 @@ class SliceSearch {
         between_(every(stride_ / 2)),
         last_(planes.slices - 1) {}
 
-  // How many of the planes between two slices are below a depth (or at it, with or_at).
+  // The number of planes between two slices that are below a depth (with or_at: below or at it).
   template <bool or_at>
   HWY_INLINE VI planes_below(V depth) const {
     VI below = Zero(DI());
@@ -83,7 +84,7 @@ class SliceSearch {
   }
 
  private:
-  // Every stride-th plane, from the one at `skipped` on.
+  // Every stride-th plane, starting at `skipped`.
   RegisterTable every(std::int32_t skipped) const {
     const auto from = [&](std::int32_t first) {
       const VI index = from_on(first) * all(stride_) + all(skipped);
@@ -117,9 +118,9 @@ void cull(const RowPlanes& planes, const GivenBalls& balls, VisibleBalls& visibl
     append(x, visible.x);
     append(y, visible.y);
     append(depth, visible.depth);
-    // Powers of a reach must be normal numbers; elsewhere the whole grid is left to be decided.
-    const M is_plain = is_between(all(planes.least_reach), reach, all(k_most_row_reach));
-    append(IfThenElse(is_plain, radius, infinity()), visible.radius);
+    // Powers of a reach must be normal numbers; other balls get the whole grid, to be decided later.
+    const M is_in_range = is_between(all(planes.least_reach), reach, all(k_most_row_reach));
+    append(IfThenElse(is_in_range, radius, infinity()), visible.radius);
     append(slack, visible.slack);
     append(BitCast(DU(), from_on(static_cast<std::int32_t>(balls.lights.first + i))), visible.light);
     visible.count += static_cast<std::uint32_t>(kept);

@@ -1,5 +1,5 @@
 #pragma once
-// Which balls a frustum grid can see, many at a time, and the slices that each may reach.
+// Many balls at once: culls those outside of a frustum grid, and finds the slices that the others may reach.
 
 #include <cstdint>
 
@@ -10,7 +10,7 @@
 
 namespace clusterbench::assign {
 
-// The balls of lights of one type, side by side.
+// The balls of lights of one type, one array per coordinate.
 struct GivenBalls {
   const float *x, *y, *z, *radius, *reach;
   view::LightRange lights;
@@ -31,15 +31,15 @@ struct VisibleBalls {
   std::size_t capacity_bytes() const { return bytes_of(x, y, depth, radius, slack, light, first_slice, last_slice); }
 };
 
-// Units of 2^-24 of a light's reach by which a ball is made larger: more than rounding loses here (a centre 1,
-// distances to planes 3) and in the rows (see Certainty in slice_rows.cpp). A larger slack costs decisions only.
+// Units of 2^-24 of a light's reach by which a ball is enlarged: more than rounding loses here (a centre 1, distances
+// to planes 3) and in the rows (see Certainty in slice_rows.cpp). A larger slack only adds decisions.
 inline constexpr float k_slice_rows_roundoffs = 28.0f;
 
-// Beyond this reach, or below RowPlanes::least_reach, powers of it may overflow or vanish: such balls are taken to be
-// everywhere, of infinite radius around the eye, and their rows are decided.
+// Beyond this reach, or below RowPlanes::least_reach, powers of it may overflow or underflow: such balls become balls
+// of infinite radius around the eye, and their rows are decided exactly.
 inline constexpr float k_most_row_reach = 1e9f;
 
-// Appends the balls that may reach into the grid. Those left out touch no cell, even if they are larger by these
+// Appends the balls that may reach into the grid. The others touch no cell, even if they are enlarged by these
 // roundoffs.
 void cull_balls(const RowPlanes& planes, const GivenBalls& balls, VisibleBalls& visible,
                 float roundoffs = k_slice_rows_roundoffs);

@@ -11,8 +11,8 @@
 namespace clusterbench::assign {
 namespace {
 
-// Tiles per slope along one axis, and by how many tiles (slope - first plane) * scale can be off: planes are rounded,
-// so they are not quite evenly spaced, and the last tile may be clipped; then difference and product are rounded.
+// Tiles per slope along one axis, and the error, in tiles, of (slope - first plane) * scale: planes are rounded, so
+// they are not quite evenly spaced, and the last tile may be clipped; then difference and product are rounded.
 struct Scale {
   float tiles_per_slope, tolerance;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Which balls reach each slice.
+// The balls that reach each slice.
 
 #include <algorithm>
 #include <array>
@@ -18,14 +18,14 @@ namespace clusterbench::assign {
 // The balls that reach each slice, ascending.
 class SliceBins {
  public:
-  // Balls: VisibleBalls, or others with `count` and their slices; first_slice > last_slice: none.
+  // Balls: VisibleBalls, or another type with `count` and their slices; first_slice > last_slice: none.
   template <class Balls>
   void sort(const Balls& balls, int slices) {
     const auto bins = static_cast<std::size_t>(slices) + 1;
     begin_.assign(bins, 0);
     for (auto& next : next_) next.assign(bins, 0);
     if (std::uint64_t{balls.count} * static_cast<std::uint64_t>(slices) > k_surely_fit) check_room(balls);
-    // How many more balls a slice has than the one before it.
+    // The change of the number of balls from one slice to the next.
     each_of_halves(balls.count, [&](std::uint32_t i, std::uint32_t* steps) {
       if (balls.first_slice[i] > balls.last_slice[i]) return;
       ++steps[at(balls.first_slice[i])];
@@ -48,9 +48,9 @@ class SliceBins {
     std::fill_n(balls_.begin() + static_cast<std::ptrdiff_t>(begin_.back()), k_most_lanes, 0);
   }
 
-  // How many there are in all slices.
+  // The number of entries in all slices.
   std::uint32_t count() const { return begin_.back(); }
-  // Indices of the balls as they were sorted; a whole vector can be read from each of them.
+  // Indices of a slice's balls in the sorted input; a whole vector can be read from each of them on.
   std::span<const std::uint32_t> of(int slice) const {
     return {balls_.data() + begin_[at(slice)], begin_[at(slice) + 1] - begin_[at(slice)]};
   }
@@ -59,19 +59,19 @@ class SliceBins {
  private:
   static std::size_t at(int slice) { return static_cast<std::size_t>(slice); }
 
-  // So many are not counted before: they take 1 MiB, the least limit on memory.
+  // Up to this number no memory check is needed: the entries take 1 MiB, the smallest memory limit.
   static constexpr std::uint64_t k_surely_fit = (std::uint64_t{1} << 18) - k_most_lanes;
 
-  // Takes the first and the second half in turns: a slice has a counter for each, as one that many balls in a row share
-  // is waited for.
-  template <class Take>
-  void each_of_halves(std::uint32_t count, Take&& take) {
+  // Visits the first and the second half in turns, each with its own counter per slice: many consecutive balls that
+  // increment the same counter would wait for each other.
+  template <class Visit>
+  void each_of_halves(std::uint32_t count, Visit&& visit) {
     const std::uint32_t half = count / 2;
     for (std::uint32_t i = 0; i < half; ++i) {
-      take(i, next_[0].data());
-      take(half + i, next_[1].data());
+      visit(i, next_[0].data());
+      visit(half + i, next_[1].data());
     }
-    if (count % 2 != 0) take(count - 1, next_[1].data());
+    if (count % 2 != 0) visit(count - 1, next_[1].data());
   }
 
   template <class Balls>
@@ -84,7 +84,7 @@ class SliceBins {
   }
 
   AlignedVector<std::uint32_t> begin_, balls_;
-  std::array<AlignedVector<std::uint32_t>, 2> next_;  // of each half: where a slice's next ball goes
+  std::array<AlignedVector<std::uint32_t>, 2> next_;  // of each half: the position of a slice's next ball
 };
 
 }  // namespace clusterbench::assign

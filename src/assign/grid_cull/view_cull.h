@@ -1,5 +1,5 @@
 #pragma once
-// Which balls lie beside the view: what the scalar methods ask first, since most lights of a large level do.
+// Culls balls beside the view: the first step of scalar methods, because most lights of a large level are outside.
 
 #include <cmath>
 #include <limits>
@@ -9,8 +9,8 @@
 
 namespace clusterbench::assign {
 
-// The four sides of the picture, and how deep a grid of tiles reaches. In double precision, where numbers of floats
-// neither overflow nor lose what matters here.
+// The four sides of the picture, and the depths at which a grid of tiles begins and ends. In double precision, where
+// products of floats neither overflow nor lose digits that matter here.
 class ViewCull {
  public:
   ViewCull() = default;
@@ -19,12 +19,12 @@ class ViewCull {
         right_(side(grid.tiles.x.back(), grid.tiles.orthographic)),
         top_(side(grid.tiles.y.front(), grid.tiles.orthographic)),
         bottom_(side(grid.tiles.y.back(), grid.tiles.orthographic)),
-        // A direction leans away from the view axis: no shell is deeper than it is distant.
+        // Points of a shell have any depth from 0 to its distance.
         near_(grid.by_distance ? 0.0 : static_cast<double>(grid.slices.boundaries.front())),
         far_(grid.slices.boundaries.back()) {}
 
-  // Whether the ball touches no cell even if it is larger by what a method's own steps may lose in single precision, so
-  // that no list depends on whether this was asked.
+  // Does the ball touch no cell, even if it is enlarged by the error of a method's own single-precision steps? So no
+  // list depends on this culling.
   bool misses(const geom::Ball& ball) const {
     const double x = ball.center.x, y = ball.center.y, depth = -ball.center.z, r = ball.radius;
     const double size = std::fabs(x) + std::fabs(y) + std::fabs(depth) + r;
@@ -34,7 +34,7 @@ class ViewCull {
   }
 
  private:
-  static constexpr double k_roundoffs = 64.0;  // sphere refinement loses most: 18
+  static constexpr double k_roundoffs = 64.0;  // sphere refinement has the most: 18
   static constexpr double k_smallest = std::numeric_limits<float>::min();
 
   // A plane through the eye or along the view axis; positive to the right or above.

@@ -29,7 +29,7 @@ void ListBuilder::point_to_spans() {
 }
 
 void ListBuilder::grow() {
-  // An odd number of cache lines, so that rows do not compete for the same places of a cache.
+  // An odd number of cache lines, so that rows do not compete for the same cache sets.
   const std::size_t wider = 2 * band_.pitch + 16;
   check_memory("spans of light lists", band_.rows * wider + k_most_lanes, 2 * sizeof(std::uint32_t));
   const auto widen = [&](auto& list) {
@@ -45,7 +45,7 @@ void ListBuilder::grow() {
   point_to_spans();
 }
 
-// So that each row can take some more spans.
+// Makes room for this many more spans in each row.
 void ListBuilder::make_room(std::uint32_t spans) {
   most_ += spans;
   if (most_ <= band_.pitch) return;
@@ -66,11 +66,11 @@ void ListBuilder::add_rows(int first_row, int last_row, const std::uint32_t* siz
 }
 
 void ListBuilder::finish_band(const BandHole& hole) {
-  make_room(k_row_lanes);  // as a last batch would have, so that memory does not depend on how many lights a batch has
+  make_room(k_row_lanes);  // as for a last batch, so that memory does not depend on the number of lights in a batch
   std::vector<std::uint32_t>& lists = out_->lights;
   const std::uint64_t band_pairs = pairs_of(band_);
   const std::size_t needed = pairs_ + band_pairs + k_most_lanes;
-  // No further than this band: what is beyond the old size is filled with zeros before it is written.
+  // No further than this band: resizing first fills the new part with zeros.
   if (lists.size() < needed) {
     check_memory("pairs of light lists", needed, sizeof(std::uint32_t));
     check_pair_count(pairs_ + band_pairs);

@@ -1,8 +1,8 @@
 #pragma once
-// Lists without scattering over the grid: the spans of a row of cells are collected side by side; then each cell
-// compares all of them at once and compress-stores the lights whose span holds it (row_lists.h). Bands of rows are
-// finished one after the other, so that what was collected is still in the cache. SIMD, dispatched at run time; the
-// same lists as PairBuffer on every target.
+// Lists without scattering over the grid: the spans of a row of cells are collected side by side. Then each cell
+// compares all of them at once and compress-stores the lights whose span contains it (row_lists.h). Bands of rows are
+// finished one after the other, so that their spans are still in the cache. SIMD, dispatched at run time; the same
+// lists as PairBuffer on every target.
 
 #include <algorithm>
 #include <cstdint>
@@ -16,11 +16,11 @@ namespace clusterbench::assign {
 // Keeps its memory between frames.
 class ListBuilder {
  public:
-  // A frame of `bands` bands; a band is `rows` rows (a slice, say) of `columns` cells, at most
+  // Starts a frame of `bands` bands; a band is `rows` rows (a slice, say) of `columns` cells, at most
   // ColumnSpan::k_most_columns. `out` must outlive finish().
   void start(std::uint32_t bands, std::uint32_t rows, std::uint32_t columns, Lists& out);
-  // To the present band. Lights must come in ascending order within a row, in each cell once.
-  // first <= last < columns.
+  // Adds a span to the present band. Lights must come in ascending order within a row, in each cell once. first <= last
+  // < columns.
   void add(std::uint32_t row, std::uint32_t first, std::uint32_t last, std::uint32_t light) {
     std::uint32_t& size = sizes_[row];
     if (size == band_.pitch) grow();
@@ -29,9 +29,10 @@ class ListBuilder {
     lights_[index] = light;
     columns_[index] = ColumnSpan::of(first, last);
   }
-  // Adds a batch of lights' spans to rows first_row .. last_row. columns[row * lanes + i]: the span of lights[i] as
-  // a ColumnSpan, k_none, or with k_uncertain set one that is not to be added as it is. Rows with such spans are left
-  // alone: is_left[row] says so, and the answer whether there are any. `lanes`: as many as fit into a vector.
+  // Adds a batch of lights' spans to rows first_row .. last_row. columns[row * lanes + i]: the span of lights[i] as a
+  // ColumnSpan, k_none, or with k_uncertain set a span that must not be added as it is. Rows with such spans are
+  // skipped: is_left[row] is set for them, and the result is whether there are any. `lanes`: as many as fit into a
+  // vector.
   bool add_batch(int first_row, int last_row, const std::uint32_t* columns, const std::uint32_t* lights,
                  std::uint8_t* is_left);
   // Adds spans row after row: sizes[row] to each of rows first_row .. last_row, at most as many as fit into a vector.
@@ -54,11 +55,11 @@ class ListBuilder {
   std::uint64_t pairs_ = 0;
   Lists* out_ = nullptr;
   std::vector<std::uint32_t> sizes_;  // of the rows
-  std::uint32_t most_ = 0;            // no row has more spans
+  std::uint32_t most_ = 0;            // the largest of sizes_
   FewColumns few_;
   // Whole vectors can be read and written beyond the last row.
   AlignedVector<std::uint32_t> lights_, columns_;
-  BandSpans band_{};  // where these are
+  BandSpans band_{};  // pointers into these
 };
 
 }  // namespace clusterbench::assign

@@ -1,5 +1,5 @@
 #pragma once
-// Sorting by whole numbers, byte by byte from the lowest: stable, and in time that does not depend on their order.
+// Sorting by integers, byte by byte from the lowest: stable, and in time that does not depend on the input's order.
 
 #include <array>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace clusterbench::assign {
 
-// Floats (no NaN) as numbers of the same order; -0 comes before 0.
+// Floats (no NaN) as integers of the same order; -0 comes before 0.
 inline std::uint32_t ordered_bits(float value) {
   std::uint32_t bits;
   std::memcpy(&bits, &value, sizeof bits);
@@ -24,7 +24,7 @@ class RadixSort {
     std::uint32_t value;
   };
 
-  std::vector<Entry> entries;  // what to sort; afterwards ascending by key, equal ones as they were
+  std::vector<Entry> entries;  // the input; after sorting, ascending by key, equal ones in their former order
 
   void sort() {
     other_.resize(entries.size());

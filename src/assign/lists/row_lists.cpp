@@ -74,25 +74,25 @@ std::uint64_t count_pairs(const BandSpans& band) {
   return total;
 }
 
-// Writes the wanted ones of a vector's numbers, and up to a vector of anything behind them. Returns their end.
+// Writes the selected lanes of a vector of numbers; up to a vector of undefined values follows. Returns their end.
 HWY_INLINE std::uint32_t* append(VU numbers, MU wanted, std::uint32_t* to) {
   // Compressing in a register and storing it whole is faster than a compressing store.
   store_wanted(numbers, wanted, to);
   return to + CountTrue(DU(), wanted);
 }
 
-// Some columns.
+// A range of columns.
 struct Columns {
   std::uint32_t begin, end;
 };
 
-// What spans, one per lane, have of at most 32 columns: a bit for each of these, the first one's lowest.
+// The part of spans, one per lane, within at most 32 columns: one bit for each column, the lowest bit for the first.
 HWY_INLINE VU column_bits(VU spans, const Columns& columns) {
   const VI begin = all(static_cast<std::int32_t>(columns.begin)), most = all(31);
   const VI last = all(static_cast<std::int32_t>(columns.end) - 1);
   const VI from = Max(BitCast(DI(), And(spans, all(0xffffu))), begin) - begin;
   const VI to = Min(BitCast(DI(), ShiftRight<16>(spans)), last) - begin;
-  // Shifts are by less than 32, also where there is nothing.
+  // Shifts are by less than 32, also for spans without columns.
   const VU before = BitCast(DU(), And(from, most)), behind = BitCast(DU(), AndNot(to, most));
   const VU ones = all(0xffffffffu);
   return IfThenZeroElse(RebindMask(DU(), from > to), And(Shl(ones, before), Shr(ones, behind)));
@@ -104,9 +104,9 @@ struct RowLists {
   std::uint32_t row_size, width;
   FewColumns& few;
   const std::uint32_t* lists;
-  std::uint32_t* begin;  // of each column's list, in `lists`
+  std::uint32_t* begin;  // where each column's list begins in `lists`
 
-  // Those of some columns. Returns their end.
+  // Writes the lists of some columns. Returns their end.
   HWY_NOINLINE std::uint32_t* write(const Columns& columns, std::uint32_t* to) const {
     const RowLists row = *this;  // a copy, which stays in registers: no store can change it
     const std::uint32_t strip = columns.end - columns.begin <= 16 ? 4 : 8, most = FewColumns::k_strips * strip;
@@ -121,23 +121,24 @@ struct RowLists {
   }
 
  private:
-  // How many vectors of lights and bits stay in registers.
+  // The number of vectors of lights and bits that stay in registers.
   static constexpr std::size_t k_most_vectors = HWY_TARGET <= HWY_AVX3 ? 8 : 4;
 
-  // Do most spans hold none of most strips? To choose them costs as much as to ask them for a fifth of the columns.
+  // Do most spans miss most strips? Selecting the spans of a strip costs as much as testing them for a fifth of the
+  // columns.
   HWY_INLINE bool are_narrow(const Columns& window, std::uint32_t strip) const {
     return 5 * (width + strip) < 4 * (window.end - window.begin);
   }
 
-  // From all spans.
+  // With all spans.
   HWY_INLINE std::uint32_t* at_once(const Columns& window, std::uint32_t* to) const {
     std::uint32_t* bits = few.strips[0].bits.data();
     for (std::uint32_t i = 0; i < row_size; i += lane_count()) StoreU(bits_from(i, window), DU(), bits + i);
     return write_some(row_lights, bits, row_size, window, 0, to);
   }
 
-  // Strip by strip, from those spans that hold some of it. All are chosen first, so that none are read while they are
-  // still being written.
+  // Strip by strip, with the spans that touch the strip. The spans of all strips are selected first, so that none are
+  // read while they are still being written.
   HWY_INLINE std::uint32_t* by_strips(const Columns& window, std::uint32_t strip, std::uint32_t* to) const {
     std::size_t counts[FewColumns::k_strips] = {};
     for (std::uint32_t i = 0; i < row_size; i += lane_count()) {
@@ -160,13 +161,13 @@ struct RowLists {
     return to;
   }
 
-  // Of a vector of spans, none behind the last.
+  // Bits of a vector of spans; none after the last span.
   HWY_INLINE VU bits_from(std::uint32_t i, const Columns& columns) const {
     return IfThenElseZero(FirstN(DU(), row_size - i), column_bits(LoadU(DU(), row_columns + i), columns));
   }
 
-  // Lists of columns from some lights, which fill at least so many vectors, and the bits of these columns and
-  // `skipped` ones before them. A vector of lights without bits can be read behind the last.
+  // Writes the lists of columns from some lights, which fill at least this many vectors, and the bits of these columns
+  // and of `skipped` columns before them. A vector of lights without bits can be read after the last one.
   template <std::size_t vectors = 1>
   HWY_INLINE std::uint32_t* write_some(const std::uint32_t* lights, const std::uint32_t* bits, std::size_t count,
                                        const Columns& columns, std::uint32_t skipped, std::uint32_t* to) const {
@@ -187,7 +188,7 @@ struct RowLists {
     }
   }
 
-  // The same from vectors in registers.
+  // The same, with vectors in registers.
   template <std::size_t vectors>
   HWY_INLINE std::uint32_t* write_kept(const std::array<VU, vectors>& lights, const std::array<VU, vectors>& bits,
                                        const Columns& columns, std::uint32_t skipped, std::uint32_t* to) const {

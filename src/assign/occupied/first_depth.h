@@ -1,5 +1,5 @@
 #pragma once
-// The first single-precision depth of which something holds that holds of all depths behind it.
+// The first single-precision depth for which a predicate is true, if it is then true for all depths behind it.
 
 #include <bit>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace clusterbench::assign {
 
-// Floats as whole numbers in their order, and back.
+// Floats as integers of the same order, and the inverse.
 inline std::int64_t order_of(float value) {
   const auto bits = std::bit_cast<std::int32_t>(value);
   return bits >= 0 ? bits : std::int64_t{std::numeric_limits<std::int32_t>::min()} - bits;
@@ -17,7 +17,7 @@ inline float in_order(std::int64_t order) {
   return std::bit_cast<float>(static_cast<std::int32_t>(bits));
 }
 
-// It does not hold of `before`; of `behind` it is taken to.
+// The predicate is false for `before`, and assumed to be true for `behind`.
 template <class Holds>
 float first_between(float before, float behind, Holds&& holds) {
   std::int64_t no = order_of(before), yes = order_of(behind);

@@ -7,7 +7,7 @@
 namespace clusterbench::assign {
 namespace {
 
-// The least depth of a part or of one behind it, between two that are not.
+// The least depth in this part or a later one, between a depth that is before it and one that is in it or behind it.
 float first_depth_in(const DepthParts& parts, int part, float before, float behind) {
   while (std::nextafter(before, behind) < behind) {
     float middle = before + (behind - before) / 2;
@@ -17,8 +17,7 @@ float first_depth_in(const DepthParts& parts, int part, float before, float behi
   return behind;
 }
 
-// Neighbouring parts are one convex part. Between two parts lies no depth, so both are taken to meet where the farther
-// one begins.
+// Neighbouring bits form one convex part. No depth lies between two parts, so both meet where the farther one begins.
 void add_masked(geom::FrustumCell tile, std::uint32_t mask, std::vector<geom::FrustumCell>& out) {
   const float lo = tile.depth0, hi = tile.depth1;
   const DepthParts parts(lo, hi);

@@ -1,5 +1,5 @@
 #pragma once
-// Packed lists of the cells that a frame's depths leave.
+// Packed lists of the cells that contain the depths of a frame.
 
 #include <memory>
 #include <vector>
@@ -9,18 +9,18 @@
 
 namespace clusterbench::assign {
 
-// What a cell is, where something in it is visible.
+// The shape of a cell that shows a visible surface.
 enum class CellBounds : std::uint8_t {
   tile,         // a tile between the depths of its pixels
-  masked_tile,  // those of 32 equal parts between them that hold depths of pixels
+  masked_tile,  // of 32 equal parts between these depths, those with depths of pixels
   samples,      // a cell of the grid between the depths of its pixels
-  cell          // a cell of the grid as it is
+  cell          // a cell of the grid, unchanged
 };
 inline bool has_slices(CellBounds bounds) {
   return bounds == CellBounds::samples || bounds == CellBounds::cell;
 }
 
-// A frame's cells.
+// The cells of a frame.
 struct FrameCells {
   DepthRanges depths;
   std::vector<std::uint32_t> masks;  // of masked tiles
@@ -32,12 +32,12 @@ class OccupiedLists final : public LightStructure {
  public:
   OccupiedLists();
 
-  // No allocation in a steady state. `grid` outlives the structure's use.
+  // No allocation in a steady state. `grid` must outlive the structure.
   void store(const grid::Grid& grid, CellBounds bounds, const FrameCells& cells, const Lists& lists,
              const view::LightRanges& lights);
 
-  // A tile's list whatever the sample's depth, as a shader reads it: what lies in front of the tile's visible surfaces
-  // or behind them may lack lights. Where a tile or a cell shows no surface its list is empty.
+  // A tile's list for every depth of the sample, as a shader reads it: samples in front of the tile's visible surfaces
+  // or behind them may lack lights. A tile or a cell without a surface has an empty list.
   bool lights_at(const grid::Sample& sample, grid::Log2 way, std::vector<std::uint32_t>& out) const override;
   Reads reads_at(const grid::Sample& sample, grid::Log2 way) const override;
   StructureUse use() const override { return packed_->use(); }

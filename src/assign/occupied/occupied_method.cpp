@@ -1,4 +1,5 @@
-// Roundoffs: of the tests the one against a box loses most (CellAabbs); extents and depth - r, depth + r lose one.
+// Roundoffs: of the tests the one against a box has the largest error (CellAabbs); extents and depth - r, depth + r
+// lose one.
 
 #include "assign/occupied/occupied_method.h"
 
@@ -12,7 +13,7 @@
 namespace clusterbench::assign {
 namespace {
 
-// The grid's tiles without its slices: depths decide how far they reach.
+// The grid's tiles without its slices: the frame's depths limit them.
 grid::Grid tiles_of(const grid::Grid& grid) {
   grid::ScreenGrid tiles = grid.screen();
   tiles.slices.boundaries = {tiles.slices.boundaries.front(), std::numeric_limits<float>::max()};
@@ -131,14 +132,14 @@ void OccupiedMethod::bound_cells(bool with_balls) {
   }
 }
 
-CellBox OccupiedMethod::looked_at(const view::LightArrays& lights, std::uint32_t light) const {
+CellBox OccupiedMethod::candidate_cells(const view::LightArrays& lights, std::uint32_t light) const {
   const geom::Ball ball = test_.ball(lights, light, k_cell_box_roundoffs);
   if (view_.misses(ball)) return {};
   return by_planes_ ? cell_box(extents_, ball) : CellBox{Vec3i(0), cells_ - 1};
 }
 
 void OccupiedMethod::add_light(const view::LightArrays& lights, std::uint32_t light) {
-  const CellBox box = looked_at(lights, light);
+  const CellBox box = candidate_cells(lights, light);
   if (box.empty()) return;
   const TestedLight tested = test_.tested(lights, light);
   for (int z = box.first.z; z <= box.last.z; ++z)

@@ -1,6 +1,6 @@
 #pragma once
-// Lists of the cells that a frame's depths leave: light by light, the cells of its extents that hold a visible surface
-// and whose part between the depths passes the tests.
+// Lists of the cells that contain the depths of a frame: light by light, the cells of its extents that show a visible
+// surface and whose part between the depths passes the tests.
 
 #include <vector>
 
@@ -13,16 +13,16 @@
 
 namespace clusterbench::assign {
 
-// `test`, of methods with a list per tile: "planes", "aabb" or "both" (the default).
+// `test`, for methods with a list per tile: "planes", "aabb" or "both" (the default).
 ParamSpec tile_test_param();
 std::vector<ParamSpec> tiled_params();
 
-// Where the end of a tile's range of depth is put: see DepthParts, DepthPartsTo32.
+// The part at the end of a tile's range of depth: see DepthParts, DepthPartsTo32.
 enum class EndOfParts : std::uint8_t { part_31, part_32 };
 
 class OccupiedMethod : public AssignerOf<OccupiedLists> {
  public:
-  // `params`: tiled_params() or, of cells with slices, light_params().
+  // `params`: tiled_params() or, for cells with slices, light_params().
   OccupiedMethod(const Params& params, CellBounds bounds, EndOfParts end = EndOfParts::part_31);
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override;
@@ -36,10 +36,10 @@ class OccupiedMethod : public AssignerOf<OccupiedLists> {
   void find_cells(const depth::DepthImage& image);
   void find_masks(const depth::DepthImage& image);
   bool meets_mask(std::uint32_t tile, float near, float far) const;
-  // Of the cells in which something is visible: what depends on the frame.
+  // Bounds of the cells that show a surface: they depend on the frame.
   void bound_cells(bool with_balls);
-  // Which cells to look at.
-  CellBox looked_at(const view::LightArrays& lights, std::uint32_t light) const;
+  // The cells to be tested.
+  CellBox candidate_cells(const view::LightArrays& lights, std::uint32_t light) const;
   void add_light(const view::LightArrays& lights, std::uint32_t light);
   bool touches(const TestedLight& light, std::uint32_t cell) const;
 
@@ -47,18 +47,18 @@ class OccupiedMethod : public AssignerOf<OccupiedLists> {
   CellBounds bounds_;
   bool by_planes_ = true, by_boxes_ = true;
   const grid::Grid* grid_ = nullptr;
-  grid::Grid extents_;  // the grid in which extents are found: that one or, of tiles, the same with a single slice
-  Vec3i cells_{0};      // of it
+  grid::Grid extents_;  // the grid in which extents are found: that grid or, for tiles, the same with a single slice
+  Vec3i cells_{0};      // the number of its cells
   ViewCull view_;
   PixelDepths pixels_;
   FrameCells frame_cells_;
   std::vector<DepthParts> parts_;  // of masked tiles
-  // In place of them and of the frame's masks, which stay what its cells are.
+  // Used for tests in place of parts_ and the frame's masks, which still define the cells.
   EndOfParts end_;
   std::vector<DepthPartsTo32> late_parts_;
   std::vector<std::uint32_t> late_masks_;
-  std::vector<geom::Box> boxes_;   // around cells; only those of cells that are not empty mean something
-  std::vector<geom::Ball> balls_;  // the same
+  std::vector<geom::Box> boxes_;   // around cells; valid only for cells that are not empty
+  std::vector<geom::Ball> balls_;  // around cells, likewise
   PairBuffer pairs_;
   Lists lists_;
   std::uint64_t tests_ = 0;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float k_inf = std::numeric_limits<float>::infinity();
 
-// Where each of `count` tiles begins among the pixels, and where the last one ends. tile_of ascends.
+// The first pixel of each of `count` tiles, and the end of the last one. tile_of is monotonic.
 template <class TileOf>
 std::vector<std::uint32_t> begins(int count, int pixels, const TileOf& tile_of) {
   std::vector<std::uint32_t> out(static_cast<std::size_t>(count) + 1, static_cast<std::uint32_t>(pixels));
@@ -21,7 +21,7 @@ std::vector<std::uint32_t> begins(int count, int pixels, const TileOf& tile_of) 
   return out;
 }
 
-// The least depth that is looked up in this slice or one behind it; in order, since the lookup ascends.
+// The least depth whose lookup gives this slice or a later one. The lookup is monotonic.
 float first_depth_in(const grid::Slices& slices, int slice) {
   const auto is_before = [&](float depth) {
     const int found = slices.slice_of(depth);
@@ -55,7 +55,7 @@ void PixelDepths::build(const grid::ScreenGrid& grid) {
   farthest_.resize(width());
 }
 
-// A minimum and a maximum in each column of pixels, which compilers make vectors of, then in each tile.
+// A minimum and a maximum in each column of pixels, in a loop that compilers vectorise, then in each tile.
 void PixelDepths::find_in_tiles(const depth::DepthImage& image, DepthRanges& out) {
   out.clear(columns() * rows());
   float* nearest = nearest_.data();
@@ -75,8 +75,8 @@ void PixelDepths::find_in_tiles(const depth::DepthImage& image, DepthRanges& out
     for (std::size_t column = 0; column < columns(); ++column)
       for (std::size_t x = column_begins_[column]; x < column_begins_[column + 1]; ++x)
         if (farthest[x] > -k_inf) {
-          out.take(row * columns() + column, nearest[x]);
-          out.take(row * columns() + column, farthest[x]);
+          out.add(row * columns() + column, nearest[x]);
+          out.add(row * columns() + column, farthest[x]);
         }
   }
   out.close();
@@ -86,12 +86,12 @@ void PixelDepths::find_in_cells(const depth::DepthImage& image, DepthRanges& out
   const std::size_t tiles = columns() * rows(), slices = slice_begins_.size() - 1;
   out.clear(tiles * slices);
   const float* const begins = slice_begins_.data();
-  std::size_t slice = 0;  // neighbours lie in the same one, mostly: one range for all of them
+  std::size_t slice = 0;  // neighbours are mostly in the same slice, so one range is kept for all of them
   each_row(image, [&](std::size_t tile, const float* depth, const float* end) {
     while (depth < end) {
       if (!(*depth >= begins[slice] && *depth < begins[slice + 1])) {
         const auto next = std::upper_bound(slice_begins_.begin(), slice_begins_.end(), *depth);
-        if (next == slice_begins_.end()) {  // beyond the grid, or nothing is there
+        if (next == slice_begins_.end()) {  // beyond the grid, or no surface
           ++depth;
           continue;
         }
@@ -102,8 +102,8 @@ void PixelDepths::find_in_cells(const depth::DepthImage& image, DepthRanges& out
         lo = *depth < lo ? *depth : lo;
         hi = *depth > hi ? *depth : hi;
       }
-      out.take(slice * tiles + tile, lo);
-      out.take(slice * tiles + tile, hi);
+      out.add(slice * tiles + tile, lo);
+      out.add(slice * tiles + tile, hi);
     }
   });
   out.close();

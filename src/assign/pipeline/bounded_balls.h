@@ -1,5 +1,6 @@
 #pragma once
-// Balls with the box of cells that each may touch, side by side: what culling leaves and the slices' rows begin from.
+// Balls with the box of cells that each may touch, as one array per field: the result of culling, and the input for the
+// slices' rows.
 
 #include <cstdint>
 
@@ -10,7 +11,7 @@
 
 namespace clusterbench::assign {
 
-// Cells that are neighbours along all three axes.
+// A box of cells, neighbours along all three axes.
 struct CellBox {
   Vec3i first{0}, last{-1};  // inclusive
 
@@ -48,7 +49,7 @@ struct BoundedBalls {
 };
 
 // One batch: indices in `bounded`, from which a whole vector can be read; `count` of them, at most balls_per_batch(),
-// are wanted. The rows of lights from `first_uncertain` on are all marked as uncertain: there is more to test.
+// are valid. All rows of lights from `first_uncertain` on are marked as uncertain, because they need another test.
 struct BallBatch {
   const BoundedBalls& bounded;
   int slice;

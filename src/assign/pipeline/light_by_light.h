@@ -1,5 +1,5 @@
 #pragma once
-// The driver of the scalar methods: light by light, the cells of each into one buffer of pairs.
+// The driver of the scalar methods: for each light it adds the light's cells to one buffer of pairs.
 
 #include "assign/contract/assigner.h"
 #include "assign/contract/lists.h"
@@ -11,7 +11,7 @@ namespace clusterbench::assign {
 //   start_frame(const view::LightArrays&),
 //   add_light(const view::LightArrays&, std::uint32_t light), for each light that is not empty, ascending,
 //   own_bytes() const: its memory besides the pairs'.
-// Not virtual: a light that is culled costs a few nanoseconds, and most lights of a large level are.
+// Not virtual: a culled light costs a few nanoseconds, and most lights of a large level are culled.
 template <class Method>
 class LightByLight : public ListAssigner {
  public:

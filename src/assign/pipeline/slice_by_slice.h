@@ -1,6 +1,6 @@
 #pragma once
-// The driver of the vector methods: cull, bin by slice, columns of rows, lists. A kernel says which balls have cells
-// and which columns they touch in a row; the rest is the same for frustum, distance, cascade and world grids.
+// The driver of the vector methods: cull, bin by slice, columns of rows, lists. A kernel finds the balls that have
+// cells, and the columns that they touch in a row; the rest is the same for frustum, distance, cascade and world grids.
 
 #include "assign/cone/bounding_spheres.h"
 #include "assign/contract/assigner.h"
@@ -10,17 +10,17 @@
 
 namespace clusterbench::assign {
 
-// A frame's lights as a kernel finds their balls.
+// A frame's lights, as a kernel needs them to find their balls.
 struct KernelLights {
   const view::LightArrays& all;
   const LightTest& test;
-  const BallArrays& spots;  // the spots' balls with the method's padding; none where there are no spots
+  const BallArrays& spots;  // the spots' balls with the method's padding; empty without spots
 };
 
 // Kernel:
-//   k_roundoffs, what its own steps lose, and k_columns_key, what the columns were given by,
+//   k_roundoffs, the error of its own steps, and k_columns_key, the configuration key for the number of columns,
 //   Kernel(const Params&), build(const grid::Grid&), capacity_bytes() const,
-//   levels() const -> int and level(int) const -> Level, which follow one another in the order of the cells,
+//   levels() const -> int and level(int) const -> Level; levels follow one another in the order of the cells,
 //   bound(int level, const KernelLights&, BoundedBalls&): appends the balls that have cells there, ascending by light,
 //   find_rows(int level, const BallBatch&, BatchRows&).
 template <class Kernel>

@@ -1,7 +1,7 @@
 #pragma once
 // Lists of balls that have boxes of cells: slice by slice the rows of many balls are found at once, one ball per lane;
-// a slice's lists are built by compression while its spans are in the cache. Spots' cells are then tested by their
-// cones a vector of cells at a time.
+// a slice's lists are built by compression while its spans are in the cache. Then spots' cells are tested by their
+// cones, a vector of cells at a time.
 
 #include <bit>
 #include <string>
@@ -18,10 +18,10 @@
 
 namespace clusterbench::assign {
 
-// Slices that are taken together: all of a grid, or a cascade's level.
+// Slices that are processed together: all of a grid, or a cascade's level.
 struct Level {
   int slices = 0;
-  // Cells that take no lights, in the first `hole_slices` slices.
+  // Cells without lights, in the first `hole_slices` slices.
   BandHole hole{};
   int hole_slices = 0;
 };
@@ -31,7 +31,8 @@ class SliceLists {
  public:
   explicit SliceLists(const LightTest& test) : test_(test) {}
 
-  // After the test's start_grid(). Throws Error if there are too many columns. `key`: what they were given by.
+  // To be called after the test's start_grid(). Throws Error if there are too many columns. `key`: their configuration
+  // key.
   void start_grid(const Vec3i& cells, const char* key) {
     if (cells.x > k_most_columns)
       throw Error("", key,
@@ -51,7 +52,7 @@ class SliceLists {
                  static_cast<std::uint32_t>(grid_cells_.x), out);
   }
 
-  // The grid's next slices, which the balls' boxes count from 0. find(batch, rows) finds a batch's rows.
+  // Adds the grid's next slices, which the balls' boxes count from 0. find(batch, rows) finds a batch's rows.
   template <class Find>
   void add_slices(const BoundedBalls& bounded, const Level& level, Find&& find) {
     slice_bins_.sort(bounded, level.slices);
@@ -85,7 +86,7 @@ class SliceLists {
     }
   }
 
-  // Ball by ball, which for each row is the order of the lights.
+  // Ball by ball, which gives ascending lights in each row.
   void add_left_rows(const BoundedBalls& bounded, const std::uint32_t* balls, std::uint32_t count) {
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       runs_.clear();
@@ -113,7 +114,7 @@ class SliceLists {
       runs_.push_back({row, column, row_start + column, std::min(64u, last - column + 1)});
   }
 
-  // Those of the runs' cells that a spot's cone may touch.
+  // Adds the cells of the runs that a spot's cone may touch.
   void add_touched(std::uint32_t light) {
     find_touched_cells(test_.cone(*lights_, light), cells_, runs_, touched_);
     for (std::size_t i = 0; i < runs_.size(); ++i) {
@@ -130,7 +131,7 @@ class SliceLists {
   }
 
   const LightTest& test_;
-  const view::LightArrays* lights_ = nullptr;  // of the frame at hand
+  const view::LightArrays* lights_ = nullptr;  // of the current frame
   Vec3i grid_cells_{0};
   int next_slice_ = 0;  // of the grid
   CellBalls cells_;

@@ -13,7 +13,7 @@ constexpr double k_pi = std::numbers::pi;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// Edges follow from triangles; of a closed mesh each has two.
+// Derives the edges from triangles; each edge of a closed mesh has two triangles.
 MeshTopology topology_of(std::uint32_t vertices, Triangles triangles) {
   MeshTopology out;
   out.vertices = vertices;
@@ -54,7 +54,7 @@ Solid icosahedron() {
   return solid;
 }
 
-// Each triangle becomes four, with vertices on the unit sphere.
+// Splits each triangle into four, with vertices on the unit sphere.
 Solid subdivided(const Solid& coarse) {
   Solid fine{coarse.vertices, {}};
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
@@ -71,7 +71,7 @@ Solid subdivided(const Solid& coarse) {
   return fine;
 }
 
-// Of a solid around the origin.
+// The least distance of the face planes of a solid around the origin.
 double least_plane_distance(const Solid& solid) {
   double least = 1.0;
   for (const auto& [a, b, c] : solid.triangles) {
@@ -102,12 +102,12 @@ MeshTopology turned(std::uint32_t sectors, std::uint32_t rings) {
   return topology_of(last + 1, std::move(triangles));
 }
 
-// Where margin / (range + margin) is larger, the spot is taken as its ball. So the cap ends at most at
-// 90° + asin(k_largest_margin).
+// If margin / (range + margin) is larger, the ball is used for the spot. So the cap ends at most at 90° +
+// asin(k_largest_margin).
 constexpr double k_largest_margin = 0.25;
 constexpr double k_widest_cap_rad = 0.5 * k_pi + 0.2527;
 
-// A cap of n steps has n tangents to its circle: the first ahead, each of the others a step farther, the last half a
+// A cap of n steps has n tangents to its circle: the first ahead, each of the others a step further, the last half a
 // step before the cap's end.
 std::uint32_t steps_for(double cap_rad, double widest_step_rad) {
   return std::max(1u, static_cast<std::uint32_t>(std::ceil(cap_rad / widest_step_rad + 0.5)));
@@ -127,7 +127,7 @@ Frame3 frame_around(const Vec3d& direction) {
   return {axis, u, glm::cross(axis, u)};
 }
 
-// A point of the spot's outline: how far along the axis and how far beside it.
+// A point of the spot's outline: its coordinates along and across the axis.
 struct Outline {
   double along, beside;
 };
@@ -144,7 +144,7 @@ LightMeshes::LightMeshes() {
     for (Vec3d& vertex : ball.vertices) vertex *= ball.scale;
     solid = subdivided(solid);
   }
-  // As fine as the balls: a sector's half and a step's half are at most the angle that a ball's triangles reach.
+  // As fine as the balls: half of a sector and half of a step are at most the angle that a ball's triangles cover.
   constexpr std::array<std::uint32_t, k_mesh_levels> k_sectors{6, 9, 18, 36};
   for (std::size_t level = 0; level < spots_.size(); ++level) {
     SpotMeshes& spot = spots_[level];
@@ -168,14 +168,14 @@ void LightMeshes::enclose_ball(Vec3d center, double radius, int level, LightMesh
 }
 
 // The outline is that of {within the margin of the cone's side} ∩ {no more than the margin behind the apex} ∩ {within
-// range + margin of the apex}, the last one with a chain of tangents in place of the circle. Turned in sectors it
+// range + margin of the apex}; for the last one, a chain of tangents replaces the circle. Turned in sectors it
 // encloses: each section across the axis is a polygon around a circle.
 void LightMeshes::enclose_spot(const SpotShape& spot, int level, LightMesh& out) const {
   const double radius = spot.range + spot.margin, share = spot.margin / radius;
   if (!(share <= k_largest_margin)) return enclose_ball(spot.apex, radius, level, out);
   const SpotMeshes& meshes = spots_[static_cast<std::size_t>(level)];
   const double angle = spot.half_angle_rad, sine = std::sin(angle), cosine = std::max(0.0, std::cos(angle));
-  // Here the circle of range + margin meets the side, which stands off by the margin.
+  // Here the circle of range + margin meets the side that is moved out by the margin.
   const double cap = angle + std::asin(share);
   const std::uint32_t steps = steps_for(cap, meshes.widest_step_rad);
   const double step = cap / (steps - 0.5);

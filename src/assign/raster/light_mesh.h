@@ -1,9 +1,9 @@
 #pragma once
-// Low-poly meshes that enclose lights, as a conservative rasterizer draws them (Örtegren and Persson 2016): a ball is a
-// subdivided icosahedron, a spot a sphere-capped cone turned around its axis in steps.
+// Low-poly meshes that enclose lights, for a conservative rasterizer (Örtegren and Persson 2016): a ball is a
+// subdivided icosahedron, a spot is a sphere-capped cone turned around its axis in steps.
 //
-// In double precision. A mesh circumscribes its light, so that no face cuts into it, and is larger than the light:
-// docs/methods.md says how much.
+// In double precision. A mesh circumscribes its light, so no face cuts into it, and it is larger than the light;
+// docs/methods.md lists by how much.
 
 #include <array>
 #include <cstdint>
@@ -31,8 +31,8 @@ struct LightMesh {
   std::vector<Vec3d> vertices;
 };
 
-// A spot: all points within `range` of the apex that the axis (unit length but for roundoffs) makes no larger angle
-// with than half_angle_rad, 0 to 90 degrees; and all points within `margin` of these.
+// A spot: all points within `range` of the apex whose direction makes an angle of at most half_angle_rad, 0 to 90
+// degrees, with the axis (unit length up to roundoffs); and all points within `margin` of these.
 struct SpotShape {
   Vec3d apex, axis;
   double range, half_angle_rad, margin;
@@ -45,11 +45,11 @@ class LightMeshes {
  public:
   LightMeshes();
 
-  // How many times as large as the ball the mesh's farthest vertex is.
+  // The distance of the mesh's farthest vertex, relative to the ball's radius.
   double ball_scale(int level) const { return balls_[static_cast<std::size_t>(level)].scale; }
-  // The mesh around a ball. Keeps the memory of `out`.
+  // Makes the mesh around a ball. Keeps the memory of `out`.
   void enclose_ball(Vec3d center, double radius, int level, LightMesh& out) const;
-  // The mesh around a spot; where the spot is not much larger than its margin, around the ball of range + margin.
+  // Makes the mesh around a spot; if the spot is not much larger than its margin, around the ball of range + margin.
   void enclose_spot(const SpotShape& spot, int level, LightMesh& out) const;
 
  private:
@@ -62,7 +62,7 @@ class LightMeshes {
   struct SpotMeshes {
     std::uint32_t sectors = 0;
     double widest_step_rad = 0.0;   // of the cap, between two rings
-    std::vector<Vec3d> directions;  // of the sectors: 0, cosine, sine; as far out as encloses the circle
+    std::vector<Vec3d> directions;  // of the sectors: 0, cosine, sine; lengthened so that they enclose the circle
     std::vector<MeshTopology> by_steps;
   };
 

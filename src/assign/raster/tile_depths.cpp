@@ -11,20 +11,20 @@ namespace {
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_roundoff = 0x1p-53;
-// By which light_mesh.cpp places vertices off, of the largest of them.
+// The error of the vertices from light_mesh.cpp, relative to the largest of them.
 constexpr double k_vertex_roundoffs = 32.0;
 
-// |x| + |y| + |z|: what roundoffs of sums of a point's products are relative to.
+// |x| + |y| + |z|: the size to which roundoffs of sums of a point's products are relative.
 double size_of(const Vec3d& p) {
   return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
 }
 
-// A number known up to `error`.
+// A number with an error bound.
 struct Rounded {
   double value, error;
 };
 
-// All quotients a / b that these can be; everything where b may be 0 or less.
+// All possible quotients a / b; the whole line if b may be 0 or less.
 Extent quotients(Rounded a, Rounded b) {
   const double least = b.value - b.error, most = b.value + b.error;
   if (!(least > 0.0)) return {-k_infinity, k_infinity};
@@ -39,8 +39,8 @@ Extent place_of(Rounded coordinate, Rounded depth, bool orthographic) {
   return quotients(coordinate, depth);
 }
 
-// No less than coordinate - plane * depth, with the sign asked for: the product and the difference are off by a
-// roundoff each.
+// An upper bound of coordinate - plane * depth, or of its negative (`sign`): the product and the difference are off by
+// a roundoff each.
 double beyond(double coordinate, double depth, double plane, double sign, bool orthographic) {
   const double offset = orthographic ? plane : plane * depth;
   return sign * (coordinate - offset) + 4.0 * k_roundoff * (std::fabs(coordinate) + std::fabs(offset));
@@ -51,8 +51,8 @@ struct Part {
   double begin = 0.0, end = 1.0;
 
   bool empty() const { return !(begin <= end); }
-  // Cuts it down to where a linear function is not negative that is no more than these at the edge's ends. The quotient
-  // is correct to three roundoffs, since nothing cancels in it.
+  // Clips the part to where a linear function, which is no more than these values at the edge's ends, is not negative.
+  // The quotient is correct to three roundoffs, since nothing cancels in it.
   void cut(double at_first, double at_second) {
     if (at_first >= 0.0 && at_second >= 0.0) return;
     if (at_first < 0.0 && at_second < 0.0) {
@@ -65,7 +65,7 @@ struct Part {
     else
       end = std::min(end, share * (1.0 + 4.0 * k_roundoff));
   }
-  // To what lies between two tile planes.
+  // Clips it to the region between two tile planes.
   void cut_between(double first, double first_depth, double second, double second_depth, double low, double high,
                    bool orthographic) {
     cut(beyond(first, first_depth, low, 1.0, orthographic), beyond(second, second_depth, low, 1.0, orthographic));
@@ -82,7 +82,7 @@ Extent hull(const Extent& a, const Extent& b) {
   return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
 }
 
-// The part of an edge on the picture.
+// The range of positions in the picture of a part of an edge.
 Extent places_along(double first, double second, double first_depth, double second_depth, const Part& part,
                     bool orthographic) {
   const auto place = [&](double share) {
@@ -93,8 +93,8 @@ Extent places_along(double first, double second, double first_depth, double seco
 
 }  // namespace
 
-// With a ray through (x, y) of the picture: three linear functions of x and y that are all of one sign where it pierces
-// the triangle, and the depth there.
+// A triangle against a ray through (x, y) of the picture: three linear functions of x and y that have the same sign if
+// the ray pierces the triangle, and the depth there.
 struct TileDepths::Triangle {
   struct Side {
     double x, y, constant;
@@ -123,7 +123,7 @@ struct TileDepths::Triangle {
   }
 
   // Through the eye, d · (a x b) = d · (a x e) for a ray along d = (x, y, 1) and the edge e from a to b; along the view
-  // axis through (x, y), the cross product of e and what leads from a there. Roundoffs: one for e, two for each
+  // axis through (x, y), the cross product of e and the vector from a to (x, y). Roundoffs: one for e, two for each
   // component of the cross product, three for the sum, of |a| |e| |d|: eight cover them.
   static Side side(const Vec3d& a, const Vec3d& b, bool is_orthographic) {
     const Vec3d e = b - a;
@@ -133,7 +133,7 @@ struct TileDepths::Triangle {
     return {across.x, across.y, across.z, error * size_of(a), 1.0};
   }
 
-  // Whether the ray may pierce it.
+  // May the ray pierce it?
   bool may_hold(double x, double y) const {
     bool may_be_left = true, may_be_right = true;
     for (const Side& each : sides) {
@@ -144,7 +144,7 @@ struct TileDepths::Triangle {
     return may_be_left || may_be_right;
   }
 
-  // Where the ray pierces it, if it does: the depths that the triangle's plane can have there, within the triangle's.
+  // If the ray pierces it: the possible depths of the triangle's plane there, limited to the triangle's own depths.
   // Roundoffs: four for the normal, three for the sum of its products with the ray or the corner.
   Extent depths_at(double x, double y) const {
     const double error = 8.0 * k_roundoff * normal_size;
@@ -165,8 +165,8 @@ struct TileDepths::Triangle {
     return {std::clamp(plane.lo, depths.lo, depths.hi), std::clamp(plane.hi, depths.lo, depths.hi)};
   }
 
-  // Whether the eye may be behind its plane, as seen from outside of a mesh that is convex but for `off`, by which its
-  // vertices can be off. These tilt the plane by twice `off` over the triangle's height, which is the normal over its
+  // May the eye be behind its plane, as seen from outside of a mesh that is convex up to `off`, the error of its
+  // vertices? These errors tilt the plane by twice `off` over the triangle's height, which is the normal over its
   // longest side; so planes of slivers exclude nothing.
   bool may_have_eye_behind(double off) const {
     const double size = size_of(corner);
@@ -176,8 +176,8 @@ struct TileDepths::Triangle {
 
   std::array<Side, 3> sides;
   Vec3d normal, corner;
-  double normal_size;  // what roundoffs of the normal are relative to
-  double longest;      // no side is longer
+  double normal_size;  // the size to which roundoffs of the normal are relative
+  double longest;      // length of the longest side
   bool orthographic;
   Extent depths, places_x, places_y;
 };
@@ -212,7 +212,7 @@ void TileDepths::find(const LightMesh& mesh, Coverage coverage, const CellBox& w
     for (Extent& range : ranges_) range.add(0.0, 0.0);
 }
 
-// `whole`: what the tiles that the edge touches get; null: the depths of the edge in them.
+// `whole`: the depths for all tiles that the edge touches; null: the depths of the edge in each tile.
 void TileDepths::add_edge(const Vec3d& a, const Vec3d& b, const Extent* whole) {
   const bool orthographic = tiles_->orthographic;
   if (!orthographic && a.z < 0.0 && b.z < 0.0) return;
@@ -261,7 +261,7 @@ void TileDepths::add_triangle(const Triangle& triangle, Coverage coverage) {
       ++tests_;
       if (!triangle.may_hold(*line, py)) continue;
       const Extent there = triangle.depths_at(*line, py);
-      // Behind the eye the ray is none.
+      // A ray has no points behind the eye.
       if (!triangle.orthographic && there.hi < 0.0) continue;
       add_around_corner(static_cast<int>(line - x.begin()), row_line,
                         coverage == Coverage::exact ? there : triangle.depths);
@@ -269,7 +269,7 @@ void TileDepths::add_triangle(const Triangle& triangle, Coverage coverage) {
   }
 }
 
-// To the tiles that share a corner.
+// Adds depths to the tiles that share a corner.
 void TileDepths::add_around_corner(int column_line, int row_line, const Extent& depths) {
   for (int row = std::max(row_line - 1, window_.first.y); row <= std::min(row_line, window_.last.y); ++row)
     for (int column = std::max(column_line - 1, window_.first.x); column <= std::min(column_line, window_.last.x);

@@ -3,16 +3,16 @@
 //
 // The mesh's part in a tile is a polyhedron; its least and greatest depth are at its corners, and these are of three
 // kinds (the three cases of coverage of Örtegren and Persson 2016):
-//   a vertex of the mesh lies in the tile          (the tile holds the triangle, or some of its vertices)
-//   an edge of the mesh crosses a side of the tile  (partly covered)
+//   a vertex of the mesh lies in the tile (the tile contains the triangle, or some of its vertices)
+//   an edge of the mesh crosses a side of the tile (partly covered)
 //   the ray through a tile's corner pierces a triangle (the triangle covers the tile: depth from the plane's gradient)
-// The first two are the ends of the edge's part in the tile. What is nearer than the first slice or farther than the
-// last one is left to whoever asks for slices: the part in the tile's pyramid is connected, so cutting its range of
-// depths is the same as clipping the mesh at these planes. With the eye in the mesh the range begins at 0.
+// The first two are the ends of the edge's part in the tile. Depths before the first slice or after the last one are
+// not removed here, but by the code that uses slices: the part in the tile's pyramid is connected, so clipping its
+// range of depths is the same as clipping the mesh at these planes. With the eye in the mesh the range begins at 0.
 //
-// Conservative: vertices and tile planes are taken exactly, and every computed depth is widened by what doubles can
-// lose (the bounds stand beside the steps), so the range holds the true one, and is wider by some 2^-50 of the depths
-// involved unless a triangle is seen edge-on.
+// Conservative: vertices and tile planes are exact input, and every computed depth is widened by the possible error of
+// doubles (the bounds are beside the steps). So the range contains the true one, and is wider by some 2^-50 of the
+// depths involved unless a triangle is seen edge-on.
 
 #include <algorithm>
 #include <cstdint>
@@ -25,7 +25,7 @@
 
 namespace clusterbench::assign {
 
-// An interval of depths, or of places on the picture; empty until something is added.
+// An interval of depths, or of positions in the picture; empty until a value is added.
 struct Extent {
   double lo = std::numeric_limits<double>::infinity(), hi = -std::numeric_limits<double>::infinity();
 
@@ -36,18 +36,18 @@ struct Extent {
   }
 };
 
-// Which depths a tile gets of a triangle that touches it: those that the triangle has in the tile, or all that it has.
+// The depths that a triangle adds to a tile that it touches: those within the tile, or those of the whole triangle.
 enum class Coverage { exact, triangle };
 
 class TileDepths {
  public:
   void build(const grid::ScreenGrid& grid);
-  // The ranges of all tiles of `window` (rows and columns within the grid's).
+  // Finds the ranges of all tiles of `window` (rows and columns within the grid's).
   void find(const LightMesh& mesh, Coverage coverage, const CellBox& window);
-  // Of a tile of that window, in metres along the view axis; empty where the mesh does not touch the tile.
+  // The range of a tile of that window, in metres along the view axis; empty if the mesh does not touch the tile.
   const Extent& of(int column, int row) const { return ranges_[index_of(column, row)]; }
 
-  // Edges against tiles and triangles against corners, in the last find().
+  // The number of tests of edges against tiles and triangles against corners in the last find().
   std::uint64_t tests_done() const { return tests_; }
   std::size_t capacity_bytes() const;
 

@@ -25,7 +25,7 @@ HWY_INLINE VD in_single(VD value) {
   return PromoteTo(DD(), DemoteTo(DF(), value));
 }
 
-// A vector of floats by parts that have as many lanes as a vector of doubles.
+// A vector of floats in parts that have as many lanes as a vector of doubles.
 class Parts {
  public:
 #if HWY_TARGET == HWY_SCALAR
@@ -53,7 +53,7 @@ class Parts {
   VF parts_[k_count];
 };
 
-// The float below or at a value that is nearest to it.
+// The nearest float at or below a value.
 HWY_INLINE VD rounded_down(VD value) {
   const DF df;
   const hn::RebindToUnsigned<DF> du;
@@ -109,8 +109,8 @@ class Disks {
     const MD is_before = depth<near_, is_beyond = depth> far_;
     misses_ = Or(And(is_before, near_past_ < none), And(is_beyond, far_past_ < none));
     is_endless_ = r == infinite();
-    // A disk that keeps clear of both depths has no chords there, and its tangents touch between them: by more than
-    // double precision loses, so that they need not be asked.
+    // A disk that keeps clear of both depths has no chords there, and its tangents touch between them. The clearance is
+    // larger than the error of double precision, so the tangents need no test.
     const VD clear = all(-0x1p-30);
     const MD is_clear = And(near_past_ < clear * depth, far_past_ <= clear * far_);
     is_between_ = Not(Or(is_before, is_beyond));
@@ -144,7 +144,7 @@ class Disks {
             rounded_up(IfThenElse(misses_, Neg(inf), IfThenElse(is_endless_, inf, hull.high)))};
   }
 
-  // What is not a number where the disk does not reach past the line.
+  // NaN if the disk does not reach past the line.
   HWY_INLINE VD half_chord(VD line, VD past) const { return Sqrt(past * (r_ + Abs(line - depth_))); }
   HWY_INLINE VD chord_error(VD u, VD half) const { return all(4.0 * k_epsilon) * (Abs(u) + half); }
 

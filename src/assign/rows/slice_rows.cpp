@@ -26,8 +26,8 @@ struct Balls {
     return {taken(x, which),     taken(y, which),    taken(depth, which),          taken(radius, which),
             taken(slack, which), taken(lean, which), taken(inverse_upright, which)};
   }
-  // At an inverse depth a ball is a disk around (x, y) times that; half of what it has of a line that is `offset` from
-  // its centre.
+  // At an inverse depth a ball is a disk around (x, y) times that inverse depth. Half of the disk's chord on a line at
+  // distance `offset` from its centre.
   HWY_INLINE V half_chord(V inverse, V offset) const {
     const V before = (radius + depth) * inverse - all(1.0f);
     const V behind = all(1.0f) - (depth - radius) * inverse;
@@ -35,7 +35,7 @@ struct Balls {
   }
 };
 
-// How far a coordinate is from the farther end of an interval.
+// The distance of a coordinate from the farther end of an interval.
 HWY_INLINE V farther_end(V low, V coordinate, V high) {
   return Max(Abs(coordinate - low), Abs(coordinate - high));
 }
@@ -43,10 +43,10 @@ HWY_INLINE V farther_end(V low, V coordinate, V high) {
 // The rows that balls may touch.
 struct BallRows {
   VI first, count;
-  MI full;  // those that hold all of the slice's part of the view: all columns of all rows are theirs
+  MI full;  // balls that contain the slice's whole part of the view: they touch all columns of all rows
 };
 
-// Which row and ball a span is of, in one number.
+// The row and the ball of a span, in one number.
 struct RowBall {
   static constexpr int k_lane_bits = 6;
   static_assert(k_most_lanes <= 1 << k_lane_bits);
@@ -57,7 +57,7 @@ struct RowBall {
   HWY_INLINE explicit RowBall(VU number)
       : row(BitCast(DI(), hn::ShiftRight<k_lane_bits>(number))),
         ball(IndicesFromVec(DI(), BitCast(DI(), And(number, all((1u << k_lane_bits) - 1))))) {}
-  // Of all balls in a row.
+  // All balls in a row.
   static HWY_INLINE VU all_of(int row) { return BitCast(DU(), from_on(row << k_lane_bits)); }
 };
 
@@ -104,9 +104,9 @@ class Batch {
     return {first, count, RebindMask(DI(), And(touches, least_area_ == zero))};
   }
 
-  // What the balls in which[i] have between two tile planes. At each depth a ball is a disk, so it reaches farthest
-  // to the side at its centre's height, or in the tile plane that is nearer to that; within a tile plane it does so
-  // where the tangent touches, or in the slice's plane that is nearer to that.
+  // The extents of the balls in which[i] between two tile planes. At each depth a ball is a disk, so it extends
+  // farthest to the side at its centre's height, or in the tile plane that is nearer to that; within a tile plane it
+  // does so where the tangent touches, or in the slice's plane that is nearer to that.
   HWY_INLINE Hull hull_of(Which which, V top, V bottom) const {
     const Balls balls = balls_.of(which);
     if constexpr (orthographic) {
@@ -119,17 +119,17 @@ class Batch {
     }
   }
 
-  // The columns of that.
+  // The columns of that hull, and the marks of its uncertain ends.
   //
   // Certainty. Let r be the given radius, d the slack, R = r + d, and e = 2^-24 of the reach, so that d >= 28 e. An end
   // is x / depth of a point of the larger ball: its depth and its plane through the eye are chosen within the slice and
-  // the row, and what follows from them is less than 8 e off; so the ball of r + 4/3 d has such a point. And it is no
-  // further in than the given ball's. For where the end is looked for is rounded, too, by s along the circle of radius
-  // w that a tile plane cuts out; near the circle's farthest point that loses s² / 2 w, while the given ball's circle
-  // is smaller by at least d (2 R - d) / 2 w, and so by d R / 2 w. So s = sqrt(7 e R) costs at most a quarter of that.
-  // Depths and heights make it up to 3 e; the circle's chord, which is up to 2 e R / w off, and inverse_upright as much
-  // as set_up_spheres() lets them, 1.6 times sqrt(7 e R) together: two thirds. It also makes certain whether the eye is
-  // inside the ball or a circle, where all depends on a sign.
+  // the row, and the values that follow from them are less than 8 e off; so the ball of r + 4/3 d has such a point. And
+  // it is no further in than the given ball's. For the position of the end is rounded, too, by s along the circle of
+  // radius w that a tile plane cuts out; near the circle's farthest point that loses s² / 2 w, while the given ball's
+  // circle is smaller by at least d (2 R - d) / 2 w, and so by d R / 2 w. So s = sqrt(7 e R) costs at most a quarter of
+  // that. Depths and heights make it up to 3 e; the circle's chord, which is up to 2 e R / w off, and inverse_upright
+  // as much as set_up_spheres() lets them, 1.6 times sqrt(7 e R) together: two thirds. It also makes certain whether
+  // the eye is inside the ball or a circle, where all depends on a sign.
   //
   // So the hull is that of a ball between the given one and one that is larger by D = 4/3 d, of radius P = r + D. Let m
   // be the row's point nearest to the centre, g away, and w = sqrt(P² - g²). A point p of the larger ball in the row is
@@ -144,10 +144,10 @@ class Batch {
   // For them any point in the row does instead of m: it is no nearer, so its w is no larger. The columns are certain if
   // the way inwards is at least 4 d R q / w > 2 D P q / w, and the ball reaches the row if w² >= 4 d R > 2 D P.
   //
-  // For example, a ball of 2 m whose centre is 5 m to the right and 20 m ahead, in the row and the slice that hold it:
-  // its reach is 27 m, e = 1.6e-6 m, d = 4.5e-5 m, the hull goes from 0.149 to 0.356, h = 0.207, q = 0.059 per metre,
-  // and 8 d R q² / h = 1.2e-5. With 30 columns from -1 to 1 that is 1 / 5,500 of a column: so many ends are certain for
-  // one that is left to be decided.
+  // For example, a ball of 2 m whose centre is 5 m to the right and 20 m ahead, in the row and the slice that contain
+  // it: its reach is 27 m, e = 1.6e-6 m, d = 4.5e-5 m, the hull goes from 0.149 to 0.356, h = 0.207, q = 0.059 per
+  // metre, and 8 d R q² / h = 1.2e-5. With 30 columns from -1 to 1 that is 1 / 5,500 of a column: of 5,500 ends one is
+  // left to be decided.
   HWY_INLINE VU columns_of(const RowBall& at, const Table& slopes, const Hull& hull, M wanted) const {
     const V left = all(planes_->left), right = all(planes_->right), scale = all(planes_->columns_per_slope);
     const V tolerance = all(planes_->column_tolerance), zero = Zero(D());
@@ -157,7 +157,7 @@ class Batch {
     const V last_column = all(static_cast<float>(planes_->columns - 1));
     const V first = Min(Floor(Max(from - tolerance, zero)), last_column);
     const V last = Min(Floor(to + tolerance), last_column);
-    // No wider than it is for certain: a small ball in a wide picture is narrower than coordinates in it are rounded.
+    // The certain part of the width: in a wide picture, a small ball is narrower than the rounding of coordinates.
     const V width = Max(to - from - (tolerance + tolerance), zero);
     const V from_first = first + all(1.0f) - from - tolerance, to_last = to - last - tolerance;
     const V steepness = orthographic ? all(1.0f) : all(1.0f) + Max(low * low, high * high);
@@ -176,8 +176,8 @@ class Batch {
   }
 
  private:
-  // Of one of the slice's two planes. At the eye it ends where its products with reaches would not be finite; for what
-  // that changes see RowPlanes::least_reach.
+  // The inverse depth of one of the slice's two planes. At the eye it is limited so that its products with reaches stay
+  // finite; for the effect of this see RowPlanes::least_reach.
   static float inverse_depth(const RowPlanes& planes, std::size_t plane) {
     return std::min(planes.inverse_depth[plane], RowPlanes::k_most_inverse_depth);
   }
@@ -207,10 +207,10 @@ class Batch {
     farthest_right_ = balls_.y * sideways.high;
   }
 
-  // See Certainty; for rows straight ahead. Balls that hold all of the slice's part of the view by more than their
-  // slack have no ends there. An infinite radius stands for one that is left to be decided.
+  // See Certainty; for rows straight ahead. Balls that contain the slice's whole part of the view by more than their
+  // slack have no ends there. An infinite radius marks a ball whose rows are decided exactly.
   HWY_INLINE V least_area() const {
-    // Products that are too small for a float must not look like the nothing of balls that hold all.
+    // Products that underflow must differ from the 0 of balls that contain all.
     constexpr float k_something = std::numeric_limits<float>::min();
     const V area = Max(all(8.2f) * (balls_.slack * balls_.radius) * (rate_ * rate_), all(k_something));
     const V surely = balls_.radius - all(4.0f) * balls_.slack;
@@ -218,8 +218,8 @@ class Batch {
     return IfThenZeroElse(And(is_sure, farthest_square() < surely * surely), area);
   }
 
-  // At least the squared distance to the farthest point of the slice's part of the view. Balls smaller than half its
-  // width do not hold it anyway.
+  // An upper bound of the squared distance to the farthest point of the slice's part of the view. Balls smaller than
+  // half of that part's width do not contain it anyway.
   HWY_INLINE V farthest_square() const {
     const float width = planes_->right - planes_->left;
     if (AllTrue(D(), balls_.radius < all(0.49f * width) * metres_per_slope(all(far_)))) return infinity();
@@ -245,14 +245,14 @@ class Batch {
     const V ahead = ball.depth + slope * ball.y;
     V touch = go(ahead, ball.lean * chord) * ball.inverse_upright;
     if (!is_precise_) touch = precise_touch<side>(ball, chord, ahead, tilt_square, touch);
-    // Where none touches ahead of the eye the ball grows towards it.
+    // If no tangent touches ahead of the eye, the ball grows towards it.
     const M is_ahead = touch > Zero(D());
     const V inverse = IfThenElse(is_ahead, within(touch), all(nearest_inverse_));
     const V offset = slope - ball.y * inverse;
     return go(ball.x * inverse, ball.half_chord(inverse, offset));
   }
 
-  // Where the tangent touches, for balls of which inverse_upright does not say so precisely enough.
+  // The touch depth of the tangent, for balls for which inverse_upright is not precise enough.
   template <int side>
   static HWY_NOINLINE V precise_touch(const Balls& ball, V chord, V ahead, V tilt_square, V otherwise) {
     const V zero = Zero(D()), at_eye = all(SphereSetup::k_at_eye);
@@ -268,9 +268,9 @@ class Batch {
     return IfThenElse(ball.inverse_upright == zero, precise, otherwise);
   }
 
-  // With a point in the row's part of the picture from which the ball's surface is at least half a chord away, also
-  // rows are certain where the way from an end to the next boundary inwards, in columns, times that is at least 4 slack
-  // R rate (and some for rounding), and half the chord squared at least 4 slack R. `steepness` is least_area's.
+  // Uses the ball's half chord at a point in the row's part of the picture. A row is also certain if the distance
+  // inwards from an end to the next boundary, in columns, times this half chord is at least 4 slack R rate (and some
+  // for rounding), and its square is at least 4 slack R. `steepness` is least_area's.
   HWY_INLINE M is_certain_by_chord(const RowBall& at, const Table& slopes, V inwards, V steepness) const {
     const Balls ball = balls_.of(at.ball);
     // A point that is about as near to the centre as any.
@@ -290,26 +290,26 @@ class Batch {
   Balls balls_;
   VU lights_;
   M are_balls_;
-  Hull upwards_;   // of what balls have in the slice, y / depth
-  Hull sideways_;  // at least that, x / depth
-  V rate_;         // the most columns that a metre to the side can be
-  V least_area_;   // for rows straight ahead; 0 for balls that hold the slice's part of the view
-  // Perspective grids':
-  V farthest_left_, farthest_right_;  // where balls are farthest to a side, y / depth
-  bool is_precise_;                   // is inverse_upright, everywhere?
-  // Orthographic ones':
-  V disk_square_;  // of the radius of what balls have in the depth where they are largest
+  Hull upwards_;   // the balls' range in the slice, y / depth
+  Hull sideways_;  // contains their range x / depth
+  V rate_;         // the largest number of columns for a metre to the side
+  V least_area_;   // for rows straight ahead; 0 for balls that contain the slice's part of the view
+  // For perspective grids:
+  V farthest_left_, farthest_right_;  // where balls extend farthest to a side, y / depth
+  bool is_precise_;                   // is inverse_upright precise for all balls?
+  // For orthographic grids:
+  V disk_square_;  // squared radius of the balls' disks at the depth where they are largest
 };
 
 std::uint32_t lanes() {
   return static_cast<std::uint32_t>(Lanes(D()));
 }
 
-// What is known of a batch before its columns: the rows that each ball may touch.
+// The values of a batch before its columns: the rows that each ball may touch.
 HWY_INLINE void start_batch(int grid_rows, const BallRows& rows, BatchSpans& out) {
   out.count = out.uncertain_count = 0;
   out.tests = static_cast<std::uint32_t>(GetLane(SumOfLanes(DI(), rows.count)));
-  // A loop over all rows is foretold by the processor, unlike one whose ends wait for the balls.
+  // A loop over all rows is predictable for the processor, unlike one whose bounds depend on the balls.
   constexpr int k_few_rows = 32;
   if (grid_rows <= k_few_rows) {
     out.first_row = 0;
@@ -322,13 +322,13 @@ HWY_INLINE void start_batch(int grid_rows, const BallRows& rows, BatchSpans& out
   out.last_row = GetLane(MaxOfLanes(DI(), end)) - 1;
 }
 
-// The balls that may touch each row, and do not hold all of it, row after row.
+// The balls that may touch each row and do not contain all of it, row after row.
 HWY_INLINE void list_row_balls(const BallRows& rows, BatchSpans& out) {
   std::uint32_t* HWY_RESTRICT row_balls = out.row_balls.data();
   std::uint32_t* HWY_RESTRICT sizes = out.sizes.data();
   std::uint32_t count = 0;
   const VU others = BitCast(DU(), IfThenZeroElse(rows.full, rows.count));
-  VU skipped = BitCast(DU(), all(out.first_row) - rows.first);  // of each ball's rows; large before its first one
+  VU skipped = BitCast(DU(), all(out.first_row) - rows.first);  // each ball's rows; large before its first one
   VU number = RowBall::all_of(out.first_row);
   for (int row = out.first_row, last = out.last_row; row <= last; ++row) {
     const auto wanted = skipped < others;
@@ -343,7 +343,7 @@ HWY_INLINE void list_row_balls(const BallRows& rows, BatchSpans& out) {
   out.count = count;
 }
 
-// What the balls have in all rows.
+// The hulls of the balls in all rows.
 template <class Batch>
 HWY_INLINE void find_hulls(const Table& slopes, const Batch& batch, BatchSpans& out) {
   const std::uint32_t *row_balls = out.row_balls.data(), count = out.count;
@@ -355,7 +355,7 @@ HWY_INLINE void find_hulls(const Table& slopes, const Batch& batch, BatchSpans& 
   }
 }
 
-// Lists what is uncertain of `count` spans, at most a vector of them, from span `first` on.
+// Lists the uncertain ones of `count` spans, at most a vector of them, from span `first` on.
 HWY_INLINE void list_uncertain(VU columns, std::uint32_t count, std::uint32_t first, BatchSpans& out) {
   const VU marks = And(columns, all(BatchSpans::k_first_is_uncertain | BatchSpans::k_last_is_uncertain));
   const auto is_marked = And(Ne(marks, Zero(DU())), FirstN(DU(), count));
@@ -380,7 +380,7 @@ HWY_INLINE void find_columns(const Table& slopes, const Batch& batch, BatchSpans
   }
 }
 
-// Adds to each row those that hold all of it.
+// Adds to each row the balls that contain all of it.
 template <class Batch>
 HWY_INLINE void add_full(const Batch& batch, const BallRows& rows, BatchSpans& out) {
   const VI end_of_others = IfThenZeroElse(rows.full, rows.first + rows.count);
@@ -403,7 +403,7 @@ HWY_INLINE void add_full(const Batch& batch, const BallRows& rows, BatchSpans& o
   }
 }
 
-// Step by step for all batches, because the steps of one wait for each other.
+// Step by step for all batches, because the steps of one batch depend on each other.
 template <bool orthographic>
 HWY_INLINE void rows_of_batches(const RowPlanes& planes, const SphereSetup& shapes, std::span<const BallsOfSlice> balls,
                                 RowBatches& out) {

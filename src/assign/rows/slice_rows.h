@@ -2,15 +2,14 @@
 // The columns that balls touch in every row of cells of a frustum grid: slice by slice, many balls at once, one per
 // lane, each through its own rows.
 //
-// With x / depth, y / depth and 1 / depth as coordinates, columns, rows and slices are slabs, and of a convex body what
-// lies in a row of a slice reaches farthest to the side in one point, which follows from the ball (sphere_setup.h) and
-// is moved into the row, then into the slice. A row's columns reach from the least slope x / depth in it to the
-// greatest (the interval property, as in geom/projection/row_slopes.h). Rows of orthographic grids are boxes, and what
-// a ball has in one is a disk's chord.
+// With x / depth, y / depth and 1 / depth as coordinates, columns, rows and slices are slabs. The part of a convex body
+// in a row of a slice extends farthest to the side in one point, which is computed from the ball (sphere_setup.h) and
+// is moved into the row, then into the slice. A row's columns go from the least slope x / depth in it to the greatest
+// (the interval property, as in geom/projection/row_slopes.h). Rows of orthographic grids are boxes, and there a ball's
+// part of a row has the width of a disk's chord.
 //
-// Every ball is taken larger by its slack, which is more than rounding can lose, so no column is forgotten. How much
-// too large an answer can be is bounded, too: see Certainty in slice_rows.cpp. Ends of spans for which that may
-// matter are marked.
+// Every ball is enlarged by its slack, which is more than the rounding errors, so no column is lost. The excess of a
+// result is bounded, too: see Certainty in slice_rows.cpp. Ends of spans for which the excess may matter are marked.
 
 #include <array>
 #include <cstdint>
@@ -25,45 +24,43 @@
 
 namespace clusterbench::assign {
 
-// Rows of a batch of balls within one slice. Of ball i, row r (first_row <= r <= last_row, the rows that any ball may
-// touch) has the columns at columns[r * lanes + i].
+// Rows of a batch of balls within one slice. Row r (first_row <= r <= last_row, the rows that any ball may touch) of
+// ball i has the columns at columns[r * lanes + i].
 struct BatchRows {
   static constexpr std::uint32_t k_none = ColumnSpan::k_none;            // no column
-  static constexpr std::uint32_t k_uncertain = ColumnSpan::k_uncertain;  // perhaps not all of the columns
+  static constexpr std::uint32_t k_uncertain = ColumnSpan::k_uncertain;  // perhaps with untouched columns at its ends
   static int first_of(std::uint32_t columns) { return static_cast<int>(columns & 0x3fff); }
   static int last_of(std::uint32_t columns) { return static_cast<int>(columns >> 16 & 0x3fff); }
 
   std::uint32_t lanes = 0;
   alignas(64) std::uint32_t lights[k_most_lanes];
   int first_row = 0, last_row = -1;
-  std::uint32_t tests = 0;  // rows of single balls that were looked at
-  // One row more than the grid has, for what is not wanted.
+  std::uint32_t tests = 0;  // rows of single balls that were tested
+  // One row more than the grid has, for unused results.
   AlignedVector<std::uint32_t> columns;
 
   void make_room(int of_rows) { grow_to((static_cast<std::size_t>(of_rows) + 1) * k_row_lanes, columns); }
   std::size_t capacity_bytes() const { return columns.capacity() * sizeof(std::uint32_t); }
 };
 
-// The same as a list: row after row the spans of the balls that may touch it, in each in the order of the balls. A span
-// is as in BatchRows; k_none is one, too, where a ball has been found to have no columns. Whole vectors can be read
-// from each span on.
+// The same as a list: row after row the spans of the balls that may touch it, in the order of the balls. A span is as
+// in BatchRows; k_none marks a ball that turned out to have no columns. Whole vectors can be read from each span on.
 struct BatchSpans {
-  // Marks of a span: that end may be beyond the columns that are touched.
+  // Marks of a span: that end may be beyond the touched columns.
   static constexpr std::uint32_t k_first_is_uncertain = 0x4000, k_last_is_uncertain = 0x8000;
 
   int first_row = 0, last_row = -1;
   std::uint32_t tests = 0, count = 0;
-  AlignedVector<std::uint32_t> sizes;  // how many spans a row has: of first_row to last_row
+  AlignedVector<std::uint32_t> sizes;  // the number of spans of each row, first_row to last_row
   AlignedVector<std::uint32_t> lights, columns;
-  // Which spans are uncertain, ascending.
+  // The indices of uncertain spans, ascending.
   std::uint32_t uncertain_count = 0;
   AlignedVector<std::uint32_t> uncertain;
-  // While they are found: in which row each is, and in which lane its ball; what that has there (slopes from low to
-  // high).
+  // Scratch: the row of each span, the lane of its ball, and the ball's extent there (slopes from low to high).
   AlignedVector<std::uint32_t> row_balls;
   AlignedVector<float> low, high;
 
-  // Whole vectors are written and read from each span on, and one behind them.
+  // Whole vectors are written and read from each span on, and one after the last.
   void make_room(int of_rows) {
     const auto rows = static_cast<std::size_t>(of_rows), size = (rows + 2) * k_row_lanes;
     if (row_balls.size() >= size) return;
@@ -74,10 +71,10 @@ struct BatchSpans {
 };
 inline constexpr int k_most_columns = 0x3fff;
 
-// How many balls a batch holds on this machine.
+// The number of balls in a batch on this machine.
 std::uint32_t balls_per_batch();
 
-// Some batches, each of one slice.
+// The number of batches found together, each of one slice.
 inline constexpr std::uint32_t k_batches_at_once = 4;
 using RowBatches = std::array<BatchSpans, k_batches_at_once>;
 
@@ -87,7 +84,7 @@ struct BallsOfSlice {
   const std::uint32_t* indices;
   std::uint32_t count;  // at most balls_per_batch()
 };
-// A batch for each of `balls`, which are at most k_batches_at_once.
+// Finds a batch of rows for each of `balls`, which are at most k_batches_at_once.
 void find_rows(const RowPlanes& planes, const SphereSetup& shapes, std::span<const BallsOfSlice> balls,
                RowBatches& out);
 

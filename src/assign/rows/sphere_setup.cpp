@@ -14,7 +14,7 @@ struct Touches {
   V low, high;
 };
 
-// The inverse depths ahead at which they touch a circle around (across, ahead), k_at_eye where they do so at none.
+// The inverse depths ahead at which they touch a circle around (across, ahead); k_at_eye if there is none.
 // `ahead_square`: ahead² - radius².
 HWY_INLINE Touches touches_of(V across, V ahead, V radius, V ahead_square) {
   const V zero = Zero(D()), at_eye = all(SphereSetup::k_at_eye), across_square = across * across;
@@ -28,8 +28,8 @@ HWY_INLINE Touches touches_of(V across, V ahead, V radius, V ahead_square) {
   return {IfThenElse(is_positive, inner, outer), IfThenElse(is_positive, outer, inner)};
 }
 
-// The radius, or a little more than a distance if it is nearly that. So the sign of the difference of their squares is
-// certain, and its size but for a quarter.
+// The radius, or slightly more than the distance if the two are nearly equal. So the sign of the difference of their
+// squares is certain, and its size up to a quarter.
 HWY_INLINE V lifted(V radius, V distance_square) {
   const V gap = distance_square - radius * radius;
   const M is_near = Abs(gap) < all(0x1p-18f) * distance_square;
@@ -41,7 +41,7 @@ void setup_of(const VisibleBalls& visible, std::uint32_t count, SphereSetup& out
   const V zero = Zero(D());
   for (std::size_t i = 0; i < count; i += Lanes(D())) {
     const auto load = [&](const auto& from) { return LoadU(D(), reinterpret_cast<const float*>(from.data() + i)); };
-    // Balls that are everywhere are around the eye, where no product of theirs is infinite minus infinite.
+    // Balls that are everywhere are centred at the eye, where no product of theirs is infinity minus infinity.
     const V given = load(visible.radius);
     const M is_bounded = given < infinity();
     const V x = IfThenElseZero(is_bounded, load(visible.x)), y = IfThenElseZero(is_bounded, load(visible.y));
@@ -59,8 +59,8 @@ void setup_of(const VisibleBalls& visible, std::uint32_t count, SphereSetup& out
     const M is_outside = square > zero;
     // A touch point is as far from the eye as a tangent is long, and not deeper than the ball. The chord's error moves
     // it by up to |x| depth / upright of itself, and upright's, 3 e c² at a distance c from the eye, by that over
-    // upright of how far it is away: the chord's part is at most sqrt(7 e radius), upright's 0.57 of that and also 3/16
-    // of the radius: see Certainty.
+    // upright of its distance: the chord's part is at most sqrt(7 e radius), upright's 0.57 of that and also 3/16 of
+    // the radius: see Certainty.
     const V tangent = root(square), reach = root(from_eye);
     const V deepest = Min(Max(zero, depth + radius), tangent);
     const V of_chord = Abs(x) * deepest * all(1.0f / 7.0f);

@@ -1,12 +1,13 @@
 #pragma once
-// Which bits of 8 are set, looked up.
+// Lookup tables of the bits set in 8 bits.
 
 #include <array>
 #include <cstdint>
 
 namespace clusterbench::assign {
 
-// For every 8 bits: how many are set before each of them, and which are set, ascending, and 0 behind them.
+// For every 8 bits: the number of set bits before each of them; and the indices of the set bits, ascending, followed by
+// 0.
 struct BitTables {
   std::array<std::array<std::uint8_t, 8>, 256> ranks, lanes;
 };

@@ -1,13 +1,12 @@
 #pragma once
-// How many lanes vectors have.
+// Numbers of lanes of vectors.
 
 #include <cstddef>
 
 namespace clusterbench::assign {
 
-inline constexpr std::size_t k_most_lanes = 64;  // of any target: what arrays are padded by
-// Of 32 bits. What is kept lane by lane takes as much memory on all targets, so that what is reported does not depend
-// on the machine.
+inline constexpr std::size_t k_most_lanes = 64;  // of any target: the padding of arrays
+// Of 32 bits. Values stored per lane use the same memory on all targets, so that reports do not depend on the machine.
 inline constexpr std::size_t k_row_lanes = 16;
 
 }  // namespace clusterbench::assign

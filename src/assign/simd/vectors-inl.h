@@ -1,6 +1,6 @@
-// Single-precision vectors of a whole register. As all of these -inl.h, for files that are compiled once per target: it
-// defines its names anew for each. Such a file defines HWY_TARGET_INCLUDE and includes hwy/foreach_target.h before any
-// of these, as Highway wants it.
+// Single-precision vectors of a whole register. Like all of these -inl.h files, for files that are compiled once per
+// target: it defines its names anew for each target. Such a file defines HWY_TARGET_INCLUDE and includes
+// hwy/foreach_target.h before any of these, as Highway requires.
 
 #if defined(CLUSTERBENCH_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CLUSTERBENCH_VECTORS_INL_H
@@ -34,7 +34,7 @@ using M = hn::Mask<D>;
 using MI = hn::Mask<DI>;
 static_assert(MaxLanes(D()) <= k_row_lanes);
 
-// In doubles, and as many single numbers and indices.
+// Vectors of doubles, and of as many floats and indices.
 using DD = hn::ScalableTag<double>;
 using DF = hn::Rebind<float, DD>;
 using DH = hn::Rebind<std::int32_t, DD>;
@@ -47,7 +47,7 @@ HWY_INLINE std::uint32_t lane_count() {
   return static_cast<std::uint32_t>(Lanes(D()));
 }
 
-// Vectors of a number's own type, a whole register: all of one number, and numbers looked up.
+// Vectors of a number's own type, a whole register: all lanes equal, and values looked up by index.
 template <class T>
 HWY_INLINE auto all(T value) {
   return Set(hn::ScalableTag<T>(), value);
@@ -67,17 +67,16 @@ HWY_INLINE V infinity() {
 HWY_INLINE M is_between(V low, V value, V high) {
   return And(low <= value, value <= high);
 }
-// What is no number becomes `low`, the same on every target: Highway's Clamp has the value second, for which
-// they differ.
+// NaN becomes `low`, on every target: Highway's Clamp has the value as its second argument, for which targets differ.
 HWY_INLINE V clamped(V low, V value, V high) {
   return Min(Max(value, low), high);
 }
-// How far a coordinate is outside an interval.
+// The distance of a coordinate outside an interval.
 HWY_INLINE V gap(V low, V coordinate, V high) {
   return Max(Zero(D()), Max(low - coordinate, coordinate - high));
 }
 
-// Points and directions as x to the right, y up, depth ahead; each coordinate a vector of numbers.
+// Points and directions: x to the right, y up, depth ahead; each coordinate is a vector of numbers.
 template <class Numbers>
 struct PointOf {
   Numbers x, y, depth;
@@ -123,12 +122,12 @@ HWY_INLINE Point chosen(M where, const Point& a, const Point& b) {
   return {IfThenElse(where, a.x, b.x), IfThenElse(where, a.y, b.y), IfThenElse(where, a.depth, b.depth)};
 }
 
-// Four numbers of each lane.
+// Four numbers per lane.
 struct Quads {
   V first, second, third, fourth;
 };
 
-// Lane i of the answer is what lies side by side at from[4 * indices[i]]: several times as fast as gathering each.
+// Lane i of the result has the four numbers from from[4 * indices[i]] on: several times as fast as gathering each.
 HWY_INLINE Quads gathered_quads(const float* from, const std::uint32_t* indices) {
   const D d;
   const auto at = [&](std::size_t lane) { return from + 4 * std::size_t{indices[lane]}; };
@@ -136,7 +135,7 @@ HWY_INLINE Quads gathered_quads(const float* from, const std::uint32_t* indices)
   const float* four = at(0);
   return {LoadU(d, four), LoadU(d, four + 1), LoadU(d, four + 2), LoadU(d, four + 3)};
 #else
-  // Block by block of four lanes: vector i of them has what is of lane i. Then they are turned.
+  // For each block of four lanes: vector i of them has the numbers of lane i. Then they are transposed.
   const auto of_lane = [&](std::size_t i) {
     V all_blocks = LoadDup128(d, at(i));
     for (std::size_t lane = 4; lane < Lanes(d); lane += 4) {
@@ -156,14 +155,14 @@ HWY_INLINE Quads gathered_quads(const float* from, const std::uint32_t* indices)
 #endif
 }
 
-// Lane i of the answer is lane which[i] of the value.
+// Lane i of the result is lane which[i] of the value.
 using Which = decltype(IndicesFromVec(DI(), VI()));
 template <class Vector>
 HWY_INLINE Vector taken(Vector value, Which which) {
   return BitCast(hn::DFromV<Vector>(), TableLookupLanes(BitCast(DI(), value), which));
 }
 
-// As many values as two registers hold, looked up there: several times as fast as gathering.
+// A table of up to two registers: several times as fast as gathering.
 class RegisterTable {
  public:
   static std::size_t size() { return 2 * Lanes(D()); }
@@ -183,7 +182,7 @@ class RegisterTable {
   V first_, second_;
 };
 
-// Values looked up in registers where they hold all of them. Whole vectors can be read from `values` on.
+// A table that is in registers if they have room for it. Whole vectors can be read from `values` on.
 class Table {
  public:
   HWY_INLINE Table(const std::vector<float>& values, int count)
@@ -204,25 +203,25 @@ HWY_INLINE VI from_on(std::int32_t first) {
   return all(first) + Iota(DI(), 0);
 }
 
-// A whole number from 0 to 2^22 as an integer, with less ado than ConvertTo, which looks for ones that do not fit. From
-// others anything.
+// A whole number from 0 to 2^22 as an integer, faster than ConvertTo, which tests for values out of range. Undefined
+// for other values.
 HWY_INLINE VI whole(V number) {
   return Xor(BitCast(DI(), number + all(0x1p23f)), BitCast(DI(), all(0x1p23f)));
 }
 
-// Of a square that rounding may have made negative.
+// The root of a square that rounding may have made negative.
 HWY_INLINE V root(V square) {
   return Sqrt(Max(square, Zero(D())));
 }
 
-// Vectors one lane on, vector by vector: the first lane is the last one of the vector before.
+// Moves vectors one lane on, vector by vector: the first lane becomes the last one of the vector before.
 class Carried {
  public:
   HWY_INLINE Carried() {
     const auto n = static_cast<std::int32_t>(Lanes(D()));
     one_back_ = IndicesFromVec(DI(), And(from_on(n - 1), all(n - 1)));
   }
-  // `turned`: what the call for the vector before left there.
+  // `turned`: set by the call for the vector before.
   template <class Vector>
   HWY_INLINE Vector operator()(Vector value, Vector& turned) const {
     const Vector now = taken(value, one_back_);
@@ -235,11 +234,11 @@ class Carried {
   Which one_back_;
 };
 
-// --- Lanes of 32 bits side by side. Instruction sets without an instruction for it look up where lanes go in one
-// table. Highway 1.0's own Compress does that, too, but built by g++ it copies its table of a kilobyte to the stack
-// each time: five times slower on AVX2. ---
+// --- Compression of lanes of 32 bits. Instruction sets without an instruction for it look up the lanes' new places in
+// one table. Highway 1.0's own Compress does that, too, but g++ makes it copy its table of a kilobyte to the stack each
+// time: five times slower on AVX2. ---
 
-// Bit i is lane i's, of a mask of at most 8 lanes.
+// Bit i is lane i of a mask of at most 8 lanes.
 template <class Tag, class Mask>
 HWY_INLINE unsigned bits_of(Tag d, Mask mask) {
   static_assert(MaxLanes(Tag()) <= 8);
@@ -248,18 +247,18 @@ HWY_INLINE unsigned bits_of(Tag d, Mask mask) {
   return bits[0];
 }
 
-// What a table says of a mask of at most 8 lanes, a lane for each.
+// The table's entry for a mask of at most 8 lanes, one number per lane.
 template <class Tag, class Mask, class BitTable>
 HWY_INLINE auto lanes_of(Tag d, Mask wanted, const BitTable& table) {
   const auto lanes = LoadU(hn::Rebind<std::uint8_t, Tag>(), table[bits_of(d, wanted)].data());
   return IndicesFromVec(d, PromoteTo(hn::RebindToSigned<Tag>(), lanes));
 }
 
-// Lanes of 32 bits, the wanted ones first.
+// Lanes of 32 bits, the selected ones first.
 template <class Tag, class Vector, class Mask>
 HWY_INLINE Vector compressed([[maybe_unused]] Tag d, Vector lanes, Mask wanted) {
 #if HWY_TARGET <= HWY_AVX3
-  // Not with zeros behind them, as Highway has it: on Zen 5 that waits for what was in the register before.
+  // Not the form with zeros in the other lanes, Highway's default: on Zen 5 that waits for the register's former value.
   const hn::RebindToFloat<Tag> df;
   const auto raw = BitCast(df, lanes).raw;
   return BitCast(d, hn::Vec<decltype(df)>{_mm512_mask_compress_ps(raw, wanted.raw, raw)});
@@ -270,7 +269,7 @@ HWY_INLINE Vector compressed([[maybe_unused]] Tag d, Vector lanes, Mask wanted) 
 #endif
 }
 
-// The other way: the wanted lanes of the answer are the first ones, in their order. Others are anything.
+// The inverse: the selected lanes of the result are the first lanes of the value, in order. Other lanes are undefined.
 template <class Tag, class Vector, class Mask>
 HWY_INLINE Vector expanded([[maybe_unused]] Tag d, Vector lanes, [[maybe_unused]] Mask wanted) {
 #if HWY_TARGET <= HWY_AVX3
@@ -284,14 +283,14 @@ HWY_INLINE Vector expanded([[maybe_unused]] Tag d, Vector lanes, [[maybe_unused]
 #endif
 }
 
-// Stores the wanted lanes side by side, where there is room for a whole vector.
+// Stores the selected lanes side by side, where there is room for a whole vector.
 template <class Vector, class Mask>
 HWY_INLINE void store_wanted(Vector value, Mask wanted, hn::TFromV<Vector>* to) {
   const hn::DFromV<Vector> d;
   StoreU(compressed(d, value, RebindMask(d, wanted)), d, to);
 }
 
-// from[0] .. from[count - 1], and 0 beyond if that is less than a vector.
+// from[0] .. from[count - 1], followed by 0 if that is less than a vector.
 HWY_INLINE V loaded(const float* from, std::uint32_t count) {
   if (count >= Lanes(D())) return LoadU(D(), from);
   float rest[k_most_lanes] = {};

@@ -41,7 +41,7 @@ class Bitfield final : public Storage {
         out.push_back(k_bits * word + static_cast<std::uint32_t>(std::countr_zero(left)));
   }
 
-  // All words of the cell; up to 32 lights are a single one.
+  // All words of the cell; up to 32 lights fit into a single one.
   Reads reads_of_cell(std::uint32_t) const override { return Reads::of(words_per_cell_, sizeof(std::uint32_t)); }
 
   std::uint32_t cell_count() const override { return cell_count_; }

@@ -8,8 +8,8 @@
 namespace clusterbench::assign {
 namespace {
 
-// A u32 count and room for `cap` indices per cell. Without counts the number after the last light's ends a list that
-// is not full. What does not fit is dropped: the last of the list, which are the highest light indices where lists
+// A u32 count and room for `cap` indices per cell. Without counts, a list that is not full ends with an index that no
+// light has. Lights that do not fit are dropped: the last of the list, which are the highest light indices if lists
 // ascend.
 class Fixed final : public Storage {
  public:
@@ -104,7 +104,7 @@ class Fixed final : public Storage {
   std::uint32_t cap_, lights_ = 0, cell_count_ = 0;
   bool has_counts_;
   std::uint64_t kept_ = 0, dropped_pairs_ = 0, overflowing_cells_ = 0;
-  std::uint64_t longest_ = 0;  // list, before anything is dropped
+  std::uint64_t longest_ = 0;  // before dropping
   std::vector<std::uint32_t> counts_;
   std::vector<bool> is_dropped_;
   IndexArray indices_;

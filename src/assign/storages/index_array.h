@@ -1,5 +1,5 @@
 #pragma once
-// Light indices of a width that is known at run time.
+// Light indices of a width that is set at run time.
 
 #include <cstdint>
 #include <cstring>
@@ -9,7 +9,7 @@
 
 namespace clusterbench::assign {
 
-// 8, 16 or 32: what holds the indices of so many lights.
+// 8, 16 or 32: the narrowest width for the indices of this number of lights.
 inline std::uint32_t narrowest_bits(std::uint32_t lights) {
   if (lights <= 1u << 8) return 8;
   return lights <= 1u << 16 ? 16 : 32;
@@ -17,7 +17,7 @@ inline std::uint32_t narrowest_bits(std::uint32_t lights) {
 
 class IndexArray {
  public:
-  // Never gives memory back: growing again would fill with zeros what is written next.
+  // Never shrinks: growing again would fill with zeros the memory that is written next.
   void make_room(std::size_t entries, std::uint32_t bits) {
     if (bytes_.size() < entries * (bits / 8)) bytes_.resize(entries * (bits / 8));
     bits_ = bits;

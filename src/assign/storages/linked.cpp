@@ -6,8 +6,8 @@
 namespace clusterbench::assign {
 namespace {
 
-// A u32 head per cell, and a pool of nodes {light u32, next u32}. A full pool drops what it would drop if lights came
-// one after the other: the last lights, and of one light the last cells.
+// A u32 head per cell, and a pool of nodes {light u32, next u32}. A full pool drops the same pairs as if lights came
+// one after the other: the last lights, and for one light the last cells.
 class Linked final : public Storage {
  public:
   explicit Linked(const Params& params) : nodes_per_cell_(params.number("nodes_per_cell")) {}
@@ -79,7 +79,7 @@ class Linked final : public Storage {
     std::uint32_t light, next;
   };
 
-  // How many nodes each light gets.
+  // The number of nodes that each light gets.
   void share_room(const Lists& lists) {
     std::fill(room_.begin(), room_.end(), 0);
     for (const std::uint32_t light : lists.lights) ++room_[light];
@@ -100,7 +100,7 @@ class Linked final : public Storage {
     return true;
   }
 
-  // New nodes go to the front; from the last light on, so that the list keeps its order.
+  // New nodes are inserted at the front, starting with the last light, so that the list keeps its order.
   void store_cell(std::uint32_t cell, std::span<const std::uint32_t> list) {
     const std::uint32_t used_before = used_;
     std::uint32_t head = k_end;
@@ -118,7 +118,7 @@ class Linked final : public Storage {
   std::uint32_t used_ = 0;
   std::vector<std::uint32_t> heads_;
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> room_;  // of each light, where the pool is too small
+  std::vector<std::uint32_t> room_;  // of each light, if the pool is too small
   std::vector<bool> is_dropped_;
 };
 

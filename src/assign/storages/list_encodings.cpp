@@ -31,11 +31,11 @@ HWY_INLINE void set_bit(std::uint32_t light, std::uint32_t* words) {
   words[light / 32] |= 1u << light % 32;
 }
 
-// Where lists are dense, a vector of lights fills few words: each takes the sum of its bits. Elsewhere, and where
-// lights do not ascend, light by light.
+// If lists are dense, a vector of lights fills few words: each word gets the sum of its bits. Otherwise, and if lights
+// do not ascend, light by light.
 HWY_INLINE void set_bits(const std::uint32_t* lights, std::size_t count, std::uint32_t* words) {
   const std::size_t lanes = lane_count();
-  constexpr std::size_t k_lanes_per_word = 4;  // below, a sum costs more than it saves
+  constexpr std::size_t k_lanes_per_word = 4;  // below this, a sum costs more than it saves
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {
     const std::uint32_t first = lights[i] / 32, last = lights[i + lanes - 1] / 32;

@@ -1,5 +1,5 @@
 #pragma once
-// Finished lists in the forms that buffers keep them in: narrow indices, or bits. SIMD, dispatched at run time.
+// Finished lists in the formats of buffers: narrow indices, or bits. SIMD, dispatched at run time.
 
 #include <cstddef>
 #include <cstdint>

@@ -16,14 +16,14 @@ extern const StorageDescriptor packed_descriptor;
 
 namespace {
 
-// offset u32 + point count u16 + spot count u16 per cell; 12 bytes with u32 counts where the rig has lights of one type
-// that 16 bits cannot count: a shader reads one format, so it follows from the lights and not from a frame's lists.
-// Where the rig has boxes one more u32 follows, their count: 12 or 16 bytes. With header_size counts are u32, and what
-// is left of the header is that of other kinds of objects (Bevy's has 32 bytes). Sparse: only for cells with lights; a
+// offset u32 + point count u16 + spot count u16 per cell; 12 bytes with u32 counts if the rig has more lights of one
+// type than 16 bits can count: a shader reads one format, so it depends on the rig and not on a frame's lists. If the
+// rig has boxes, one more u32 follows, their count: 12 or 16 bytes. With header_size counts are u32, and the rest of
+// the header belongs to other kinds of objects (Bevy's has 32 bytes). Sparse: only cells with lights have headers; a
 // shader finds them through one block per 32 cells, {mask u32, rank u32}: header rank + the number of mask bits below
 // the cell's. Shared: a list that equals that of the cell before it or of the cell a row before it is not written
-// again. With max_entries the index list begins with all lights that are in any list of the frame, and when a list has
-// no room any more, its cell and all cells after it that have lights read that first one (Filament's Froxelizer).
+// again. With max_entries the index list begins with all lights that are in any list of the frame. If a list has no
+// room left, its cell and all later cells with lights read that first list (Filament's Froxelizer).
 class Packed final : public Storage {
  public:
   explicit Packed(const Params& params)
@@ -59,7 +59,7 @@ class Packed final : public Storage {
     if (is_sparse_) blocks_.resize((cell_count + k_block - 1) / k_block);
   }
 
-  // Headers stay as wide as they are, unless these lights would not fit.
+  // Headers keep their width, unless these lights do not fit.
   void set_types(const view::LightRanges& lights) override {
     points_ = lights.points.count;
     spots_ = lights_ - points_;
@@ -113,7 +113,7 @@ class Packed final : public Storage {
   Reads reads_of_cell(std::uint32_t cell) const override {
     const std::uint64_t lights = found_header(cell).all();
     const Reads block = Reads::of(is_sparse_ ? 1 : 0, sizeof(Block));
-    if (is_sparse_ && lights == 0) return block;  // its bit says that it has no header
+    if (is_sparse_ && lights == 0) return block;  // its bit shows that it has no header
     return block + Reads::of(1, header_size()) + Reads::of(lights, bits_ / 8);
   }
 
@@ -131,7 +131,7 @@ class Packed final : public Storage {
     std::uint32_t offset, points, spots;
   };
   static_assert(sizeof(Header) == 8 && sizeof(WideHeader) == 12);
-  // What a header says, of any size.
+  // The content of a header, of any size.
   struct Counts {
     std::uint32_t offset = 0, points = 0, spots = 0, boxes = 0;
 
@@ -144,7 +144,7 @@ class Packed final : public Storage {
 
   bool has_wide_counts() const { return std::max(points_, spots_) > k_narrow_count; }
   bool has_boxes() const { return lights_ > points_ + spots_; }
-  // The one source of how wide headers are: of use(), limit(), buffers() and what samples read.
+  // The one function that defines the width of headers: for use(), limit(), buffers() and the reads of samples.
   std::uint32_t header_size() const {
     const auto least = static_cast<std::uint32_t>((is_wide_ ? sizeof(WideHeader) : sizeof(Header)) +
                                                   (has_boxes() ? sizeof(std::uint32_t) : 0));
@@ -152,20 +152,20 @@ class Packed final : public Storage {
   }
 
   bool has_limit() const { return max_entries_ > 0; }
-  // Whether what is written is not just what is listed.
+  // Do the written lists differ from the given ones?
   bool chooses() const { return shares_ || has_limit(); }
   std::uint64_t most_entries() const {
     const std::uint64_t of_cells = std::uint64_t{cell_count_} * lights_;
     return has_limit() ? std::min(max_entries_, of_cells + lights_) : of_cells;
   }
 
-  // What a cell's header points to.
+  // The list to which a cell's header points.
   std::span<const std::uint32_t> list_of(const Lists& lists, std::uint32_t cell) const {
     const auto list = lists.of(cell);
     return cell < full_from_ || list.empty() ? list : std::span(kept_).first(all_lights_);
   }
 
-  // The first list of the index list: of all lights that any cell lists, points before spots.
+  // The first list of the index list: all lights that any cell lists, points before spots.
   void keep_all_lights(const Lists& lists) {
     std::fill(is_in_a_list_.begin(), is_in_a_list_.end(), false);
     for (const std::uint32_t light : lists.lights) is_in_a_list_[light] = true;
@@ -174,13 +174,13 @@ class Packed final : public Storage {
     all_lights_ = kept_.size();
   }
 
-  // Whether its list equals that of the cell so many before it, and is not written again.
+  // Does its list equal that of the cell `cells_back` before it, so that it is not written again?
   bool equals_earlier(const Lists& lists, std::uint32_t cell, std::uint32_t cells_back) const {
     return shares_ && cells_back > 0 && cell >= cells_back &&
            std::ranges::equal(lists.of(cell), lists.of(cell - cells_back));
   }
 
-  // No more lists are written: `cell` and those after it read that of all lights.
+  // Writes no more lists: `cell` and those after it read the list of all lights.
   void fall_back(const Lists& lists, std::uint32_t cell) {
     full_from_ = cell;
     for (; cell < lists.cell_count(); ++cell) {
@@ -236,7 +236,7 @@ class Packed final : public Storage {
             static_cast<std::uint32_t>(boxes - spots), static_cast<std::uint32_t>(list.end() - boxes)};
   }
 
-  // In the cell's block. False if it gets no header.
+  // Sets the cell's bit in its block. False if it gets no header.
   bool claim_slot(std::uint32_t cell, bool has_lights) {
     Block& block = blocks_[cell / k_block];
     if (cell % k_block == 0) block = {0, header_count_};
@@ -267,16 +267,18 @@ class Packed final : public Storage {
   std::uint32_t cell_count_ = 0, header_count_ = 0;
   std::uint64_t entries_ = 0;
   std::vector<Header> headers_;
-  std::vector<WideHeader> wide_headers_;   // in place of them, where the rig has that many lights
-  std::vector<std::uint32_t> box_counts_;  // the last word of either, where the rig has boxes
+  std::vector<WideHeader> wide_headers_;   // in place of headers_, if the rig has that many lights
+  std::vector<std::uint32_t> box_counts_;  // the last word of either, if the rig has boxes
   std::vector<Block> blocks_;
   IndexArray indices_;
-  std::uint64_t max_entries_;                  // 0: no limit
-  std::uint32_t least_header_size_;            // 0: as wide as needed
-  std::vector<std::uint32_t> kept_, kept_at_;  // where lists are chosen: those that are written, and each cell's begin
+  std::uint64_t max_entries_;        // 0: no limit
+  std::uint32_t least_header_size_;  // 0: as wide as needed
+  std::vector<std::uint32_t> kept_,
+      kept_at_;  // if lists are chosen: the written lists, and where each cell's list begins
   std::uint32_t full_from_ = std::numeric_limits<std::uint32_t>::max();  // the first cell whose list has no room
   std::size_t all_lights_ = 0;                                           // entries of the first list; with a limit
-  std::uint64_t fallback_cells_ = 0, unwritten_ = 0;  // that read the first list; entries of the lists without room
+  std::uint64_t fallback_cells_ = 0,
+                unwritten_ = 0;  // cells that read the first list; entries of the lists without room
   std::vector<bool> is_in_a_list_;
 };
 

@@ -7,9 +7,9 @@
 namespace clusterbench::assign {
 namespace {
 
-// Runs of lights with consecutive indices: {first, length - 1} each, in the narrowest indices that hold all lights. Per
-// cell an offset (u32) and the numbers of runs of points and of spots (u16 each; u32 where the rig has lights enough
-// for more runs), and where the rig has boxes that of their runs (u32).
+// Runs of lights with consecutive indices: {first, length - 1} each, in the narrowest indices for all lights. Per cell
+// an offset (u32) and the numbers of runs of points and of spots (u16 each; u32 if the rig has enough lights for more
+// runs), and if the rig has boxes the number of their runs (u32).
 class Runs final : public Storage {
  public:
   explicit Runs(const Params&) {}
@@ -57,7 +57,7 @@ class Runs final : public Storage {
     return use;
   }
 
-  // Every second light.
+  // The worst case: every second light.
   StructureLimit limit() const override { return {most_entries(), most_entries() * run_bytes() + header_bytes()}; }
 
   std::vector<BufferNeed> buffers() const override {
@@ -100,7 +100,7 @@ class Runs final : public Storage {
   std::uint64_t header_bytes() const { return headers_.size() * std::uint64_t{header_size()}; }
   std::uint32_t run_count() const { return static_cast<std::uint32_t>(runs_.size() / 2); }
 
-  // Lists may come in any order; fewest runs are in ascending ones.
+  // Lists may come in any order; ascending order gives the fewest runs.
   std::span<const std::uint32_t> ascending(std::span<const std::uint32_t> list) {
     if (std::is_sorted(list.begin(), list.end())) return list;
     sorted_.assign(list.begin(), list.end());
@@ -121,7 +121,7 @@ class Runs final : public Storage {
   bool is_wide_ = false;
   std::uint64_t count_ = 0;
   std::vector<Header> headers_;
-  std::vector<std::uint32_t> runs_, sorted_;  // two numbers a run
+  std::vector<std::uint32_t> runs_, sorted_;  // two numbers per run
   IndexArray indices_;
 };
 

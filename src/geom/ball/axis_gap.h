@@ -1,5 +1,5 @@
 #pragma once
-// How far a ball's centre lies outside of an interval of one coordinate, in numbers with a bound of their error.
+// The distance of a ball's centre from an interval of one coordinate, in numbers with error bounds.
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 
 namespace clusterbench::geom {
 
-// About a number.
+// An approximate value of a number.
 inline double about(const Bounded& number) {
   return number.value;
 }
@@ -39,7 +39,7 @@ inline Enclosure106 largest_or_zero(const Enclosure106& a, const Enclosure106& b
   return {DoubleDouble(), -0.5 * middle.hi > radius ? 0.0 : radius};
 }
 
-// How far a centre is outside of low <= x <= high, and on which side.
+// The distance of a centre outside of low <= x <= high, and the side.
 template <class Number>
 struct Gap {
   Number size;
@@ -57,7 +57,8 @@ inline Side side_of(double low, double at, double high) {
   return at < low ? Side::low : at > high ? Side::high : Side::between;
 }
 
-// From the centre to a gap's other end. Where the side is not certain, the gap is below its error.
+// The signed distance from the centre to the other end of a gap. If the side is uncertain, the gap is smaller than its
+// error.
 inline Bounded across(const Gap<Bounded>& gap) {
   return gap.side == Side::high ? -gap.size : gap.size;
 }

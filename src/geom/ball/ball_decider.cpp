@@ -17,24 +17,24 @@ namespace clusterbench::geom {
 namespace {
 
 // Numbers whose products Enclosure106 can bound.
-bool are_usual(std::initializer_list<double> numbers) {
+bool fit_106_bits(std::initializer_list<double> numbers) {
   return std::ranges::all_of(numbers, [](double number) { return std::abs(number) < 0x1p60; });
 }
-bool is_usual(const Placement& center, double radius) {
+bool fits_106_bits(const Placement& center, double radius) {
   const Vec3d &p = center.position, &o = center.origin;
-  return are_usual({p.x, p.y, p.z, o.x, o.y, o.z, radius});
+  return fit_106_bits({p.x, p.y, p.z, o.x, o.y, o.z, radius});
 }
-bool is_usual(const FrustumCell& cell) {
-  return are_usual({cell.x0, cell.x1, cell.y0, cell.y1, cell.depth0, cell.depth1});
+bool fits_106_bits(const FrustumCell& cell) {
+  return fit_106_bits({cell.x0, cell.x1, cell.y0, cell.y1, cell.depth0, cell.depth1});
 }
-bool is_usual(const ShellCell& cell) {
-  return are_usual({cell.x0, cell.x1, cell.y0, cell.y1, cell.distance0, cell.distance1});
+bool fits_106_bits(const ShellCell& cell) {
+  return fit_106_bits({cell.x0, cell.x1, cell.y0, cell.y1, cell.distance0, cell.distance1});
 }
-bool is_usual(const Box& cell) {
-  return are_usual({cell.lo.x, cell.lo.y, cell.lo.z, cell.hi.x, cell.hi.y, cell.hi.z});
+bool fits_106_bits(const Box& cell) {
+  return fit_106_bits({cell.lo.x, cell.lo.y, cell.lo.z, cell.hi.x, cell.hi.y, cell.hi.z});
 }
 
-// Half of the middle's leading part is less than all of it, and by more than is rounded here.
+// Half of the middle's leading part is less than the whole middle; the difference is larger than the rounding here.
 Verdict verdict_of(const Enclosure106& excess, double undershoot) {
   const double half = 0.5 * excess.middle().hi;
   if (-half >= excess.radius()) return Verdict::yes;
@@ -57,7 +57,7 @@ BallDecider::BallDecider(const Placement& center, double radius)
   center_ = {local[0], local[1], local[2]};
 }
 
-const BallDecider::In106Bits& BallDecider::closely() const {
+const BallDecider::In106Bits& BallDecider::in_106_bits() const {
   if (in_106_bits_) return *in_106_bits_;
   Enclosure106 from_origin[3];
   for (int i = 0; i < 3; ++i)
@@ -87,8 +87,8 @@ const BallDecider::InDyadics& BallDecider::in_dyadics() const {
 template <class AnyCell, class Close, class Exact>
 bool BallDecider::decided(const AnyCell& cell, Close&& close, Exact&& exact) const {
   ++exact_decisions_;
-  if (is_usual(placement_, radius_) && is_usual(cell)) {
-    const Verdict verdict = close(closely());
+  if (fits_106_bits(placement_, radius_) && fits_106_bits(cell)) {
+    const Verdict verdict = close(in_106_bits());
     if (verdict != Verdict::uncertain) return verdict == Verdict::yes;
   }
   try {
@@ -209,8 +209,9 @@ bool BallDecider::has_in_front(const Point3<double>& normal, const Box& cell) co
   return has_corners_in_front(normal, exact_corners(cell));
 }
 
-// Over t u for t between the shells and u a direction of the pyramid, normal·(t u) is least where u leans most towards
-// the opposite of the normal: far |q| below 0 for a point q of the pyramid (see view_from), or in a ray.
+// Minimum of normal·(t u) for t between the shells and u a direction of the pyramid. The best u leans most towards the
+// opposite of the normal: the minimum is far |q| below 0 for a point q of the pyramid (see view_from), or it is on a
+// ray.
 bool BallDecider::has_in_front(const Point3<double>& normal, const ShellCell& cell) const {
   try {
     const InDyadics& ball = in_dyadics();

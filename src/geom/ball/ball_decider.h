@@ -1,8 +1,7 @@
 #pragma once
-// Does a ball share a point with a cell? Touching counts. Always decided: in doubles with a bound of their error, which
-// is 0 where nothing is rounded, so that it decides most exact touches, too; what that leaves uncertain in pairs of
-// doubles with a bound of their error; what even these do by exact numbers (geom/numbers/dyadic.h), in signs of
-// polynomials.
+// Does a ball share a point with a cell? Touching counts. Always decided, in three steps: in doubles with error bounds
+// (a bound is 0 where nothing is rounded, so this decides most exact contacts, too); then in pairs of doubles with
+// error bounds; then in exact numbers (geom/numbers/dyadic.h), by signs of polynomials.
 
 #include <cstdint>
 #include <optional>
@@ -17,14 +16,14 @@
 
 namespace clusterbench::geom {
 
-// The way from a ball's centre to a cell's nearest point (of the convex set that a shell cell's outer side and its
-// pyramid bound, or of the shell). No point that ball and cell share is farther from it than `play`.
+// The vector from a ball's centre to a cell's nearest point (for a shell cell: of the convex set between its outer side
+// and its pyramid, or of the shell). All points that ball and cell share are within `play` of that point.
 struct NearestPoint {
   Point3<Bounded> way;
   double play;
 };
 
-// One ball for many cells, and one thread.
+// One ball against many cells, for one thread.
 class BallDecider {
  public:
   // radius: finite, >= 0.
@@ -36,22 +35,22 @@ class BallDecider {
   bool meets(const Cell& cell) const;
 
   PyramidView view_of(const ShellCell& cell) const;
-  // view: that of this cell, or of another one with the same tile.
+  // view: of this cell, or of another cell with the same tile.
   bool meets(const ShellCell& cell, const PyramidView& view) const;
 
   const Point3<Bounded>& center() const { return center_; }
-  // Nothing where doubles tell too little.
+  // Empty if doubles are not precise enough.
   std::optional<NearestPoint> nearest_point(const FrustumCell& cell) const;
   std::optional<NearestPoint> nearest_point(const Box& cell) const;
   std::optional<NearestPoint> nearest_point(const ShellCell& cell) const;
 
-  // Is normal·(p - center) >= 0 for all points p of the cell? Exactly; false also for numbers that are too wide for
-  // it.
+  // Is normal·(p - center) >= 0 for all points p of the cell? Exact; also false if the numbers are too wide for exact
+  // arithmetic.
   bool has_in_front(const Point3<double>& normal, const FrustumCell& cell) const;
   bool has_in_front(const Point3<double>& normal, const Box& cell) const;
   bool has_in_front(const Point3<double>& normal, const ShellCell& cell) const;
 
-  // How many cells doubles left uncertain.
+  // The number of cells that doubles left uncertain.
   std::uint64_t exact_decisions() const { return exact_decisions_; }
 
  private:
@@ -61,11 +60,11 @@ class BallDecider {
   struct InDyadics {
     Dyadic x, y, depth, squared_radius;
   };
-  const In106Bits& closely() const;
+  const In106Bits& in_106_bits() const;
   const InDyadics& in_dyadics() const;
   std::optional<NearestPoint> nearest_ray(const PyramidView& view, const ShellCell& cell) const;
   bool has_corners_in_front(const Point3<double>& normal, const Corners& corners) const;
-  // close(ball): the answer in pairs of doubles; exact(ball): in exact numbers, or TooWide.
+  // close(ball): the result in pairs of doubles; exact(ball): in exact numbers, or TooWide.
   template <class AnyCell, class Close, class Exact>
   bool decided(const AnyCell& cell, Close&& close, Exact&& exact) const;
 

@@ -11,7 +11,7 @@ inline Dyadic slope_of(Side side, float low, float high) {
   return side == Side::low ? Dyadic(low) : side == Side::high ? Dyadic(high) : Dyadic();
 }
 
-// Is low <= at <= high, or at beyond the side?
+// Is low <= at <= high, or is `at` beyond the given side?
 inline bool is_on(Side side, const Dyadic& low, const Dyadic& at, const Dyadic& high) {
   if (side == Side::low) return at <= low;
   if (side == Side::high) return at >= high;
@@ -24,7 +24,7 @@ class ExactSlab {
   ExactSlab(const Dyadic& x, const Dyadic& y, const Dyadic& depth, const PyramidSlab& slab)
       : x_(x), y_(y), depth_(depth), slab_(slab) {}
 
-  // Which side of which plane the nearest point is on: the guess, if it is right.
+  // The planes on which the nearest point lies: the guess, if it is right.
   NearestDepth nearest(NearestDepth guess) const {
     if (is_nearest(guess)) return guess;
     constexpr Side k_sides[] = {Side::low, Side::between, Side::high};
@@ -36,7 +36,7 @@ class ExactSlab {
           guess.depth = depth;
           if (is_nearest(guess)) return guess;
         }
-    return guess;  // cannot be: a convex function has a least value
+    return guess;  // unreachable: a convex function has a minimum
   }
 
   // Squared distance to the nearest point <= squared_radius?
@@ -59,8 +59,8 @@ class ExactSlab {
     return true;
   }
 
-  // The nearest point, if its depth is between the ends, is `depth` / `scale` deep: that of the centre's foot on what
-  // it lies on, with n = (slope_x, slope_y, 1) for the line of two planes: centre·n / n².
+  // The nearest point's depth, `depth` / `scale`, if it is between the ends. The point is the foot of the centre on the
+  // plane or line on which it lies; for the line of two planes with n = (slope_x, slope_y, 1) it is centre·n / n².
   struct Foot {
     Dyadic depth, scale;
   };
@@ -78,7 +78,8 @@ class ExactSlab {
   }
   Dyadic end_of(Side depth) const { return Dyadic(depth == Side::low ? slab_.near : slab_.far); }
 
-  // Where the derivative along depth is 0, or points out of the slab at an end, a convex function is least.
+  // A convex function has its minimum where the derivative along depth is 0, or at an end where it points out of the
+  // slab.
   bool is_nearest(const NearestDepth& guess) const {
     if (guess.depth == Side::high && slab_.far == k_infinity) return false;
     if (guess.depth != Side::between) {
@@ -141,7 +142,7 @@ class ExactPyramid {
   }
 
  private:
-  // The foot's from the eye, times the square of its scale.
+  // The squared distance of the foot from the eye, times the square of its scale.
   Dyadic squared_distance(const ExactSlab::Foot& foot, const NearestDepth& nearest) const {
     const auto coordinate = [&](Side side, const Dyadic& of_center, float low, float high) {
       return side == Side::between ? of_center * foot.scale : slope_of(side, low, high) * foot.depth;

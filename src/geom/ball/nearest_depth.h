@@ -1,5 +1,5 @@
 #pragma once
-// At which depth a pyramid slab is nearest to a point: in doubles, and closer in 106 bits.
+// The depth at which a pyramid slab is nearest to a point: in doubles, and more precisely in 106 bits.
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace clusterbench::geom {
 
-// About where the squared distance is least, by Newton's steps, which end after two or three: between the depths where
-// a tile plane begins or ceases to be the nearest thing, it is a parabola.
+// Approximate minimum of the squared distance, by Newton's steps, which end after two or three: between the depths
+// where the nearest plane changes, the function is a parabola.
 inline double nearest_depth(double x, double y, double depth, const PyramidSlab& slab) {
   double at = std::clamp(depth, slab.near, slab.far);
   constexpr int k_most_steps = 8;
@@ -26,8 +26,8 @@ inline double nearest_depth(double x, double y, double depth, const PyramidSlab&
   return at;
 }
 
-// Half the slope, along depth, of a gap's square. A gap whose side is not certain is below its error, and its slope
-// below that times either plane's.
+// Half the derivative of a gap's square along depth. A gap whose side is uncertain is smaller than its error, and its
+// derivative is smaller than that error times the slope of either plane.
 template <class Number>
 Number half_slope(const Gap<Number>& gap, float low, float high) {
   const double slope = gap.side == Side::low ? low : gap.side == Side::high ? -static_cast<double>(high) : 0.0;
@@ -36,7 +36,7 @@ Number half_slope(const Gap<Number>& gap, float low, float high) {
   return error > 0.0 ? widened(product, (std::abs(double{low}) + std::abs(double{high})) * error) : product;
 }
 
-// How large a number can be, at least 0.
+// An upper bound of a number, at least 0.
 inline double most(const Bounded& number) {
   return std::max(0.0, number.error + number.value);
 }
@@ -44,7 +44,7 @@ inline double most(const Enclosure106& number) {
   return number.radius() + std::max(0.0, number.middle().hi);
 }
 
-// What a slab has at a depth, as a centre sees it.
+// The cross-section of a slab at one depth, relative to a centre.
 template <class Number>
 struct AtDepth {
   Side x, y;
@@ -53,7 +53,7 @@ struct AtDepth {
   double x_error,
       y_error;  // how far the point on such a side can be from the nearest one, where the side is not certain
 
-  // along: from the centre's depth.
+  // along: relative to the centre's depth.
   AtDepth(const Number& center_x, const Number& center_y, const PyramidSlab& slab, const Number& at,
           const Number& along, Side end) {
     const auto plane = [&](float slope) { return Number(double{slope}) * at; };
@@ -64,7 +64,7 @@ struct AtDepth {
     x_error = error_of(gap_x.size);
     y_error = error_of(gap_y.size);
     square = gap_x.size * gap_x.size + gap_y.size * gap_y.size + along * along;
-    // At an end only a derivative that leads away from it leads lower.
+    // At an end of the slab only a derivative that points away from it leads to smaller values.
     const Number slope = half_slope(gap_x, slab.x0, slab.x1) + half_slope(gap_y, slab.y0, slab.y1) + along;
     const double falls = end != Side::high ? most(-slope) : 0.0;
     const double rises = end != Side::low ? most(slope) : 0.0;
@@ -73,8 +73,8 @@ struct AtDepth {
   }
 };
 
-// Is the slab's nearest point surely as deep as the centre? Then it is looked at there, however deep that is, and the
-// way to it is as exact as the coordinates across: so are touches of planes through the eye's own axes.
+// Is the slab's nearest point certainly at the centre's depth? Then it is computed at that depth, and the vector to it
+// is as exact as the coordinates across. This is the case for contacts with planes through the eye's own axes.
 inline bool is_level(const Bounded& x, const Bounded& y, const Bounded& depth, const PyramidSlab& slab) {
   const auto is_upright = [&](float low, const Bounded& center, float high) {
     return slope_on(side_of(low * depth.value, center.value, high * depth.value), low, high) == 0.0;
@@ -89,9 +89,9 @@ inline NearestDepth nearest_between(const Bounded& x, const Bounded& y, const Bo
   nearest.at = nearest_depth(x.value, y.value, depth.value, slab);
   nearest.depth = nearest.at == slab.near ? Side::low : nearest.at == slab.far ? Side::high : Side::between;
   nearest.is_level = depth.error > 0.0 && nearest.at == depth.value && is_level(x, y, depth, slab);
-  nearest.looked_at = nearest.is_level ? depth : Bounded(nearest.at);
-  const Bounded along = nearest.is_level ? Bounded(0.0) : nearest.looked_at - depth;
-  const AtDepth<Bounded> there(x, y, slab, nearest.looked_at, along, nearest.depth);
+  nearest.evaluated_at = nearest.is_level ? depth : Bounded(nearest.at);
+  const Bounded along = nearest.is_level ? Bounded(0.0) : nearest.evaluated_at - depth;
+  const AtDepth<Bounded> there(x, y, slab, nearest.evaluated_at, along, nearest.depth);
   nearest.x = there.x;
   nearest.y = there.y;
   nearest.square = there.square;
@@ -99,7 +99,7 @@ inline NearestDepth nearest_between(const Bounded& x, const Bounded& y, const Bo
   return nearest;
 }
 
-// Closer to where the squared distance is least: a depth of the slab, as any is that lies between its ends.
+// A depth closer to the minimum of the squared distance; still a depth of the slab, as it lies between its ends.
 inline Enclosure106 closer_depth(const Enclosure106& x, const Enclosure106& y, const Enclosure106& depth,
                                  const PyramidSlab& slab, const NearestDepth& guess) {
   if (guess.depth != Side::between) return Enclosure106(guess.at);
@@ -113,13 +113,15 @@ inline double undershoot_of(double steepness) {
   return steepness == 0.0 ? 0.0 : bounded::rounded_up(steepness * steepness);
 }
 
-// From the centre to the nearest point of the slab, which is no farther from what was looked at along depth than half
-// the derivative there.
+// The vector from the centre to the nearest point of the slab. Along depth that point differs from the computed one by
+// no more than half the derivative there.
 inline Point3<Bounded> way_to(const NearestDepth& nearest, const Bounded& x, const Bounded& y, const Bounded& depth,
                               const PyramidSlab& slab) {
-  Bounded way_x = across(gap_between(Bounded(slab.x0) * nearest.looked_at, x, Bounded(slab.x1) * nearest.looked_at));
-  Bounded way_y = across(gap_between(Bounded(slab.y0) * nearest.looked_at, y, Bounded(slab.y1) * nearest.looked_at));
-  Bounded way_z = nearest.is_level ? Bounded(0.0) : depth - nearest.looked_at;
+  Bounded way_x =
+      across(gap_between(Bounded(slab.x0) * nearest.evaluated_at, x, Bounded(slab.x1) * nearest.evaluated_at));
+  Bounded way_y =
+      across(gap_between(Bounded(slab.y0) * nearest.evaluated_at, y, Bounded(slab.y1) * nearest.evaluated_at));
+  Bounded way_z = nearest.is_level ? Bounded(0.0) : depth - nearest.evaluated_at;
   if (nearest.steepness > 0.0) {
     const auto move = [&](Bounded& part, double slope0, double slope1) {
       part.error = bounded::rounded_up(part.error + nearest.steepness * std::max(std::abs(slope0), std::abs(slope1)));

@@ -8,7 +8,8 @@
 namespace clusterbench::geom {
 namespace {
 
-// Points p of a convex set in a ball have |p - q|² <= radius² - |q - center|², q the set's nearest point to the centre.
+// Points p of a convex set in a ball satisfy |p - q|² <= radius² - |q - center|², where q is the set's nearest point to
+// the centre.
 double play_of(const Bounded& excess, double undershoot) {
   if (excess.value == 0.0 && excess.error == 0.0 && undershoot == 0.0) return 0.0;
   return bounded::rounded_up(std::sqrt(bounded::rounded_up(std::max(0.0, -excess.value) + excess.error + undershoot)));
@@ -34,7 +35,8 @@ std::optional<NearestPoint> BallDecider::nearest_point(const FrustumCell& cell) 
                       play_of(nearest.square - squared_radius_, nearest.undershoot())};
 }
 
-// Seen from behind, the corner on the near shell whose ray leans to the centre most, if that is certain.
+// For a centre behind the eye: the corner on the near shell whose ray leans most towards the centre, if that is
+// certain.
 std::optional<NearestPoint> BallDecider::nearest_ray(const PyramidView& view, const ShellCell& cell) const {
   if (view.nearest.steepness > 0.0 && !(-view.along).is_surely_above(0.0)) return std::nullopt;
   std::optional<NearestPoint> nearest;
@@ -56,10 +58,10 @@ std::optional<NearestPoint> BallDecider::nearest_ray(const PyramidView& view, co
   return is_certain ? nearest : std::nullopt;
 }
 
-// Not behind, see view_of(). If t, the distance of the nearest point from the eye, is not cut off by the near shell,
-// the pyramid up to the far shell is the convex set. Else points p = s u, s >= near = t, are at least as far from the
-// centre c as from its foot a u* on the nearest ray, beside which it lies: |p - c|² >= |p - a u*|² + |c|² - a². With e
-// = radius² - |c|² + a² - (near - a)² that leaves |p - near u*|² <= e near / a.
+// For a centre that is not behind, see view_of(). If the near shell does not cut off t, the distance of the nearest
+// point from the eye, the pyramid up to the far shell is the convex set. Otherwise points p = s u, s >= near = t, are
+// at least as far from the centre c as from c's foot a u* on the nearest ray, beside which c lies: |p - c|² >= |p - a
+// u*|² + |c|² - a². With e = radius² - |c|² + a² - (near - a)² that leaves |p - near u*|² <= e near / a.
 std::optional<NearestPoint> BallDecider::nearest_point(const ShellCell& cell) const {
   const PyramidView view = view_of(cell);
   const Bounded near(cell.distance0), far(cell.distance1);
@@ -75,7 +77,7 @@ std::optional<NearestPoint> BallDecider::nearest_point(const ShellCell& cell) co
     if (play > 0.0)
       play = factor > 0.0 ? bounded::rounded_up(play * std::sqrt(std::max(1.0, near.value / factor))) : k_infinity;
   }
-  // From the foot on further along the ray.
+  // From the foot further along the ray.
   const Bounded further = across(gap) / view.along;
   return NearestPoint{way + further * (center_ + way), play};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A pyramid of tile planes between two depths, as the decider of balls walks it.
+// A pyramid of tile planes between two depths, as BallDecider uses it.
 
 #include <cmath>
 #include <limits>
@@ -11,7 +11,7 @@ namespace clusterbench::geom {
 
 inline constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
-// What is between four tile planes and two depths; far may be infinite.
+// The part between four tile planes and two depths; far may be infinite.
 struct PyramidSlab {
   float x0, x1, y0, y1;
   double near, far;
@@ -21,12 +21,12 @@ inline double slope_on(Side side, float low, float high) {
   return side == Side::low ? low : side == Side::high ? high : 0.0;
 }
 
-// The rays in which the tile planes of a pyramid meet: slopes of these.
-template <class Take>
-bool any_ray(const PyramidSlab& pyramid, Take&& take) {
+// Tests the rays in which the tile planes of a pyramid meet, by their slopes. True as soon as test(x, y) is.
+template <class Test>
+bool any_ray(const PyramidSlab& pyramid, Test&& test) {
   for (const float x : {pyramid.x0, pyramid.x1})
     for (const float y : {pyramid.y0, pyramid.y1})
-      if (take(x, y)) return true;
+      if (test(x, y)) return true;
   return false;
 }
 

@@ -1,13 +1,13 @@
 #pragma once
-// Does an oriented box share a point with a cell? Touching counts. Always decided: in doubles with a bound of their
-// error, which is 0 where nothing is rounded, so that boxes on lattices are decided there, too; what that leaves
-// uncertain in rational numbers.
+// Does an oriented box share a point with a cell? Touching counts. Always decided: in doubles with error bounds, which
+// are 0 where nothing is rounded, so this decides boxes on lattices, too; pairs that stay uncertain are decided in
+// rational numbers.
 //
 // The box's six faces are clipped by the cell's planes (Sutherland and Hodgman 1974). Box and cell share a point if a
-// part of a face is left, or if the cell lies within the box, which one of its corners then does. Of a cell between
-// shells the faces are clipped by its pyramid's planes: the distances of what is left from the eye are one interval,
-// since what box and pyramid share is convex; its far end is at a corner of a clipped face, and its near end the eye
-// itself or a clipped face's nearest point. Boxes without volume are their faces.
+// part of a face remains, or if the cell lies within the box; then one of the cell's corners does. For a cell between
+// shells the faces are clipped by its pyramid's planes. The distances from the eye over box ∩ pyramid are one interval,
+// because that set is convex. Its far end is at a corner of a clipped face, its near end is the eye itself or a clipped
+// face's nearest point. Boxes without volume consist of their faces.
 
 #include <cstdint>
 #include <optional>
@@ -19,22 +19,21 @@
 
 namespace clusterbench::geom {
 
-// How near to and far from the eye what a box and a tile's pyramid share begins and ends, as squared distances, each
-// end between bounds.
+// The squared distances from the eye at which box ∩ pyramid begins and ends, each between bounds.
 template <class Bound>
 struct SquaredReach {
   bool is_empty = true;
   Bound near_lo{}, near_hi{}, far_lo{}, far_hi{};
 };
 
-// A tile as one box reaches into it: nothing where doubles cannot tell.
+// The part of a box in a tile; empty if doubles are not precise enough.
 struct BoxView {
   std::optional<SquaredReach<double>> reach;
-  // Found when it is first needed.
+  // Computed when it is first needed.
   mutable std::optional<SquaredReach<Rational>> exact_reach;
 };
 
-// One box for many cells, and one thread.
+// One box against many cells, for one thread.
 class BoxDecider {
  public:
   explicit BoxDecider(const BoxVolume& box) : box_(box) {}
@@ -44,16 +43,16 @@ class BoxDecider {
   bool meets(const ShellCell& cell) const { return meets(cell, view_of(cell)); }
   bool meets(const Cell& cell) const;
   bool holds(const Vec3d& p) const;
-  // Of a cell by the first step alone.
+  // The result of the first step alone.
   Verdict meets_quickly(const Cell& cell) const;
-  // And by the last step alone.
+  // The result of the last step alone.
   bool meets_exactly(const Cell& cell) const;
 
   BoxView view_of(const ShellCell& tile) const;
-  // view: that of this cell, or of another one with the same tile.
+  // view: of this cell, or of another cell with the same tile.
   bool meets(const ShellCell& cell, const BoxView& view) const;
 
-  // How many cells doubles left uncertain.
+  // The number of cells that doubles left uncertain.
   std::uint64_t exact_decisions() const { return exact_decisions_; }
 
  private:

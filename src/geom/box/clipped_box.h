@@ -25,7 +25,7 @@ inline Sign sign_of(const Rational& number) {
   return number.sign() > 0 ? Sign::positive : number.sign() < 0 ? Sign::negative : Sign::zero;
 }
 
-// Numbers between which one that is not negative certainly lies. A value ± error is two roundings away from them.
+// Bounds of a number that is certainly not negative. They are two roundings away from value ± error.
 inline double lower_bound(const Bounded& number) {
   if (number.error == 0.0) return number.value;
   return std::max(0.0, number.value - number.error - 0x1p-50 * (std::abs(number.value) + number.error));
@@ -51,7 +51,7 @@ struct BoundOf<Rational> {
   using Type = Rational;
 };
 
-// Up to so many things, without a heap.
+// A list of up to `most` elements, without heap memory.
 template <class T, std::size_t most>
 class Few {
  public:
@@ -67,8 +67,8 @@ class Few {
   std::size_t count_ = 0;
 };
 
-// The planes of a cell: of one between shells those of its pyramid. Numbers are the cell's own, and so normals are not
-// of unit length. `inside` is a point of the cell, of a pyramid its apex.
+// The planes of a cell; for a cell between shells, of its pyramid. The numbers are the cell's own, so normals are not
+// of unit length. `inside` is a point of the cell, for a pyramid its apex.
 struct CellPlanes {
   static constexpr std::size_t k_most = 6;
   Few<HalfSpace<double>, k_most> all;
@@ -80,7 +80,7 @@ Point3<Real> converted(const Point3<double>& p) {
   return {Real(p.x), Real(p.y), Real(p.z)};
 }
 
-// position - origin (or a direction) turned.
+// Rotates position - origin (or a direction).
 template <class Real>
 Point3<Real> turned(const Mat3d& rotation, const Vec3d& position, const Vec3d& origin) {
   const Real x = Real(position.x) - Real(origin.x), y = Real(position.y) - Real(origin.y),
@@ -91,7 +91,7 @@ Point3<Real> turned(const Mat3d& rotation, const Vec3d& position, const Vec3d& o
   return {row(0), row(1), row(2)};
 }
 
-// Every answer holds only if no sign was unknown on the way: is_certain().
+// Every result holds only if no sign was unknown on the way: is_certain().
 template <class Real>
 class ClippedBox {
  public:
@@ -108,7 +108,7 @@ class ClippedBox {
 
   bool is_certain() const { return is_certain_; }
 
-  // Yes once one part is known to share a point, whatever is known of the others.
+  // Yes as soon as one part certainly shares a point, even if other parts are uncertain.
   bool shares_a_point() {
     if (is_beside_) return false;
     bool is_all_certain = true;
@@ -135,7 +135,7 @@ class ClippedBox {
   }
 
  private:
-  static constexpr std::size_t k_most_corners = 4 + CellPlanes::k_most;  // a plane adds one
+  static constexpr std::size_t k_most_corners = 4 + CellPlanes::k_most;  // each plane adds at most one
   using Polygon = Few<Point, k_most_corners>;
   struct Plane {
     Point normal;
@@ -154,7 +154,7 @@ class ClippedBox {
     return found;
   }
 
-  // Keeps the planes that do not have the whole box inside; a plane that has it outside leaves nothing.
+  // Keeps the planes that cut the box. A plane with the whole box outside leaves nothing.
   void find_cutting(const CellPlanes& planes) {
     for (const HalfSpace<double>& given : planes.all) {
       const Plane plane{converted<Real>(given.normal), Real(given.offset)};
@@ -174,11 +174,11 @@ class ClippedBox {
     const Point& along = axes_[axis];
     return !is_zero(along.x) || !is_zero(along.y) || !is_zero(along.z);
   }
-  // Is the face the same as the one opposite to it, and that one's turn comes first?
+  // Is the face equal to its opposite face, which comes first?
   bool is_second(unsigned face) const { return face % 2 == 1 && !has_length(face / 2); }
 
-  // What all planes leave of a face, in order around it. Of a face without area a segment or a point: no corner comes
-  // twice.
+  // The part of a face that all planes leave, as corners in order. A face without area becomes a segment or a point,
+  // without repeated corners.
   Polygon clipped(unsigned face) {
     const unsigned axis = face / 2, side = (face % 2) << axis;
     const unsigned next = has_length((axis + 1) % 3) ? 1u << (axis + 1) % 3 : 0,
@@ -215,7 +215,7 @@ class ClippedBox {
     return out;
   }
 
-  // Is the point in the box? A box without volume is its faces, and no is said of all points.
+  // Is the point in the box? Always false for a box without volume, because it consists of its faces.
   bool holds(const Point& p) {
     const Point from_middle = p - middle_;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -256,8 +256,8 @@ class ClippedBox {
     add_near(dot(from, from) - towards * towards / whole, reach);
   }
 
-  // The foot of the eye's perpendicular on a face's plane, if it lies in what is left of the face: on the same side of
-  // all edges.
+  // The foot of the eye's perpendicular on a face's plane, if it lies in the remaining part of the face: on the same
+  // side of all edges.
   void add_face(const Polygon& polygon, std::size_t axis, SquaredReach<Bound>& reach) {
     const Point normal = cross(axes_[(axis + 1) % 3], axes_[(axis + 2) % 3]);
     int before = 0, behind = 0;
@@ -273,7 +273,7 @@ class ClippedBox {
 
   Point middle_;
   std::array<Point, 3> axes_;
-  std::array<Point, 8> corners_;  // by the bits 1, 2 and 4 of these: beyond the middle along an axis
+  std::array<Point, 8> corners_;  // by the bits 1, 2 and 4 of the index: the positive side of each axis
   Few<Plane, CellPlanes::k_most> cutting_;
   Point inside_;
   bool is_beside_ = false, is_certain_ = true;

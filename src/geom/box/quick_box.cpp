@@ -13,7 +13,7 @@ QuickBox::QuickBox(const BoxVolume& box, const Vec3d& middle_at)
     const Vec3d &next = axes[(i + 1) % 3], &other = axes[(i + 2) % 3];
     const Vec3d normal = glm::cross(next, other);
     const double size = glm::length(normal), most = glm::length(next) * glm::length(other);
-    // Of half axes that are nearly parallel too little is left in double precision.
+    // For half axes that are nearly parallel, double precision loses too many digits.
     if (!(size > 0x1p-10 * most) || !std::isnormal(size)) {
       has_volume_ = false;
       continue;

@@ -40,12 +40,12 @@ Axis axis_of(const SpotVolume& light) {
   return axis;
 }
 
-// Where an axis is within planes: from `from` to `to`, or on and on.
+// The part of an axis inside some planes: from `from` to `to`, or without end.
 class Span {
  public:
   explicit Span(const Axis& axis) : axis_(axis) {}
 
-  // Cuts away what is beyond normal·p <= offset.
+  // Removes the part beyond normal·p <= offset.
   void cut(const Point& normal, const Dyadic& offset) {
     const Dyadic slope = dot(normal, axis_.d), margin = offset - dot(normal, axis_.a);
     if (slope.sign() == 0) {
@@ -57,7 +57,7 @@ class Span {
       to_ = t;
     }
   }
-  // x between x0 and x1 times the depth, likewise y; not behind the eye.
+  // Clips to x between x0 and x1 times the depth, likewise y; not behind the eye.
   void cut_by_tile(float x0, float x1, float y0, float y1) {
     const Dyadic none(0.0), plus(1.0), minus(-1.0);
     cut({minus, none, -Dyadic(x0)}, none);
@@ -110,32 +110,32 @@ struct Meets {
     span.cut_by_slab(2, -cell.depth1, -cell.depth0);
     return !span.is_empty();
   }
-  // Distances from the eye along the axis fall and rise again: if one point in the pyramid is not too far and one not
-  // too near, there is one that is neither.
+  // Distances from the eye along the axis decrease and then increase. If one point in the pyramid is not too far and
+  // one is not too near, there is a point that is neither.
   bool operator()(const ShellCell& cell) const {
     Span span(axis);
     span.cut_by_tile(cell.x0, cell.x1, cell.y0, cell.y1);
     if (span.is_empty()) return false;
     const Dyadic squared_near = squared(Dyadic(cell.distance0)), squared_far = squared(Dyadic(cell.distance1));
     bool has_near = false, has_far = false;
-    const auto take = [&](const Parameter& t) {
+    const auto add = [&](const Parameter& t) {
       const Point p = t.bottom * axis.a + t.top * axis.d;
       const Dyadic square = dot(p, p), scale = squared(t.bottom);
       has_near = has_near || square <= squared_far * scale;
       has_far = has_far || square >= squared_near * scale;
     };
-    take(span.from());
+    add(span.from());
     if (span.ends_in_range())
-      take(*span.to());
+      add(*span.to());
     else
-      take_end(squared_near, squared_far, has_near, has_far);
+      add_end(squared_near, squared_far, has_near, has_far);
     const Parameter foot{-dot(axis.a, axis.d), axis.square};
-    if (span.holds(foot) && span.is_in_range(foot)) take(foot);
+    if (span.holds(foot) && span.is_in_range(foot)) add(foot);
     return has_near && has_far;
   }
 
-  // At the range, t = range / |d|: |a|² + range² + 2 range a·d / |d|.
-  void take_end(const Dyadic& squared_near, const Dyadic& squared_far, bool& has_near, bool& has_far) const {
+  // At the end of the range, t = range / |d|: |a|² + range² + 2 range a·d / |d|.
+  void add_end(const Dyadic& squared_near, const Dyadic& squared_far, bool& has_near, bool& has_far) const {
     const Dyadic known = dot(axis.a, axis.a) + axis.squared_range;
     const Dyadic change = Dyadic(2.0) * Dyadic(light.range) * dot(axis.a, axis.d);
     has_near = has_near || at_most_root((known - squared_far) * axis.square, -change, axis.square);

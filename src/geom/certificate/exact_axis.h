@@ -1,6 +1,6 @@
 #pragma once
-// Does a spot's axis, as long as its range, share a point with a cell? Exactly. A spot holds its axis, and one with a
-// half-angle of 0 nothing else.
+// Does a spot's axis, cut at its range, share a point with a cell? Exact. A spot contains its axis; a spot with a
+// half-angle of 0 contains nothing else.
 
 #include <optional>
 
@@ -9,7 +9,7 @@
 
 namespace clusterbench::geom {
 
-// light.range: finite. Nothing for numbers that are too wide (geom/numbers/dyadic.h).
+// light.range: finite. Empty for numbers that are too wide (geom/numbers/dyadic.h).
 std::optional<bool> axis_meets(const SpotVolume& light, const Cell& cell);
 
 }  // namespace clusterbench::geom

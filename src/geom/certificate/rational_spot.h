@@ -1,7 +1,7 @@
 #pragma once
-// Does a spot's volume share a point with a cell? Answers that can be checked, and the checks, in exact arithmetic: a
-// point that both have, or a plane between them. The cosine of the half-angle is not rational; bounds of it stand in,
-// each on the side that makes a check harder to pass.
+// Does a spot's volume share a point with a cell? Checks in exact arithmetic for proposed evidence: a common point, or
+// a plane between the two. The cosine of the half-angle is not rational; a bound is used in its place, each time the
+// bound that makes the check harder to pass.
 
 #include <array>
 
@@ -20,7 +20,7 @@ struct ExactSpot {
 };
 
 // An infinite range becomes the largest double. Angles above 90° are taken as 90°.
-// angle_bits: of the half-angle's cosine and sine.
+// angle_bits: precision of the half-angle's cosine and sine.
 ExactSpot exact_spot(const SpotVolume& light, unsigned angle_bits = 320);
 
 // Is the angle between v and the axis certainly at most the half-angle?

@@ -20,13 +20,13 @@ Spot106::Spot106(const SpotVolume& light, double range_m)
     : apex(local_point_in<Enclosure106>(light.apex)),
       direction(local_point_in<Enclosure106>({light.direction, Vec3d(0.0), light.apex.rotation})),
       range(range_m) {
-  // The double nearest to pi / 2 is below it.
+  // The double nearest to pi / 2 is below pi / 2.
   const Angle106 angle = angle_106(Enclosure106(std::min(light.half_angle_rad, std::numbers::pi / 2.0)));
   cosine = angle.cosine;
   sine = angle.sine;
 }
 
-// Inside of the cone's side: sin² along² > cos² across², which keeps its digits for narrow cones.
+// Is it inside the cone's side: sin² along² > cos² across²? This form keeps its digits for narrow cones.
 Verdict Spot106::leans(const Point106& way) const {
   const Enclosure106 along = dot(way, direction);
   if (!(k_zero < along)) return Verdict::uncertain;
@@ -48,9 +48,9 @@ bool Spot106::surely_holds(const Point106& p) const {
   return dot(v, v) < squared(range) && leans(v) == Verdict::yes;
 }
 
-// Does the volume certainly extend along a normal (of any length) from its apex by less than all of these? It extends
-// along a unit vector w by range if w is in the cone, else by range times cos(angle of w to the axis - half-angle), if
-// that is positive.
+// Is the extent of the volume from its apex along a normal (of any length) certainly below all of these? Along a unit
+// vector w the extent is range if w is in the cone, else range times cos(angle of w to the axis - half-angle), if that
+// is positive.
 template <std::size_t N>
 bool Spot106::is_surely_below(const Point106& normal, const std::array<Enclosure106, N>& least) const {
   const Enclosure106 size = dot(normal, normal), squared_reach = squared(range) * size;
@@ -58,7 +58,7 @@ bool Spot106::is_surely_below(const Point106& normal, const std::array<Enclosure
   const Point106 across = cross(normal, direction);
   const Enclosure106 squared_across = dot(across, across);
   const bool is_outside = along < k_zero || squared(sine * along) < squared(cosine) * squared_across;
-  // |direction| times the extent of the normal, both without unit length.
+  // |direction| times the extent along the normal; both vectors are not of unit length.
   const Enclosure106 lean = cosine * along + sine * sqrt(squared_across);
   const bool is_behind = is_outside && lean < k_zero;
   const Enclosure106 axis_size = dot(direction, direction), squared_extent = squared(range * lean);

@@ -1,7 +1,7 @@
 #pragma once
-// Proofs about a spot in numbers of 106 bits between bounds (geom/numbers/enclosure_106.h): that it holds a point, that
-// a plane lies between it and corners. The same as geom/certificate/rational_spot.h proves in exact numbers, where
-// these cannot tell.
+// Proofs about a spot in numbers of 106 bits with error bounds (geom/numbers/enclosure_106.h): that it contains a
+// point, that a plane lies between it and corners. geom/certificate/rational_spot.h proves the same in exact numbers,
+// for cases that these cannot decide.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ namespace clusterbench::geom {
 
 using Point106 = Point3<Enclosure106>;
 
-// Exactly the point: sums of two doubles have no radius.
+// The exact point: sums of two doubles have radius 0.
 inline Point106 point_106(const Point3<DoubleDouble>& p) {
   return {Enclosure106(p.x), Enclosure106(p.y), Enclosure106(p.z)};
 }
@@ -47,7 +47,7 @@ inline bool surely_in(const FrustumCell& c, const Point106& p) {
          surely_in_tile(c.x0, c.x1, c.y0, c.y1, p);
 }
 
-// Corner i of a cell, as geom/shapes/polytope.h counts them.
+// Corner i of a cell, in the order of geom/shapes/polytope.h.
 inline Point106 corner_of(const Box& cell, std::size_t i) {
   return {Enclosure106((i & 1) != 0 ? cell.hi.x : cell.lo.x), Enclosure106((i & 2) != 0 ? cell.hi.y : cell.lo.y),
           Enclosure106((i & 4) != 0 ? cell.lo.z : cell.hi.z)};
@@ -63,18 +63,18 @@ struct Spot106 {
   Point106 apex, direction;
   Enclosure106 range, cosine, sine;
 
-  // range_m: finite, and the light's range as far as it matters.
+  // range_m: finite; the light's range, limited to the part that matters.
   Spot106(const SpotVolume& light, double range_m);
 
   // Is a direction from the apex (at less than 90° from the axis) in the cone?
   Verdict leans(const Point106& way) const;
-  // Does it certainly lean more than 90° from all of the cone's?
+  // Is its angle to all directions of the cone certainly more than 90°?
   bool surely_leans_away(const Point106& way) const;
-  // Does the volume certainly hold p?
+  // Does the volume certainly contain p?
   bool surely_holds(const Point106& p) const;
   // Does a plane with this normal (from the volume to the corners; any length) certainly lie between?
   bool surely_separated(const Point106& normal, const std::array<Point106, 8>& corners) const;
-  // The same between the volume and all p with |p| <= radius.
+  // As above, but between the volume and all p with |p| <= radius.
   bool surely_separated(const Point106& normal, const Enclosure106& radius) const;
 
  private:

@@ -15,9 +15,9 @@
 namespace clusterbench::geom {
 namespace {
 
-// What the filter says is said with evidence: a yes with a point that is in cell and volume by more than the tolerance,
-// a no with a plane or (shells) a distance that leaves more than the tolerance between them. Only measuring that
-// evidence has to be exact enough; where a candidate came from, and how badly it was placed, does not matter.
+// Every answer of the filter has evidence: a yes has a point that is in cell and volume by more than the tolerance, a
+// no has a plane or (shells) a distance that leaves more than the tolerance between them. Only the measurement of that
+// evidence has to be precise enough; the source and the precision of a candidate do not matter.
 //
 // The tolerance is 2^-38 S, S = |apex| + range + the cell's largest distance from the origin. With u = 2^-53, and sine
 // and cosine of the half-angle right to 2 u, measuring is off by at most:
@@ -37,17 +37,17 @@ namespace {
 //           part along it 13 u S, the part across it 22 u S; or 2^11 u S where a direction of the pyramid proves itself
 //   95 u S  gap of a plane beside a polytope around a shell cell, whose corners are off by 12 u S: 80 u S as above and
 //           these
-// Under 2^7 u S = 2^-46 S, and 2^-41 S for balls and shells: 8 times less than the tolerance and more. A spot of 10 m,
-// 50 m from the eye, and a cell up to 60 m from it: S = 120 m, the tolerance 4e-10 m, and what is measured off by less
-// than 2e-12 m.
+// Under 2^7 u S = 2^-46 S, and 2^-41 S for balls and shells: 8 times less than the tolerance and more. Example: a spot
+// of 10 m, 50 m from the eye, and a cell up to 60 m from it: S = 120 m, the tolerance is 4e-10 m, and the measuring
+// error is below 2e-12 m.
 //
-// Distances of spots from the eye: the inner interval is proven by points (pull() says how far a candidate that may lie
-// outside by the tolerance has to move to be in the set for certain), the outer one by the ball's and by planes.
-// Candidates only say where to look: one that rounding has lost would make a "no" wrong (test:
-// FilterOnMaps.lights_that_a_cell_touches_or_misses_are_never_contradicted).
+// Distances of spots from the eye: the inner interval is proven by points (pull() is the distance by which a candidate
+// that may lie outside by the tolerance has to move to be in the set for certain), the outer one by the ball's
+// distances and by planes. Candidates without proof only guide the search; a "no" that relied on them would be wrong if
+// rounding had lost one (test: FilterOnMaps.lights_that_a_cell_touches_or_misses_are_never_contradicted).
 
-// A corner well inside the volume settles most pairs, a plane along the cone's side most others.
-Verdict corners_settle(const Volume<double>& volume, const Polytope<double>& cell, double tolerance) {
+// A corner well inside the volume decides most pairs, a plane along the cone's side most of the others.
+Verdict corners_decide(const Volume<double>& volume, const Polytope<double>& cell, double tolerance) {
   Point3<double> sum{0.0, 0.0, 0.0};
   const double safe_range = volume.range - tolerance;
   for (const Point3<double>& corner : cell.corners) {
@@ -56,8 +56,8 @@ Verdict corners_settle(const Volume<double>& volume, const Polytope<double>& cel
       return Verdict::yes;
     sum = sum + v;
   }
-  const Point3<double> outward =
-      volume.cos_angle * unit_across(volume.axis, sum) - volume.sin_angle * volume.axis;  // of the cone's side
+  const Point3<double> outward = volume.cos_angle * unit_across(volume.axis, sum) -
+                                 volume.sin_angle * volume.axis;  // normal of a plane along the cone's side
   for (const Point3<double>& corner : cell.corners)
     if (dot(outward, corner - volume.apex) <= tolerance) return Verdict::uncertain;
   return Verdict::no;
@@ -78,7 +78,7 @@ Stretch stretch_within(const Polytope<double>& cell, const Point3<double>& start
   return stretch;
 }
 
-// Of two segments (length 1 each: start + t step, 0 <= t <= 1), about the points that are nearest to each other.
+// The parameters of the nearest points of two segments (start + t step, 0 <= t <= 1), approximately.
 struct Nearest {
   double first, second;
 };
@@ -92,8 +92,8 @@ Nearest nearest_of_segments(const Point3<double>& start1, const Point3<double>& 
   return {a > 0.0 ? std::clamp((b * second - d) / a, 0.0, 1.0) : 0.0, second};
 }
 
-// Two points that are often well inside both: the middle of the axis in the cell, and where the way from the axis to
-// the cell's own middle line, where these are nearest to each other, has just entered the cell.
+// Tests two points that are often well inside both sets: the middle of the axis's part in the cell; and the point where
+// the line from the axis to the cell's middle line, between their nearest points, has just entered the cell.
 bool meet_near_axis(const Volume<double>& volume, const Polytope<double>& cell, double tolerance) {
   const auto is_common = [&](const Point3<double>& p) { return witness_at(volume, cell.faces, p).margin > tolerance; };
   const Stretch along = stretch_within(cell, volume.apex, volume.axis, {0.0, volume.range});
@@ -118,7 +118,7 @@ Verdict meets_polytope(const Volume<double>& unlimited, const Polytope<double>& 
   const Reached<6> reached = reached_faces(volume, cell.faces, setting.tolerance);
   if (reached.is_beyond) return Verdict::no;
   if (volume.is_cone) {
-    const Verdict verdict = corners_settle(volume, cell, setting.tolerance);
+    const Verdict verdict = corners_decide(volume, cell, setting.tolerance);
     if (verdict != Verdict::uncertain) return verdict;
     Separator<double> separator(volume, cell);
     separator.try_likely_tangents();
@@ -131,9 +131,9 @@ Verdict meets_polytope(const Volume<double>& unlimited, const Polytope<double>& 
   return may_be_apart && find_separation(setting).gap > setting.tolerance ? Verdict::no : Verdict::uncertain;
 }
 
-// A point as a pyramid sees it: t >= 0 from the eye, the pyramid's points are sqrt((t - along)² + height²) away from
-// it, or more (`bound`, proven by a half-space that holds the pyramid), and one of them is just that far away
-// (`attained`, in a direction that was tried). In exact numbers both are the same (rational_cell.cpp).
+// A point relative to a pyramid: for t >= 0 from the eye, the pyramid's points are at least sqrt((t - along)² +
+// height²) away from it (`bound`, proven by a half-space that contains the pyramid), or one of them is exactly that far
+// away (`attained`, in a tested direction). In exact numbers both are the same (rational_cell.cpp).
 struct Part {
   double along, height;
 };
@@ -148,64 +148,65 @@ std::array<Point3<double>, 4> tile_rays(const ShellCell& tile) {
           {tile.x0, tile.y1, -1.0}};
 }
 
-// A direction of the pyramid, and what of the way to p is across it.
+// A direction of the pyramid, and the component of the vector to p across it.
 struct Tried {
   Part part;
   Point3<double> across;
 };
 
-// The nearest of the directions tried: the four rays, and on each face the point along the line from ray to ray, start
-// + s (end - start), that leans towards p most. Cut to the ends, it is one of the pyramid's however rounded s is.
+// The nearest of some directions: the four rays, and on each face the point along the line from ray to ray, start + s
+// (end - start), that leans most towards p. As s is clamped to the ends, the direction is one of the pyramid's even if
+// s is rounded.
 Tried nearest_direction(const Point3<double>& p, const std::array<Point3<double>, 4>& rays) {
   Tried best{{-2.0 * length(p), 0.0}, {0.0, 0.0, 0.0}};
-  const auto take = [&](const Point3<double>& direction) {
+  const auto consider = [&](const Point3<double>& direction) {
     const Point3<double> u = (1.0 / length(direction)) * direction;
     const double along = dot(u, p);
     const Point3<double> across = p - along * u;
     const double height = length(across);
-    // In front the height tells more: rounding hides in `along` what is little beside it.
+    // In front, compare the height: in `along`, rounding hides small differences.
     if (along > 0.0 && best.part.along > 0.0 ? height < best.part.height : along > best.part.along)
       best = {{along, height}, across};
   };
   for (std::size_t i = 0; i < 4; ++i) {
     const Point3<double>&start = rays[i], step = rays[(i + 1) % 4] - start;
-    take(start);
+    consider(start);
     const double start_p = dot(start, p), step_p = dot(step, p), mixed = dot(start, step);
     const double s = (start_p * mixed - step_p * dot(start, start)) / (step_p * mixed - start_p * dot(step, step));
-    if (s > 0.0 && s < 1.0) take(start + s * step);
+    if (s > 0.0 && s < 1.0) consider(start + s * step);
   }
   return best;
 }
 
-// The most that half-spaces through the eye tell: those of the four faces, and those between two neighbours that look
-// from their common ray towards p. A normal that both faces' add up to with weights that are not negative has the
-// pyramid behind it, however rounded the weights are.
+// The best bound from half-spaces through the eye: those of the four faces, and for each two neighbouring faces the
+// half-space that faces p from their common ray. A normal that is a sum of both faces' normals with weights that are
+// not negative has the pyramid behind it, even if the weights are rounded.
 Part farthest_behind(const Point3<double>& p, const ShellCell& tile) {
   const std::array<HalfSpace<double>, 4> faces = slope_planes<double>(tile.x0, tile.x1, tile.y0, tile.y1);
   Part best{length(p), 0.0};
-  const auto take = [&](const Point3<double>& normal) {
+  const auto consider = [&](const Point3<double>& normal) {
     const double height = dot(normal, p);
     if (height > best.height) best = {length(p - height * normal), height};
   };
   for (const std::size_t x : {0u, 1u})
     for (const std::size_t y : {2u, 3u}) {
       const Point3<double>&n1 = faces[x].normal, &n2 = faces[y].normal;
-      take(n1);
-      take(n2);
-      // Of both normals as much as makes p's parts along them what they are.
+      consider(n1);
+      consider(n2);
+      // Weights of both normals from p's components along them.
       const double mixed = dot(n1, n2), part1 = dot(n1, p), part2 = dot(n2, p);
       const double weight1 = part1 - mixed * part2, weight2 = part2 - mixed * part1;
       if (!(weight1 > 0.0 && weight2 > 0.0)) continue;
       const Point3<double> sum = weight1 * n1 + weight2 * n2;
-      take((1.0 / length(sum)) * sum);
+      consider((1.0 / length(sum)) * sum);
     }
   return best;
 }
 
-// Does the direction that was tried prove itself? In front if the half-space across the way from it to the point holds
-// all four rays: what they may stick out, 2^-42, makes points that are t away from the eye nearer by 2^-42 t at most.
-// Else if all rays lean away from p: any direction is a sum of the four (of unit length) with weights that add to 1 at
-// least, so it leans away no less than the one that does least.
+// Does the tested direction prove the bound itself? In front: yes if the half-space across the vector from it to the
+// point contains all four rays; an error of 2^-42 in this makes points at distance t from the eye nearer by 2^-42 t at
+// most. Behind: yes if all rays lean away from p: any direction is a sum of the four (of unit length) with weights that
+// add to 1 at least, so it leans away no less than the ray that leans away least.
 bool is_behind(const std::array<Point3<double>, 4>& rays, const Part& nearest, const Point3<double>& across) {
   if (nearest.along < 0.0) return true;
   return std::all_of(rays.begin(), rays.end(), [&](const Point3<double>& ray) {
@@ -242,8 +243,9 @@ DistanceInterval ball_distances(const Volume<double>& volume, const ShellCell& t
   return interval;
 }
 
-// The pyramid's part between two planes that holds the shell cell: across a direction u in its middle, as far as its
-// shells are there at most and at the rays at least. (Of all directions of the pyramid the rays lean from u most.)
+// The part of the pyramid between two planes that contains the shell cell. The planes are across a direction u in the
+// pyramid's middle: one at the far shell's greatest extent along u, one at the near shell's least extent, which is at
+// the rays. (Of all directions of the pyramid the rays lean from u most.)
 Polytope<double> polytope_around(const ShellCell& shell) {
   const Pyramid<double> pyramid = pyramid_of<double>(shell.x0, shell.x1, shell.y0, shell.y1);
   Mean<double> mean;
@@ -264,8 +266,8 @@ Polytope<double> polytope_around(const ShellCell& shell) {
   return cell;
 }
 
-// Is there a plane between the volume and the shell cell, or planes between it and each of its parts? The planes that
-// hold the cell cut away its curvature, which is a quarter for a part of half the width and height.
+// Is there a plane between the volume and the shell cell, or planes between the volume and each of the cell's parts?
+// The bounding planes ignore the cell's curvature; a part of half the width and height has a quarter of it.
 bool is_apart(const Volume<double>& volume, const ShellCell& shell, int splits) {
   const Polytope<double> polytope = polytope_around(shell);
   const Setting<double> setting(volume, polytope);

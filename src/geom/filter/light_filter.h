@@ -1,6 +1,6 @@
 #pragma once
-// The filter: does a light's volume share a point with a cell, in double precision with a tolerance? Yes and no only
-// where that is certain.
+// The filter: does a light's volume share a point with a cell? In double precision with a tolerance; it answers yes or
+// no only if that is certain.
 
 #include <variant>
 
@@ -12,8 +12,8 @@
 namespace clusterbench::geom {
 
 // Distances from the eye over pyramid ∩ volume: one interval. All true distances lie in [outer_lo, outer_hi]; every
-// distance in [inner_lo, inner_hi] is certainly reached; between them, [likely_lo, likely_hi] is where the extremes
-// were found, which proves nothing. An interval whose ends are in the wrong order is empty.
+// distance in [inner_lo, inner_hi] is certainly reached. Between these two, [likely_lo, likely_hi] are the extremes
+// found, without proof. An interval whose ends are in the wrong order is empty.
 struct DistanceInterval {
   double outer_lo = 1.0, outer_hi = 0.0, inner_lo = 1.0, inner_hi = 0.0, likely_lo = 1.0, likely_hi = 0.0;
 
@@ -32,10 +32,10 @@ class LightFilter {
   explicit LightFilter(const LightVolume& light);
 
   Verdict meets(const Cell& cell) const;
-  // The others are for balls and spots.
-  // Of the tile's pyramid, without its near shell; right as far as its far shell.
+  // The following functions are for balls and spots only.
+  // Distances over the tile's pyramid, without its near shell; right up to its far shell.
   DistanceInterval distances(const ShellCell& tile) const;
-  // Is there a plane between the volume and the shell cell, or planes between it and parts of the cell?
+  // Is there a plane between the volume and the shell cell, or planes between the volume and all parts of the cell?
   bool is_surely_apart(const ShellCell& cell) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// Doubles with a bound of how far they are from the number that is meant. A bound is 0 where nothing was rounded: on
-// lattices, where lights touch cells by the thousand, that is the usual case, and then equal is known to be equal.
+// Doubles with a bound of their distance from the true number. The bound is 0 where nothing was rounded. That is the
+// usual case on lattices, where thousands of lights touch cells exactly; there, equal numbers are known to be equal.
 
 #include <algorithm>
 #include <bit>
@@ -10,12 +10,12 @@
 
 namespace clusterbench::geom {
 
-// |value - what is meant| <= error.
+// |value - true number| <= error.
 struct Bounded {
   double value = 0.0, error = 0.0;
 
   Bounded() = default;
-  // Implicit, because a double is itself.
+  // Implicit, because a double represents itself exactly.
   Bounded(double exactly) : value(exactly) {}
   Bounded(double rounded, double by) : value(rounded), error(by) {}
 
@@ -25,24 +25,24 @@ struct Bounded {
   Bounded operator-() const { return {-value, error}; }
 
  private:
-  // More than rounding a difference and a product can cost.
+  // More than the rounding of a difference and a product.
   static constexpr double k_more = 1.0 + 0x1p-50;
 };
 
 namespace bounded {
 
-// Errors are sums and products of a few non-negative doubles: this makes up for rounding these, and for products below
-// what a double can hold.
+// Errors are sums and products of a few non-negative doubles. This makes up for their rounding, and for products that
+// underflow.
 inline double rounded_up(double error) {
   return error * (1.0 + 0x1p-48) + 0x1p-1000;
 }
 
-// How many of the 53 digits of a double are zeros at its end.
+// The number of zero bits at the end of a double's 53 bits.
 inline int free_digits(double value) {
   return std::countr_zero(std::bit_cast<std::uint64_t>(value) | std::uint64_t{1} << 52);
 }
 
-// Is a product of these no more than 53 digits, and well above the smallest numbers?
+// Does the product need no more than 53 bits, and is it well above the smallest numbers?
 inline bool is_exact_product(double a, double b, double product) {
   if (a == 0.0 || b == 0.0) return true;
   return free_digits(a) + free_digits(b) >= 53 && std::abs(product) > 0x1p-900;
@@ -52,7 +52,7 @@ inline bool is_exact_product(double a, double b, double product) {
 
 inline Bounded operator+(const Bounded& a, const Bounded& b) {
   const double sum = a.value + b.value;
-  // What is lost (Knuth 1969): always a double.
+  // The rounding error (Knuth 1969): always a double.
   const double from_b = sum - a.value;
   const double lost = (a.value - (sum - from_b)) + (b.value - from_b);
   const double error = a.error + b.error + std::abs(lost);
@@ -63,7 +63,7 @@ inline Bounded operator-(const Bounded& a, const Bounded& b) {
   return a + -b;
 }
 
-// Errors' products may be below what a double can hold, and are not nothing for that.
+// Products of errors may underflow, but must not become 0.
 inline Bounded operator*(const Bounded& a, const Bounded& b) {
   const double product = a.value * b.value;
   if ((a.value == 0.0 && a.error == 0.0) || (b.value == 0.0 && b.error == 0.0)) return product;
@@ -85,7 +85,7 @@ inline Bounded operator/(const Bounded& a, const Bounded& b) {
                                         std::abs(quotient) * 0x1p-53 + 0x1p-1000 / divisor)};
 }
 
-// The larger of two: the one that certainly is, or where that is not certain, either.
+// The larger of two; if it is uncertain which one is larger, a bound that covers both.
 inline Bounded larger_of(const Bounded& a, const Bounded& b) {
   const Bounded &high = a.value < b.value ? b : a, &low = a.value < b.value ? a : b;
   const bool is_sure = high.value - low.value >= bounded::rounded_up(high.error + low.error);
@@ -100,7 +100,7 @@ inline Bounded largest_or_zero(const Bounded& a, const Bounded& b) {
   return {0.0, std::max(most, 0.0)};
 }
 
-// Of the part that is not negative: for numbers that are known not to be.
+// Root of the part that is not negative: for numbers that are known not to be negative.
 inline Bounded sqrt(const Bounded& a) {
   if (a.value <= a.error)
     return {0.0, a.error == 0.0 ? 0.0 : bounded::rounded_up(std::sqrt(std::max(a.value, 0.0) + a.error))};

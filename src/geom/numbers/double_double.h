@@ -1,11 +1,11 @@
 #pragma once
 // Numbers of about 106 bits: the unevaluated sum of two doubles, after Dekker 1971, "A floating-point technique for
-// extending the available precision". For finding what is then proven, between double and 256 bits.
+// extending the available precision". For the search of evidence that is proven later; between double and 256 bits.
 //
-// All that rests on these numbers takes a sum, product, quotient or root to be right to 64 u² of itself, u = 2^-53, as
-// long as nothing overflows or underflows: several times what is proven for sums and products (Joldes, Muller and
-// Popescu 2017, "Tight and rigorous error bounds for basic building blocks of double-word arithmetic"), and more than a
-// quotient's or root's one step of correction leaves.
+// All users assume that a sum, product, quotient or root is right to 64 u² of itself, u = 2^-53, as long as nothing
+// overflows or underflows. That is several times the error proven for sums and products (Joldes, Muller and Popescu
+// 2017, "Tight and rigorous error bounds for basic building blocks of double-word arithmetic"), and more than the error
+// that remains after the one correction step of a quotient or root.
 
 #include <cmath>
 

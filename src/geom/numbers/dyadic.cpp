@@ -77,7 +77,7 @@ Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_is_negative) {
     result.is_negative_ = b_is_negative;
     return result;
   }
-  // Digits of both from the lower exponent on; only the one with the higher exponent is moved.
+  // The bits of both from the lower exponent on; only the number with the higher exponent is shifted.
   const bool a_is_lower = a.exponent_ <= b.exponent_;
   const Dyadic &low = a_is_lower ? a : b, &high = a_is_lower ? b : a;
   std::array<Limb, k_limbs> moved;

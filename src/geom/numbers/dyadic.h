@@ -1,7 +1,6 @@
 #pragma once
-// Whole numbers times powers of two: floats, doubles, and what follows from them by + - *, exactly. On the stack,
-// without a greatest common divisor. What a decision asks of it is a sign: every predicate on such numbers can be put
-// so that it needs no quotient.
+// Whole numbers times powers of two: floats, doubles, and results of + - * on them, exactly. On the stack, without a
+// greatest common divisor. Decisions need only signs: every predicate on such numbers can be written without quotients.
 
 #include <array>
 #include <cstdint>
@@ -18,7 +17,7 @@ struct TooWide : std::runtime_error {
 
 class Dyadic {
  public:
-  // 8192 bits. A decision on numbers of a map takes some 300; numbers whose magnitudes are 2^1000 apart take more.
+  // 8192 bits. A decision on numbers of a map needs about 300; numbers whose magnitudes are 2^1000 apart need more.
   static constexpr int k_limbs = 128;
 
   Dyadic() = default;
@@ -46,11 +45,11 @@ class Dyadic {
 
   // a ± |b|.
   static Dyadic sum(const Dyadic& a, const Dyadic& b, bool b_is_negative);
-  // The magnitude with zero bits below it, down to a lower exponent. Written to `out`; its count.
+  // The magnitude with zero bits appended, down to a lower exponent. Written to `out`; returns the number of limbs.
   static int lowered(const Dyadic& a, int exponent, std::array<Limb, k_limbs>& out);
   void trim();
 
-  // The number is ± the whole number in limbs_, least significant first, times 2^exponent_. No leading zero limb.
+  // The value is ± the whole number in limbs_, least significant first, times 2^exponent_. No leading zero limb.
   std::array<Limb, k_limbs> limbs_;  // the first count_ of them are set
   int count_ = 0, exponent_ = 0;
   bool is_negative_ = false;

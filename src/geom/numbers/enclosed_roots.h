@@ -9,7 +9,8 @@
 
 namespace clusterbench::geom {
 
-// Halves [-1, 1] until parts hold no root for certain or are narrow, with Newton's steps where the slope has one sign.
+// Bisects [-1, 1] until parts certainly contain no root or are narrow, with Newton's steps where the slope has one
+// sign.
 template <class Real>
 class RootSearch {
   using Middle = typename Real::Middle;
@@ -43,8 +44,8 @@ class RootSearch {
 
   static bool is_surely_not_zero(const Real& value) { return value < Real(0.0) || value > Real(0.0); }
 
-  // Values over an interval by the mean value theorem, over and over: near a multiple root its width counts only as
-  // much as the slope there does.
+  // Values over an interval by the mean value theorem, applied repeatedly: near a multiple root the width is then
+  // multiplied only by the small slope there.
   static Real values_over(const Polynomial<Real>& polynomial, const Real& middle, const Real& t) {
     Real value = polynomial.value_at(middle);
     if (polynomial.degree == 0) return value;

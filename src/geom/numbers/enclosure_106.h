@@ -1,6 +1,6 @@
 #pragma once
-// Real numbers between proven bounds, as geom/numbers/wide_enclosure.h has them with 1024 bits, here with 106: middle ±
-// radius. Enough for all but what touches to within 2^-85 or so, at a hundredth of the time.
+// Real numbers between proven bounds, middle ± radius, as in geom/numbers/wide_enclosure.h (1024 bits), here with 106
+// bits. Enough for all pairs except those that touch to within about 2^-85, at a hundredth of the time.
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ class Enclosure106 {
     const DoubleDouble quotient = a.middle_ / b.middle_;
     return made(quotient, (a.radius_ + std::abs(quotient.hi) * b.radius_) / divisor + k_least / divisor);
   }
-  // Of the part that is not negative. |sqrt(x) - sqrt(m)| <= |x - m| / sqrt(m)
+  // Root of the part that is not negative. |sqrt(x) - sqrt(m)| <= |x - m| / sqrt(m)
   friend Enclosure106 sqrt(const Enclosure106& a) {
     if (a.middle_.hi > 0x1p-600 && a.middle_.hi * (1.0 - 0x1p-40) > a.radius_) {
       const DoubleDouble root = sqrt(a.middle_);
@@ -54,7 +54,7 @@ class Enclosure106 {
   }
   Enclosure106& operator+=(const Enclosure106& b) { return *this = *this + b; }
 
-  // Certainly less. An infinite or unknown radius compares to nothing.
+  // Certainly less. False if a radius is infinite or unknown.
   friend bool operator<(const Enclosure106& a, const Enclosure106& b) {
     const DoubleDouble difference = b.middle_ - a.middle_;
     return difference.hi * (1.0 - 0x1p-40) > (a.radius_ + b.radius_) * (1.0 + 0x1p-40) + k_least;
@@ -65,12 +65,12 @@ class Enclosure106 {
   }
 
  private:
-  // More than what products and quotients can lose by underflow, with factors below 2^300.
+  // More than the loss of products and quotients by underflow, with factors below 2^300.
   static constexpr double k_least = 0x1p-700;
 
   static double size(const Enclosure106& a) { return std::abs(a.middle_.hi) * (1.0 + 0x1p-40); }
-  // A result is taken to be right to 64 u² (geom/numbers/double_double.h). The radius itself is a few rounded
-  // operations.
+  // A result is assumed to be right to 64 u² (geom/numbers/double_double.h). The radius itself is the result of a few
+  // rounded operations.
   static Enclosure106 made(const DoubleDouble& middle, double radius) {
     if (!std::isfinite(middle.hi)) return {DoubleDouble(0.0), std::numeric_limits<double>::infinity()};
     if (radius == 0.0 && middle.hi == 0.0 && middle.lo == 0.0) return {middle, k_least};
@@ -85,7 +85,7 @@ struct Angle106 {
   Enclosure106 cosine, sine;
 };
 
-// Of 0 <= x < 2. Terms of the exponential series until the rest, less than twice the next one, is nothing beside x.
+// Of 0 <= x < 2. Terms of the exponential series until the rest, less than twice the next one, is negligible beside x.
 inline Angle106 angle_106(const Enclosure106& x) {
   Enclosure106 term(1.0), sums[2] = {term, Enclosure106(0.0)};
   int n = 1;

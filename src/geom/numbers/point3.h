@@ -22,8 +22,8 @@ struct Point3 {
   friend Real length(const Point3& a) { return SquareRoot<Real>::of(dot(a, a)); }
 };
 
-// A unit vector across `axis`, towards n where n has such a part. What n loses along the axis, rounded, may be most of
-// what is left of it: taken away once more, no part along the axis remains.
+// A unit vector across `axis`, towards n where n has such a part. The rounding error of the subtraction may be a large
+// share of the remaining vector; a second subtraction removes the part along the axis.
 template <class Real>
 Point3<Real> unit_across(const Point3<Real>& axis, const Point3<Real>& n) {
   const Point3<Real> part = n - dot(n, axis) * axis;

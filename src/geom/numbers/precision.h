@@ -1,5 +1,5 @@
 #pragma once
-// What the algorithms ask of a number type: how it takes square roots, and what it can tell apart.
+// The properties of a number type that the algorithms need: its square root, and its resolution.
 
 #include <cmath>
 
@@ -14,7 +14,7 @@ struct SquareRoot {
   }
 };
 
-// What a number type can tell apart, relative to the size of the numbers involved.
+// The resolution of a number type, relative to the size of the numbers involved.
 template <class Real>
 struct Precision;
 template <>

@@ -1,5 +1,5 @@
 #pragma once
-// Exact numbers: what floats and doubles are, and what follows from them by + - * /.
+// Exact numbers: floats, doubles, and results of + - * / on them.
 
 #include <boost/multiprecision/cpp_int.hpp>
 

@@ -10,13 +10,13 @@ Rational scaled_down(const Integer& value, unsigned bits) {
   return Rational(value) / Rational(Integer(1) << bits);
 }
 
-// A cosine above 1 would hold no point at all, not even one of the axis.
+// A cosine above 1 would make the cone contain no point at all, not even one of the axis.
 RationalInterval cut_to_1(const RationalInterval& bounds) {
   return {std::max(bounds.lo, Rational(-1)), std::min(bounds.hi, Rational(1))};
 }
 
-// The series' first terms: whatever their fixed point is, it would be too coarse for some angle. The next ones are
-// below 2^-bits for an angle below 2^(-bits / 6).
+// The first terms of the series, in rational numbers: any fixed point would be too coarse for some angle. The next
+// terms are below 2^-bits for an angle below 2^(-bits / 6).
 AngleBounds bounds_of_small(const Rational& x) {
   const Rational square = x * x, fourth = square * square;
   const Rational cosine = 1 - square / 2 + fourth / 24, sine = x * (1 - square / 6 + fourth / 120);
@@ -49,7 +49,7 @@ AngleBounds bounds_of_angle(const Rational& angle, unsigned bits) {
   return {cut_to_1(around(sums[0])), cut_to_1(around(sums[1]))};
 }
 
-// sqrt(n / d) = sqrt(n d 4^k) / (d 2^k): the integer root is within 1 of it, and k makes that little.
+// sqrt(n / d) = sqrt(n d 4^k) / (d 2^k): the integer root is within 1 of it, and k makes this error small.
 Rational root_above(const Rational& value) {
   if (value.sign() == 0) return 0;
   constexpr unsigned k_bits = 310;

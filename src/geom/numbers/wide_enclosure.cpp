@@ -8,7 +8,7 @@
 namespace clusterbench::geom {
 namespace {
 
-// Radii: never nothing where something was rounded, however small it is.
+// Radii: never 0 where something was rounded, however small it is.
 template <class Radius>
 struct Least;
 template <>
@@ -22,7 +22,7 @@ struct Least<FloatOf<64>> {
   static FloatOf<64> most() { return ldexp(FloatOf<64>(1), 1000000); }
 };
 
-// Sums, products and quotients of a few non-negative radii are rounded by far less than this factor.
+// The rounding of sums, products and quotients of a few non-negative radii is far less than this factor.
 template <class Radius>
 Radius rounded_up(const Radius& value) {
   return value * (1.0 + 0x1p-40) + 16.0 * Least<Radius>::value();
@@ -32,7 +32,7 @@ Radius at_least(const Middle& value) {
   using std::abs;
   return rounded_up<Radius>(abs(static_cast<Radius>(value)));
 }
-// What is beyond the largest number counts as that: as infinity it would make every radius beside it nothing.
+// Values beyond the largest number count as the largest number: infinity would make the radii beside it vanish.
 template <class Radius, class Middle>
 Radius at_most(const Middle& value) {
   using std::abs;
@@ -45,7 +45,7 @@ bool is_known(const Radius& radius) {
   return radius < std::numeric_limits<Radius>::infinity();
 }
 
-// What rounding a middle can have cost, eight times over; never nothing, however small the middle is.
+// Eight times the largest rounding error of a middle; never 0, however small the middle is.
 template <class Radius, unsigned bits>
 Radius rounding_of(const FloatOf<bits>& value) {
   using std::ldexp;
@@ -53,7 +53,7 @@ Radius rounding_of(const FloatOf<bits>& value) {
   return rounded_up<Radius>(at_least<Radius>(value) * ldexp(Radius(1), 4 - static_cast<int>(bits)));
 }
 
-// A sum of products of radii: only if there are none is it nothing.
+// A sum of products of radii: 0 only if both radii are 0.
 template <class Radius>
 Radius unless_exact(const Radius& sum, const Radius& radius_a, const Radius& radius_b) {
   return radius_a == 0 && radius_b == 0 ? Radius(0) : rounded_up(sum);

@@ -1,6 +1,6 @@
 #pragma once
-// Real numbers between proven bounds: middle ± radius. Arithmetic rounds the middle and makes the radius larger by what
-// that can have cost, so the exact result always lies within. Comparisons say yes only when that is certain. Where a
+// Real numbers between proven bounds: middle ± radius. Arithmetic rounds the middle and enlarges the radius by the
+// possible rounding error, so the exact result always lies within. Comparisons say yes only if that is certain. Where a
 // divisor may be zero the radius becomes infinite, and nothing is certain any more.
 
 #include "geom/numbers/point3.h"
@@ -11,7 +11,7 @@
 
 namespace clusterbench::geom {
 
-// Radii are of a type that holds what the middles' digits can tell apart: with 1024 bits doubles still do.
+// The radius type must be able to represent the last digits of the middle: with 1024 bits a double still can.
 template <unsigned bits, class RadiusType>
 class EnclosureOf {
  public:
@@ -33,7 +33,7 @@ class EnclosureOf {
   friend EnclosureOf operator-(const EnclosureOf& a, const EnclosureOf& b) { return a.plus(-b); }
   friend EnclosureOf operator*(const EnclosureOf& a, const EnclosureOf& b) { return a.times(b); }
   friend EnclosureOf operator/(const EnclosureOf& a, const EnclosureOf& b) { return a.over(b); }
-  // Of the part that is not negative: for numbers that are known not to be.
+  // Root of the part that is not negative: for numbers that are known not to be negative.
   friend EnclosureOf sqrt(const EnclosureOf& a) { return a.root(); }
 
   // Certainly less, certainly equal.
@@ -71,8 +71,8 @@ Point3<Interval> enclosed(const RationalPoint& p) {
   return {Interval::of(p.x), Interval::of(p.y), Interval::of(p.z)};
 }
 
-// Intervals that together hold all roots in [-1, 1], each about 2^-bits wide or less; or [-1, 1] itself if they cannot
-// be told apart. What geom/search/extreme_candidates.h takes for enclosures in place of polynomial.h.
+// Intervals that together contain all roots in [-1, 1], each about 2^-bits wide or less; or [-1, 1] itself if the roots
+// cannot be separated. geom/search/extreme_candidates.h uses this for enclosures in place of polynomial.h.
 Roots<Enclosure1024> roots_of(const Polynomial<Enclosure1024>& polynomial, int bits);
 Roots<Enclosure3072> roots_of(const Polynomial<Enclosure3072>& polynomial, int bits);
 

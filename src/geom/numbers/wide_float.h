@@ -1,5 +1,5 @@
 #pragma once
-// Floating point with 256, 1024 and 3072 bits, for finding what is then proven in exact numbers.
+// Floating point with 256, 1024 and 3072 bits, for the search of evidence that is then proven in exact numbers.
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
@@ -37,8 +37,8 @@ struct Precision<Float3072> {
   static Float3072 tolerance() { return ldexp(Float3072(1), -k_tolerance_bits); }
 };
 
-// Of a finite number, right to two units in the last place; 0 of a negative one. Newton's steps for 1 / sqrt from a
-// double's, each of which doubles the bits; the library goes bit by bit.
+// Root of a finite number, right to two units in the last place; 0 for a negative number. Newton's steps for 1 / sqrt,
+// starting from a double's; each step doubles the bits. The library computes bit by bit.
 template <unsigned bits>
 struct SquareRoot<FloatOf<bits>> {
   static FloatOf<bits> of(const FloatOf<bits>& square) {
@@ -58,7 +58,7 @@ struct SquareRoot<FloatOf<bits>> {
   }
 };
 
-// Finite.
+// value: finite.
 template <unsigned bits>
 Rational exact(const FloatOf<bits>& value) {
   int exponent = 0;

@@ -25,7 +25,7 @@ float round_up(double value) {
   return -round_down(-value);
 }
 
-// Hull of values of which each is known up to `error`.
+// Hull of values, each known up to `error`.
 struct Hull {
   double lo = k_inf, hi = -k_inf;
 
@@ -45,16 +45,16 @@ struct Hull {
   SlopeRange rounded() const { return {round_down(lo), round_up(hi)}; }
 };
 
-// r - |line - depth|, correct to a unit roundoff or two: one of the two differences is exact (Sterbenz) wherever terms
-// cancel.
+// r - |line - depth|, correct to a unit roundoff or two: wherever terms cancel, one of the two differences is exact
+// (Sterbenz).
 double reach_past(double line, double depth, double r) {
   const double small = std::min(line, depth), large = std::max(line, depth);
   if (small >= 0.5 * large) return r - (large - small);
   return (r - large) + small;
 }
 
-// u² + depth² - r². The products of floats are exact in double; the sum's rounding error is carried along, so that the
-// result is correct to a few unit roundoffs however much cancels.
+// u² + depth² - r². The products of floats are exact in double; the sum's rounding error is added, so the result is
+// correct to a few unit roundoffs however much cancels.
 double squared_tangent(double u, double depth, double r) {
   const double large = std::max(u * u, depth * depth), small = std::min(u * u, depth * depth);
   const double sum = large + small;
@@ -62,8 +62,8 @@ double squared_tangent(double u, double depth, double r) {
   return (sum - r * r) + lost;
 }
 
-// Adds the slopes of the two tangents through the eye where they touch between the depths. They are the roots of
-// (depth² - r²) s² - 2 u depth s + (u² - r²) = 0; the root that would cancel comes from the product of the roots.
+// Adds the slopes of the two tangents through the eye if they touch between the depths. They are the roots of (depth² -
+// r²) s² - 2 u depth s + (u² - r²) = 0; the root that would cancel is computed from the product of the roots.
 void add_tangents(Hull& hull, double u, double depth, double r, double depth_min, double depth_max) {
   const double squared = squared_tangent(u, depth, r);
   if (squared <= 0.0) return;  // the eye is in the disk
@@ -78,8 +78,8 @@ void add_tangents(Hull& hull, double u, double depth, double r, double depth_min
     const double touch_depth = length / std::sqrt(1.0 + slope * slope);
     if (touch_depth >= depth_min && touch_depth <= depth_max) hull.add(slope, 16.0 * k_epsilon * std::fabs(slope));
   };
-  // The disk is in front of the eye's plane, and both tangents touch there; or it straddles the plane, and the tangent
-  // on the eye's side does; or neither.
+  // Three cases: the disk is in front of the eye's plane, and both tangents touch there; or it crosses the plane, and
+  // only the tangent on the eye's side touches in front; or neither does.
   if (depth > r || (depth > -r && u > 0.0)) add(low);
   if (depth > r || (depth > -r && u < 0.0)) add(high);
 }

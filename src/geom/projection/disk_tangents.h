@@ -1,11 +1,11 @@
 #pragma once
-// What a disk looks like from the eye: the range of slopes of its part between two depths. Cutting a sphere by a plane
-// through the eye's axes leaves such a disk, so this is what bounds a light on the screen, per slice or per row.
+// A disk as seen from the eye: the range of slopes of its part between two depths. A plane through one of the eye's
+// axes cuts a sphere in such a disk, so these functions bound a light on the screen, per slice or per row.
 //
-// All functions are conservative: the range holds the slope of every real point of disk ∩ slab, and each end is at most
-// two single-precision steps (and 1e-15 of the terms it is a difference of) beyond the true one. They compute in double
-// because a float cannot hold |c|² - r² for r = 1e6 and a gap of 1 m to the eye (the textbook form is off by more than
-// a 32-pixel tile there); the ends are rounded outward to float.
+// All functions are conservative: the range contains the slope of every real point of disk ∩ slab, and each end is at
+// most two single-precision steps (and 1e-15 of the terms it is a difference of) beyond the true one. They compute in
+// double because a float cannot represent |c|² - r² for r = 1e6 and a gap of 1 m to the eye (the textbook form is off
+// by more than a 32-pixel tile there); the ends are rounded outward to float.
 
 namespace clusterbench::geom {
 

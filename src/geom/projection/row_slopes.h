@@ -1,12 +1,12 @@
 #pragma once
 // The interval property of a row of cells (one slice, one row of tiles, all columns) of a perspective frustum grid: row
-// ∩ ball is convex, and slope x / depth is continuous on it, so the columns that it touches are one interval, between
-// the least and the greatest slope. Here are these two in closed form, over float or double.
+// ∩ ball is convex, and slope x / depth is continuous on it, so the touched columns are one interval, from the least
+// slope to the greatest. This file computes both in closed form, over float or double.
 //
-// Rounding moves a result no further than moving the centre or the surface of the ball by a few unit roundoffs of the
-// coordinates would: who needs certainty asks for a ball that is larger or smaller by more than that, and says which
-// (Errs), since where the surface goes through the eye but for roundoffs it would be by chance whether there are
-// tangents, which touch up to 2^-11 (float) or 2^-25 (double) of the ball's distance away from the eye.
+// Rounding changes a result no more than a shift of the ball's centre or surface by a few unit roundoffs of the
+// coordinates. For a certain result, pass a ball that is larger or smaller by more than that, and state which (Errs).
+// This matters where the surface passes through the eye up to roundoffs: there, rounding would decide whether tangents
+// exist, which touch up to 2^-11 (float) or 2^-25 (double) of the ball's distance away from the eye.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace clusterbench::geom {
 
-// An interval of slopes or coordinates, grown by what it is given.
+// An interval of slopes or coordinates that grows with each added value.
 template <class Real>
 struct SlopeHull {
   Real lo = std::numeric_limits<Real>::infinity(), hi = -std::numeric_limits<Real>::infinity();
@@ -26,11 +26,11 @@ struct SlopeHull {
   bool empty() const { return !(lo <= hi); }
 };
 
-// To which side a result may be wrong: with more than is true, or with less.
+// The side on which a result may be wrong: it contains more than the truth (outward), or less (inward).
 enum class Errs { outward, inward };
 
-// The disk's, or one that is larger or smaller by less than 24 unit roundoffs of its distance, so that the eye lies
-// within or without for certain.
+// The disk's squared radius, or one that is larger or smaller by less than 24 unit roundoffs of its squared distance,
+// so that the eye is certainly inside or certainly outside.
 template <class Real>
 Real squared_radius_off_eye(Real squared_radius, Real squared_distance, Errs errs) {
   constexpr Real k_roundoff = std::numeric_limits<Real>::epsilon() / 2, k_close = 24 * k_roundoff;
@@ -51,8 +51,8 @@ void add_chord(SlopeHull<Real>& hull, Real u, Real h, Real w, Real scale) {
   if (u + h >= 0) hull.add(k_infinity);
 }
 
-// Adds scale * u'/w' over the disk around (u, w) cut to w0 <= w' <= w1 (w0 >= 0). Extremes are the tangents from the
-// eye where they touch within the slab, and the ends of the chords that the slab cuts.
+// Adds scale * u'/w' over the disk around (u, w) cut to w0 <= w' <= w1 (w0 >= 0). The extremes are at the tangents from
+// the eye if they touch within the slab, and at the ends of the chords at the slab's sides.
 template <class Real>
 void add_disk(SlopeHull<Real>& hull, Real u, Real w, Real squared_radius, Real w0, Real w1, Real scale, Errs errs) {
   if (!(squared_radius >= 0) || w0 > w1) return;
@@ -74,7 +74,7 @@ void add_disk(SlopeHull<Real>& hull, Real u, Real w, Real squared_radius, Real w
   }
 }
 
-// A ball as rows of a frustum see it: x to the right, y up, depth ahead.
+// A ball relative to the eye: x to the right, y up, depth ahead.
 template <class Real>
 struct BallFromEye {
   Real x, y, depth, radius;

@@ -1,6 +1,6 @@
 #pragma once
-// Search for a point that a light's volume and a cell share, in any number type. It may miss one that exists: a point
-// found counts once its margin, or a certificate (geom/certificate), says so.
+// Search for a point that a light's volume and a cell share, in any number type. It may miss an existing point. A found
+// point counts only if its margin is large enough or a certificate (geom/certificate) proves it.
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace clusterbench::geom {
 
-// The part of a cell's faces and of the volume that every point has to satisfy, as how far inside it is.
+// How far a point is inside of the cell's faces and of the conditions of the volume that every point has to satisfy.
 template <class Real, std::size_t N>
 Real margin_of(const Volume<Real>& volume, const std::array<HalfSpace<Real>, N>& faces, const Point3<Real>& p) {
   Real margin = faces[0].margin(p);
@@ -37,7 +37,7 @@ struct Mean {
   Point3<Real> at() const { return (Real(1) / Real(count)) * sum; }
 };
 
-// A point of cell ∩ volume and how far inside all of their surfaces it is.
+// A point of cell ∩ volume, and how far it is inside all of their surfaces.
 template <class Real>
 struct Witness {
   Point3<Real> at;
@@ -50,7 +50,7 @@ Witness<Real> witness_at(const Volume<Real>& volume, const std::array<HalfSpace<
   return {p, std::min(margin_of(volume, faces, p), volume.range - length(p - volume.apex))};
 }
 
-// Sum of the inward normals of the surfaces that p lies on.
+// Sum of the inward normals of the surfaces on which p lies.
 template <class Real, std::size_t N>
 Point3<Real> inward_of(const Volume<Real>& volume, const std::array<HalfSpace<Real>, N>& faces, const Point3<Real>& p,
                        const Real& tolerance) {
@@ -65,9 +65,9 @@ Point3<Real> inward_of(const Volume<Real>& volume, const std::array<HalfSpace<Re
   return inward;
 }
 
-// The mean of points of a convex set lies in it. Where they all lie on the same surfaces, so does their mean: then the
-// search goes on from there, inward. How far inside a point is, is a concave function of the step: of range / 2^k, the
-// best is found by halving the k that may be it.
+// The mean of points of a convex set lies in it. If all points lie on the same surfaces, so does their mean: then the
+// search continues inward from there. The distance inside is a concave function of the step. Of the steps range / 2^k
+// the best one is found by bisection over k.
 template <class Real, std::size_t N>
 Witness<Real> find_witness(const Volume<Real>& volume, const std::array<HalfSpace<Real>, N>& faces,
                            const Point3<Real>& mean, const Real& tolerance) {
@@ -80,7 +80,7 @@ Witness<Real> find_witness(const Volume<Real>& volume, const std::array<HalfSpac
     if (next.margin > best.margin) best = next;
     return next.margin;
   };
-  int least = 1, most = Precision<Real>::k_tolerance_bits;  // then a step is no more than the tolerance
+  int least = 1, most = Precision<Real>::k_tolerance_bits;  // then a step is no larger than the tolerance
   while (least < most && !(best.margin > tolerance)) {
     const int k = (least + most) / 2;
     if (margin_after(k) < margin_after(k + 1))
@@ -91,7 +91,7 @@ Witness<Real> find_witness(const Volume<Real>& volume, const std::array<HalfSpac
   return best;
 }
 
-// A cheaper test with fewer digits: yes only where p lies beyond a face by far more than the tolerance.
+// A cheaper test with fewer digits: yes only if p lies beyond a face by far more than the tolerance.
 template <class Real>
 struct QuickReject {
   static bool is_beyond_face(const HalfSpace<Real>&, const Point3<Real>&) { return false; }
@@ -106,7 +106,7 @@ struct QuickReject<DoubleDouble> {
   }
 };
 
-// Is p in the volume and behind all faces, give or take the tolerance?
+// Is p in the volume and behind all faces, up to the tolerance?
 template <class Real, std::size_t N>
 bool is_within(const Volume<Real>& volume, const std::array<HalfSpace<Real>, N>& faces, const Point3<Real>& p,
                const Real& tolerance) {
@@ -120,7 +120,7 @@ bool is_within(const Volume<Real>& volume, const std::array<HalfSpace<Real>, N>&
   return !volume.is_cone || volume.side_margin(p) >= -tolerance;
 }
 
-// Which faces the volume reaches; whether it lies beyond one of them for certain.
+// The faces that the volume reaches, and whether the volume certainly lies beyond one of them.
 template <std::size_t N>
 struct Reached {
   std::array<bool, N> faces;
@@ -139,7 +139,7 @@ Reached<N> reached_faces(const Volume<Real>& volume, const std::array<HalfSpace<
   return reached;
 }
 
-// A cell (which has to outlive this) and a volume, with the tolerance that their size asks for.
+// A cell (which has to outlive this) and a volume, with the tolerance for their size.
 template <class Real>
 struct Setting {
   Volume<Real> volume;
@@ -154,7 +154,7 @@ struct Setting {
     tolerance = Precision<Real>::tolerance() * (size + length(volume.apex) + volume.range);
   }
 
-  // A point of both, if its margin is above the tolerance; without a margin if there is not even one close to both.
+  // A point of both, if its margin is above the tolerance; without a margin if no candidate is close to both.
   Witness<Real> common_point(const std::array<bool, 6>& reached) const {
     Mean<Real> mean;
     Witness<Real> early{volume.apex, Real(-1)};

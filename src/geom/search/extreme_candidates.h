@@ -1,10 +1,10 @@
 #pragma once
-// Where a light's volume and a cell can be nearest or farthest, in closed form, over any number type: double for the
-// filter, 256 bits and more for what it leaves uncertain. The volume is a ball, or a ball ∩ solid cone (a spot); cells
-// are bounded by planes, or a pyramid through the eye cut by two shells.
+// Candidates for the nearest and the farthest points of a light's volume and a cell, in closed form, over any number
+// type: double for the filter, 256 bits and more for the pairs that it leaves uncertain. The volume is a ball, or ball
+// ∩ solid cone (a spot); cells are bounded by planes, or are a pyramid through the eye cut by two shells.
 //
-// Every list of candidates is complete for its question, and whatever else is on it does no harm: a candidate counts
-// only if it lies in volume and cell up to a tolerance.
+// Every list of candidates is complete for its purpose; extra candidates do no harm, because a candidate counts only if
+// it lies in volume and cell up to a tolerance.
 
 #include <array>
 
@@ -14,29 +14,29 @@
 
 namespace clusterbench::geom {
 
-// Real roots of a t² + 2 b t + c, and where it is least: near a double root rounding may hide the roots themselves.
-template <class Real, class Take>
-void quadratic_roots(const Real& a, const Real& b, const Real& c, Take&& take) {
+// Real roots of a t² + 2 b t + c, and its minimum: near a double root, rounding may hide the roots themselves.
+template <class Real, class Visit>
+void quadratic_roots(const Real& a, const Real& b, const Real& c, Visit&& visit) {
   const Real zero(0);
   const Real discriminant = b * b - a * c;
-  if (a != zero) take(-b / a);
+  if (a != zero) visit(-b / a);
   if (discriminant < zero) return;
   const Real root = SquareRoot<Real>::of(discriminant);
   const Real q = b < zero ? root - b : -root - b;
-  if (a != zero) take(q / a);
-  if (q != zero) take(c / q);
+  if (a != zero) visit(q / a);
+  if (q != zero) visit(c / q);
 }
 
 // The generators in the plane of axis and n, on both sides.
-template <class Real, class Take>
-void generators_towards(const Volume<Real>& volume, const Point3<Real>& n, Take&& take) {
+template <class Real, class Visit>
+void generators_towards(const Volume<Real>& volume, const Point3<Real>& n, Visit&& visit) {
   const Point3<Real> m = unit_across(volume.axis, n);
-  take(volume.cos_angle * volume.axis + volume.sin_angle * m);
-  take(volume.cos_angle * volume.axis - volume.sin_angle * m);
+  visit(volume.cos_angle * volume.axis + volume.sin_angle * m);
+  visit(volume.cos_angle * volume.axis - volume.sin_angle * m);
 }
 
-// The parameter of the point of the line start + t * step that is nearest to the apex. Quadratics around it keep the
-// digits that the square of a start far away takes from the range and the cone.
+// The parameter of the point of the line start + t * step that is nearest to the apex. Quadratics relative to this
+// point keep digits that they would lose if the start is far away.
 template <class Real>
 Real foot_of(const Point3<Real>& apex, const Point3<Real>& start, const Point3<Real>& step) {
   const Real square = dot(step, step);
@@ -44,8 +44,8 @@ Real foot_of(const Point3<Real>& apex, const Point3<Real>& start, const Point3<R
 }
 
 // Where the line start + t * step meets the cone's surface.
-template <class Real, class Take>
-void line_on_cone(const Volume<Real>& volume, const Point3<Real>& start, const Point3<Real>& step, Take&& take) {
+template <class Real, class Visit>
+void line_on_cone(const Volume<Real>& volume, const Point3<Real>& start, const Point3<Real>& step, Visit&& visit) {
   const Real foot = foot_of(volume.apex, start, step);
   const Point3<Real> v = start + foot * step - volume.apex;
   const Real v_along = dot(v, volume.axis), step_along = dot(step, volume.axis);
@@ -54,82 +54,82 @@ void line_on_cone(const Volume<Real>& volume, const Point3<Real>& start, const P
   // sin² along² = cos² across²: keeps its digits for narrow cones, where along² = cos² |v|² loses them.
   quadratic_roots<Real>(s2 * step_along * step_along - c2 * dot(step_across, step_across),
                         s2 * v_along * step_along - c2 * dot(v_across, step_across),
-                        s2 * v_along * v_along - c2 * dot(v_across, v_across), [&](const Real& t) { take(foot + t); });
+                        s2 * v_along * v_along - c2 * dot(v_across, v_across), [&](const Real& t) { visit(foot + t); });
 }
 
-template <class Real, class Take>
-void line_on_sphere(const Volume<Real>& volume, const Point3<Real>& start, const Point3<Real>& step, Take&& take) {
+template <class Real, class Visit>
+void line_on_sphere(const Volume<Real>& volume, const Point3<Real>& start, const Point3<Real>& step, Visit&& visit) {
   const Real foot = foot_of(volume.apex, start, step);
   const Point3<Real> v = start + foot * step - volume.apex;
   quadratic_roots<Real>(dot(step, step), dot(v, step), dot(v, v) - volume.range * volume.range,
-                        [&](const Real& t) { take(foot + t); });
+                        [&](const Real& t) { visit(foot + t); });
 }
 
 // Where a plane meets the rim: sphere, cone and plane at once.
-template <class Real, class Take>
-void plane_on_rim(const Volume<Real>& volume, const HalfSpace<Real>& plane, Take&& take) {
+template <class Real, class Visit>
+void plane_on_rim(const Volume<Real>& volume, const HalfSpace<Real>& plane, Visit&& visit) {
   const Point3<Real> m = unit_across(volume.axis, plane.normal), m2 = cross(volume.axis, m);
   const Real along = volume.range * volume.cos_angle, across = volume.range * volume.sin_angle;
   const Real lean = across * dot(plane.normal, m);
   if (lean == Real(0)) return;
   const Real cosine = (plane.margin(volume.apex) - along * dot(plane.normal, volume.axis)) / lean;
   const Real square = Real(1) - cosine * cosine;
-  // A plane tangent to the rim may be computed as just missing it: the caller's tolerance decides.
+  // Rounding may make a plane tangent to the rim just miss it; the caller's tolerance decides.
   const Real sine = square < Real(0) ? Real(0) : SquareRoot<Real>::of(square);
   const Point3<Real> middle = volume.apex + along * volume.axis + (across * cosine) * m;
-  take(middle + (across * sine) * m2);
-  take(middle - (across * sine) * m2);
+  visit(middle + (across * sine) * m2);
+  visit(middle - (across * sine) * m2);
 }
 
-// Calls take(point) for all points where cell ∩ infinite cone can be nearest to the apex (for a ball: where the cell
+// Calls visit(point) for all points where cell ∩ infinite cone can be nearest to the apex (for a ball: where the cell
 // can be nearest to the centre), and for extreme points of cell ∩ volume, whose mean lies inside it. Faces that the
 // volume does not reach (`reached`) have no such point on them.
-template <class Real, class Take>
+template <class Real, class Visit>
 void polytope_candidates(const Volume<Real>& volume, const Polytope<Real>& cell, const std::array<bool, 6>& reached,
-                         Take&& take) {
-  take(volume.apex);
+                         Visit&& visit) {
+  visit(volume.apex);
   for (std::size_t i = 0; i < 6; ++i) {
     const HalfSpace<Real>& face = cell.faces[i];
-    take(volume.apex - volume.range * face.normal);
+    visit(volume.apex - volume.range * face.normal);
     if (!reached[i]) continue;
-    take(volume.apex + face.margin(volume.apex) * face.normal);
+    visit(volume.apex + face.margin(volume.apex) * face.normal);
     if (!volume.is_cone) continue;
     generators_towards(volume, face.normal, [&](const Point3<Real>& g) {
       const Real lean = dot(face.normal, g);
-      if (lean != Real(0)) take(volume.apex + (face.margin(volume.apex) / lean) * g);
-      take(volume.apex + volume.range * g);
+      if (lean != Real(0)) visit(volume.apex + (face.margin(volume.apex) / lean) * g);
+      visit(volume.apex + volume.range * g);
     });
-    plane_on_rim(volume, face, take);
+    plane_on_rim(volume, face, visit);
   }
-  if (volume.is_cone) take(volume.apex + volume.range * volume.axis);
+  if (volume.is_cone) visit(volume.apex + volume.range * volume.axis);
   const auto face_of = [](unsigned corner, unsigned axis) { return 2 * axis + ((corner >> axis) & 1); };
   for (unsigned corner = 0; corner < 8; ++corner) {
     const std::array<bool, 3> sides{reached[face_of(corner, 0)], reached[face_of(corner, 1)],
                                     reached[face_of(corner, 2)]};
-    if (sides[0] && sides[1] && sides[2]) take(cell.corners[corner]);
+    if (sides[0] && sides[1] && sides[2]) visit(cell.corners[corner]);
     for (unsigned axis = 0; axis < 3; ++axis) {
       const unsigned bit = 1u << axis;
       if ((corner & bit) != 0 || !sides[(axis + 1) % 3] || !sides[(axis + 2) % 3]) continue;
       const Point3<Real>& start = cell.corners[corner];
       const Point3<Real> step = cell.corners[corner | bit] - start;
-      const auto take_at = [&](const Real& t) { take(start + t * step); };
+      const auto visit_at = [&](const Real& t) { visit(start + t * step); };
       const Real square = dot(step, step);
-      if (square != Real(0)) take_at(dot(volume.apex - start, step) / square);
-      line_on_sphere(volume, start, step, take_at);
-      if (volume.is_cone) line_on_cone(volume, start, step, take_at);
+      if (square != Real(0)) visit_at(dot(volume.apex - start, step) / square);
+      line_on_sphere(volume, start, step, visit_at);
+      if (volume.is_cone) line_on_cone(volume, start, step, visit_at);
     }
   }
 }
 
-// Where distance from the eye (the origin, which lies in the plane) is extreme along the conic of plane and cone. With
+// Extremes of the distance from the eye (the origin, which lies in the plane) along the conic of plane and cone. With
 // phi around the axis from m, a generator g meets the plane at distance s = h / lean from the apex, lean = alpha + beta
 // cos phi; setting the derivative of the squared distance to zero,
 //   lean' (apex·g lean + h) = apex·g' lean²,
-// and tau = tan(phi / 2) gives a quartic without square term. The same equation says s = apex·g' lean / lean' - apex·g,
-// which keeps its digits where h / lean loses them: for an apex near the plane, whose generators in the plane have lean
+// and tau = tan(phi / 2) gives a quartic without square term. The same equation gives s = apex·g' lean / lean' -
+// apex·g, which keeps digits that h / lean loses: for an apex near the plane, whose generators in the plane have lean
 // 0.
-template <class Real, class Take>
-void conic_extremes(const Volume<Real>& volume, const HalfSpace<Real>& plane, int bits, Take&& take) {
+template <class Real, class Visit>
+void conic_extremes(const Volume<Real>& volume, const HalfSpace<Real>& plane, int bits, Visit&& visit) {
   const Point3<Real> m = unit_across(volume.axis, plane.normal), m2 = cross(volume.axis, m);
   const Real h = plane.margin(volume.apex);
   const Real alpha = volume.cos_angle * dot(plane.normal, volume.axis);
@@ -142,71 +142,71 @@ void conic_extremes(const Volume<Real>& volume, const HalfSpace<Real>& plane, in
                                   two * (difference * kappa + h * beta), -difference * difference * epsilon},
                                  4};
   const Polynomial<Real> reversed{{quartic.c[4], quartic.c[3], quartic.c[2], quartic.c[1], quartic.c[0]}, 4};
-  const auto take_generator = [&](const Real& cosine, const Real& sine) {
+  const auto visit_generator = [&](const Real& cosine, const Real& sine) {
     const Real lean = alpha + beta * cosine, slope = -beta * sine;
     const Point3<Real> g =
         volume.cos_angle * volume.axis + (volume.sin_angle * cosine) * m + (volume.sin_angle * sine) * m2;
     if (lean * lean < slope * slope) {
       const Real turned = epsilon * cosine - delta * sine;  // apex·g'
-      take(volume.apex + (turned * lean / slope - dot(volume.apex, g)) * g);
+      visit(volume.apex + (turned * lean / slope - dot(volume.apex, g)) * g);
     } else if (lean != Real(0)) {
-      take(volume.apex + (h / lean) * g);
+      visit(volume.apex + (h / lean) * g);
     }
   };
   for (const Real& tau : roots_of(quartic, bits)) {
     const Real square = tau * tau;
-    take_generator((Real(1) - square) / (Real(1) + square), two * tau / (Real(1) + square));
+    visit_generator((Real(1) - square) / (Real(1) + square), two * tau / (Real(1) + square));
   }
   for (const Real& inverse : roots_of(reversed, bits)) {
     const Real square = inverse * inverse;
-    take_generator((square - Real(1)) / (square + Real(1)), two * inverse / (square + Real(1)));
+    visit_generator((square - Real(1)) / (square + Real(1)), two * inverse / (square + Real(1)));
   }
-  take_generator(Real(-1), Real(0));
+  visit_generator(Real(-1), Real(0));
 }
 
-// Calls take(point) for all points where pyramid ∩ volume can be nearest to or farthest from the eye. Faces that the
+// Calls visit(point) for all points where pyramid ∩ volume can be nearest to or farthest from the eye. Faces that the
 // volume does not reach have no such point on them.
-template <class Real, class Take>
+template <class Real, class Visit>
 void pyramid_candidates(const Volume<Real>& volume, const Pyramid<Real>& pyramid, const std::array<bool, 4>& reached,
-                        int bits, Take&& take) {
+                        int bits, Visit&& visit) {
   const Real zero(0);
-  take(Point3<Real>{zero, zero, zero});
-  take(volume.apex);
-  // Along a direction from the origin to a centre: the near and far end of a ball or of its cut by a plane.
-  const auto take_ends = [&](const Point3<Real>& center, const Real& radius) {
+  visit(Point3<Real>{zero, zero, zero});
+  visit(volume.apex);
+  // Along a direction from the origin to a centre: the near and far end of a ball, or of its section by a plane.
+  const auto visit_ends = [&](const Point3<Real>& center, const Real& radius) {
     const Real size = length(center);
     if (size == zero) return;
-    take(center - (radius / size) * center);
-    take(center + (radius / size) * center);
+    visit(center - (radius / size) * center);
+    visit(center + (radius / size) * center);
   };
-  take_ends(volume.apex, volume.range);
+  visit_ends(volume.apex, volume.range);
   if (volume.is_cone) {
     generators_towards(volume, volume.apex, [&](const Point3<Real>& g) {
-      take(volume.apex - dot(volume.apex, g) * g);
-      take(volume.apex + volume.range * g);
+      visit(volume.apex - dot(volume.apex, g) * g);
+      visit(volume.apex + volume.range * g);
     });
-    take(volume.apex + volume.range * volume.axis);
+    visit(volume.apex + volume.range * volume.axis);
   }
   for (std::size_t i = 0; i < 4; ++i) {
     const HalfSpace<Real>& face = pyramid.faces[i];
-    take(volume.apex - volume.range * face.normal);
+    visit(volume.apex - volume.range * face.normal);
     if (!reached[i]) continue;
     const Real height = face.margin(volume.apex);
     const Real square = volume.range * volume.range - height * height;
-    // A tangent plane may be computed as just missing the ball: the caller's tolerance decides.
-    take_ends(volume.apex + height * face.normal, square < zero ? zero : SquareRoot<Real>::of(square));
+    // Rounding may make a tangent plane just miss the ball; the caller's tolerance decides.
+    visit_ends(volume.apex + height * face.normal, square < zero ? zero : SquareRoot<Real>::of(square));
     if (!volume.is_cone) continue;
-    conic_extremes(volume, face, bits, take);
-    plane_on_rim(volume, face, take);
+    conic_extremes(volume, face, bits, visit);
+    plane_on_rim(volume, face, visit);
   }
   for (unsigned corner = 0; corner < 4; ++corner) {
     if (!reached[corner & 1] || !reached[2 + (corner >> 1)]) continue;
     const Point3<Real>& ray = pyramid.rays[corner];
-    const auto take_at = [&](const Real& t) {
-      if (!(t < zero)) take(t * ray);
+    const auto visit_at = [&](const Real& t) {
+      if (!(t < zero)) visit(t * ray);
     };
-    line_on_sphere(volume, {zero, zero, zero}, ray, take_at);
-    if (volume.is_cone) line_on_cone(volume, {zero, zero, zero}, ray, take_at);
+    line_on_sphere(volume, {zero, zero, zero}, ray, visit_at);
+    if (volume.is_cone) line_on_cone(volume, {zero, zero, zero}, ray, visit_at);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Search for the least and the greatest distance from the eye over a light's volume in a tile's pyramid, in any number
-// type. What it finds proves nothing by itself.
+// type. The results are not proofs.
 
 #include "geom/numbers/point3.h"
 #include "geom/numbers/precision.h"
@@ -10,7 +10,7 @@
 
 namespace clusterbench::geom {
 
-// pyramid ∩ volume as seen from the eye.
+// pyramid ∩ volume, relative to the eye.
 template <class Real>
 struct PyramidReach {
   bool is_empty = true;    // no candidate lies in both
@@ -48,8 +48,8 @@ PyramidReach<Real> pyramid_reach(const Volume<Real>& volume, const Pyramid<Real>
   return reach;
 }
 
-// A point of the set is sure to lie within this distance of an extreme candidate that may itself be outside by the
-// tolerance: pulled towards a point well inside, it enters the convex set.
+// A point of the set certainly lies within this distance of an extreme candidate that may itself be outside by the
+// tolerance: moved towards a point well inside, the candidate enters the convex set.
 template <class Real>
 Real pull(const PyramidReach<Real>& reach, const Point3<Real>& extreme) {
   return reach.tolerance * (Real(2) + Real(2) * length(reach.inside.at - extreme) / reach.inside.margin);

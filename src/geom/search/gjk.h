@@ -1,6 +1,6 @@
 #pragma once
-// The shortest way between two convex sets, in doubles, after Gilbert, Johnson and Keerthi 1988, "A fast procedure for
-// computing the distance between complex objects in three-dimensional space". What it returns is a proposal, not a
+// The shortest vector between two convex sets, in doubles, after Gilbert, Johnson and Keerthi 1988, "A fast procedure
+// for computing the distance between complex objects in three-dimensional space". The result is a proposal, not a
 // proof.
 
 #include <array>
@@ -17,7 +17,8 @@ class GjkSimplex {
 
   const Point& nearest() const { return nearest_; }
 
-  // Keeps the points that the nearest one is a mean of. False if the new one brings it no nearer.
+  // Adds a point, then keeps only the points whose weighted mean is the nearest point. False if the new point does not
+  // come nearer.
   bool add(const Point& p) {
     points_[count_++] = p;
     const double before = least_;
@@ -38,7 +39,7 @@ class GjkSimplex {
   }
 
  private:
-  // The foot of the origin on what these points span, if it lies between them.
+  // The foot of the origin on the span of these points, if it lies between them.
   bool nearest_of(unsigned subset, Point& foot) const {
     std::array<Point, 4> p{};
     unsigned n = 0;
@@ -73,16 +74,16 @@ class GjkSimplex {
   Point nearest_{0.0, 0.0, 0.0};
 };
 
-// Calls take(direction) for directions with a gap, from the first set to the second, until it says true. least(n): the
-// point p - q of the sets' difference, q of the first and p of the second, where n·(p - q) is least.
-template <class Least, class Take>
-bool try_separating_directions(const Point3<double>& start, Least&& least, Take&& take) {
+// Calls accept(direction) for directions with a gap, from the first set to the second, until it returns true. least(n):
+// the point p - q of the sets' difference, q of the first and p of the second, where n·(p - q) is least.
+template <class Least, class Accept>
+bool try_separating_directions(const Point3<double>& start, Least&& least, Accept&& accept) {
   GjkSimplex simplex;
   Point3<double> n = start;
   constexpr int k_most_steps = 24;
   for (int i = 0; i < k_most_steps; ++i) {
     const Point3<double> p = least(n);
-    if (dot(n, p) > 0.0 && take(n)) return true;
+    if (dot(n, p) > 0.0 && accept(n)) return true;
     if (!simplex.add(p)) return false;
     n = simplex.nearest();
   }

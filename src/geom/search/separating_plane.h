@@ -1,7 +1,7 @@
 #pragma once
-// A plane between a light's volume and a cell bounded by planes, in any number type. Which normals are tried is what
-// can be the direction of the shortest way between two convex sets; how wide the gap is, is measured from the cell's
-// corners and the volume's extent alone. So a wrong guess costs an answer and never makes a wrong one.
+// A plane between a light's volume and a cell bounded by planes, in any number type. The tested normals are the
+// possible directions of the shortest vector between two convex sets. The width of the gap is measured from the cell's
+// corners and the volume's extent alone. So a wrong candidate can only miss a plane, and never gives a wrong answer.
 
 #include <algorithm>
 #include <array>
@@ -15,20 +15,20 @@
 
 namespace clusterbench::geom {
 
-// normal·(p - apex) <= extent for all p of the volume, >= extent + gap for all p of the cell. Unit normal. Negative
-// gap: not separated.
+// normal·(p - apex) <= extent for all p of the volume, >= extent + gap for all p of the cell. Unit normal. A negative
+// gap means: not separated.
 template <class Real>
 struct Separation {
   Point3<Real> normal;
   Real gap;
 };
 
-// Calls take(start, end) for the twelve edges.
-template <class Real, class Take>
-void each_edge(const std::array<Point3<Real>, 8>& corners, Take&& take) {
+// Calls visit(start, end) for the twelve edges.
+template <class Real, class Visit>
+void each_edge(const std::array<Point3<Real>, 8>& corners, Visit&& visit) {
   for (unsigned corner = 0; corner < 8; ++corner)
     for (const unsigned bit : {1u, 2u, 4u})
-      if ((corner & bit) == 0) take(corners[corner], corners[corner | bit]);
+      if ((corner & bit) == 0) visit(corners[corner], corners[corner | bit]);
 }
 
 // The widest gap over the normals tried so far.
@@ -54,8 +54,8 @@ class Separator {
     each_edge(corners_, [&](const Point3<Real>& start, const Point3<Real>& end) { try_between(start, end); });
   }
 
-  // Those that are most often the widest: towards the corner that is lowest over the plane towards the cell's middle,
-  // and equally far from this one and the one that is lowest over the plane towards it.
+  // The tangents that most often have the widest gap: towards the corner that is lowest over the plane towards the
+  // cell's middle, and equally far from this corner and the one that is lowest over the plane towards it.
   void try_likely_tangents() {
     Point3<Real> sum = corners_[0];
     for (std::size_t i = 1; i < 8; ++i) sum = sum + corners_[i];
@@ -67,7 +67,8 @@ class Separator {
   }
 
   // `nearest`: the point of cell ∩ infinite cone nearest to the apex, on the cone's side and beyond the range. A plane
-  // through it holds the volume back if its normal leans from the generator there outwards: how far, an edge says.
+  // through it can separate the volume if its normal leans outwards from the generator there. An edge through the point
+  // determines the angle.
   void try_leaning(const Point3<Real>& nearest) {
     const Point3<Real> along = nearest - volume_.apex;
     const Real size = length(along);
@@ -83,7 +84,7 @@ class Separator {
   }
 
  private:
-  // Outwards, of the plane along the cone's side in a unit direction across the axis.
+  // The outward normal of the plane along the cone's side in a unit direction across the axis.
   Point3<Real> tangent(const Point3<Real>& across) const {
     return volume_.cos_angle * across - volume_.sin_angle * volume_.axis;
   }
@@ -109,7 +110,7 @@ class Separator {
   void try_unit(const Point3<Real>& normal) {
     Real least = dot(normal, corners_[0]);
     for (std::size_t i = 1; i < 8 && least > best_.gap; ++i) least = std::min(least, dot(normal, corners_[i]));
-    if (!(least > best_.gap)) return;  // the volume extends from its apex by 0 at least
+    if (!(least > best_.gap)) return;  // the volume's extent from its apex is at least 0
     const Real gap = least - volume_.extent(normal);
     if (gap > best_.gap) best_ = {normal, gap};
   }
@@ -124,7 +125,7 @@ template <class Real>
 Point3<Real> nearest_in(const Polytope<Real>& cell, const Point3<Real>& p, const Real& tolerance) {
   Point3<Real> best = cell.corners[0];
   Real least = dot(best - p, best - p);
-  const auto take = [&](const Point3<Real>& q) {
+  const auto visit = [&](const Point3<Real>& q) {
     const Real square = dot(q - p, q - p);
     if (!(square < least)) return;
     least = square;
@@ -135,7 +136,7 @@ Point3<Real> nearest_in(const Polytope<Real>& cell, const Point3<Real>& p, const
     const Real square = dot(step, step);
     if (!(square > Real(0))) return;
     const Real t = dot(p - start, step) / square;
-    take(t < Real(0) ? start : t > Real(1) ? end : start + t * step);
+    visit(t < Real(0) ? start : t > Real(1) ? end : start + t * step);
   });
   for (const HalfSpace<Real>& face : cell.faces) {
     const Real height = face.margin(p);
@@ -143,13 +144,13 @@ Point3<Real> nearest_in(const Polytope<Real>& cell, const Point3<Real>& p, const
     const Point3<Real> foot = p + height * face.normal;
     const bool is_in = std::all_of(cell.faces.begin(), cell.faces.end(),
                                    [&](const HalfSpace<Real>& other) { return !(other.margin(foot) < -tolerance); });
-    if (is_in) take(foot);
+    if (is_in) visit(foot);
   }
   return best;
 }
 
-// The point of cell ∩ infinite cone that is nearest to the apex, if the cone meets the cell; or the nearest of those
-// inside and on these faces.
+// The point of cell ∩ infinite cone that is nearest to the apex, if the cone meets the cell. With `on_faces`, only
+// candidates inside and on these faces.
 template <class Real>
 std::optional<Point3<Real>> nearest_in_cone(const Setting<Real>& setting, const std::array<bool, 6>& on_faces = {
                                                                               true, true, true, true, true, true}) {

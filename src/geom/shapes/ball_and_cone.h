@@ -1,5 +1,5 @@
 #pragma once
-// What lights are in the space of a grid, in single precision. Lengths in metres, angles in radians.
+// Lights in the space of a grid, in single precision. Lengths in metres, angles in radians.
 
 #include <array>
 
@@ -18,10 +18,10 @@ struct SphericalCone {
   Vec3f apex;
   float range;
   Vec3f axis;
-  float cos_angle, sin_angle;  // both kept: sqrt(1-cos²) is wrong by 100 % at 0.01°
+  float cos_angle, sin_angle;  // both are stored: sqrt(1-cos²) is wrong by 100 % at 0.01°
 };
 
-// From a box's middle to the middles of three of its faces. Orthogonal, unless a sheared node holds the box.
+// From a box's middle to the middles of three of its faces. Orthogonal, except under a sheared scene node.
 using HalfAxes = std::array<Vec3f, 3>;
 
 // All points center + a * axes[0] + b * axes[1] + c * axes[2] with a, b and c from -1 to 1.

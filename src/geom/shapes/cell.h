@@ -1,6 +1,5 @@
 #pragma once
-// The shapes that cells are. Lengths in metres. Cells are closed sets bounded by the given single-precision numbers,
-// taken exactly.
+// The shapes of cells. Lengths in metres. Cells are closed sets; the single-precision bounds are used as exact numbers.
 
 #include <variant>
 

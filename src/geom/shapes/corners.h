@@ -1,5 +1,5 @@
 #pragma once
-// Corners of cells bounded by planes, as they are: products of floats are doubles.
+// Exact corners of cells bounded by planes: products of floats are doubles.
 
 #include <array>
 
@@ -8,7 +8,7 @@
 
 namespace clusterbench::geom {
 
-// Corner i takes the low or high side by its bits: 1 for x, 2 for y, 4 for z, from near to far.
+// Bits of the index select the low or high side: 1 for x, 2 for y, 4 for z, from near to far.
 using Corners = std::array<Point3<double>, 8>;
 
 inline Corners exact_corners(const Box& cell) {

@@ -1,7 +1,7 @@
 #pragma once
-// The volume of a light: a ball, or (a spot) the part of it in a cone around an axis, or a box. As exact ingredients,
-// and computed from these in any number type. A type of light with another volume is one more alternative of
-// LightVolume; the compiler then names all that asks for one.
+// The volume of a light: a ball, or (a spot) the part of it in a cone around an axis, or a box. Stored as exact
+// numbers, and converted from these to any number type. A light type with another volume is one more alternative of
+// LightVolume; the compiler then reports all code that needs a case for it.
 
 #include <array>
 #include <cmath>
@@ -12,13 +12,13 @@
 
 namespace clusterbench::geom {
 
-// A point's, by its exact ingredients.
+// A point light's volume, in exact numbers.
 struct BallVolume {
   Placement center;
   double range = 0.0;  // > 0, may be +inf
 };
 
-// A spot's. The axis is rotation * direction, not necessarily of unit length.
+// A spot's volume. The axis is rotation * direction, not necessarily of unit length.
 struct SpotVolume {
   Placement apex;
   double range = 0.0;  // > 0, may be +inf
@@ -26,9 +26,9 @@ struct SpotVolume {
   double half_angle_rad = 0.0;
 };
 
-// A box's, with the middle and, in the space of its position, the half axes: all rotation * (position - origin + a *
-// half_axes[0] + b * half_axes[1] + c * half_axes[2]) with a, b and c from -1 to 1. Half axes are any: a box of no
-// thickness, and one that a sheared node has made a parallelepiped, are as good as others.
+// A box's volume, with the middle and, in the space of its position, the half axes: all rotation * (position - origin +
+// a * half_axes[0] + b * half_axes[1] + c * half_axes[2]) with a, b and c from -1 to 1. Half axes are arbitrary: a box
+// without thickness is allowed, and so is a parallelepiped under a sheared scene node.
 struct BoxVolume {
   Placement center;
   double range = 0.0;  // > 0, finite: no less than the distance of the farthest corner from the middle
@@ -37,7 +37,7 @@ struct BoxVolume {
 
 using LightVolume = std::variant<BallVolume, SpotVolume, BoxVolume>;
 
-// From where a light shines.
+// The position from which a light shines.
 inline const Placement& source_of(const BallVolume& ball) {
   return ball.center;
 }
@@ -53,7 +53,7 @@ inline const Placement& source_of(const LightVolume& light) {
 inline double range_of(const LightVolume& light) {
   return std::visit([](const auto& volume) { return volume.range; }, light);
 }
-// Of another size: a light by its range, a box about its middle.
+// The volume with another size: for a light its range, for a box its scale about its middle.
 template <class Volume>
 Volume with_range(Volume light, double range) {
   light.range = range;
@@ -68,7 +68,7 @@ inline LightVolume with_range(const LightVolume& light, double range) {
   return std::visit([&](const auto& volume) { return LightVolume(with_range(volume, range)); }, light);
 }
 
-// A ball, or a ball ∩ cone, in a number type: searches and filters take both alike.
+// A ball, or ball ∩ cone, in a number type: searches and filters handle both alike.
 template <class Real>
 struct Volume {
   Point3<Real> apex;
@@ -76,15 +76,15 @@ struct Volume {
   Real range, cos_angle, sin_angle;
   bool is_cone;
 
-  // How far inside the cone's side a point is; negative outside. Never more than `along`, which only an angle of 0
-  // needs said.
+  // The distance of a point inside the cone's side; negative outside. Never more than `along`; this limit matters only
+  // for an angle of 0.
   Real side_margin(const Point3<Real>& p) const {
     const Point3<Real> v = p - apex;
     const Real along = dot(v, axis);
     const Real side = sin_angle * along - cos_angle * length(v - along * axis);
     return side < along ? side : along;
   }
-  // How far the volume extends from its apex in a unit direction.
+  // The extent of the volume from its apex in a unit direction.
   Real extent(const Point3<Real>& direction) const {
     if (!is_cone) return range;
     const Real along = dot(direction, axis);
@@ -109,7 +109,7 @@ Volume<Real> volume_of(const SpotVolume& light) {
   volume.sin_angle = sin(Real(light.half_angle_rad));
   return volume;
 }
-// Its axis and angle are any.
+// A ball; its axis and angle have no meaning.
 template <class Real>
 Volume<Real> volume_of(const BallVolume& light) {
   Volume<Real> volume = volume_of<Real>(SpotVolume{light.center, light.range});
@@ -117,7 +117,7 @@ Volume<Real> volume_of(const BallVolume& light) {
   return volume;
 }
 
-// Without the range beyond what matters: `reach` is the largest distance from the origin that does.
+// Limits the range to the part that matters: `reach` is the largest relevant distance from the origin.
 template <class Real>
 Volume<Real> within(Volume<Real> volume, const Real& reach) {
   const Real enough = Real(2) * (length(volume.apex) + reach);

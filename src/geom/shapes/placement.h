@@ -1,5 +1,5 @@
 #pragma once
-// A point given by exact ingredients: local = rotation * (position - origin), every number taken exactly.
+// A point stored in exact numbers: local = rotation * (position - origin), every number used exactly.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,8 @@ struct LocalPoint {
 
 inline LocalPoint local_point(const Placement& placement) {
   const Vec3d t = placement.position - placement.origin;
-  // Three products, two sums and the subtraction before them: under 5 unit roundoffs of the sum of magnitudes; 8 taken.
+  // Three products, two sums and the subtraction before them: under 5 unit roundoffs of the sum of magnitudes; 8 are
+  // used.
   constexpr double k_roundoffs = 0x1p-50;
   double error = 0.0;
   for (int row = 0; row < 3; ++row) {
@@ -33,7 +34,7 @@ inline LocalPoint local_point(const Placement& placement) {
   return {placement.rotation * t, error};
 }
 
-// In any number type.
+// The local point in any number type.
 template <class Real>
 Point3<Real> local_point_in(const Placement& placement) {
   Real t[3], local[3];

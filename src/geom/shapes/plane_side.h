@@ -6,8 +6,8 @@
 
 namespace clusterbench::geom {
 
-// 1: a, b, c are seen counter-clockwise from p, that is, p is in front; -1: behind; 0: in the plane, or a triangle
-// without area. Of the numbers as they are given: finite, at most 1e15.
+// 1: a, b, c are counter-clockwise as seen from p, that is, p is in front; -1: p is behind; 0: p is in the plane, or
+// the triangle has no area. For the numbers as given: finite, at most 1e15.
 int side_of_plane(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p);
 
 }  // namespace clusterbench::geom

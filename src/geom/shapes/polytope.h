@@ -17,14 +17,14 @@ struct HalfSpace {
   Real margin(const Point3<Real>& p) const { return offset - dot(normal, p); }
 };
 
-// Corner i takes the low or high side by its bits: 1 for x, 2 for y, 4 for depth.
+// Bits of a corner's index select the low or high side: 1 for x, 2 for y, 4 for depth.
 template <class Real>
 struct Polytope {
   std::array<HalfSpace<Real>, 6> faces;
   std::array<Point3<Real>, 8> corners;
 };
 
-// Four planes through the eye and the rays in which neighbours meet; depth is not negative in it.
+// Four planes through the eye, and the rays in which neighbouring planes meet; all depths are at least 0.
 template <class Real>
 struct Pyramid {
   std::array<HalfSpace<Real>, 4> faces;

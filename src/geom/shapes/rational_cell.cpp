@@ -23,7 +23,7 @@ struct Tied {
 };
 
 // The depth of the point nearest to c among those with x and y tied as given and depth free: the projection onto the
-// line or plane {(slope_x * depth, slope_y * depth, depth)}, where free coordinates take the centre's own value.
+// line or plane {(slope_x * depth, slope_y * depth, depth)}; free coordinates have the centre's own value.
 Rational nearest_depth(const RationalPoint& c, const Tied& x, const Tied& y) {
   Rational numerator = -c.z, denominator = 1;
   if (!x.free) {
@@ -45,9 +45,9 @@ Tied tied(const std::array<Rational, 2>& slopes, int choice) {
   return choice < 2 ? Tied{false, slopes[static_cast<std::size_t>(choice)]} : Tied{true, 0};
 }
 
-// The nearest, after `nearest`, of the centre's projections onto the spans of faces, edges and corners, the
-// inside included (three choices per pair of planes: low, high, free), as far as they lie in the slab.
-// first_choice 0: all of them; 18: only those with free depth.
+// The nearest point: `nearest`, or one of the centre's projections onto the spans of faces, edges and corners, and the
+// inside (three choices per pair of planes: low, high, free), if it lies in the slab. first_choice 0: all projections;
+// 18: only those with free depth.
 RationalPoint nearest_projection(const RationalPoint& c, const Slab& slab, int first_choice, RationalPoint nearest) {
   for (int choice = first_choice; choice < 27; ++choice) {
     const Tied x = tied(slab.x, choice % 3), y = tied(slab.y, choice / 3 % 3);
@@ -177,11 +177,11 @@ RationalPoint nearest_point(const FrustumCell& cell, const RationalPoint& p) {
   return nearest_projection(p, slab, 0, corners_of(cell)[0]);
 }
 
-// The squared distance from p to t * u (u of unit length) is t² - 2 t (u·p) + |p|²: whatever t is, the best u is the
-// one with the largest u·p, and then the best t is u·p, pulled between the shells. If the pyramid's point nearest to p,
-// q, is not the eye, u = q/|q|, as u·p <= |q| for every u of the pyramid (the pyramid is convex, and p - q is
-// perpendicular to q and points away from it). If it is the eye, u·p <= 0 everywhere. Then u, a sum of the four rays
-// (each taken of unit length) with weights that add to 1 at least, leans no less towards p in one of these rays.
+// The squared distance from p to t * u (u of unit length) is t² - 2 t (u·p) + |p|². For every t the best u has the
+// largest u·p, and then the best t is u·p, clamped between the shells. If the pyramid's point nearest to p, q, is not
+// the eye, u = q/|q|, as u·p <= |q| for every u of the pyramid (the pyramid is convex, and p - q is perpendicular to q
+// and points away from it). If it is the eye, u·p <= 0 everywhere. Then u is a sum of the four rays (each taken of unit
+// length) with weights that add to 1 at least, and one of these rays leans no less towards p than u.
 NearestOnShells nearest_point(const ShellCell& cell, const RationalPoint& p) {
   RationalPoint towards = nearest_in_pyramid(cell, p);
   if (dot(towards, towards) == 0) {

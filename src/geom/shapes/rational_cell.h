@@ -11,7 +11,7 @@
 
 namespace clusterbench::geom {
 
-// The planes that bound the cell; of a shell cell those of its pyramid. Normals not of unit length.
+// The planes that bound the cell; for a shell cell, the planes of its pyramid. Normals are not of unit length.
 using Planes = std::vector<HalfSpace<Rational>>;
 Planes planes_of(const Cell& cell);
 
@@ -19,17 +19,18 @@ bool all_hold(const Planes& planes, const RationalPoint& p);
 // Is the point in the closed cell? A shell cell's distance bounds are compared squared.
 bool holds(const Cell& cell, const RationalPoint& p);
 
-// The t >= 0 for which all planes hold start + t * step: nothing, or from `from` to `to`, or (without `to`) on and on.
+// The t >= 0 for which start + t * step is inside all planes: empty, or from `from` to `to`, or (without `to`) without
+// end.
 struct Span {
   Rational from;
   std::optional<Rational> to;
 };
 std::optional<Span> span_within(const Planes& planes, const RationalPoint& start, const RationalPoint& step);
 
-// Corner i takes the low or high side by its bits: 1 for x, 2 for y, 4 for depth.
+// Bits of a corner's index select the low or high side: 1 for x, 2 for y, 4 for depth.
 std::array<RationalPoint, 8> corners_of(const FrustumCell& cell);
 std::array<RationalPoint, 8> corners_of(const Box& cell);
-// The rays in which the pyramid's planes meet, by the bits 1 and 2 of these: points at depth 1.
+// The rays in which the pyramid's planes meet, by the bits 1 and 2 of the index: points at depth 1.
 std::array<RationalPoint, 4> rays_of(const ShellCell& cell);
 
 // The cell's point nearest to p.
@@ -43,7 +44,7 @@ struct NearestOnShells {
   std::optional<Rational> distance;
 };
 NearestOnShells nearest_point(const ShellCell& cell, const RationalPoint& p);
-// Is it at most `reach` (>= 0) away from p?
+// Is its distance from p at most `reach` (>= 0)?
 bool reaches(const RationalPoint& p, const Rational& reach, const NearestOnShells& nearest);
 
 }  // namespace clusterbench::geom

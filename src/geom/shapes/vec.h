@@ -1,6 +1,5 @@
 #pragma once
-// GLM's vectors under short names. f: single precision (what an engine computes with), d: double (what a scene is kept
-// in), i: whole numbers.
+// GLM's vectors under short names. f: single precision (as engines use), d: double (for the scene), i: whole numbers.
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>

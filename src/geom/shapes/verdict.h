@@ -2,8 +2,8 @@
 
 namespace clusterbench::geom {
 
-// Do a light's volume and a cell share a point? Uncertain: left to the next, more precise step; after the last step,
-// undecided.
+// Do a light's volume and a cell share a point? Uncertain: the next, more precise step has to decide; after the last
+// step it means undecided.
 enum class Verdict { no, yes, uncertain };
 
 }  // namespace clusterbench::geom

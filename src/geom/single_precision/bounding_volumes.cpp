@@ -42,8 +42,8 @@ Ball ball_through_farthest(const std::array<Vec3d, 8>& corners, const Vec3d& nea
   return {center, rounded_up(farthest(corners, Vec3d(center), 0, 8) * (1.0 + 1e-12))};
 }
 
-// Centred on the line between the end faces' middles, where near and far corners are equally far, or in the wider end;
-// or, where that is smaller, in the middle of the corners' box.
+// The centre is on the line between the middles of the end faces, where near and far corners are equally far, or in the
+// wider end; or it is the middle of the corners' box, if that ball is smaller.
 Ball ball_around_frustum(const FrustumCell& cell) {
   const std::array<Vec3d, 8> corners = corners_of(cell);
   const Vec3d near_middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);

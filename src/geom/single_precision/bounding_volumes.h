@@ -10,19 +10,19 @@ namespace clusterbench::geom {
 // The planes of a frustum cell, pointing outward: left, right, bottom, top, near, far.
 void outward_planes(const FrustumCell& cell, Plane (&planes)[6]);
 
-// The smallest ball that holds a sphere-capped cone, rounded up; conservative.
+// The smallest ball around a sphere-capped cone, rounded up; conservative.
 // Half-angle below 45°: through the apex and the rim, radius range / (2 cos a); above: around the rim's circle.
 Ball bounding_ball(const SphericalCone& cone);
 
 // The smallest axis-aligned box around a frustum cell, rounded outward.
 Box box_around(const FrustumCell& cell);
 
-// An axis-aligned box around a cell, rounded outward; of a shell cell one around the part of its pyramid between the
-// depths that it can have.
+// An axis-aligned box around a cell, rounded outward. For a shell cell: around the part of its pyramid between its
+// least and greatest possible depth.
 Box box_around(const Cell& cell);
 
-// A small ball around a cell, rounded up. A shell cell's holds the part of its pyramid between the depths that it can
-// have.
+// A small ball around a cell, rounded up. For a shell cell: around the part of its pyramid between its least and
+// greatest possible depth.
 Ball ball_around(const Cell& cell);
 
 }  // namespace clusterbench::geom

@@ -10,14 +10,14 @@ namespace clusterbench::geom {
 namespace {
 
 constexpr float k_roundoff = 0x1p-24f;
-// More than products can lose by underflow.
+// More than the loss of products by underflow.
 constexpr float k_smallest = 0x1p-100f;
 
 float dot(const Vec3f& a, const Vec3f& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// How far a box extends from its middle along a vector, times the vector's length.
+// The extent of a box from its middle along a vector, times the vector's length.
 float extent_along(const HalfAxes& axes, const Vec3f& along) {
   return std::fabs(dot(axes[0], along)) + std::fabs(dot(axes[1], along)) + std::fabs(dot(axes[2], along));
 }
@@ -28,7 +28,7 @@ Vec3f unit_normal(const Vec3f& a, const Vec3f& b) {
   return std::isnormal(size) ? Vec3f(normal / size) : Vec3f(0.0f);
 }
 
-// Of x beyond the side x = slope * depth, or of y. NaN compares to nothing, so that no is not said of it.
+// Is the box beyond the side x = slope * depth (or y)? Comparisons with NaN are false, so NaN never excludes a box.
 bool is_beyond(const PaddedBox& box, float sign, int axis, float slope) {
   const auto outward = [&](const Vec3f& v) { return sign * (v[axis] + slope * v.z); };
   const float extent =
@@ -36,7 +36,7 @@ bool is_beyond(const PaddedBox& box, float sign, int axis, float slope) {
   return outward(box.box.center) - extent > box.padding * (1.0f + std::fabs(slope)) + k_smallest;
 }
 
-// Where a cell lies along a vector, times the vector's length.
+// The extent of a cell along a vector, times the vector's length.
 struct Interval {
   float lo, hi;
 
@@ -46,11 +46,11 @@ struct Interval {
   }
 };
 
-// A frustum cell as the separating-axis test asks it.
+// The directions and numbers of a frustum cell for the separating-axis test.
 struct CellEdges {
   std::array<Vec3f, 6> along;  // the last four: the edges from near to far
   int count;
-  float farthest;  // no corner's |x| + |y| + |z| is more, but for rounding
+  float farthest;  // an upper bound of |x| + |y| + |z| of all corners, up to rounding
 };
 
 CellEdges edges_of(const FrustumCell& cell) {
@@ -117,7 +117,7 @@ bool bounds_touch(const PaddedBox& box, const Box& cell) {
 }
 
 bool bounds_touch_in_box_space(const PaddedBox& box, const Box& cell) {
-  // The differences 1, products 1, sums 2, relative to what is summed.
+  // The differences 1, products 1, sums 2, relative to the summed terms.
   constexpr float k_cell_roundoffs = 6.0f;
   const Vec3f lo = cell.lo - box.box.center, hi = cell.hi - box.box.center;
   for (std::size_t i = 0; i < 3; ++i) {

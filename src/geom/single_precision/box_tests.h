@@ -1,10 +1,10 @@
 #pragma once
-// An oriented box against a cell in single precision: what engines ask of decals and probes. Touching counts. Each test
-// says no only where it has found a direction in which box and cell are apart by more than rounding, so that all of
+// An oriented box against a cell in single precision: the tests of engines for decals and probes. Touching counts. Each
+// test says no only if it has found a direction in which box and cell are separated by more than rounding, so all of
 // them are conservative.
 //
 // Padding is in metres: u times the box's reach, |x| + |y| + |z| + r of its middle and of the ball around it, for each
-// roundoff (u = 2^-24) that a test can add up to. What roundoffs of the cell's own numbers cost, the tests add.
+// roundoff (u = 2^-24) that a test can add up to. The tests themselves add the roundoffs of the cell's own numbers.
 
 #include <array>
 
@@ -13,13 +13,13 @@
 
 namespace clusterbench::geom {
 
-// What of a box does not depend on the cell.
+// The numbers of a box that do not depend on the cell.
 struct PaddedBox {
   OrientedBox box;
   float padding = 0.0f;
   Vec3f extent{0.0f};                    // along x, y and z from the middle, padded
-  std::array<Vec3f, 3> across{};         // the normals of its faces, unit up to rounding; 0 of faces without area
-  std::array<float, 3> across_extent{};  // how far it extends along them, padded
+  std::array<Vec3f, 3> across{};         // the normals of its faces, unit up to rounding; 0 for faces without area
+  std::array<float, 3> across_extent{};  // the box's extents along them, padded
 };
 PaddedBox padded(const OrientedBox& box, float padding);
 
@@ -29,8 +29,8 @@ PaddedBox padded(const OrientedBox& box, float padding);
 inline constexpr float k_bounds_roundoffs = 7.0f;
 bool bounds_touch(const PaddedBox& box, const Box& cell);
 
-// The cell's bounds in the box's own space, and there its bounds again, against the box. Scaled so that lengths stay: a
-// decal may have a thickness of 0.
+// The cell's bounds in the box's own space, and their bounds there, against the box. Scaled so that lengths are
+// preserved: a decal may have a thickness of 0.
 //
 // Roundoffs: the middle 1, half axes 2 (their lengths add up to no more than sqrt(3) r), their padded sum 2.
 inline constexpr float k_box_space_roundoffs = 5.0f;
@@ -44,9 +44,9 @@ inline constexpr float k_sides_roundoffs = 9.0f;
 bool touches_sides(const PaddedBox& box, const FrustumCell& cell);
 
 // The separating-axis test against the frustum cell itself (Gottschalk, Lin and Manocha 1996): depths, the cell's
-// sides, the normals of the box's faces, and what is orthogonal to an edge of each. It has found all directions that
-// there are, so that it is wrong by no more than padding. Any vector may stand for a direction, so what is lost in
-// computing it loses nothing.
+// sides, the normals of the box's faces, and the directions orthogonal to an edge of each. It tests all necessary
+// directions, so it is wrong by no more than padding. Any vector is a valid direction, so rounding errors in the
+// direction's computation do not matter.
 //
 // Roundoffs along a direction, of its largest coordinate times the reach: the middle 5, half axes (given, products and
 // sums) 18, the difference 1.

@@ -13,7 +13,7 @@ struct Plane {
   float offset;
 };
 
-// |x| + |y| + |z|: what roundoffs of a point's coordinates are relative to.
+// |x| + |y| + |z|: the size to which roundoffs of a point's coordinates are relative.
 inline float size_of(const Vec3f& p) {
   return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
 }

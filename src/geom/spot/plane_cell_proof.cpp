@@ -8,7 +8,7 @@
 namespace clusterbench::geom {
 namespace {
 
-// Where the axis enters the cell, if it does. A cone of half-angle 0 has no other points.
+// Does the axis enter the cell? A cone of half-angle 0 has no other points.
 bool axis_surely_meets(const ExactSpot& spot, const Planes& planes) {
   const std::optional<Span> span = span_within(planes, spot.apex, spot.direction);
   return span && surely_holds(spot, at(spot, span->from));
@@ -25,7 +25,7 @@ struct PlaneCase {
       : corners(corners_of(cell)), planes(planes_of(cell)), spot(exact_spot(light, angle_bits)) {}
 };
 
-// What a search in Real finds, checked between bounds of 106 bits. Faces that the volume clearly does not reach, in
+// Searches in Real, and checks the results between bounds of 106 bits. Faces that the volume clearly does not reach, in
 // double precision, have no candidates.
 template <class Real, class PlaneCell>
 Verdict proven_in_106_bits(const SpotVolume& light, const PlaneCell& cell, const std::array<bool, 6>& reached,
@@ -50,7 +50,7 @@ double farthest_corner(const Polytope<double>& polytope) {
   return farthest;
 }
 
-// What a search in Real finds, checked. The apex is not in the cell.
+// Searches in Real, and checks the results exactly. The apex is not in the cell.
 template <class Real, class PlaneCell>
 Verdict proven_by_search(const SpotVolume& light, const PlaneCell& cell, const PlaneCase& exactly) {
   if (surely_leans_away(exactly.spot, exactly.planes)) return Verdict::no;
@@ -82,7 +82,8 @@ Verdict decide(const SpotVolume& given, const PlaneCell& cell) {
   if (surely_holds(exactly.spot, nearest_point(cell, exactly.spot.apex))) return Verdict::yes;
   if (axis_surely_meets(exactly.spot, exactly.planes)) return Verdict::yes;
   verdict = proven_by_search<Float256>(light, cell, exactly);
-  // Needles of 1e-60 rad, and doubles next to 0 beside others: both differ from touching by less than 256 bits tell.
+  // Cones of 1e-60 rad, and doubles next to 0 beside others: both differ from touching by less than 256 bits can
+  // resolve.
   if (verdict == Verdict::uncertain)
     verdict = proven_by_search<Float1024>(light, cell, PlaneCase(light, cell, angle_bits_for<Float1024>()));
   if (verdict == Verdict::uncertain)

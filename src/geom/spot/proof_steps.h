@@ -19,8 +19,8 @@ inline RationalPoint at(const ExactSpot& spot, const Rational& t) {
   return spot.apex + t * spot.direction;
 }
 
-// Does the apex, which is not in the cell, lie in or beyond one of the cell's planes, from which all of the cone's
-// directions certainly lead away?
+// Does the apex, which is not in the cell, lie in or beyond one of the cell's planes, so that all directions of the
+// cone certainly lead away from this plane?
 inline bool surely_leans_away(const ExactSpot& spot, const Planes& planes) {
   const Rational most = squared(spot.half_angle.sine.hi) * dot(spot.direction, spot.direction);
   return std::any_of(planes.begin(), planes.end(), [&](const HalfSpace<Rational>& plane) {
@@ -30,14 +30,14 @@ inline bool surely_leans_away(const ExactSpot& spot, const Planes& planes) {
   });
 }
 
-// Of the half-angle's cosine and sine, for the proof of what a search in Real finds.
+// The precision of the half-angle's cosine and sine for the proof of a search in Real.
 template <class Real>
 constexpr unsigned angle_bits_for() {
   return Precision<Real>::k_tolerance_bits + (Precision<Real>::k_tolerance_bits < 1000 ? 160 : 500);
 }
 
-// On lattices rims of spots touch edges but for rounding. What doubles find nearest to the apex says which faces the
-// edge is between; there alone the plane is found in sums of two doubles, at a fifth of the time.
+// On lattices, rims of spots touch edges up to rounding. The point nearest to the apex, found in doubles, shows between
+// which faces the edge is; only there the plane is searched in sums of two doubles, at a fifth of the time.
 template <class PlaneCell>
 bool is_apart_where_nearest(const SpotVolume& light, const PlaneCell& cell, const Spot106& spot) {
   const Polytope<double> roughly = polytope_of<double>(cell);
@@ -59,10 +59,10 @@ bool is_apart_where_nearest(const SpotVolume& light, const PlaneCell& cell, cons
   return spot.surely_separated(point_106(separator.best().normal), corners);
 }
 
-// The light without the range that no point of a cell needs, `farthest` from the eye at most. Searches and proofs have
-// to take the same range: a point that a search finds beyond that of the proof would prove nothing.
+// The light with its range limited to the points of a cell, which are at most `farthest` from the eye. Searches and
+// proofs have to use the same range: a point that a search finds beyond the proof's range would prove nothing.
 inline SpotVolume limited(SpotVolume light, double farthest) {
-  constexpr double k_least = 1e-150;  // the length of less may come out as 0
+  constexpr double k_least = 1e-150;  // a smaller length may underflow to 0
   const LocalPoint apex = local_point(light.apex);
   light.range = std::min(light.range, 1.01 * (glm::length(apex.at) + 2.0 * apex.rounding_error + farthest) + k_least);
   return light;

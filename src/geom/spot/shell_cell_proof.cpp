@@ -42,8 +42,8 @@ class ShellWitness {
   bool has_near_ = false, has_far_ = false;
 };
 
-// A point of the shell cell at a distance from the eye, in the direction of a vector of the pyramid, is not rational
-// if the vector's length is not. Does it certainly lie in the spot's volume?
+// A point of the shell cell at a distance from the eye, in the direction of a vector of the pyramid, is not rational if
+// the vector's length is not. Does it certainly lie in the spot's volume?
 bool surely_holds(const ExactSpot& spot, const NearestOnShells& on_shell) {
   if (!reaches(spot.apex, spot.range, on_shell)) return false;
   if (!on_shell.distance) return surely_leans(spot, on_shell.towards - spot.apex);
@@ -56,8 +56,8 @@ bool surely_holds(const ExactSpot& spot, const NearestOnShells& on_shell) {
   return along > Enclosure1024(0.0) && along * along > cosine * cosine * dot(v, v) * dot(axis, axis);
 }
 
-// Does the volume certainly hold the shell cell's point nearest to the apex, or a corner on the near shell (of which
-// several can be equally near)?
+// Does the volume certainly contain the shell cell's point nearest to the apex, or a corner on the near shell (several
+// corners can be equally near)?
 bool nearest_surely_meets(const ExactSpot& spot, const ShellCell& cell, const NearestOnShells& nearest) {
   if (nearest.distance && nearest.distance->sign() == 0) return surely_holds(spot, RationalPoint{0, 0, 0});
   if (surely_holds(spot, nearest)) return true;
@@ -67,7 +67,7 @@ bool nearest_surely_meets(const ExactSpot& spot, const ShellCell& cell, const Ne
   });
 }
 
-// Points of the axis in the pyramid: first, last and nearest to the eye.
+// Adds points of the axis in the pyramid to the witness: first, last and nearest to the eye.
 void offer_axis(const ExactSpot& spot, ShellWitness& witness) {
   const std::optional<Span> span = span_within(witness.planes(), spot.apex, spot.direction);
   if (!span) return;
@@ -80,7 +80,7 @@ void offer_axis(const ExactSpot& spot, ShellWitness& witness) {
   witness.offer(at(spot, std::min(std::max(foot, span->from), std::max(last, span->from))));
 }
 
-// What a search in Real finds.
+// Offers the points that a search in Real finds.
 template <class Real, class Offer>
 void offer_found(const SpotVolume& light, const ShellCell& cell, Offer&& offer) {
   const Volume<Real> volume = volume_of<Real>(light);
@@ -88,7 +88,7 @@ void offer_found(const SpotVolume& light, const ShellCell& cell, Offer&& offer) 
   if (reach.is_empty || !(reach.inside.margin > reach.tolerance)) return;
   offer(reach.inside.at);
   for (const Point3<Real>& extreme : {reach.nearest, reach.farthest}) {
-    // So far towards the inside that the tolerance is made up for.
+    // Moved inside far enough to make up for the tolerance.
     const Real share = Real(2) * reach.tolerance / reach.inside.margin;
     if (share < Real(1)) offer(extreme + share * (reach.inside.at - extreme));
   }
@@ -112,8 +112,8 @@ bool meets_in_106_bits(const SpotVolume& light, const ShellCell& cell, const Spo
 }
 
 // Does the spot certainly end before it comes as near to the eye as the far shell? On lattices the generator on the
-// eye's side often touches that but for rounding: then a plane along it, ever so little away from it, lies between; or
-// one across the way to the generator's end.
+// eye's side often touches the far shell up to rounding: then a plane along this generator, turned by a tiny angle,
+// lies between; or a plane across the vector to the generator's end.
 bool is_surely_beyond(const ShellCell& cell, const Spot106& spot) {
   const Point106 axis = (Enclosure106(1.0) / sqrt(dot(spot.direction, spot.direction))) * spot.direction;
   const Point106 part = dot(spot.apex, axis) * axis - spot.apex;
@@ -133,7 +133,7 @@ FrustumCell pyramid_to_far(const ShellCell& cell) {
   return {cell.x0, cell.x1, cell.y0, cell.y1, 0.0f, cell.distance1, false};
 }
 
-// Is there a plane between the spot and that?
+// Is there a plane between the spot and that pyramid?
 template <class Real>
 bool is_surely_beside(const SpotVolume& light, const ShellCell& cell, const Spot106& spot) {
   const FrustumCell whole = pyramid_to_far(cell);
@@ -154,20 +154,20 @@ bool is_exactly_beside(const SpotVolume& light, const ShellCell& cell, const Exa
   return separation.gap > Real(0) && surely_separates(exact(separation.normal), spot, corners_of(whole));
 }
 
-// A volume that holds the spot's, larger by about 2^-bits and turned and moved by as much in directions that have
-// nothing to do with scene or cell. Whatever is parallel, tangent or zero in the spot is not in it, so no formula
-// divides by 0.
+// A volume that contains the spot's, larger by about 2^-bits, and turned and moved by as much in directions that are
+// unrelated to scene and cell. Directions that are parallel, tangent or zero for the spot are not so for this volume,
+// so no formula divides by 0.
 template <class Interval>
 Volume<Interval> slightly_larger(const ExactSpot& spot, unsigned bits, unsigned angle_bits) {
   const Rational delta = Rational(1) / Rational(Integer(1) << bits);
   const RationalPoint sideways{exact(0.618), exact(-0.382), exact(0.732)},
       back{exact(-0.271), exact(0.828), exact(0.577)};
-  // Made longer than 1: then adding delta * sideways turns it by less than 3 delta.
+  // Of length above 1: then adding delta * sideways turns it by less than 3 delta.
   const Rational largest =
       std::max({Rational(abs(spot.direction.x)), Rational(abs(spot.direction.y)), Rational(abs(spot.direction.z))});
   const RationalPoint direction = (1 / largest) * spot.direction + delta * sideways;
-  // Moved back by a vector that leans from the axis by less than the half-angle: the cone that starts there holds the
-  // old one.
+  // Moved back by a vector whose angle to the axis is below the half-angle: the cone that starts there contains the old
+  // one.
   const Rational lean = spot.half_angle_rad > exact(0x1p-18) ? exact(0x1p-20) : delta;
   const Rational step = delta * (norm_1(spot.apex) + spot.range);
   const RationalPoint apex = spot.apex - step * (direction + lean * back);
@@ -231,8 +231,8 @@ bool surely_ends_before(const Volume<Real>& volume, const HalfSpace<Real>& face)
   return volume.range * (volume.cos_angle * along + volume.sin_angle * across) < margin;
 }
 
-// The largest and the smallest distance from the eye over pyramid ∩ volume are among the candidates'. If all of these
-// that may lie in the set are too near, or all too far, so is the set; and if there are none, it is empty.
+// The largest and the smallest distance from the eye over pyramid ∩ volume are among the candidates' distances. If all
+// candidates that may lie in the set are too near, or all too far, so is the set; without candidates it is empty.
 template <class Real>
 bool surely_misses(const Volume<Real>& volume, const ShellCell& cell) {
   const Pyramid<Real> pyramid = pyramid_of<Real>(cell.x0, cell.x1, cell.y0, cell.y1);
@@ -249,7 +249,7 @@ bool surely_misses(const Volume<Real>& volume, const ShellCell& cell) {
   return all_near || all_far;
 }
 
-// Does a search in Real find points that prove the spot to meet the shell cell?
+// Does a search in Real find points that prove that the spot meets the shell cell?
 template <class Real>
 bool meets_by_search(const SpotVolume& light, const ShellCell& cell, const ExactSpot& spot) {
   ShellWitness witness(spot, cell);
@@ -267,7 +267,7 @@ Verdict proven_by_search(const SpotVolume& light, const ShellCell& cell, const E
   return is_exactly_beside<Real>(light, cell, spot) ? Verdict::no : Verdict::uncertain;
 }
 
-// What differs from touching by less than 1024 bits tell.
+// For pairs that differ from touching by less than 1024 bits can resolve.
 Verdict proven_at_last(const SpotVolume& light, const ShellCell& cell) {
   const ExactSpot spot = exact_spot(light, angle_bits_for<Float3072>());
   const Verdict verdict = proven_by_search<Float3072>(light, cell, spot);
@@ -275,8 +275,8 @@ Verdict proven_at_last(const SpotVolume& light, const ShellCell& cell) {
   return surely_misses(slightly_larger<Enclosure3072>(spot, 900, 3090), cell) ? Verdict::no : Verdict::uncertain;
 }
 
-// A spot at the eye reaches equally far in all its directions. Whether one of them is the pyramid's, any flat part of
-// the pyramid tells.
+// A spot at the eye extends equally far in all its directions. Any flat section of the pyramid shows whether one of
+// these directions is in the pyramid.
 Verdict decide_at_eye(const SpotVolume& light, const ExactSpot& spot, const ShellCell& cell) {
   if (spot.range < exact(cell.distance0)) return Verdict::no;
   if (cell.distance0 == 0.0f) return Verdict::yes;

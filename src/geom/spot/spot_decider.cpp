@@ -15,9 +15,9 @@ namespace {
 using Point = Point3<double>;
 using BoundedPoint = Point3<Bounded>;
 
-// What a search in doubles takes for nothing, relative to the numbers involved. Whatever it finds is proven, so it only
-// has to be more than rounding.
-constexpr double k_hardly = 0x1p-40;
+// The relative size that a search in doubles treats as 0. Every result of the search is proven, so this only has to be
+// more than rounding.
+constexpr double k_near_zero = 0x1p-40;
 
 BoundedPoint exactly(const Point& p) {
   return {p.x, p.y, p.z};
@@ -43,7 +43,7 @@ BoundedPoint turned(const Mat3d& rotation, const Vec3d& v) {
 }
 
 // The library's sines and cosines are right to 2 unit roundoffs, see geom/filter/light_filter.cpp.
-Bounded nearly(double value) {
+Bounded with_library_error(double value) {
   return value == 0.0 ? Bounded(0.0) : Bounded(value, bounded::rounded_up(std::abs(value) * 0x1p-51));
 }
 
@@ -65,7 +65,7 @@ std::array<BoundedPoint, 8> corners_of(const ShellCell& cell) {
   return corners;
 }
 
-// Normals into the cell, as any_of takes them.
+// Normals that point into the cell, tested by is(normal).
 template <class Is>
 bool any_slope_normal(float x0, float x1, float y0, float y1, Is&& is) {
   return is(Point{1.0, 0.0, x0}) || is(Point{-1.0, 0.0, -x1}) || is(Point{0.0, 1.0, y0}) || is(Point{0.0, -1.0, -y1});
@@ -87,7 +87,7 @@ bool any_face_normal(const ShellCell& cell, Is&& is) {
   return is(Point{0.0, 0.0, -1.0}) || any_slope_normal(cell.x0, cell.x1, cell.y0, cell.y1, is);
 }
 
-// The least of normal·p over a cell.
+// The least value of normal·p over a cell.
 Bounded least_over(const std::array<BoundedPoint, 8>& corners, const BoundedPoint& normal) {
   Bounded least = dot(normal, corners[0]);
   for (std::size_t i = 1; i < 8; ++i) least = least_of(least, dot(normal, corners[i]));
@@ -97,8 +97,8 @@ template <class PlaneCell>
 Bounded least_over(const PlaneCell&, const std::array<BoundedPoint, 8>& corners, const BoundedPoint& normal) {
   return least_over(corners, normal);
 }
-// Over t u for t between the shells and u a direction of the pyramid, it is -t times how far the opposite of the normal
-// is ahead of the eye.
+// The least value over t u, for t between the shells and u a direction of the pyramid: -t times the largest component
+// of the opposite normal along any such u.
 Bounded least_over(const ShellCell& cell, const std::array<BoundedPoint, 8>&, const BoundedPoint& normal) {
   const Bounded ahead = farthest_ahead(Bounded(-1.0) * normal, cell);
   if (ahead.is_surely_above(0.0)) return -(Bounded(cell.distance1) * ahead);
@@ -106,7 +106,7 @@ Bounded least_over(const ShellCell& cell, const std::array<BoundedPoint, 8>&, co
   return {0.0, bounded::rounded_up(cell.distance1 * (std::abs(ahead.value) + ahead.error))};
 }
 
-// Of the planes through the apex and an edge; corners from the apex.
+// Normals of the planes through the apex and an edge; corners are relative to the apex.
 template <class PlaneCell, class Is>
 bool any_edge_normal(const PlaneCell&, const Point&, const std::array<Point, 8>& corners, Is&& is) {
   for (unsigned corner = 0; corner < 8; ++corner)
@@ -114,8 +114,8 @@ bool any_edge_normal(const PlaneCell&, const Point&, const std::array<Point, 8>&
       if ((corner & bit) == 0 && is(cross(corners[corner], corners[corner | bit] - corners[corner]))) return true;
   return false;
 }
-// Edges from shell to shell lie on rays. A plane across the way to the eye has all that the far shell bounds behind it
-// where the apex is beyond that.
+// Edges from shell to shell lie on rays. If the apex is beyond the far shell, a plane across the vector to the eye has
+// the whole far shell behind it.
 template <class Is>
 bool any_edge_normal(const ShellCell& cell, const Point& apex, const std::array<Point, 8>&, Is&& is) {
   if (is(-1.0 * apex)) return true;
@@ -129,7 +129,7 @@ Point least_corner(const std::array<Point, 8>& corners, const Point& n) {
   return *std::min_element(corners.begin(), corners.end(),
                            [&](const Point& a, const Point& b) { return dot(n, a) < dot(n, b); });
 }
-// The cell's point where n·p is least, about, from the apex, as the corners are.
+// The cell's point where n·p is least, approximately; like the corners, relative to the apex.
 template <class PlaneCell>
 Point least_point(const PlaneCell&, const Point&, const std::array<Point, 8>& corners, const Point& n) {
   return least_corner(corners, n);
@@ -140,7 +140,7 @@ Point least_point(const ShellCell& cell, const Point& apex, const std::array<Poi
   return size > 0.0 ? (cell.distance1 / size) * ahead - apex : least_corner(corners, n);
 }
 
-// The point of the volume where n·p is largest, from its apex; unit axis.
+// The point of the volume where n·p is largest, relative to its apex; unit axis.
 Point farthest_of_volume(const Point& n, const Point& axis, double range, double cosine, double sine) {
   const double size = length(n);
   if (!(size > 0.0)) return {0.0, 0.0, 0.0};
@@ -161,8 +161,8 @@ SpotDecider::SpotDecider(const SpotVolume& light)
       axis_(turned(light.apex.rotation, light.direction)),
       axis_square_(dot(axis_, axis_)) {
   const double half_angle = std::min(light.half_angle_rad, std::numbers::pi / 2.0);
-  cosine_ = nearly(std::cos(half_angle));
-  sine_ = nearly(std::sin(half_angle));
+  cosine_ = with_library_error(std::cos(half_angle));
+  sine_ = with_library_error(std::sin(half_angle));
 }
 
 Verdict SpotDecider::leans(const BoundedPoint& way) const {
@@ -170,7 +170,7 @@ Verdict SpotDecider::leans(const BoundedPoint& way) const {
   const BoundedPoint across = cross(way, axis_);
   const Bounded inside = squared(sine_ * along), outside = squared(cosine_) * dot(across, across);
   if (along.is_surely_above(0.0) && (inside - outside).is_surely_above(0.0)) return Verdict::yes;
-  // No half-angle is quite 90°: in doubles it is less.
+  // No half-angle is exactly 90°: in doubles it is less.
   const bool is_away = along.is_surely_not_above(0.0) || (outside - inside).is_surely_above(0.0);
   if (is_away) return dot(way, way).is_surely_above(0.0) ? Verdict::no : Verdict::uncertain;
   const bool is_exact = way.x.error == 0.0 && way.y.error == 0.0 && way.z.error == 0.0;
@@ -182,9 +182,9 @@ const Spot106& SpotDecider::spot_106() const {
   return *spot_106_;
 }
 
-// The volume extends from its apex along a unit vector w by range if w is in the cone, else by range times
-// cos(angle of w to the axis - half-angle), if that is positive. If the cosine is negative, it has but its apex in
-// common with the plane through it.
+// The extent of the volume from its apex along a unit vector w is range if w is in the cone, else range times cos(angle
+// of w to the axis - half-angle), if that is positive. If the cosine is negative, the volume has only its apex in
+// common with the plane through the apex.
 template <class AnyCell>
 bool SpotDecider::separates(const AnyCell& cell, const Point& normal_given, const Bounded& least) const {
   if ((-least).is_surely_above(0.0)) return false;
@@ -213,14 +213,14 @@ bool SpotDecider::holds_one_of(const std::array<BoundedPoint, 8>& ways) const {
   const Bounded square_range = Bounded(light_.range) * light_.range;
   return std::any_of(ways.begin(), ways.end(), [&](const BoundedPoint& way) {
     const Bounded square = dot(way, way);
-    if (!(square.value <= square_range.value * (1.0 + k_hardly)) || leans(way) != Verdict::yes) return false;
+    if (!(square.value <= square_range.value * (1.0 + k_near_zero)) || leans(way) != Verdict::yes) return false;
     return is_endless || (square - square_range).is_surely_not_above(0.0);
   });
 }
 
 // Planes through the apex first. If cone and cell have a gap, so have the cone and the cell's own cone from the apex: a
-// plane that touches that along a corner's ray, leaning away from the axis, or along an edge, or along a face. All of
-// their normals are sums of products, exact on lattices. Then planes across the shortest way.
+// plane that touches the latter along a corner's ray, leaning away from the axis, or along an edge, or along a face.
+// All of their normals are sums of products, exact on lattices. Then planes across the shortest vector.
 template <class AnyCell>
 bool SpotDecider::is_separated(const AnyCell& cell, const std::array<BoundedPoint, 8>& corners,
                                const std::array<Point, 8>& ways) const {
@@ -229,7 +229,7 @@ bool SpotDecider::is_separated(const AnyCell& cell, const std::array<BoundedPoin
   const double cosine = cosine_.value, sine = sine_.value;
   double size = 0.0;
   for (const Point& way : ways) size = std::max(size, length(way));
-  const double hardly = k_hardly * size;
+  const double near_zero = k_near_zero * size;
   const auto is_proven = [&](const Point& normal) {
     const BoundedPoint n = exactly(normal);
     return separates(cell, normal, least_over(cell, corners, n) - dot(n, apex));
@@ -239,13 +239,13 @@ bool SpotDecider::is_separated(const AnyCell& cell, const std::array<BoundedPoin
     if (!(normal_size > 0.0)) return false;
     const Point nearest = least_corner(ways, normal);
     const double least = dot(normal, nearest) / normal_size;
-    if (!(least >= -hardly)) return false;
+    if (!(least >= -near_zero)) return false;
     const double lean = (cosine * dot(normal, axis) + sine * length(cross(normal, axis))) / normal_size;
-    if (!(light_.range * lean <= least + hardly)) return false;
+    if (!(light_.range * lean <= least + near_zero)) return false;
     if (is_proven(normal)) return true;
-    // Nearly touching both cone and cell: half the way between them.
+    // The plane nearly touches both cone and cell: tilt it to the middle between them.
     const double distance = length(nearest);
-    if (!(least < hardly && lean < 0.0 && lean > -k_hardly && distance > 0.0)) return false;
+    if (!(least < near_zero && lean < 0.0 && lean > -k_near_zero && distance > 0.0)) return false;
     return is_proven(normal - (0.5 * lean * normal_size / distance) * nearest);
   };
   if (is_between(-1.0 * axis_about) || any_face_normal(cell, is_between)) return true;
@@ -273,11 +273,12 @@ Verdict SpotDecider::by_evidence(const AnyCell& cell) const {
   return is_separated(cell, corners, ways_about) ? Verdict::no : Verdict::uncertain;
 }
 
-// Shells have no faces that end them.
+// Shells have no faces at which a spot could end.
 bool SpotDecider::ends_at_face(const ShellCell&) const {
   return false;
 }
-// Rims of lattices' spots end at a plane but for roundoffs: then 106 bits tell whether it is between, without a search.
+// On lattices rims of spots end at a plane up to roundoffs: then 106 bits show whether the plane is between, without a
+// search.
 template <class PlaneCell>
 bool SpotDecider::ends_at_face(const PlaneCell& cell) const {
   if (std::isinf(light_.range)) return false;
@@ -288,7 +289,7 @@ bool SpotDecider::ends_at_face(const PlaneCell& cell) const {
     for (const Point& corner : corners) least = std::min(least, dot(normal, corner - apex));
     const double lean = cosine_.value * dot(normal, axis) + sine_.value * length(cross(normal, axis));
     const double end = light_.range * lean;
-    if (!(end > 0.0) || !(std::abs(least - end) <= k_hardly * (std::abs(least) + end))) return false;
+    if (!(end > 0.0) || !(std::abs(least - end) <= k_near_zero * (std::abs(least) + end))) return false;
     Spot106 spot = spot_106();
     spot.range = Enclosure106(light_.range);
     std::array<Point106, 8> exactly_there;
@@ -302,20 +303,20 @@ Verdict SpotDecider::meets_quickly(const Cell& cell) const {
   if (!is_endless && !ball_.meets(cell)) return Verdict::no;
   const auto nearest = std::visit([&](const auto& shape) { return ball_.nearest_point(shape); }, cell);
   if (nearest) {
-    // Ball and cell have the nearest point in common, and nothing far from it.
+    // Ball and cell share the nearest point, and no points far from it.
     if (leans(nearest->way) == Verdict::yes) return Verdict::yes;
     if (!is_endless && leans(widened(nearest->way, nearest->play)) == Verdict::no) return Verdict::no;
   }
   return apex_.meets(cell) ? Verdict::yes : Verdict::uncertain;
 }
 
-Verdict SpotDecider::meets_nearly(const Cell& cell) const {
+Verdict SpotDecider::meets_when_close(const Cell& cell) const {
   const Verdict verdict = meets_quickly(cell);
   if (verdict != Verdict::uncertain) return verdict;
   return std::visit([&](const auto& shape) { return ends_at_face(shape); }, cell) ? Verdict::no : Verdict::uncertain;
 }
 
-Verdict SpotDecider::meets_after_all(const Cell& cell) const {
+Verdict SpotDecider::meets_by_proof(const Cell& cell) const {
   ++exact_decisions_;
   const Verdict verdict = std::visit([&](const auto& shape) { return by_evidence(shape); }, cell);
   if (verdict != Verdict::uncertain) return verdict;
@@ -328,10 +329,10 @@ Verdict SpotDecider::meets_after_all(const Cell& cell) const {
 }
 
 Verdict SpotDecider::meets(const Cell& cell, bool is_close) const {
-  Verdict verdict = is_close ? meets_nearly(cell) : Verdict::uncertain;
+  Verdict verdict = is_close ? meets_when_close(cell) : Verdict::uncertain;
   if (verdict == Verdict::uncertain) verdict = filter().meets(cell);
   if (verdict == Verdict::uncertain && !is_close) verdict = meets_quickly(cell);
-  return verdict == Verdict::uncertain ? meets_after_all(cell) : verdict;
+  return verdict == Verdict::uncertain ? meets_by_proof(cell) : verdict;
 }
 
 const LightFilter& SpotDecider::filter() const {
