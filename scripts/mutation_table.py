@@ -754,7 +754,7 @@ MUTATIONS = [
              "run.DepthMethods.do_not_fail_for_surfaces_beyond_the_grid_which_no_list_can_have",
              "a grid that ends before the surfaces fails methods that cut cells to depth"),
     Mutation("gaps-count-as-covered", "depth/texel_cover.cpp",
-             "if (rays == k_most_rays) return k_unlimited;", "if (rays == k_most_rays) break;",
+             "if (rays == k_most_rays) return k_infinity;", "if (rays == k_most_rays) break;",
              "depth.ShadowMap.a_texel_with_more_triangles_than_it_casts_rays_is_unlimited",
              "a texel with gaps hides what light reaches through them"),
     Mutation("first-triangle-covers-the-texel", "depth/texel_cover.cpp",

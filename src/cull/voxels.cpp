@@ -11,7 +11,7 @@
 namespace clusterbench::cull {
 namespace {
 
-constexpr std::uint64_t k_word_bits = 64;
+constexpr std::uint64_t k_voxels_per_word = 64;
 // Of a voxel's size: how far before its end a way ends here, more than what single precision loses of where surfaces
 // stand.
 constexpr double k_before_end = 1e-3;
@@ -47,7 +47,7 @@ Voxels::Voxels(const Vec3d& lo, const Vec3d& hi, double size_m) : size_m_(size_m
   if (all >= k_surely_too_many)
     throw Error("", "limits.memory_mib",
                 "the voxels of a visible set would be more than 2^60; use larger ones (pre_cull: visible_set.voxel_m)");
-  const auto words = static_cast<std::uint64_t>(all) / k_word_bits + 1;
+  const auto words = static_cast<std::uint64_t>(all) / k_voxels_per_word + 1;
   check_memory("words of a visible set's voxels", words, sizeof(std::uint64_t),
                "use larger voxels (pre_cull: visible_set.voxel_m)");
   words_.assign(words, 0);
@@ -77,7 +77,7 @@ void Voxels::mark_way(const Vec3d& from, const Vec3d& along, double length_m) {
   }
   while (true) {
     const std::uint64_t bit = bit_of(at[0], at[1], at[2]);
-    words_[bit / k_word_bits] |= std::uint64_t{1} << bit % k_word_bits;
+    words_[bit / k_voxels_per_word] |= std::uint64_t{1} << bit % k_voxels_per_word;
     const int axis = next.x <= next.y ? (next.x <= next.z ? 0 : 2) : (next.y <= next.z ? 1 : 2);
     const auto a = static_cast<std::size_t>(axis);
     if (next[axis] >= end) return;
@@ -89,9 +89,9 @@ void Voxels::mark_way(const Vec3d& from, const Vec3d& along, double length_m) {
 
 bool Voxels::any_in(std::uint64_t begin, std::uint64_t end) const {
   while (begin < end) {
-    const std::uint64_t in_word = begin % k_word_bits, bits = std::min(k_word_bits - in_word, end - begin);
-    const std::uint64_t mask = (bits == k_word_bits ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1) << in_word;
-    if ((words_[begin / k_word_bits] & mask) != 0) return true;
+    const std::uint64_t in_word = begin % k_voxels_per_word, bits = std::min(k_voxels_per_word - in_word, end - begin);
+    const std::uint64_t mask = (bits == k_voxels_per_word ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1) << in_word;
+    if ((words_[begin / k_voxels_per_word] & mask) != 0) return true;
     begin += bits;
   }
   return false;
@@ -126,7 +126,7 @@ bool Voxels::is_marked(const VoxelIndex& voxel) const {
     if (at[axis] < 0 || at[axis] >= counts_[axis]) return false;
   }
   const std::uint64_t bit = bit_of(at[0], at[1], at[2]);
-  return (words_[bit / k_word_bits] >> bit % k_word_bits & 1) != 0;
+  return (words_[bit / k_voxels_per_word] >> bit % k_voxels_per_word & 1) != 0;
 }
 
 std::uint64_t Voxels::marked_count() const {

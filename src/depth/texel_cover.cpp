@@ -10,7 +10,7 @@
 namespace clusterbench::depth {
 namespace {
 
-constexpr double k_unlimited = std::numeric_limits<double>::infinity();
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
 constexpr double k_more = 1.0 + 1e-9;  // than all roundoffs of a distance
 
 // A convex set of directions by its corners, around. Not of unit length.
@@ -36,12 +36,12 @@ struct Wedge {
   // Of the triangle's plane. Directions along it reach it nowhere, or anywhere.
   double distance(const Vec3d& along) const {
     const double t = offset / glm::dot(normal, along);
-    return t > 0.0 ? t * glm::length(along) : k_unlimited;
+    return t > 0.0 ? t * glm::length(along) : k_infinity;
   }
   // No point of the plane in these directions is nearer.
   double least_distance(const Directions& piece) const {
     const double upright = std::abs(offset) / glm::length(normal);
-    double nearest = k_unlimited, apart = 0.0;
+    double nearest = k_infinity, apart = 0.0;
     const auto point = [&](const Vec3d& along) { return offset / glm::dot(normal, along) * along; };
     for (const Vec3d& along : piece) {
       nearest = std::min(nearest, distance(along));
@@ -128,9 +128,9 @@ double covered_distance(const std::array<Vec3d, 4>& corners, std::span<const Sur
   for (const SurfaceHit& hit : found)
     if (!cover.is_whole()) cover.add(hit);
   for (int rays = 0; !cover.is_whole(); ++rays) {
-    if (rays == k_most_rays) return k_unlimited;
+    if (rays == k_most_rays) return k_infinity;
     const std::optional<SurfaceHit> hit = cast(middle_of(cover.a_gap()));
-    if (!hit) return k_unlimited;
+    if (!hit) return k_infinity;
     cover.add(*hit);
   }
   return cover.farthest();

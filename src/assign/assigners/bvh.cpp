@@ -26,7 +26,7 @@ namespace clusterbench::assign {
 namespace {
 
 constexpr float k_inf = std::numeric_limits<float>::infinity();
-constexpr float k_roundoffs = CellAabbs::k_roundoffs;
+constexpr float k_node_roundoffs = CellAabbs::k_roundoffs;
 constexpr std::uint32_t k_width = 8;
 
 // Boxes of neighbours; unused ones are empty.
@@ -172,14 +172,14 @@ std::uint64_t spread(std::uint64_t bits) {
 // Keeps its memory between frames.
 class TreeBuilder {
  public:
-  explicit TreeBuilder(const Params& params) : test(params, k_roundoffs) {}
+  explicit TreeBuilder(const Params& params) : test(params, k_node_roundoffs) {}
 
   // Builds the trees of the lights with volume for which keeps(ball) is true.
   template <class Keeps>
   void build(const view::LightArrays& lights, Keeps&& keeps, Trees& out) {
     balls.resize(lights.size());
     for (std::uint32_t light = 0; light < lights.size(); ++light)
-      balls[light] = lights.is_empty(light) ? geom::Ball{} : test.ball(lights, light, k_roundoffs);
+      balls[light] = lights.is_empty(light) ? geom::Ball{} : test.ball(lights, light, k_node_roundoffs);
     const auto types = lights.types();
     for (std::size_t type = 0; type < out.of_type.size(); ++type)
       build_tree(lights, types[type], keeps, out.of_type[type]);

@@ -22,7 +22,7 @@
 namespace clusterbench::assign {
 namespace {
 
-constexpr float k_roundoffs = 6.0f;
+constexpr float k_rectangle_roundoffs = 6.0f;
 
 enum class DepthTest { none, back, both };
 
@@ -184,7 +184,7 @@ class DrawnLights final : public LightStructure {
 
 class Deferred final : public AssignerOf<DrawnLights> {
  public:
-  explicit Deferred(const Params& params) : light_test_(params, k_roundoffs) {
+  explicit Deferred(const Params& params) : light_test_(params, k_rectangle_roundoffs) {
     const std::string& name = params.text("depth_test");
     test_ = name == "none" ? DepthTest::none : name == "back" ? DepthTest::back : DepthTest::both;
     constexpr std::uint64_t k_depth_bytes = 4;
@@ -207,7 +207,7 @@ class Deferred final : public AssignerOf<DrawnLights> {
   void fill(const FrameInput& input, DrawnLights& out) override {
     const view::LightArrays& lights = input.lights;
     out.test = test_;
-    out.slack = light_test_.padding(k_roundoffs) * 0x1p-24f;
+    out.slack = light_test_.padding(k_rectangle_roundoffs) * 0x1p-24f;
     out.bytes = bytes_;
     out.light_count = lights.size();
     out.drawn = out.shaded = 0;

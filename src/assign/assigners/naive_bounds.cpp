@@ -14,13 +14,13 @@ namespace {
 
 using grid::IndexRange;
 
-enum class Flaw { log_slice, fast_log_slice, textbook_tangents, tile_division, padded_tiles };
+enum class BoundsFlaw { log_slice, fast_log_slice, textbook_tangents, tile_division, padded_tiles };
 
-Flaw flaw_from(const std::string& name) {
-  if (name == "log-slice") return Flaw::log_slice;
-  if (name == "fast-log-slice") return Flaw::fast_log_slice;
-  if (name == "textbook-tangents") return Flaw::textbook_tangents;
-  return name == "tile-division" ? Flaw::tile_division : Flaw::padded_tiles;
+BoundsFlaw bounds_flaw(const std::string& name) {
+  if (name == "log-slice") return BoundsFlaw::log_slice;
+  if (name == "fast-log-slice") return BoundsFlaw::fast_log_slice;
+  if (name == "textbook-tangents") return BoundsFlaw::textbook_tangents;
+  return name == "tile-division" ? BoundsFlaw::tile_division : BoundsFlaw::padded_tiles;
 }
 
 // Slices of exponential schemes by a logarithm that differs from the lookup's: of depth / first boundary to base e, or
@@ -66,7 +66,7 @@ geom::SlopeRange textbook_slopes(float u, float depth, float r) {
 
 class NaiveBounds final : public LightByLight<NaiveBounds> {
  public:
-  explicit NaiveBounds(const Params& params) : flaw_(flaw_from(params.text("flaw"))) {}
+  explicit NaiveBounds(const Params& params) : flaw_(bounds_flaw(params.text("flaw"))) {}
 
   void build(const grid::Grid& grid, const LightKinds&) override { start_grid(grid); }
 
@@ -83,21 +83,21 @@ class NaiveBounds final : public LightByLight<NaiveBounds> {
     const float depth = -ball.center.z;
     const Vec3f& c = ball.center;
     switch (flaw_) {
-      case Flaw::log_slice:
-      case Flaw::fast_log_slice: {
-        const LogSlices slices(grid_->screen().slices, flaw_ == Flaw::fast_log_slice);
+      case BoundsFlaw::log_slice:
+      case BoundsFlaw::fast_log_slice: {
+        const LogSlices slices(grid_->screen().slices, flaw_ == BoundsFlaw::fast_log_slice);
         const IndexRange range = slices.of(depth - ball.radius, depth + ball.radius);
         box.first.z = range.first;
         box.last.z = range.last;
         break;
       }
-      case Flaw::textbook_tangents: {
+      case BoundsFlaw::textbook_tangents: {
         if (grid_->screen().tiles.orthographic) break;
         set_tiles(box, textbook_slopes(c.x, depth, ball.radius), textbook_slopes(c.y, depth, ball.radius));
         break;
       }
-      case Flaw::tile_division:
-      case Flaw::padded_tiles:
+      case BoundsFlaw::tile_division:
+      case BoundsFlaw::padded_tiles:
         shift_tiles(box, ball);
         break;
     }
@@ -132,8 +132,8 @@ class NaiveBounds final : public LightByLight<NaiveBounds> {
 
   void set_axis(int& first, int& last, float from, float to, int pixels, int count) const {
     const int up = (pixels + count - 1) / count;
-    const int tile = flaw_ == Flaw::padded_tiles ? up : std::max(1, static_cast<int>(1.0 / grid_scale(pixels, count)));
-    const int tiles = std::min(count, pixels / tile + (flaw_ == Flaw::padded_tiles ? 1 : 0));
+    const int tile = flaw_ == BoundsFlaw::padded_tiles ? up : std::max(1, static_cast<int>(1.0 / grid_scale(pixels, count)));
+    const int tiles = std::min(count, pixels / tile + (flaw_ == BoundsFlaw::padded_tiles ? 1 : 0));
     if (tiles < 1) {  // less than one whole tile fits
       last = first - 1;
       return;
@@ -159,7 +159,7 @@ class NaiveBounds final : public LightByLight<NaiveBounds> {
         pairs_.add_row(index_of({box.first.x, y, z}), static_cast<std::uint32_t>(box.last.x - box.first.x + 1), light);
   }
 
-  Flaw flaw_;
+  BoundsFlaw flaw_;
 };
 
 }  // namespace

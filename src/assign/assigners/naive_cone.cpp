@@ -11,11 +11,11 @@
 namespace clusterbench::assign {
 namespace {
 
-enum class Flaw { sine_from_cosine, no_range, flat_cap_ball };
+enum class ConeFlaw { sine_from_cosine, no_range, flat_cap_ball };
 
-Flaw flaw_from(const std::string& name) {
-  if (name == "sine-from-cosine") return Flaw::sine_from_cosine;
-  return name == "no-range" ? Flaw::no_range : Flaw::flat_cap_ball;
+ConeFlaw cone_flaw(const std::string& name) {
+  if (name == "sine-from-cosine") return ConeFlaw::sine_from_cosine;
+  return name == "no-range" ? ConeFlaw::no_range : ConeFlaw::flat_cap_ball;
 }
 
 // The ball through apex and rim of a cone with a flat cap: contains the sphere-capped cone, and much more for wide
@@ -27,7 +27,7 @@ geom::Ball flat_cap_ball(const geom::SphericalCone& cone) {
 
 class NaiveCone final : public LightByLight<NaiveCone> {
  public:
-  explicit NaiveCone(const Params& params) : flaw_(flaw_from(params.text("flaw"))) {}
+  explicit NaiveCone(const Params& params) : flaw_(cone_flaw(params.text("flaw"))) {}
 
   void build(const grid::Grid& grid, const LightKinds& kinds) override {
     start_grid(grid);
@@ -49,9 +49,9 @@ class NaiveCone final : public LightByLight<NaiveCone> {
 
   void add_spot(const view::LightArrays& lights, std::uint32_t light) {
     geom::SphericalCone cone = lights.cone(light, view::k_given_roundoffs);
-    if (flaw_ == Flaw::flat_cap_ball)
+    if (flaw_ == ConeFlaw::flat_cap_ball)
       return visit(cell_box(*grid_, flat_cap_ball(cone)), light, [](std::uint32_t) { return true; });
-    if (flaw_ == Flaw::sine_from_cosine) cone.sin_angle = std::sqrt(1.0f - cone.cos_angle * cone.cos_angle);
+    if (flaw_ == ConeFlaw::sine_from_cosine) cone.sin_angle = std::sqrt(1.0f - cone.cos_angle * cone.cos_angle);
     visit(cell_box(*grid_, {cone.apex, cone.range}), light, [&](std::uint32_t cell) { return touches(cone, cell); });
   }
 
@@ -61,7 +61,7 @@ class NaiveCone final : public LightByLight<NaiveCone> {
     const float along = glm::dot(v, cone.axis), squared = glm::dot(v, v);
     const float across = std::sqrt(std::max(0.0f, squared - along * along));
     if (cone.cos_angle * across - cone.sin_angle * along > ball.radius || along < -ball.radius) return false;
-    return flaw_ == Flaw::no_range || along <= cone.range + ball.radius;
+    return flaw_ == ConeFlaw::no_range || along <= cone.range + ball.radius;
   }
 
   template <class Keep>
@@ -77,7 +77,7 @@ class NaiveCone final : public LightByLight<NaiveCone> {
         }
   }
 
-  Flaw flaw_;
+  ConeFlaw flaw_;
   std::vector<geom::Ball> cell_balls_;
 };
 

@@ -12,7 +12,7 @@
 namespace clusterbench::assign {
 namespace {
 
-struct Remainder {
+struct NaiveRemainder {
   float x, y, depth, squared_radius;
 };
 
@@ -37,10 +37,10 @@ class NaiveRefinement final : public LightByLight<NaiveRefinement> {
     const CellBox box = cell_box(*grid_, ball);
     if (box.empty()) return;
     const std::vector<float>& depths = grid_->screen().slices.boundaries;
-    const Remainder whole{ball.center.x, ball.center.y, -ball.center.z, ball.radius * ball.radius};
+    const NaiveRemainder whole{ball.center.x, ball.center.y, -ball.center.z, ball.radius * ball.radius};
     const Vec2i center = center_tile(whole);
     for (int slice = box.first.z; slice <= box.last.z; ++slice) {
-      Remainder in_slice = whole;
+      NaiveRemainder in_slice = whole;
       const auto z = static_cast<std::size_t>(slice);
       in_slice.depth = std::clamp(whole.depth, depths[z], depths[z + 1]);
       in_slice.squared_radius -= (in_slice.depth - whole.depth) * (in_slice.depth - whole.depth);
@@ -50,7 +50,7 @@ class NaiveRefinement final : public LightByLight<NaiveRefinement> {
   }
 
   // The tile of the whole ball's centre; beyond the screen's edge, the tile just outside.
-  Vec2i center_tile(const Remainder& ball) const {
+  Vec2i center_tile(const NaiveRemainder& ball) const {
     Vec2i tile{-1, -1};
     while (tile.x + 1 < static_cast<int>(columns_.size()) && column(tile.x + 1).distance(ball.x, ball.depth) >= 0.0f)
       ++tile.x;
@@ -59,7 +59,7 @@ class NaiveRefinement final : public LightByLight<NaiveRefinement> {
     return tile;
   }
 
-  void add_row(const CellBox& box, Remainder ball, Vec2i center, int slice, int y, std::uint32_t light) {
+  void add_row(const CellBox& box, NaiveRemainder ball, Vec2i center, int slice, int y, std::uint32_t light) {
     ++tests_;
     if (y != center.y) {
       const TilePlane& plane = y > center.y ? row(y) : row(y + 1);
