@@ -51,7 +51,7 @@ bool Pattern::is_all_of(std::string_view text) const {
   return !expression_ || text == text_ || RE2::FullMatch(re2_text(text), *expression_);
 }
 
-bool Pattern::is_in_as_it_stands(std::string_view text) const {
+bool Pattern::is_literally_in(std::string_view text) const {
   return text.find(text_) != std::string_view::npos;
 }
 

@@ -23,7 +23,7 @@ class Pattern {
   bool is_in(std::string_view text) const;
   bool is_all_of(std::string_view text) const;
   // Not as a regular expression.
-  bool is_in_as_it_stands(std::string_view text) const;
+  bool is_literally_in(std::string_view text) const;
   bool is(std::string_view text) const;
 
  private:

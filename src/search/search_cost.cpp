@@ -33,9 +33,9 @@ struct Look {
 };
 
 Look look_at(const config::Config& config, run::Plan& plan, std::vector<run::GroupPlan> groups,
-             const run::Looks& looks) {
+             const run::EstimateLimits& limits) {
   std::swap(plan.groups, groups);
-  const std::vector<run::GroupCost> costs = run::estimated_costs(config, plan, looks);
+  const std::vector<run::GroupCost> costs = run::estimated_costs(config, plan, limits);
   std::swap(plan.groups, groups);
   const auto count = static_cast<double>(groups.size());
   Look look;
