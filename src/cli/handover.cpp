@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* k_no_file = "-";
 
-// Where another process finds what a stream of this one is redirected from; null for all else.
+// The path by which another process can open the file behind this process's stream; null for other paths.
 Json path_for_others(const fs::path& path) {
   if (!is_stream_name(path)) return nullptr;
   std::error_code failed;

@@ -1,6 +1,6 @@
 #pragma once
-// What an engine's own limits change of what `size` counts: a setting is sized by what the engine asks for, and not by
-// what it makes of too little room.
+// Removes an engine's own limits for `size`: a setting is sized by the engine's needs, not by its behaviour with too
+// little room.
 
 #include <vector>
 
@@ -10,11 +10,12 @@
 
 namespace clusterbench::cli {
 
-// Without limits on the number of lights, and with tiles that do not grow where lists have no room. What a storage
-// drops changes no buffer's need, and tiles that follow the lights in view (mask-words) are the engine's grid itself.
+// Without limits on the number of lights, and with tiles that do not grow when lists have no room. Limits of a storage
+// stay, since dropped entries do not change the needs of buffers; so do tiles that follow the lights in view
+// (mask-words), since they are the engine's grid itself.
 config::Config without_engine_limits(config::Config config);
 
-// Of each case of the plan whose tiles grow in `limited`, the configuration as it was: what they come to.
+// For each case of the plan whose tiles grow in `limited`, the engine's configuration: their sizes after growing.
 std::vector<report::GrownTiles> grown_tiles(const config::Config& limited, const run::Plan& plan);
 
 }  // namespace clusterbench::cli
