@@ -62,7 +62,7 @@ const std::vector<grid::Span>& PathFrames::spans(const grid::GridSpec& spec) con
   if (!spans.empty()) return spans;
   grid::SpanFollower follower(*spec.slices.fit);
   for (int i = 0; i < static_cast<int>(path_.shots.size()); ++i)
-    spans.push_back(grid::telling_span(spec.slices, follower.next(needed(spec, frame_of_path(i)))));
+    spans.push_back(grid::deciding_span(spec.slices, follower.next(needed(spec, frame_of_path(i)))));
   return spans;
 }
 
