@@ -136,7 +136,7 @@ PictureFiles::PictureFiles(const ImageFlags& flags, const config::Config& config
     : config_(config), plan_(plan), folder_(flags.folder), inputs_(std::move(inputs)), request_(request_of(flags)) {
   check_count(plan, request_);
   make_folder(folder_);
-  if (!os::is_writable_folder(folder_)) throw Error(folder_, "", errno_says("cannot be written to"));
+  if (!os::is_writable_folder(folder_)) throw Error(folder_, "", errno_text("cannot be written to"));
   geometries_ = pictures::load_geometries(config, plan, request_);
   for (std::size_t i = 0; i < geometries_.size(); ++i)
     for (const std::string& warning : geometries_[i] ? geometries_[i]->warnings : std::vector<std::string>{})

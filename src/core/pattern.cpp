@@ -11,7 +11,8 @@ re2::StringPiece re2_text(std::string_view text) {
   return {text.data(), text.size()};
 }
 
-// "\\ makes ( ) + plain characters", of those of the text that mean something in a regular expression; "": none.
+// "\\ makes ( ) + plain characters", for those characters of the text that are special in a regular expression; "":
+// none.
 std::string escapes_text(std::string_view text) {
   std::string special;
   for (const char character : std::string_view("()[]{}.+*?|^$\\"))

@@ -1,5 +1,5 @@
 #pragma once
-// Some lights of a frame, side by side, as an engine compacts those that a cull leaves.
+// Some lights of a frame in arrays of their own, as an engine compacts the lights that a cull keeps.
 
 #include <cstdint>
 #include <span>
@@ -8,8 +8,7 @@
 
 namespace clusterbench::view {
 
-// Copies the lights of these ascending indices; `out` keeps its memory and its `source`, which belongs to whoever made
-// it.
+// Copies the lights of these ascending indices; `out` keeps its memory and its `source`, which belongs to its creator.
 void select_lights(const LightArrays& all, std::span<const std::uint32_t> chosen, LightArrays& out);
 
 }  // namespace clusterbench::view
