@@ -17,7 +17,7 @@ std::string engine_name(const std::string& engine) {
   return name.substr(0, name.find(','));
 }
 
-// The engine's settings that replace this flag.
+// Throws Error that names the engine's grid settings.
 [[noreturn]] void refuse_for_engine(const config::FlagValue& flag, const std::string& engine, const std::string& why) {
   const std::string settable = report::settable_grid_text(*report::row_of_engine(engine));
   throw Error("", flag.shown(),

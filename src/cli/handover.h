@@ -9,10 +9,10 @@
 
 namespace clusterbench::cli {
 
-// A line of JSON. With `scene`, an index in the configuration's list, it contains only that scene. The name of the
-// configuration's file is passed as a separate argument, since a name need not be UTF-8.
+// The handover is a line of JSON. With `scene`, an index in the configuration's list, it contains only that scene. The
+// name of the configuration's file is passed as a separate argument, since a name need not be UTF-8.
 std::string file_argument(const config::Config& config);
-std::string handed_over(const config::Config& config, const run::Plan& plan, std::optional<std::size_t> scene = {});
+std::string handover_line(const config::Config& config, const run::Plan& plan, std::optional<std::size_t> scene = {});
 
 struct ReceivedRun {
   config::Config config;

@@ -122,7 +122,7 @@ class Launch {
  public:
   Launch(const config::Config& config, const run::Plan& plan, std::size_t scene, const std::atomic<bool>& stop)
       : stop_(stop), child_({os::k_this_program, "run", k_serve_launch, "--", file_argument(config)}) {
-    child_.send_line(handed_over(config, plan, scene));
+    child_.send_line(handover_line(config, plan, scene));
     if (const std::optional<std::string> line = next_line(); line && *line != k_ready)
       fail("greets with '" + *line + "'");
   }

@@ -269,7 +269,7 @@ bool add_baseline(const RunFlags& flags, const config::Config& config, const run
 
 // The checks of a finished run.
 struct Verdicts {
-  // with the program beside it, whose gates replace those of the run; empty without one
+  // with the program beside it; its gates include those of the run; empty without one
   Json comparison = Json::object();
   std::string changes;  // since the baseline
   std::vector<report::LimitFindings> findings;

@@ -85,7 +85,7 @@ bool is_at_surfaces(const CaseResult& result) {
 }
 
 // If cells were not compared with the truth: the samples that miss more lights than lookups can round away; null if
-// none do, or if cells were compared. Slices that follow surfaces promise nothing for other samples.
+// none do, or if cells were compared. Slices that follow surfaces promise nothing behind them.
 struct LackingSamples {
   const measure::ShadingCounts* counts = nullptr;
   measure::SampleSet set = measure::SampleSet::volume;

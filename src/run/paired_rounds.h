@@ -79,7 +79,7 @@ struct PairedStart {
 
 struct PairedRound {
   int launch = 0;
-  double share = 0.0;  // share of the certain work that is done; further launches are not counted
+  double share = 0.0;  // of this round in the work of the first `launches` launches; 0 in further ones
 };
 using OnPairedRound = std::function<void(const PairedRound&)>;
 

@@ -263,8 +263,8 @@ class ViewSearch {
     return all;
   }
 
-  // Moves duplicates to the end: of standings with equal key and objective only the first keeps its place. They are
-  // lists of one grid in different storages, or a structure that depends on its grids only by name.
+  // Moves duplicates to the end: of standings with equal key and objective only the best-ranked one keeps its place.
+  // They are lists of one grid in different storages, or a structure that depends on its grids only by name.
   template <class KeyOf>
   static void put_back_equals(std::vector<Standing>& all, const KeyOf& key_of_standing) {
     std::map<std::pair<std::pair<bool, double>, double>, std::size_t> first;
