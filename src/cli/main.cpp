@@ -16,10 +16,11 @@ int main(int argc, char** argv) {
     clusterbench::cli::check_standard_output();
     return code;
   } catch (const clusterbench::Error& error) {
-    clusterbench::cli::tell(clusterbench::printable(error.what()));  // one line, whatever names it holds
+    // one line, even if names contain line breaks
+    clusterbench::cli::print_message(clusterbench::printable(error.what()));
     return static_cast<int>(error.code());
   } catch (const std::exception& error) {
-    clusterbench::cli::tell(std::string("internal error: ") + error.what());
+    clusterbench::cli::print_message(std::string("internal error: ") + error.what());
     return static_cast<int>(ExitCode::internal);
   }
 }

@@ -126,7 +126,7 @@ class Scanner {
 nlohmann::json parsed(const std::string& text, const std::string& file) {
   nlohmann::json value;
   if (const std::optional<JsonFault> fault = parse_json(text, value, JsonComments::allowed))
-    throw Error(file, to_text(position_of(text, fault->byte), ""), fault->what);
+    throw Error(file, to_text(position_of(text, fault->byte), ""), fault->message);
   return value;
 }
 

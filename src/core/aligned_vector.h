@@ -1,6 +1,6 @@
 #pragma once
-// A std::vector that begins at a cache line, so that whole vectors at multiples of their size do not cross one.
-// Not oneTBB's allocator: that one takes memory past operator new, where the tests count what a steady frame allocates.
+// A std::vector that begins at a cache line, so that SIMD vectors at multiples of their size do not cross one. oneTBB's
+// allocator is not used: it allocates without operator new, by which tests count the allocations of a steady frame.
 
 #include <cstddef>
 #include <new>

@@ -1,11 +1,11 @@
 #pragma once
-// Arrays that stand side by side: an index means the same in each of them.
+// Parallel arrays: an index has the same meaning in each of them.
 
 #include <cstddef>
 
 namespace clusterbench {
 
-// Makes each at least so long. None becomes shorter.
+// Resizes each to at least this length. None becomes shorter.
 template <class... Arrays>
 void grow_to(std::size_t size, Arrays&... arrays) {
   ((arrays.size() < size ? arrays.resize(size) : void()), ...);

@@ -1,11 +1,11 @@
 #pragma once
-// The wall clock by which everything here is timed.
+// The wall clock of all timings.
 
 #include <chrono>
 
 namespace clusterbench {
 
-// Nanoseconds since some moment; never goes back.
+// Nanoseconds since some moment; monotonic.
 inline double wall_ns() {
   return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }

@@ -22,8 +22,8 @@ Error::Error(std::string file, std::string where, std::string message, ExitCode 
       message_(std::move(message)),
       code_(code) {}
 
-std::string errno_says(const std::string& what) {
-  return what + ": " + std::strerror(errno);
+std::string errno_text(const std::string& action) {
+  return action + ": " + std::strerror(errno);
 }
 
 }  // namespace clusterbench

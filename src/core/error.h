@@ -1,12 +1,12 @@
 #pragma once
-// The one exception type, thrown where the outside world comes in (files, configuration, flags, disk).
+// The one exception type, thrown for errors of outside input (files, configuration, flags, disk).
 
 #include <stdexcept>
 #include <string>
 
 namespace clusterbench {
 
-// What a process exits with; the values are part of the tool's contract.
+// Exit codes of the process; the values are part of the tool's contract.
 enum class ExitCode : int {
   ok = 0,
   gate_failed = 1,  // a conservative assigner lost a light, a regression was found
@@ -18,8 +18,8 @@ enum class ExitCode : int {
   sigint = 130,
 };
 
-// An error in something that a person gave us. `file` is the path or flag, `where` the location in it (line:column,
-// JSON pointer, byte; may be empty), `message` what was found and what is allowed. what() is "file: where: message".
+// An error in user input. `file` is the path or flag, `where` the location in it (line:column, JSON pointer, byte; may
+// be empty), `message` the actual and the allowed value. what() is "file: where: message".
 class Error : public std::runtime_error {
  public:
   Error(std::string file, std::string where, std::string message, ExitCode code = ExitCode::usage);
@@ -34,7 +34,7 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-// What was tried and why the system refused it, by errno: "cannot be written: No space left on device".
-std::string errno_says(const std::string& what);
+// The failed action with the system's reason from errno: "cannot be written: No space left on device".
+std::string errno_text(const std::string& action);
 
 }  // namespace clusterbench

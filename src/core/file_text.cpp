@@ -12,7 +12,7 @@ std::string file_text(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, ignored)) throw Error(path.string(), "", "is a folder, not a file");
   std::ifstream in(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in || in.bad()) throw Error(path.string(), "", errno_says("cannot be read"));
+  if (!in || in.bad()) throw Error(path.string(), "", errno_text("cannot be read"));
   return text;
 }
 

@@ -8,7 +8,7 @@
 namespace clusterbench {
 namespace {
 
-// Goes over a text that need not be JSON, without recursion.
+// Scans a text that need not be JSON, without recursion.
 class Counter {
  public:
   Counter(std::string_view text, JsonComments comments, std::size_t most_members)
@@ -71,19 +71,19 @@ std::optional<JsonFault> json_excess(std::string_view text, JsonComments comment
   return Counter(text, comments, most_members).excess();
 }
 
-std::string plain_json_message(const std::string& what) {
-  const std::size_t position = what.find("column ");
-  const std::size_t colon = what.find(": ", position == std::string::npos ? 0 : position);
-  const std::size_t bracket = what.find("] ");
-  if (position != std::string::npos && colon != std::string::npos) return what.substr(colon + 2);
-  return bracket == std::string::npos ? what : what.substr(bracket + 2);
+std::string plain_json_message(const std::string& message) {
+  const std::size_t position = message.find("column ");
+  const std::size_t colon = message.find(": ", position == std::string::npos ? 0 : position);
+  const std::size_t bracket = message.find("] ");
+  if (position != std::string::npos && colon != std::string::npos) return message.substr(colon + 2);
+  return bracket == std::string::npos ? message : message.substr(bracket + 2);
 }
 
 namespace json_detail {
 
-JsonFault number_fault(std::string_view text, const std::string& what) {
-  const std::size_t first = what.find('\''), last = what.rfind('\'');
-  const std::string number = first < last ? what.substr(first + 1, last - first - 1) : "";
+JsonFault number_fault(std::string_view text, const std::string& message) {
+  const std::size_t first = message.find('\''), last = message.rfind('\'');
+  const std::string number = first < last ? message.substr(first + 1, last - first - 1) : "";
   const std::size_t at = text.find(number);
   return {at == std::string_view::npos ? 0 : at,
           "has a number that is larger than double precision can hold: " + number};

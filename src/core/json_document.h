@@ -1,6 +1,6 @@
 #pragma once
 // The one reader of JSON documents: results, journals, histories, configurations, scenes. Depth, values and members are
-// counted over the text before anything is parsed, since copying a deep value recurses and a wide one takes memory.
+// counted in the text before it is parsed, since copying a deep value recurses and a wide one needs much memory.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -12,30 +12,30 @@
 
 namespace clusterbench {
 
-// Arrays and objects within each other. What this tool writes has a dozen, glTF's extras may have more.
+// Nested arrays and objects. This tool writes about a dozen levels; glTF's extras may have more.
 inline constexpr int k_deepest_json = 256;
-// Of one object of a document whose members keep their order, which are looked for one by one.
+// Limit for one object of a document that keeps the order of its members, since these are searched linearly.
 inline constexpr std::size_t k_most_json_members = 20'000;
-// What a parsed value takes, about: with its key and its share of the list that it stands in.
+// Approximate memory of a parsed value, with its key and its share of the containing list.
 inline constexpr std::size_t k_json_value_bytes = 64;
 
 enum class JsonComments : bool { refused, allowed };
 
 struct JsonFault {
   std::size_t byte = 0;
-  std::string what;
-  bool is_syntax = false;  // the text is no JSON at all
+  std::string message;
+  bool is_syntax = false;  // the text is not JSON
 
-  std::string text() const { return is_syntax ? "is not JSON: " + what : what; }
+  std::string text() const { return is_syntax ? "is not JSON: " + message : message; }
 };
 
-// What of a text exceeds the limits, the first of it; nothing for what may be parsed. It need not be JSON. Throws Error
-// (limits.memory_mib) for more values than memory may hold.
+// The first violation of the limits in a text; nullopt if it may be parsed. The text need not be JSON. Throws Error
+// (limits.memory_mib) for more values than the limit on memory allows.
 std::optional<JsonFault> json_excess(std::string_view text, JsonComments comments,
                                      std::size_t most_members = static_cast<std::size_t>(-1));
 
 // The library's message without its own prefix and position.
-std::string plain_json_message(const std::string& what);
+std::string plain_json_message(const std::string& message);
 
 namespace json_detail {
 
@@ -44,8 +44,8 @@ constexpr std::size_t most_members() {
   return std::is_same_v<Json, nlohmann::ordered_json> ? k_most_json_members : static_cast<std::size_t>(-1);
 }
 
-// A number beyond double precision, which the message quotes: where it stands.
-JsonFault number_fault(std::string_view text, const std::string& what);
+// The location of a number beyond double precision that the message quotes.
+JsonFault number_fault(std::string_view text, const std::string& message);
 
 }  // namespace json_detail
 
@@ -72,7 +72,7 @@ Json read_json(std::string_view text, const std::string& file, JsonComments comm
   return out;
 }
 
-// The document, or a discarded value where it is none.
+// The document, or a discarded value if it is none.
 template <class Json>
 Json json_or_discarded(std::string_view text, JsonComments comments = JsonComments::refused) {
   Json out;

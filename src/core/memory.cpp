@@ -28,13 +28,13 @@ void set_memory_limit(std::uint64_t bytes) {
   limit().store(bytes, std::memory_order_relaxed);
 }
 
-void check_memory(const char* what, std::uint64_t entries, std::uint64_t entry_bytes, const char* remedy) {
+void check_memory(const char* name, std::uint64_t entries, std::uint64_t entry_bytes, const char* remedy) {
   constexpr std::uint64_t k_most = std::numeric_limits<std::uint64_t>::max();
   const bool overflows = entry_bytes != 0 && entries > k_most / entry_bytes;
   const std::uint64_t bytes = overflows ? k_most : entries * entry_bytes;
   if (bytes <= memory_limit()) return;
   throw Error("", "limits.memory_mib",
-              std::to_string(entries) + " " + what + " would take " + mib(bytes) + ", and " + mib(memory_limit()) +
+              std::to_string(entries) + " " + name + " would take " + mib(bytes) + ", and " + mib(memory_limit()) +
                   " are allowed; raise the limit, or " + remedy);
 }
 

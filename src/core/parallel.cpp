@@ -14,9 +14,9 @@
 namespace clusterbench {
 namespace {
 
-// Work that is handed to other threads and waited for. A thread sanitizer, which sees neither oneTBB's library nor this
-// file, is told so: that what came before the work happened before it, and the work before what comes after. Pieces of
-// it happen in no order among themselves, so it still finds what two of them do to the same data.
+// Work that is handed to other threads and waited for. A thread sanitizer sees neither oneTBB's library nor this file,
+// so these calls report the order: code before the work happens before it, and the work before the code after it. Parts
+// of the work have no order among themselves, so the sanitizer still finds races between them.
 class SharedWork {
  public:
   SharedWork() { release(&begun_); }
@@ -47,7 +47,7 @@ class SharedWork {
   char begun_ = 0, done_ = 0;
 };
 
-// More workers than processors would only make oneTBB complain on standard error.
+// With more workers than processors oneTBB would print a warning on standard error.
 int workers(int threads) {
   return std::min(threads, oneapi::tbb::info::default_concurrency());
 }

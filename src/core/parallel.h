@@ -12,7 +12,7 @@ namespace clusterbench {
 void parallel_ranges(std::size_t count, int threads,
                      const std::function<void(std::size_t begin, std::size_t end)>& work);
 
-// Threads that stay, for work that comes again and again and is short.
+// Persistent threads for short work that is repeated often.
 class ThreadPool {
  public:
   explicit ThreadPool(int threads);

@@ -11,7 +11,8 @@ re2::StringPiece re2_text(std::string_view text) {
   return {text.data(), text.size()};
 }
 
-// "\\ makes ( ) + plain characters", of those of the text that mean something in a regular expression; "": none.
+// "\\ makes ( ) + plain characters", for those characters of the text that are special in a regular expression; "":
+// none.
 std::string escapes_text(std::string_view text) {
   std::string special;
   for (const char character : std::string_view("()[]{}.+*?|^$\\"))
@@ -51,7 +52,7 @@ bool Pattern::is_all_of(std::string_view text) const {
   return !expression_ || text == text_ || RE2::FullMatch(re2_text(text), *expression_);
 }
 
-bool Pattern::is_in_as_it_stands(std::string_view text) const {
+bool Pattern::is_literally_in(std::string_view text) const {
   return text.find(text_) != std::string_view::npos;
 }
 

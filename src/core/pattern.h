@@ -1,7 +1,6 @@
 #pragma once
-// What people give to select names: a part of a name as it stands, or a regular expression. The time of a match is
-// linear in its text, whatever the expression is, which is what RE2 is for: std::regex takes exponential time for
-// "(a+)+$".
+// User input that selects names: a literal part of a name, or a regular expression. The time of a match is linear in
+// its text for every expression, thanks to RE2: std::regex needs exponential time for "(a+)+$".
 
 #include <memory>
 #include <string>
@@ -15,15 +14,15 @@ namespace clusterbench {
 
 class Pattern {
  public:
-  Pattern() = default;  // is everywhere
+  Pattern() = default;  // matches everything
   // Throws Error with `option` as its location.
   Pattern(const std::string& text, const std::string& option);
 
-  // As it stands, or as a regular expression: a name that was copied has parentheses, points and the like.
+  // Literally, or as a regular expression: a copied name contains parentheses, points and similar characters.
   bool is_in(std::string_view text) const;
   bool is_all_of(std::string_view text) const;
   // Not as a regular expression.
-  bool is_in_as_it_stands(std::string_view text) const;
+  bool is_literally_in(std::string_view text) const;
   bool is(std::string_view text) const;
 
  private:
@@ -31,8 +30,8 @@ class Pattern {
   std::shared_ptr<const re2::RE2> expression_;
 };
 
-// What a message that nothing matches adds: ", neither as it stands nor as a regular expression, in which \ makes ( )
-// plain characters", of those that are in the text; "" where there are none.
+// Text to append to a message that nothing matches, which names the special characters of the text: ", neither as it
+// stands nor as a regular expression, in which \ makes ( ) plain characters"; "" if it has none.
 std::string pattern_hint(std::string_view text);
 
 }  // namespace clusterbench

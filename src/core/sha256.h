@@ -1,5 +1,5 @@
 #pragma once
-// SHA-256 of bytes that come in pieces; sha256_hex() of core/text.h is of one.
+// SHA-256 of bytes that come in pieces; for a single piece see sha256_hex() of core/text.h.
 
 #include <memory>
 #include <string>
@@ -15,7 +15,7 @@ class Sha256 {
   Sha256& operator=(Sha256&&) noexcept;
 
   void add(std::string_view bytes);
-  // Lower-case hexadecimal, of all that was added; once.
+  // Lower-case hexadecimal, of all bytes that were added; call it once.
   std::string hex();
 
  private:

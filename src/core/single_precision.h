@@ -3,7 +3,7 @@
 
 namespace clusterbench {
 
-// Through memory: where g++ 12 packs two such roundings into a vector, it leaves them out (-O2, x and y of a point).
+// Through memory: g++ 12 omits two such roundings when it packs them into a vector (-O2, x and y of a point).
 inline double rounded_to_float(double value) {
   const volatile float rounded = static_cast<float>(value);
   return static_cast<double>(rounded);

@@ -27,8 +27,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
-// Bytes of the UTF-8 character at the beginning of `text`, 0 if there is none. Overlong forms, surrogates and what lies
-// beyond U+10FFFF are none.
+// Bytes of the UTF-8 character at the beginning of `text`, 0 if there is none. Overlong forms, surrogates and values
+// beyond U+10FFFF are invalid.
 std::size_t character_bytes(std::string_view text, std::uint32_t& code) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -164,7 +164,7 @@ std::optional<std::string> base64_decoded(std::string_view text) {
     const int decoded =
         EVP_DecodeBlock(reinterpret_cast<unsigned char*>(bytes.data() + from / 4 * 3),
                         reinterpret_cast<const unsigned char*>(padded.data() + from), static_cast<int>(count));
-    // Fewer: it leaves out white space at either end.
+    // The decoder skips white space at either end, which gives fewer bytes.
     if (decoded < 0 || static_cast<std::size_t>(decoded) != count / 4 * 3) return std::nullopt;
   }
   bytes.resize(text.size() * 3 / 4);

@@ -10,8 +10,8 @@
 
 namespace clusterbench {
 
-// The candidate nearest to `word` by edit distance (insert, delete, replace, swap), or "" if none is near enough to be
-// a likely typing error.
+// The candidate nearest to `word` by edit distance (insert, delete, replace, swap), or "" if none is close enough for a
+// likely typing error.
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates);
 
 // " (did you mean 'aabb'?)" or "", ready to append to an error message.
@@ -20,18 +20,18 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
 // "a, b, c".
 std::string joined(std::span<const std::string> words, std::string_view separator = ", ");
 
-// Appends a line that is not among them yet.
+// Appends a line unless it is already among them.
 void add_once(const std::string& line, std::vector<std::string>& lines);
 
 // "1 light", "2 lights", "0 lights": a word whose plural has an s.
 std::string number_of(std::uint64_t count, std::string_view word);
 
-// The words as a shell takes them: "run 'a b.json'".
+// The words quoted for a shell: "run 'a b.json'".
 std::string shell_command(std::span<const std::string> words);
 
-// Text that a file or a name brought along, safe to print on a terminal: every control character (C0, DEL, C1), every
-// character that turns or breaks a line (U+061C, U+200E, U+200F, U+2028 to U+202E, U+2066 to U+2069) and every byte
-// that is no UTF-8 becomes '?'. All that a person is shown goes through this or, where lines are wanted, through
+// Text from a file or a name, safe to print on a terminal: every control character (C0, DEL, C1), every character that
+// turns or breaks a line (U+061C, U+200E, U+200F, U+2028 to U+202E, U+2066 to U+2069) and every byte that is no UTF-8
+// becomes '?'. All printed text from outside must pass through this function or, if it has lines, through
 // printable_lines().
 std::string printable(std::string_view text);
 // The same, but line feeds stay.
@@ -40,10 +40,10 @@ std::string printable_lines(std::string_view text);
 // U+0020 are escaped in any JSON.
 std::string printable_json(std::string_view json);
 
-// Every byte belongs to a UTF-8 character.
+// Whether every byte belongs to a UTF-8 character.
 bool is_utf8(std::string_view text);
 
-// The bytes of base64 text, whose padding may be left out; nothing if it is none, or cut off.
+// The bytes of base64 text, with or without padding; nullopt if it is invalid or cut off.
 std::optional<std::string> base64_decoded(std::string_view text);
 
 // Lower-case hexadecimal SHA-256 of the bytes.

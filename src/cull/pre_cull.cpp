@@ -12,7 +12,7 @@
 namespace clusterbench::cull {
 namespace {
 
-// One frame's lights going through the steps.
+// Applies the steps to one frame's lights.
 struct StepOnLights {
   const view::Frame& frame;
   const grid::Grid& grid;
@@ -52,7 +52,7 @@ struct StepOnLights {
     std::ranges::set_difference(out.before, kept, std::back_inserter(out.dropped));
   }
 
-  // The lights that a limit keeps first come first; of equal ones those of lower index.
+  // Sorts the lights that a limit keeps to the front; equal ones by index.
   void sort_for(const MostStep& step) const {
     const Vec3d eye = lights.space.rotation * (frame.view_space.origin - lights.space.origin);
     const Vec3d back = lights.space.rotation * (glm::transpose(frame.view_space.rotation) * Vec3d(0, 0, 1));
@@ -63,7 +63,7 @@ struct StepOnLights {
     });
   }
 
-  // Of all, or of each type.
+  // Of all lights, or of each type.
   void keep_first(const MostStep& step) const {
     const auto most = static_cast<std::size_t>(step.lights);
     if (!step.per_type) return kept.resize(most);
@@ -74,7 +74,7 @@ struct StepOnLights {
   geom::Ball ball(std::uint32_t light) const { return lights.bounding_ball(light, k_cull_roundoffs); }
 };
 
-// Of one frame.
+// For one frame.
 struct IsConservative {
   const view::Frame& frame;
   const grid::Grid& grid;

@@ -1,8 +1,8 @@
 #pragma once
-// What happens to a frame's lights before a method gets them: which are removed, and those that are left side by side.
+// The culls of a frame's lights before a method gets them: which lights are removed, and copies of the kept ones.
 //
-// The method gets copies with indices of their own, in the order that they had. So an index of its lists is mapped back
-// by `kept`, and lists that ascend still do.
+// The copies have indices of their own, in the original order. So `kept` maps an index of the method's lists back, and
+// ascending lists stay ascending.
 
 #include <cstdint>
 #include <memory>
@@ -16,45 +16,45 @@
 
 namespace clusterbench::cull {
 
-// What a pre-cull has made of one frame. Keeps its memory between frames.
+// The result of a pre-cull for one frame. Keeps its memory between frames.
 struct FrameCull {
   std::vector<std::uint32_t> kept;     // indices of the frame's lights, ascending
-  std::vector<std::uint32_t> removed;  // by each step: how many
+  std::vector<std::uint32_t> removed;  // number of lights, by step
   std::vector<std::uint32_t> dropped;  // indices of those that limits have removed, ascending for each limit
   std::vector<std::uint32_t> before;   // scratch
-  view::LightArrays lights;            // those that are kept; their `source` is the one below
+  view::LightArrays lights;            // the kept ones; their `source` is the one below
   std::vector<scene::WorldLight> source;
 };
 
 class PreCull {
  public:
   PreCull() = default;  // removes nothing
-  // `sets`: of each step that is a VisibleSetStep, in their order.
+  // `sets`: one per VisibleSetStep, in their order.
   PreCull(PreCullSpec spec, std::vector<std::shared_ptr<const VisibleSets>> sets);
 
   const PreCullSpec& spec() const { return spec_; }
   bool is_none() const { return spec_.is_none(); }
 
-  // `lights`: of the frame, in the grid's space. What an engine does in each frame: this is timed. No allocation in a
-  // steady state.
+  // `lights`: of the frame, in the grid's space. The part that engines run in each frame: it is timed. No allocation in
+  // a steady state.
   void cull(const view::Frame& frame, const grid::Grid& grid, const view::LightArrays& lights, FrameCull& out) const;
-  // Gives what is kept the double-precision numbers that it was rounded from. No engine does that: not timed.
+  // Gives kept lights their double-precision numbers. Engines do not do that: not timed.
   static void give_source(const view::LightArrays& lights, FrameCull& out);
 
-  // Whether it removed no light that shares a point with a cell of this grid, in the frame that `cull` is of. By the
-  // view's planes: where cells end with the picture, in frustum and distance grids, and no light is beside the camera's
-  // near and far plane and yet at the depth of a cell. By distance: where no cell reaches farther. A limit that removed
-  // nothing loses nothing. A visible set never is.
+  // Whether it removed no light that shares a point with a cell of this grid, in the frame of `cull`. By the view's
+  // planes: true if cells end with the picture (frustum and distance grids), and no light is beyond the camera's near
+  // or far plane and still at the depth of a cell. By distance: true if no cell reaches farther. A limit that removed
+  // nothing loses nothing. A visible set is never conservative.
   bool is_conservative(const view::Frame& frame, const grid::Grid& grid, const view::LightArrays& lights,
                        const FrameCull& cull) const;
 
   std::uint64_t bytes() const;  // of its visible sets
-  double build_ns() const;      // what these took
+  double build_ns() const;      // time to build them
   std::size_t view_cells() const;
 
  private:
   PreCullSpec spec_;
-  std::vector<std::shared_ptr<const VisibleSets>> sets_;  // beside the steps; null for those that are none
+  std::vector<std::shared_ptr<const VisibleSets>> sets_;  // parallel to the steps; null for other steps
 };
 
 }  // namespace clusterbench::cull

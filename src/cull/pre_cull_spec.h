@@ -1,5 +1,5 @@
 #pragma once
-// What a configuration asks for to happen to lights before a method gets them.
+// The configuration of culls before a method gets its lights.
 
 #include <cstdint>
 #include <span>
@@ -9,14 +9,13 @@
 
 namespace clusterbench::cull {
 
-// Lights whose ball (a spot's: around its cone) lies outside of one of the camera's six planes are removed, whatever
-// depths the grid's slices have, and those of range 0: what is left is in view (grid/lights_in_view.h), up to the
-// padding.
+// Removes lights whose ball (a spot's: around its cone) lies outside of one of the camera's six planes, independent of
+// the grid's slices, and those of range 0: the rest is in view (grid/lights_in_view.h), up to the padding.
 struct FrustumStep {
   friend bool operator==(const FrustumStep&, const FrustumStep&) = default;
 };
 
-// Lights whose ball begins farther from the eye go to a list of distant lights, which are drawn and not shaded (Just
+// Moves lights whose ball begins farther from the eye to a list of distant lights, which are drawn and not shaded (Just
 // Cause 3: as sprites).
 struct DistanceStep {
   double distance_m = 0.0;
@@ -24,16 +23,16 @@ struct DistanceStep {
   friend bool operator==(const DistanceStep&, const DistanceStep&) = default;
 };
 
-// Lights that reach no space that is seen from the eye's view cell are removed (cull/visible_sets.h).
+// Removes lights that reach no space that is visible from the eye's view cell (cull/visible_sets.h).
 struct VisibleSetStep {
-  double view_cell_m = 4.0, voxel_m = 2.0;  // edges of the cubes that eyes and lights are looked up in
+  double view_cell_m = 4.0, voxel_m = 2.0;  // edges of the cubes for eyes and for lights
   int rays = 4096;                          // per view cell
 
   friend bool operator==(const VisibleSetStep&, const VisibleSetStep&) = default;
 };
 
-// Of the lights that the steps before it leave, at most so many are kept; the others are lost. So an engine with room
-// for a number of lights does. Behind a FrustumStep the limit is one of lights in view.
+// Keeps at most this many of the lights that the previous steps keep; the others are lost, as in an engine with room
+// for a number of lights. After a FrustumStep the limit applies to lights in view.
 struct MostStep {
   // Which ones are kept. first: in the order of the lists' indices, points before spots. nearest: by the distance of
   // the eye to the light's position. shallowest: by the depth of that position, all behind the eye alike (Filament).
@@ -41,7 +40,7 @@ struct MostStep {
 
   int lights = 256;
   Keep keep = Keep::first;
-  bool per_type = false;  // so many points and so many spots (Godot)
+  bool per_type = false;  // the limit holds for points and for spots separately (Godot)
 
   friend bool operator==(const MostStep&, const MostStep&) = default;
 };

@@ -28,12 +28,12 @@ ViewPlanes::ViewPlanes(const view::Frame& frame, const grid::Grid& grid, Depths 
   double near = projection.near_m, far = projection.far_m;
   if (depths == Depths::cells && grid.has_tiles()) {
     const grid::ScreenGrid& screen = grid.screen();
-    // A shell of distance begins at less depth than at distance, away from the view axis.
+    // Away from the view axis a shell begins at a depth smaller than its distance.
     near = std::min<double>(near, screen.by_distance ? 0.0f : screen.slices.boundaries.front());
     far = std::max<double>(far, screen.slices.boundaries.back());
   }
   const bool is_flat = projection.orthographic;
-  // `across`: outward, to the right or up; the plane holds the eye, or lies along the view axis.
+  // `across`: outward, to the right or up; the plane contains the eye, or is parallel to the view axis.
   const auto side = [&](const Vec3d& across, double at) {
     if (is_flat) return Plane{across, -at};
     return Plane{(across + Vec3d(0.0, 0.0, at)) / std::sqrt(1.0 + at * at), 0.0};

@@ -1,5 +1,5 @@
 #pragma once
-// The planes around what a camera sees, as a pre-cull holds lights against them.
+// The planes around the camera's view, against which pre-culls test lights.
 
 #include <array>
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace clusterbench::cull {
 
-// How many unit roundoffs (2^-24 of a light's reach) the pre-culls pad a light by, so that none is removed that shares
-// a point with what they ask about: what single precision has lost of the centre and of the padded radius
-// (view::k_given_roundoffs), 1 for the sum that pads it, 3 for what a spot's axis and angle lose in the ball around its
-// cone. The planes themselves are in double precision, whose 2^-53 are far below the rest.
+// Padding of a light by the pre-culls in unit roundoffs (2^-24 of a light's reach), so that no light is removed that
+// shares a point with the tested volume: the single-precision error of the centre and of the padded radius
+// (view::k_given_roundoffs), 1 for the sum that pads it, 3 for the error of a spot's axis and angle in the ball around
+// its cone. The planes themselves are in double precision, whose 2^-53 are far below the rest.
 inline constexpr float k_cull_roundoffs = 8.0f;
-// In metres, beyond that: what roundoffs of numbers too small for single precision may lose.
+// Additional padding in metres: for roundoffs of numbers too small for single precision.
 inline constexpr double k_cull_least_m = 0x1p-126;
 
 // The picture's four sides, and two depths. In the grid's space.
 class ViewPlanes {
  public:
-  // Between which depths. camera: its near and far plane, as engines cull; no sample of the view lies beside them.
-  // cells: these and the grid's slices together, which may begin before the near plane and end beyond the far one.
+  // The two depths. camera: its near and far plane, as engines cull; all samples of the view lie between them. cells:
+  // the range of these and of the grid's slices, which may begin before the near plane and end beyond the far one.
   enum class Depths : std::uint8_t { camera, cells };
 
   ViewPlanes(const view::Frame& frame, const grid::Grid& grid, Depths depths);
@@ -39,8 +39,8 @@ class ViewPlanes {
   std::array<Plane, 6> planes_;
 };
 
-// No cell of the grid is farther from the eye, in metres; +inf where cells do not end with what the camera sees
-// (cascades and world grids).
+// No cell of the grid is farther from the eye, in metres; +inf if cells do not end with the camera's view (cascades and
+// world grids).
 double farthest_of_cells(const grid::Grid& grid);
 
 }  // namespace clusterbench::cull

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t k_word_bits = 64;
 
-// Of its own for each view cell, so that none depends on which others the path has.
+// A separate source for each view cell, so that none depends on the path's other view cells.
 SplitMix64 random_of(const VoxelIndex& view_cell, std::uint64_t seed) {
   std::uint64_t state = seed;
   for (const std::int64_t index : view_cell) state = SplitMix64(state ^ static_cast<std::uint64_t>(index)).next();
@@ -60,8 +60,8 @@ std::vector<depth::WorldRay> view_rays(const VoxelIndex& view_cell, std::span<co
   const Vec3d corner(step.view_cell_m * static_cast<double>(view_cell[0]),
                      step.view_cell_m * static_cast<double>(view_cell[1]),
                      step.view_cell_m * static_cast<double>(view_cell[2]));
-  // From an eye to a point of the view cell; a surface between them shortens the way, and the ray begins somewhere on
-  // what is left.
+  // From an eye to a point of the view cell; a surface between them shortens the ray, and the sampled ray begins
+  // somewhere on the remaining part.
   std::vector<depth::WorldRay> to_points;
   std::vector<double> shares;
   for (int i = 0; i < step.rays; ++i) {
@@ -100,7 +100,7 @@ VisibleSets::VisibleSets(const scene::Scene& scene, const scene::Geometry& geome
                  "use larger view cells or voxels (pre_cull: visible_set)");
   for (const auto& [index, in_cell] : eyes) {
     caster.pose(pose_at(in_cell.front(), path.shots.front().time_s));
-    cells_[index] = look_around(empty, view_rays(index, in_cell, step, caster, seed, threads));
+    cells_[index] = view_cell_of(empty, view_rays(index, in_cell, step, caster, seed, threads));
   }
   build_ns_ = wall_ns() - start;
 }
@@ -124,7 +124,7 @@ void VisibleSets::find_moving(const scene::Scene& scene, const scene::CameraPath
   }
 }
 
-VisibleSets::ViewCell VisibleSets::look_around(const Voxels& empty, std::span<const depth::WorldRay> rays) const {
+VisibleSets::ViewCell VisibleSets::view_cell_of(const Voxels& empty, std::span<const depth::WorldRay> rays) const {
   ViewCell cell{std::vector<std::uint64_t>((lights_.size() + k_word_bits - 1) / k_word_bits, 0), empty};
   for (const depth::WorldRay& ray : rays) cell.voxels.mark_way(ray.from, ray.along, ray.most_m);
   for (std::size_t i = 0; i < lights_.size(); ++i)

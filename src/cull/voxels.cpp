@@ -12,17 +12,16 @@ namespace clusterbench::cull {
 namespace {
 
 constexpr std::uint64_t k_voxels_per_word = 64;
-// Of a voxel's size: how far before its end a way ends here, more than what single precision loses of where surfaces
-// stand.
+// In voxel sizes: rays are shortened by this, more than the single-precision error of surface positions.
 constexpr double k_before_end = 1e-3;
-// Of a ball's size and place: more than its extents and squares lose in double precision.
+// Relative to a ball's size and position: more than the double-precision error of its extents and squares.
 constexpr double k_slack = 0x1p-40;
 
 double low_side(std::int64_t index, double size_m) {
   return static_cast<double>(index) * size_m;
 }
 
-// How far a coordinate lies outside of [lo, hi].
+// Distance of a coordinate outside of [lo, hi].
 double outside(double coordinate, double lo, double hi) {
   return std::max({lo - coordinate, coordinate - hi, 0.0});
 }
@@ -68,7 +67,7 @@ void Voxels::mark_way(const Vec3d& from, const Vec3d& along, double length_m) {
   }
   if (!(begin <= end)) return;
   VoxelIndex at = voxel_of(from + begin * along, size_m_);
-  Vec3d next(std::numeric_limits<double>::infinity());  // where the way leaves the voxel along each axis
+  Vec3d next(std::numeric_limits<double>::infinity());  // where the ray leaves the voxel along each axis
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     at[a] = std::clamp(at[a] - first_[a], std::int64_t{0}, counts_[a] - 1);
@@ -108,7 +107,7 @@ bool Voxels::are_touched_by(const Vec3d& center, double radius_m) const {
       const double dy = outside(center.y, low_side(first_[1] + y, size_m_), low_side(first_[1] + y + 1, size_m_));
       const double left = r * r - dy * dy - dz * dz;
       if (left < 0.0) continue;
-      // A row of voxels: those from the ball's least x in it to its greatest.
+      // A row of voxels: from the ball's smallest x in it to its largest.
       const double half = std::sqrt(left);
       const auto voxel = [&](double x) { return static_cast<std::int64_t>(std::floor(x / size_m_)) - first_[0]; };
       const std::int64_t begin = std::max(voxel(center.x - half), std::int64_t{0}),

@@ -1,5 +1,5 @@
 #pragma once
-// Which cubes of a world grid are seen, as bits.
+// The visible cubes of a world grid, as bits.
 
 #include <array>
 #include <cstdint>
@@ -11,21 +11,21 @@ namespace clusterbench::cull {
 
 using VoxelIndex = std::array<std::int64_t, 3>;
 
-// The cube of this size, along the world's axes, that holds a place.
+// The cube of this size, along the world's axes, that contains a point.
 VoxelIndex voxel_of(const Vec3d& place, double size_m);
 
 class Voxels {
  public:
   Voxels() = default;
-  // Those that meet the box from lo to hi; none is marked. Throws Error beyond the limit on memory.
+  // The voxels that meet the box from lo to hi; none is marked. Throws Error beyond the limit on memory.
   Voxels(const Vec3d& lo, const Vec3d& hi, double size_m);
 
-  // Marks those that a way of this length passes through, from its beginning to just before its end: a wall between two
-  // voxels does not open the one behind it. `along` is of unit length; the length may be +inf (Amanatides and Woo 1987,
-  // A Fast Voxel Traversal Algorithm for Ray Tracing).
+  // Marks the voxels along a ray of this length, from its beginning to just before its end: a wall between two voxels
+  // does not open the one behind it. `along` is of unit length; the length may be +inf (Amanatides and Woo 1987, A Fast
+  // Voxel Traversal Algorithm for Ray Tracing).
   void mark_way(const Vec3d& from, const Vec3d& along, double length_m);
 
-  // Whether a ball touches one that is marked.
+  // Whether a ball touches a marked voxel.
   bool are_touched_by(const Vec3d& center, double radius_m) const;
 
   bool is_marked(const VoxelIndex& voxel) const;  // false outside

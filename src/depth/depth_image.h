@@ -1,5 +1,5 @@
 #pragma once
-// Depths of a picture's pixels, as a depth buffer has them.
+// Depths of a picture's pixels, as in a depth buffer.
 
 #include <cstdint>
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace clusterbench::depth {
 
-// Which pixels of the picture are looked through: one in the middle of each block of divisor x divisor pixels (of an
-// even number the one below and to the right of the middle), row by row from the top left. Blocks beside the picture's
-// right or lower edge are as many as are needed to cover it; then all are a little narrower.
+// The sampled pixels of the picture: one in the middle of each block of divisor x divisor pixels (for an even divisor
+// the one below and to the right of the middle), row by row from the top left. There are enough blocks to cover the
+// picture; if the divisor does not divide its size, all are a little narrower.
 struct PixelGrid {
   Vec2i viewport{0, 0}, size{0, 0};
 
@@ -24,17 +24,17 @@ struct PixelGrid {
   Vec2d pixel(std::size_t index) const;
 };
 
-// Depths along the view's -z, in metres, in single precision as a depth buffer has them: between the camera's near and
-// far plane, +inf where nothing opaque is.
+// Depths along the view's -z, in metres, in single precision as in a depth buffer: between the camera's near and far
+// plane, +inf without an opaque surface.
 struct DepthImage {
   PixelGrid pixels;
   std::vector<float> nearest;  // of the first opaque surface
 };
 
-// The pixels of a coarser grid, of an image of all pixels.
+// The pixels of a coarser grid, from an image of all pixels.
 DepthImage thinned(const DepthImage& full, const PixelGrid& pixels);
 
-// What is seen through: surfaces that blend, in front of the opaque one. The layers of pixel i are depths[begin[i]] ..
+// Transparent layers: surfaces that blend, in front of the opaque one. The layers of pixel i are depths[begin[i]] ..
 // depths[begin[i + 1] - 1], front to back.
 struct LayerImage {
   PixelGrid pixels;
@@ -42,8 +42,9 @@ struct LayerImage {
   std::vector<float> depths;
 };
 
-// Depths without triangles, for checks of what takes a depth buffer: the picture in uneven rectangles of nothing, of
-// one depth, of slopes, of two depths that alternate, and of depths at random. The same for the same seed everywhere.
+// Depths without triangles, for tests of methods that need a depth buffer: the picture in uneven rectangles of no
+// surface, of one depth, of slopes, of two depths that alternate, and of random depths. The same seed gives the same
+// depths everywhere.
 DepthImage seeded_depths(const view::Frame& frame, std::uint64_t seed);
 
 }  // namespace clusterbench::depth

@@ -20,8 +20,8 @@ namespace {
 
 constexpr float k_nothing = std::numeric_limits<float>::infinity();
 
-// One instruction set on all x86 machines, so that which triangle a ray meets does not depend on the machine: others
-// fuse products and sums.
+// One instruction set on all x86 machines, so that the triangle that a ray meets does not depend on the machine: other
+// sets fuse products and sums.
 #if defined(__x86_64__) || defined(_M_X64)
 constexpr const char* k_device = "isa=sse4.2,set_affinity=0";
 #else
@@ -53,13 +53,13 @@ Vec3f direction_of(const RTCRay& ray) {
   return {ray.dir_x, ray.dir_y, ray.dir_z};
 }
 
-// Triangles turn their front to the side from which they are seen counter-clockwise; Embree's normals point there.
+// A triangle's front is the side from which it is counter-clockwise; Embree's normals point there.
 bool shows_its_back(const RTCRay& ray, const RTCHit& hit) {
   return glm::dot(direction_of(ray), Vec3f(hit.Ng_x, hit.Ng_y, hit.Ng_z)) > 0.0f;
 }
 
-// Where a ray meets a triangle's plane, in double precision: Embree's own figure hangs on how a processor estimates
-// reciprocals, and depths must not depend on the machine.
+// The intersection of a ray with a triangle's plane, in double precision: Embree's own value depends on a processor's
+// estimate of reciprocals, and depths must not depend on the machine.
 float depth_at(RTCScene surfaces, const RTCRay& ray, unsigned surface, unsigned triangle) {
   RTCGeometry mesh = rtcGetGeometry(surfaces, surface);
   const auto* vertices = static_cast<const Vec3f*>(rtcGetGeometryBufferData(mesh, RTC_BUFFER_TYPE_VERTEX, 0));
@@ -69,20 +69,20 @@ float depth_at(RTCScene surfaces, const RTCRay& ray, unsigned surface, unsigned 
   const Vec3d normal = glm::cross(b - a, c - a);
   const double depth =
       glm::dot(normal, a - Vec3d(ray.org_x, ray.org_y, ray.org_z)) / glm::dot(normal, Vec3d(direction_of(ray)));
-  // A triangle that is seen edge on has no such place to speak of.
-  constexpr double k_most_apart = 1e-3;
+  // For a triangle seen edge on the intersection is not well defined.
+  constexpr double k_max_difference = 1e-3;
   const auto found = static_cast<double>(ray.tfar);
-  return std::abs(depth - found) <= k_most_apart * found ? static_cast<float>(depth) : ray.tfar;
+  return std::abs(depth - found) <= k_max_difference * found ? static_cast<float>(depth) : ray.tfar;
 }
 
-// Filters are given one ray, since rays are cast one by one.
+// Filters get one ray, since rays are cast one by one.
 void leave_out_backs(const RTCFilterFunctionNArguments* arguments) {
   const auto* ray = reinterpret_cast<const RTCRay*>(arguments->ray);
   const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
   if (arguments->valid[0] == -1 && shows_its_back(*ray, *hit)) arguments->valid[0] = 0;
 }
 
-// What a ray through surfaces that blend gathers. The context comes first: Embree hands its address to filters.
+// The hits of a ray through surfaces that blend. The context comes first: Embree passes its address to filters.
 struct Gathering {
   struct Found {
     float depth;
@@ -94,8 +94,8 @@ struct Gathering {
 
   explicit Gathering(RTCScene of) : surfaces(of) { rtcInitIntersectContext(&context); }
 
-  // The nearest ones, front to back. Embree may hand the same triangle to a filter more than once, and a ray through an
-  // edge that two triangles of a surface share finds both: one layer.
+  // The nearest ones, front to back. Embree may pass the same triangle to a filter more than once, and a ray through an
+  // edge that two triangles of a surface share meets both: one layer.
   void finish(std::size_t most) {
     const auto by_surface = [](const Found& a, const Found& b) {
       return a.surface != b.surface ? a.surface < b.surface : a.depth < b.depth;
@@ -178,8 +178,8 @@ struct PlacedSurface {
 
 }  // namespace
 
-// The built surfaces, around an eye: single precision does not hold the world's own coordinates, and what is near the
-// eye shall be precise however far others reach.
+// The built surfaces, around an eye: single precision cannot hold the world's own coordinates, and surfaces near the
+// eye must be precise, however far others reach.
 struct RayCaster::Surfaces {
   Device device;
   SurfaceTree opaque, blending;
@@ -194,7 +194,7 @@ RayCaster::~RayCaster() = default;
 
 namespace {
 
-// Where the shown surfaces stand.
+// Poses of the visible surfaces.
 std::vector<PlacedSurface> placed_surfaces(const scene::Scene& scene, const scene::Geometry& geometry, double time_s) {
   const std::vector<Mat4d> world = world_transforms(scene, time_s);
   const std::vector<bool> shown = visible_nodes(scene, time_s);
@@ -202,7 +202,7 @@ std::vector<PlacedSurface> placed_surfaces(const scene::Scene& scene, const scen
   for (const scene::SurfaceInstance& instance : geometry.instances) {
     const auto node = static_cast<std::size_t>(instance.shown_by);
     if (!shown[node]) continue;
-    // In a mirrored node fronts stay fronts, of skinned meshes, too (glTF 2.0, 3.7.4).
+    // In a mirrored node fronts stay fronts, also of skinned meshes (glTF 2.0, 3.7.4).
     const bool is_mirrored = glm::determinant(Mat3d(world[node])) < 0.0;
     out.push_back({instance.surface, node, is_mirrored, instance.node < 0 ? Mat4d(1.0) : world[node]});
   }
@@ -210,9 +210,9 @@ std::vector<PlacedSurface> placed_surfaces(const scene::Scene& scene, const scen
 }
 
 // Vertices in world space.
-template <class Take>
-void each_vertex(const scene::Surface& surface, const PlacedSurface& placed, Take&& take) {
-  for (const Vec3f& vertex : surface.vertices) take(Vec3d(placed.world * Vec4d(surface.origin + Vec3d(vertex), 1.0)));
+template <class Use>
+void each_vertex(const scene::Surface& surface, const PlacedSurface& placed, Use&& use) {
+  for (const Vec3f& vertex : surface.vertices) use(Vec3d(placed.world * Vec4d(surface.origin + Vec3d(vertex), 1.0)));
 }
 
 void check_domain(const scene::Scene& scene, const PlacedSurface& placed, const Vec3d& vertex) {
@@ -222,7 +222,7 @@ void check_domain(const scene::Scene& scene, const PlacedSurface& placed, const 
               "the mesh of node '" + printable(node.name) + "' reaches farther than 1e15 m from the world's origin");
 }
 
-// Adds a surface where it stands around an origin.
+// Adds a surface with its pose relative to an origin.
 void add_surface(RTCDevice device, RTCScene to, const scene::Scene& scene, const scene::Surface& surface,
                  const PlacedSurface& placed, const Vec3d& origin, RTCFilterFunctionN filter) {
   RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -243,8 +243,8 @@ void add_surface(RTCDevice device, RTCScene to, const scene::Scene& scene, const
   rtcAttachGeometry(to, mesh);
 }
 
-// Where coordinates in single precision begin: a place near the eye that follows from this frame alone. They are as
-// fine as a thousandth of the near plane's distance, or as a tenth of a millimetre.
+// The origin of coordinates in single precision: a point near the eye that depends only on this frame. There they
+// resolve a thousandth of the near plane's distance, or a tenth of a millimetre.
 Vec3d origin_near(const view::Frame& frame) {
   const double near = frame.projection.near_m;
   const double step = near > 0.0 ? std::min(1000.0, 1e4 * near) : 1000.0;
@@ -260,13 +260,13 @@ void RayCaster::pose(const view::Frame& frame) {
 void RayCaster::pose(double time_s, const Vec3d& origin) {
   std::vector<PlacedSurface> placed = placed_surfaces(scene_, geometry_, time_s);
   if (surfaces_ && surfaces_->placed == placed && surfaces_->origin == origin) return;
-  // A triangle and what Embree builds over it.
+  // A triangle and Embree's data for it.
   constexpr std::uint64_t k_bytes_of_triangle = 256;
   check_memory("triangles", geometry_.triangle_count(), k_bytes_of_triangle, scene::k_fewer_triangles);
   check_memory("vertices", geometry_.vertex_count(), sizeof(Vec3f), scene::k_fewer_triangles);
   if (!surfaces_) surfaces_ = std::make_unique<Surfaces>();
   Surfaces& now = *surfaces_;
-  now.placed.clear();  // until all stands
+  now.placed.clear();  // until all are built
   now.origin = origin;
   for (SurfaceTree* tree : {&now.opaque, &now.blending}) {
     tree->reset(rtcNewScene(now.device.get()));
@@ -313,7 +313,7 @@ std::optional<SurfaceHit> RayCaster::first_surface(const Vec3d& from, const Vec3
 }
 
 bool RayCaster::is_blocked(const Vec3d& from, const Vec3d& along, double begin_m, double end_m) const {
-  // A little farther, so that what stands about at the end is judged in double precision.
+  // A little farther, so that surfaces close to the end are tested in double precision.
   constexpr double k_farther = 1.001;
   const std::optional<SurfaceHit> hit = first_surface(from, along, begin_m, k_farther * end_m);
   return hit && hit->distance_m < end_m;

@@ -18,11 +18,11 @@ namespace clusterbench::depth {
 // A ray anywhere in the world; `along` is of unit length.
 struct WorldRay {
   Vec3d from{0.0}, along{0.0, 0.0, -1.0};
-  double most_m = 0.0;  // how far it goes where nothing is; may be +inf
+  double most_m = 0.0;  // its length if it meets nothing; may be +inf
 };
 
-// A surface that a ray meets: how far from where the ray begins, and the triangle's corners, seen from there along the
-// world's axes.
+// A surface that a ray meets: its distance from the ray's beginning, and the triangle's corners relative to the
+// beginning, along the world's axes.
 struct SurfaceHit {
   double distance_m = 0.0;
   std::array<Vec3d, 3> corners{};
@@ -30,37 +30,36 @@ struct SurfaceHit {
 
 class RayCaster {
  public:
-  // Both must outlive it. Nothing is built yet.
+  // Both must outlive this object. Nothing is built yet.
   RayCaster(const scene::Scene& scene, const scene::Geometry& geometry);
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  // Puts the surfaces where they stand at a frame's time, around its eye; builds anew only where surfaces have moved,
-  // or the eye far from where it was. Throws Error for surfaces outside of the domain and beyond the limit on memory.
+  // Moves the surfaces to their places at a frame's time, around its eye; rebuilds only if surfaces have moved, or the
+  // eye is far from where it was. Throws Error for surfaces outside of the domain and beyond the limit on memory.
   void pose(const view::Frame& frame);
-  // The same at any time and around any point: what is cast from far away of it is less precise.
+  // The same at any time and around any point: rays far away from the point are less precise.
   void pose(double time_s, const Vec3d& origin);
-  // How often they were built: what was found before still holds while this stays.
+  // The number of builds: results stay valid while it is the same.
   std::uint64_t builds() const { return builds_; }
 
-  // Of the frame that it was posed for. The same for any number of threads.
+  // For the frame for which it was posed. The same for any number of threads.
   DepthImage depths(const view::Frame& frame, const PixelGrid& pixels, int threads) const;
-  // Does an opaque surface, seen from either side, stand between two places in the world? One ray in single precision,
-  // from the one to so far before the other. May be asked from several threads.
+  // Whether an opaque surface, seen from either side, is between two points in the world. One ray in single precision,
+  // from the first point to `ends_before_m` before the other. Thread-safe.
   bool is_hidden(const Vec3d& from, const Vec3d& to, double ends_before_m) const;
-  // How far above a surface a ray to a light must begin, so that it does not meet the surface itself: a place that far
-  // from where the surfaces were posed around is rounded by less than an eighth of it.
+  // Distance above a surface at which a ray to a light must begin, so that it does not meet the surface itself: the
+  // rounding of a point, given its distance from the posed origin, is less than an eighth of it.
   double clearance_m(const Vec3d& from) const;
   // At most `most_layers` for each pixel: the nearest ones.
   LayerImage layers(const view::Frame& frame, const DepthImage& opaque, int most_layers, int threads) const;
-  // How far each ray gets: to the first opaque surface that turns its front to it, in metres. The same for any number
-  // of threads.
+  // The length of each ray up to the first opaque front-facing surface, in metres. The same for any number of threads.
   std::vector<double> free_ways(std::span<const WorldRay> rays, int threads) const;
 
-  // The first opaque surface on the way from a point, from `begin_m` to `end_m` away. `along` is of unit length.
+  // The first opaque surface from a point, between `begin_m` and `end_m` away. `along` is of unit length.
   std::optional<SurfaceHit> first_surface(const Vec3d& from, const Vec3d& along, double begin_m, double end_m) const;
-  // Whether any opaque surface stands there.
+  // Whether any opaque surface is there.
   bool is_blocked(const Vec3d& from, const Vec3d& along, double begin_m, double end_m) const;
 
  private:

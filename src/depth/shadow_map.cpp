@@ -33,8 +33,8 @@ Axes axes_along(const Vec3d& forward) {
 // Wider than all roundoffs of an angle, and by no more than a thousandth of a texel.
 constexpr double k_angle_slack = 1e-6;
 
-// Whether a spot sheds light in none of the directions between these.
-bool is_beside(const scene::WorldLight& light, const std::array<Vec3d, 4>& corners) {
+// Whether none of the directions between these is within a spot's cone.
+bool is_outside_cone(const scene::WorldLight& light, const std::array<Vec3d, 4>& corners) {
   if (light.type != scene::LightType::spot) return false;
   const Vec3d middle = corners[0] + corners[1] + corners[2] + corners[3];
   double spread = 0.0;
@@ -42,12 +42,12 @@ bool is_beside(const scene::WorldLight& light, const std::array<Vec3d, 4>& corne
   return geom::angle_between(middle, light.direction) > light.outer_cone_rad + spread + k_angle_slack;
 }
 
-// The body's points by the edges between their corners, which differ in one bit.
-template <class Take>
-void each_edge(Take&& take) {
+// Calls `use` for the body's edges, by their two corners, whose numbers differ in one bit.
+template <class Use>
+void each_edge(Use&& use) {
   for (unsigned i = 0; i < 8; ++i)
     for (const unsigned bit : {1u, 2u, 4u})
-      if ((i & bit) == 0) take(i, i | bit);
+      if ((i & bit) == 0) use(i, i | bit);
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ void ShadowMap::cast(const RayCaster& caster, Face& face) {
       const std::array corners{along(x, y), along(x + 1, y), along(x + 1, y + 1), along(x, y + 1)};
       const auto i = static_cast<std::size_t>(x);
       const std::array hits{low[i], low[i + 1], high[i + 1], high[i]};
-      if (is_beside(light_, corners)) {
+      if (is_outside_cone(light_, corners)) {
         finest.farthest.push_back(0.0f);
       } else if (!std::ranges::all_of(hits, [](const auto& hit) { return hit.has_value(); })) {
         finest.farthest.push_back(k_unlimited);
@@ -157,11 +157,11 @@ std::size_t ShadowMap::bytes() const {
   return texels * sizeof(float);
 }
 
-// At most so many texels of a level are looked at along each axis.
+// At most this many texels of a level are tested along each axis.
 constexpr int k_most_texels = 4;
 
 float ShadowMap::farthest(const Face& face, const Rectangle& covered) const {
-  // Where a side is, in texels; a little more than roundoffs move it.
+  // The position of a side, in texels, with a slack of a little more than roundoffs.
   const auto texel = [&](double slope, double slack) {
     const double at = (slope / slope_ + 1.0) * 0.5 * request_.resolution + slack;
     return static_cast<int>(std::clamp(std::floor(at), 0.0, request_.resolution - 1.0));
@@ -188,7 +188,7 @@ bool ShadowMap::hides(const std::array<Vec3d, 8>& corners, double nearest_m, dou
   if (!(nearest_m > bias_m)) return false;
   const auto is_finite = [](const Vec3d& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
   if (!std::ranges::all_of(corners, is_finite)) return false;
-  // In a face's pyramid no point of the body is less deep than this: it is as far away as the body at least.
+  // In a face's pyramid every point of the body is at least this deep, since it is at least as far away as the body.
   const double least_depth = nearest_m / std::sqrt(1.0 + 2.0 * slope_ * slope_) * (1.0 - 1e-9);
   for (const Face& face : faces_) {
     std::array<Vec3d, 8> local;

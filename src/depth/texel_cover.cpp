@@ -11,9 +11,9 @@ namespace clusterbench::depth {
 namespace {
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
-constexpr double k_more = 1.0 + 1e-9;  // than all roundoffs of a distance
+constexpr double k_more = 1.0 + 1e-9;  // larger than all roundoffs of a distance
 
-// A convex set of directions by its corners, around. Not of unit length.
+// A convex set of directions by its corners, in order. Not of unit length.
 using Directions = std::vector<Vec3d>;
 
 // The directions in which a triangle is seen: those between three planes through the light.
@@ -28,12 +28,12 @@ struct Wedge {
     for (std::size_t i = 0; i < 3; ++i) inward[i] = turn * glm::normalize(glm::cross(corners[i], corners[(i + 1) % 3]));
   }
 
-  // Not seen edge on: then it covers nothing.
+  // False if seen edge on: then it covers nothing.
   bool is_open() const {
     const auto is_unit = [](const Vec3d& side) { return std::isfinite(glm::length(side)); };
     return offset != 0.0 && std::ranges::all_of(inward, is_unit);
   }
-  // Of the triangle's plane. Directions along it reach it nowhere, or anywhere.
+  // Distance to the triangle's plane. Directions parallel to it give none, or any.
   double distance(const Vec3d& along) const {
     const double t = offset / glm::dot(normal, along);
     return t > 0.0 ? t * glm::length(along) : k_infinity;
@@ -54,7 +54,7 @@ struct Wedge {
 struct Halves {
   Directions in, out;
 };
-// By a plane through the light. What sticks out by less than the narrowest gap is in.
+// Cuts by a plane through the light. A part outside by less than the narrowest gap counts as inside.
 Halves cut(const Directions& piece, const Vec3d& inward) {
   const auto margin = [&](const Vec3d& along) { return glm::dot(inward, along); };
   const bool sticks_out = std::ranges::any_of(
@@ -80,7 +80,7 @@ Vec3d middle_of(const Directions& piece) {
   return glm::normalize(sum);
 }
 
-// What is left of a texel, and how far what covers the rest reaches.
+// The uncovered rest of a texel, and the largest distance of the surfaces that cover the other part.
 class Cover {
  public:
   Cover(Directions texel, double near_m) : left_{std::move(texel)}, near_m_(near_m) {}

@@ -10,9 +10,9 @@ double gap_to(const Extent& extent, double coordinate) {
   return std::max({0.0, extent.lo - coordinate, coordinate - extent.hi});
 }
 
-// Extents that may lie within `reach` of a coordinate; they ascend or descend.
+// Extents that may be within `reach` of a coordinate; they ascend or descend.
 IndexRange extents_near(const std::vector<Extent>& extents, double coordinate, double reach) {
-  constexpr double k_slack = 1e-12;  // far more than the rounding of a gap
+  constexpr double k_slack = 1e-12;  // much more than the rounding of a gap
   const double wider = reach + k_slack * (std::abs(coordinate) + reach);
   const bool ascend = extents.front().lo <= extents.back().lo;
   const auto is_before = [&](const Extent& e) {

@@ -1,11 +1,11 @@
 #pragma once
-// Broad phase: the cells of a grid that a ball may touch, row by row and in double precision. For each row an outer
-// range of columns beyond which no cell is touched, and an inner range of columns that are touched for certain. For the
-// truth and for searches; methods have their own.
+// Broad phase: the cells of a grid that a ball may touch, row by row and in double precision. Each row has an outer
+// range of columns, beyond which no cell is touched, and an inner range of columns that are certainly touched. Used by
+// the truth and by searches; methods have their own.
 //
-// Outer and inner come from the same formulas with the radius made larger or smaller by a slack. All that double
-// precision loses in them (rounded squares under a root, rounded centres, rounded quotients) moves a result no further
-// than moving the centre or the surface by a few roundoffs of the coordinates would; the slack is hundreds of these.
+// Outer and inner ranges come from the same formulas, with the radius increased or decreased by a slack. The rounding
+// errors of double precision (squares under a root, centres, quotients) move a result no further than a move of the
+// centre or the surface by a few roundoffs of the coordinates; the slack is hundreds of these.
 
 #include <cstdint>
 #include <vector>
@@ -22,14 +22,14 @@ struct BallInSpace {
   double slack = 0.0;
 };
 
-// Cells that are neighbours in one row, by their columns.
+// Neighbouring cells of one row, by their columns.
 struct CellRow {
   std::uint32_t first_cell = 0;  // of the row's column 0, in slice 0 of `slices`
   IndexRange outer, inner;
   IndexRange slices{0, 0};  // one cell of each column in each of these
 };
 
-// Made for one grid, which outlives it.
+// Made for one grid, which must outlive it.
 class BroadPhase {
  public:
   virtual ~BroadPhase() = default;
@@ -43,12 +43,12 @@ struct Extent {
 struct BoxBlock {
   std::vector<Extent> x, y, z;  // x ascends
   std::uint32_t first_cell = 0;
-  IndexRange hole_x{}, hole_y{}, hole_z{};  // indices of the block that is cut out of it
+  IndexRange hole_x{}, hole_y{}, hole_z{};  // indices that are cut out of the block
 };
-// The extents between neighbours among boundaries.
+// The extents between neighbouring boundaries.
 std::vector<Extent> extents_between(const std::vector<float>& boundaries);
 
-// For grids of boxes, as blocks. Rows beside a hole come in two runs.
+// For grids of boxes, as blocks. A row with a hole gives two runs.
 class BoxBroadPhase final : public BroadPhase {
  public:
   explicit BoxBroadPhase(std::vector<BoxBlock> blocks) : blocks_(std::move(blocks)) {}

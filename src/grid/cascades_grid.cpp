@@ -51,8 +51,7 @@ std::int64_t CascadesGrid::lookup(const Sample& sample, Log2) const {
     const Vec3f in_cells{sample.view.x / edge + half_x, half_y - sample.view.y / edge, -sample.view.z / edge};
     if (!lies_within(in_cells, cells)) continue;
     const Vec3i at(in_cells);
-    // A point that rounds out of a level rounds out of the hole that this level fills: both divide by powers of two
-    // apart.
+    // A point that rounds out of a level also rounds out of the hole in the next level: both divide by powers of two.
     if (!is_hole(level, at)) return cell_index({at.x, at.y, level * cells.z + at.z}, counts());
   }
   return -1;

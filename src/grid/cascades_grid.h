@@ -1,5 +1,5 @@
 #pragma once
-// Cascades: boxes around the eye, each level twice as coarse and as wide as the one before.
+// Cascades: boxes around the eye, each level twice as coarse and as wide as the previous one.
 
 #include <cmath>
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace clusterbench::grid {
 
-// Nested view-space boxes of cubical cells. Level l has cells of edge finest * 2^l and spans, in units of its edge,
-// x, y in [-cells/2, cells/2] and depth in [0, cells.z]. Cells of a level that lie in the finer level's box are holes:
+// Nested view-space boxes of cubical cells. Level l has cells of edge finest * 2^l and spans, in units of its edge, x,
+// y in [-cells/2, cells/2] and depth in [0, cells.z]. Cells of a level that lie in the finer level's box are holes:
 // they have an index and no space. cells.x, cells.y are multiples of 4, cells.z of 2, so a cell is wholly inside or
 // outside. z index 0 is nearest the eye; y index 0 is the top.
 struct CascadesGrid {
@@ -31,7 +31,7 @@ struct CascadesGrid {
   std::unique_ptr<BroadPhase> broad_phase() const;
 };
 
-// Inline, since methods and truth ask for every cell.
+// Inline, since methods and truth call it for every cell.
 inline float CascadesGrid::edge_m(int level) const {
   return std::ldexp(finest_m, level);
 }
@@ -47,7 +47,7 @@ inline geom::Cell CascadesGrid::cell(Vec3i at) const {
   return geom::Box{{times(left), times(top - 1), -times(depth + 1)}, {times(left + 1), times(top), -times(depth)}};
 }
 
-// Throws Error (where = configuration key) for what cannot be.
+// Throws Error (where = configuration key) for an impossible grid.
 CascadesGrid make_cascades_grid(const GridSpec& spec, const GridInputs& inputs);
 GridInputs cascades_inputs(const GridSpec& spec, const FrameReach& from);
 std::string cascades_grid_name(const GridSpec& spec);

@@ -13,7 +13,7 @@ namespace {
 // A kind of grid as data.
 struct KindRow {
   const char* name;
-  std::span<const char* const> keys;  // of a request, in the order in which it is written
+  std::span<const char* const> keys;  // of a request, in the order in which they are written
   Grid (*make)(const GridSpec& spec, const GridInputs& inputs);
   GridInputs (*inputs)(const GridSpec& spec, const FrameReach& from);
   std::string (*name_of)(const GridSpec& spec);

@@ -16,8 +16,8 @@ struct IndexRange {
   int count() const { return empty() ? 0 : last - first + 1; }
 };
 
-// Intervals i = [boundaries[i], boundaries[i + 1]] that [lo, hi] touches. Boundaries ascend; lo <= hi, or the answer is
-// empty.
+// Intervals i = [boundaries[i], boundaries[i + 1]] that [lo, hi] touches. Boundaries ascend; the result is empty unless
+// lo <= hi.
 template <class Real>
 IndexRange intervals_touched(const std::vector<float>& boundaries, Real lo, Real hi) {
   if (!(lo <= hi)) return {};
@@ -26,7 +26,7 @@ IndexRange intervals_touched(const std::vector<float>& boundaries, Real lo, Real
   return {static_cast<int>(from - boundaries.begin()) - 1, static_cast<int>(to - boundaries.begin()) - 1};
 }
 
-// The same for boundaries that descend, as those of rows do.
+// The same for descending boundaries, such as those of rows.
 template <class Real>
 IndexRange descending_intervals_touched(const std::vector<float>& boundaries, Real lo, Real hi) {
   if (!(lo <= hi)) return {};

@@ -14,8 +14,7 @@ double along(const Vec3d& point, bool by_distance) {
   return by_distance ? std::sqrt(point.x * point.x + point.y * point.y + point.z * point.z) : -point.z;
 }
 
-// How far a ball that is cut by a cone around its centre reaches in a direction at this angle to the cone's axis, in
-// radii.
+// The reach of a ball, cut by a cone around its centre, in a direction at this angle to the cone's axis, in radii.
 double reach_of_cone(double angle_rad, double half_angle_rad) {
   constexpr double k_right_angle = 1.57079632679489661923;
   const double beside = angle_rad - half_angle_rad;
@@ -44,7 +43,7 @@ void include(Span& span, const Span& other) {
   span.far_m = std::max(span.far_m, other.far_m);
 }
 
-// The powers of `step` next to a positive number, by multiplication alone: the same on every machine.
+// The powers of `step` next to a positive number, by multiplication only: the same on every machine.
 struct Rungs {
   double below, above;
 };

@@ -1,6 +1,5 @@
 #pragma once
-// What the depths of a frame leave of a frustum grid's cells, or of its tiles: of each cell the parts in which visible
-// surfaces may lie.
+// The parts of a frustum grid's cells, or of its tiles, in which visible surfaces may lie, from the depths of a frame.
 
 #include <cstdint>
 #include <span>
@@ -14,12 +13,13 @@ namespace clusterbench::grid {
 struct OccupiedCells {
   // Numbered as the grid's. A method with one list per tile has a single slice.
   Vec3i counts{0};
-  // The parts of cell c, which is their union, are parts[begin[c]] .. parts[begin[c + 1] - 1], front to back; none
-  // where nothing is visible.
+  // The parts of cell c, whose union is its occupied volume, are parts[begin[c]] .. parts[begin[c + 1] - 1], front to
+  // back; none if nothing is visible.
   std::vector<std::uint32_t> begin{0};
   std::vector<geom::FrustumCell> parts;
 
-  // The parts behind those of the cell before are all of this one. Throws Error beyond the limit on memory.
+  // Ends the current cell: it gets all parts added since the previous cell's end. Throws Error beyond the limit on
+  // memory.
   void end_cell() {
     check_memory("parts of cells that hold surfaces", parts.size(), sizeof(geom::FrustumCell));
     begin.push_back(static_cast<std::uint32_t>(parts.size()));

@@ -72,7 +72,7 @@ class ShellBroadPhase final : public BroadPhase {
 
  private:
   IndexRange shells_near(const BallInSpace& ball) const {
-    constexpr double k_slack = 1e-12;  // far more than the rounding of a distance
+    constexpr double k_slack = 1e-12;  // much more than the rounding of a distance
     const double distance = glm::length(ball.center), reach = ball.radius + ball.slack;
     const double wider = reach + k_slack * (distance + reach);
     return intervals_touched(grid_.slices.boundaries, distance - wider, distance + wider);

@@ -10,7 +10,7 @@
 namespace clusterbench::grid {
 namespace {
 
-// The farthest corners of a perspective grid are as far to the side as their slopes say.
+// Checks the domain: the farthest corners of a perspective grid are as far to the side as their slopes say.
 void check_extent(const ScreenGrid& grid) {
   const Tiles& tiles = grid.tiles;
   if (tiles.orthographic) return;
@@ -28,12 +28,12 @@ double ratio_of(const Slicing& slicing, const SliceRange& range) {
   const bool has_first = slicing.scheme == Scheme::exponential_first;
   if (!has_first && slicing.scheme != Scheme::exponential)
     throw Error("", "tiles.aspect", "takes exponential or exponential-first slices, which grow by a factor");
-  const Span asked = asked_span(slicing, range);
-  const double from = has_first ? slicing.first_m : asked.near_m;
+  const Span requested = requested_span(slicing, range);
+  const double from = has_first ? slicing.first_m : requested.near_m;
   const int count = slicing.count - (has_first ? 1 : 0);
-  if (!(from > 0.0) || !(from < asked.far_m) || !std::isfinite(asked.far_m) || count < 1)
+  if (!(from > 0.0) || !(from < requested.far_m) || !std::isfinite(requested.far_m) || count < 1)
     throw Error("", "tiles.aspect", "takes slices from a near above 0 to a finite far");
-  return std::pow(asked.far_m / from, 1.0 / count);
+  return std::pow(requested.far_m / from, 1.0 / count);
 }
 
 void check_reaction(const GridSpec& spec) {
@@ -44,8 +44,8 @@ void check_reaction(const GridSpec& spec) {
     throw Error("", "react.to", "is mask-words, which doubles tiles in pixels; found tiles.count");
 }
 
-// With the frame's own tiles, and without anything that follows from the projection: that of the path's first frame
-// decides.
+// With the frame's own tiles, and with all values that depend on a projection computed from that of the path's first
+// frame.
 GridSpec resolved(const GridSpec& spec, const GridInputs& inputs) {
   if (!spec.has_cell_shape()) {
     GridSpec out = spec;
@@ -64,7 +64,7 @@ GridSpec resolved(const GridSpec& spec, const GridInputs& inputs) {
   }
   if (spec.slices.fit)
     throw Error("", "slices.fit", "has no meaning for cubical slices: as many as they are follows from near and far");
-  make_tiles(spec.tiles, projection, inputs.viewport);  // are checked
+  make_tiles(spec.tiles, projection, inputs.viewport);  // throws for an invalid tiling
   out.slices = resolved_cubical(spec.slices, slice_range(of_shape),
                                 tile_height(spec.tiles, projection, inputs.viewport), projection.orthographic);
   return out;
@@ -81,7 +81,7 @@ std::string tiles_name(const Tiling& tiles) {
   return tiles.is_by_count() ? pair(tiles.count.x, tiles.count.y, "") : pair(tiles.pixels.x, tiles.pixels.y, "px");
 }
 
-// "near..far", or "near..first..far"; what the camera or the lights decide is left out.
+// "near..far", or "near..first..far"; ends that the camera or the lights decide are left out.
 std::string reach_name(const Slicing& slices) {
   const std::string near = slices.near_m == 0.0 ? "" : number_name(slices.near_m);
   std::string far = slices.far_default_m == 0.0 ? "" : "far or " + number_name(slices.far_default_m);
@@ -92,7 +92,7 @@ std::string reach_name(const Slicing& slices) {
   return " " + near + ".." + (has_first ? number_name(slices.first_m) + ".." : "") + far;
 }
 
-// All of a short list; of a long one its ends, and a digest that tells it from others.
+// All boundaries of a short list; for a long one its ends and a digest.
 std::string boundaries_name(const std::vector<double>& boundaries) {
   constexpr std::size_t k_most_shown = 17;
   std::string all;
@@ -158,12 +158,13 @@ std::int64_t ScreenGrid::lookup(const Sample& sample, Log2 way) const {
   return cell_index({tile.x, tile.y, slice}, counts());
 }
 
-ScreenGrid make_screen_grid(const GridSpec& asked, const GridInputs& inputs) {
+ScreenGrid make_screen_grid(const GridSpec& requested, const GridInputs& inputs) {
   if (inputs.viewport.x < 1 || inputs.viewport.y < 1) throw Error("", "viewport", "must be at least 1 x 1 pixels");
-  if (asked.slices.fit && asked.slices.fit->step > 1.0 && asked.slices.fit->step < k_least_step)
-    throw Error("", "slices.fit.step", "is " + number_name(asked.slices.fit->step) + "; allowed: 1, or at least 1.01");
-  check_reaction(asked);
-  const GridSpec spec = resolved(asked, inputs);
+  if (requested.slices.fit && requested.slices.fit->step > 1.0 && requested.slices.fit->step < k_least_step)
+    throw Error("", "slices.fit.step",
+                "is " + number_name(requested.slices.fit->step) + "; allowed: 1, or at least 1.01");
+  check_reaction(requested);
+  const GridSpec spec = resolved(requested, inputs);
   if (spec.kind == Kind::distance && inputs.projection.orthographic)
     throw Error("", "kind", "distance grids have their shells around the eye; an orthographic camera has none");
   ScreenGrid grid;
@@ -194,7 +195,7 @@ GridInputs screen_inputs(const GridSpec& spec, const FrameReach& from) {
   } else if (spec.slices.fit) {
     inputs.needed = needed_span(*spec.slices.fit, from.frame, from.depths, by_distance);
     if (spec.slices.fit->to != Fit::To::ranges)
-      inputs.needed = inputs.needed.within(asked_span(spec.slices, slice_range(inputs)));
+      inputs.needed = inputs.needed.within(requested_span(spec.slices, slice_range(inputs)));
   }
   return inputs;
 }

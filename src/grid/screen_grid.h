@@ -18,7 +18,7 @@ struct ScreenGrid {
   Slices slices;
 
   Kind kind() const { return by_distance ? Kind::distance : Kind::frustum; }
-  // What slices are cut along: the depth of a point in view space, or its distance.
+  // The coordinate along which slices are cut: the depth of a point in view space, or its distance.
   template <class Point>
   auto along(const Point& p) const {
     return by_distance ? std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z) : -p.z;
@@ -30,7 +30,7 @@ struct ScreenGrid {
   std::unique_ptr<BroadPhase> broad_phase() const;  // screen_broad_phase.cpp
 };
 
-// Inline, since methods and truth ask for every cell.
+// Inline, since methods and truth call it for every cell.
 inline geom::Cell ScreenGrid::cell(Vec3i at) const {
   const auto x = static_cast<std::size_t>(at.x), z = static_cast<std::size_t>(at.z);
   const float x0 = tiles.x[x], x1 = tiles.x[x + 1], y0 = tiles.y_min(at.y), y1 = tiles.y_max(at.y);
@@ -39,7 +39,7 @@ inline geom::Cell ScreenGrid::cell(Vec3i at) const {
   return geom::FrustumCell{x0, x1, y0, y1, near, far, tiles.orthographic};
 }
 
-// Throws Error (where = configuration key) for what cannot be in this projection.
+// Throws Error (where = configuration key) for a grid that is impossible in this projection.
 ScreenGrid make_screen_grid(const GridSpec& spec, const GridInputs& inputs);
 GridInputs screen_inputs(const GridSpec& spec, const FrameReach& from);
 std::string screen_grid_name(const GridSpec& spec);

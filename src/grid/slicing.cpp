@@ -33,8 +33,8 @@ struct Reach {
   double near, far;
 };
 
-// No far is named, and the view has no end: the lights' end is the grid's. Where they all end before the slices begin,
-// or there are none, nothing is to be told apart behind that, and any far will do.
+// If no far is given and the view has no end, the grid ends where the lights end. If all lights end before the slices
+// begin, or there are none, any far will do: no cell behind it has a light.
 double far_from_lights(const Slicing& slicing, double near_m, double lights_end_m) {
   const bool has_first = slicing.scheme == Scheme::exponential_first || slicing.scheme == Scheme::cubical_first;
   const double begin_m = has_first ? std::max(near_m, slicing.first_m) : near_m;
@@ -49,7 +49,7 @@ Reach reach_of(const Slicing& slicing, const SliceRange& range) {
   if (reach.far == 0.0)
     reach.far = std::isfinite(seen) ? seen : far_from_lights(slicing, reach.near, range.light_far_m);
   if (slicing.scheme == Scheme::fit) {
-    const double last = std::max(reach.near, reach.far);  // no far is named and all lights end before near
+    const double last = std::max(reach.near, reach.far);  // no far is given and all lights end before near
     const Reach lights{std::clamp(range.light_near_m, reach.near, last),
                        std::clamp(range.light_far_m, reach.near, last)};
     if (lights.near < lights.far) return lights;
@@ -81,9 +81,9 @@ void check(const Slicing& slicing, const Reach& reach, bool orthographic) {
   }
 }
 
-// The depths of an orthographic view may begin at 0, which logarithms cannot: its exponential slices then begin after a
-// first one, which is as thick as a linear one that begins at the camera would be; blends with an exponential part are
-// linear. What ends behind the camera is linear in any case.
+// The depths of an orthographic view may begin at 0, which has no logarithm. Exponential slices then begin after a
+// first slice as thick as that of a linear scheme from the camera on; blends with an exponential part become linear.
+// Slices that end behind the camera are linear in any case.
 Slicing with_linear_start(Slicing slicing, const Reach& reach) {
   const bool is_exponential = slicing.scheme == Scheme::exponential || slicing.scheme == Scheme::fit;
   if (reach.near > 0.0 || !(is_exponential || slicing.scheme == Scheme::power)) return slicing;
@@ -96,7 +96,8 @@ Slicing with_linear_start(Slicing slicing, const Reach& reach) {
   return slicing;
 }
 
-// A first slice from less than the domain's nearest depth on begins at the eye instead; others must not.
+// A first slice that begins below the domain's smallest depth begins at the eye instead; other slices must not begin
+// there.
 void check_nearest(std::vector<float>& boundaries) {
   if (static_cast<double>(boundaries.front()) < geom::k_nearest_m) boundaries.front() = 0.0f;
   require(static_cast<double>(boundaries[1]) >= geom::k_nearest_m, "slices",
@@ -156,50 +157,50 @@ SliceLookup make_lookup(const Slicing& slicing, const Reach& reach) {
       return lookup;
     case Scheme::power:
     case Scheme::list:
-    case Scheme::cubical:  // is resolved
+    case Scheme::cubical:  // already resolved
     case Scheme::cubical_first:
       break;
   }
   return lookup;
 }
 
-// Slices thinner than single precision tells apart do not exist: a span of no depth, as of a wall, is widened.
-Span not_too_thin(const Span& span, const Reach& asked) {
+// Slices cannot be thinner than the resolution of single precision: a span without depth, such as a wall's, is widened.
+Span with_least_thickness(const Span& span, const Reach& requested) {
   constexpr double k_least_share = 0.01, k_least_m = 1e-11;
   const double least = std::max(k_least_share * std::max(std::abs(span.near_m), std::abs(span.far_m)), k_least_m);
   if (span.far_m - span.near_m >= least) return span;
-  const double far = std::min(span.near_m + least, asked.far);
-  return {std::max(asked.near, std::min(span.near_m, far - least)), std::max(far, span.far_m)};
+  const double far = std::min(span.near_m + least, requested.far);
+  return {std::max(requested.near, std::min(span.near_m, far - least)), std::max(far, span.far_m)};
 }
 
-// Only the far end follows, beyond the camera's, too; near and the end of the first slice stay.
+// Only the far end follows, also beyond the camera's far; near and the end of the first slice stay.
 void fit_to_ranges(const Span& needed, const Slicing& slicing, Reach& reach) {
-  constexpr double k_least_share = 1.01;  // slices of no depth do not exist
+  constexpr double k_least_share = 1.01;  // slices without depth do not exist
   const double from = slicing.scheme == Scheme::exponential_first ? slicing.first_m : reach.near;
   const double least = from > 0.0 ? from * k_least_share : from + 1e-3;
   reach.far = std::max(least, needed.is_empty() ? reach.far : needed.far_m + 0x1p-20 * std::abs(needed.far_m));
 }
 
-// Moves slices to what is needed. What lies before the first boundary is in the first slice, so that only the far end
-// could leave something out: it is moved up by more than roundoffs of a sample's depth or distance.
+// Moves slices to the needed span. Depths before the first boundary are in the first slice, so only the far end could
+// leave something out: it is moved outward by more than the roundoffs of a sample's depth or distance.
 void fit_to(const Span& needed, Slicing& slicing, Reach& reach) {
   const Span inside = needed.within({reach.near, reach.far});
   if (inside.is_empty()) return;
   const double far = std::min(inside.far_m + 0x1p-20 * std::abs(inside.far_m), reach.far);
   if (slicing.scheme != Scheme::exponential_first) {
-    const Span span = not_too_thin({inside.near_m, far}, reach);
+    const Span span = with_least_thickness({inside.near_m, far}, reach);
     reach = {span.near_m, span.far_m};
     return;
   }
   if (far <= slicing.first_m) {  // all of it before the end of the first slice
-    const Span span = not_too_thin({reach.near, far}, reach);
+    const Span span = with_least_thickness({reach.near, far}, reach);
     if (reach.near <= 0.0 && span.far_m <= 0.0) return;  // nothing in front of an orthographic camera
     slicing.first_m =
         reach.near > 0.0 ? exponential_at(reach.near, span.far_m, 1.0 / slicing.count) : span.far_m / slicing.count;
     reach.far = span.far_m;
     return;
   }
-  const Span span = not_too_thin({std::max(slicing.first_m, inside.near_m), far}, reach);
+  const Span span = with_least_thickness({std::max(slicing.first_m, inside.near_m), far}, reach);
   if (span.near_m <= reach.near) return;
   slicing.first_m = span.near_m;
   reach.far = span.far_m;
@@ -222,9 +223,9 @@ float moved_by_ulps(float value, std::int64_t ulps) {
   return std::bit_cast<float>(static_cast<std::int32_t>(std::clamp<std::int64_t>(bits, 0, greatest)));
 }
 
-// The greatest number for which `holds`, which is true up to some number, 0 if for none.
+// The greatest number for which `holds` is true, if it is true up to some number and false above; 0 if for none.
 template <class Holds>
-std::int64_t last_that(Holds&& holds) {
+std::int64_t last_where(Holds&& holds) {
   std::int64_t beyond = 1;
   constexpr std::int64_t k_most = std::int64_t{1} << 31;
   while (beyond < k_most && holds(beyond)) beyond *= 2;
@@ -243,7 +244,7 @@ float fast_log2(float value) {
   return exponent + (-0.34484843f * mantissa + 2.02466578f) * mantissa - 1.67487759f;
 }
 
-// How many slices that grow by `ratio` lead from near to far. A far that the last one meets up to roundoffs is reached.
+// The number of slices that grow by `ratio` between near and far. The last one may miss far by roundoffs.
 int slices_between(double near, double far, double ratio) {
   constexpr double k_most = 4096.0, k_roundoffs = 1e-9;
   const double count = std::ceil(std::log(far / near) / std::log(ratio) - k_roundoffs);
@@ -260,14 +261,14 @@ bool Slicing::ends_with_lights(double camera_far_m) const {
          std::isinf(camera_far_m);
 }
 
-Span telling_span(const Slicing& slicing, const Span& needed) {
+Span deciding_span(const Slicing& slicing, const Span& needed) {
   if (slicing.fit && slicing.fit->to == Fit::To::ranges && !needed.is_empty())
     return {0.0, std::max(0.0, needed.far_m)};
   if (slicing.scheme != Scheme::exponential_first || needed.is_empty()) return needed;
   return {std::max(needed.near_m, std::min(slicing.first_m, needed.far_m)), needed.far_m};
 }
 
-Span asked_span(const Slicing& slicing, const SliceRange& range) {
+Span requested_span(const Slicing& slicing, const SliceRange& range) {
   if (slicing.scheme == Scheme::list && !slicing.boundaries_m.empty())
     return {slicing.boundaries_m.front(), slicing.boundaries_m.back()};
   const Reach reach = reach_of(slicing, range);
@@ -308,7 +309,7 @@ Slicing resolved_cubical(const Slicing& slicing, const SliceRange& range, double
 
 float log2_by(Log2 way, float value) {
   if (way == Log2::fast) return fast_log2(value);
-  // In double and rounded once: the single-precision libm differs between machines in the last bit, this does not.
+  // Computed in double and rounded once: the single-precision libm differs between machines in the last bit.
   float log = static_cast<float>(std::log2(static_cast<double>(value)));
   if (way == Log2::rounded) return log;
   const float direction = way == Log2::glsl_low ? -1.0f : 1.0f;
@@ -329,7 +330,7 @@ std::int64_t safe_padding_ulps(const Slices& slices, Log2 way) {
       const int slice = slices.slice_of(moved_by_ulps(boundary, ulps - 1), way);
       return slice >= 0 && slice < k;
     };
-    padding = std::max({padding, last_that(below_is_above), last_that(above_is_below)});
+    padding = std::max({padding, last_where(below_is_above), last_where(above_is_below)});
   }
   return padding;
 }
@@ -340,7 +341,7 @@ int Slices::slice_of(float depth, Log2 way) const {
   if (lookup.first_slice > 0 && depth < lookup.first_m) return 0;
   const float value =
       (lookup.form == SliceLookup::Form::log2 ? log2_by(way, depth) : depth) * lookup.scale + lookup.bias;
-  // Truncation as in a shader; below the first boundary log2 may be anything, down to -inf.
+  // Truncation as in a shader; below the first boundary log2 can have any value, down to -inf.
   return value >= 1.0f ? std::min(static_cast<int>(value), count() - 1) : 0;
 }
 
@@ -351,9 +352,9 @@ int Slices::ideal_slice_of(double depth) const {
   return std::clamp(static_cast<int>(above - boundaries.begin()) - 1, 0, count() - 1);
 }
 
-Slices make_slices(const Slicing& asked, const SliceRange& range, bool orthographic) {
-  const bool is_list = asked.scheme == Scheme::list;
-  Slicing slicing = is_list ? with_list_reach(asked) : asked;
+Slices make_slices(const Slicing& requested, const SliceRange& range, bool orthographic) {
+  const bool is_list = requested.scheme == Scheme::list;
+  Slicing slicing = is_list ? with_list_reach(requested) : requested;
   if (orthographic && slicing.linear_when_orthographic) slicing.scheme = Scheme::linear;
   Reach reach = is_list ? Reach{slicing.boundaries_m.front(), slicing.boundaries_m.back()} : reach_of(slicing, range);
   const bool follows_ranges = slicing.fit && slicing.fit->to == Fit::To::ranges && !is_list;
@@ -366,7 +367,7 @@ Slices make_slices(const Slicing& asked, const SliceRange& range, bool orthograp
   for (int i = 0; i <= slicing.count; ++i) slices.boundaries.push_back(static_cast<float>(boundary(slicing, reach, i)));
   if (slicing.fit && !is_list)
     slices.boundaries.back() = std::max(slices.boundaries.back(), geom::rounded_up(reach.far));
-  // What lies between the camera's near plane and the first boundary looks itself up in slice 0, so it belongs to it.
+  // Depths between the camera's near plane and the first boundary are looked up in slice 0, so they belong to it.
   slices.boundaries.front() = geom::rounded_down(std::min(reach.near, range.camera_near_m));
   if (!orthographic) check_nearest(slices.boundaries);
   for (int i = 0; i < slicing.count; ++i)

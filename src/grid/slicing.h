@@ -12,7 +12,7 @@ namespace clusterbench::grid {
 
 enum class Scheme { linear, exponential, exponential_first, power, list, fit, cubical, cubical_first };
 
-// What a configuration asks for. 0 means: not given.
+// The configuration of slices. 0 means: not given.
 struct Slicing {
   Scheme scheme = Scheme::exponential_first;
   int count = 16;
@@ -21,33 +21,33 @@ struct Slicing {
   double far_m = 0.0;                // not given: the camera's far, or (infinite) the farthest reach of a light in view
   double lambda = 0.5;               // power: blend, 0 linear .. 1 exponential
   std::vector<double> boundaries_m;  // list: count + 1 ascending numbers
-  // Slices follow what a frame needs, within near and far: near and far of linear, exponential and power slices; far
-  // and the end of the first slice of exponential-first ones, which is never nearer than first_m unless all that is
-  // needed is nearer than that.
+  // Slices follow the needs of a frame, within near and far: near and far of linear, exponential and power slices; far
+  // and the end of the first slice of exponential-first ones, which is never nearer than first_m unless the whole
+  // needed span is.
   std::optional<Fit> fit = {};
-  // Where no far is given: however far the camera sees, slices end here (Filament's 100 m). 0: they do not.
+  // If no far is given, slices end here even if the camera sees farther (Filament's 100 m). 0: no such limit.
   double far_at_most_m = 0.0;
-  // Where no far is given and the camera has none: slices end here, as with an engine whose own cameras have this far
-  // plane by default (Godot's 4000 m). 0: with the lights.
+  // If neither a far is given nor the camera has one, slices end here, as in an engine whose own cameras have this far
+  // plane by default (Godot's 4000 m). 0: at the end of the lights.
   double far_default_m = 0.0;
-  // Of an orthographic camera the scheme is linear from near to far, as engines have it (Bevy, Unity URP).
+  // With an orthographic camera the scheme is linear from near to far, as in engines (Bevy, Unity URP).
   bool linear_when_orthographic = false;
 
-  // Whether, of a camera with this far plane, they end where the lights of the path do, which no engine and no
-  // configuration says.
+  // Whether, with this far plane of the camera, slices end where the lights of the path end, so neither engine nor
+  // configuration gives an end.
   bool ends_with_lights(double camera_far_m) const;
 };
 
-// Where slices can lie in this frame. light_near/far: the reach of the lights in view (fit; far when nothing else
-// says).
+// The possible range of slices in this frame. light_near/far: the reach of the lights in view (fit; far if nothing else
+// gives it).
 struct SliceRange {
   double camera_near_m, camera_far_m;
   double light_near_m, light_far_m;
-  Span needed = {};  // of a Slicing with `fit`; empty: slices lie as without
+  Span needed = {};  // for a Slicing with `fit`; empty: slices lie as without
 };
 
-// The constants of the shader's lookup: slice = int(f(depth) * scale + bias), f = identity or log2. Printed by the
-// tool, because users copy them.
+// The constants of the shader's lookup: slice = int(f(depth) * scale + bias), f = identity or log2. The tool prints
+// them, because users copy them.
 struct SliceLookup {
   enum class Form { linear, log2, search } form = Form::search;
   float scale = 0.0f, bias = 0.0f;
@@ -55,7 +55,7 @@ struct SliceLookup {
   float first_m = 0.0f;
 };
 
-// How a shader takes the logarithm of a depth.
+// How a shader computes the logarithm of a depth.
 enum class Log2 {
   rounded,    // correctly rounded single precision
   glsl_low,   // the least and
@@ -75,26 +75,26 @@ struct Slices {
   int ideal_slice_of(double depth) const;
 };
 
-// How far beyond its boundary, in ulps of the boundary, a depth can lie and still be looked up in the slice: cells that
-// reach so much farther on both sides hold every depth that is looked up in them.
+// The largest distance beyond its boundary, in ulps of the boundary, of a depth that is still looked up in the slice:
+// cells enlarged by this much on both sides contain every depth that is looked up in them.
 std::int64_t safe_padding_ulps(const Slices& slices, Log2 way);
 
-// What is asked for, whatever a frame needs; of a list its ends.
-Span asked_span(const Slicing& slicing, const SliceRange& range);
-// What of a needed span decides where slices lie: equal ones give equal slices.
-Span telling_span(const Slicing& slicing, const Span& needed);
+// The requested span, independent of a frame's needs; for a list its ends.
+Span requested_span(const Slicing& slicing, const SliceRange& range);
+// The part of a needed span that determines the slices: equal parts give equal slices.
+Span deciding_span(const Slicing& slicing, const Span& needed);
 
-// Cubical slices as the exponential ones that they are: slice k begins at near * (1 + tile_height)^k, where tile_height
-// is that of a tile at depth 1 (Olsson, Billeter and Assarsson 2012: 2 tan(theta) / S_y), so that a cell is as deep as
-// it is high at its near side; with as many slices as reach far. Of an orthographic camera: linear ones as thick as a
-// tile is high. cubical-first: from first_m on, with one slice before it. Others stay as they are. Throws Error (where
-// = "slices.scheme") for more than 4096 slices.
+// Cubical slices expressed as exponential ones: slice k begins at near * (1 + tile_height)^k, where tile_height is that
+// of a tile at depth 1 (Olsson, Billeter and Assarsson 2012: 2 tan(theta) / S_y), so that a cell is as deep as it is
+// high at its near side; there are as many slices as needed to reach far. For an orthographic camera: linear ones as
+// thick as a tile is high. cubical-first: from first_m on, with one slice before it. Other schemes stay unchanged.
+// Throws Error (where = "slices.scheme") for more than 4096 slices.
 Slicing resolved_cubical(const Slicing& slicing, const SliceRange& range, double tile_height, bool orthographic);
 
-// Of an orthographic camera near may be 0 or less: exponential slices then begin after a first one up to far / count,
-// and power ones are linear. Throws Error (file "", where = key such as "slices.near") for what cannot be: near >= far,
-// exponential with near <= 0 of a perspective camera, an infinite far, a list that does not ascend, boundaries that
-// coincide in single precision.
+// For an orthographic camera near may be 0 or less: exponential slices then begin after a first one up to far / count,
+// and power ones are linear. Throws Error (file "", where = key such as "slices.near") for impossible values: near >=
+// far, exponential with near <= 0 of a perspective camera, an infinite far, a list that does not ascend, boundaries
+// that coincide in single precision.
 Slices make_slices(const Slicing& slicing, const SliceRange& range, bool orthographic);
 
 }  // namespace clusterbench::grid

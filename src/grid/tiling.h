@@ -9,20 +9,20 @@
 
 namespace clusterbench::grid {
 
-// Pixels per tile, tiles per screen, or an aspect that tiles follow from; what is not given is 0.
+// Pixels per tile, tiles per screen, or an aspect from which tiles are computed; values that are not given are 0.
 struct Tiling {
   Vec2i pixels{64, 64};
   Vec2i count{0, 0};
-  // How many times as deep as high cells shall be, of slices that grow by a factor: square tiles, a whole number of
-  // them down the picture. 1: cubical cells.
+  // Ratio of depth to height of cells, for slices that grow by a factor: square tiles, a whole number of them down the
+  // picture. 1: cubical cells.
   double aspect = 0.0;
 
   bool is_by_count() const { return count.x != 0 || count.y != 0; }
   friend bool operator==(const Tiling&, const Tiling&) = default;
 };
 
-// Tiles across and down the picture, the clipped ones at its edges among them. Not for tilings with an aspect, nor of
-// sizes below 1.
+// Tiles across and down the picture, including clipped ones at its edges. Not for tilings with an aspect, nor for sizes
+// below 1.
 Vec2i tile_counts(const Tiling& tiling, Vec2i viewport);
 
 // Height of a tile that is not clipped, at depth 1 (perspective) or anywhere (orthographic, in metres). Not for tilings
@@ -34,7 +34,7 @@ Tiling resolved_aspect(const Tiling& tiling, double ratio, const view::Projectio
 struct Tiles {
   bool orthographic = false;
   Vec2i count{0, 0};
-  Vec2i pixels{0, 0};  // of a tile that is not clipped; 0: so many per screen
+  Vec2i pixels{0, 0};  // of a tile that is not clipped; 0: a number per screen
   Vec2i viewport{0, 0};
   std::vector<float> x;  // count.x + 1 tile planes, ascending: slopes x/depth (perspective) or metres (orthographic)
   std::vector<float> y;  // count.y + 1 tile planes from the top: DEscending slopes y/depth or metres
@@ -45,7 +45,7 @@ struct Tiles {
   float y_max(int row) const { return y[static_cast<std::size_t>(row)]; }
   // Tile of a pixel position (origin top left, pixel centres at .5), clamped to the grid.
   Vec2i tile_of(float pixel_x, float pixel_y) const;
-  // Whether a place lies in the picture, its edges included. Not for NaN, which stands behind the eye.
+  // Whether a position lies in the picture, its edges included. False for NaN, a point behind the eye.
   bool shows(float pixel_x, float pixel_y) const {
     return pixel_x >= 0.0f && pixel_x <= static_cast<float>(viewport.x) && pixel_y >= 0.0f &&
            pixel_y <= static_cast<float>(viewport.y);

@@ -30,7 +30,7 @@ std::vector<float> world_planes(double lo, double hi, double origin, int count) 
   return planes;
 }
 
-// Boundaries relative to the lower one of the cell that the eye is in, the middle one or the one after the middle.
+// Boundaries relative to the lower one of the eye's cell, which is the middle cell or the one after the middle.
 std::vector<float> planes_around_camera(double size_m, int count) {
   std::vector<float> planes;
   const int below = count / 2;
@@ -39,7 +39,7 @@ std::vector<float> planes_around_camera(double size_m, int count) {
   return planes;
 }
 
-// One axis of the grid, and where its boundaries are relative to.
+// One axis of the grid, and the origin of its boundaries.
 struct Axis {
   double origin;
   std::vector<float> planes;

@@ -1,6 +1,6 @@
 #pragma once
-// World grids: boxes along the world's axes. They stay where they are, or follow the camera in whole cells, or the
-// lights in view.
+// World grids: boxes along the world's axes. They are fixed, or follow the camera in whole cells, or the lights in
+// view.
 
 #include <memory>
 #include <vector>
@@ -12,8 +12,8 @@
 
 namespace clusterbench::grid {
 
-// A box grid in world space. Boundaries are relative to `origin`, single precision, ascending. Index (x, y, z)
-// runs along the world axes.
+// A box grid in world space. Boundaries are relative to `origin`, single precision, ascending. Index (x, y, z) runs
+// along the world axes.
 struct WorldGrid {
   Vec3d origin{0.0};
   std::vector<float> x, y, z;
@@ -25,7 +25,7 @@ struct WorldGrid {
   std::unique_ptr<BroadPhase> broad_phase() const;
 };
 
-// Inline, since methods and truth ask for every cell.
+// Inline, since methods and truth call it for every cell.
 inline Vec3i WorldGrid::counts() const {
   const auto count = [](const std::vector<float>& planes) { return static_cast<int>(planes.size()) - 1; };
   return {count(x), count(y), count(z)};
@@ -36,7 +36,7 @@ inline geom::Cell WorldGrid::cell(Vec3i at) const {
   return geom::Box{{x[i], y[j], z[k]}, {x[i + 1], y[j + 1], z[k + 1]}};
 }
 
-// Throws Error (where = configuration key) for what cannot be.
+// Throws Error (where = configuration key) for an impossible grid.
 WorldGrid make_world_grid(const GridSpec& spec, const GridInputs& inputs);
 GridInputs world_inputs(const GridSpec& spec, const FrameReach& from);
 std::string world_grid_name(const GridSpec& spec);

@@ -1,11 +1,11 @@
 #pragma once
-// What this process may do with a file or folder.
+// Permissions of this process for a file or folder.
 
 #include <filesystem>
 
 namespace clusterbench::os {
 
-// errno says why not.
+// If false, errno has the reason.
 bool is_writable_folder(const std::filesystem::path& folder);
 
 bool is_executable(const std::filesystem::path& file);

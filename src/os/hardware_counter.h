@@ -1,5 +1,5 @@
 #pragma once
-// Instructions, and cycles, by the processor's own counters: perf_event_open(2). Of the calling thread, in user space.
+// Instructions, and cycles, by the processor's own counters: perf_event_open(2). For the calling thread, in user space.
 
 #include <cstdint>
 #include <optional>
@@ -7,10 +7,10 @@
 
 namespace clusterbench::os {
 
-// All functions throw Error, at `location`, that says what refuses.
+// All functions throw Error, at `location`, with the part of the system that refuses.
 class HardwareCounter {
  public:
-  // Instructions, and cycles where the processor counts both at a time.
+  // Instructions, and cycles if the processor counts both at a time.
   explicit HardwareCounter(const char* location);
   // One event of perf_event_open(2) in place of instructions.
   HardwareCounter(const char* location, std::uint32_t type, std::uint64_t event);

@@ -34,7 +34,7 @@ void LockedFile::open() {
   } while (!is_still_at_path());
 }
 
-// False where another process has made or removed it meanwhile.
+// False if another process has created or removed it meanwhile.
 bool LockedFile::has_opened() {
   constexpr int k_way = O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
   file_ = ::open(path_.c_str(), k_way);
@@ -53,7 +53,7 @@ bool LockedFile::has_opened() {
   throw Error(path_.string(), "", "is no regular file, and only such a one is written here");
 }
 
-// A file system without locks (EOPNOTSUPP, ENOLCK) is no reason not to measure.
+// A file system without locks (EOPNOTSUPP, ENOLCK) does not prevent measuring.
 void LockedFile::lock() {
   int failed = 0;
   do failed = ::flock(file_, held_ == Held::wait ? LOCK_EX : LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
@@ -76,9 +76,9 @@ bool LockedFile::is_still_at_path() const {
          opened.st_ino == named.st_ino;
 }
 
-void LockedFile::fail(const std::string& what) const {
+void LockedFile::fail(const std::string& action) const {
   const ExitCode code = code_of_failed_write(errno);
-  throw Error(path_.string(), "", errno_says(what), code);
+  throw Error(path_.string(), "", errno_text(action), code);
 }
 
 std::string LockedFile::text() const {
@@ -111,7 +111,7 @@ void LockedFile::empty() {
   is_made_ = true;
 }
 
-// Reserves the room and gives it back.
+// Reserves the room and frees it again.
 void LockedFile::check_room(std::uint64_t bytes) const {
   const off_t size = ::lseek(file_, 0, SEEK_END);
   const int failed = ::posix_fallocate(file_, size, static_cast<off_t>(bytes));
@@ -121,8 +121,8 @@ void LockedFile::check_room(std::uint64_t bytes) const {
                 ExitCode::internal);
 }
 
-// Who opens the path between the last two steps has the new file: then this is an Error, and the text is kept all the
-// same.
+// A process that opens the path between the last two steps has the new file: then this is an Error, and the text is
+// kept all the same.
 fs::path LockedFile::move_text_beside() {
   fs::path name = reserve_name(path_);
   if (::rename(path_.c_str(), name.c_str()) != 0) fail("cannot be renamed to " + name.string());

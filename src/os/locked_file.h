@@ -8,14 +8,14 @@
 
 namespace clusterbench::os {
 
-// Locked with flock, so that the end of the process, however it comes, gives it free. A regular file: through links
-// nothing is written. All functions throw Error.
+// Locked with flock, so that any end of the process releases it. A regular file: nothing is written through links. All
+// functions throw Error.
 class LockedFile {
  public:
-  // What is done while another process holds it: an Error, or it is waited for.
+  // The behaviour if another process holds it: throw Error, or wait.
   enum class Held { refuse, wait };
 
-  // Opens it, or makes an empty one, which goes with this object if nothing is put into it.
+  // Opens the file, or creates an empty one, which is removed with this object if nothing is written to it.
   explicit LockedFile(std::filesystem::path path, Held held = Held::refuse);
   ~LockedFile();
   LockedFile(const LockedFile&) = delete;
@@ -25,14 +25,14 @@ class LockedFile {
   std::string text() const;
   void append(std::string_view text);
   void cut_to(std::size_t bytes);
-  // As if it had just been made.
+  // Restores the state of a new file.
   void empty();
-  // An Error if the disk has no room for so many bytes more.
+  // Throws Error if the disk has no room for this many more bytes.
   void check_room(std::uint64_t bytes) const;
-  // Leaves the text in a file of the first free name of PATH.1, PATH.2 ..., which it returns, and goes on with an empty
-  // file.
+  // Moves the text to a file with the first free name of PATH.1, PATH.2 ..., which it returns, and continues with an
+  // empty file.
   std::filesystem::path move_text_beside();
-  // The whole text at once (os/output_file.h). The lock is at an end then.
+  // Replaces the whole text at once (os/output_file.h). This ends the lock.
   void replace(std::string_view text);
   // Other names of the same file: hard links.
   std::uint64_t other_names() const;
@@ -45,7 +45,7 @@ class LockedFile {
   void close();
   // Another process can have removed or moved it between opening and locking.
   bool is_still_at_path() const;
-  [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail(const std::string& action) const;
 
   std::filesystem::path path_;
   Held held_;

@@ -1,5 +1,5 @@
 #pragma once
-// The machine that this process runs on, now.
+// The current state of the machine on which this process runs.
 
 #include <cstdint>
 #include <optional>
@@ -13,7 +13,7 @@ namespace clusterbench::os {
 
 struct Machine {
   Processor processor;
-  std::vector<std::pair<std::string, std::uint64_t>> caches;  // as caches_of() has them
+  std::vector<std::pair<std::string, std::uint64_t>> caches;  // in the form of caches_of()
   int cores = 0;
   std::uint64_t ram_bytes = 0;
   std::string system;  // "Linux 6.1.0-18-amd64 x86_64"
@@ -22,7 +22,7 @@ Machine this_machine();
 
 std::vector<std::pair<std::string, std::uint64_t>> caches_now();
 std::optional<Clock> clock_now();
-// Processes that want to run, the mean of the last minute.
+// Runnable processes, the mean of the last minute.
 std::optional<double> load_now();
 
 // "2026-01-31T12:00:00Z"

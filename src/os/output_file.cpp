@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A number below /dev/fd or /proc/self/fd; -1 where it is none.
+// A number below /dev/fd or /proc/self/fd; -1 if it is none.
 int number_in(std::string_view name) {
   int number = -1;
   const auto [end, failed] = std::from_chars(name.data(), name.data() + name.size(), number);
@@ -40,7 +40,7 @@ int own_descriptor(const fs::path& path) {
   return -1;
 }
 
-// Links there name what is open, and not always a file.
+// Links there name open descriptors, and not always files.
 bool is_descriptor_of_a_process(const fs::path& path) {
   const std::string folder = path.lexically_normal().parent_path().string();
   return folder.starts_with("/proc/") && folder.ends_with("/fd");
@@ -48,18 +48,18 @@ bool is_descriptor_of_a_process(const fs::path& path) {
 
 constexpr std::array k_ending_signals{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
-// A signal handler can reach nothing but what is outside of functions.
-std::atomic<int> g_held_signal{0};
+// A signal handler can access only global state.
+std::atomic<int> g_pending_signal{0};
 
 void hold_signal(int number) {
-  g_held_signal = number;
+  g_pending_signal = number;
 }
 
 void end_process(int number) {
   std::_Exit(static_cast<int>(number == SIGINT ? ExitCode::sigint : ExitCode::interrupted));
 }
 
-// What ends the process is handled otherwise for a while. In one thread at a time. Ignored signals stay ignored.
+// Replaces the handlers of terminating signals for a while. In one thread at a time. Ignored signals stay ignored.
 class SignalsHandled {
  public:
   explicit SignalsHandled(void (*handler)(int)) {
@@ -73,7 +73,7 @@ class SignalsHandled {
   }
   ~SignalsHandled() {
     for (std::size_t i = 0; i < k_ending_signals.size(); ++i) ::sigaction(k_ending_signals[i], &before_[i], nullptr);
-    if (const int number = g_held_signal.exchange(0); number != 0) ::raise(number);
+    if (const int number = g_pending_signal.exchange(0); number != 0) ::raise(number);
   }
   SignalsHandled(const SignalsHandled&) = delete;
   SignalsHandled& operator=(const SignalsHandled&) = delete;
@@ -82,7 +82,7 @@ class SignalsHandled {
   std::array<struct sigaction, k_ending_signals.size()> before_{};
 };
 
-// False with errno where not all is written.
+// False, with errno, if not all is written.
 bool write_all(int file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t put = ::write(file, text.data(), text.size());
@@ -93,18 +93,17 @@ bool write_all(int file, std::string_view text) {
   return true;
 }
 
-// Some file systems and devices know no such thing.
+// Flushes to disk. True also for file systems and devices that do not support it.
 bool is_on_disk(int file) {
   return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP;
 }
 
 struct MadeFile {
   fs::path path;
-  int descriptor = -1;  // -1: errno says why
+  int descriptor = -1;  // -1: errno has the reason
 };
 
-// The first free name of PATH.NUMBER and those behind it (0 is PATH itself), cut so that no folder refuses it for its
-// length.
+// The first free name from PATH.NUMBER on (0 is PATH itself), shortened so that no folder rejects its length.
 MadeFile made_file(const fs::path& path, int number) {
   constexpr std::size_t k_longest_name = 220;
   const std::string name = path.filename().string();
@@ -116,7 +115,7 @@ MadeFile made_file(const fs::path& path, int number) {
   }
 }
 
-// Has a name that nobody asked for, and so removes itself unless it takes the other file's.
+// A temporary file: it removes itself unless it gets the other file's name.
 class NewFile {
  public:
   explicit NewFile(const fs::path& beside) : made_(made_file(beside.string() + ".new", 0)) {}
@@ -130,14 +129,14 @@ class NewFile {
 
   bool is_made() const { return made_.descriptor >= 0; }
 
-  void look_like(const fs::path& old) const {
+  void copy_owner_and_mode(const fs::path& old) const {
     struct stat status {};
     if (::stat(old.c_str(), &status) != 0) return;
     if (::fchown(made_.descriptor, status.st_uid, status.st_gid) != 0) errno = 0;  // only root may
     if (::fchmod(made_.descriptor, status.st_mode & 07777) != 0) errno = 0;
   }
   bool fill(std::string_view text) const { return write_all(made_.descriptor, text) && is_on_disk(made_.descriptor); }
-  bool take_name(const fs::path& path) {
+  bool rename_to(const fs::path& path) {
     is_renamed_ = ::rename(made_.path.c_str(), path.c_str()) == 0;
     return is_renamed_;
   }
@@ -158,7 +157,7 @@ std::string shown(const fs::path& name) {
 OutputTarget output_target(const fs::path& name) {
   if (name.empty() || name == "-") return {"/dev/stdout", true, STDOUT_FILENO};
   OutputTarget target{name};
-  constexpr int k_most_links = 40;  // as the system follows
+  constexpr int k_most_links = 40;  // the system's own limit
   std::error_code failed;
   for (int count = 0;; ++count) {
     target.descriptor = own_descriptor(target.path);
@@ -208,14 +207,14 @@ OutputFile::~OutputFile() {
   if (stream_ >= 0 && target_.descriptor < 0) ::close(stream_);
 }
 
-void OutputFile::fail(const std::string& what) const {
+void OutputFile::fail(const std::string& action) const {
   const ExitCode code = code_of_failed_write(errno);
-  throw Error(shown(name_), "", errno_says(what), code);
+  throw Error(shown(name_), "", errno_text(action), code);
 }
 
 void OutputFile::open_stream() {
   using namespace std::chrono_literals;
-  constexpr std::chrono::milliseconds k_patience = 10s, k_pause = 20ms;
+  constexpr std::chrono::milliseconds k_longest_wait = 10s, k_pause = 20ms;
   stream_ = target_.descriptor;
   if (stream_ >= 0) return;
   std::error_code none;
@@ -224,7 +223,7 @@ void OutputFile::open_stream() {
     stream_ = ::open(target_.path.c_str(), O_WRONLY | O_APPEND | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (stream_ >= 0) break;
     if (!is_pipe || errno != ENXIO) fail("cannot be written");
-    if (waited >= k_patience)
+    if (waited >= k_longest_wait)
       throw Error(shown(name_), "", "cannot be written: is a pipe that no program reads; start its reader first");
     std::this_thread::sleep_for(k_pause);
   }
@@ -234,9 +233,10 @@ void OutputFile::open_stream() {
 void OutputFile::probe() {
   if (target_.is_stream) {
     struct stat status {};
-    const bool is_printed = name_.empty() || name_ == "-";  // where a person reads, and other text may stand before
-    const bool takes_space = !is_printed && ::fstat(stream_, &status) == 0 && S_ISCHR(status.st_mode);
-    if (::fcntl(stream_, F_GETFD) < 0 || (takes_space && !write_all(stream_, " "))) fail("cannot be written");
+    // a person reads this stream, and other text may come before
+    const bool is_printed = name_.empty() || name_ == "-";
+    const bool accepts_space = !is_printed && ::fstat(stream_, &status) == 0 && S_ISCHR(status.st_mode);
+    if (::fcntl(stream_, F_GETFD) < 0 || (accepts_space && !write_all(stream_, " "))) fail("cannot be written");
     return;
   }
   const SignalsHandled held(hold_signal);
@@ -249,7 +249,7 @@ void OutputFile::write(std::string_view text) {
   if (!target_.is_stream) return replace(text);
   std::cout << std::flush;
   std::fflush(stdout);
-  const SignalsHandled ending(end_process);  // a reader that takes nothing holds nobody up
+  const SignalsHandled ending(end_process);  // a reader that reads nothing must not block the exit
   if (!write_all(stream_, text)) fail("could not be written whole");
 }
 
@@ -257,9 +257,9 @@ void OutputFile::replace(std::string_view text) const {
   const SignalsHandled held(hold_signal);
   NewFile fresh(target_.path);
   if (!fresh.is_made()) fail(k_no_file_beside);
-  fresh.look_like(target_.path);
+  fresh.copy_owner_and_mode(target_.path);
   if (!fresh.fill(text)) fail("could not be written whole");
-  if (!fresh.take_name(target_.path)) fail("cannot be replaced");
+  if (!fresh.rename_to(target_.path)) fail("cannot be replaced");
 }
 
 void write_file(const fs::path& name, std::string_view text) {
@@ -268,7 +268,7 @@ void write_file(const fs::path& name, std::string_view text) {
 
 fs::path reserve_name(const fs::path& path) {
   const MadeFile made = made_file(path, 1);
-  if (made.descriptor < 0) throw Error(path.string(), "", errno_says("cannot be written"));
+  if (made.descriptor < 0) throw Error(path.string(), "", errno_text("cannot be written"));
   ::close(made.descriptor);
   return made.path;
 }

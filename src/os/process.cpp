@@ -22,18 +22,18 @@
 namespace clusterbench::os {
 namespace {
 
-[[noreturn]] void refuse_start(const std::string& program, const std::string& what, int error) {
-  throw Error(program, "", what + ": " + std::strerror(error), ExitCode::internal);
+[[noreturn]] void refuse_start(const std::string& program, const std::string& action, int error) {
+  throw Error(program, "", action + ": " + std::strerror(error), ExitCode::internal);
 }
 
-// What it is to have as its standard streams; all above 2.
+// The standard streams of the new process; all above 2.
 struct Streams {
   int in, out, errors;
 };
 
-// In the new process: becomes the other program. Returns only where that fails.
+// In the new process: becomes the other program. Returns only on failure.
 void become(const char* program, char* const* arguments, const Streams& streams, pid_t parent) {
-  // From now on it ends with the process that started it; that one may have ended just before.
+  // From here on it ends with the process that started it; that one may have ended just before.
   if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || ::getppid() != parent) return;
   if (::dup2(streams.in, STDIN_FILENO) >= 0 && ::dup2(streams.out, STDOUT_FILENO) >= 0 &&
       ::dup2(streams.errors, STDERR_FILENO) >= 0)
@@ -51,7 +51,7 @@ Started start(const std::vector<std::string>& command, const Streams& streams) {
   arguments.push_back(nullptr);
   std::string own_name = "clusterbench";  // in lists of processes
   if (command.front() == k_this_program) arguments.front() = own_name.data();
-  std::array<int, 2> failure{};  // carries the reason of a failed start, and closes at a good one
+  std::array<int, 2> failure{};  // carries the reason of a failed start; closed without data by a good one
   if (::pipe2(failure.data(), O_CLOEXEC) != 0) return {-1, errno};
   const pid_t self = ::getpid();
   Started started{::fork(), errno};
@@ -75,7 +75,7 @@ std::string start_error_text(int error) {
   return std::string("cannot be started: ") + std::strerror(error);
 }
 
-// Waits for its end, and says how that was.
+// Waits for its end, and describes it.
 Ending wait_for(pid_t pid, const MemoryFile& errors) {
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
@@ -89,7 +89,7 @@ Ending wait_for(pid_t pid, const MemoryFile& errors) {
   return {code == 0 ? "" : "exit code " + std::to_string(code), code, errors.tail()};
 }
 
-// Without waiting for it; it can still be waited for.
+// Does not wait for it; it can still be waited for.
 bool has_exited(pid_t pid) {
   siginfo_t info{};
   return ::waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == pid;
@@ -248,10 +248,10 @@ Conversation::Received Conversation::receive_line(std::string& line, double seco
 
 Ending Conversation::end() {
   if (pid_ < 0) return ending_;
-  ::shutdown(socket_, SHUT_RDWR);  // a program that listens ends by itself
+  ::shutdown(socket_, SHUT_RDWR);  // a program that reads it ends by itself
   constexpr int k_tries = 20, k_wait_ms = 10;
   for (int i = 0; i < k_tries && !has_exited(pid_); ++i) ::poll(nullptr, 0, k_wait_ms);
-  ::kill(pid_, SIGKILL);  // nothing of it is worth keeping; without effect on one that has ended
+  ::kill(pid_, SIGKILL);  // it has no data to save; no effect if it has ended
   ending_ = wait_for(pid_, errors_);
   pid_ = -1;
   return ending_;

@@ -1,5 +1,5 @@
 #pragma once
-// Another program, run from here and listened to. It does not outlive this one.
+// Another program, started by this one, which reads its output. It does not outlive this one.
 
 #include <atomic>
 #include <functional>
@@ -8,14 +8,14 @@
 
 namespace clusterbench::os {
 
-// As a command's first word: this program, even where its file has been replaced or removed since it started.
+// As a command's first word: this program, even if its file has been replaced or removed since the start.
 inline constexpr const char* k_this_program = "/proc/self/exe";
-// The same for another program, which is to open it.
+// The same as a path that another program can open.
 std::string this_program_for_others();
-// What this process was started with.
+// The command line of this process.
 std::vector<std::string> own_command_line();
 
-// A file without a name, in memory: nothing of it can stay behind.
+// A file without a name, in memory: nothing can remain of it.
 class MemoryFile {
  public:
   explicit MemoryFile(const std::string& text = "");  // to be read from its beginning
@@ -33,12 +33,12 @@ class MemoryFile {
 
 struct Ending {
   std::string how;         // "" if it ended well; else "exit code 3", "signal 11 (...)", "cannot be started: ..."
-  int exit_code = -1;      // where it has one
+  int exit_code = -1;      // if it has one
   std::string error_tail;  // the end of its standard error
 };
 
-// Runs `command` (looked for in PATH) to its end, with `input` as its standard input, and hands on each line of its
-// standard output. When `stop` becomes true it is terminated, as it is when `on_line` throws.
+// Runs `command` (searched in PATH) to its end, with `input` as its standard input, and passes each line of its
+// standard output to `on_line`. It is terminated when `stop` becomes true or `on_line` throws.
 Ending run_child(const std::vector<std::string>& command, const std::string& input,
                  const std::function<void(const std::string& line)>& on_line, const std::atomic<bool>& stop);
 

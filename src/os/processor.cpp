@@ -28,7 +28,7 @@ struct ArmPart {
   std::string_view implementer, part, name;
 };
 
-// ARM processors do not tell their names. Numbers: MIDR_EL1 in Linux, arch/arm64/include/asm/cputype.h.
+// ARM processors report only numbers. These are from Linux (MIDR_EL1), arch/arm64/include/asm/cputype.h.
 constexpr std::array k_arm_parts{
     ArmPart{"0x41", "0xd03", "Arm Cortex-A53"},     ArmPart{"0x41", "0xd04", "Arm Cortex-A35"},
     ArmPart{"0x41", "0xd05", "Arm Cortex-A55"},     ArmPart{"0x41", "0xd07", "Arm Cortex-A57"},
@@ -69,7 +69,7 @@ std::string first_line(const std::filesystem::path& file) {
   return line;
 }
 
-// "48K", "32768K", "1M"; 0 for what is none.
+// "48K", "32768K", "1M"; 0 for other text.
 std::uint64_t bytes_of(const std::string& size) {
   std::uint64_t value = 0;
   for (const char c : size) {

@@ -1,5 +1,5 @@
 #pragma once
-// Which processor this is, so that two machines whose processors share a marketing name are told apart.
+// Identifies the processor, so that machines whose processors share a marketing name can be distinguished.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,14 +13,14 @@ namespace clusterbench::os {
 
 struct Processor {
   std::string name;  // "AMD EPYC", "Arm Neoverse-N1"; "unknown"
-  // As the vendor numbers them; on ARM implementer, part, and variant with revision ("r3p1"). "" where Linux has none.
+  // The vendor's numbers; on ARM implementer, part, and variant with revision ("r3p1"). "" if Linux has none.
   std::string family, model, stepping;
 };
 
 // The first processor of a /proc/cpuinfo.
 Processor processor_of(std::istream& cpuinfo);
 
-// ("l1d", bytes), ("l1i", bytes), ("l2", bytes), ("l3", bytes), as far as known: of one core, of a folder like
+// ("l1d", bytes), ("l1i", bytes), ("l2", bytes), ("l3", bytes), as far as known: for one core, from a folder like
 // /sys/devices/system/cpu/cpu0/cache.
 std::vector<std::pair<std::string, std::uint64_t>> caches_of(const std::filesystem::path& folder);
 
@@ -30,7 +30,7 @@ struct Clock {
   std::optional<double> most_mhz;  // that the system allows the first core
 };
 
-// Of a /proc/cpuinfo, and of a folder like /sys/devices/system/cpu/cpu0/cpufreq. None where the first does not say.
+// From a /proc/cpuinfo, and a folder like /sys/devices/system/cpu/cpu0/cpufreq. nullopt if the first has no clock.
 std::optional<Clock> clock_of(std::istream& cpuinfo, const std::filesystem::path& folder);
 
 // The mean of the last minute in a /proc/loadavg.

@@ -1,5 +1,5 @@
 #pragma once
-// Processor time that this process and all others have taken, and how often heat has slowed processors down.
+// Processor time used by this process and all others, and the number of thermal slowdowns.
 
 #include <cstdint>
 #include <istream>
@@ -16,7 +16,7 @@ ProcessorTime processor_time_now();
 // Of this process, all its threads together.
 double own_processor_s();
 
-// Of all processors since the machine started; 0 where Linux does not count them.
+// Of all processors since the machine started; 0 if Linux does not count them.
 std::uint64_t throttle_events();
 
 }  // namespace clusterbench::os

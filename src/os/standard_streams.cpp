@@ -12,7 +12,7 @@ namespace clusterbench::os {
 void keep_standard_streams() {
   for (const auto& [stream, way] :
        {std::pair{STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}})
-    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", way);  // takes the smallest number that is free
+    if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", way);  // uses the smallest free number
 }
 
 void report_size_limits_as_errors() {

@@ -1,16 +1,15 @@
 #pragma once
-// Standard input, output and error as the system hands them over.
+// Standard input, output and error as received from the system.
 
 #include <string>
 
 namespace clusterbench::os {
 
-// A standard stream that is closed would give its number to the next file that is opened, and what is printed would go
-// there: in its place stands what can be neither read nor written, and of standard error what takes all.
+// If a standard stream is closed, the next opened file would get its number, and printed text would go into it. So a
+// placeholder is opened that can be neither read nor written, or, for standard error, one that accepts all.
 void keep_standard_streams();
 
-// A file that gets larger than the system allows (`ulimit -f`) is then an error of the write that says so, and not the
-// end of the process.
+// Makes a file that exceeds the system's size limit (`ulimit -f`) a write error, instead of the end of the process.
 void report_size_limits_as_errors();
 
 // Whether an open descriptor of this process is a file of that name, as of `merge a b >> a`.

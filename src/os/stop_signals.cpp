@@ -6,7 +6,7 @@
 namespace clusterbench::os {
 namespace {
 
-// The only state outside of functions: a signal handler can reach nothing else.
+// The only global state: a signal handler can access nothing else.
 std::atomic<bool> g_stop{false};
 std::atomic<int> g_signal{0};
 
@@ -24,7 +24,7 @@ void on_signal(int number) {
 const std::atomic<bool>& stop_on_signals() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as `nohup` has it
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // ignored under `nohup`
   return g_stop;
 }
 

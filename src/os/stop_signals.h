@@ -7,8 +7,8 @@
 
 namespace clusterbench::os {
 
-// Becomes true at the first signal; the second ends the program at once. A SIGHUP that is ignored, as `nohup` has it,
-// stays so.
+// Becomes true at the first signal; the second ends the program at once. A SIGHUP that is ignored, as under `nohup`,
+// stays ignored.
 const std::atomic<bool>& stop_on_signals();
 
 // sigint for SIGINT, interrupted for others.

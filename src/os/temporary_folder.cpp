@@ -24,7 +24,7 @@ std::string parent_folder() {
 
 TemporaryFolder::TemporaryFolder() {
   std::string name = (fs::path(parent_folder()) / "clusterbench.XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw Error(name, "", errno_says("no folder can be made") + k_advice);
+  if (mkdtemp(name.data()) == nullptr) throw Error(name, "", errno_text("no folder can be made") + k_advice);
   path_ = name;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A folder for what another program writes; it goes with its owner.
+// A folder for another program's files; it is removed with its owner.
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// What a terminal can show.
+// The abilities of a terminal.
 
 #include <cstdint>
 
@@ -12,7 +12,7 @@ struct Terminal {
   bool colour = false;       // a terminal, and neither NO_COLOR nor TERM=dumb
   int columns = 80;
 };
-// Of what a stream leads to; all false where that is no terminal.
+// Of a stream's target; all false if that is no terminal.
 Terminal terminal(StandardStream stream);
 
 // Also one with TERM=dumb.

@@ -24,7 +24,7 @@ FontRows rows_of(Font font) {
   return font == Font::text ? FontRows{7, 13, k_text_rows} : FontRows{9, 15, k_title_rows};
 }
 
-// One character each: bytes that go on with one are left out.
+// One byte per character: UTF-8 continuation bytes are left out.
 std::string ascii(std::string_view text) {
   std::string out;
   for (const char c : text) {

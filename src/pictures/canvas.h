@@ -1,5 +1,5 @@
 #pragma once
-// A picture with a palette, and what is drawn on it: boxes and text.
+// A picture with a palette, and functions that draw boxes and text on it.
 
 #include <cstdint>
 #include <string>
@@ -18,7 +18,7 @@ struct Rgb {
 
 using Colour = std::uint8_t;  // index in the palette
 
-// From (left, top), so wide and high. Pixels from the top left.
+// Left, top, width and height, in pixels from the top left.
 struct Box {
   int left = 0, top = 0, width = 0, height = 0;
 
@@ -33,7 +33,7 @@ struct Canvas {
 
   Canvas(Vec2i of_size, std::vector<Rgb> colours);
 
-  // Both leave out what is beside the canvas.
+  // Both clip at the canvas.
   void fill(const Box& box, Colour colour);
   void set(int x, int y, Colour colour);
 };

@@ -60,7 +60,7 @@ Rgb shaded(const Rgb& colour, double light) {
 }
 
 std::vector<Rgb> distinct_colours(int count) {
-  constexpr double k_golden = 0.61803398875;  // turns of this are nowhere close to each other
+  constexpr double k_golden = 0.61803398875;  // multiples of this, modulo 1, are nowhere close to each other
   constexpr std::pair<double, double> k_tones[] = {{0.85, 0.25}, {1.0, 0.5}, {0.6, 0.1}};  // light, share of white
   std::vector<Rgb> colours;
   for (int i = 0; i < count; ++i) {

@@ -8,7 +8,7 @@
 
 namespace clusterbench::pictures {
 
-// What every palette begins with.
+// The first colours of every palette.
 enum Basic : Colour { k_paper, k_ink, k_faint, k_no_surface, k_no_answer_dark, k_no_answer_light, k_empty, k_basics };
 std::vector<Rgb> basic_palette();
 
@@ -19,9 +19,9 @@ Rgb missed_colour(double share);           // magentas
 
 // A colour in the light that a surface reflects, 0 to 1.
 Rgb shaded(const Rgb& colour, double light);
-inline constexpr Rgb k_stone{150, 152, 158};  // surfaces without anything else to show
+inline constexpr Rgb k_stone{150, 152, 158};  // surfaces without data
 
-// So many colours that neighbours in their order are far apart.
+// This many colours, with clearly different neighbours.
 std::vector<Rgb> distinct_colours(int count);
 
 }  // namespace clusterbench::pictures

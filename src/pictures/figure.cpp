@@ -12,7 +12,7 @@ namespace {
 constexpr int k_margin = 14, k_gap = 10, k_least_width = 640;
 constexpr int k_bar_height = 16, k_tick = 4, k_swatch = 14, k_square = 84;
 
-// Where things go: down the page, in one column as wide as the panels.
+// Positions: down the page, in one column as wide as the panels.
 class Layout {
  public:
   explicit Layout(const Figure& figure) : figure_(figure) {
@@ -115,7 +115,7 @@ class Layout {
     y_ += k_tick + line_height(Font::text) + k_gap / 2;
   }
 
-  // Says where there is room beside it.
+  // Returns the left side of the free room beside it.
   int add_square() {
     int side = 1;
     while (static_cast<std::size_t>(side) * static_cast<std::size_t>(side) < figure_.square.size()) ++side;

@@ -1,5 +1,5 @@
 #pragma once
-// The page around a map: what it shows above, what its colours mean below.
+// The page around a map: its heading above, the meaning of its colours below.
 
 #include <string>
 #include <vector>
@@ -32,7 +32,7 @@ struct Figure {
   std::string bar_label;
   std::vector<Colour> bar;
   std::vector<Tick> ticks;
-  std::vector<Colour> square;  // row by row from the top, as many rows as columns; none: there is no square
+  std::vector<Colour> square;  // row by row from the top, as many rows as columns; empty: there is no square
   std::string square_right, square_up;
   std::vector<Swatch> swatches;
 

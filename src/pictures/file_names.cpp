@@ -59,7 +59,7 @@ fs::path FileNames::unique(const std::string& case_name, const std::string& begi
 fs::path FileNames::unique(const fs::path& stem) {
   const std::string path = stem.string();
   std::string candidate = path;
-  for (int number = 2; !taken_.insert(candidate).second; ++number) candidate = path + "-" + std::to_string(number);
+  for (int number = 2; !used_.insert(candidate).second; ++number) candidate = path + "-" + std::to_string(number);
   return candidate + ".png";
 }
 

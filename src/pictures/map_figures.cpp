@@ -33,7 +33,7 @@ class Shades {
   Colour first_;
 };
 
-// Dark, so that what lies on it stands out.
+// Dark, so that overlays stand out.
 constexpr double k_stone_light = 0.72;
 
 Colour without_answer(std::size_t pixel, int width) {
@@ -107,7 +107,7 @@ Figure lights_figure(const Heading& heading, const Seen& seen, const PixelMaps& 
 }
 
 Figure levels_figure(const Heading& heading, const Seen& seen, const PixelMaps& maps) {
-  constexpr std::array<std::uint32_t, 3> k_most = {0, 3, 5};  // of a level; the last has no end
+  constexpr std::array<std::uint32_t, 3> k_most = {0, 3, 5};  // of a level; the last one has no end
   Figure figure = figure_of(heading, "Lights per pixel in steps");
   constexpr std::array<Rgb, 4> k_colours = {k_stone, Rgb{66, 135, 245}, Rgb{72, 200, 90}, Rgb{240, 66, 54}};
   std::vector<Shades> levels;
@@ -135,7 +135,7 @@ Figure types_figure(const Heading& heading, const Seen& seen, const PixelMaps& m
   constexpr std::uint32_t k_steps = 14;
   Figure figure = figure_of(heading, "Points red, spots green");
   const auto first = static_cast<std::uint32_t>(figure.palette.size());
-  const auto level = [](std::uint32_t step) {  // the first step is well above nothing
+  const auto level = [](std::uint32_t step) {  // the first step is clearly above zero
     return step == 0 ? 0.0 : 95.0 + 160.0 * (step - 1) / (k_steps - 2);
   };
   for (std::uint32_t spots = 0; spots < k_steps; ++spots)
@@ -170,7 +170,7 @@ Figure types_figure(const Heading& heading, const Seen& seen, const PixelMaps& m
 
 namespace {
 
-// Counts on the relief of the scene, which shows where there are none.
+// Counts drawn over the relief of the scene, which stays visible where there are none.
 Figure overlay_figure(Figure figure, const Seen& seen, const PixelMaps& maps, const std::vector<std::uint32_t>& counts,
                       std::uint32_t top, Rgb (*colour)(double), std::uint32_t most, const std::string& none) {
   const Shades stone(k_stone, k_stone_light, figure.palette);
@@ -178,7 +178,7 @@ Figure overlay_figure(Figure figure, const Seen& seen, const PixelMaps& maps, co
   figure.panels = {panel_of(seen.surface.image.pixels.size, maps.state, [&](std::size_t i) {
     return counts[i] == 0 ? stone.at(seen.relief[i]) : scale.colour_of(counts[i]);
   })};
-  // What is not answered can lack lights, too.
+  // A pixel without an answer can miss lights, too.
   for (std::size_t i = 0; i < counts.size(); ++i)
     if (maps.state[i] == State::no_answer && counts[i] > 0)
       figure.panels.front().colours[i] = scale.colour_of(counts[i]);

@@ -36,13 +36,13 @@ inline constexpr std::array k_kind_names = {
     KindName{Kind::strip, "strip", "lights in up to eight frames along the path"}};
 const char* name_of(Kind kind);
 
-// What is told above a map.
+// The text above a map.
 struct Heading {
   std::string method;  // with its storage, in the title
   std::string scene_line, grid_line;
 };
 
-// What the maps of a frame have in common.
+// The common data of a frame's maps.
 struct Seen {
   const Surface& surface;
   const std::vector<float>& relief;

@@ -20,12 +20,12 @@ namespace {
 
 constexpr int k_strip_frames = 8, k_strip_longest_side = 240;
 
-// A frame as all cases of a group see it.
+// A frame, shared by all cases of a group.
 struct PicturedFrame {
   view::Frame frame;
   grid::Grid grid;
   run::FrameLights lights;
-  std::shared_ptr<const depth::DepthImage> depth;  // where a method needs it
+  std::shared_ptr<const depth::DepthImage> depth;  // if a method needs it
 };
 
 // A case's light structure in a frame.
@@ -82,7 +82,7 @@ class Drawing {
   }
 
  private:
-  // What pictures of one group go on from.
+  // The common data for pictures of one group.
   struct Group {
     const run::GroupPlan& plan;
     run::PathFrames path;
@@ -109,7 +109,7 @@ class Drawing {
     return own_depths_[scene] ? &*own_depths_[scene] : nullptr;
   }
 
-  // What is cut to the depths of visible surfaces has nothing to say of a plane.
+  // A structure that is cut to the depths of visible surfaces has no answer for a plane.
   bool can_picture(const Group& group, const run::CasePlan& case_plan) const {
     const bool needs_depth = assign::find_assigner(config_.assigners[case_plan.assigner].name)->needs.depth;
     if (!needs_depth || !is_on_plane(group)) return true;
@@ -191,7 +191,7 @@ class Drawing {
   }
 
   void draw_frame(const Group& group, int index) {
-    tell(group);
+    report_progress(group);
     const PicturedFrame now = prepare(group, index);
     const int divisor = divisor_of(group);
     const Surface surface = surface_of(group, now.frame, divisor);
@@ -207,7 +207,7 @@ class Drawing {
     const auto maps_of = [&](std::size_t at) {
       return pixel_maps(surface, needed, now.frame.ranges().spots.first, answers[at].structure(), config_.threads);
     };
-    // All cases have the same scales, so that their pictures compare; so each is looked at twice.
+    // All cases have the same scales, so that their pictures are comparable; so each case is evaluated twice.
     std::uint32_t most_lights = 0, most_false = 0;
     std::optional<PixelMaps> only;
     for (std::size_t i = 0; i < answers.size() && !stop_; ++i) {
@@ -238,7 +238,7 @@ class Drawing {
     return std::ranges::any_of(request_.kinds, [](Kind kind) { return kind != Kind::depth && kind != Kind::strip; });
   }
 
-  // The same for all grids: once.
+  // The same for all grids: drawn once.
   void draw_depth(const Group& group, int index, const Heading& head, const Seen& seen) {
     if (!request_.wants(Kind::depth) || is_on_plane(group)) return;
     const Vec2i size = config_.viewports[group.plan.viewport];
@@ -247,11 +247,11 @@ class Drawing {
     if (depths_.insert({group.plan.scene, group.plan.camera, group.plan.viewport, index}).second)
       save(group, depth_figure(head, seen),
            {names_.of_depth(group.plan.cases.front().name, viewport, index), "", Kind::depth, index,
-            all_seen_by(group.plan), ""});
+            cases_in_view(group.plan), ""});
   }
 
   // The cases of all grids in the same view.
-  std::vector<std::string> all_seen_by(const run::GroupPlan& plan) const {
+  std::vector<std::string> cases_in_view(const run::GroupPlan& plan) const {
     std::vector<std::string> ids;
     for (const run::GroupPlan& other : plan_.groups)
       if (other.scene == plan.scene && other.camera == plan.camera && other.viewport == plan.viewport)
@@ -301,10 +301,10 @@ class Drawing {
     for (const std::string& note : figure.notes) picture.text += " " + note;
     listener_.on_picture(picture);
     ++done_;
-    tell(group);
+    report_progress(group);
   }
 
-  void tell(const Group& group) const {
+  void report_progress(const Group& group) const {
     if (!listener_.on_progress) return;
     const std::string& name = group.plan.cases.front().name;
     listener_.on_progress(name.substr(0, name.find('/', name.find('/', name.find('/') + 1) + 1)),

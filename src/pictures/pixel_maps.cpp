@@ -12,8 +12,9 @@ namespace {
 
 constexpr const char* k_remedy = "ask for a larger --image-divisor";
 
-// As a shader's lookup is: see measure::add_samples.
-bool ask(const assign::LightStructure& structure, const grid::Sample& sample, std::vector<std::uint32_t>& given) {
+// As in a shader's lookup: see measure::add_samples.
+bool sorted_lights_at(const assign::LightStructure& structure, const grid::Sample& sample,
+                      std::vector<std::uint32_t>& given) {
   const bool is_answered = structure.lights_at(sample, grid::Log2::rounded, given);
   if (!std::is_sorted(given.begin(), given.end())) std::sort(given.begin(), given.end());
   return is_answered;
@@ -33,7 +34,7 @@ class Filler {
  private:
   void fill(std::size_t sample, std::span<const std::uint32_t> needed) {
     const std::size_t pixel = surface_.pixel_of_sample[sample];
-    const bool is_answered = ask(structure_, surface_.samples[sample], given_);
+    const bool is_answered = sorted_lights_at(structure_, surface_.samples[sample], given_);
     maps_.state[pixel] = is_answered ? PixelMaps::State::answered : PixelMaps::State::no_answer;
     std::uint32_t found = 0;
     for (const std::uint32_t light : needed) found += std::binary_search(given_.begin(), given_.end(), light) ? 1 : 0;
@@ -116,7 +117,7 @@ ListMap list_map(const Surface& surface, const assign::LightStructure& structure
   std::uint32_t number = 0;
   std::uint64_t entries = 0;
   for (std::size_t i = 0; i < surface.samples.size(); ++i) {
-    ask(structure, surface.samples[i], given);
+    sorted_lights_at(structure, surface.samples[i], given);
     if (given != before || i == 0) {
       before = given;
       number = 0;

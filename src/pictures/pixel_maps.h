@@ -1,5 +1,5 @@
 #pragma once
-// What the pixels of a picture find in a light structure, each held against the lights that reach it.
+// The lights that the pixels of a picture get from a light structure, compared with the lights that reach each pixel.
 
 #include <cstdint>
 #include <functional>
@@ -12,14 +12,14 @@ namespace clusterbench::pictures {
 
 // Sums, and the largest entry with its pixel.
 struct MapTotals {
-  std::uint64_t sum = 0, pixels = 0;  // how many are not 0
+  std::uint64_t sum = 0, pixels = 0;  // pixels: number of entries that are not 0
   std::uint32_t most = 0;
   std::size_t most_at = 0;
 
   void add(std::size_t pixel, std::uint32_t count);
 };
 
-// An entry per pixel of the surface's picture; 0 where it has no surface.
+// An entry per pixel of the surface's picture; 0 without a surface.
 struct PixelMaps {
   enum class State : std::uint8_t { no_surface, no_answer, answered };
   std::vector<State> state;
@@ -32,7 +32,7 @@ struct PixelMaps {
   std::uint32_t lights(std::size_t pixel) const { return points[pixel] + spots[pixel]; }
 };
 
-// Where a scale of these counts ends well: what at most one pixel of a hundred exceeds, and no less than a third of the
+// A good end of a scale for these counts: exceeded by at most one pixel of a hundred, and at least a third of the
 // largest. Only pixels with a surface count.
 std::uint32_t usual_most(const PixelMaps& maps, const std::function<std::uint32_t(std::size_t pixel)>& count);
 
@@ -40,12 +40,12 @@ std::uint32_t usual_most(const PixelMaps& maps, const std::function<std::uint32_
 PixelMaps pixel_maps(const Surface& surface, const NeededAt& needed, std::uint32_t first_spot,
                      const assign::LightStructure& structure, int threads);
 
-// Per pixel which list it loops over: equal numbers where the lights are the same. Numbered from 1 in the order in
-// which they appear from the top left; 0: no surface, no answer or no lights.
+// The list of each pixel as a number: equal numbers for the same lights. Numbered from 1 in the order in which they
+// appear from the top left; 0: no surface, no answer or no lights.
 struct ListMap {
   std::vector<std::uint32_t> list;
   std::uint32_t lists = 0;        // distinct ones, without the empty one
-  std::uint64_t most_pixels = 0;  // of the list that most pixels have
+  std::uint64_t most_pixels = 0;  // of the most frequent list
 };
 ListMap list_map(const Surface& surface, const assign::LightStructure& structure);
 

@@ -20,7 +20,7 @@ void write(png_image& image, void* to, png_alloc_size_t& bytes, const Canvas& ca
 }  // namespace
 
 std::string png_of(const Canvas& canvas) {
-  static_assert(sizeof(Rgb) == 3);  // as libpng takes a palette
+  static_assert(sizeof(Rgb) == 3);  // libpng's layout of a palette
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(canvas.size.x);

@@ -37,8 +37,8 @@ std::string percent(double part, double whole) {
 }
 
 std::uint32_t scale_top(std::uint32_t largest) {
-  constexpr std::uint32_t k_as_it_is = 20;
-  if (largest <= k_as_it_is) return std::max(1u, largest);
+  constexpr std::uint32_t k_unrounded = 20;
+  if (largest <= k_unrounded) return std::max(1u, largest);
   for (std::uint64_t power = 10;; power *= 10)
     for (const std::uint64_t tenths : {10, 12, 15, 20, 25, 30, 40, 50, 60, 80})
       if (tenths * power / 10 >= largest)

@@ -1,5 +1,5 @@
 #pragma once
-// Counts to colours, and what a legend says of them.
+// Counts to colours, and the legend's ticks.
 
 #include <cstdint>
 #include <string>
@@ -11,12 +11,12 @@ namespace clusterbench::pictures {
 
 // "1,234,567".
 std::string grouped(std::uint64_t number);
-// Three significant digits or so: "12.3", "0.0123", "1,234".
+// About three significant digits: "12.3", "0.0123", "1,234".
 std::string short_number(double number);
 // "12.3 %" of a share.
 std::string percent(double part, double whole);
 
-// A number that is easy to read a scale by, not below the largest count; small ones as they are.
+// A round number for the end of a scale, not below the largest count; small counts unchanged.
 std::uint32_t scale_top(std::uint32_t largest);
 
 struct Tick {
@@ -24,11 +24,11 @@ struct Tick {
   std::string label;
 };
 
-// Whole numbers from `least` to `top`: each has a colour of its own where there are few, else they are spread evenly
-// over the colours. Beyond the top all are the top's.
+// Whole numbers from `least` to `top`: each has its own colour if there are few, else they are spread evenly over the
+// colours. Numbers beyond the top get the top's colour.
 class CountScale {
  public:
-  // Its colours follow those that the palette has.
+  // Its colours are appended to the palette.
   CountScale(std::uint32_t least, std::uint32_t top, Rgb (*colour)(double share), std::vector<Rgb>& palette);
 
   Colour colour_of(std::uint32_t count) const;

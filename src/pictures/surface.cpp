@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* k_remedy = "ask for a larger --image-divisor";
 
-// The neighbour on the same surface, more likely: the nearer one in depth. Points of pixels without a surface are NaN.
+// The step to the neighbour that is more likely on the same surface: the nearer one in depth. Points of pixels without
+// a surface are NaN.
 Vec3d step_to_neighbour(const std::vector<Vec3d>& points, std::size_t at, std::size_t before, std::size_t after) {
   const Vec3d back = points[at] - points[before], on = points[after] - points[at];
   const bool has_back = before != at && std::isfinite(back.z), has_on = after != at && std::isfinite(on.z);

@@ -1,5 +1,5 @@
 #pragma once
-// Where the pixels of a picture are shaded: on what is visible, or on a plane before the camera.
+// The points at which the pixels of a picture are shaded: on visible surfaces, or on a plane in front of the camera.
 
 #include <optional>
 #include <vector>
@@ -15,10 +15,10 @@ struct Surface {
   depth::DepthImage image;
   std::vector<grid::Sample> samples;  // of the pixels with a surface, in their order
   std::vector<std::uint32_t> pixel_of_sample;
-  std::optional<double> plane_m;  // where all pixels are at one depth
+  std::optional<double> plane_m;  // set if all pixels are at one depth
 };
 
-// The same samples as the set `opaque` has with this image.
+// The same samples as those of the set `opaque` with this image.
 Surface visible_surface(const view::Frame& frame, depth::DepthImage image);
 Surface plane(const view::Frame& frame, const depth::PixelGrid& pixels, double depth_m);
 
@@ -26,19 +26,18 @@ Surface plane(const view::Frame& frame, const depth::PixelGrid& pixels, double d
 // the near plane and far_m.
 double depth_amid_lights(const view::Frame& frame, double far_m);
 
-// The picture in square pixels of the viewport, so large that neither side is longer than `longest`.
+// The size of square pixels, in pixels of the viewport, at which neither side of the picture is longer than `longest`.
 int divisor_for(Vec2i viewport, int longest);
 
-// How much light of a lamp at the eye and of the sky a surface reflects, 0 to 1, per pixel: lets people see what is
-// where.
+// How much light of a lamp at the eye and of the sky a surface reflects, 0 to 1, per pixel: makes shapes recognisable.
 std::vector<float> relief(const view::Frame& frame, const Surface& surface);
 
-// Which lights reach the samples, by the samples' own measure (measure::lights_reaching), part by part.
+// The lights that reach the samples, by the samples' own measure (measure::lights_reaching), part by part.
 class NeededAt {
  public:
   static constexpr std::size_t k_part = 16384;  // samples
 
-  // Throws Error where they do not fit into the limit on memory.
+  // Throws Error if they do not fit into the limit on memory.
   NeededAt(const view::Frame& frame, const Surface& surface, int threads);
 
   std::size_t parts() const { return parts_.size(); }

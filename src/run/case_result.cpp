@@ -15,8 +15,8 @@ nlohmann::json params_to_json(const assign::Params& params) {
   return out;
 }
 
-// Of the whole view's samples, and of the sets that the scene has. What is cut to the depths of visible surfaces
-// promises nothing anywhere in the view, and is not asked there.
+// Adds the samples of the whole view and of the sets that the scene has. A structure cut to the depths of visible
+// surfaces makes no promise for other points of the view, so it is not evaluated there.
 void add_samples(const config::Config& config, const SceneData& data, const StructureMeasures& structure,
                  CaseResult& out) {
   const bool is_cut_to_surfaces = assign::find_assigner(out.assigner)->at_surfaces;
@@ -97,7 +97,7 @@ CaseResult case_result(const config::Config& config, const Plan& whole, const Ca
   out.shadow_culls = method.shadow_culls;
   if (counted.sharing) out.shared_frusta = {*config.shared_frusta, *counted.sharing};
   config::LimitsRequest limits = config.limits;
-  if (!plan.preset.empty()) limits.dropped_pairs.reset();  // what an engine's limits drop is what is asked for
+  if (!plan.preset.empty()) limits.dropped_pairs.reset();  // an engine's limits are meant to drop lights
   out.failures = failures_of(out, limits);
   return out;
 }

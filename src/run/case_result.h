@@ -1,5 +1,5 @@
 #pragma once
-// What was counted of a case, as its result: all but times, instructions, stability and details.
+// The counts of a case as its result: everything except times, instructions, stability and details.
 
 #include "run/cases/sweep.h"
 #include "run/findings/run_result.h"
@@ -7,7 +7,7 @@
 
 namespace clusterbench::run {
 
-// `index`: the case's in the group that was counted. `frames`: how many frames it was counted over.
+// `index`: index of the case in the counted group. `frames`: number of counted frames.
 CaseResult case_result(const config::Config& config, const Plan& whole, const CasePlan& plan, int frames,
                        const AccuracyResult& counted, std::size_t index);
 

@@ -18,8 +18,8 @@ double duration_ns(const Once& once) {
   return wall_ns() - start;
 }
 
-// Truth, lists, samples and buffers of all frames, by one of them: the second of two, as the first one's memory grows.
-// Depths are cast once for all groups, so what that takes is no other group's.
+// Truth, lists, samples and buffers of all frames, estimated from one frame: the second of two, since memory grows in
+// the first. Depths are cast once for all groups, so their time is not counted again for other groups.
 double counting_ns(const config::Config& config, const SceneData& data, const GroupPlan& group, const PathFrames& path,
                    int frames) {
   const std::atomic<bool> stop{false};
@@ -32,21 +32,21 @@ double counting_ns(const config::Config& config, const SceneData& data, const Gr
   return (wall_ns() - start + cast_ns) * frames;
 }
 
-// Of an even number the lower of the two in the middle.
+// For an even number of values, the lower one of the two in the middle.
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
 }
 
-// What measure_launch() does with each method in all launches, from what one frame takes.
+// The time of measure_launch() for all methods and launches, from the time of one frame.
 double timing_ns(const config::Config& config, const GroupPlan& group, const PathFrames& path, double sweep_ns,
-                 const Looks& looks) {
+                 const EstimateLimits& limits) {
   const auto frames = static_cast<double>(mean_frames(config, path).size());
   const std::vector<TimedFrame> middle_frame = timed_frames(config, group, path, {path.count() / 2});
   const double min_ns = 1e6 * config.timing.min_time_ms, launches = config.timing.launches;
   const int rounds = rounds_per_launch(config.timing, config.timing.launches);
-  const int warm_rounds = config.timing.cold ? std::min(rounds, looks.warm_rounds) : rounds;
+  const int warm_rounds = config.timing.cold ? std::min(rounds, limits.warm_rounds) : rounds;
   const int cold = config.timing.cold ? cold_rounds(rounds, static_cast<std::size_t>(frames) + 1, sweep_bytes()) : 0;
   double all = 0.0;
   for (const Method& method : methods_of(group)) {
@@ -58,7 +58,7 @@ double timing_ns(const config::Config& config, const GroupPlan& group, const Pat
       const double convert = duration_ns([&] { work.convert(store); });
       warm += 2.0 * std::max(min_ns / 10.0, frames * convert);
       converts += convert;
-      cold_frames = static_cast<double>(store) + 1.0;  // each storage has its own
+      cold_frames = static_cast<double>(store) + 1.0;  // each storage has a frame of its own
     }
     warm += min_ns / 10.0;  // the copy of the lists
     if (!config.timing.cold) warm += std::max(min_ns / 10.0, frames * (assign + converts));
@@ -72,39 +72,39 @@ double timing_ns(const config::Config& config, const GroupPlan& group, const Pat
 
 double sweep_duration_ns() {
   CacheSweep sweep(sweep_bytes());
-  sweep();  // its memory comes
+  sweep();  // its first call allocates memory
   return duration_ns([&] { sweep(); });
 }
 
 GroupCost cost_of_group(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
-                        const Looks& looks) {
+                        const EstimateLimits& limits) {
   const PathFrames path = path_of(config, plan, group);
   const int steps = config.stability ? config.stability->steps : 0;
   GroupCost cost{counting_ns(config, plan.scenes[group.scene], group, path, path.count() + steps), 0.0};
   const GroupPlan timed = timed_cases(group);
-  if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns, looks);
+  if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns, limits);
   return cost;
 }
 
 }  // namespace
 
-std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan& plan, const Looks& looks) {
+std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan& plan, const EstimateLimits& limits) {
   const double sweep_ns = config.timing.measure && config.timing.cold ? sweep_duration_ns() : 0.0;
-  // Some groups of all scenes and grids: each step goes on by about the golden section of the list.
+  // Samples groups across all scenes and grids: each step advances by about the golden section of the list.
   const std::size_t groups = plan.groups.size();
-  std::size_t stride = std::max<std::size_t>(1, groups * 618 / 1000), looked = 0;
+  std::size_t stride = std::max<std::size_t>(1, groups * 618 / 1000), sampled = 0;
   while (std::gcd(stride, groups) != 1) ++stride;
   std::vector<GroupCost> costs(groups);
   std::vector<double> counting, timing;
-  for (const double start = wall_ns(); looked < groups && (looked == 0 || 1e-9 * (wall_ns() - start) < looks.most_s);
-       ++looked) {
-    const std::size_t index = looked * stride % groups;
-    costs[index] = cost_of_group(config, plan, plan.groups[index], sweep_ns, looks);
+  for (const double start = wall_ns(); sampled < groups && (sampled == 0 || 1e-9 * (wall_ns() - start) < limits.most_s);
+       ++sampled) {
+    const std::size_t index = sampled * stride % groups;
+    costs[index] = cost_of_group(config, plan, plan.groups[index], sweep_ns, limits);
     counting.push_back(costs[index].counting_ns);
     timing.push_back(costs[index].timing_ns);
   }
-  // A few groups take far longer than others: one of them among those looked at stands for itself.
-  for (std::size_t i = looked; i < groups; ++i) costs[i * stride % groups] = {median(counting), median(timing)};
+  // A few groups take far longer than others: a sampled group like that stands for itself only.
+  for (std::size_t i = sampled; i < groups; ++i) costs[i * stride % groups] = {median(counting), median(timing)};
   return costs;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// About how long a plan takes, by a look at some frames of its groups.
+// Estimated duration of a plan, from a few sampled frames of its groups.
 
 #include <span>
 #include <vector>
@@ -10,14 +10,15 @@
 
 namespace clusterbench::run {
 
-// How much is looked at, and what of the times is to be measured.
-struct Looks {
-  double most_s = 6.0;             // no further group is looked at after so long
-  int warm_rounds = k_all_rounds;  // of LaunchRequest
+// Limits of the sampling, and the times to be estimated.
+struct EstimateLimits {
+  double most_s = 6.0;             // no further group is sampled after this time
+  int warm_rounds = k_all_rounds;  // see LaunchRequest
 };
 
-// Of each of the plan's groups; what the looks did not come to takes the median of the others.
-std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan& plan, const Looks& looks = {});
+// One cost per group of the plan; groups that were not sampled get the median of the others.
+std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan& plan,
+                                       const EstimateLimits& limits = {});
 
 double sum_s(std::span<const GroupCost> costs);
 double sum_of_timing_s(std::span<const GroupCost> costs);

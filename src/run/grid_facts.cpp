@@ -23,7 +23,7 @@ Json lookup_facts(const grid::SliceLookup& lookup) {
   return facts;
 }
 
-// What decides where the slices of a camera without a far plane end, which changes lists, and how to decide it.
+// Why the slices of a camera without a far plane end where they do (which changes lists), and how to set another end.
 std::string end_text(const grid::Slicing& slices, double far_m) {
   char at[40];
   std::snprintf(at, sizeof at, "%.4g m", far_m);
@@ -50,8 +50,8 @@ std::string note_of_fit(const grid::Fit& fit) {
   return std::string("slices follow the ") + k_followed[static_cast<int>(fit.to)] + ": these are the last frame's";
 }
 
-// How many times as deep as high cells are at their near side, from the second slice on: the first one holds what lies
-// before it, too.
+// Ratio of depth to height of cells at their near side, from the second slice on: the first slice also holds everything
+// in front of it.
 Json aspect_facts(const grid::ScreenGrid& grid) {
   const std::vector<float>& at = grid.slices.boundaries;
   const double height = static_cast<double>(grid.tiles.y_max(0)) - static_cast<double>(grid.tiles.y_min(0));
@@ -65,7 +65,7 @@ Json aspect_facts(const grid::ScreenGrid& grid) {
   return {{"min", least}, {"max", greatest}};
 }
 
-// A kind of grid is one of these.
+// One overload per kind of grid.
 void add_facts(Json& facts, const grid::GridSpec& spec, const grid::ScreenGrid& grid, double camera_far_m) {
   const bool by_count = spec.tiles.is_by_count() || spec.tiles.aspect > 0.0;
   facts["tiles"] = {{by_count ? "count" : "pixels", by_count ? Json{grid.tiles.count.x, grid.tiles.count.y}

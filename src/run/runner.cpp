@@ -19,7 +19,8 @@
 namespace clusterbench::run {
 namespace {
 
-// An estimate of work in nanoseconds, only for the time that is left: truth, samples and lists of some frames.
+// An estimate of work in nanoseconds, used only for the displayed remaining time: truth, samples and lists of some
+// frames.
 double list_cost(const config::Config& config, const GroupPlan& group, std::size_t lights, int frames, double samples) {
   constexpr double k_ns_per_light = 2000.0, k_ns_per_brute_pair = 3.0, k_cells = 8000.0, k_ns_per_sample = 1000.0;
   double per_frame = static_cast<double>(lights) * k_ns_per_light + k_ns_per_sample * samples;
@@ -37,7 +38,8 @@ double timing_cost(const config::Config& config, const GroupPlan& group) {
   return (warm + cold) * config.timing.rounds * static_cast<double>(methods_of(group).size());
 }
 
-// Per method of the group: the frame in which it has most pairs. One without cells takes that of the first one with.
+// Per method of the group: the frame in which it has most pairs. A method without cells uses the frame of the first one
+// with cells.
 std::vector<int> fullest_frames(const GroupPlan& group, const AccuracyResult& counted) {
   const auto measures_of = [&](const Method& method) -> const MethodMeasures& {
     return *std::find_if(counted.methods.begin(), counted.methods.end(),
@@ -52,22 +54,23 @@ std::vector<int> fullest_frames(const GroupPlan& group, const AccuracyResult& co
   return frames;
 }
 
-// What stands in for an engine's shader or rasteriser takes a time here that says nothing of that engine.
+// Methods that emulate an engine's shader or rasteriser are not timed: their time here says nothing about the engine's.
 bool is_timed(const CasePlan& case_plan) {
   const config::Preset* preset = config::find_preset(case_plan.preset);
   return preset == nullptr || preset->assigns_on == config::AssignsOn::cpu;
 }
 
-// A group that has all but its times.
+// A group whose counts are complete but whose times are missing.
 struct CountedGroup {
   GroupPlan group;
-  GroupPlan timed;  // its cases that are timed
+  GroupPlan timed;  // its timed cases
   int frames = 0;
   AccuracyResult counted;
-  std::optional<AccuracyResult> unfitted;  // of a grid that follows what frames need: the same in one that does not
-  std::optional<AccuracyResult> fixed;     // of tiles that react: the same in those asked for
-  std::optional<TileMoves> tile_moves;     // of tiles that react
-  std::vector<Vec3i> cells;                // of tiles that react, frame by frame
+  // of a grid that follows the needs of frames: the same in the grid that does not follow
+  std::optional<AccuracyResult> unfitted;
+  std::optional<AccuracyResult> fixed;  // of tiles that react: the same in the requested tiles
+  std::optional<TileMoves> tile_moves;  // of tiles that react
+  std::vector<Vec3i> cells;             // of tiles that react, frame by frame
   std::vector<std::optional<StabilityResult>> stabilities;
   std::vector<std::optional<Details>> details;
 };
@@ -85,7 +88,7 @@ class Run {
         launcher_(launcher),
         costs_(costs) {
     for (const GroupPlan& group : plan.groups) {
-      const GroupPlan left = what_is_left(group);
+      const GroupPlan left = unfinished_part(group);
       progress_.cases_total += group.cases.size();
       progress_.cases_done += group.cases.size() - left.cases.size();
       if (left.cases.empty()) continue;
@@ -109,21 +112,21 @@ class Run {
     for (const GroupPlan& group : plan_.groups)
       for (const CasePlan& case_plan : group.cases) out.planned_ids.push_back(case_plan.id);
     for (const GroupPlan& group : plan_.groups)
-      if (!stop_) run_group(what_is_left(group), out);
+      if (!stop_) run_group(unfinished_part(group), out);
     if (!stop_) time_waiting(out);
     if (out.machine.load) out.machine.load->end = os::load_now().value_or(out.machine.load->begin);
     return out;
   }
 
  private:
-  // What times can depend on. Without times a result does not say when it was made, so that it is the same every time.
+  // Facts that times can depend on. Without times a result has no date, so that it is the same every time.
   static void note_beginning(Result& out) {
     out.date = os::utc_now();
     out.machine.clock = os::clock_now();
     if (const std::optional<double> load = os::load_now()) out.machine.load = LoadFacts{*load, *load};
   }
 
-  GroupPlan what_is_left(GroupPlan group) const {
+  GroupPlan unfinished_part(GroupPlan group) const {
     std::erase_if(group.cases, [&](const CasePlan& case_plan) { return done_.contains(case_plan.id); });
     return group;
   }
@@ -142,7 +145,7 @@ class Run {
     return plan_.scenes[group.scene].paths[group.camera];
   }
 
-  // About.
+  // Approximate.
   double samples_per_frame(const GroupPlan& group) const {
     const Vec2i viewport = config_.viewports[group.viewport];
     double samples = 0.0;
@@ -182,15 +185,15 @@ class Run {
     return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(), frames, 0);
   }
 
-  void tell(const GroupPlan& group, const char* stage, double cost) {
+  void report_progress(const GroupPlan& group, const char* stage, double cost) {
     progress_.cost_done += cost;
     const std::string& name = group.cases.front().name;
     progress_.doing = name.substr(0, name.find('/', name.find('/', name.find('/') + 1) + 1)) + ": " + stage;
     if (listener_.on_progress) listener_.on_progress(progress_);
   }
 
-  // With a launcher several groups of a scene wait until they are timed together: each launch then lies some time
-  // after the one before, and costs one start.
+  // With a launcher, several groups of a scene wait until they are timed together: each launch then starts only once
+  // for all of them, some time after the previous launch.
   void run_group(GroupPlan group, Result& out) {
     if (group.cases.empty()) return;
     if (!waiting_.empty() && (waiting_.front().group.scene != group.scene || waiting_cost() > k_most_waiting_ns))
@@ -218,23 +221,23 @@ class Run {
     const bool follows = follows_needs(group), reacts = spec.reaction.has_value();
     const double per_frame = accuracy_cost_of(group) / path.count() / (1 + (follows ? 1 : 0) + (reacts ? 1 : 0));
     const ListsOverFrames over_frames = follows || reacts ? ListsOverFrames::compared : ListsOverFrames::ignored;
-    const auto on_frame = [&](int) { tell(group, "truth and counts", per_frame); };
+    const auto on_frame = [&](int) { report_progress(group, "truth and counts", per_frame); };
     CountedGroup counted_group;
     counted_group.frames = path.count();
     counted_group.counted = accuracy_pass(config_, data, group, path, on_frame, stop_, over_frames);
     if (!counted_group.counted.is_complete) return;
-    const auto counted_beside = [&](config::Config plain) {
+    const auto count_with = [&](config::Config plain) {
       plain.lookup.reset();
       return accuracy_pass(plain, data, group, path, on_frame, stop_, over_frames);
     };
     if (follows) {
-      counted_group.unfitted = counted_beside(without_fit(config_, group.grid));
+      counted_group.unfitted = count_with(without_fit(config_, group.grid));
       if (!counted_group.unfitted->is_complete) return;
     }
     if (reacts) {
       const int slices = counted_group.counted.last_grid.cells().z;
-      if (can_be_counted_as_asked(spec, path.viewport(), slices)) {
-        counted_group.fixed = counted_beside(without_reaction(config_, group.grid));
+      if (can_count_requested_tiles(spec, path.viewport(), slices)) {
+        counted_group.fixed = count_with(without_reaction(config_, group.grid));
         if (!counted_group.fixed->is_complete) return;
       }
       counted_group.tile_moves = tile_moves(spec, path);
@@ -243,11 +246,11 @@ class Run {
     if (config_.stability) {
       const double cost = stability_cost_of(group);
       counted_group.stabilities = stability_pass(
-          config_, group, path, [&](double share) { tell(group, "stability", cost * share); }, stop_);
+          config_, group, path, [&](double share) { report_progress(group, "stability", cost * share); }, stop_);
       if (counted_group.stabilities.empty()) return;
     }
     if (config_.details) {
-      tell(group, "details", details_cost_of(group));
+      report_progress(group, "details", details_cost_of(group));
       counted_group.details = details_pass(config_, group, path, data.scene, counted_group.counted, stop_);
       if (counted_group.details.empty()) return;
     }
@@ -262,7 +265,8 @@ class Run {
     const LaunchRequest request{0, config_.timing.rounds, fullest_frames(counted_group.timed, counted_group.counted)};
     const double per_round = timing_cost_of(counted_group.group) / request.rounds;
     const GroupSamples samples = measure_launch(
-        config_, counted_group.timed, path, request, [&](int) { tell(counted_group.group, "time", per_round); }, stop_);
+        config_, counted_group.timed, path, request,
+        [&](int) { report_progress(counted_group.group, "time", per_round); }, stop_);
     begin_session();
     if (!samples.methods.empty())
       add_cases(counted_group, timing_results(config_, counted_group.timed, std::span(&samples, 1)), out);
@@ -278,7 +282,7 @@ class Run {
     for (int launch = 0; launch < launches; ++launch) {
       const std::string stage = "time, launch " + std::to_string(launch + 1) + " of " + std::to_string(launches);
       std::vector<GroupSamples> measured = launcher_(groups, launch, rounds, [&](std::size_t group) {
-        tell(*groups[group].group, stage.c_str(), timing_cost_of(*groups[group].group) / launches);
+        report_progress(*groups[group].group, stage.c_str(), timing_cost_of(*groups[group].group) / launches);
       });
       if (stop_ || measured.size() != groups.size()) return;
       for (std::size_t i = 0; i < groups.size(); ++i) samples[i].push_back(std::move(measured[i]));
@@ -296,7 +300,7 @@ class Run {
     session_ = sha256_hex(os::utc_now() + std::to_string(random()) + std::to_string(random())).substr(0, k_digits);
   }
 
-  // `timings`: of those cases that are timed.
+  // `timings`: of the timed cases.
   void add_cases(CountedGroup& counted, const std::vector<TimingResult>& timings, Result& out) {
     std::size_t next_timed = 0;
     for (std::size_t i = 0; i < counted.group.cases.size(); ++i) {
@@ -339,8 +343,8 @@ class Run {
     const bool compares = compares_cells(config_, counted.group);
     FitResult out;
     out.fit = *config_.grids[plan.grid].slices.fit;
-    const std::vector<float>& asked = counted.unfitted->last_grid.screen().slices.boundaries;
-    out.asked = {static_cast<double>(asked.front()), static_cast<double>(asked.back())};
+    const std::vector<float>& boundaries = counted.unfitted->last_grid.screen().slices.boundaries;
+    out.range = {static_cast<double>(boundaries.front()), static_cast<double>(boundaries.back())};
     out.moves = *counted.counted.moves;
     out.fitted = method_side(counted.counted, plan.method(), index, compares);
     out.unfitted = method_side(*counted.unfitted, plan.method(), index, compares);
@@ -363,7 +367,7 @@ class Run {
   const std::atomic<bool>& stop_;
   const Counts& counts_;
   const Launcher& launcher_;
-  std::span<const GroupCost> costs_;  // beside the plan's groups, or none
+  std::span<const GroupCost> costs_;  // parallel to the plan's groups, or empty
   static constexpr double k_most_waiting_ns = 2e10;
   std::vector<CountedGroup> waiting_;
   std::string name_of_group_;

@@ -13,19 +13,19 @@ namespace clusterbench::run {
 
 struct Progress {
   std::size_t cases_done = 0, cases_total = 0;
-  double cost_done = 0.0, cost_total = 0.0;  // an estimate of work, to tell the time left
+  double cost_done = 0.0, cost_total = 0.0;  // an estimate of work, for the remaining time
   std::string doing;                         // case name and stage
 };
 
-// About how long a group takes, in nanoseconds: what is counted, and what is timed.
+// Approximate time of a group, in nanoseconds: counting, and timing.
 struct GroupCost {
   double counting_ns = 0.0, timing_ns = 0.0;
 };
 
-// A group's cases that are timed: of presets those of engines that assign on the CPU.
+// A group's timed cases: of the presets only those of engines that assign on the CPU.
 GroupPlan timed_cases(GroupPlan group);
 
-// Everything that the runner tells while it works. All optional.
+// Callbacks of the runner while it works. All are optional.
 struct Listener {
   std::function<void(const Progress&)> on_progress;
   std::function<void(const SceneResult&)> on_scene;
@@ -38,15 +38,15 @@ struct GroupToTime {
   std::vector<int> fullest_frames;  // of LaunchRequest
 };
 
-// One launch: another process of this program times groups of one scene, `rounds` rounds each. Its samples in the order
-// of the groups; fewer once `stop` is true. `on_group` is told of each before it begins.
+// One launch: another process of this program times groups of one scene, `rounds` rounds each. Returns samples in the
+// order of the groups; fewer once `stop` is true. `on_group` is called before each group.
 using Launcher = std::function<std::vector<GroupSamples>(std::span<const GroupToTime> groups, int launch, int rounds,
                                                          const std::function<void(std::size_t group)>& on_group)>;
 
-// `done`: ids of cases that an earlier, interrupted run has finished; they are passed over. `counts`: what was
-// counted of cases before, for their results. `launcher`: without one this process times all rounds itself, in one
-// launch. `stop` is looked at between steps; when it becomes true the runner returns what is complete. `costs`: of the
-// plan's groups (run/estimate.h), for the progress that is told; without them it goes by rough constants.
+// `done`: ids of cases that an earlier, interrupted run has finished; they are skipped. `counts`: instruction counts of
+// cases, for their results. `launcher`: without one this process times all rounds itself, in one launch. `stop` is
+// checked between steps; once it is true the runner returns the complete cases. `costs`: of the plan's groups
+// (run/estimate.h), for the displayed progress; without them it uses rough constants.
 Result run_plan(const config::Config& config, const Plan& plan, const std::vector<std::string>& done,
                 const Listener& listener, const std::atomic<bool>& stop, const Counts& counts = {},
                 const Launcher& launcher = {}, std::span<const GroupCost> costs = {});

@@ -61,7 +61,7 @@ std::string lights_after_path(const SceneData& data) {
          "; what comes later is not measured (a key at the end of the camera's animation adds it)";
 }
 
-// What is measured is then the rule's longest range more than the file's lights.
+// If most lights are clamped, the run measures the rule's longest range rather than the file's lights.
 std::string most_clamped(int clamped, int all, const scene::RangeRule& rule) {
   char text[240];
   std::snprintf(text, sizeof text,
@@ -146,13 +146,13 @@ SceneResult scene_result(const SceneData& data, const config::SceneRequest& requ
 }
 
 std::string fewer_frames(const SceneData& data) {
-  if (data.frames_asked == 0) return "";
+  if (data.requested_frames == 0) return "";
   const double most = *std::ranges::max_element(data.lights_at_points);
   return "measured in " + number_of(static_cast<std::uint64_t>(data.equal_steps), "frame") + " and not in " +
-         std::to_string(data.frames_asked) +
+         std::to_string(data.requested_frames) +
          ", since much is to be counted in each: " + std::to_string(std::lround(most)) +
-         " lights reach a point of the view, on average; --set 'scenes.*.frames=" + std::to_string(data.frames_asked) +
-         "' takes all";
+         " lights reach a point of the view, on average; --set 'scenes.*.frames=" +
+         std::to_string(data.requested_frames) + "' takes all";
 }
 
 std::string without_field_of_view(const SceneData& data, const config::SceneRequest& request) {

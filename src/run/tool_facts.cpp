@@ -1,4 +1,4 @@
-// What a result says about the tool and the machine that made it.
+// Facts of a result about the tool and the machine that made it.
 
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>

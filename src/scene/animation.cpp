@@ -13,7 +13,7 @@ Vec4d unit_quaternion(const Vec4d& q) {
   return length > 0.0 && std::isfinite(length) ? q / length : Vec4d(0.0, 0.0, 0.0, 1.0);
 }
 
-// The key's own value; in a cubic spline it stands between the two tangents.
+// The key's own value; a cubic spline stores it between the two tangents.
 Vec4d key_value(const Channel& channel, std::size_t key) {
   return channel.interpolation == Interpolation::cubic_spline ? channel.values[3 * key + 1] : channel.values[key];
 }
@@ -49,8 +49,8 @@ Vec4d between_keys(const Channel& channel, std::size_t key, double time_s) {
 
 Vec4d slerp(const Vec4d& a, const Vec4d& b, double t) {
   const bool far_side = glm::dot(a, b) < 0.0;
-  const Vec4d near_b = far_side ? -b : b;  // q and -q are the same rotation: take the nearer
-  // sin(angle) from the chord keeps its digits where acos(cosine) loses them.
+  const Vec4d near_b = far_side ? -b : b;  // q and -q are the same rotation: use the nearer one
+  // sin(angle) from the chord keeps the digits that acos(cosine) loses.
   const double angle = 2.0 * std::atan2(glm::length(near_b - a), glm::length(near_b + a));
   const double sine = std::sin(angle);
   if (sine < 1e-12) return unit_quaternion((1.0 - t) * a + t * near_b);

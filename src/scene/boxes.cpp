@@ -31,7 +31,7 @@ double corner_distance_m(const std::array<Vec3d, 3>& half_axes_m) {
     for (const double third : {-1.0, 1.0})
       farthest = std::max(farthest, glm::length(half_axes_m[0] / largest + second * (half_axes_m[1] / largest) +
                                                 third * (half_axes_m[2] / largest)));
-  constexpr double k_more = 1.0 + 0x1p-46;  // than all of these operations can lose
+  constexpr double k_more = 1.0 + 0x1p-46;  // more than the rounding of all these operations
   return farthest * largest * k_more;
 }
 

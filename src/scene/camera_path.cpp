@@ -20,7 +20,7 @@ std::string number(double value) {
   return text;
 }
 
-// The keys that move some of these nodes: theirs and those of all nodes above them.
+// The keys that move some of these nodes: their own and those of all nodes above them.
 class KeysOf {
  public:
   explicit KeysOf(const Scene& scene) : scene_(scene), is_wanted_(scene.nodes.size(), false) {}
@@ -30,7 +30,7 @@ class KeysOf {
          node = scene_.nodes[static_cast<std::size_t>(node)].parent)
       is_wanted_[static_cast<std::size_t>(node)] = true;
   }
-  // Of each channel the first and the last, or all. Visibility moves no eye.
+  // The first and the last key of each channel, or all. Visibility moves no eye.
   std::set<double> keys(bool all, bool visibility) const {
     std::set<double> keys;
     for (const Channel& channel : scene_.channels)
@@ -56,8 +56,7 @@ std::set<double> keys_of_lights(const Scene& scene, bool all) {
   return keys;
 }
 
-// The keys that move the camera; a camera that stands still sees the lights move and change. `all`, or at least the
-// first and the last.
+// The keys that move the camera; for a fixed camera, the keys of the lights. `all`, or at least the first and the last.
 std::set<double> keys_seen(const Scene& scene, const Camera& camera, bool all) {
   KeysOf eye(scene);
   eye.add(camera.node);
@@ -75,7 +74,7 @@ CameraMoments equal_steps(double from, double to, int count) {
   return moments;
 }
 
-// Which times a request asks for between the first and the last key.
+// The times that a request chooses between the first and the last key.
 CameraMoments moments_of(const std::set<double>& keys, const PathRequest& request) {
   if (keys.empty()) return {{0.0}, "nothing moves: one frame"};
   const double from = *keys.begin(), to = *keys.rbegin();
@@ -93,7 +92,7 @@ CameraMoments moments_of(const std::set<double>& keys, const PathRequest& reques
   return moments;
 }
 
-// A horizontal angle is that of a rectangle which is wider than any picture, and which each picture holds whole.
+// Sets the angle on a rectangle wider than any picture, which every picture contains completely.
 void set_field_of_view(CameraProjection& projection, const PathRequest& request) {
   if (!request.field_of_view || projection.orthographic || projection.sides) return;
   const FieldOfView& view = *request.field_of_view;
@@ -134,7 +133,7 @@ struct Extent {
 Extent light_positions(const Scene& scene) {
   const std::vector<WorldLight> lights = world_lights(scene, 0.0);
   const auto reaches = [](const WorldLight& light) { return light.range_m > 0.0; };
-  const bool reaches_any = std::ranges::any_of(lights, reaches);  // what reaches nothing is nothing to walk around
+  const bool reaches_any = std::ranges::any_of(lights, reaches);  // lights without reach do not count
   Extent extent;
   for (const WorldLight& light : lights) {
     if (reaches_any && !reaches(light)) continue;
@@ -203,7 +202,7 @@ std::vector<CameraPath> paths_without_jitter(const Scene& scene, const PathReque
   return paths;
 }
 
-// The digits of `index` in a base, mirrored_digits at the point: 6 is 110 in base 2, and so 0.011.
+// Radical inverse: the digits of `index` in a base, mirrored at the point: 6 is 110 in base 2, so 0.011.
 double mirrored_digits(int index, int base) {
   double value = 0.0;
   for (double digit = 1.0 / base; index > 0; index /= base, digit /= base) value += digit * (index % base);

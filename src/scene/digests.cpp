@@ -31,7 +31,7 @@ double size_of(const std::vector<WorldLight>& lights) {
   return size;
 }
 
-// The bits of the number in single precision. What is far below the roundoffs of numbers of this size is nothing.
+// The bits of the number in single precision. A number far below the roundoff of `size` counts as 0.
 std::uint32_t bits_of(double value, double size) {
   if (!std::isfinite(value)) return std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity());
   return std::abs(value) <= 0x1p-40 * size ? 0 : std::bit_cast<std::uint32_t>(static_cast<float>(value));
@@ -43,7 +43,7 @@ bool is_black(const WorldLight& light) {
 
 using Channels = std::vector<const Channel*>;
 
-// Of these nodes and all above them.
+// Channels of these nodes and of all nodes above them.
 Channels channels_of_nodes(const Scene& scene, const std::vector<int>& nodes) {
   std::vector<bool> is_followed(scene.nodes.size(), false);
   for (int node : nodes)
@@ -74,11 +74,11 @@ Channels channels_of_camera(const Scene& scene, const Camera& camera) {
 
 struct Moments {
   std::vector<double> times_s;  // ascending, at least one
-  bool are_all = true;          // false: something may happen between them
+  bool are_all = true;          // false: there may be changes between them
 };
 
-// Keys, and the middles between them, where a cubic spline or a turn differs from a line. Of more than can be asked for
-// in a moment some.
+// Keys and the middles between them, where a cubic spline or a turn differs from a line. If these are too many, only
+// some of them.
 Moments moments_of(const Scene& scene, const Channels& channels) {
   constexpr std::size_t k_most_nodes = std::size_t{1} << 21, k_most_moments = 512, k_least_moments = 9;
   std::set<double> keys;
@@ -106,12 +106,12 @@ void add_state(const State& state, Sha256& digest) {
   }
 }
 
-// What the channels make of something, moment by moment.
+// The states that the channels give to a light or camera, at each moment.
 void add_states(const Scene& scene, const Channels& channels, const std::function<State(double time_s)>& state_at,
                 Sha256& digest) {
   const Moments moments = moments_of(scene, channels);
   State last = state_at(moments.times_s.front());
-  for (int i = 0; i < 3; ++i) add_state(last, digest);  // as older results have it of lights that stand still
+  for (int i = 0; i < 3; ++i) add_state(last, digest);  // as in older results for lights that never move
   for (const double time_s : std::span(moments.times_s).subspan(1)) {
     State now = state_at(time_s);
     if (now == last) continue;
@@ -142,7 +142,7 @@ Numbers numbers_of(const WorldLight& light, double size) {
   };
   numbers[next++] = static_cast<std::uint32_t>(light.type);
   numbers[next++] = bits_of(light.range_m, 0.0);
-  numbers.back() = is_black(light) ? 1 : 0;  // not where another number is: of lights that shine it is 0
+  numbers.back() = is_black(light) ? 1 : 0;  // this slot is unused: 0 for lights that shine
   add(light.position, size);
   if (light.type == LightType::spot) {
     add(light.direction, 1.0);
@@ -153,7 +153,7 @@ Numbers numbers_of(const WorldLight& light, double size) {
   return numbers;
 }
 
-// Of all lights, in an order of their own.
+// Of all lights, in a canonical order.
 State lights_at(const Scene& scene, double time_s) {
   const std::vector<WorldLight> lights = world_lights(scene, time_s);
   const double size = size_of(lights);

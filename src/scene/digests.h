@@ -1,5 +1,5 @@
 #pragma once
-// Whether two scenes have the same lights, and a camera the same path, however their files are written.
+// Whether two scenes have the same lights, or a camera has the same path, independent of how their files are written.
 
 #include <string>
 
@@ -7,23 +7,23 @@
 
 namespace clusterbench::scene {
 
-// 16 hexadecimal digits from the lights that are assigned: how many there are, and kind, position, range, direction and
-// angle of each, and whether it is dark, at every key of the animations that lights follow and in the middles between
-// keys; and from how many directional lights there are. Names, order, other colours and brightness, surfaces and
-// cameras do not count, nor what moves these. All numbers are rounded to single precision, so that it does not count
-// either whether a file writes them with more digits, or a node's transform as a matrix. The same motion with other
-// keys counts as another one.
+// 16 hexadecimal digits from the assigned lights: their number, and each one's kind, position, range, direction, angle
+// and whether it is dark, at every key of the animations that move lights and in the middles between keys; and from the
+// number of directional lights. Names, order, other colours and brightness, surfaces, cameras and their animations do
+// not count. All numbers are rounded to single precision, so that a file may write more digits, or a node's transform
+// as a matrix. The same motion with other keys counts as a different one.
 std::string light_digest(const Scene& scene);
 
-// 16 hexadecimal digits from what a camera shows: where it stands, how it looks and its projection, at every key of the
-// animations that it follows and in the middles between keys. At how many moments it is measured does not count.
+// 16 hexadecimal digits from a camera's position, orientation and projection, at every key of the animations that move
+// it and in the middles between keys. The number of measured moments does not count.
 std::string camera_digest(const Scene& scene, const Camera& camera);
 
-// Whether nothing would look other without it: a light of intensity 0, black, or of range 0. A box lights nothing and
-// is dark only without a range, as one that is hidden.
+// Whether the light has no visible effect: intensity 0, black, or range 0. A box lights nothing and is dark only if its
+// range is 0, like a hidden one.
 bool is_dark(const WorldLight& light);
 
-// Points and spots that are dark at all these times; of them those that have a range at none, so that no list has them.
+// Points and spots that are dark at all these times; among them those whose range is always 0, so that no list has
+// them.
 struct DarkLights {
   int all = 0, without_range = 0;
 };

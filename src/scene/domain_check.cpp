@@ -11,7 +11,7 @@ namespace clusterbench::scene {
 namespace {
 
 std::string nine_digits(double value) {
-  if (std::isnan(value)) return "nan";  // whatever its sign
+  if (std::isnan(value)) return "nan";  // without its sign
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;
@@ -25,7 +25,7 @@ bool is_in_domain(const Vec3d& p) {
   return geom::is_in_domain(p.x) && geom::is_in_domain(p.y) && geom::is_in_domain(p.z);
 }
 
-// Where the file has it; "" if it does not.
+// The node's place in the file; "" if it has none.
 std::string node_location(const Scene& scene, int index) {
   const bool is_known = index >= 0 && static_cast<std::size_t>(index) < scene.nodes.size();
   const int node = is_known ? scene.nodes[static_cast<std::size_t>(index)].gltf_index : -1;
@@ -38,8 +38,8 @@ std::string camera_location(const Scene& scene, const std::string& name) {
   return "";
 }
 
-[[noreturn]] void refuse(const Scene& scene, const std::string& where, const std::string& what, double time_s) {
-  throw Error(scene.path.string(), where, what + " at " + nine_digits(time_s) + " s");
+[[noreturn]] void refuse(const Scene& scene, const std::string& where, const std::string& problem, double time_s) {
+  throw Error(scene.path.string(), where, problem + " at " + nine_digits(time_s) + " s");
 }
 
 }  // namespace
@@ -67,8 +67,8 @@ void check_domain(const Scene& scene, std::span<const WorldLight> lights, double
 }
 
 void check_domain(const Scene& scene, const std::string& camera, const Shot& shot) {
-  const auto fail = [&](const std::string& what) {
-    refuse(scene, camera_location(scene, camera), "the camera " + (camera.empty() ? "" : "'" + camera + "' ") + what,
+  const auto fail = [&](const std::string& problem) {
+    refuse(scene, camera_location(scene, camera), "the camera " + (camera.empty() ? "" : "'" + camera + "' ") + problem,
            shot.time_s);
   };
   if (!is_in_domain(shot.pose.eye))

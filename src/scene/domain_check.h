@@ -1,6 +1,6 @@
 #pragma once
-// Whether what is sampled from a scene lies in the domain (geom/shapes/domain.h). Numbers in a file can each be fine
-// and make positions, by nested and animated transforms, that are not.
+// Checks that samples of a scene lie in the domain (geom/shapes/domain.h). Nested and animated transforms can produce
+// positions outside of it, even if each number in the file is valid.
 
 #include <span>
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace clusterbench::scene {
 
-// Each throws Error (the scene's file, the node) with the light's or the camera's name, the value and the time.
+// Each throws Error (the scene's file, the node) with the name of the light or camera, the value and the time.
 void check_domain(const Scene& scene, std::span<const WorldLight> lights, double time_s);
 void check_domain(const Scene& scene, const std::string& camera, const Shot& shot);
-// All frames of a path, before any of them is used.
+// Checks all frames of a path before any of them is used.
 void check_domain(const Scene& scene, const CameraPath& path);
 
 }  // namespace clusterbench::scene

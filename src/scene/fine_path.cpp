@@ -28,13 +28,13 @@ double turn_between(const Mat3d& a, const Mat3d& b) {
   return 2.0 * std::atan2(glm::length(Vec3d(q)), std::abs(q.w));
 }
 
-// How many steps of the limits lie between two shots; not a whole number.
+// The number of maximal steps between two shots; not a whole number.
 double steps_between(const Shot& a, const Shot& b, const FineSteps& steps) {
   return std::max(glm::length(b.pose.eye - a.pose.eye) / steps.largest_move_m,
                   turn_between(a.pose.view_from_world, b.pose.view_from_world) / steps.largest_turn_rad);
 }
 
-// What moves less than this part of a step is taken to stand still: what is left is rounding.
+// Motion below this part of a step counts as none: it is only rounding.
 constexpr double k_still = 1e-6;
 
 Shot between(const Shot& a, const Shot& b, double t) {
@@ -79,7 +79,7 @@ std::vector<Shot> drifting_shots(const Shot& start, const FineSteps& steps) {
     const double turn = step * steps.largest_turn_rad, c = std::cos(turn), s = std::sin(turn);
     Shot shot = start;
     shot.pose.eye += step * steps.largest_move_m * forward;
-    // What lies ahead, -z, moves to the left, -x.
+    // A point ahead, -z, moves to the left, -x.
     shot.pose.view_from_world = Mat3d(c, 0.0, -s, 0.0, 1.0, 0.0, s, 0.0, c) * start.pose.view_from_world;
     out.push_back(shot);
   }
@@ -121,7 +121,7 @@ FinePath fine_path(const CameraPath& path, const FineSteps& steps) {
     fine.path.how = std::to_string(fine.path.shots.size() - 1) + " steps from frame " + std::to_string(from) +
                     ", where the camera moves most";
   }
-  for (Shot& shot : fine.path.shots) shot.jitter_px = Vec2d(0.0);  // a pixel is more than a step
+  for (Shot& shot : fine.path.shots) shot.jitter_px = Vec2d(0.0);  // a pixel is larger than a step
   measure_steps(fine, steps);
   return fine;
 }

@@ -7,9 +7,9 @@
 namespace clusterbench::scene {
 namespace {
 
-// Ranges that the domain changes are said, in one line for all of a kind.
+// Warns of ranges that the domain changes, in one line for all of a kind.
 void warn_of_ranges_beyond_the_domain(Scene& scene) {
-  const auto warn = [&](const std::string& what, auto&& is_meant) {
+  const auto warn = [&](const std::string& problem, auto&& is_meant) {
     std::size_t count = 0;
     std::string first;
     for (const Light& light : scene.lights)
@@ -17,11 +17,11 @@ void warn_of_ranges_beyond_the_domain(Scene& scene) {
           is_meant(geom::range_in_domain(light.range_m)) && count++ == 0)
         first = light.name;
     if (count > 0)
-      scene.warnings.push_back(std::to_string(count) + (count == 1 ? " light" : " lights") + what +
+      scene.warnings.push_back(std::to_string(count) + (count == 1 ? " light" : " lights") + problem +
                                (count == 1 ? ": '" : ": first '") + first + "'");
   };
-  warn(" with a range above 1e15 m, taken as endless", [](double taken) { return std::isinf(taken); });
-  warn(" with a range below 1e-15 m, taken as none", [](double taken) { return taken == 0.0; });
+  warn(" with a range above 1e15 m, taken as endless", [](double range) { return std::isinf(range); });
+  warn(" with a range below 1e-15 m, taken as none", [](double range) { return range == 0.0; });
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Vec3d drawn_position(SplitMix64& random, const Vec3d& lo, const Vec3d& hi) {
   return {x, y, z};
 }
 
-// Is light i a spot, so that `share` of the first n lights are, whatever n is?
+// Whether light i is a spot, so that `share` of the first n lights are spots, for every n.
 bool is_spot(double share, int i) {
   return std::floor((i + 1.0) * share) > std::floor(i * share);
 }
@@ -63,7 +63,7 @@ void add_camera(const RigSpec& spec, Scene& scene) {
   scene.cameras.push_back(std::move(camera));
 }
 
-// Little-endian, as files have it.
+// Little-endian, as in files.
 void append_bytes(std::string& bytes, double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>(bits >> shift & 0xff);

@@ -16,7 +16,7 @@ namespace clusterbench::scene {
 namespace {
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
-constexpr int k_moments = 16;  // at which animated lights and cameras are looked at
+constexpr int k_moments = 16;  // at which animated lights and cameras are sampled
 
 std::string four_digits(double value) {
   char text[32];
@@ -28,7 +28,7 @@ bool is_assigned(const Light& light) {
   return light.type != LightType::directional;
 }
 
-// Of a kind that is warned of there may be millions.
+// A light or camera of a warning, and how many there are: there may be millions.
 struct Counted {
   std::size_t count = 0;
   std::string first;
@@ -38,11 +38,11 @@ struct Counted {
   }
 };
 
-// "12 lights ...: first 'lamp 3'", or nothing.
-void warn_of(Summary& summary, const Counted& lights, const std::string& what) {
+// "12 lights ...: first 'lamp 3'"; no warning without lights.
+void warn_of(Summary& summary, const Counted& lights, const std::string& problem) {
   if (lights.count == 0) return;
-  summary.warnings.push_back(std::to_string(lights.count) + (lights.count == 1 ? " light " : " lights ") + what + ": " +
-                             (lights.count == 1 ? "'" : "first '") + lights.first + "'");
+  summary.warnings.push_back(std::to_string(lights.count) + (lights.count == 1 ? " light " : " lights ") + problem +
+                             ": " + (lights.count == 1 ? "'" : "first '") + lights.first + "'");
 }
 
 void count_lights(const Scene& scene, Summary& summary) {
@@ -87,8 +87,8 @@ struct Extent {
   bool empty() const { return !(lo.x <= hi.x); }
 };
 
-// Diagonal of the box that holds the positions of all lights but the outermost twentieth on each side: one forgotten
-// light far away shall not make every range look small.
+// Diagonal of the box around all lights' positions except the outermost twentieth on each side: one forgotten light far
+// away should not make every range look small.
 double usual_distance(const Scene& scene) {
   const std::vector<WorldLight> lights = world_lights(scene, 0.0);
   if (lights.empty()) return 0.0;
@@ -116,7 +116,7 @@ void measure_bounds(const Scene& scene, Summary& summary) {
   summary.bounds_hi = balls.hi;
 }
 
-// A camera wider than this is not held whole by the widest of usual viewports unless the view is enlarged.
+// A camera with a larger aspect ratio does not fit into the widest usual viewport unless the view is enlarged.
 constexpr double k_usual_aspect = 16.0 / 9.0;
 
 // Half extents of the camera's own rectangle: slopes, or metres. Width 0: the viewport gives it.
@@ -159,8 +159,8 @@ std::string projection_text(const CameraProjection& projection) {
          (is_usual ? " in 16:9" : "") + ", " + shape + reach;
 }
 
-// The sides of a projection's view, wider than for any picture in use (32:9) and as high as in one of 16:9 that holds
-// the camera's whole rectangle, so that no light is called out of reach that a camera could see.
+// The sides of a projection's view, wider than for any picture in use (32:9) and as high as in a 16:9 picture that
+// contains the camera's whole rectangle, so that no light is reported as out of reach that a camera could see.
 ProjectionSides largest_view(const CameraProjection& projection) {
   if (projection.sides) return *projection.sides;
   constexpr double k_widest = 32.0 / 9.0;
@@ -176,7 +176,7 @@ struct View {
   ProjectionSides sides;
 };
 
-// Does a light's ball reach into the half-spaces of a view?
+// Whether a light's ball reaches into the half-spaces of a view.
 bool may_see(const View& view, const WorldLight& light) {
   const Vec3d p = view.pose.view_from_world * (light.position - view.pose.eye);
   const double depth = -p.z, r = light.range_m;
@@ -189,20 +189,20 @@ bool may_see(const View& view, const WorldLight& light) {
          beyond(p.y, view.sides.top) <= r && beyond(-p.y, -view.sides.bottom) <= r;
 }
 
-// Which lights (indices in Scene::lights) some camera can see at some moment.
+// The lights (indices in Scene::lights) that some camera can see at some moment.
 struct Sight {
   std::vector<bool> is_seen;
-  bool is_known = true;  // false: too many cameras and lights to look
-  bool is_whole = true;  // every frame of every path was looked at
+  bool is_known = true;  // false: too many cameras and lights for the test
+  bool is_whole = true;  // every frame of every path was tested
 };
 
-// What is looked at: pairs of a light and a moment of a camera, and nodes that are put in their coordinates. More would
+// Limits of the test: pairs of a light and a moment of a camera, and nodes whose positions are computed. More would
 // take longer than a second.
-constexpr double k_most_looks = 2e7, k_most_placings = 4e6;
+constexpr double k_max_tests = 2e7, k_max_transforms = 4e6;
 
-// The moments of all cameras, so thinned that looking stays quick: time -> cameras.
-std::map<double, std::vector<std::size_t>> moments_to_look_at(const Scene& scene,
-                                                              const std::vector<CameraMoments>& moments, Sight& sight) {
+// The moments of all cameras, reduced so that the test stays fast: time -> cameras.
+std::map<double, std::vector<std::size_t>> sampled_moments(const Scene& scene,
+                                                           const std::vector<CameraMoments>& moments, Sight& sight) {
   double all = 0.0;
   std::set<double> times;
   for (const CameraMoments& camera : moments) {
@@ -212,9 +212,9 @@ std::map<double, std::vector<std::size_t>> moments_to_look_at(const Scene& scene
   const double lights = static_cast<double>(scene.lights.size());
   const double placed = static_cast<double>(scene.nodes.size() + scene.channels.size());
   const double share =
-      std::max(all * lights / k_most_looks, static_cast<double>(times.size()) * placed / k_most_placings);
+      std::max(all * lights / k_max_tests, static_cast<double>(times.size()) * placed / k_max_transforms);
   const auto stride = static_cast<std::size_t>(std::ceil(std::max(share, 1.0)));
-  sight.is_known = static_cast<double>(moments.size()) * lights <= k_most_looks;
+  sight.is_known = static_cast<double>(moments.size()) * lights <= k_max_tests;
   sight.is_whole = stride == 1;
   std::map<double, std::vector<std::size_t>> out;
   if (!sight.is_known) return out;
@@ -223,10 +223,10 @@ std::map<double, std::vector<std::size_t>> moments_to_look_at(const Scene& scene
   return out;
 }
 
-// All cameras that look at one time share the lights' positions.
-void look_through(const Scene& scene, double time_s, const std::vector<std::size_t>& cameras, Sight& sight) {
+// All cameras at one time share the lights' positions.
+void mark_visible_lights(const Scene& scene, double time_s, const std::vector<std::size_t>& cameras, Sight& sight) {
   std::vector<WorldLight> unseen = world_lights(scene, time_s);
-  // Of many cameras the transforms of all nodes at once; of few that would be memory for nothing.
+  // For many cameras, the transforms of all nodes at once; for few, that would waste memory.
   constexpr std::size_t k_few_cameras = 16;
   const std::vector<Mat4d> world =
       cameras.size() > k_few_cameras ? world_transforms(scene, time_s) : std::vector<Mat4d>();
@@ -241,14 +241,14 @@ void look_through(const Scene& scene, double time_s, const std::vector<std::size
     check_domain(scene, camera.name, Shot{time_s, view.pose, projection});
     std::erase_if(unseen, [&](const WorldLight& light) {
       const auto rig_index = static_cast<std::size_t>(light.rig_index);
-      if (!(light.range_m > 0.0)) return true;  // invisible, for now at least
+      if (!(light.range_m > 0.0)) return true;  // invisible, at least at this time
       if (!sight.is_seen[rig_index]) sight.is_seen[rig_index] = may_see(view, light);
       return bool{sight.is_seen[rig_index]};
     });
   }
 }
 
-void look_along_made_path(const Scene& scene, Summary& summary, Sight& sight) {
+void mark_visible_on_made_path(const Scene& scene, Summary& summary, Sight& sight) {
   const CameraPath path = camera_paths(scene, {}).front();
   check_domain(scene, path);
   summary.cameras.push_back(path.camera + ": " + projection_text(path.shots.front().projection) + "; " + path.how);
@@ -259,13 +259,13 @@ void look_along_made_path(const Scene& scene, Summary& summary, Sight& sight) {
   }
 }
 
-// The moments are those of this summary: what `run` and `size` take without a configuration is less and more.
+// The moments of this summary; without a configuration `run` and `size` use others, fewer or more.
 std::string moments_text(const CameraMoments& moments) {
   return moments.how + (moments.times_s.size() > 1 ? " (here; run and size choose theirs)" : "");
 }
 
-// Cameras' lines, and what they see.
-Sight look_through_cameras(const Scene& scene, Summary& summary) {
+// Cameras' lines, and the lights that they see.
+Sight sight_of_cameras(const Scene& scene, Summary& summary) {
   Sight sight;
   sight.is_seen.assign(scene.lights.size(), false);
   std::vector<CameraMoments> moments;
@@ -274,14 +274,14 @@ Sight look_through_cameras(const Scene& scene, Summary& summary) {
     summary.cameras.push_back(camera.name + ": " + projection_text(camera.projection) + "; " +
                               moments_text(moments.back()));
   }
-  for (const auto& [time, cameras] : moments_to_look_at(scene, moments, sight))
-    look_through(scene, time, cameras, sight);
+  for (const auto& [time, cameras] : sampled_moments(scene, moments, sight))
+    mark_visible_lights(scene, time, cameras, sight);
   const bool can_make_a_path = summary.points + summary.spots > 0;
-  if (scene.cameras.empty() && can_make_a_path) look_along_made_path(scene, summary, sight);
+  if (scene.cameras.empty() && can_make_a_path) mark_visible_on_made_path(scene, summary, sight);
   return sight;
 }
 
-// `run` refuses them.
+// `run` rejects them.
 void warn_of_steep_cameras(const Scene& scene, Summary& summary) {
   for (const Camera& camera : scene.cameras) {
     const HalfExtents half = rectangle_of(camera.projection);
@@ -327,7 +327,7 @@ Summary summarise(const Scene& scene) {
   summary.warnings = scene.warnings;
   count_lights(scene, summary);
   measure_bounds(scene, summary);
-  const Sight sight = look_through_cameras(scene, summary);
+  const Sight sight = sight_of_cameras(scene, summary);
   warn_of_steep_cameras(scene, summary);
   warn_of_lights(scene, sight, summary);
   if (const std::string why = why_no_lights(scene); !why.empty()) summary.warnings.push_back(why);

@@ -1,5 +1,5 @@
 #pragma once
-// What `scene info` shows.
+// The content of `scene info`.
 
 #include <string>
 #include <vector>
@@ -11,15 +11,16 @@ namespace clusterbench::scene {
 struct Summary {
   int points = 0, spots = 0, directionals = 0, boxes = 0;
   int ranges_given = 0, ranges_from_intensity = 0, ranges_clamped = 0;
-  double range_min_m = 0.0, range_median_m = 0.0, range_max_m = 0.0;  // of all lights that are assigned
-  double made_range_min_m = 0.0, made_range_max_m = 0.0;              // of those to which the rule gives a range
+  double range_min_m = 0.0, range_median_m = 0.0, range_max_m = 0.0;  // of all assigned lights
+  double made_range_min_m = 0.0, made_range_max_m = 0.0;              // of the lights whose range comes from the rule
   Vec3d bounds_lo{0.0}, bounds_hi{0.0};                               // of the bounded lights' balls over the animation
   std::vector<std::string> cameras;                                   // a line each: name, projection, path
-  std::vector<std::string> warnings;  // the loader's, and: light without range, range so large that clustering is
-                                      // useless, black or zero-range light, light never within any camera's reach
+  // the loader's, and: light without range, range so large that clustering is useless, black or zero-range light, light
+  // that no camera reaches
+  std::vector<std::string> warnings;
 };
 
-// After resolve_ranges().
+// Call after resolve_ranges().
 Summary summarise(const Scene& scene);
 
 }  // namespace clusterbench::scene

@@ -1,4 +1,4 @@
-// Where nodes, lights and cameras stand at a time.
+// Poses of nodes, lights and cameras at a time.
 
 #include <algorithm>
 #include <cassert>
@@ -18,7 +18,7 @@
 namespace clusterbench::scene {
 namespace {
 
-// How files write that there is no end.
+// The number that means "no end" in files.
 constexpr double k_endless = std::numeric_limits<float>::max();
 
 // Unit vector along v, or `otherwise` if v has no direction. Divides by the largest component first, so that neither
@@ -38,7 +38,7 @@ Mat3d rotation_matrix(const Vec4d& q) {
                s * (x * z + w * y), s * (y * z - w * x), 1.0 - s * (x * x + y * y));  // third column
 }
 
-// What animations move of a node, without its name: of a million nodes a copy is made for each moment.
+// The animated part of a node, without its name: each moment copies it for every node, possibly a million.
 struct NodePose {
   NodePose() = default;
   explicit NodePose(const Node& node)
@@ -80,11 +80,11 @@ void apply(const Channel& channel, double time_s, NodePose& node) {
       node.visible = value.x != 0.0;
       break;
     default:
-      assert(false);  // the others are of lights
+      assert(false);  // the other paths belong to lights
   }
 }
 
-// Of linear Rec. 709 primaries, in which glTF gives colours.
+// For linear Rec. 709 primaries, the colour space of glTF.
 double luminance(const Vec3d& color) {
   return 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
 }
@@ -110,7 +110,7 @@ void apply(const Channel& channel, double time_s, Light& light) {
       light.outer_cone_rad = std::min(value.x, k_widest);
       break;
     default:
-      assert(false);  // the others are of nodes
+      assert(false);  // the other paths belong to nodes
   }
 }
 
@@ -146,11 +146,11 @@ void apply(const Channel& channel, double time_s, CameraProjection& projection) 
       projection.ymag_m = std::abs(value);
       break;
     default:
-      assert(false);  // the others are of nodes and lights
+      assert(false);  // the other paths belong to nodes and lights
   }
 }
 
-// What the loader asks of a projection that stands still.
+// The same condition as the loader's for a static projection.
 bool shows_something(const CameraProjection& projection) {
   constexpr double k_half_turn = 3.14159265358979323846;
   if (!(projection.far_m > projection.near_m)) return false;
@@ -159,18 +159,18 @@ bool shows_something(const CameraProjection& projection) {
          projection.aspect_ratio.value_or(1.0) > 0.0;
 }
 
-// The light as its channels have it at a time.
+// The light with its channels applied, at a time.
 Light light_at(const Scene& scene, const Light& light, std::span<const Channel> channels, double time_s) {
   Light out = light;
   for (const Channel& channel : channels) apply(channel, time_s, out);
   if (out.range_given_m && *out.range_given_m >= k_endless) out.range_given_m.reset();
   resolve_range(out, scene.range_rule);
   out.inner_cone_rad = std::min(out.inner_cone_rad, out.outer_cone_rad);
-  if (out.type == LightType::spot && out.outer_cone_rad == 0.0) out.range_m = 0.0;  // shut
+  if (out.type == LightType::spot && out.outer_cone_rad == 0.0) out.range_m = 0.0;  // closed
   return out;
 }
 
-// A box with no extent at all has no volume, as a light has without a range.
+// A box without any extent has no volume, like a light without a range.
 void set_box(WorldLight& out, const Vec3d& half_extents_m, const Mat4d& world) {
   for (int axis = 0; axis < 3; ++axis)
     out.half_axes_m[static_cast<std::size_t>(axis)] = half_extents_m[axis] * Vec3d(world[axis]);
@@ -181,8 +181,8 @@ bool is_flat(const NodePose& node) {
   return !node.matrix && (node.scale.x == 0.0 || node.scale.y == 0.0 || node.scale.z == 0.0);
 }
 
-// Axes of a node below one that is scaled to nothing, with ones in place of the zeros: lights and cameras keep their
-// direction however their nodes are scaled, and exporters hide objects by a scale of 0. `node_of(index)`: as posed.
+// Axes of a node below one that is scaled to zero, with ones in place of the zeros: lights and cameras keep their
+// direction for any scale of their nodes, and exporters hide objects by a scale of 0. `node_of(index)`: as posed.
 template <class NodeOf>
 Mat3d unflattened_axes(int index, const NodeOf& node_of) {
   Mat3d axes(1.0);
@@ -218,7 +218,7 @@ WorldLight world_light(const Light& light, int rig_index, const Mat4d& world, co
   return out;
 }
 
-// A unit vector orthogonal to the unit vector `back`, as near to `up` as can be.
+// A unit vector orthogonal to the unit vector `back`, as close to `up` as possible.
 Vec3d up_orthogonal_to(const Vec3d& back, const Vec3d& up) {
   const Vec3d hint = unit_or(up, Vec3d(0.0));
   const Vec3d across = hint - back * glm::dot(hint, back);
@@ -232,8 +232,8 @@ Vec3d up_orthogonal_to(const Vec3d& back, const Vec3d& up) {
   return glm::normalize(axis - back * glm::dot(axis, back));
 }
 
-// World transform of a camera's node: what world_transforms() says, from the nodes above it alone, but for axes that
-// are flattened.
+// World transform of a camera's node: as in world_transforms(), but computed from the nodes above it only, and with
+// flattened axes restored.
 Mat4d camera_transform(const Scene& scene, int index, double time_s) {
   std::vector<int> chain;
   for (; index >= 0; index = scene.nodes[static_cast<std::size_t>(index)].parent) chain.push_back(index);
@@ -256,7 +256,7 @@ Mat4d camera_transform(const Scene& scene, int index, double time_s) {
   return world;
 }
 
-// Of all nodes at a time; those of a scene in which nothing moves are not copied.
+// Poses of all nodes at a time; those of a static scene are not copied.
 class Poses {
  public:
   explicit Poses(const Scene& scene) : nodes_(scene.nodes) {}  // at rest
@@ -287,7 +287,7 @@ std::vector<Mat4d> transforms_of(const Poses& posed) {
   return world;
 }
 
-// World transforms, of which only those of nodes with nodes below them are kept: of a million lamps that is nothing.
+// World transforms; kept only for nodes with children: with a million lamps these are few.
 class NodeTransforms {
  public:
   explicit NodeTransforms(const Poses& posed) : posed_(posed), kept_at_(posed.size(), -1) {
@@ -382,8 +382,8 @@ std::vector<WorldLight> world_lights(const Scene& scene, double time_s) {
   return out;
 }
 
-// The camera looks along the world matrix's -Z; up is its Y made orthogonal to that (Gram-Schmidt); right follows from
-// the two as a right-handed frame, so X is not looked at and a mirrored node shows no mirrored picture.
+// The camera looks along the world matrix's -Z; up is its Y made orthogonal to that (Gram-Schmidt); right completes a
+// right-handed frame. So X is ignored, and a mirrored node shows no mirrored picture.
 CameraPose camera_pose(const Mat4d& world) {
   const Vec3d back = unit_or(Vec3d(world[2]), Vec3d(0.0, 0.0, 1.0));
   const Vec3d up = up_orthogonal_to(back, Vec3d(world[1]));

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of nodes that are each fine can multiply to infinity down the tree.
+// Valid numbers of nodes can multiply to infinity down the tree.
 
 #include <optional>
 
@@ -7,7 +7,7 @@
 
 namespace clusterbench::scene {
 
-// The first node whose world transform at the first moment is not finite. Takes less memory than all transforms.
+// The first node whose world transform at the first moment is not finite. Needs less memory than all transforms.
 std::optional<std::size_t> first_node_without_place(const Scene& scene);
 
 }  // namespace clusterbench::scene

@@ -14,7 +14,7 @@ bool BestFrames::are_near(const FrameChoice& a, const FrameChoice& b) const {
 }
 
 void BestFrames::add(const RatedFrame& frame) {
-  if (!may_take(frame.value)) return;
+  if (!can_enter(frame.value)) return;
   const auto is_near = [&](const RatedFrame& other) { return are_near(other.choice, frame.choice); };
   if (std::ranges::any_of(frames_,
                           [&](const RatedFrame& other) { return other.value >= frame.value && is_near(other); }))

@@ -1,5 +1,5 @@
 #pragma once
-// The best of many frames that are not nearly the same.
+// The best frames among many, without near duplicates.
 
 #include <vector>
 
@@ -15,16 +15,16 @@ struct RatedFrame {
 
 class BestFrames {
  public:
-  // Nearly the same: eyes nearer than `near_m`, directions by less than 30 degrees, and the same moment. Of such frames
-  // the first with the best value is kept.
+  // Near duplicates: eyes closer than `near_m`, directions within 30 degrees, and the same moment. Only the best of
+  // them is kept, and the first of equal ones.
   BestFrames(std::size_t most, double near_m) : most_(most), near_m_(near_m) {}
 
   void add(const RatedFrame& frame);
   void add_all(const BestFrames& others);
   // Best first; of equal ones the first that was added.
   const std::vector<RatedFrame>& frames() const { return frames_; }
-  // Whether a frame of that value could have a place.
-  bool may_take(double value) const { return frames_.size() < most_ || value > frames_.back().value; }
+  // Whether a frame of that value could enter the list.
+  bool can_enter(double value) const { return frames_.size() < most_ || value > frames_.back().value; }
 
  private:
   bool are_near(const FrameChoice& a, const FrameChoice& b) const;

@@ -22,7 +22,7 @@ std::unique_ptr<assign::Storage> storage_of(const config::Config& config, const 
   return assign::find_storage(request.name)->make(request.params);
 }
 
-// Without sets: those follow from a path's eyes.
+// Without visible sets, which depend on a path's eyes.
 std::unique_ptr<const cull::PreCull> pre_cull_of(const config::Config& config, const run::CasePlan& plan) {
   const cull::PreCullSpec& spec = config.pre_culls[plan.pre_cull];
   if (spec.needs_triangles())
@@ -37,8 +37,8 @@ std::uint32_t longest_of(const assign::Lists& lists) {
   return longest;
 }
 
-// With those that a full pool leaves out, or reads from a list of all lights: the fuller of two such frames is the
-// worse one.
+// Includes entries that a full pool leaves out, or that are read from a list of all lights: of two such frames the
+// fuller one is worse.
 double entries_with_room(const assign::LightStructure& structure) {
   const assign::StructureUse use = structure.use();
   if (use.fallback_cells > 0) return static_cast<double>(structure.buffers().front().elements);
@@ -81,7 +81,7 @@ FrameMeter::FrameMeter(const config::Config& config, const run::CasePlan& plan, 
     throw Error("", "--measure", "evaluated needs samples in the view, and shading.samples is 0");
 }
 
-// Each frame has a path of its own here, and with it another reach of lights, which few grids follow.
+// Each frame has a path of its own here, and so another extent of lights, which only a few grids follow.
 bool FrameMeter::update_grid(const run::PathFrames& path, const view::Frame& frame) {
   grid::GridInputs inputs = path.inputs(spec_, frame);
   const bool has_far = spec_.slices.far_m != 0.0 || std::isfinite(frame.projection.far_m);

@@ -1,6 +1,6 @@
 #pragma once
-// One figure of one frame of a case: the same number that `clusterbench run` gives for a path of that frame alone, but
-// for the entries of a storage that is full.
+// One figure of one frame of a case: the same number as in `clusterbench run` for a path of that frame only, except for
+// the entries of a full storage.
 
 #include <functional>
 #include <memory>
@@ -17,13 +17,13 @@
 namespace clusterbench::search {
 
 enum class Measure : std::uint8_t {
-  entries,        // index entries of the light structure (`buffers.index_entries.high_water`), had it room for all
+  entries,        // index entries of the light structure (`buffers.index_entries.high_water`), with room for all
   longest,        // lights in the longest list (`occupancy.lights_per_cell.max`)
-  p99,            // the list that 99 % of the cells do not exceed (`occupancy.lights_per_cell.p99`)
-  evaluated,      // lights per sample of the view: what a pixel loops over (`shading.evaluated` / `shading.samples`)
-  tests,          // what the method tests lights against (`tests_done`)
-  lights,         // in view, whatever the method (`lights_in_view.max`): what engines limit
-  lights_of_type  // the same of the type that has most (`lights_in_view.max_by_type`)
+  p99,            // length of list that 99 % of the cells do not exceed (`occupancy.lights_per_cell.p99`)
+  evaluated,      // lights per sample of the view, the loop of a pixel (`shading.evaluated` / `shading.samples`)
+  tests,          // tests of the method against lights (`tests_done`)
+  lights,         // in view, independent of the method (`lights_in_view.max`): engines limit it
+  lights_of_type  // the same for the type with most lights (`lights_in_view.max_by_type`)
 };
 struct MeasureRow {
   Measure measure;
@@ -33,20 +33,20 @@ struct MeasureRow {
 std::span<const MeasureRow> measure_rows();
 const MeasureRow& row_of(Measure measure);
 
-// Measures frames of one case. Not for several threads at a time.
+// Measures frames of one case. Not thread-safe.
 class FrameMeter {
  public:
-  // `config` must outlive it. Throws Error for a case that does not have the measure: longest and p99 need cells,
+  // `config` must outlive this object. Throws Error for a case without the measure: longest and p99 need cells,
   // evaluated needs samples in the view, and visible sets a path of their own. The method must not need depth.
   FrameMeter(const config::Config& config, const run::CasePlan& plan, Measure measure);
 
-  // Of lights in view nothing is assigned, and structure() is not to be asked.
+  // For measures of lights in view nothing is assigned, and structure() may not be called.
   double value(const run::PathFrames& path, int frame);
-  // The most that there can be in the grid and with the lights of the last frame; none for tests.
+  // The largest possible value in the grid and with the lights of the last frame; none for tests.
   std::optional<double> theoretical_max() const;
-  // What the last frame needs of each buffer.
+  // The needs of the last frame for each buffer.
   std::vector<assign::BufferNeed> buffers() const { return structure().buffers(); }
-  // What the last frame left; behind a pre-cull it answers by the lights that this leaves.
+  // The structure of the last frame; behind a pre-cull it uses the indices of the kept lights.
   const assign::LightStructure& structure() const { return storage_ ? *storage_ : *run_.own_structure(); }
 
  private:
@@ -61,21 +61,20 @@ class FrameMeter {
   std::vector<config::PrecisionRequest> precision_;  // the case's own
   grid::GridInputs inputs_;
   std::optional<grid::Grid> grid_;
-  std::unique_ptr<const cull::PreCull> pre_cull_;  // which stays where it is
+  std::unique_ptr<const cull::PreCull> pre_cull_;  // at a fixed address
   run::CulledRun run_;
   std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
   std::uint32_t real_cells_ = 0;
-  std::uint32_t lights_ = 0;  // that the measure can come to
+  std::uint32_t lights_ = 0;  // largest possible value of a measure of lights
   std::vector<std::uint32_t> given_;
 };
 
-// Gives the case's grid what would follow from the whole path, as the recorded path has it: where slices end while the
-// camera sees without end, and the bounds of a world grid. An engine's grid does not change with where its camera goes
-// in a search either; and the grid is made once, not for each frame. Slices by `fit` follow from a frame's own lights
-// and stay so.
+// Fixes the values of the case's grid that depend on the whole path to those of the recorded path: the end of slices
+// for a view without end, and the bounds of a world grid. An engine's grid would not change with the camera of a search
+// either; and the grid is made once, not for each frame. Slices with `fit` still follow a frame's own lights.
 void fix_grid(config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan);
 
-// Of all frames of a path. `on_frame` is told of each.
+// One value per frame of a path. `on_frame` is called for each.
 std::vector<double> values_along(const config::Config& config, const run::CasePlan& plan, Measure measure,
                                  const run::PathFrames& path, const std::function<void()>& on_frame = {});
 

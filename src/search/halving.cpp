@@ -15,7 +15,7 @@ std::size_t count_apart(const HalvingRequest& request, std::span<const std::size
       std::ranges::count_if(candidates, [&](std::size_t candidate) { return is_apart(request, candidate); }));
 }
 
-// The better ones of those that are not out, among the candidates that are apart or among the others.
+// The better candidates of those that are not out, among either the separate candidates or the others.
 std::vector<std::size_t> better_share(const HalvingRequest& request, std::span<const std::size_t> candidates,
                                       std::span<const Standing> standings, bool of_those_apart, std::size_t wanted) {
   std::vector<std::size_t> order;

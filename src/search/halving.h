@@ -1,6 +1,6 @@
 #pragma once
 // Successive halving (Jamieson and Talwalkar 2016, algorithm 1) with frames as the budget: all candidates on few
-// frames, the better share of them on more frames, and so on. Knows neither candidates nor frames: both are numbers.
+// frames, the better share of them on more frames, and so on. Independent of candidates and frames: both are numbers.
 
 #include <array>
 #include <cstddef>
@@ -10,9 +10,9 @@
 
 namespace clusterbench::search {
 
-// How a candidate does on some frames.
+// The result of a candidate on some frames.
 struct Standing {
-  bool is_out = false;  // breaks what more frames cannot mend
+  bool is_out = false;  // breaks a constraint for good, whatever further frames bring
   std::array<double, 4>
       rank{};  // smaller is better, the first number first; of equal ranks the smaller index is better
 };
@@ -23,11 +23,11 @@ using Score = std::function<std::vector<Standing>(std::span<const std::size_t> c
 struct HalvingRequest {
   std::size_t candidates = 0, frames = 0;
   std::size_t first_frames = 1;  // of the first rung
-  std::size_t growth = 4;        // so many times as many frames in the next rung
+  std::size_t growth = 4;        // factor between the frames of successive rungs
   std::size_t keep_one_in = 24;  // of a rung's candidates
-  std::size_t least = 6;         // candidates that are always kept, if so many are not out
-  // Candidates that compete among themselves only, beside the others: true at their numbers; empty: none. So many of
-  // them are kept from the first rung on.
+  std::size_t least = 6;         // minimum number of kept candidates, if that many are not out
+  // Candidates that compete only among themselves, beside the others: true at their numbers; empty: none. Of these,
+  // `apart_kept` are kept from the first rung on.
   std::vector<bool> apart{};
   std::size_t apart_kept = 3;
 };
@@ -39,14 +39,13 @@ struct Rung {
 
 struct Halving {
   std::vector<Rung> rungs;
-  std::vector<std::size_t> finalists;  // the best first, by the last rung; still to be scored on all frames
+  std::vector<std::size_t> finalists;  // best first, by the last rung; still to be scored on all frames
 };
 
-// There is at least one rung, and rungs end before all frames where there are more than one. Deterministic if `score`
-// is.
+// There is at least one rung; with several, all end before the full number of frames. Deterministic if `score` is.
 Halving halve(const HalvingRequest& request, const Score& score);
 
-// Numbers below `count`, the first one `first`, and every beginning of the order spread over all of them (van der
+// Numbers below `count` that begin with `first`, in an order whose every prefix is spread over all of them (van der
 // Corput's sequence).
 std::vector<std::size_t> spread_order(std::size_t count, std::size_t first);
 

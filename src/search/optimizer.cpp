@@ -9,7 +9,7 @@
 namespace clusterbench::search {
 namespace {
 
-// What NLopt calls. No exception may pass through its C code.
+// The callback of NLopt. No exception may pass through its C code.
 struct Calls {
   const Objective& objective;
   const std::atomic<bool>& stop;

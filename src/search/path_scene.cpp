@@ -13,7 +13,7 @@ using scene::Channel;
 using scene::ChannelPath;
 
 constexpr int k_camera_node = 0;
-// Written for a light without end. Any range above 1e15 m has none.
+// Written for a light without end. The loader reads any range above 1e15 m as endless.
 constexpr double k_endless_m = 1e30;
 
 // A channel with a key for each frame, at 0 s, 1 s and so on.

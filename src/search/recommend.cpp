@@ -24,7 +24,7 @@ constexpr double k_infinite = std::numeric_limits<double>::infinity();
 // The first number of a standing's rank.
 constexpr double k_first = 0.0, k_equal = 1.0, k_broken = 2.0;
 
-// What candidates of a view are told apart by.
+// The identity of a candidate within a view.
 using Key = std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>;
 Key key_of(const run::CasePlan& plan) {
   return {plan.grid, plan.assigner, plan.precision, plan.storage ? *plan.storage + 1 : 0};
@@ -35,13 +35,13 @@ std::string short_name(const std::string& name) {
   return name.substr(name.find('/', name.find('/') + 1) + 1);
 }
 
-// A frame of a view: which of its cameras, and which of that camera's.
+// A frame of a view: index of the camera, and of that camera's frame.
 struct FrameOfView {
   std::size_t camera = 0;
   int index = 0;
 };
 
-// Few candidates on few frames are all measured, so that nothing is lost by how the first frame ranks them.
+// A small number of candidates on few frames are all measured, so that the ranking by the first frame excludes none.
 HalvingRequest halving_of(const View& view, const Request& request) {
   constexpr std::size_t k_few = 256;
   const std::size_t first_frames = view.candidates.size() * view.frames <= k_few ? view.frames : 1;
@@ -58,7 +58,7 @@ std::size_t grids_of(const View& view) {
   return grids.size();
 }
 
-// Where all of a view's candidates are of one sort there is nothing to be apart from.
+// If all candidates of a view are of one kind, none is separate.
 void set_apart(const config::Config& config, View& view) {
   const auto is_searched = [&](const Candidate& candidate) {
     const run::CasePlan& plan = *candidate.cases.front();
@@ -68,7 +68,7 @@ void set_apart(const config::Config& config, View& view) {
   for (Candidate& candidate : view.candidates) candidate.is_apart = is_searched(candidate);
 }
 
-// Boxes are assigned to cells, too, and light nothing.
+// Boxes are assigned to cells, too, but light nothing.
 bool sees_no_light(const config::Config& config, const run::Plan& plan, const run::GroupPlan& group) {
   if (!plan.scenes[group.scene].scene.boxes.empty()) return false;
   const run::PathFrames path = run::path_of(config, plan, group);
@@ -116,8 +116,8 @@ class ViewSearch {
   }
 
  private:
-  // The frame with the most pairs first, by the lists of one method; then such that every beginning spreads over the
-  // paths. A first frame without lights would tell nothing.
+  // The frame with the most pairs first, by the lists of one method; then an order whose every prefix is spread over
+  // the paths. A first frame without lights would not distinguish candidates.
   void order_frames() {
     std::vector<FrameOfView> frames;
     for (std::size_t camera = 0; camera < paths_.size(); ++camera)
@@ -138,7 +138,7 @@ class ViewSearch {
     begin_stage("the lights of " + number_of(frames.size(), "frame"), frames.size(),
                 costs_.candidate_ns * static_cast<double>(frames.size()));
     for (std::size_t i = 0; i < frames.size() && !watch_.stop; ++i) {
-      tell(i);
+      report_progress(i);
       const run::GroupPlan group = group_of({&probe, 1}, frames[i].camera);
       const run::AccuracyResult counted = accuracy_pass(
           counting, plan_.scenes[view_.scene], group, paths_[frames[i].camera].only({frames[i].index}), [](int) {},
@@ -166,7 +166,7 @@ class ViewSearch {
 
   double lights() const { return static_cast<double>(plan_.scenes[view_.scene].scene.lights.size()); }
 
-  // Of some candidates of one grid on some frames: the cases of each, one per camera that has some of them.
+  // Measures some candidates of one grid on some frames: the cases of each, one per camera with some of these frames.
   std::vector<std::vector<run::CaseResult>> measured(std::span<const std::size_t> candidates,
                                                      std::span<const FrameOfView> frames, bool is_timed) {
     std::vector<Candidate> some;
@@ -203,31 +203,31 @@ class ViewSearch {
     return timing_results(quick_, group, std::span(&samples, 1));
   }
 
-  // Of candidates by their grids, the grids in their order.
+  // Groups candidates by their grids, in the order of the grids.
   std::map<std::size_t, std::vector<std::size_t>> by_grid(std::span<const std::size_t> candidates) const {
     std::map<std::size_t, std::vector<std::size_t>> grids;
     for (const std::size_t candidate : candidates) grids[view_.candidates[candidate].grid].push_back(candidate);
     return grids;
   }
 
-  // Records what candidates do on the first frames of the order.
+  // Records the results of candidates on the first frames of the order.
   void record(std::span<const std::size_t> candidates, std::size_t frames) {
     std::size_t done = 0;
     begin_stage(number_of(frames, "frame") + ": " + number_of(candidates.size(), "candidate"), candidates.size(),
                 costs_.rung_ns(candidates.size(), grids_, frames));
     for (const auto& [grid, some] : by_grid(candidates)) {
-      tell(done);
+      report_progress(done);
       const std::vector<std::vector<run::CaseResult>> cases =
           measured(some, std::span(order_).first(frames), request_.is_timed);
       if (watch_.stop) return;
       for (std::size_t i = 0; i < some.size(); ++i)
-        found_.records[some[i]] = {frames, request_.judge(cases[i]), k_unknown};
+        found_.records[some[i]] = {frames, request_.evaluate(cases[i]), k_unknown};
       done += some.size();
     }
     for (const bool is_apart : {false, true}) compare_with_best(frames, is_apart);
   }
 
-  // All that were last measured on so many frames, which are then the same.
+  // For all candidates whose last measurement was on this number of frames, and so on the same frames.
   void compare_with_best(std::size_t frames, bool is_apart) {
     const auto is_compared = [&](std::size_t candidate) {
       return found_.records[candidate].frames == frames && view_.candidates[candidate].is_apart == is_apart;
@@ -244,7 +244,7 @@ class ViewSearch {
     }
   }
 
-  // What breaks a constraint for now comes after all that does not: further frames can mend it.
+  // A candidate that breaks a constraint so far comes after all that do not: further frames can change it.
   std::vector<Standing> standings(std::span<const std::size_t> candidates, std::size_t frames) {
     record(candidates, frames);
     std::vector<Standing> all;
@@ -263,8 +263,8 @@ class ViewSearch {
     return all;
   }
 
-  // Of standings that have one key and objective all but the first come after those that have no equal: they are lists
-  // of one grid that are kept in other ways, or a structure that has nothing of its grids but their names.
+  // Moves duplicates to the end: of standings with equal key and objective only the best-ranked one keeps its place.
+  // They are lists of one grid in different storages, or a structure that depends on its grids only by name.
   template <class KeyOf>
   static void put_back_equals(std::vector<Standing>& all, const KeyOf& key_of_standing) {
     std::map<std::pair<std::pair<bool, double>, double>, std::size_t> first;
@@ -278,8 +278,8 @@ class ViewSearch {
     }
   }
 
-  // Of the coarsest grids that are about as good as the best one, as far as they were looked at, the best candidate
-  // each: whether they are is to be known on all frames.
+  // Adds the best candidate of each of the coarsest grids that are about as good as the best one on the frames so far:
+  // only all frames can confirm it.
   void add_coarse(std::vector<std::size_t>& chosen) const {
     std::map<std::pair<std::uint64_t, std::size_t>, std::size_t> best;  // by cells and grid
     for (std::size_t i = 0; i < view_.candidates.size(); ++i) {
@@ -302,12 +302,12 @@ class ViewSearch {
     std::ranges::sort(candidates);
     begin_stage("all " + number_of(view_.frames, "frame") + ": " + number_of(candidates.size(), "candidate"),
                 candidates.size(), costs_.last_ns(candidates.size(), grids_, view_.frames));
-    progress_.cost_total = before_stage_ns_ + stage_ns_;  // nothing else is planned
-    tell(0);
+    progress_.cost_total = before_stage_ns_ + stage_ns_;  // no further stage is planned
+    report_progress(0);
     std::vector<Finalist> finalists = request_.is_timed ? timed_finalists(candidates) : counted_finalists(candidates);
     if (watch_.stop) return;
     for (Finalist& finalist : finalists) {
-      found_.records[finalist.candidate] = {view_.frames, request_.judge(finalist.cases), k_unknown};
+      found_.records[finalist.candidate] = {view_.frames, request_.evaluate(finalist.cases), k_unknown};
       found_.finalists.push_back(std::move(finalist));
     }
   }
@@ -318,12 +318,12 @@ class ViewSearch {
       std::vector<std::vector<run::CaseResult>> cases = measured(some, order_, false);
       if (watch_.stop) return {};
       for (std::size_t i = 0; i < some.size(); ++i) finalists.push_back({some[i], std::move(cases[i])});
-      tell(finalists.size());
+      report_progress(finalists.size());
     }
     return finalists;
   }
 
-  // As `run` measures them: interleaved, in several launches.
+  // Measured as in `run`: interleaved, in several launches.
   std::vector<Finalist> timed_finalists(std::span<const std::size_t> candidates) {
     std::vector<run::GroupPlan> groups;
     for (const auto& [grid, some] : by_grid(candidates)) {
@@ -334,7 +334,7 @@ class ViewSearch {
     std::swap(plan_.groups, groups);
     run::Listener listener;
     listener.on_progress = [&](const run::Progress& now) {
-      tell(now.cases_done / std::max<std::size_t>(1, view_.cameras.size()), now.cost_done / now.cost_total);
+      report_progress(now.cases_done / std::max<std::size_t>(1, view_.cameras.size()), now.cost_done / now.cost_total);
     };
     const run::Result result = run_plan(config_, plan_, {}, listener, watch_.stop, {}, launcher_);
     std::swap(plan_.groups, groups);
@@ -359,8 +359,8 @@ class ViewSearch {
     return best;
   }
 
-  // Who was dropped with an objective below the best one's may still have been better: an objective that only grows
-  // proves it once it has grown beyond.
+  // A dropped candidate with an objective below the best one's may still be better: an objective that only grows
+  // excludes it once it has grown beyond.
   void add_challengers() {
     std::vector<std::size_t> challengers;
     const double best = best_objective();
@@ -383,7 +383,8 @@ class ViewSearch {
     add_finalists(challengers);
   }
 
-  // Each stage begins with the frames of the one before, so that of a candidate's last is all that it was measured on.
+  // Each stage begins with the frames of the previous one, so a candidate's last stage contains all frames on which it
+  // was measured.
   void count_work() {
     for (std::size_t i = 0; i < view_.candidates.size(); ++i) {
       const double tests_of_frame = static_cast<double>(view_.candidates[i].cells) * lights();
@@ -399,17 +400,19 @@ class ViewSearch {
                            planned_ns(costs_, planned_halving(view_, request_), grids_, view_.frames);
   }
 
-  // `ns`: what it costs, by what is planned.
-  void begin_stage(const std::string& what, std::size_t total, double ns) {
-    progress_.doing = plan_.scenes[view_.scene].scene.name + ": " + what;
+  // `ns`: its planned cost.
+  void begin_stage(const std::string& stage, std::size_t total, double ns) {
+    progress_.doing = plan_.scenes[view_.scene].scene.name + ": " + stage;
     progress_.cases_total = total;
     before_stage_ns_ += stage_ns_;
     stage_ns_ = ns;
     if (watch_.on_stage && !watch_.stop) watch_.on_stage(progress_.doing);
   }
   // `done` of the stage's candidates.
-  void tell(std::size_t done) { tell(done, static_cast<double>(done) / static_cast<double>(progress_.cases_total)); }
-  void tell(std::size_t done, double share_of_stage) {
+  void report_progress(std::size_t done) {
+    report_progress(done, static_cast<double>(done) / static_cast<double>(progress_.cases_total));
+  }
+  void report_progress(std::size_t done, double share_of_stage) {
     if (!watch_.on_progress) return;
     progress_.cases_done = done;
     progress_.cost_done = before_stage_ns_ + stage_ns_ * share_of_stage;
@@ -448,7 +451,7 @@ std::vector<View> views_of(const config::Config& config, const run::Plan& plan) 
     View& view = views[key];
     view.scene = group.scene;
     view.viewport = group.viewport;
-    // Where all are blind, all are asked, and the answer says so.
+    // If all cameras are blind, all are used, and the answer reports it.
     const bool is_left_out = blind[group.scene][group.camera] &&
                              !std::ranges::all_of(blind[group.scene], [](const auto& camera) { return camera.second; });
     std::vector<std::size_t>& cameras = is_left_out ? view.blind : view.cameras;
@@ -490,7 +493,7 @@ SearchCosts estimated_costs(const config::Config& config, run::Plan& plan, const
   std::vector<run::GroupPlan> groups;
   for (const run::GroupPlan& group : plan.groups)
     if (group.scene == view.scene && group.viewport == view.viewport) groups.push_back(group);
-  return looked_at(config, plan, groups);
+  return sampled_costs(config, plan, groups);
 }
 
 double estimated_s(const SearchCosts& costs, const View& view, const Request& request) {

@@ -9,7 +9,7 @@ namespace {
 using Json = nlohmann::json;
 
 Json grids() {
-  // Few slices, and none but the tiles' own, are best where surfaces are about as far as the lights.
+  // Few slices, or none but the tiles' own, are best if surfaces are about as far as the lights.
   const Json few_slices{{"scheme", "exponential"}, {"count", 4}};
   const Json even_slices{{"scheme", "linear"}, {"count", {1, 4, 16}}};
   const Json depth_slices{{"scheme", {"exponential", "exponential-first", "power", "fit"}}, {"count", {8, 16, 24, 32}}};

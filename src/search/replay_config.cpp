@@ -23,7 +23,8 @@ OrderedJson replay_config(const config::Config& config, const run::CasePlan& cas
   const config::PrecisionRequest& precision = config.precisions[case_plan.precision];
   const scene::PathRequest& camera = config.scenes[case_plan.scene].camera;
   const bool fits_height = camera.fit == scene::CameraFit::vertical &&
-                           !(camera.field_of_view && camera.field_of_view->is_horizontal);  // which fits the width
+                           // a horizontal field of view fits the width
+                           !(camera.field_of_view && camera.field_of_view->is_horizontal);
   OrderedJson out = config.resolved;
   out["name"] = "worst-case";
   out["scenes"] = OrderedJson::array(

@@ -7,8 +7,8 @@
 namespace clusterbench::search {
 namespace {
 
-// Of each group the cases of two of its methods, of another two in the next group: storages of one method share what
-// that takes.
+// From each group the cases of two of its methods, and of another two in the next group: storages of one method share
+// its cost.
 std::vector<run::GroupPlan> with_two_methods(std::span<const run::GroupPlan> groups) {
   std::vector<run::GroupPlan> some(groups.begin(), groups.end());
   for (std::size_t i = 0; i < some.size(); ++i) {
@@ -28,25 +28,25 @@ std::vector<run::GroupPlan> with_one_case(std::span<const run::GroupPlan> groups
 }
 
 // Means over the groups, per frame of counting and per case of timing.
-struct Look {
+struct MeanCosts {
   double cases = 0.0, counting_ns = 0.0, timing_ns = 0.0;
 };
 
-Look look_at(const config::Config& config, run::Plan& plan, std::vector<run::GroupPlan> groups,
-             const run::Looks& looks) {
+MeanCosts mean_costs(const config::Config& config, run::Plan& plan, std::vector<run::GroupPlan> groups,
+                     const run::EstimateLimits& limits) {
   std::swap(plan.groups, groups);
-  const std::vector<run::GroupCost> costs = run::estimated_costs(config, plan, looks);
+  const std::vector<run::GroupCost> costs = run::estimated_costs(config, plan, limits);
   std::swap(plan.groups, groups);
   const auto count = static_cast<double>(groups.size());
-  Look look;
+  MeanCosts means;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const scene::CameraPath& path = plan.scenes[groups[i].scene].paths[groups[i].camera];
     const auto cases = static_cast<double>(groups[i].cases.size());
-    look.cases += cases / count;
-    look.counting_ns += costs[i].counting_ns / static_cast<double>(path.shots.size()) / count;
-    look.timing_ns += costs[i].timing_ns / cases / count;
+    means.cases += cases / count;
+    means.counting_ns += costs[i].counting_ns / static_cast<double>(path.shots.size()) / count;
+    means.timing_ns += costs[i].timing_ns / cases / count;
   }
-  return look;
+  return means;
 }
 
 }  // namespace
@@ -79,15 +79,15 @@ config::Config quickly_timed(config::Config config) {
   return config;
 }
 
-SearchCosts looked_at(const config::Config& config, run::Plan& plan, std::span<const run::GroupPlan> groups) {
-  const Look some = look_at(quickly_timed(config), plan, with_two_methods(groups), {4.0, k_quick_warm_rounds}),
-             one = look_at(config, plan, with_one_case(groups), {2.0});
+SearchCosts sampled_costs(const config::Config& config, run::Plan& plan, std::span<const run::GroupPlan> groups) {
+  const MeanCosts some = mean_costs(quickly_timed(config), plan, with_two_methods(groups), {4.0, k_quick_warm_rounds}),
+                  one = mean_costs(config, plan, with_one_case(groups), {2.0});
   SearchCosts costs;
   const double more_cases = std::max(1.0, some.cases - one.cases);
   costs.candidate_ns = std::max((some.counting_ns - one.counting_ns) / more_cases, 0.02 * some.counting_ns);
   costs.grid_ns = std::max(0.0, some.counting_ns - some.cases * costs.candidate_ns);
   costs.timed_frames = config.timing.measure ? static_cast<std::size_t>(config.timing.frames) : 0;
-  // What a method takes beside its frames, and the frame with most pairs, are about two frames' worth.
+  // The fixed cost of a method and the frame with most pairs cost about as much as two frames.
   const double frames = static_cast<double>(costs.timed_frames) + 2.0;
   costs.frame_timing_ns = some.timing_ns / frames;
   costs.first_frame_timing_ns = 3.0 * costs.frame_timing_ns;

@@ -26,7 +26,7 @@ double share_of_index(std::size_t index, std::size_t count) {
   return (static_cast<double>(index) + 0.5) / static_cast<double>(count);
 }
 
-// The one that turns the camera least from another.
+// The rotation with the smallest turn from another one.
 std::size_t nearest_rotation(const std::vector<Vec4d>& rotations, const Vec4d& to) {
   const auto alike = [&](const Vec4d& rotation) { return std::abs(glm::dot(rotation, to)); };
   return static_cast<std::size_t>(std::ranges::max_element(rotations, {}, alike) - rotations.begin());

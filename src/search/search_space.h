@@ -1,6 +1,6 @@
 #pragma once
-// What a search may choose, as a cube with edges of 0 to 1: the camera's position and direction, the moment of the
-// scene's lights, and where extra lights stand.
+// The variables of a search, as a cube with edges of 0 to 1: the camera's position and direction, the moment of the
+// scene's lights, and positions of extra lights.
 
 #include <optional>
 #include <span>
@@ -14,20 +14,19 @@ namespace clusterbench::search {
 
 class SearchSpace {
  public:
-  // `eyes`: where the camera may stand. `lights`: where extra lights may. `floor`: the camera stands so high above it
-  // instead, in the part of the floor nearest to a point of `eyes`; must outlive it. `rotations`: the only ones that
-  // the camera has; none: it looks anywhere, upright.
+  // `eyes`: possible positions of the camera. `lights`: of extra lights. `floor`: instead, the camera stands at this
+  // height above it, in the part of the floor nearest to a point of `eyes`; must outlive this object. `rotations`: the
+  // only ones for the camera; empty: any direction, upright.
   SearchSpace(const Box& eyes, const Box& lights, std::size_t moments, std::size_t extra_lights,
               const Walkable* floor = nullptr, double eye_height_m = 0.0, std::vector<Vec4d> rotations = {});
 
   std::size_t dimensions() const { return pose_dimensions() + (moments_ > 1 ? 1 : 0) + 3 * extra_lights_; }
-  // The frame at a point of the cube. Positions are rounded to single precision, by
-  // which they can lie outside of a box.
+  // The frame at a point of the cube. Positions are rounded to single precision, which can move them out of a box.
   FrameChoice at(std::span<const double> point) const;
-  // The point of a camera that looks along the -z of `rotation` (its roll is lost, unless it is one of the only ones),
-  // moved into the cube. Extra lights stand at the eye.
+  // The point for a camera that looks along the -z of `rotation` (its roll is lost, unless it is one of the allowed
+  // rotations), moved into the cube. Extra lights are at the eye.
   std::vector<double> point_of(const Vec3d& eye, const Vec4d& rotation, std::size_t moment) const;
-  // Eyes evenly in the box, or over the floor's area; directions evenly over the sphere; extra lights as at() has them.
+  // Eyes evenly in the box, or over the floor's area; directions evenly over the sphere; extra lights as in at().
   std::vector<double> random(SplitMix64& random) const;
   const Box& eyes() const { return eyes_; }
 
@@ -41,9 +40,9 @@ class SearchSpace {
   std::vector<Vec4d> rotations_;
 };
 
-// The rotation of the camera's node, of single precision, for a pose.
+// The rotation of the camera's node, in single precision, for a pose.
 Vec4d rotation_of(const scene::CameraPose& pose);
-// Along which it looks.
+// The direction of view.
 Vec3d direction_of(const Vec4d& rotation);
 
 }  // namespace clusterbench::search

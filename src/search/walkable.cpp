@@ -37,7 +37,7 @@ Vec3d nearest_on(const std::array<Vec3d, 3>& t, const Vec3d& p) {
   return t[0] + ab * (vb / whole) + ac * (vc / whole);
 }
 
-// Twice the area along the normal, turned upward where that is a side that shows; zero where it is no floor.
+// Twice the area along the normal, turned upward if that side is visible; zero if it is no floor.
 Vec3d floor_normal(const std::array<Vec3d, 3>& t, bool is_double_sided) {
   constexpr double k_least_cosine = 0.70710678118654752;
   Vec3d normal = glm::cross(t[1] - t[0], t[2] - t[0]);
@@ -46,7 +46,7 @@ Vec3d floor_normal(const std::array<Vec3d, 3>& t, bool is_double_sided) {
   return length > 0.0 && normal.y >= k_least_cosine * length ? normal : Vec3d(0.0);
 }
 
-// What lies in the box, a convex polygon; side by side (Sutherland and Hodgman 1974).
+// The part in the box, a convex polygon; side by side (Sutherland and Hodgman 1974).
 std::vector<Vec3d> clipped(const std::array<Vec3d, 3>& triangle, const Box& box) {
   std::vector<Vec3d> polygon(triangle.begin(), triangle.end());
   for (int side = 0; side < 6; ++side) {

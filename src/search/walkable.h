@@ -1,5 +1,5 @@
 #pragma once
-// Where a player can stand: the triangles of a scene that look upward. A search that walks keeps its eye at a fixed
+// Places where a player can stand: the upward-facing triangles of a scene. A walking search keeps its eye at a fixed
 // height above them.
 
 #include <array>
@@ -20,18 +20,17 @@ struct Box {
 
 class Walkable {
  public:
-  // Triangles whose front (counter-clockwise side) is at most 45 degrees from facing +y; of double-sided ones either
-  // side. As the scene has them at rest, hidden ones left out; of each what lies in the box, if one is given. Throws
-  // Error if there is none.
+  // Triangles whose front (counter-clockwise side) is at most 45 degrees from facing +y; for double-sided ones either
+  // side. At rest, hidden ones left out, clipped to the box if one is given. Throws Error if there is none.
   Walkable(const scene::Scene& scene, const scene::Geometry& geometry, const std::optional<Box>& within = {});
 
-  // The point of these triangles that is nearest.
+  // The nearest point of these triangles.
   Vec3d nearest(const Vec3d& point) const;
-  // A point on them, all equally likely.
+  // A point on them, uniformly distributed over the area.
   Vec3d random(SplitMix64& random) const;
   std::size_t triangles() const { return corners_.size(); }
   double area_m2() const { return area_up_to_.back(); }
-  // Of all of them.
+  // Bounds of all of them.
   const Vec3d& lo() const { return lo_; }
   const Vec3d& hi() const { return hi_; }
 

@@ -25,7 +25,7 @@ using SearchClock = std::chrono::steady_clock;
 constexpr int k_tasks = 16;
 constexpr int k_global_searches = 4, k_local_searches = 4;
 
-// When the search ends early.
+// Ends the search early.
 class Clockwork {
  public:
   Clockwork(double seconds, const std::atomic<bool>& stop) : stop_(stop) {
@@ -33,7 +33,7 @@ class Clockwork {
       deadline_ = SearchClock::now() +
                   std::chrono::duration_cast<SearchClock::duration>(std::chrono::duration<double>(seconds));
   }
-  // To be asked before each evaluation.
+  // Call it before each evaluation.
   bool is_over() {
     if (!is_over_ && (stop_ || (deadline_ && SearchClock::now() >= *deadline_))) is_over_ = true;
     return is_over_;
@@ -68,7 +68,7 @@ class SearchProgress {
   int done_ = 0;
 };
 
-// What measures single frames; one for each task.
+// Measures single frames; one object for each task.
 class FrameRater {
  public:
   FrameRater(const config::Config& config, const run::CasePlan& plan, Measure measure, const LightRig& rig,
@@ -127,7 +127,7 @@ class WorstCaseSearch {
     constexpr int k_most_frames = 16;
     constexpr double k_most_s = 0.25;
     FrameRater meter = rater();
-    meter.rate(random_frame(0, 0).choice);  // which also makes what the others share
+    meter.rate(random_frame(0, 0).choice);  // also makes the shared data
     const SearchClock::time_point start = SearchClock::now();
     double passed_s = 0.0;
     int rated = 0;
@@ -197,7 +197,7 @@ class WorstCaseSearch {
     box.hi.y = highest.pose.eye.y;
     return box;
   }
-  // Each rotation of the recorded path once, in its order; none where the camera may look anywhere.
+  // The distinct rotations of the recorded path, in its order; empty if the camera may look anywhere.
   std::vector<Vec4d> rotations_kept() const {
     std::vector<Vec4d> kept;
     if (!request_.keep_direction) return kept;
@@ -213,7 +213,7 @@ class WorstCaseSearch {
     return 0.05 * std::sqrt(glm::dot(size, size));
   }
 
-  // All of the path, or as many as a quarter of the seconds allows: the rest is for what was not recorded.
+  // All frames of the path, or as many as fit into a quarter of the time limit: the rest is for other frames.
   int affordable_frames(const run::PathFrames& recorded) const {
     if (request_.seconds == 0.0) return recorded.count();
     constexpr double k_share = 0.25;
@@ -241,7 +241,7 @@ class WorstCaseSearch {
           "the camera's projection changes along its path; the search takes that of its first frame");
   }
 
-  // Rates so many frames; `frame_of(i)` gives each, `is_over()` ends it early. Returns how many were rated.
+  // Rates this many frames; `frame_of(i)` gives each, `is_over()` ends it early. Returns the number of rated frames.
   template <class FrameOf, class IsOver>
   int rate_each(int count, BestFrames& best, FrameOf frame_of, IsOver is_over, std::vector<double>* values = nullptr) {
     std::vector<BestFrames> found(k_tasks, BestFrames(kept(), near_m()));
@@ -271,7 +271,7 @@ class WorstCaseSearch {
     if (evaluations > 0) out_.stages.push_back({name, evaluations, best_.frames().front().value});
   }
 
-  // A recorded frame as it is, as far as the search may choose it; else the nearest that it may.
+  // A recorded frame, or the nearest frame in the search space.
   RatedFrame recorded_frame(std::size_t frame) const {
     const scene::CameraPose& pose = path_.shots[frame].pose;
     const Vec4d rotation = rotation_of(pose);
@@ -286,7 +286,7 @@ class WorstCaseSearch {
 
   void rate_recorded(int most) {
     progress_.begin("recorded frames");
-    // The worst of all first, so that the search is never behind it.
+    // The worst of all first, so that the search is never worse than it.
     std::vector<int> frames = run::evenly_spaced(most, static_cast<int>(path_.shots.size()));
     if (std::ranges::find(frames, out_.recorded.frame) == frames.end()) frames.front() = out_.recorded.frame;
     const auto frame_of = [&](int i) {
@@ -296,7 +296,7 @@ class WorstCaseSearch {
               rate_each(static_cast<int>(frames.size()), best_, frame_of, [this] { return clock_.is_over(); }));
   }
 
-  // The same frame for the same number and seed.
+  // The same number and seed give the same frame.
   RatedFrame random_frame(int number, std::uint64_t stream) const {
     SplitMix64 mixed(request_.seed * 2 + stream);
     SplitMix64 random(mixed.next() + static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u);
@@ -336,7 +336,8 @@ class WorstCaseSearch {
 
   void search_globally(int evaluations) {
     progress_.begin("global search");
-    // A population is ten times as large as there are dimensions; fewer than two of them are no search.
+    // A population is ten times as large as the number of dimensions; fewer than two populations are too few for a
+    // search.
     const int least = 20 * (static_cast<int>(space_.dimensions()) + 1);
     const auto searches = static_cast<std::size_t>(std::min(evaluations / least, k_global_searches));
     if (searches == 0 || best_.frames().empty()) return;
@@ -352,7 +353,7 @@ class WorstCaseSearch {
     return static_cast<int>((task + 1) * all / tasks - task * all / tasks);
   }
 
-  // Again and again with other steps, for as long as there are evaluations: the measures have plateaus.
+  // Repeated with other step sizes while evaluations are left: the measures have plateaus.
   void search_locally(int evaluations) {
     progress_.begin("local search");
     const std::vector<RatedFrame> starts = best_.frames();
@@ -365,7 +366,7 @@ class WorstCaseSearch {
 
   int climb(RatedFrame best, int evaluations, const Objective& objective) const {
     constexpr double k_steps[] = {0.05, 0.01, 0.2, 0.002};
-    const Objective keeping = [&](const std::vector<double>& point) {
+    const Objective recording = [&](const std::vector<double>& point) {
       const double value = objective(point);
       if (value > best.value) {
         best.value = value;
@@ -375,15 +376,15 @@ class WorstCaseSearch {
     };
     int used = 0;
     for (std::size_t turn = 0; used < evaluations && !clock_.over(); ++turn) {
-      const int now =
-          maximise_locally(best.point, k_steps[turn % std::size(k_steps)], evaluations - used, keeping, clock_.over());
+      const int now = maximise_locally(best.point, k_steps[turn % std::size(k_steps)], evaluations - used, recording,
+                                       clock_.over());
       if (now == 0) break;
       used += now;
     }
     return used;
   }
 
-  // Light by light towards the eye, then anywhere in its ball; what makes a frame worse for the tool stays.
+  // Moves one light after another towards the eye, then anywhere in its ball; keeps moves that increase the measure.
   void move_lights(int evaluations) {
     progress_.begin("moving lights");
     std::vector<RatedFrame> frames = best_.frames();
@@ -447,13 +448,14 @@ class WorstCaseSearch {
     FrameRater meter = rater();
     meter.rate(out_.frames.front().choice);
     out_.theoretical_max = meter.theoretical_max();
-    FrameRater lists(config_, case_, Measure::entries, rig_, projection());  // which has lists, whatever was searched
+    // it has lists, whatever the searched measure
+    FrameRater lists(config_, case_, Measure::entries, rig_, projection());
     lists.rate(out_.frames.front().choice);
     out_.buffers = lists.buffers();
     count_dark_lights(frames.frame(0));
   }
 
-  // A search goes where lights are, lit or not.
+  // The search goes to lights, lit or dark.
   void count_dark_lights(const view::Frame& worst) {
     measure::LightsInView counts;
     measure::add_frame(counts, worst);
@@ -465,7 +467,7 @@ class WorstCaseSearch {
                               " are dark (intensity 0 or black)");
   }
 
-  // What of them is worse than what was searched for is as much found.
+  // Frames here that are worse than the search's result become the result.
   void compare_with_random() {
     progress_.begin("random frames to compare with");
     BestFrames found(kept(), near_m());
@@ -480,7 +482,7 @@ class WorstCaseSearch {
 
   void warn_of_better(double searched) {
     const double worst = out_.frames.front().value;
-    const bool is_most = out_.theoretical_max && worst >= *out_.theoretical_max;  // nothing can be worse
+    const bool is_most = out_.theoretical_max && worst >= *out_.theoretical_max;  // the maximum is reached
     if (out_.random.frames > 0 && out_.random.max > searched)
       out_.warnings.emplace_back(
           "a random frame is worse than what the search found, and is taken in its place: allow more --evaluations");
@@ -574,8 +576,8 @@ double estimated_search_s(const config::Config& config, const run::Plan& plan, c
                           const WorstCaseRequest& request) {
   check_request(plan.scenes[case_plan.scene], request);
   const std::atomic<bool> stop{false};
-  const WorstCaseListener nobody;
-  return WorstCaseSearch(config, plan, case_plan, request, nobody, stop).estimated_s();
+  const WorstCaseListener no_listener;
+  return WorstCaseSearch(config, plan, case_plan, request, no_listener, stop).estimated_s();
 }
 
 }  // namespace clusterbench::search

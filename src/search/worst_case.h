@@ -1,7 +1,7 @@
 #pragma once
-// Searches for the frames that are worst for one case: where a camera, and lights that may be added or moved, make a
-// measure largest. Tries the recorded frames, random ones, a global search from the best of them and a local one from
-// the best of all. What it measures is what a written path holds, to the bit.
+// Searches for the frames that are worst for one case: poses of the camera, and of lights that may be added or moved,
+// that make a measure largest. Tries the recorded frames, random ones, a global search from the best of them and a
+// local one from the best of all. The measured frames are those of a written path, to the bit.
 
 #include <atomic>
 #include <functional>
@@ -20,21 +20,21 @@ namespace clusterbench::search {
 struct WorstCaseRequest {
   Measure measure = Measure::entries;
   int evaluations = 5000;
-  double seconds = 0.0;  // an extra stop, on which results then depend; 0: none
+  double seconds = 0.0;  // a time limit, on which results then depend; 0: none
   std::uint64_t seed = 1;
   int random = 10000;                  // frames to compare with
-  int frames = 1;                      // distinct ones to find
-  int threads = 1;                     // nothing depends on them
+  int frames = 1;                      // number of distinct frames to find
+  int threads = 1;                     // results do not depend on it
   std::vector<double> extra_ranges_m;  // of point lights that are added
-  double move_m = 0.0;                 // how far each light of the scene may be moved
-  std::optional<Box> within;           // where the eye may be; without: the box of the lights and the recorded eyes
-  bool walkable = false;               // the eye stays above the floor
+  double move_m = 0.0;                 // largest distance by which each light of the scene may be moved
+  std::optional<Box> within;  // allowed positions of the eye; without: the box of the lights and the recorded eyes
+  bool walkable = false;      // the eye stays above the floor
   double eye_height_m = 1.7;
-  bool keep_direction = false;  // the camera looks as it does in one of the recorded frames
+  bool keep_direction = false;  // the camera keeps the direction of one of the recorded frames
   bool keep_height = false;     // the eye stays between the recorded eyes' least and greatest y
 };
 
-// The flags that say what it may choose, as given: "--keep-height --add-lights 10"; "" where none is.
+// The flags that define the search space, as given: "--keep-height --add-lights 10"; "" if there are none.
 std::string space_flags(const WorstCaseRequest& request);
 
 struct WorstCaseListener {
@@ -77,24 +77,24 @@ struct WorstCase {
   std::uint64_t lights_in_view = 0, dark_in_view = 0;  // of the worst frame
   Box eyes, lights;
   std::size_t own_lights = 0, moments = 1;
-  std::size_t directions = 0;  // that the camera could look along; 0: any
+  std::size_t directions = 0;  // allowed directions of the camera; 0: any
   std::size_t floor_triangles = 0;
   double floor_area_m2 = 0.0;
   std::vector<std::string> warnings;
-  scene::Scene path_scene;  // the frames found, as they are to be written
+  scene::Scene path_scene;  // the found frames, ready to be written
 };
 
-// The case to search: the first of the plan's, but for methods that test all pairs where there is another. Throws Error
-// where all need depth, whose triangles a written path does not hold.
+// The case to search: the first of the plan's, but not one of a method that tests all pairs if there is another. Throws
+// Error if all need depth, since a written path has no triangles.
 const run::CasePlan& case_to_search(const config::Config& config, const run::Plan& plan);
 
-// Throws Error for a scene without lights, or with nothing where a camera could stand. `stop` is looked at before each
-// evaluation; what was found by then is the result.
+// Throws Error for a scene without lights, or without a place for a camera. `stop` is checked before each evaluation;
+// the frames found by then are the result.
 WorstCase find_worst_case(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
                           const WorstCaseRequest& request, const WorstCaseListener& listener,
                           const std::atomic<bool>& stop);
 
-// About how long that takes on this machine, by a few random frames of it.
+// Estimated duration of the search on this machine, from a few random frames.
 double estimated_search_s(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
                           const WorstCaseRequest& request);
 

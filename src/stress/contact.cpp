@@ -72,7 +72,7 @@ struct ContactOn {
     return contact;
   }
 
-  // A point between or on the planes through the eye, with the lean that these give.
+  // A point between or on the planes through the eye, with the outward direction that these give.
   Contact on_sides(double x0, double x1, double y0, double y1, Side x, Side y, double depth) const {
     const double sx = coordinate_on(x, x0, x1, random), sy = coordinate_on(y, y0, y1, random);
     Contact contact{{sx * depth, sy * depth, -depth}, Vec3d(0.0)};

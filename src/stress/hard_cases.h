@@ -13,7 +13,7 @@ namespace clusterbench::stress {
 
 inline constexpr double k_degree = 3.14159265358979323846 / 180.0;  // in radians
 
-// Something that the tool must do whatever the assigner is.
+// A check of the tool that does not depend on the assigner.
 struct ToolCheck {
   std::string what;
   bool passed = false;

@@ -61,7 +61,7 @@ std::vector<Trial> on_slice_boundaries(std::uint64_t) {
   return trials;
 }
 
-// The lookup by log2, and what a natural logarithm in single precision would say.
+// The lookup by log2, compared with a natural logarithm in single precision.
 std::vector<ToolCheck> lookup_on_boundaries(std::uint64_t) {
   std::vector<ToolCheck> checks;
   for (const Slicing& s : k_slicings) {
@@ -94,7 +94,7 @@ std::vector<Trial> tangent_to_everything(std::uint64_t seed) {
     const view::Space space = grid::space_of(grid, frame);
     for (const int ulps : {-4, -1, 0, 1, 4}) {
       SplitMix64 random(seed);
-      // The first light keeps the world grid where it is.
+      // The first light fixes the extent of the world grid.
       Rig rig;
       rig.point({0, 0, -60}, 60);
       for (int i = 0; i < 400; ++i) {

@@ -1,4 +1,4 @@
-// H23 to H26, H29: how many lights a cell, an index and a pool hold; order; threads; cameras that are none.
+// H23 to H26, H29: capacities of a cell, an index and a pool; order; threads; invalid cameras.
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +62,7 @@ std::vector<ToolCheck> caps_are_counted(std::uint64_t) {
   return checks;
 }
 
-std::vector<ToolCheck> pools_hold_what_they_say(std::uint64_t) {
+std::vector<ToolCheck> pools_hold_their_capacity(std::uint64_t) {
   std::vector<ToolCheck> checks;
   for (const std::uint32_t lights : {255u, 256u, 257u, 65535u, 65536u, 65537u}) {
     const auto storage = filled("packed", {}, lights);
@@ -115,7 +115,7 @@ std::vector<Trial> in_another_order(std::uint64_t seed) {
   return trials;
 }
 
-// The index of a light where each type's lights stand the other way round.
+// The index of a light after reversing the lights of each type.
 std::uint32_t reversed_within_type(std::uint32_t light, const view::LightRanges& ranges) {
   const view::LightRange type = ranges.types()[ranges.type_of(light)];
   return type.first + type.end() - 1 - light;
@@ -159,7 +159,7 @@ std::vector<ToolCheck> order_does_not_matter(std::uint64_t seed) {
   return checks;
 }
 
-// A picture of nothing, one wall all at one depth, and a single pixel: what a tile then is.
+// An empty picture, one wall at a single depth, and a single pixel: the resulting parts of tiles.
 std::vector<ToolCheck> depth_masks(std::uint64_t seed) {
   std::vector<ToolCheck> checks;
   const Trial trial = mixed_lights(seed, false);
@@ -220,7 +220,7 @@ std::vector<ToolCheck> threads_and_broken_cameras(std::uint64_t seed) {
 
 std::vector<HardCase> list_cases() {
   return {{"H23", "as many lights at one place as a cell holds, and one more", many_at_one_point, caps_are_counted},
-          {"H24", "index pools exactly full", nullptr, pools_hold_what_they_say},
+          {"H24", "index pools exactly full", nullptr, pools_hold_their_capacity},
           {"H25", "the same lights in another order; equal depths", in_another_order, order_does_not_matter},
           {"H26", "tiles of only sky, and of one depth", nullptr, depth_masks},
           {"H29", "threads; a camera that is none", nullptr, threads_and_broken_cameras}};

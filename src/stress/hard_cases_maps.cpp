@@ -1,4 +1,4 @@
-// H33 to H35: what maps of others taught: lattices, their scales, clipped tiles.
+// H33 to H35: cases found with other people's maps: lattices, their scales, clipped tiles.
 
 #include <algorithm>
 #include <chrono>
@@ -22,8 +22,8 @@ int whole_between(SplitMix64& random, int least, int most) {
   return least + static_cast<int>(random.below(static_cast<std::uint64_t>(most - least) + 1));
 }
 
-// Lights at whole metres that end at the middle planes of the picture, or at the line in which these meet; each four
-// times, mirrored. `off` moves them all.
+// Lights at whole metres that end at the middle planes of the picture, or at their common line; each four times,
+// mirrored. `off` moves them all.
 Rig lattice_rig(std::uint64_t seed, int lights, const Vec3d& off) {
   SplitMix64 random(seed);
   Rig rig;
@@ -97,7 +97,7 @@ ToolCheck mirrored_lists(std::uint64_t seed) {
   return {"mirrored cells have as many lights of a mirrored rig", unlike == 0, std::to_string(unlike) + " have not"};
 }
 
-// The shortest of several: of a frame of 50 us one that is interrupted takes a hundred times as long.
+// The shortest of several: an interrupted frame of 50 us takes a hundred times as long.
 double seconds_of(int times, const std::function<void()>& work) {
   double shortest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < times; ++i) {
@@ -109,7 +109,7 @@ double seconds_of(int times, const std::function<void()>& work) {
 }
 constexpr int k_times = 9;
 
-// Of one frame: the truth's and the exact methods' seconds.
+// Times of one frame: the truth's and the exact methods' seconds.
 struct FrameTimes {
   double truth = 0.0, exact = 0.0, exact_fast = 0.0;
 };
@@ -221,7 +221,7 @@ std::vector<Trial> map_scales(std::uint64_t seed) {
   return trials;
 }
 
-// More pairs than a list can count, known before any of them takes memory.
+// More pairs than a list can count must be detected before memory is allocated for them.
 std::vector<ToolCheck> too_many_pairs(std::uint64_t) {
   assign::PairBuffer pairs;
   constexpr std::uint32_t k_slices = 65'537, k_lights = 65'600;
@@ -271,7 +271,7 @@ std::vector<Trial> clipped_tiles(std::uint64_t seed) {
     trials.push_back(perspective.on(spec, label));
 
     Rig parallel = beside_the_picture(5.0, 3.2, true, seed);
-    // The one that was found first, as the camera at (5, 3.2, 0) saw it.
+    // The lost light that was found first, seen from the camera at (5, 3.2, 0).
     parallel.point({9.0, -0.67, -5.1}, 3.99999).show({1000, 640});
     parallel.projection() = {};
     parallel.projection().orthographic = true;

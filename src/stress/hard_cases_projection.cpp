@@ -13,7 +13,7 @@ namespace {
 
 using grid::Scheme;
 
-// Lights in and around a view of the given slopes, of all sizes; every third a spot.
+// Lights in and around a view of the given slopes, of all sizes; every third one is a spot.
 Rig& scatter(Rig& rig, double slope_x, double slope_y, int count, std::uint64_t seed) {
   SplitMix64 random(seed);
   for (int i = 0; i < count; ++i) {
@@ -107,7 +107,7 @@ std::vector<Trial> off_centre(std::uint64_t seed) {
   return trials;
 }
 
-// A picture moved by parts of a pixel, as temporal anti-aliasing does.
+// A picture moved by parts of a pixel, as in temporal anti-aliasing.
 std::vector<Trial> jittered(std::uint64_t seed) {
   std::vector<Trial> trials;
   const double top = slope_of(60.0), right = top * 16 / 9;
@@ -160,7 +160,7 @@ assign::Lists lists_after(const assign::AssignerDescriptor& row, assign::Assigne
   return run.cell_lists();
 }
 
-// Half the resolution and back: nothing of the other size may stay.
+// Half the resolution and back: no state of the other size may remain.
 std::vector<ToolCheck> resized(std::uint64_t seed) {
   std::vector<ToolCheck> checks;
   for (const assign::AssignerDescriptor* row : assign::assigner_descriptors()) {
@@ -185,7 +185,7 @@ std::vector<ToolCheck> resized(std::uint64_t seed) {
   return checks;
 }
 
-// Camera and lights far from the origin. Places are whole parts of a centimetre, which doubles hold there.
+// Camera and lights far from the origin. Coordinates are whole parts of a centimetre, which doubles represent there.
 std::vector<Trial> far_from_the_origin(std::uint64_t seed) {
   std::vector<Trial> trials;
   for (const double offset : {0.0, 1e5, 1e6, 1e7}) {

@@ -1,10 +1,10 @@
 // H31: a search for lights that touch a cell and are not listed.
 //
-// A state is a world (projection, picture, grid) and, in it, lights that touch a chosen cell: a contact on the cell's
-// surface and a light laid against it. Each light is tried at several positions: touching, moved away by some roundoffs
-// (a conservative method lists it still: how far is the margin that the search drives down) and, for methods that
-// promise nothing, pushed into the cell by parts of its range. Children differ in one number; they stay if their margin
-// is no larger. The best worlds have children, too.
+// A state is a world (projection, picture, grid) with lights that touch a chosen cell: a contact on the cell's surface
+// and a light against it. Each light is tried at several positions: touching; moved away by some roundoffs (a
+// conservative method still lists it: the distance is the margin that the search minimises); and, for methods without
+// guarantees, pushed into the cell by parts of its range. Children differ in one number; they stay if their margin is
+// no larger. The best worlds have children, too.
 
 #include <algorithm>
 #include <chrono>
@@ -184,7 +184,7 @@ class Ladder {
  public:
   explicit Ladder(bool conservative) {
     for (const double roundoffs : k_away) steps_.push_back({roundoffs, 0.0});
-    steps_.push_back({-0x1p-16, 0.0});  // touching for certain
+    steps_.push_back({-0x1p-16, 0.0});  // certainly touching
     touching_ = steps_.size() - 1;
     if (!conservative)
       for (const double part : k_into) steps_.push_back({0.0, -part});
@@ -225,7 +225,7 @@ class Climb {
     lost_steps_ = measured(touches_);
   }
 
-  // One generation. Returns the tries made.
+  // One generation. Returns the number of tries.
   std::uint64_t step(SplitMix64& random) {
     std::vector<Touch> children;
     for (const Touch& touch : touches_) children.push_back(mutated(touch, grid_, random, far_m_, true));
@@ -240,15 +240,15 @@ class Climb {
 
   std::size_t best() const { return *std::max_element(lost_steps_.begin(), lost_steps_.end()); }
 
-  // Looks at what is lost where it touches for certain, and keeps the deepest true loss.
+  // Tests lights that are not listed although they certainly touch, and keeps the deepest true loss.
   void collect(SearchResult& result) const {
     for (std::size_t i = 0; i < touches_.size(); ++i) {
-      if (lost_steps_[i] > ladder_.touching()) judge(touches_[i], lost_steps_[i], result);
+      if (lost_steps_[i] > ladder_.touching()) decide_loss(touches_[i], lost_steps_[i], result);
     }
   }
 
  private:
-  // How many steps of the ladder, from the outermost in, are not listed.
+  // The number of ladder steps that are not listed, from the outermost in.
   std::vector<std::size_t> measured(const std::vector<Touch>& touches) {
     view::Frame frame = frame_;
     frame.lights.clear();
@@ -296,11 +296,11 @@ class Climb {
     return 0;
   }
 
-  // Is the innermost unlisted light truly in the cell? How deep?
-  void judge(const Touch& touch, std::size_t lost_steps, SearchResult& result) const {
+  // Decides whether the innermost unlisted light is truly in the cell, and how deep.
+  void decide_loss(const Touch& touch, std::size_t lost_steps, SearchResult& result) const {
     const Contact contact = contact_of(touch);
     const scene::WorldLight lost = in_world(light_of(touch, contact, ladder_.moved_m(lost_steps - 1, touch, contact)));
-    // As a scene file holds it: the axis is a node's rotation, rounded.
+    // As in a scene file: the axis is a node's rotation, rounded.
     Rig rig = rig_of(lost);
     Trial replay = rig.on(trial_.grid, "found by the search");
     replay.viewport = trial_.viewport;
@@ -382,7 +382,7 @@ SearchResult search_for_losses(const StressMethod& method, const StressRequest& 
     }
     on_progress(result.tries);
   }
-  // Steps 0 .. best - 1 are not listed: the first that is, is the margin.
+  // Steps 0 .. best - 1 are not listed: the first listed step is the margin.
   result.least_margin = best >= ladder.touching() ? 0.0 : ladder.roundoffs(best);
   return result;
 }

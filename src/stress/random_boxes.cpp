@@ -34,7 +34,7 @@ class BoxDraw {
   }
 
  private:
-  // Against a cell's face, edge or corner; then, perhaps, larger or smaller by a little or by ulps.
+  // Against a cell's face, edge or corner; then, sometimes, larger or smaller by a little or by ulps.
   DrawnBox touching() {
     const Contact contact = random_contact(grid_.cell(random_cell(grid_, draw_.random())), draw_.random());
     const double distance = std::max(glm::length(contact.point), 1e-3 * step_m_);
@@ -92,7 +92,7 @@ class BoxDraw {
     const Mat3d to_world = glm::transpose(space_.rotation);
     const Vec3d middle = to_world * box.middle + space_.origin;
     const Mat3d axes = to_world * box.half_axes;
-    constexpr double k_largest_m = 1e14;  // corners, too, are within what a scene may hold
+    constexpr double k_largest_m = 1e14;  // corners, too, are within the limits of a scene
     for (int axis = 0; axis < 3; ++axis)
       if (!(std::abs(middle[axis]) <= k_largest_m) || !(glm::length(axes[axis]) <= k_largest_m)) return;
     scene::Light light;

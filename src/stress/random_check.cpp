@@ -1,4 +1,4 @@
-// One setting of the random search, checked against everything that it can be checked against.
+// One setting of the random search, with all available checks.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace {
 
 using geom::Verdict;
 
-// Decisions of the slow way take up to a millisecond: so many for each light of a setting that has few.
+// Exact decisions take up to a millisecond: their number for each light of a setting with few lights.
 constexpr std::size_t k_decisions_per_setting = 240, k_least_per_light = 4;
 constexpr int k_points_per_cell = 12;
 
@@ -44,8 +44,8 @@ struct PointOf {
   }
 };
 
-// Does a box hold a place, seen from its middle, by more than a margin on every side? Not said of boxes of next to no
-// volume.
+// Whether a box contains a point, given relative to its middle, by more than a margin on every side. False for boxes
+// with almost no volume.
 bool box_holds_clearly(const std::array<Vec3d, 3>& half_axes, const Vec3d& from_middle, double margin) {
   const Mat3d axes(half_axes[0], half_axes[1], half_axes[2]);
   const double most = glm::length(half_axes[0]) * glm::length(half_axes[1]) * glm::length(half_axes[2]);
@@ -61,12 +61,12 @@ bool box_holds_clearly(const std::array<Vec3d, 3>& half_axes, const Vec3d& from_
   return true;
 }
 
-// Does the volume hold the point, by more than double precision can lose?
+// Whether the volume contains the point by more than the rounding of double precision.
 bool holds_clearly(const geom::LightVolume& volume, const Vec3d& p) {
   const double whole_range = geom::range_of(volume);
   const geom::LocalPoint apex = geom::local_point(geom::source_of(volume));
   const Vec3d v = p - apex.at;
-  const double range = std::isinf(whole_range) ? 0.0 : whole_range;  // no end is nowhere near
+  const double range = std::isinf(whole_range) ? 0.0 : whole_range;  // a point is never close to an infinite range
   const double margin = 1e-12 * (glm::length(p) + glm::length(apex.at) + range) + 4.0 * apex.rounding_error;
   if (const auto* box = std::get_if<geom::BoxVolume>(&volume))
     return box_holds_clearly(box->half_axes, glm::transpose(box->center.rotation) * v, margin);
@@ -78,7 +78,7 @@ bool holds_clearly(const geom::LightVolume& volume, const Vec3d& p) {
   return std::sin(spot->half_angle_rad) * along - std::cos(spot->half_angle_rad) * across > margin;
 }
 
-// As holds_clearly, of a point that a shader looks up in single precision, which loses up to `margin` of it.
+// Like holds_clearly, for a point that a shader looks up in single precision, with an error of up to `margin`.
 bool clearly_reaches(const scene::WorldLight& light, const grid::Sample& sample, double margin) {
   const Vec3d apex = light.position - sample.eye, v = sample.from_eye - apex;
   const double distance = glm::length(v);
@@ -157,7 +157,7 @@ class SettingCheck {
   };
 
   bool is_checked(const StressMethod& method) const {
-    return method.conservative && !method.assigner->naive && takes_trial(method, trial_);
+    return method.conservative && !method.assigner->naive && supports_trial(method, trial_);
   }
 
   std::uint64_t pair_count() const { return std::uint64_t{grid_.cell_count()} * frame_.lights.size(); }
@@ -202,7 +202,7 @@ class SettingCheck {
     }
   }
 
-  // A method whose cells are what depths leave of the grid's.
+  // Checks a method whose cells are the occupied parts of the grid's cells.
   void check_occupied(const StressMethod& method) {
     const depth::DepthImage depths = depths_for(*method.assigner, frame_);
     try {
@@ -231,8 +231,8 @@ class SettingCheck {
     });
   }
 
-  // Pair by pair: what the filter or a point in both contradicts, what the filter leaves undecided, what lies at the
-  // border of the true cells, and what a method lists beside them.
+  // Decides again, pair by pair: pairs that the filter or a common point contradicts, pairs that the filter leaves
+  // undecided, pairs at the border of the true cells, and further pairs that a method lists.
   void check_truth() {
     const std::size_t lights = frame_.lights.size();
     const PairSet truth(truth_.lists, lights);
@@ -259,9 +259,9 @@ class SettingCheck {
         near.push_back(cell);
     }
     contradicted.resize(std::min<std::size_t>(contradicted.size(), 20));
-    for (const std::uint32_t cell : contradicted) settle(cell, light, truth);
+    for (const std::uint32_t cell : contradicted) decide_again(cell, light, truth);
     const std::size_t step = std::max<std::size_t>(1, (near.size() + most - 1) / most);
-    for (std::size_t i = 0; i < near.size(); i += step) settle(near[i], light, truth);
+    for (std::size_t i = 0; i < near.size(); i += step) decide_again(near[i], light, truth);
   }
 
   bool has_other_neighbour(std::uint32_t cell, std::uint32_t light, const PairSet& truth) const {
@@ -274,7 +274,7 @@ class SettingCheck {
     return false;
   }
 
-  // Corners, the middle and some points between.
+  // Tests corners, the middle and some points between.
   bool shares_a_point(const geom::LightVolume& volume, std::uint32_t cell) {
     ++report_.counts.sampled;
     const geom::Cell shape = grid_.cell(cell);
@@ -288,7 +288,7 @@ class SettingCheck {
     return false;
   }
 
-  void settle(std::uint32_t cell, std::uint32_t light, const PairSet& truth) {
+  void decide_again(std::uint32_t cell, std::uint32_t light, const PairSet& truth) {
     const geom::LightVolume volume = lights_.volume(light);
     const Verdict verdict = counted(geom::prove_meets(volume, grid_.cell(cell)), cell, light);
     const bool is_true = truth.has(cell, light);
@@ -317,17 +317,17 @@ class SettingCheck {
     }
   }
 
-  // A pair that method and truth differ in is decided once more, so that a fault of the truth is no fault of the
-  // method.
+  // A pair that differs between method and truth is decided once more, so that an error of the truth is not reported as
+  // one of the method.
   void check_pairs(const Answer& answer, const PairSet& truth) {
     const PairSet listed(answer.lists, frame_.lights.size());
-    int looked_at = 0;
+    int checked = 0;
     for (std::uint32_t light = 0; light < frame_.lights.size(); ++light)
       for (std::uint32_t cell = 0; cell < grid_.cell_count(); ++cell) {
         const bool is_true = truth.has(cell, light), is_listed = listed.has(cell, light);
         if (is_true == is_listed || (is_listed && !answer.method->assigner->exact)) continue;
         constexpr int k_most = 12;
-        if (++looked_at > k_most) return;
+        if (++checked > k_most) return;
         const geom::LightVolume volume = lights_.volume(light);
         const Verdict verdict = counted(geom::decide_meets(volume, grid_.cell(cell)), cell, light);
         if (is_true && verdict == Verdict::yes)
@@ -352,7 +352,7 @@ class SettingCheck {
     }
   }
 
-  // Samples in the view and in its lights, looked up as a shader does.
+  // Samples in the view and in its lights, looked up as in a shader.
   void check_shading() {
     const std::vector<grid::Sample> samples = samples_to_shade();
     for (const grid::Sample& sample : samples) {
@@ -380,7 +380,8 @@ class SettingCheck {
     }
   }
 
-  // A grid that follows lights must not end before one that reaches a sample, unless the same grid without does.
+  // A grid that follows lights must not end before a light that reaches a sample, unless the same grid without
+  // following does, too.
   void check_left_out(const grid::Sample& sample, double margin) {
     const bool has_fit = trial_.grid.has_tiles() && trial_.grid.slices.fit;
     const bool is_around_lights = trial_.grid.kind == grid::Kind::world && trial_.grid.follow == grid::Follow::lights;
@@ -395,7 +396,8 @@ class SettingCheck {
     }
   }
 
-  // Nothing where there is no such grid: around all lights cells can be too thin, which those in view have room for.
+  // nullopt if there is no such grid: around all lights its cells can be too thin, while those in view leave enough
+  // room.
   std::optional<grid::Grid> unfitted_grid() const {
     Trial plain = trial_;
     plain.grid = trial_.grid.unfitted();
@@ -431,8 +433,8 @@ class SettingCheck {
     return samples;
   }
 
-  // More than single precision loses between a point and its cell: relative to the point, and to the whole picture or
-  // all boxes, whose sides it is compared with.
+  // Upper bound of the single-precision error between a point and its cell: relative to the point, and to the whole
+  // picture or all boundaries with which it is compared.
   double lost_by_lookup(const grid::Sample& sample) const {
     const view::Projection& projection = frame_.projection;
     double size = glm::length(sample.from_eye);
@@ -464,7 +466,8 @@ class SettingCheck {
   std::span<const StressMethod> methods_;
   view::Frame frame_;
   grid::Grid grid_;
-  std::optional<std::optional<grid::Grid>> unfitted_;  // once asked for: the grid that does not follow lights, if any
+  // set on first use: the grid that does not follow lights, if any
+  std::optional<std::optional<grid::Grid>> unfitted_;
   view::LightArrays lights_;
   measure::Truth truth_;
   std::vector<Answer> answers_;
@@ -495,14 +498,14 @@ void SettingCounts::add(const SettingCounts& other) {
   shaded += other.shaded;
 }
 
-// A fast method is called as its reference with "-fast" behind the name.
+// The label of a fast method is that of its reference with "-fast" after the name.
 std::string reference_of(const std::string& label) {
   const std::string ending = "-fast";
   const std::size_t at = label.find(ending);
   return at == std::string::npos ? "" : label.substr(0, at) + label.substr(at + ending.size());
 }
 
-bool takes_trial(const StressMethod& method, const Trial& trial) {
+bool supports_trial(const StressMethod& method, const Trial& trial) {
   return method.assigner->takes(trial.grid.kind) && (method.assigner->boxes || !has_boxes(trial)) &&
          (method.assigner->orthographic || !trial.scene.cameras[0].projection.orthographic);
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t k_most_seeds = 16;
 
-// Faults of one kind, method, grid and type of light are one fault, however many settings show it.
+// Faults of one kind, method, grid and type of light count as one fault, even if many settings show it.
 std::tuple<FaultKind, std::string, grid::Kind, bool, scene::LightType> class_of(const RandomFault& fault) {
   return {fault.fault.kind, fault.fault.method, fault.grid, fault.orthographic, fault.fault.type};
 }
@@ -75,7 +75,7 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
       trials[i] = random_setting(request.seed + first + i);
       reports[i] = check_setting(trials[i], methods);
     });
-    // Up to the first that a stop has left out, so that the seeds are told by the first and their number.
+    // Stops at the first unfinished one, so that the first seed and the number identify the checked seeds.
     for (std::size_t i = 0; i < count && reports[i]; ++i)
       collect(*reports[i], request.seed + first + i, trials[i], search);
   }

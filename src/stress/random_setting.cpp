@@ -12,9 +12,9 @@
 namespace clusterbench::stress {
 namespace {
 
-// No coordinate and no range is larger: what a scene of this tool may hold.
+// Limit of coordinates and ranges in a scene of this tool.
 constexpr double k_largest_m = 1e15;
-// Ranges beyond the domain have no end. The largest float's is more than files may hold.
+// Ranges beyond the domain have no end. The largest float's is more than files can hold.
 constexpr double k_longest_range_m = 1e30;
 constexpr double k_right_angle = 90.0 * k_degree;
 
@@ -22,7 +22,7 @@ double at_most_largest(double value) {
   return std::clamp(value, -k_largest_m, k_largest_m);
 }
 
-// How large a setting is: slices end at far_m, lattices have steps of step_m.
+// The size of a setting: slices end at far_m, lattices have steps of step_m.
 struct Extent {
   double near_m = 0.1, far_m = 100.0, step_m = 1.0;
 };
@@ -172,7 +172,7 @@ void random_tiles(grid::Tiling& tiling, Draw& draw, Vec2i picture) {
     tiling = {{0, 0}, count};
     return;
   }
-  // Of a size that seldom divides the picture, so that the last ones are clipped.
+  // A size that seldom divides the picture, so that the last tiles are clipped.
   const Vec2i pixels{std::max(1, picture.x / count.x + draw.whole(0, 2)),
                      std::max(1, picture.y / count.y + draw.whole(0, 2))};
   tiling = {pixels, {0, 0}};
@@ -241,7 +241,7 @@ class Lights {
   }
 
  private:
-  // Laid against a cell's face, edge or corner; then, perhaps, pushed in or pulled away by a little or by ulps.
+  // Against a cell's face, edge or corner; then, sometimes, pushed in or pulled away by a little or by ulps.
   void touching() {
     const Contact contact = random_contact(grid_.cell(random_cell(grid_, draw_.random())), draw_.random());
     const double distance = std::max(glm::length(contact.point), extent_.near_m);
@@ -259,7 +259,7 @@ class Lights {
          world_direction(-std::cos(angle) * generator + std::sin(angle) * contact.outward), range, angle);
   }
 
-  // Whole coordinates and ranges, mirrored: faces, edges and corners are touched by the dozen.
+  // Whole coordinates and ranges, mirrored: many lights touch faces, edges and corners.
   void on_lattice() {
     const double step = extent_.step_m;
     const bool of_camera = draw_.percent(60);
@@ -303,7 +303,7 @@ class Lights {
     spot(position, direction, range, random_angle());
   }
 
-  // In and around the view, of all sizes; far away with a range of centimetres, too.
+  // In and around the view, of all sizes; also far away with a range of centimetres.
   void anywhere() {
     const double depth = extent_.far_m * draw_.log_between(1e-5, 2.0);
     const view::Projection& projection = frame_.projection;
@@ -313,7 +313,7 @@ class Lights {
                          scale * (projection.bottom + y * (projection.top - projection.bottom)),
                          draw_.percent(90) ? -depth : depth};
     const double size = std::max(glm::length(position), extent_.near_m);
-    // Out of all proportion now and then, up to no end (beyond the domain).
+    // Sometimes out of all proportion, up to no end (beyond the domain).
     const double range = draw_.percent(10)   ? std::max(size, 1e-6) * draw_.log_between(1e4, 1e20)
                          : draw_.percent(50) ? at_most_largest(size * draw_.log_between(1e-2, 2.0))
                                              : at_most_largest(size * draw_.log_between(1e-8, 1e4));
@@ -401,7 +401,7 @@ double Draw::nudged(double value, int most_ulps) {
 
 namespace {
 
-// Drawn from a source of its own, so that all else of a seed's setting is what it was without.
+// Uses a random source of its own, so that the rest of a seed's setting does not change.
 void follow_or_shape(grid::GridSpec& spec, const scene::CameraProjection& projection, std::uint64_t seed) {
   using grid::Scheme;
   if (!spec.has_tiles() || spec.slices.scheme == Scheme::list || spec.slices.scheme == Scheme::fit) return;
@@ -420,7 +420,7 @@ void follow_or_shape(grid::GridSpec& spec, const scene::CameraProjection& projec
     spec.tiles = {{0, 0}, {0, 0}, draw.log_between(0.5, 2.0)};
 }
 
-// Boxes that follow, from a source of its own, too.
+// Boxes that follow; also from a source of their own.
 void follow_with_boxes(grid::GridSpec& spec, const Extent& extent, std::uint64_t seed) {
   if (spec.kind != grid::Kind::world) return;
   constexpr std::uint64_t k_other_source = 0x776f726c64;

@@ -1,6 +1,6 @@
 #pragma once
 // A setting of the random search (`stress --random`): camera, picture, grid and lights, all from one seed. Half of the
-// lights are laid against a cell, to a few ulps, or stand on a lattice, since that is where decisions are close.
+// lights lie against a cell, to a few ulps, or on a lattice, since that is where decisions are close.
 
 #include <cstdint>
 
@@ -12,7 +12,7 @@ namespace clusterbench::stress {
 // The grid may be one that is refused for its camera.
 Trial random_setting(std::uint64_t seed);
 
-// Numbers as settings want them.
+// Random numbers for settings.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : random_(seed) {}
@@ -24,7 +24,7 @@ class Draw {
   double between(double lo, double hi) { return random_.between(lo, hi); }
   double log_between(double lo, double hi);
   double sign() { return random_.below(2) == 0 ? -1.0 : 1.0; }
-  // 1 plus or minus something between these.
+  // 1 plus or minus a number between these.
   double about_one(double least, double most);
   // -most to most ulps away.
   double nudged(double value, int most_ulps);

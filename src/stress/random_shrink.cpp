@@ -1,4 +1,4 @@
-// Shrinks a setting that shows a fault: what can be left out or rounded while the same fault stays, is.
+// Shrinks a setting that shows a fault: removes or rounds every part that is not needed for the same fault.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ double rounded_to(double value, int digits) {
   return std::strtod(text, nullptr);
 }
 
-// Would a file with these numbers be read back?
+// Whether a file with these numbers could be read back.
 bool can_be_loaded(const Trial& trial) {
   const scene::CameraProjection& projection = trial.scene.cameras[0].projection;
   const bool is_projection = projection.far_m > projection.near_m && projection.near_m >= 0.0 &&
@@ -66,7 +66,7 @@ class Shrinker {
     return false;
   }
 
-  // True if the change was made: it changes something and the fault stays.
+  // True if the change was made: it changes the setting and the fault stays.
   bool attempt(const Change& change) {
     Trial next = best_;
     change(next);
@@ -84,7 +84,7 @@ class Shrinker {
     trial.scene.lights.erase(trial.scene.lights.begin() + static_cast<std::ptrdiff_t>(index));
   }
 
-  // The nodes of lights that are left out would be written, too.
+  // The nodes of removed lights would be written, too.
   static void drop_idle_nodes(Trial& trial) {
     std::vector<scene::Node> nodes{trial.scene.nodes[0]};
     for (scene::Light& light : trial.scene.lights) {
@@ -104,7 +104,7 @@ class Shrinker {
     drop_idle_nodes(best_);
   }
 
-  // Camera at the origin, lights where it sees them; or one of both.
+  // Camera at the origin, lights moved with it; or one of both.
   void simplify_camera() {
     const scene::Node camera = best_.scene.nodes[0];
     const bool moved = camera.translation != Vec3d(0.0), turned = camera.rotation != Vec4d(0.0, 0.0, 0.0, 1.0);
@@ -161,7 +161,7 @@ class Shrinker {
     return best_.grid.tiles.count.x > 0 ? best_.grid.tiles.count : grid_of(best_, frame_of(best_)).screen().tiles.count;
   }
 
-  // The slices by their boundaries, so that single ones can go.
+  // The slices by their boundaries, so that single ones can be removed.
   void list_boundaries() {
     if (best_.grid.slices.scheme == grid::Scheme::list) return;
     if (best_.grid.slices.fit) attempt([](Trial& trial) { trial.grid.slices.fit.reset(); });
@@ -174,7 +174,7 @@ class Shrinker {
     });
   }
 
-  // The box as it is in this frame, so that it can be simplified.
+  // The box of this frame as a fixed one, so that it can be simplified.
   void hold_box() {
     if (best_.grid.kind != grid::Kind::world || best_.grid.follow == grid::Follow::nothing) return;
     const grid::Grid grid = grid_of(best_, frame_of(best_));
@@ -247,7 +247,7 @@ class Shrinker {
     }
   }
 
-  // Numbers of best_ itself: changed in place, and back if the fault goes.
+  // Numbers of best_ itself: changed in place, and changed back if the fault disappears.
   bool set_to(double& number, double value) {
     const double before = number;
     if (before == value || !std::isfinite(before)) return false;

@@ -32,7 +32,7 @@ void write_replay(const fs::path& folder, const std::string& name, const Trial& 
   if (failure) throw Error(folder.string(), "", "cannot be made: " + failure.message());
   OrderedJson assigners = OrderedJson::array();
   for (const StressMethod& method : methods)
-    if (takes_trial(method, trial)) assigners.push_back(assigner_json(method));
+    if (supports_trial(method, trial)) assigners.push_back(assigner_json(method));
   OrderedJson scene{{"path", name + ".gltf"}};
   if (has_boxes(trial)) scene["boxes"] = true;
   const OrderedJson config{{"name", name},

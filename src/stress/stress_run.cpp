@@ -11,7 +11,7 @@
 namespace clusterbench::stress {
 namespace {
 
-// A trial as all methods see it.
+// A trial, prepared for all methods.
 struct Prepared {
   view::Frame frame;
   grid::Grid grid;
@@ -83,11 +83,11 @@ std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressM
   for (const Trial& trial : trials) {
     if (stop) break;
     const bool is_wanted =
-        std::any_of(methods.begin(), methods.end(), [&](const auto& m) { return takes_trial(m, trial); });
+        std::any_of(methods.begin(), methods.end(), [&](const auto& m) { return supports_trial(m, trial); });
     if (!is_wanted) continue;
     const Prepared at = prepared(trial, request.threads);
     for (std::size_t i = 0; i < methods.size(); ++i)
-      if (takes_trial(methods[i], trial)) add_trial(cells[i], methods[i], trial, at);
+      if (supports_trial(methods[i], trial)) add_trial(cells[i], methods[i], trial, at);
   }
   std::erase_if(cells, [](const StressCell& cell) { return cell.trials == 0; });
   return cells;
@@ -148,30 +148,30 @@ StressResult run_stress(const StressRequest& request, const StressListener& list
   const bool searches = request.tries > 0 && request.cases.is_all_of("H31");
   const double parts = static_cast<double>(result.cases.size() + (searches ? result.methods.size() : 0));
   const double whole = parts + static_cast<double>(request.random);
-  const auto tell = [&](const std::string& doing, double done) {
+  const auto report_progress = [&](const std::string& doing, double done) {
     if (listener.on_progress) listener.on_progress(doing, done, whole);
   };
   double done = 0.0;
   for (const HardCase& hard : result.cases) {
     if (stop) break;
-    tell(std::string(hard.id) + " " + hard.title, done++);
+    report_progress(std::string(hard.id) + " " + hard.title, done++);
     std::vector<ToolCheck> checks = hard.checks == nullptr ? std::vector<ToolCheck>{} : hard.checks(request.seed);
     const std::vector<StressCell> cells = run_case(hard, result.methods, request, stop);
-    if (stop) break;  // the case is not whole
+    if (stop) break;  // the case is incomplete
     result.checks.push_back(std::move(checks));
     result.cells.insert(result.cells.end(), cells.begin(), cells.end());
   }
   result.cases.resize(result.checks.size());
   if (searches && !stop) {
     const auto on_tries = [&](const std::string& method, double methods_done) {
-      tell("H31 " + method, done + methods_done);
+      report_progress("H31 " + method, done + methods_done);
     };
     result.searches = run_searches(result.methods, request, on_tries, stop);
     std::erase_if(result.searches, [](const SearchResult& search) { return search.tries == 0; });
   }
   if (request.random > 0 && !stop) {
     const auto on_settings = [&](std::uint64_t settings, const std::string& doing) {
-      tell(doing, parts + static_cast<double>(settings));
+      report_progress(doing, parts + static_cast<double>(settings));
     };
     result.random = search_at_random(result.methods, request, on_settings, stop);
   }

@@ -29,12 +29,12 @@ struct StressMethod {
 std::vector<StressMethod> stress_methods();
 // The label of the method whose lists a fast one's must equal; empty if it is no SIMD variant.
 std::string reference_of(const std::string& label);
-bool takes_trial(const StressMethod& method, const Trial& trial);
+bool supports_trial(const StressMethod& method, const Trial& trial);
 
 struct StressRequest {
   std::uint64_t seed = 1;
   std::uint64_t tries = 20'000;  // of the search, per method; 0 = no search
-  double seconds = 0.0;          // of the search, per method, and of random settings; 0 = as many as these take
+  double seconds = 0.0;          // of the search, per method, and of random settings; 0 = no limit
   std::uint64_t random = 0;      // random settings to check, with the seeds from `seed` on
   Pattern cases, methods;
   int threads = 1;
@@ -50,39 +50,39 @@ struct Loss {
 
 struct StressCell {
   std::string hard_case, method;
-  int trials = 0, refused = 0;      // refused: as it should be
-  std::vector<std::string> faults;  // a refusal that did not come, an unexpected one, lists that are not lists
+  int trials = 0, refused = 0;      // refused: as expected
+  std::vector<std::string> faults;  // a missing refusal, an unexpected one, lists that are not lists
   std::uint64_t true_pairs = 0, misses = 0, extra_pairs = 0, undecided = 0;
   std::optional<Loss> deepest;
 
   bool lost() const { return misses > 0; }
 };
 
-// What the search found for one method.
+// The result of the search for one method.
 struct SearchResult {
   std::string method;
   std::uint64_t tries = 0, misses = 0;
   std::uint64_t undecided = 0;  // not listed, and neither proven nor refuted to be in the cell
   double least_margin =
-      0.0;  // of the padding: roundoffs that the nearest light could be moved away and still be listed
+      0.0;  // of the padding: roundoffs by which the nearest light could be moved away and still be listed
   std::optional<Loss> deepest;
 };
 
 struct StressResult {
   std::vector<StressMethod> methods;
-  std::vector<HardCase> cases;                 // those asked for
+  std::vector<HardCase> cases;                 // the selected ones
   std::vector<std::vector<ToolCheck>> checks;  // per case
-  std::vector<StressCell> cells;               // per case and method, where the method takes a grid of the case
+  std::vector<StressCell> cells;               // per case and method, if the method supports a grid of the case
   std::vector<SearchResult> searches;          // H31
   std::optional<RandomSearch> random;
-  bool interrupted = false;  // the above is what was done by then
+  bool interrupted = false;  // then the above is incomplete
 };
 
 struct StressListener {
   std::function<void(const std::string& doing, double done, double whole)> on_progress;
 };
 
-// On `stop` it ends with the cases, searches and settings that are done.
+// On `stop` it ends with the cases, searches and settings done so far.
 StressResult run_stress(const StressRequest& request, const StressListener& listener, const std::atomic<bool>& stop);
 
 // H31 for one method: hill-climbs lights, projections and grids towards a light that touches a cell and is not listed.
@@ -90,8 +90,8 @@ SearchResult search_for_losses(const StressMethod& method, const StressRequest& 
                                const std::function<void(std::uint64_t tries)>& on_progress,
                                const std::atomic<bool>& stop);
 
-// Checks random settings, each with a seed of its own, and shrinks what it finds. What comes out does not depend on the
-// number of threads, as long as time does not end it.
+// Checks random settings, each with a seed of its own, and shrinks the faults. The result does not depend on the number
+// of threads, unless the time limit ends it.
 RandomSearch search_at_random(std::span<const StressMethod> methods, const StressRequest& request,
                               const std::function<void(std::uint64_t settings, const std::string& doing)>& on_progress,
                               const std::atomic<bool>& stop);
@@ -99,7 +99,7 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
 // Writes NAME.gltf and NAME.json into a folder, which `run NAME.json` then reproduces. Throws Error.
 void write_replay(const std::filesystem::path& folder, const std::string& name, const Loss& loss,
                   const StressMethod& method);
-// The same for a setting and all methods that take its grid.
+// The same for a setting and all methods that support its grid.
 void write_replay(const std::filesystem::path& folder, const std::string& name, const Trial& trial,
                   std::span<const StressMethod> methods);
 

@@ -51,8 +51,8 @@ double half_height(const scene::CameraProjection& projection) {
   return projection.orthographic ? projection.ymag_m : std::tan(projection.yfov_rad / 2.0);
 }
 
-// Half the width of the camera's rectangle where the viewport would crop it, else 0. Aspect ratios are written with a
-// few digits: what is less than half a pixel at each side is no difference.
+// Half the width of the camera's rectangle if the viewport would crop it, else 0. Aspect ratios are written with a few
+// digits: less than half a pixel at each side counts as no difference.
 double cropped_width(const scene::CameraProjection& projection, Vec2i viewport) {
   if (projection.sides) return 0.0;
   const double height = half_height(projection);

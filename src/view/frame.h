@@ -1,5 +1,5 @@
 #pragma once
-// One camera pose with its projection and viewport, and the lights as a grid's space sees them.
+// One camera pose with its projection and viewport, and the lights in the coordinates of a grid's space.
 
 #include <array>
 #include <cstdint>
@@ -29,8 +29,8 @@ struct Projection {
 // four sides.
 Projection make_projection(const scene::CameraProjection& projection, Vec2i viewport);
 
-// What a picture in this viewport shows beyond the camera's own rectangle, or leaves out, because the camera is wider
-// than the viewport: one line, "" if the rectangle fits.
+// The difference between a picture in this viewport and the camera's own rectangle, if the camera is wider than the
+// viewport: one line, "" if the rectangle fits.
 std::string fit_warning(const scene::CameraProjection& projection, Vec2i viewport);
 
 // A rigid frame of reference: local = rotation * (world - origin).
@@ -39,7 +39,7 @@ struct Space {
   Mat3d rotation{1.0};
 };
 
-// Lights of one type, which follow one another.
+// Lights of one type, with consecutive indices.
 struct LightRange {
   std::uint32_t first = 0, count = 0;
 
@@ -47,10 +47,10 @@ struct LightRange {
   std::uint32_t end() const { return first + count; }
 };
 
-// How many types of light are assigned, and how many of them, the first ones, are punctual: points and spots.
+// Number of assigned types of light, and of the punctual ones among them, which come first: points and spots.
 inline constexpr std::size_t k_light_types = 3, k_punctual_types = 2;
 
-// A frame's lights by type. Indices of lights, in all lists, run through the types in this order.
+// A frame's lights by type. Indices of lights, in all lists, are in the order of these types.
 struct LightRanges {
   LightRange points, spots, boxes;
 
@@ -66,33 +66,33 @@ struct LightRanges {
   std::size_t type_of(std::uint32_t light) const { return is_box(light) ? 2 : is_spot(light) ? 1 : 0; }  // of types()
 };
 
-// Lights in a space, single precision, one array per component (what an engine hands to an assigner).
+// Lights in a space, single precision, one array per component (an engine's input of an assigner).
 struct LightArrays : LightRanges {
   std::vector<float> x, y, z;  // centre or apex, each coordinate rounded to nearest
   std::vector<float> radius;   // the range, rounded up; 0 and +inf stay
-  std::vector<float> reach;    // |x| + |y| + |z| + radius: what roundoffs are relative to
+  std::vector<float> reach;    // |x| + |y| + |z| + radius: the size to which roundoffs are relative
   // Spots only; index i - spots.first. Axis is unit up to rounding.
   std::vector<float> axis_x, axis_y, axis_z, cos_angle, sin_angle;
   // Boxes only; index i - boxes.first. Each coordinate of the half axes is rounded to nearest. A box's x, y, z is its
-  // middle, its radius that of the ball around it, and its reach is what goes with that ball.
+  // middle, its radius that of the ball around it, and its reach belongs to that ball.
   std::vector<geom::HalfAxes> half_axes;
 
-  // What the numbers were rounded from, for methods that go back to it. Belongs to the frame, which must live on.
+  // The numbers before rounding, for methods that need them. Belongs to the frame, which must stay alive.
   std::span<const scene::WorldLight> source;
   Space space;
 
   bool is_empty(std::uint32_t light) const { return !(radius[light] > 0.0f); }
-  // The radius grown by a number of roundoffs: units of 2^-24 of its reach. 0: as it is.
+  // The radius increased by a number of roundoffs: units of 2^-24 of its reach. 0: unchanged.
   float padded_radius(std::uint32_t light, float roundoffs) const;
-  geom::Ball ball(std::uint32_t light, float roundoffs) const;           // of a spot that of its range
+  geom::Ball ball(std::uint32_t light, float roundoffs) const;           // for a spot that of its range
   geom::SphericalCone cone(std::uint32_t light, float roundoffs) const;  // light must be a spot
   geom::OrientedBox box(std::uint32_t light) const;                      // light must be a box
-  // A point's ball; of a spot the one around its cone, of a box the one around it.
+  // A point's ball; for a spot the one around its cone, for a box the one around it.
   geom::Ball bounding_ball(std::uint32_t light, float roundoffs) const;
   geom::LightVolume volume(std::uint32_t light) const;  // exact
 };
 
-// A light of the scene by its exact ingredients, as a space sees it.
+// A light of the scene from its exact numbers, in a space.
 geom::LightVolume volume_of(const scene::WorldLight& light, const Space& space);
 
 // A frame: everything in double precision.
@@ -102,10 +102,10 @@ struct Frame {
   Vec2i viewport{0, 0};
   Projection projection;
   Space view_space;                       // eye and view rotation
-  std::vector<scene::WorldLight> lights;  // as ranges() has them
-  std::uint32_t points = 0, boxes = 0;    // how many of them are points and boxes; the others are spots
+  std::vector<scene::WorldLight> lights;  // in the order of ranges()
+  std::uint32_t points = 0, boxes = 0;    // numbers of points and boxes; the others are spots
 
-  // Sets how many there are of each type, which come one after the other.
+  // Sets the numbers of each type; the lights are sorted by type.
   void count_types();
   LightRanges ranges() const { return {points, static_cast<std::uint32_t>(lights.size()) - points - boxes, boxes}; }
 };
@@ -122,11 +122,11 @@ PictureRay picture_ray(const Frame& frame, const Vec2d& pixel);
 // Throws Error for a frame outside of the domain (geom/shapes/domain.h).
 Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport);
 
-// What a method that uses these numbers has lost before it starts, in roundoffs: one for the centre (each coordinate is
-// off by 2^-24 of itself, so the centre by 2^-24 of its length), one for the sum that pads the radius.
+// The error of these numbers before a method starts, in roundoffs: one for the centre (each coordinate has an error of
+// 2^-24 of itself, so the centre of 2^-24 of its length), one for the sum that pads the radius.
 inline constexpr float k_given_roundoffs = 2.0f;
 
-// The frame's lights in a space: the difference to the origin is taken in double, then rounded once.
+// The frame's lights in a space: the difference to the origin is computed in double, then rounded once.
 LightArrays lights_in(const Frame& frame, const Space& space);
 
 }  // namespace clusterbench::view

@@ -16,7 +16,7 @@ constexpr float k_smallest_normal = 0x1p-14f;
 // Of a magnitude below 65520.
 std::uint16_t nearest_half(float magnitude) {
   if (magnitude < k_smallest_normal) return static_cast<std::uint16_t>(std::nearbyint(magnitude * 0x1p24f));
-  // The exponent's bias changes from 127 to 15; 13 bits fall off.
+  // The exponent's bias changes from 127 to 15; the lowest 13 bits are rounded away.
   const std::uint32_t rebased = std::bit_cast<std::uint32_t>(magnitude) - ((127u - 15u) << 23);
   const std::uint32_t is_odd = rebased >> 13 & 1u;
   return static_cast<std::uint16_t>((rebased + 0xfffu + is_odd) >> 13);

@@ -1,6 +1,6 @@
 #pragma once
-// Number formats that engines pack lights in: IEEE binary16, 16-bit unorm and snorm, unit vectors on an octahedron.
-// Encoding rounds to nearest, halves to even, except where a name says otherwise.
+// Number formats in which engines pack lights: IEEE binary16, 16-bit unorm and snorm, unit vectors on an octahedron.
+// Encoding rounds to nearest, halves to even, except if a name says otherwise.
 
 #include <cstdint>
 
@@ -15,10 +15,10 @@ std::uint16_t half_of(float value);
 // Bits of the smallest binary16 that is not below the value, which is not negative. Beyond 65504: infinity.
 std::uint16_t half_not_below(float value);
 float float_of_half(std::uint16_t bits);
-// How far a finite value can be from a number that half_of turned into it: half of the distance to the next one.
+// The largest distance between a finite value and the result of half_of: half of the distance to the next one.
 float half_rounding(float half);
 
-// A share of 0 to 1 as a multiple of 1 / 65535, -1 to 1 as one of 1 / 32767. Beyond: the end.
+// A share of 0 to 1 as a multiple of 1 / 65535, -1 to 1 as one of 1 / 32767. Clamped to the ends.
 inline constexpr double k_unorm16_steps = 65535.0, k_snorm16_steps = 32767.0;
 std::uint16_t unorm16_of(double share);
 std::uint16_t unorm16_not_below(double share);
@@ -31,8 +31,9 @@ struct Octahedral {
 };
 Octahedral octahedral_of(const Vec3d& unit);
 Vec3d unit_of(const Octahedral& point);
-// The largest angle in radians between a vector and what comes back: a point is off by e = 1/2 step in u and v, so on
-// the octahedron by sqrt(e² + e² + (2e)²) along its faces, which are nowhere nearer to the centre than 1 / sqrt(3).
+// The largest angle in radians between a vector and its decoded value: a point has an error of e = 1/2 step in u and v,
+// so on the octahedron of sqrt(e² + e² + (2e)²) along its faces, which are nowhere nearer to the centre than 1 /
+// sqrt(3).
 inline constexpr double k_octahedral_rad = 4.2426406871192857 * 0.5 / k_snorm16_steps;
 
 }  // namespace clusterbench::view

@@ -11,10 +11,10 @@ namespace clusterbench::view {
 namespace {
 
 constexpr double k_right_angle = 1.57079632679489662;
-// What single precision adds before and after packing, relative to a coordinate, and in radians.
+// Error of single precision before and after packing, relative to a coordinate, and in radians.
 constexpr double k_float_rounding = 0x1p-23, k_float_turn = 0x1p-21;
 
-// A number after unpacking, and how far what was packed can be from it.
+// A number after unpacking, and its largest distance from the packed value.
 struct Number {
   double value = 0.0, bound = 0.0;
 };
@@ -153,15 +153,15 @@ PackedLights packed_as(const LightArrays& lights) {
   return out;
 }
 
-// How to change a spot's cone so that it holds every cone that it can have been packed from.
+// The change of a spot's cone after which it contains every cone from which it can have been packed.
 struct Widening {
   double angle_rad;  // the new half-angle
-  double back_m;     // how far the apex moves back
+  double back_m;     // distance by which the apex moves back
 };
 
-// A cone of half-angle a, moved back by d / sin a, holds the ball of radius d around its old apex, and because sums of
-// its points stay in it, all cones of its directions from there. Beyond a right angle there is only the half-space;
-// it has to hold what leans back over its plane, too.
+// A cone of half-angle a, moved back by d / sin a, contains the ball of radius d around its old apex and, since sums of
+// its points stay in it, all cones of its directions from there. Beyond a right angle only the half-space is left; it
+// must contain the directions that lean back over its plane, too.
 Widening widening_of(double angle_rad, double range_m, const PackingBound& bound) {
   const double wider = angle_rad + bound.axis_rad + bound.angle_rad;
   if (wider > k_right_angle) return {k_right_angle, bound.position_m + range_m * std::sin(wider - k_right_angle)};
@@ -211,7 +211,7 @@ LightArrays inflated(const PackedLights& packed) {
     const PackingBound& bound = packed.bounds[light];
     if (out.is_empty(light) || bound.inflation_m(out.radius[light]) == 0.0) continue;
     out.is_spot(light) ? inflate_spot(out, light, bound) : inflate_point(out, light, bound);
-    // The roundoffs that methods pad for are relative to where the light may have been.
+    // The roundoffs for which methods pad are relative to the largest possible position of the light.
     out.reach[light] = reach_of(out, light, 2.0 * bound.position_m);
   }
   return out;

@@ -226,7 +226,7 @@ TEST(FittedSlices, hold_all_that_is_needed_however_thin_it_is) {
     EXPECT_GE(slices.slice_of(static_cast<float>(needed.far_m)), 0);
     EXPECT_GE(slices.slice_of(static_cast<float>(needed.near_m)), 0);
     EXPECT_LE(slices.boundaries.back(), 500.0f);
-    const Span telling = telling_span(slicing, needed);
+    const Span telling = deciding_span(slicing, needed);
     EXPECT_EQ(made(slicing, telling).boundaries, slices.boundaries) << "what tells slices apart makes the same";
   }
 }

@@ -150,7 +150,7 @@ TEST(FittedSlicesOnAPath, that_follow_surfaces_hold_every_visible_one) {
     ASSERT_FALSE(found.samples.empty());
     EXPECT_EQ(found.samples.front().counts.missed, 0u) << found.name;
     EXPECT_GT(found.samples.front().counts.needed, 0u);
-    EXPECT_LE(found.fit->moves.far_m.greatest, found.fit->asked.far_m);
+    EXPECT_LE(found.fit->moves.far_m.greatest, found.fit->range.far_m);
   }
 }
 
@@ -180,7 +180,7 @@ TEST(ConfigsFit, shows_that_following_saves_looping_that_damping_calms_and_that_
       EXPECT_EQ(in_view(fit.fitted).missed, in_view(fit.unfitted).missed) << found.name;
     }
     EXPECT_LT(in_view(fit.fitted).evaluated, in_view(fit.unfitted).evaluated) << found.name;
-    EXPECT_LE(fit.moves.far_m.greatest, fit.asked.far_m);
+    EXPECT_LE(fit.moves.far_m.greatest, fit.range.far_m);
     if (found.scene != "steps" && found.scene != "hall-1024") continue;
     if (fit.fit == grid::Fit{}) moved_at_once += fit.moves.moved.sum;
     if (fit.fit == grid::Fit{grid::Fit::To::lights, 0.9, 1.0}) moved_damped += fit.moves.moved.sum;

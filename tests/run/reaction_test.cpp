@@ -159,7 +159,7 @@ TEST(TilesThatReact, are_not_compared_with_tiles_that_make_more_cells_than_anybo
       "react": {"to": "mask-words", "most": 100}})",
                                     R"(, "assigners": ["exact-fast"])", 1));
   ASSERT_TRUE(result.cases.at(0).reaction);
-  EXPECT_EQ(result.cases[0].reaction->moves.asked, (Vec2i{160, 90}));
+  EXPECT_EQ(result.cases[0].reaction->moves.requested, (Vec2i{160, 90}));
   EXPECT_FALSE(result.cases[0].reaction->fixed);
 }
 

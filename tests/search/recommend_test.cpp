@@ -32,13 +32,13 @@ double entries(std::span<const run::CaseResult> cases) {
   return most;
 }
 
-// The least entries of all candidates that `judge` lets pass, over all frames, by run_plan().
-double least_of_all(const Walk& walk, const Judge& judge) {
+// The least entries of all candidates that `evaluate` lets pass, over all frames, by run_plan().
+double least_of_all(const Walk& walk, const Evaluate& evaluate) {
   std::map<std::string, std::vector<run::CaseResult>> candidates;
   for (const run::CaseResult& one : walk.run().cases) candidates[one.name.substr(one.name.find("grid"))].push_back(one);
   double least = 1e300;
   for (const auto& [name, cases] : candidates)
-    if (const Verdict verdict = judge(cases); verdict.broken.empty()) least = std::min(least, verdict.objective);
+    if (const Verdict verdict = evaluate(cases); verdict.broken.empty()) least = std::min(least, verdict.objective);
   return least;
 }
 
@@ -59,18 +59,22 @@ double best_of(const Found& found) {
 
 TEST(SearchView, finds_the_least_high_water_mark_and_measures_all_frames_of_the_last_ones) {
   Walk walk = small_walk(20);
-  const Judge judge = [](std::span<const run::CaseResult> cases) { return Verdict{entries(cases), 0.0, {}, false}; };
-  const Found found = searched(walk, {.judge = judge, .only_grows = true, .keep_one_in = 24, .least = 1});
+  const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
+    return Verdict{entries(cases), 0.0, {}, false};
+  };
+  const Found found = searched(walk, {.evaluate = evaluate, .only_grows = true, .keep_one_in = 24, .least = 1});
   EXPECT_TRUE(found.is_complete);
-  EXPECT_EQ(best_of(found), least_of_all(walk, judge));
+  EXPECT_EQ(best_of(found), least_of_all(walk, evaluate));
   for (const Finalist& finalist : found.finalists) EXPECT_EQ(finalist.cases[0].frames, 20);
   EXPECT_EQ(found.work.all_evaluations, 72u * 20);
 }
 
 TEST(SearchView, has_measured_what_it_planned_when_it_is_stopped_before_the_last_frames) {
   Walk walk = small_walk(20);
-  const Judge judge = [](std::span<const run::CaseResult> cases) { return Verdict{entries(cases), 0.0, {}, false}; };
-  const Request request{.judge = judge, .keep_one_in = 24, .least = 2};
+  const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
+    return Verdict{entries(cases), 0.0, {}, false};
+  };
+  const Request request{.evaluate = evaluate, .keep_one_in = 24, .least = 2};
   std::vector<View> views = views_of(walk.config, walk.plan);
   const Halving planned = planned_halving(views[0], request);
   ASSERT_EQ(planned.rungs.size(), 2u);
@@ -99,7 +103,9 @@ TEST(SearchView, has_measured_what_it_planned_when_it_is_stopped_before_the_last
 TEST(SearchView, tells_how_far_the_whole_search_is_also_while_the_last_ones_are_timed) {
   Walk walk = small_walk(6);
   walk.config.timing = {.measure = true, .rounds = 2, .min_time_ms = 0.01, .frames = 2, .launches = 1};
-  const Judge judge = [](std::span<const run::CaseResult> cases) { return Verdict{entries(cases), 0.0, {}, false}; };
+  const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
+    return Verdict{entries(cases), 0.0, {}, false};
+  };
   std::vector<View> views = views_of(walk.config, walk.plan);
   const std::atomic<bool> stop = false;
   std::vector<double> shares;
@@ -110,8 +116,8 @@ TEST(SearchView, tells_how_far_the_whole_search_is_also_while_the_last_ones_are_
                     },
                     stop};
   const SearchCosts costs{.grid_ns = 5.0, .candidate_ns = 1.0, .last_timing_ns = 100.0};
-  const Found found =
-      search_view(walk.config, walk.plan, views[0], {.judge = judge, .is_timed = true, .least = 2}, {}, watch, costs);
+  const Found found = search_view(walk.config, walk.plan, views[0],
+                                  {.evaluate = evaluate, .is_timed = true, .least = 2}, {}, watch, costs);
   EXPECT_TRUE(found.is_complete);
   EXPECT_TRUE(std::ranges::is_sorted(shares)) << "of the whole search";
   EXPECT_GT(shares.back(), 0.8);
@@ -122,8 +128,10 @@ TEST(SearchView, tells_how_far_the_whole_search_is_also_while_the_last_ones_are_
 TEST(SearchView, counts_what_it_measured_once_and_so_never_more_than_all) {
   for (const std::size_t least : {1u, 6u, 100u}) {
     Walk walk = small_walk(20);
-    const Judge judge = [](std::span<const run::CaseResult> cases) { return Verdict{entries(cases), 0.0, {}, false}; };
-    const Work work = searched(walk, {.judge = judge, .only_grows = true, .keep_one_in = 2, .least = least}).work;
+    const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
+      return Verdict{entries(cases), 0.0, {}, false};
+    };
+    const Work work = searched(walk, {.evaluate = evaluate, .only_grows = true, .keep_one_in = 2, .least = least}).work;
     EXPECT_LE(work.evaluations, work.all_evaluations) << least;
     EXPECT_LE(work.tests, work.all_tests) << least;
     EXPECT_GE(work.measurements, work.evaluations + 20) << "the frames are ordered first";
@@ -137,28 +145,28 @@ TEST(SearchView, counts_what_it_measured_once_and_so_never_more_than_all) {
 // The best at first is the worst in the end; only the bound of a mark that grows tells.
 TEST(SearchView, looks_again_at_what_was_dropped_while_it_could_still_be_better) {
   Walk walk = small_walk(20);
-  const Judge judge = [](std::span<const run::CaseResult> cases) {
+  const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
     const bool turns = cases[0].grid["cells"][2] == 16;  // poor at first, and no worse later
     const double frames = cases[0].frames;
     return Verdict{turns ? 10.0 : 9.0 + 0.1 * (frames - 1.0), 0.0, {}, false};
   };
-  const Found found = searched(walk, {.judge = judge, .only_grows = true, .keep_one_in = 24, .least = 1});
+  const Found found = searched(walk, {.evaluate = evaluate, .only_grows = true, .keep_one_in = 24, .least = 1});
   EXPECT_GT(found.challengers, 0u);
   EXPECT_EQ(best_of(found), 10.0);
-  EXPECT_EQ(searched(walk, {.judge = judge, .keep_one_in = 24, .least = 1}).challengers, 0u);
+  EXPECT_EQ(searched(walk, {.evaluate = evaluate, .keep_one_in = 24, .least = 1}).challengers, 0u);
 }
 
 TEST(SearchView, measures_nothing_again_that_is_out) {
   Walk walk = small_walk(12);
-  std::map<std::string, int> judged;
-  const Judge judge = [&](std::span<const run::CaseResult> cases) {
-    ++judged[cases[0].name];
+  std::map<std::string, int> evaluated;
+  const Evaluate evaluate = [&](std::span<const run::CaseResult> cases) {
+    ++evaluated[cases[0].name];
     const bool is_out = cases[0].assigner != "exact";
     return Verdict{entries(cases), 0.0, is_out ? std::vector<std::size_t>{0} : std::vector<std::size_t>{}, is_out};
   };
-  const Found found = searched(walk, {.judge = judge, .only_grows = true});
+  const Found found = searched(walk, {.evaluate = evaluate, .only_grows = true});
   EXPECT_EQ(found.rungs[0].out, 48u);
-  for (const auto& [name, count] : judged) {
+  for (const auto& [name, count] : evaluated) {
     const bool is_exact = name.find("-2-") != std::string::npos;
     EXPECT_TRUE(is_exact || count == 1) << name;
   }
@@ -167,12 +175,12 @@ TEST(SearchView, measures_nothing_again_that_is_out) {
 
 TEST(SearchView, keeps_what_breaks_a_mean_behind_all_others_as_more_frames_can_mend_it) {
   Walk walk = small_walk(12);
-  const Judge judge = [](std::span<const run::CaseResult> cases) {
+  const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
     const bool is_broken = cases[0].frames < 12 && cases[0].assigner != "exact";
     const double objective = cases[0].assigner == "exact" ? 2.0 : 1.0;
     return Verdict{objective, 0.0, is_broken ? std::vector<std::size_t>{0} : std::vector<std::size_t>{}, false};
   };
-  const Found found = searched(walk, {.judge = judge});
+  const Found found = searched(walk, {.evaluate = evaluate});
   ASSERT_FALSE(found.finalists.empty());
   EXPECT_EQ(found.rungs[0].out, 0u);
   EXPECT_EQ(best_of(found), 2.0) << "they came first while the others broke it";
@@ -180,7 +188,7 @@ TEST(SearchView, keeps_what_breaks_a_mean_behind_all_others_as_more_frames_can_m
 
 TEST(SearchView, adds_the_best_of_coarse_grids_that_are_within_the_share) {
   Walk walk = small_walk(12);
-  const Judge judge = [](std::span<const run::CaseResult> cases) {
+  const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
     const bool is_coarsest = cases[0].grid["cells"] == nlohmann::json{1, 1, 2};
     const double bytes = cases[0].grid["cells"][0].get<double>() * 100.0 + cases[0].grid["cells"][2].get<double>();
     return Verdict{is_coarsest ? 1.04 : 1.0, bytes, {}, false};
@@ -190,8 +198,8 @@ TEST(SearchView, adds_the_best_of_coarse_grids_that_are_within_the_share) {
       return finalist.cases[0].grid["cells"] == nlohmann::json{1, 1, 2};
     });
   };
-  EXPECT_TRUE(has_coarsest(searched(walk, {.judge = judge, .within = 0.05})));
-  EXPECT_FALSE(has_coarsest(searched(walk, {.judge = judge, .within = 0.03})));
+  EXPECT_TRUE(has_coarsest(searched(walk, {.evaluate = evaluate, .within = 0.05})));
+  EXPECT_FALSE(has_coarsest(searched(walk, {.evaluate = evaluate, .within = 0.03})));
 }
 
 TEST(SearchView, measures_candidates_on_all_cameras_and_leaves_out_what_one_of_them_lacks) {
@@ -215,8 +223,10 @@ TEST(SearchView, measures_candidates_on_all_cameras_and_leaves_out_what_one_of_t
   EXPECT_EQ(views[0].frames, 9u);
   EXPECT_EQ(views[0].incomplete, 6u);
   EXPECT_EQ(views[0].candidates.size(), 66u);
-  const Judge judge = [](std::span<const run::CaseResult> cases) { return Verdict{entries(cases), 0.0, {}, false}; };
-  const Found found = searched(walk, {.judge = judge, .only_grows = true});
+  const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
+    return Verdict{entries(cases), 0.0, {}, false};
+  };
+  const Found found = searched(walk, {.evaluate = evaluate, .only_grows = true});
   for (const Finalist& finalist : found.finalists) {
     ASSERT_EQ(finalist.cases.size(), 2u);
     EXPECT_EQ(finalist.cases[0].frames, 6);
@@ -228,24 +238,24 @@ TEST(SearchView, measures_candidates_on_all_cameras_and_leaves_out_what_one_of_t
 TEST(SearchView, times_single_frames_of_a_path) {
   Walk walk = small_walk(6);
   walk.config.timing = {true, 2, 0.01, 2, 1, false};
-  const Judge judge = [](std::span<const run::CaseResult> cases) {
+  const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
     EXPECT_TRUE(cases[0].timing.has_value());
     return Verdict{cases[0].timing ? cases[0].timing->frame_ns.median : 0.0, 0.0, {}, false};
   };
-  const Found found = searched(walk, {.judge = judge, .is_timed = true});
+  const Found found = searched(walk, {.evaluate = evaluate, .is_timed = true});
   EXPECT_FALSE(found.finalists.empty());
 }
 
 TEST(SearchView, lets_one_of_equals_go_on) {
   Walk walk = small_walk(40);
-  const Judge judge = [](std::span<const run::CaseResult> cases) {
+  const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
     const nlohmann::json& cells = cases[0].grid["cells"];
     return Verdict{100.0 * cells[0].get<double>() + cells[2].get<double>(),
                    static_cast<double>(cases[0].assigner.size()),
                    {},
                    false};
   };
-  const Found found = searched(walk, {.judge = judge, .keep_one_in = 18, .least = 4});
+  const Found found = searched(walk, {.evaluate = evaluate, .keep_one_in = 18, .least = 4});
   std::set<std::size_t> slices;
   for (const Finalist& finalist : found.finalists) {
     EXPECT_EQ(finalist.cases[0].assigner, "aabb") << "it is the smallest here";
@@ -256,11 +266,11 @@ TEST(SearchView, lets_one_of_equals_go_on) {
 
 TEST(SearchView, lets_one_of_equals_in_all_grids_go_on) {
   Walk walk = small_walk(40);
-  const Judge judge = [](std::span<const run::CaseResult> cases) {
+  const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
     const bool is_exact = cases[0].assigner == "exact";  // as a structure that has nothing of its grid
     return Verdict{is_exact ? 1.0 : 2.0 + static_cast<double>(cases[0].grid["cells"][2].get<int>()), 7.0, {}, false};
   };
-  const Found found = searched(walk, {.judge = judge, .within = -1.0, .keep_one_in = 18, .least = 4});
+  const Found found = searched(walk, {.evaluate = evaluate, .within = -1.0, .keep_one_in = 18, .least = 4});
   const auto is_exact = [](const Finalist& finalist) { return finalist.cases[0].assigner == "exact"; };
   EXPECT_EQ(std::ranges::count_if(found.finalists, is_exact), 1);
   for (const Finalist& finalist : found.finalists) {
@@ -271,8 +281,10 @@ TEST(SearchView, lets_one_of_equals_in_all_grids_go_on) {
 
 TEST(SearchView, stops_when_it_is_to) {
   Walk walk = small_walk(6);
-  const Judge judge = [](std::span<const run::CaseResult> cases) { return Verdict{entries(cases), 0.0, {}, false}; };
-  const Found found = searched(walk, {.judge = judge, .only_grows = true}, true);
+  const Evaluate evaluate = [](std::span<const run::CaseResult> cases) {
+    return Verdict{entries(cases), 0.0, {}, false};
+  };
+  const Found found = searched(walk, {.evaluate = evaluate, .only_grows = true}, true);
   EXPECT_FALSE(found.is_complete);
   EXPECT_TRUE(found.finalists.empty());
 }

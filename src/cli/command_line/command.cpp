@@ -18,8 +18,8 @@ namespace {
 template <class Number>
 constexpr Number k_largest = std::numeric_limits<Number>::max();
 
-// The whole word as a number: decimal, finite, and no larger than the type holds. The parser's own reading lets "nan"
-// pass every range and takes 2^64 for 2^64 - 1.
+// The whole word as a number: decimal, and within the range of the type. The parser's own reading accepts "nan" in
+// every range and reads 2^64 as 2^64 - 1.
 template <class Number>
 std::optional<Number> parsed_number(const std::string& word) {
   Number value{};
@@ -31,7 +31,7 @@ std::optional<Number> parsed_number(const std::string& word) {
 }
 
 template <class Number>
-std::string takes(const std::string& allowed, const std::string& word) {
+std::string range_error(const std::string& allowed, const std::string& word) {
   return std::string("takes ") + (std::is_floating_point_v<Number> ? "a number" : "a whole number") + " " + allowed +
          ", not '" + word + "'";
 }
@@ -39,19 +39,19 @@ std::string takes(const std::string& allowed, const std::string& word) {
 constexpr const char* k_of_its_type = "of its type";
 constexpr const char* k_of_a_text = "of a text";
 
-// An empty word, which an unset variable of a script becomes, would pass for an option that was not given.
+// Rejects an empty word, which an unset variable of a script becomes: it would look like an option that was not given.
 CLI::Option* with_text(CLI::Option* option) {
   const auto check = [](const std::string& word) { return word.empty() ? "takes a text that is not empty" : ""; };
   return option->check(check, "", k_of_a_text);
 }
 
-// What a type can hold, where no narrower range is given.
+// The range of the type, if no narrower range is given.
 template <class Number>
 CLI::Option* with_number(CLI::Option* option) {
   const auto check = [](const std::string& word) -> std::string {
     if (parsed_number<Number>(word)) return "";
     if (std::is_floating_point_v<Number>) return "takes a number, not '" + word + "'";
-    return takes<Number>(
+    return range_error<Number>(
         "from " + std::to_string(std::numeric_limits<Number>::min()) + " to " + std::to_string(k_largest<Number>),
         word);
   };
@@ -62,7 +62,7 @@ template <class Number>
 void limit(CLI::Option& option, Number least, Number most, const std::string& allowed) {
   const auto check = [=](const std::string& word) -> std::string {
     const std::optional<Number> value = parsed_number<Number>(word);
-    return value && *value >= least && *value <= most ? "" : takes<Number>(allowed, word);
+    return value && *value >= least && *value <= most ? "" : range_error<Number>(allowed, word);
   };
   option.get_validator(k_of_its_type)->active(false);
   option.check(check, allowed);
@@ -120,7 +120,7 @@ Option& Option::non_negative() {
 }
 
 Option& Option::one_of(std::vector<std::string> words) {
-  CLI::Validator known = CLI::IsMember(words);  // completions read its description
+  CLI::Validator known = CLI::IsMember(words);  // read by completions
   known.operation([words = std::move(words)](std::string& word) {
     if (std::ranges::find(words, word) != words.end()) return std::string();
     return "no '" + word + "'" + did_you_mean(word, words) + "; there are: " + joined(words);
@@ -222,7 +222,7 @@ std::vector<std::string> command_names(const CLI::App& command) {
   return names;
 }
 
-// What is wrong with a word that the parser could not use.
+// The problem with a word that the parser could not use.
 std::string complaint(const CLI::App& command, const std::string& word) {
   const std::vector<std::string> commands = command_names(command);
   if (word.starts_with('-')) {
@@ -238,7 +238,7 @@ bool names_unknown_command(const CLI::App& program) {
   return !words.empty() && !words.front().starts_with('-') && !command_names(named_command(program)).empty();
 }
 
-// The parser knows what a line lacks, but of a word that it does not know only that it was not expected.
+// The parser reports missing parts of a line, but for an unknown word only that it was not expected.
 [[noreturn]] void refuse(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App& command = named_command(program);
   for (const std::string& word : program.remaining(true))

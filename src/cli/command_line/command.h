@@ -1,6 +1,6 @@
 #pragma once
-// A command of the command line, with its options. The parser itself (CLI11) stays behind it: it is a large header, and
-// all commands together would take minutes to build.
+// A command of the command line, with its options. The parser itself (CLI11) is hidden behind it: its header is large,
+// and all commands together would take minutes to build.
 
 #include <cstdint>
 #include <functional>
@@ -28,7 +28,7 @@ class Option {
   Option& positive_to(double most);
   Option& non_negative();
   Option& one_of(std::vector<std::string> words);
-  Option& may_be_empty();  // a text, which else may not
+  Option& may_be_empty();  // a text, which otherwise may not be empty
   Option& once_a_name();   // --name A --name B, not --name A B
   Option& needs(const Option& other);
 
@@ -36,7 +36,7 @@ class Option {
   CLI::Option* option_;
 };
 
-// Values that options are read into must live as long as the parser.
+// Variables that receive option values must live as long as the parser.
 class Command {
  public:
   explicit Command(CLI::App* app) : app_(app) {}
@@ -49,11 +49,11 @@ class Command {
   Option add_option(const std::string& names, std::uint64_t& value, const std::string& summary);
   Option add_option(const std::string& names, double& value, const std::string& summary);
   Option add_flag(const std::string& names, bool& is_set, const std::string& summary);
-  // "--count{auto}": stands for that value if it has none.
+  // "--count{auto}": the value in braces is used if none is given.
   Option add_flag(const std::string& names, std::string& value, const std::string& summary);
   void needs_command();
   void footer(const std::string& text);
-  // Called when the user names it, once all is read.
+  // Called after parsing if the user names this command.
   void when_named(std::function<void()> call);
 
   const CLI::App& parser() const { return *app_; }

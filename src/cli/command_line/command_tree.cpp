@@ -63,7 +63,8 @@ Values anything() {
   return {};
 }
 
-// What the parser does not know of its texts. All others are files, unless the parser has a list (CLI::IsMember).
+// Value lists of texts that the parser does not know. All other texts are files, unless the parser has a list
+// (CLI::IsMember).
 struct WordsRow {
   const char *command, *option;
   Values (*values)();
@@ -145,10 +146,10 @@ OptionNode option_node(const CLI::Option& option, const std::string& path) {
   node.description = option.get_description();
   const WordsRow* row = words_row(path, node.names.back());
   const bool is_flag = option.get_expected_min() == 0 || option.get_items_expected_max() == 0;
-  node.takes_value = !is_flag || row != nullptr;
+  node.needs_value = !is_flag || row != nullptr;
   node.is_value_optional = is_flag && row != nullptr;
   node.is_repeatable = option.get_items_expected_max() > 1;
-  if (node.takes_value) node.values = values_of(option, row);
+  if (node.needs_value) node.values = values_of(option, row);
   return node;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// The command line as data: what completions and the manual page are made of. Read from the parser itself, so that a
-// new option is in all of them.
+// The command line as data: input of completions and the manual page. Read from the parser itself, so that a new option
+// is in all of them.
 
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace clusterbench::cli {
 
-// What can stand for an option's value or an argument.
+// Possible values of an option or an argument.
 struct Values {
   enum class Kind {
-    free,         // a number, a pattern: nothing to offer
+    free,         // a number, a pattern: no suggestions
     files,        // the shell's own completion
     words,        // one of `words`
     named_files,  // one of `words`, an equals sign and a file
@@ -24,7 +24,7 @@ struct Values {
 struct OptionNode {
   std::vector<std::string> names;  // "-o", "--output"
   std::string description;
-  bool takes_value = false, is_value_optional = false;  // an optional value comes with an equals sign only
+  bool needs_value = false, is_value_optional = false;  // an optional value needs an equals sign
   bool is_repeatable = false;
   Values values;
 };
@@ -43,10 +43,10 @@ struct CommandNode {
   std::vector<CommandNode> commands;
 };
 
-// Without what the help leaves out, too.
+// Includes the options that the help leaves out.
 CommandNode command_tree(const Command& program);
 
-// The program and all commands below it, each before its own.
+// The program and all commands below it; a parent comes before its children.
 std::vector<const CommandNode*> all_commands(const CommandNode& root);
 
 // "FILE", "FORMAT=FILE", or the option's name in capitals.

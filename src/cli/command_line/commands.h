@@ -1,5 +1,5 @@
 #pragma once
-// The subcommands. Each add_* hangs one subcommand into the tree and, when the user names it, sets `action`.
+// The subcommands. Each add_* adds one subcommand to the tree and sets `action` when the user names it.
 
 #include "cli/command_line/command.h"
 #include "core/error.h"
@@ -28,7 +28,7 @@ void add_completion(Command& program, Action& action);
 void add_man(Command& program, Action& action);
 void add_version(Command& program, Action& action);
 
-// Parses the command line and does what it says. Throws Error.
+// Parses the command line and runs its command. Throws Error.
 int run_command_line(int argc, char** argv);
 
 }  // namespace clusterbench::cli

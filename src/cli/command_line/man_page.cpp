@@ -3,7 +3,7 @@
 namespace clusterbench::cli {
 namespace {
 
-// Text as roff prints it: no control line, no escape, dashes that can be copied, one sentence per line.
+// Text escaped for roff: no control line, no escape, dashes that can be copied, one sentence per line.
 std::string escaped(const std::string& text) {
   std::string out;
   bool starts_line = true;
@@ -30,7 +30,7 @@ std::string italic(const std::string& text) {
 std::string option_heading(const OptionNode& option) {
   std::string heading;
   for (const std::string& name : option.names) heading += (heading.empty() ? "" : ", ") + bold(name);
-  if (!option.takes_value) return heading;
+  if (!option.needs_value) return heading;
   return heading +
          (option.is_value_optional ? "[=" + italic(placeholder(option)) + "]" : " " + italic(placeholder(option)));
 }

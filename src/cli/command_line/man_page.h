@@ -1,5 +1,5 @@
 #pragma once
-// The manual page, section 1, in the man macros of roff, written from the command tree.
+// The manual page, section 1, in the man macros of roff, generated from the command tree.
 
 #include <string>
 

@@ -1,4 +1,4 @@
-// `clusterbench compare BASE NEW`: has anything become slower, or anything counted changed?
+// `clusterbench compare BASE NEW`: has anything become slower, or any count changed?
 
 #include <fstream>
 #include <iostream>
@@ -21,7 +21,7 @@ struct CompareFlags {
   bool gates_separate = false, is_strict = false, is_forced = false;
 };
 
-// Who asks for a gate on times is told when there can be none.
+// Reports a gate on times that cannot be applied.
 void check_gate(const CompareFlags& flags, const nlohmann::ordered_json& comparison) {
   if (!flags.gates_separate || !comparison["left_out"].contains("times")) return;
   throw Error(flags.next, "",
@@ -43,7 +43,8 @@ ExitCode compare(const CompareFlags& flags) {
   if (!flags.markdown.empty()) write_text(flags.markdown, report::comparison_markdown(comparison));
   if (!flags.json.empty()) write_output(flags.json, comparison);
   const ExitCode code = report::outcome(comparison, flags.is_strict);
-  if (code == ExitCode::nothing_comparable) tell(report::advice_on_nothing(base, next, flags.base, flags.next));
+  if (code == ExitCode::nothing_comparable)
+    print_message(report::advice_on_nothing(base, next, flags.base, flags.next));
   return code;
 }
 

@@ -1,4 +1,4 @@
-// `clusterbench completion SHELL` and `clusterbench man`: what packages install beside the program.
+// `clusterbench completion SHELL` and `clusterbench man`: files that packages install beside the program.
 
 #include <iostream>
 #include <memory>

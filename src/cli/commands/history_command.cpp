@@ -32,20 +32,21 @@ ExitCode add(const AddFlags& flags) {
   const report::Addition addition = report::add_to_history(flags.file, result, commit);
   const std::string before = number_of(addition.earlier, "result") + " of " + commit;
   if (!addition.is_added)
-    tell(flags.file + " has this result of " + commit + " already; nothing was added");
+    print_message(flags.file + " has this result of " + commit + " already; nothing was added");
   else if (addition.earlier > 0)
-    tell(flags.file + " had " + before + " already; added behind it as one more");
+    print_message(flags.file + " had " + before + " already; added behind it as one more");
   if (addition.is_added && addition.other_names > 0)
-    tell("warning: " + flags.file + " has " + number_of(addition.other_names, "other name") +
-         " (hard links), which keep the history without this line");
+    print_message("warning: " + flags.file + " has " + number_of(addition.other_names, "other name") +
+                  " (hard links), which keep the history without this line");
   for (const std::string& change : addition.light_changes)
-    tell((flags.allows_changed_lights ? "warning: " : "FAILED ") + change +
-         (flags.allows_changed_lights ? ""
-          : addition.is_added ? " (the result was added all the same; --allow-changed-lights if the change is meant)"
-                              : " (--allow-changed-lights if that is meant)"));
-  for (const std::string& change : addition.path_changes) tell("warning: " + change);
+    print_message((flags.allows_changed_lights ? "warning: " : "FAILED ") + change +
+                  (flags.allows_changed_lights ? ""
+                   : addition.is_added
+                       ? " (the result was added all the same; --allow-changed-lights if the change is meant)"
+                       : " (--allow-changed-lights if that is meant)"));
+  for (const std::string& change : addition.path_changes) print_message("warning: " + change);
   for (const std::string& scene : addition.new_scenes)
-    tell("warning: " + flags.file + " has no earlier lights of " + scene + " to hold these against");
+    print_message("warning: " + flags.file + " has no earlier lights of " + scene + " to hold these against");
   return addition.light_changes.empty() || flags.allows_changed_lights ? ExitCode::ok : ExitCode::gate_failed;
 }
 

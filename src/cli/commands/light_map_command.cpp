@@ -1,4 +1,4 @@
-// `clusterbench light-map SCENE...`: what a bit per light and texel of static meshes would take.
+// `clusterbench light-map SCENE...`: the size of a map with one bit per light and texel of static meshes.
 
 #include <charconv>
 #include <iostream>
@@ -73,7 +73,7 @@ ExitCode light_map(const LightMapFlags& flags) {
   output.write(report::light_maps_to_json(scenes, request));
   if (!flags.quiet)
     (for_reading ? std::cout : std::cerr) << printable_lines(report::light_maps_text(scenes, request)) << std::flush;
-  if (for_reading) tell_of_keeping();
+  if (for_reading) warn_result_not_saved();
   return ExitCode::ok;
 }
 

@@ -117,9 +117,9 @@ std::string words(const Json& array) {
   return text;
 }
 
-// Parameters that many methods share are explained at the first one. `explained`: what was explained at which.
+// Parameters that many methods share are explained at the first one. `explained`: explanation -> first method with it.
 void print_params(const Json& row, std::map<std::string, std::string>& explained) {
-  std::map<std::string, std::string> as_for;  // method -> its parameters that this one has, too
+  std::map<std::string, std::string> as_for;  // method -> parameters that it explains for this one
   for (const Json& param : row["params"]) {
     const std::string assignment = param["name"].get<std::string>() + " = " + word_of(param["default"]);
     const auto [earlier, is_new] = explained.emplace(param.dump(), row["name"]);
@@ -138,7 +138,7 @@ void print_params(const Json& row, std::map<std::string, std::string>& explained
   for (const auto& [method, shared] : as_for) std::cout << "      " << shared << ": as for " << method << "\n";
 }
 
-// What a configuration would say, in a line.
+// The settings of a preset as in a configuration, in one line.
 std::string parts_text(const Json& preset) {
   std::string text = preset["grid"].dump() + " " + preset["assigner"].dump();
   for (const char* part : {"storage", "pre_cull"})

@@ -30,8 +30,8 @@ ExitCode show_ratios(const RatioFlags& flags) {
   if (!flags.csv.empty()) write_text(flags.csv, report::ratio_csv(ratios));
   if (!flags.json.empty()) write_output(flags.json, ratios);
   if (!flags.markdown.empty()) write_text(flags.markdown, report::ratio_markdown(ratios, flags.all_pairs));
-  const auto takes_standard_output = [](const std::string& output) { return output == "-"; };
-  if (std::ranges::none_of(std::array{flags.csv, flags.json, flags.markdown}, takes_standard_output))
+  const auto is_standard_output = [](const std::string& output) { return output == "-"; };
+  if (std::ranges::none_of(std::array{flags.csv, flags.json, flags.markdown}, is_standard_output))
     std::cout << printable_lines(report::ratio_table(ratios, flags.all_pairs));
   return ExitCode::ok;
 }

@@ -1,4 +1,4 @@
-// `clusterbench recommend SCENE|CONFIG`: which clustering to take, and why.
+// `clusterbench recommend SCENE|CONFIG`: which clustering to use, and why.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// "--frame-us-max" of "frame_us.max".
+// "--frame-us-max" for "frame_us.max".
 std::string flag_of(const std::string& figure) {
   std::string flag = "--" + figure;
   std::ranges::replace(flag, '_', '-');
@@ -70,11 +70,11 @@ std::vector<config::LimitRule> rules_of(const RecommendFlags& flags, const confi
   return rules;
 }
 
-// What a configuration asks for and no choice depends on.
-std::string asked_in_vain(const config::Config& config) {
+// Keys of the configuration that cannot change the choice.
+std::string ignored_keys(const config::Config& config) {
   std::string keys;
-  const auto add = [&](bool is_asked, const char* key) {
-    if (is_asked) keys += (keys.empty() ? "" : ", ") + std::string(key);
+  const auto add = [&](bool is_present, const char* key) {
+    if (is_present) keys += (keys.empty() ? "" : ", ") + std::string(key);
   };
   add(config.details.has_value(), "details");
   add(config.stability.has_value(), "stability");
@@ -83,12 +83,12 @@ std::string asked_in_vain(const config::Config& config) {
   return keys;
 }
 
-// `in_vain`: which keys it leaves out.
-config::Config read_input(const RecommendFlags& flags, std::string& in_vain) {
+// `ignored`: receives the keys that are left out.
+config::Config read_input(const RecommendFlags& flags, std::string& ignored) {
   nlohmann::json standard = search::recommend_space();
   standard["samples"] = {{"opaque", {{"divisor", 16}}}};
   config::Config config = read_inputs(flags.inputs, {}, standard);
-  in_vain = asked_in_vain(config);
+  ignored = ignored_keys(config);
   config.details.reset();
   config.stability.reset();
   for (const char* key : {"details", "stability"}) config.resolved[key] = nullptr;
@@ -98,24 +98,24 @@ config::Config read_input(const RecommendFlags& flags, std::string& in_vain) {
   return config;
 }
 
-// A preset whose engine makes its lists on a GPU, which no time here is that of; "" without any.
+// A preset whose engine makes its lists on a GPU, so that times measured here are not the engine's; "" without any.
 std::string preset_on_gpu(const config::Config& config) {
   for (const config::PresetChoice& choice : config.presets)
     if (config::find_preset(choice.preset)->assigns_on == config::AssignsOn::gpu) return choice.preset;
   return "";
 }
 
-// What is least where nobody says: the modelled cost of a frame; that of the GPU alone without times, and where they
-// are not all that is to be chosen from.
+// The default objective: the modelled cost of a frame; without times, or if not all candidates have them, the GPU's
+// part alone.
 report::ObjectiveFigure objective_of(const RecommendFlags& flags, const config::Config& config) {
   const bool has_times = !flags.no_timing && preset_on_gpu(config).empty();
   const std::string standard = has_times ? "frame_cost_us" : "gpu_cost_us";
   return report::objective_figure(flags.objective.empty() ? standard : flags.objective);
 }
 
-// A cost is that of samples with a weight. A scene without triangles has no surfaces to shade: then each pixel is
-// shaded once at a random depth of its view. Whether that is so.
-bool weigh_samples(config::Config& config, const run::Plan& plan) {
+// Costs need samples with a weight. A scene without triangles has no surfaces to shade: then each pixel is shaded once
+// at a random depth of its view. Returns whether that is the case.
+bool weight_volume_samples(config::Config& config, const run::Plan& plan) {
   nlohmann::json& weights = config.resolved["cost"]["weights"];
   const auto has_cost = [&](const config::SampleSetRequest& set) {
     return weights[measure::name_of(set.set)] != 0.0 &&
@@ -141,8 +141,8 @@ bool check_timing(const RecommendFlags& flags, const report::Question& question,
   return true;
 }
 
-// "next: clusterbench size choice.json": what sizes the buffers of the choice, of a level over its whole paths. ""
-// where nothing is chosen, or more than one configuration holds.
+// "next: clusterbench size choice.json": the command that sizes the buffers of the choice; for a level, over its whole
+// paths. "" if nothing is chosen, or if one configuration cannot hold the choices.
 std::string next_text(const RecommendFlags& flags, const Json& recommendation) {
   if (recommendation["answers"].size() != 1 || recommendation["answers"][0]["choice"].is_null()) return "";
   const bool is_level = std::ranges::all_of(flags.inputs.paths, is_scene);
@@ -160,7 +160,7 @@ ExitCode write_and_show(const RecommendFlags& flags, const Json& recommendation)
   return report::all_satisfied(recommendation) ? ExitCode::ok : ExitCode::gate_failed;
 }
 
-// What the search can take, before it begins: candidates on frames.
+// The limits of the search, printed before it begins: candidates on frames.
 std::string budget_text(const run::Plan& plan, const search::View& view, const search::Request& request) {
   const search::Halving planned = search::planned_halving(view, request);
   std::string out = plan.scenes[view.scene].scene.name + ": " + number_of(view.candidates.size(), "candidate") + ", " +
@@ -171,9 +171,9 @@ std::string budget_text(const run::Plan& plan, const search::View& view, const s
   return out + ", " + std::to_string(planned.finalists.size()) + " and what may still be better on all frames";
 }
 
-// Of answers before the stop and of the search that it ended.
-ExitCode tell_what_there_is(const config::Config& config, const report::Question& question, const Json& answers,
-                            const search::View& view, const search::Found& found) {
+// Prints the answers before the stop, and the state of the interrupted search.
+ExitCode print_partial_answers(const config::Config& config, const report::Question& question, const Json& answers,
+                               const search::View& view, const search::Found& found) {
   if (!answers.empty())
     std::cerr << printable_lines(
         report::recommendation_text(report::recommendation_to_json(config, question, answers)));
@@ -181,14 +181,13 @@ ExitCode tell_what_there_is(const config::Config& config, const report::Question
   return os::stopped_exit_code();
 }
 
-// The searches of a command, each with what it is about to take; no costs where nobody is told.
+// The searches of a command with their estimated costs; without costs if they are not printed.
 struct Searches {
   std::vector<search::View> views;
   std::vector<search::SearchCosts> costs;
 };
 
-// The first line.
-void tell_duration(const config::Config& config, run::Plan& plan, const search::Request& request, Searches& searches) {
+void print_duration(const config::Config& config, run::Plan& plan, const search::Request& request, Searches& searches) {
   double all_s = 0.0, counting_s = 0.0;
   std::size_t candidates = 0;
   for (std::size_t i = 0; i < searches.views.size(); ++i) {
@@ -202,31 +201,31 @@ void tell_duration(const config::Config& config, run::Plan& plan, const search::
   if (all_s - counting_s > 0.2 * all_s) shorter.push_back("--no-timing (" + duration_text(counting_s) + ")");
   shorter.insert(shorter.end(), {"--tiles 64,128", "--slices 16", "--grid frustum", "--assigner exact-fast,aabb-fast",
                                  "--filter TEXT"});
-  tell(wait_text(number_of(candidates, "candidate"), all_s, shorter));
+  print_message(wait_text(number_of(candidates, "candidate"), all_s, shorter));
 }
 
-// Behind the first line: what is left out, and what is doubtful.
-void tell_what_is_asked(const config::Config& config, const run::Plan& plan, const std::string& in_vain) {
-  if (!in_vain.empty()) tell("recommend compares costs and leaves out " + in_vain + "; run reports them");
-  tell_of_cameras(config, plan);
+// Printed after the duration: ignored keys and warnings.
+void print_notes(const config::Config& config, const run::Plan& plan, const std::string& ignored) {
+  if (!ignored.empty()) print_message("recommend compares costs and leaves out " + ignored + "; run reports them");
+  print_other_cameras(config, plan);
 }
 
 void warn_of_random_depths() {
-  tell(
+  print_message(
       "warning: the scene has no triangles: each pixel is shaded at a random depth, where no surface is, and surfaces "
       "can "
       "make another clustering the best; export the level's meshes with its lights, or take a floor: --set "
       "samples.opaque.ground=lowest, or =Y for one at that height");
 }
 
-bool asks_for_cost(const report::Question& question) {
+bool needs_cost(const report::Question& question) {
   return question.objective.is_cost ||
          std::ranges::any_of(question.constraints, [](const report::Constraint& constraint) {
            return constraint.rule.figure.ends_with("_cost_us");
          });
 }
 
-// All searches; the answers of those before a stop, and then the exit code of that.
+// Runs all searches; fills `answers`. Returns the exit code if stopped.
 std::optional<ExitCode> search_all(const RecommendFlags& flags, const config::Config& config, run::Plan& plan,
                                    const report::Question& question, const search::Request& request, Searches& searches,
                                    Json& answers) {
@@ -238,10 +237,10 @@ std::optional<ExitCode> search_all(const RecommendFlags& flags, const config::Co
                             [&](const std::string& stage) { progress.stage(stage); }};
   for (std::size_t i = 0; i < searches.views.size(); ++i) {
     search::View& view = searches.views[i];
-    if (!flags.quiet) tell(budget_text(plan, view, request));
+    if (!flags.quiet) print_message(budget_text(plan, view, request));
     const search::Found found = search::search_view(config, plan, view, request, launcher, watch, searches.costs[i]);
     progress.clear();
-    if (stop) return tell_what_there_is(config, question, answers, view, found);
+    if (stop) return print_partial_answers(config, question, answers, view, found);
     answers.push_back(report::answer_to_json(config, plan, view, found, question));
   }
   return std::nullopt;
@@ -249,8 +248,8 @@ std::optional<ExitCode> search_all(const RecommendFlags& flags, const config::Co
 
 ExitCode recommend(const RecommendFlags& flags) {
   refuse_overwriting({flags.output, flags.written}, flags.inputs.paths);
-  std::string in_vain;
-  config::Config config = read_input(flags, in_vain);
+  std::string ignored;
+  config::Config config = read_input(flags, ignored);
   report::Question question{objective_of(flags, config), {}, share_of(flags.within), flags.runners_up};
   if (config.own_pre_culls > 1)
     throw Error(config.file.string(), "pre_cull",
@@ -264,7 +263,7 @@ ExitCode recommend(const RecommendFlags& flags) {
   refuse_overwriting({flags.output, flags.written}, files_of(flags.inputs, config));
   for (const std::string& output : {flags.output, flags.written})
     if (!output.empty() && !is_stream(output)) os::OutputFile(output).probe();
-  const bool has_random_depths = asks_for_cost(question) && weigh_samples(config, plan);
+  const bool has_random_depths = needs_cost(question) && weight_volume_samples(config, plan);
   Searches searches{search::views_of(config, plan), {}};
   searches.costs.resize(searches.views.size());
   if (!flags.written.empty() && searches.views.size() != 1)
@@ -272,8 +271,8 @@ ExitCode recommend(const RecommendFlags& flags) {
                 "takes one scene in one viewport; these are " + std::to_string(searches.views.size()));
   const search::Request request{report::judge_of(question, config.resolved), is_timed, question.objective.only_grows,
                                 question.within};
-  if (!flags.quiet) tell_duration(config, plan, request, searches);
-  tell_what_is_asked(config, plan, in_vain);
+  if (!flags.quiet) print_duration(config, plan, request, searches);
+  print_notes(config, plan, ignored);
   if (has_random_depths) warn_of_random_depths();
   Json answers = Json::array();
   if (const auto stopped = search_all(flags, config, plan, question, request, searches, answers)) return *stopped;

@@ -58,11 +58,10 @@ struct RunFlags {
   GateFlags gates;
   ImageFlags images;
 
-  // Only where this program is measured beside another one.
+  // Set only if this program is measured beside another one.
   int rounds_server = 0;
 
-  // Only where a run has started this program again: as a launch, or under callgrind. What is to be run comes on
-  // standard input.
+  // Set only in a child process of a run: a launch, or a count under callgrind. Its input comes on standard input.
   bool serves_launch = false;
   std::string count_dumps;
 };
@@ -90,7 +89,7 @@ std::size_t case_count(const run::Plan& plan) {
   return count;
 }
 
-// Methods on kinds of grids that they do not take are many and expected: one line. Of others a line for each reason.
+// Methods on unsupported kinds of grids are many and expected: one line for all. Others get a line per reason.
 void print_skipped(const std::vector<run::Skipped>& skipped) {
   struct Line {
     std::string reason, first;
@@ -118,8 +117,7 @@ void print_skipped(const std::vector<run::Skipped>& skipped) {
               << " of a method with a kind of grid that it does not take (`clusterbench list` tells which it takes)\n";
 }
 
-// Before a run that somebody waits for.
-void tell_duration(const config::Config& config, const run::Plan& plan, std::span<const run::GroupCost> costs) {
+void print_duration(const config::Config& config, const run::Plan& plan, std::span<const run::GroupCost> costs) {
   constexpr double k_soon_s = 5.0;
   const double all_s = run::sum_s(costs), timing_s = run::sum_of_timing_s(costs);
   if (all_s < k_soon_s) return;
@@ -130,24 +128,24 @@ void tell_duration(const config::Config& config, const run::Plan& plan, std::spa
   }
   shorter.insert(shorter.end(), {"--filter TEXT", "--set 'scenes.*.frames=10'"});
   if (config.check_accuracy && !config.most_pairs) shorter.emplace_back("--set accuracy.most_pairs=1000000");
-  tell(wait_text(number_of(case_count(plan), "case"), all_s, shorter));
+  print_message(wait_text(number_of(case_count(plan), "case"), all_s, shorter));
 }
 
-// The configuration without what no result depends on.
-Json what_is_measured(const config::Config& config) {
+// The configuration without the keys that do not change results.
+Json measured_config(const config::Config& config) {
   Json out = config.resolved;
   out.erase("threads");
   for (const char* gate : {"fail_if", "baseline", "allow_no_lights", "allow_changed_lights"}) out["limits"].erase(gate);
   return out;
 }
 
-// What an interrupted run must have had in common with the one that continues it.
+// The facts that must be the same in an interrupted run and the run that continues it.
 Json journal_header(const config::Config& config, const run::Plan& plan, const RunFlags& flags) {
   const run::ToolFacts tool = run::tool_facts();
   Json scenes = Json::array();
   for (const run::SceneData& data : plan.scenes) scenes.push_back(data.contents_sha256());
   Json header{{"version", tool.version}, {"git_sha", tool.git_sha}, {"flags", tool.flags},
-              {"scenes", scenes},        {"filter", flags.filter},  {"config", what_is_measured(config)}};
+              {"scenes", scenes},        {"filter", flags.filter},  {"config", measured_config(config)}};
   if (!flags.count.empty()) header["count"] = flags.count;
   return header;
 }
@@ -183,12 +181,12 @@ ExitCode print_plan(const RunFlags& flags, const config::Config& config, run::Pl
             << "\n";
   for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
     const run::SceneResult scene = run::scene_result(plan.scenes[i], config.scenes[i], config.viewports);
-    for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
+    for (const std::string& warning : scene.warnings) print_message("warning: " + scene.name + ": " + warning);
   }
   return ExitCode::ok;
 }
 
-// A file gets a journal; a device or a pipe takes the result at the end.
+// A file gets a journal; a device or a pipe gets the result at the end.
 std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const config::Config& config,
                                               const run::Plan& plan) {
   constexpr std::uint64_t k_bytes_per_case = 24 << 10;
@@ -200,45 +198,45 @@ std::unique_ptr<report::Journal> open_journal(const RunFlags& flags, const confi
   auto journal = std::make_unique<report::Journal>(flags.output, journal_header(config, plan, flags), flags.resume,
                                                    per_case * case_count(plan));
   if (flags.resume && journal->is_empty())
-    tell("--resume begins anew: nothing that an interrupted run has measured is in " +
-         journal->partial_path().string());
+    print_message("--resume begins anew: nothing that an interrupted run has measured is in " +
+                  journal->partial_path().string());
   if (!journal->set_aside().empty())
-    tell(journal->partial_path().string() + ", left by a run that did not end, is now " +
-         journal->set_aside().string() + " (--resume goes on with such a file)");
+    print_message(journal->partial_path().string() + ", left by a run that did not end, is now " +
+                  journal->set_aside().string() + " (--resume goes on with such a file)");
   return journal;
 }
 
-// For messages about a run that ends early: where its finished cases are.
-std::string what_is_kept(const report::Journal* journal) {
+// For messages about a run that ends early: the place of its finished cases.
+std::string saved_cases_text(const report::Journal* journal) {
   if (journal == nullptr || journal->is_empty()) return "";
   return "; what was measured is in " + journal->partial_path().string() + ", --resume goes on";
 }
 
-Error with_what_is_kept(const Error& error, const report::Journal* journal) {
-  return Error(error.file(), error.where(), error.message() + what_is_kept(journal), error.code());
+Error with_saved_cases(const Error& error, const report::Journal* journal) {
+  return Error(error.file(), error.where(), error.message() + saved_cases_text(journal), error.code());
 }
 
 ExitCode interrupted(const report::Journal* journal) {
   if (journal == nullptr)
-    tell(
+    print_message(
         "interrupted; nothing is kept without a file: -o FILE keeps each case as it is finished, and then --resume "
         "goes on");
   else if (journal->is_empty())
-    tell(
+    print_message(
         "interrupted before a case was finished, so nothing is kept: the same command begins anew; once some are, "
         "--resume goes on");
   else
-    tell("interrupted" + what_is_kept(journal));
+    print_message("interrupted" + saved_cases_text(journal));
   return os::stopped_exit_code();
 }
 
 ExitCode report_gates(const result::Result& result) {
   const std::vector<std::string> failures = report::gate_failures(result);
-  for (const std::string& failure : failures) tell("FAILED " + failure);
+  for (const std::string& failure : failures) print_message("FAILED " + failure);
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 
-// What makes the same plan in another program, which can be older and know neither budgets nor launches.
+// Arguments for the same plan in another program, which can be older and know neither budgets nor launches.
 std::vector<std::string> plan_arguments(const RunFlags& flags) {
   std::vector<std::string> arguments;
   if (!flags.filter.empty()) arguments.push_back("--filter=" + flags.filter);
@@ -249,7 +247,7 @@ std::vector<std::string> plan_arguments(const RunFlags& flags) {
   return arguments;
 }
 
-// False once it is to stop.
+// False if stopped.
 bool add_baseline(const RunFlags& flags, const config::Config& config, const run::Plan& plan, ProgressLine& progress,
                   const report::Journal* journal, const std::atomic<bool>& stop, result::Result& result) {
   run::Progress now;
@@ -263,21 +261,22 @@ bool add_baseline(const RunFlags& flags, const config::Config& config, const run
     measure_beside(flags.baseline, plan_arguments(flags), config, plan, on_round, stop, result);
   } catch (const Error& error) {
     progress.clear();
-    if (!stop) throw with_what_is_kept(error, journal);
+    if (!stop) throw with_saved_cases(error, journal);
   }
   progress.clear();
   return !stop;
 }
 
-// What a finished run is held against.
+// The checks of a finished run.
 struct Verdicts {
-  Json comparison = Json::object();  // with the program beside it, whose gates hold those of the run; empty without one
-  std::string changes;               // since the baseline
+  // with the program beside it; its gates include those of the run; empty without one
+  Json comparison = Json::object();
+  std::string changes;  // since the baseline
   std::vector<report::LimitFindings> findings;
 };
 
-// The result says what it failed for, too.
-Verdicts judge(const RunFlags& flags, const Gates& gates, result::Result& result) {
+// Also writes the failures into the result.
+Verdicts verdicts_of(const RunFlags& flags, const Gates& gates, result::Result& result) {
   Verdicts verdicts;
   if (!flags.baseline.binary.empty())
     verdicts.comparison = report::compare_results(result, result, flags.baseline.threshold_percent / 100.0);
@@ -325,7 +324,7 @@ std::vector<std::string> ids_left(const run::Plan& plan, const std::vector<std::
   return ids;
 }
 
-// Before all else: what cannot be counted is known at once, and nothing that is timed runs beside it.
+// Counting comes first: errors are reported at once, and no timed work runs at the same time.
 run::Counts count_instructions(CountWay way, const CountTask& task, ProgressLine& progress,
                                const std::atomic<bool>& stop) {
   run::Progress now;
@@ -344,7 +343,7 @@ run::Counts count_instructions(CountWay way, const CountTask& task, ProgressLine
   return counts;
 }
 
-// Warnings also where no table is wanted.
+// Warnings are printed even without a table.
 void show_table(const RunFlags& flags, const result::Result& result) {
   if (flags.quiet) {
     std::cerr << report::warnings_text(result) << report::timing_warnings(result.cases);
@@ -355,14 +354,14 @@ void show_table(const RunFlags& flags, const result::Result& result) {
   out << report::render_table(result,
                               os::terminal(for_reading ? os::StandardStream::output : os::StandardStream::error).colour)
       << std::flush;
-  if (for_reading) tell_of_keeping();
+  if (for_reading) warn_result_not_saved();
 }
 
-// "next: clusterbench size level.glb --filter '...'": what sizes the buffers of what is taken, from the same scenes, of
-// which it counts more frames; from the result where they came through a pipe. "" where nothing is taken.
+// "next: clusterbench size level.glb --filter '...'": the command that sizes the buffers of the recommended cases, from
+// the same scenes with more frames, or from the result if the scenes came through a pipe. "" if no case is recommended.
 std::string next_text(const RunFlags& flags, const result::Result& result) {
-  const std::vector<std::string> taken = report::taken_names(result);
-  if (taken.empty()) return "";
+  const std::vector<std::string> recommended = report::taken_names(result);
+  if (recommended.empty()) return "";
   std::vector<std::string> words{"clusterbench", "size"};
   const bool is_of_result = !is_stream(flags.output) && std::ranges::any_of(flags.inputs.paths, is_stream);
   if (is_of_result)
@@ -372,11 +371,11 @@ std::string next_text(const RunFlags& flags, const result::Result& result) {
   for (const config::FlagValue& setting : flag_values(flags.inputs))
     if (!is_of_result && setting.name != "--fail-if" && setting.name != "--launches" && setting.name != "--rounds")
       words.push_back(setting.text());
-  if (!is_of_result || taken.size() == 1) words.insert(words.end(), {"--filter", taken.front()});
+  if (!is_of_result || recommended.size() == 1) words.insert(words.end(), {"--filter", recommended.front()});
   return "next: " + shell_command(words) + "   sizes its buffers\n";
 }
 
-// Last of all, behind what is doubted. What failed is no ground to take anything.
+// Printed last, after the warnings. A run that failed recommends nothing.
 void show_conclusion(const RunFlags& flags, const result::Result& result) {
   std::ostream& out = is_for_reading(flags.output) ? std::cout : std::cerr;
   if (!report::run_failures(result).empty())
@@ -388,11 +387,11 @@ void show_conclusion(const RunFlags& flags, const result::Result& result) {
 
 std::string command_line() {
   std::vector<std::string> words = os::own_command_line();
-  if (!words.empty()) words.front() = "clusterbench";  // wherever it lies
+  if (!words.empty()) words.front() = "clusterbench";  // without the program's path
   return printable(shell_command(words));
 }
 
-// Before minutes go into measuring.
+// Checked before minutes of measuring.
 void refuse_losses(const RunFlags& flags, const std::vector<std::string>& inputs) {
   const bool is_printed = flags.output.empty() && !is_for_reading(flags.output);
   std::vector<std::string> outputs{is_printed ? "-" : flags.output};
@@ -408,11 +407,12 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   const Gates own_gates(config, flags.filter);
   const std::vector<std::string> inputs = files_of(flags.inputs, config);
   refuse_losses(flags, inputs);
-  LaterOutput output(flags.output, !is_stream(flags.output) || is_for_reading(flags.output));  // else the journal
+  // If the output is a file, the journal probes it.
+  LaterOutput output(flags.output, !is_stream(flags.output) || is_for_reading(flags.output));
   const ExportFiles export_files(exports, config.timing.measure);
   std::optional<PictureFiles> images;
   if (!flags.images.folder.empty()) images.emplace(flags.images, config, plan, inputs);
-  const std::atomic<bool>& stop = os::stop_on_signals();  // before there is anything to keep
+  const std::atomic<bool>& stop = os::stop_on_signals();  // before there is anything to save
   const std::unique_ptr<report::Journal> journal = open_journal(flags, config, plan);
   const std::vector<result::Case> earlier = journal ? journal->earlier_cases() : std::vector<result::Case>{};
   const std::vector<std::string> earlier_ids = journal ? journal->earlier_ids() : std::vector<std::string>{};
@@ -431,14 +431,14 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   std::vector<run::GroupCost> costs;
   if (!flags.quiet) {
     costs = run::estimated_costs(config, plan);
-    tell_duration(config, plan, costs);
+    print_duration(config, plan, costs);
   }
   run::Result fresh;
   try {
     fresh = run::run_plan(config, plan, earlier_ids, listener, stop, counts, launcher, costs);
   } catch (const Error& error) {
     progress.clear();
-    throw with_what_is_kept(error, journal.get());
+    throw with_saved_cases(error, journal.get());
   }
   progress.clear();
   if (stop) return interrupted(journal.get());
@@ -447,7 +447,7 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   result::Result result = report::record_of(fresh, earlier);
   if (!flags.baseline.binary.empty() && !add_baseline(flags, config, plan, progress, journal.get(), stop, result))
     return interrupted(journal.get());
-  const Verdicts verdicts = judge(flags, own_gates, result);
+  const Verdicts verdicts = verdicts_of(flags, own_gates, result);
   if (journal)
     journal->finish(result);
   else
@@ -455,7 +455,7 @@ ExitCode measure(const RunFlags& flags, const config::Config& config, const run:
   export_files.write(result);
   show_table(flags, result);
   if (images && !images->write(result, screen, flags.quiet, stop)) {
-    tell("interrupted; the result is complete, its pictures are not");
+    print_message("interrupted; the result is complete, its pictures are not");
     return os::stopped_exit_code();
   }
   const ExitCode code = report_verdicts(verdicts, result);
@@ -482,7 +482,7 @@ ExitCode serve(const RunFlags& flags, const config::Config& config, const run::P
   return ExitCode::ok;
 }
 
-// Of a run that has started this program again.
+// The child process of a run.
 ExitCode serve_run(const RunFlags& flags) {
   std::string line;
   if (!std::getline(std::cin, line)) return ExitCode::ok;  // the run has ended
@@ -536,7 +536,7 @@ void add_run(Command& program, Action& action) {
                   "How often at most, where intervals are wider than half the threshold on either side")
       .range(2, 1000)
       .shows_standard();
-  command.add_option("--baseline-timeout", flags->baseline.patience_s, "Longest wait for one answer, in seconds")
+  command.add_option("--baseline-timeout", flags->baseline.timeout_s, "Longest wait for one answer, in seconds")
       .range(0.1, 1e6)
       .shows_standard();
   command

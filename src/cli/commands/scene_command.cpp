@@ -59,7 +59,7 @@ std::string metres(double value) {
   return text;
 }
 
-// What the lights without a range get.
+// The ranges given to lights without one.
 void print_made_ranges(const scene::RangeRule& rule, const scene::Summary& summary) {
   const int made = summary.ranges_from_intensity + summary.ranges_clamped;
   if (made == 0) return;
@@ -201,7 +201,7 @@ ExitCode views(ViewsFlags flags) {
   const scene::Scene scene = scene::load_gltf(flags.file);
   refuse_overwriting({flags.out}, files_of_scene(flags.file));
   write_text(flags.out, scene::with_views(scene, request, flags.out));
-  if (!is_stream(flags.out)) scene::load_gltf(flags.out);  // what cannot be read again is told now
+  if (!is_stream(flags.out)) scene::load_gltf(flags.out);  // reports at once if the file cannot be read again
   std::cerr << "wrote " << flags.out << "\n";
   return ExitCode::ok;
 }

@@ -22,7 +22,7 @@ namespace {
 ExitCode validate_written(const std::string& path, const nlohmann::json& document, const config::DocumentRow& row) {
   config::check_version(path, document, row);
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
-  for (const std::string& violation : violations) tell(path + ": " + violation);
+  for (const std::string& violation : violations) print_message(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
   for (const char* part : {"case", "block", "answer", "frame", "structure", "scene"}) {
     const std::string parts = std::string(part) + "s";
@@ -88,8 +88,8 @@ void add_validate(Command& program, Action& action) {
       for (const std::string& path : *paths) {
         try {
           if (validate(path) != ExitCode::ok) worst = ExitCode::usage;
-        } catch (const Error& error) {  // the next ones are looked at, too
-          tell(error.what());
+        } catch (const Error& error) {  // the other files are still checked
+          print_message(error.what());
           worst = error.code();
         }
       }

@@ -1,4 +1,5 @@
-// `clusterbench size INPUT...`: what to allocate, and the code that watches it. From a result, or from what makes one.
+// `clusterbench size INPUT...`: buffer sizes to allocate, and code that monitors them. From a result, or from the input
+// of a run.
 
 #include <algorithm>
 #include <filesystem>
@@ -35,16 +36,16 @@ using Json = nlohmann::ordered_json;
 struct SizeFlags {
   RunInputs inputs;
   report::SizeRequest request;
-  double margin = 0.0, warn_at = 0.0;  // 0: as the configuration says
+  double margin = 0.0, warn_at = 0.0;  // 0: from the configuration
   bool worst_case = false;
   SearchFlags search;
   std::vector<std::string> found;  // files of `worst-case`
-  std::string engine;              // "": what is printed is of buffers
+  std::string engine;              // "": sizes of buffers are printed
   bool allows_no_lights = false;
   bool quiet = false;
 };
 
-// A configuration may have comments, and need not be JSON to be told apart: what is wrong with it, its own reader says.
+// A configuration may have comments and syntax errors; its own reader reports those.
 bool is_config(const std::string& path) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none)) return false;
@@ -57,7 +58,7 @@ bool is_result(const RunInputs& inputs) {
   return inputs.paths.size() == 1 && !is_scene(inputs.paths.front()) && !is_config(inputs.paths.front());
 }
 
-// Measures the engine's own clustering, in another grid where flags name one that the engine can be set to.
+// Measures the engine's own clustering, in another grid if flags name one that the engine can be set to.
 void choose_engine(SizeFlags& flags) {
   report::check_engine(flags.engine);
   if (flags.request.format != "table" && flags.request.format != "json")
@@ -73,7 +74,7 @@ void choose_engine(SizeFlags& flags) {
   flags.request.has_changed_grid = choose_engine_clustering(flags.engine, flags.inputs);
 }
 
-// A result has been measured: nothing of that can change, and it holds no scene to search in.
+// A result is already measured: flags cannot change it, and it has no scene for a search.
 void check_for_result(const SizeFlags& flags) {
   if (flags.worst_case)
     throw Error("", "--worst-case",
@@ -90,27 +91,27 @@ void check_for_result(const SizeFlags& flags) {
               "changes what is measured, and a result has been; give a configuration or scenes");
 }
 
-// Budgets hold what frames of the paths have, and what searches found.
-std::vector<report::LimitFindings> findings_with_finds(const Gates& gates, const result::Result& result,
-                                                       const std::vector<report::FoundFrame>& found) {
+// Checks budgets against frames of the paths, and against frames that searches found.
+std::vector<report::LimitFindings> findings_with_searches(const Gates& gates, const result::Result& result,
+                                                          const std::vector<report::FoundFrame>& found) {
   std::vector<report::LimitFindings> findings = gates.findings(result);
   const bool is_searched = std::ranges::any_of(found, [](const auto& frame) { return frame.refusal.empty(); });
   if (findings.empty() || !is_searched) return findings;
-  report::LimitFindings held = gates.findings(report::with_finds(result, found)).back();
-  const report::LimitFindings& seen = findings.back();
-  const auto mark = [](std::vector<std::string>& lines, const std::vector<std::string>& of_seen) {
+  report::LimitFindings combined = gates.findings(report::with_finds(result, found)).back();
+  const report::LimitFindings& recorded = findings.back();
+  const auto mark = [](std::vector<std::string>& lines, const std::vector<std::string>& recorded_lines) {
     for (std::string& line : lines)
-      if (std::ranges::find(of_seen, line) == of_seen.end()) line += "; found by a search";
+      if (std::ranges::find(recorded_lines, line) == recorded_lines.end()) line += "; found by a search";
   };
-  mark(held.broken, seen.broken);
-  mark(held.near, seen.near);
-  findings.back() = held;
+  mark(combined.broken, recorded.broken);
+  mark(combined.near, recorded.near);
+  findings.back() = combined;
   return findings;
 }
 
-// Which budgets hold recorded frames alone.
-void tell_of_held(const config::Config& config, const result::Result& result,
-                  const std::vector<report::FoundFrame>& found) {
+// Prints which budgets were checked against recorded frames only.
+void print_searched_budgets(const config::Config& config, const result::Result& result,
+                            const std::vector<report::FoundFrame>& found) {
   std::vector<std::string> searched, measures;
   for (const report::FoundFrame& frame : found) {
     if (!frame.refusal.empty()) continue;
@@ -118,26 +119,27 @@ void tell_of_held(const config::Config& config, const result::Result& result,
       if (std::ranges::find(*list, *name) == list->end()) list->push_back(*name);
   }
   if (config.limits.fail_if.empty() || searched.empty()) return;
-  tell("budgets also hold what a search for " + joined(measures) + " found, in " + std::to_string(searched.size()) +
-       " of " + number_of(result.cases.size(), "case") + "; all else of recorded frames alone");
+  print_message("budgets also hold what a search for " + joined(measures) + " found, in " +
+                std::to_string(searched.size()) + " of " + number_of(result.cases.size(), "case") +
+                "; all else of recorded frames alone");
 }
 
-// Sizes of nothing, and what the configuration's budgets say of what was counted.
-ExitCode judged(const SizeFlags& flags, const SizeCounts* counts, const result::Result& result,
-                const report::SizeRequest& request) {
+// Checks that sizes are not computed from empty lists, and the configuration's budgets on the counts.
+ExitCode check_sizes(const SizeFlags& flags, const SizeCounts* counts, const result::Result& result,
+                     const report::SizeRequest& request) {
   const bool allows_no_lights = flags.allows_no_lights || (counts != nullptr && counts->config.limits.allows_no_lights);
   ExitCode code = ExitCode::ok;
   if (counts != nullptr) {
     config::Config config = counts->config;
     config.limits.allows_no_lights = allows_no_lights;
     keep_counted_budgets(config, "size");
-    tell_of_held(config, result, request.scope.found);
-    code = report_findings(findings_with_finds(Gates(config, request.filter), result, request.scope.found));
+    print_searched_budgets(config, result, request.scope.found);
+    code = report_findings(findings_with_searches(Gates(config, request.filter), result, request.scope.found));
   }
   for (const std::string& name : report::sized_from_nothing(result, request)) {
     if (!allows_no_lights) code = ExitCode::gate_failed;
-    tell((allows_no_lights ? "warning: " : "FAILED ") + name +
-         (allows_no_lights ? "" : " (--allow-no-lights, limits.allow_no_lights, if that is meant)"));
+    print_message((allows_no_lights ? "warning: " : "FAILED ") + name +
+                  (allows_no_lights ? "" : " (--allow-no-lights, limits.allow_no_lights, if that is meant)"));
   }
   return code;
 }
@@ -153,7 +155,8 @@ ExitCode size(SizeFlags flags) {
     std::optional<SizePlan> plan = plan_for_size(flags.inputs, request.filter, request.all, flags.engine);
     if (!plan) return os::stopped_exit_code();
     if (!flags.quiet)
-      tell_of_size(*plan, flags.worst_case ? told_of_search(*plan, request, flags.search) : std::string());
+      print_planned_counting(*plan,
+                             flags.worst_case ? planned_search_text(*plan, request, flags.search) : std::string());
     counts = counted_for_size(std::move(*plan), flags.quiet);
     if (!counts) return os::stopped_exit_code();
     result = counts->result;
@@ -165,7 +168,7 @@ ExitCode size(SizeFlags flags) {
   for (const std::string& file : flags.found) {
     request.scope.found.push_back(report::read_found(file, result));
     const std::string& unknown = request.scope.found.back().not_compared;
-    if (!unknown.empty()) tell("warning: " + file + ": " + unknown);
+    if (!unknown.empty()) print_message("warning: " + file + ": " + unknown);
   }
   if (flags.worst_case) {
     const auto found = search_sized(*counts, report::sized_cases(result, request), flags.search, flags.quiet);
@@ -178,10 +181,11 @@ ExitCode size(SizeFlags flags) {
     request.scope.guests = *guests;
   }
   for (const std::string& view : report::views_of_dark_lights(result))
-    tell("warning: " + view + "; lists have them all the same, so these are sizes for when they are switched on");
+    print_message("warning: " + view +
+                  "; lists have them all the same, so these are sizes for when they are switched on");
   const std::string text = report::size_report(result, request);
   std::cout << (request.format == "json" ? text : printable_lines(text)) << std::flush;
-  return judged(flags, counts ? &*counts : nullptr, result, request);
+  return check_sizes(flags, counts ? &*counts : nullptr, result, request);
 }
 
 }  // namespace

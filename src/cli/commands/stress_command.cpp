@@ -37,7 +37,7 @@ const stress::StressMethod& method_of(const stress::StressResult& result, const 
   throw Error("", "stress", "knows no method '" + label + "'", ExitCode::internal);
 }
 
-// Every hard case where nothing is named; none beside random settings.
+// Without names, every hard case; none together with random settings.
 std::string cases_of(const StressFlags& flags) {
   if (!flags.cases.empty()) return flags.cases;
   return flags.request.random > 0 ? "none" : ".*";
@@ -58,26 +58,27 @@ void write_replays(const std::string& folder, const stress::StressResult& result
       stress::write_replay(folder, found.name(), found.scene, stress::methods_that_show(found.fault, result.methods));
       ++written;
     }
-  tell(written == 0 ? "no fault to write to " + folder
+  print_message(written == 0
+                    ? "no fault to write to " + folder
                     : number_of(static_cast<std::uint64_t>(written), "fault") + " written to " + folder +
                           (written == 1 ? ", a configuration" : ", each a configuration") + " for `clusterbench run`");
 }
 
-// What a search is at, in a file, for the case that it does not live to tell: removed when it has ended.
-class AtWork {
+// The current step of a search in a file, in case the process dies; removed when the search has ended.
+class StepFile {
  public:
-  explicit AtWork(const StressFlags& flags) {
+  explicit StepFile(const StressFlags& flags) {
     if (flags.failures.empty() || flags.request.random == 0) return;
     std::error_code failed;
     std::filesystem::create_directories(flags.failures, failed);
     path_ = std::filesystem::path(flags.failures) / "at_work.txt";
   }
-  ~AtWork() {
+  ~StepFile() {
     std::error_code ignored;
     if (!path_.empty()) std::filesystem::remove(path_, ignored);
   }
-  AtWork(const AtWork&) = delete;
-  AtWork& operator=(const AtWork&) = delete;
+  StepFile(const StepFile&) = delete;
+  StepFile& operator=(const StepFile&) = delete;
 
   void write(const std::string& doing) const {
     if (!path_.empty()) os::write_file(path_, doing + "\n");
@@ -94,10 +95,10 @@ ExitCode stress(const StressFlags& flags) {
   LaterOutput output(flags.output, is_for_reading(flags.output));
   const std::atomic<bool>& stop = os::stop_on_signals();
   ProgressLine progress(os::terminal(os::StandardStream::error), flags.quiet);
-  const AtWork at_work(flags);
+  const StepFile step_file(flags);
   stress::StressListener listener;
   listener.on_progress = [&](const std::string& doing, double done, double whole) {
-    at_work.write(doing);
+    step_file.write(doing);
     progress.show({static_cast<std::size_t>(done), static_cast<std::size_t>(whole), done, whole, doing});
   };
   const stress::StressResult result = stress::run_stress(request, listener, stop);
@@ -111,12 +112,12 @@ ExitCode stress(const StressFlags& flags) {
   const bool for_reading = is_for_reading(flags.output);
   output.write(report::stress_to_json(result, request));
   if (!flags.quiet) report::print_stress(for_reading ? std::cout : std::cerr, result);
-  if (for_reading) tell_of_keeping();
+  if (for_reading) warn_result_not_saved();
   if (!flags.failures.empty()) write_replays(flags.failures, result);
   const std::vector<std::string> failures = report::stress_failures(result);
-  for (const std::string& failure : failures) tell("FAILED " + failure);
+  for (const std::string& failure : failures) print_message("FAILED " + failure);
   if (result.interrupted) {
-    tell("interrupted: what was done by then is all that is told");
+    print_message("interrupted: what was done by then is all that is told");
     return os::stopped_exit_code();
   }
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;

@@ -42,12 +42,12 @@ search::WorstCaseRequest request_of(const WorstCaseFlags& flags, const config::C
   return request;
 }
 
-// Beside the scene.
+// The configuration file is next to the scene.
 std::string config_path(const std::string& scene_path) {
   return scene_path.empty() ? "" : fs::path(scene_path).replace_extension(".json").string();
 }
 
-// The path's files come first, and then what tells of them.
+// Checks the path's files first, then the output that describes them.
 LaterOutput checked_output(const WorstCaseFlags& flags, const config::Config& config) {
   if (!flags.path.empty() && fs::path(flags.path).extension() != ".gltf")
     throw Error(flags.path, "--path", "must end in .gltf");
@@ -58,15 +58,15 @@ LaterOutput checked_output(const WorstCaseFlags& flags, const config::Config& co
   return LaterOutput(flags.output, is_for_reading(flags.output));
 }
 
-// Before a search that somebody waits for.
-void tell_of_work(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
-                  const search::WorstCaseRequest& request) {
+// Printed before a long search.
+void print_search_duration(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
+                           const search::WorstCaseRequest& request) {
   constexpr double k_soon_s = 5.0;
   const double seconds = search::estimated_search_s(config, plan, case_plan, request);
   if (seconds < k_soon_s) return;
-  tell("searches " + number_of(static_cast<std::uint64_t>(request.evaluations), "frame") + ", and " +
-       number_of(static_cast<std::uint64_t>(request.random), "random one") + " to compare with: takes " +
-       duration_text(seconds) + "; shorter: --evaluations 1000, --random 0, --seconds 60");
+  print_message("searches " + number_of(static_cast<std::uint64_t>(request.evaluations), "frame") + ", and " +
+                number_of(static_cast<std::uint64_t>(request.random), "random one") + " to compare with: takes " +
+                duration_text(seconds) + "; shorter: --evaluations 1000, --random 0, --seconds 60");
 }
 
 void write_path(const search::WorstCase& found, const report::WorstCaseFacts& facts) {
@@ -96,11 +96,11 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   const run::Plan plan = run::make_plan(config, flags.filter);
   const run::CasePlan& case_plan = search::case_to_search(config, plan);
   search::fix_grid(config, plan, case_plan);
-  if (!flags.quiet) tell_of_cameras(config, plan);
+  if (!flags.quiet) print_other_cameras(config, plan);
   LaterOutput output = checked_output(flags, config);
   if (!config.limits.fail_if.empty())
-    tell("warning: limits.fail_if is not looked at: `clusterbench run` and `size` do");
-  if (!flags.quiet) tell_of_work(config, plan, case_plan, request);
+    print_message("warning: limits.fail_if is not looked at: `clusterbench run` and `size` do");
+  if (!flags.quiet) print_search_duration(config, plan, case_plan, request);
   const std::atomic<bool>& stop = os::stop_on_signals();
   ProgressLine progress(os::terminal(os::StandardStream::error), flags.quiet);
   const search::WorstCase found =
@@ -115,9 +115,9 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   if (!facts.scene_file.empty()) check_path(found, facts);
   if (!flags.quiet)
     (for_reading ? std::cout : std::cerr) << printable_lines(report::worst_case_text(found, facts)) << std::flush;
-  if (for_reading) tell_of_keeping();
+  if (for_reading) warn_result_not_saved();
   if (!stop) return ExitCode::ok;
-  tell("interrupted: the worst frames by then are told");
+  print_message("interrupted: the worst frames by then are told");
   return os::stopped_exit_code();
 }
 

@@ -6,8 +6,8 @@ namespace {
 
 using Kind = Values::Kind;
 
-// bash splits words at equals signs (COMP_WORDBREAKS): they are joined again, and what stands before the sign is cut
-// off from the answers.
+// bash splits words at equals signs (COMP_WORDBREAKS): the script joins them again, and removes the part before the
+// sign from its answers.
 constexpr const char* k_functions = R"(# bash completion of clusterbench, written by `clusterbench completion bash`
 
 _clusterbench_words() {
@@ -116,15 +116,15 @@ std::string option_line(const CommandNode& command, const OptionNode& option) {
 
 std::string command_line(const CommandNode& command) {
   std::vector<std::string> flags, arguments;
-  bool takes_files = false;
+  bool offers_files = false;
   for (const OptionNode& option : command.options) flags.insert(flags.end(), option.names.begin(), option.names.end());
   for (const CommandNode& below : command.commands) arguments.push_back(below.name);
   for (const ArgumentNode& argument : command.arguments) {
-    takes_files |= argument.values.kind == Kind::files;
+    offers_files |= argument.values.kind == Kind::files;
     arguments.insert(arguments.end(), argument.values.words.begin(), argument.values.words.end());
   }
   return "    " + shell_word(key(command)) + ") flags=" + shell_word(joined(flags, " ")) +
-         " arguments=" + shell_word(joined(arguments, " ")) + " takes_files=" + (takes_files ? "1" : "0") + " ;;\n";
+         " arguments=" + shell_word(joined(arguments, " ")) + " takes_files=" + (offers_files ? "1" : "0") + " ;;\n";
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ std::string bash_completion(const CommandNode& root) {
   for (const CommandNode* command : all_commands(root)) {
     if (!command->path.empty()) paths += (paths.empty() ? "      " : " | ") + shell_word(key(*command));
     for (const OptionNode& option : command->options)
-      if (option.takes_value) options += option_line(*command, option);
+      if (option.needs_value) options += option_line(*command, option);
     commands += command_line(*command);
   }
   return k_functions + paths + ")" + k_after_paths + options + k_after_options + commands + k_bash_end;

@@ -1,5 +1,5 @@
 #pragma once
-// Completion scripts for shells, written from the command tree. Each stands alone: nothing is run while completing.
+// Completion scripts for shells, generated from the command tree. Each is self-contained: completing runs no program.
 
 #include <span>
 #include <string>
@@ -15,7 +15,7 @@ std::string fish_completion(const CommandNode& root);
 // 'text' for any of the three shells.
 std::string shell_word(const std::string& text);
 
-// The first sentence, for the one line that a shell shows.
+// The first sentence, for the single line that a shell shows.
 std::string first_sentence(const std::string& text);
 
 }  // namespace clusterbench::cli

@@ -6,7 +6,7 @@ namespace {
 
 using Kind = Values::Kind;
 
-// Prints the command that the line has come to.
+// Prints the command named by the words of the line so far.
 std::string path_function(const std::vector<const CommandNode*>& commands) {
   std::string paths;
   for (const CommandNode* command : commands)
@@ -37,10 +37,10 @@ std::string fish_option(const CommandNode& command, const OptionNode& option) {
   std::string line = start(command);
   for (const std::string& name : option.names)
     line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-  if (option.takes_value && !option.is_value_optional) line += " -r";
+  if (option.needs_value && !option.is_value_optional) line += " -r";
   if (option.values.kind == Kind::files) line += " -F";
   if (option.values.kind == Kind::words) line += " -f -a " + shell_word(joined(option.values.words, " "));
-  if (option.values.kind == Kind::named_files)  // a file behind the sign is completed as any word is
+  if (option.values.kind == Kind::named_files)  // a file after the sign is completed like any word
     line += " -a " + shell_word(joined(option.values.words, "= ") + "=");
   return line + " -d " + shell_word(first_sentence(option.description)) + "\n";
 }

@@ -2,8 +2,8 @@
 
 namespace clusterbench::cli {
 
-// fish knows no '\'' inside quotes but \' , bash and zsh the other way round: an apostrophe that ends the quotes,
-// stands escaped and begins them again is read by all.
+// Inside quotes fish reads '\'' differently from bash and zsh. An apostrophe that ends the quotes, is escaped and
+// begins them again is read by all three.
 std::string shell_word(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);

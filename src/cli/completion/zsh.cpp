@@ -16,7 +16,7 @@ std::string zsh_escaped(const std::string& text) {
   return out;
 }
 
-// What follows the message of a specification: "(a b)", "_files", or nothing to offer. A space in front keeps zsh from
+// The part after the message of a specification: "(a b)", "_files", or no suggestion. A leading space keeps zsh from
 // adding arguments of its own.
 std::string value_action(const Values& values) {
   switch (values.kind) {
@@ -39,9 +39,9 @@ std::string option_lines(const OptionNode& option) {
     if (option.is_value_optional && !is_long) continue;
     std::string line = option.is_repeatable ? "*" : "(" + joined(option.names, " ") + ")";
     line += name;
-    if (option.takes_value && is_long) line += option.is_value_optional ? "=-" : "=";
+    if (option.needs_value && is_long) line += option.is_value_optional ? "=-" : "=";
     line += "[" + zsh_escaped(first_sentence(option.description)) + "]";
-    if (option.takes_value) {
+    if (option.needs_value) {
       line += option.is_value_optional ? "::" : ":";
       line += placeholder(option) + ":" + value_action(option.values);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// --export FORMAT=FILE: where a result goes beside its own file.
+// --export FORMAT=FILE: further files with the result.
 
 #include <memory>
 #include <string>
@@ -16,13 +16,13 @@ struct ExportTarget {
   std::string file;  // "-": standard output
 };
 
-// From "FORMAT=FILE" each. Throws Error for what is not that, and for an unknown format.
+// Parses "FORMAT=FILE" entries. Throws Error for another form, and for an unknown format.
 std::vector<ExportTarget> export_targets(const std::vector<std::string>& texts);
 
 class ExportFiles {
  public:
-  // Throws Error for a file that cannot be written, or a format that takes what is not to be measured, so that it is
-  // known before minutes go into measuring. Files that are not there yet are not there afterwards.
+  // Throws Error for a file that cannot be written, or a format that needs figures that will not be measured, so that
+  // the user learns it before minutes of measuring. Creates no files yet.
   ExportFiles(const std::vector<ExportTarget>& targets, bool are_times_measured);
 
   // All formats are made before the first file is written.
@@ -33,7 +33,7 @@ class ExportFiles {
   std::vector<std::unique_ptr<os::OutputFile>> files_;
 };
 
-// "google-benchmark  Google ..." a line each, for help texts.
+// One line per format, "google-benchmark  Google ...", for help texts.
 std::string export_formats_text();
 
 }  // namespace clusterbench::cli

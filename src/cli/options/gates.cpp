@@ -15,10 +15,10 @@ namespace clusterbench::cli {
 namespace {
 
 void print_findings(const report::LimitFindings& findings) {
-  for (const std::string& line : findings.warnings) tell("warning: " + line);
-  for (const std::string& line : findings.unchecked) tell("warning: " + line);
-  for (const std::string& line : findings.near) tell("warning: " + line);
-  for (const std::string& line : findings.broken) tell("FAILED " + line);
+  for (const std::string& line : findings.warnings) print_message("warning: " + line);
+  for (const std::string& line : findings.unchecked) print_message("warning: " + line);
+  for (const std::string& line : findings.near) print_message("warning: " + line);
+  for (const std::string& line : findings.broken) print_message("FAILED " + line);
 }
 
 }  // namespace
@@ -57,8 +57,9 @@ void keep_counted_budgets(config::Config& config, const std::string& doing) {
   std::erase_if(config.limits.fail_if, is_left_out);
   config.limits.baseline.clear();
   if (left_out.empty()) return;
-  tell("warning: of limits.fail_if " + doing + " does not look at " + joined(left_out) +
-       ": it counts lists and lights alone, without times, truth, samples and a baseline; `clusterbench run` does");
+  print_message(
+      "warning: of limits.fail_if " + doing + " does not look at " + joined(left_out) +
+      ": it counts lists and lights alone, without times, truth, samples and a baseline; `clusterbench run` does");
 }
 
 Gates::Gates(const config::Config& config, const std::string& filter) : limits_(config.limits), filter_(filter) {

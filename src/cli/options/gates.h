@@ -1,5 +1,5 @@
 #pragma once
-// What a run is held against when it is done: budgets, an earlier result, and the lights that it should have.
+// The checks of a finished run: budgets, an earlier result, and lights that must be present.
 
 #include <optional>
 #include <string>
@@ -19,22 +19,22 @@ struct GateFlags {
 };
 void add_gate_options(Command& command, GateFlags& flags);
 
-// The configuration with what the flags say.
+// Applies the flags to the configuration.
 void set_gates(config::Config& config, const GateFlags& flags);
 
-// Of what only counts frames (`size`): leaves the budgets of figures that it has, and tells of the others, which `run`
-// holds. `doing`: the name of the command.
+// For commands that only count frames (`size`): keeps the budgets of figures that they have, and reports the others,
+// which `run` checks. `doing`: the name of the command.
 void keep_counted_budgets(config::Config& config, const std::string& doing);
 
 class Gates {
  public:
-  // Reads the baseline, so that what is wrong with it is known before minutes go into measuring. Throws Error for a
-  // budget in percent without one.
+  // Reads the baseline, so that the user learns of errors in it before minutes of measuring. Throws Error for a budget
+  // in percent without a baseline.
   Gates(const config::Config& config, const std::string& filter);
 
-  // Which figures have changed since the baseline; "" without one.
+  // The figures that have changed since the baseline; "" without one.
   std::string changes(const result::Result& result) const;
-  // What holds and what does not: of the lights, then of the budgets. Nothing without budgets and baseline.
+  // Findings about lights, then about budgets. Empty without budgets and baseline.
   std::vector<report::LimitFindings> findings(const result::Result& result) const;
 
  private:
@@ -43,7 +43,7 @@ class Gates {
   std::optional<result::Result> base_;
 };
 
-// Tells them.
+// Prints them.
 ExitCode report_findings(const std::vector<report::LimitFindings>& findings);
 
 }  // namespace clusterbench::cli

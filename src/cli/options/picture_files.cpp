@@ -136,11 +136,11 @@ PictureFiles::PictureFiles(const ImageFlags& flags, const config::Config& config
     : config_(config), plan_(plan), folder_(flags.folder), inputs_(std::move(inputs)), request_(request_of(flags)) {
   check_count(plan, request_);
   make_folder(folder_);
-  if (!os::is_writable_folder(folder_)) throw Error(folder_, "", errno_says("cannot be written to"));
+  if (!os::is_writable_folder(folder_)) throw Error(folder_, "", errno_text("cannot be written to"));
   geometries_ = pictures::load_geometries(config, plan, request_);
   for (std::size_t i = 0; i < geometries_.size(); ++i)
     for (const std::string& warning : geometries_[i] ? geometries_[i]->warnings : std::vector<std::string>{})
-      tell("warning: " + plan.scenes[i].scene.name + ": " + warning);
+      print_message("warning: " + plan.scenes[i].scene.name + ": " + warning);
 }
 
 std::string PictureFiles::index_path(const std::string& folder) {
@@ -182,8 +182,8 @@ bool PictureFiles::write(const result::Result& result, os::Terminal screen, bool
   pictures::draw_pictures(config_, plan_, geometries_, request_, longest_lists(result), listener, stop);
   progress.clear();
   write_picture(fs::path(index_path(folder_)), index.dump(1) + "\n");
-  if (skipped > 0) tell("no pictures of " + number_of(skipped, "case") + "; the first is " + first_skipped);
-  if (!quiet) tell(number_of(written, "picture") + " in " + folder_);
+  if (skipped > 0) print_message("no pictures of " + number_of(skipped, "case") + "; the first is " + first_skipped);
+  if (!quiet) print_message(number_of(written, "picture") + " in " + folder_);
   return !stop;
 }
 

@@ -20,25 +20,25 @@ struct ImageFlags {
   std::string frames = "worst";
   std::vector<std::string> kinds;
   int divisor = 0;
-  double plane_m = 0.0;     // 0: what is visible
-  std::uint64_t scale = 0;  // 0: by the counts
+  double plane_m = 0.0;     // 0: visible surfaces
+  std::uint64_t scale = 0;  // 0: derived from the counts
 };
 
 void add_image_options(Command& command, ImageFlags& flags);
 
-// Pictures that are asked for, checked before anything is measured.
+// The requested pictures, checked before anything is measured.
 class PictureFiles {
  public:
-  // Throws Error for what is no frame or kind, for more pictures than pictures::k_most_pictures, for a folder that
-  // cannot be made or written to, and for triangles that cannot be read.
-  // `inputs`: files that no picture may replace.
+  // Throws Error for an unknown frame or kind, for more pictures than pictures::k_most_pictures, for a folder that
+  // cannot be created or written to, and for triangles that cannot be read. `inputs`: files that no picture may
+  // replace.
   PictureFiles(const ImageFlags& flags, const config::Config& config, const run::Plan& plan,
                std::vector<std::string> inputs);
 
-  // What lists them.
+  // The file that lists the pictures.
   static std::string index_path(const std::string& folder);
 
-  // Makes them, of what the run has found. A picture of the same name is replaced. False if stopped before the end.
+  // Makes the pictures of the run's result. A picture of the same name is replaced. False if stopped before the end.
   bool write(const result::Result& result, os::Terminal screen, bool quiet, const std::atomic<bool>& stop) const;
 
  private:

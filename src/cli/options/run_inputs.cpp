@@ -74,16 +74,16 @@ std::vector<std::string> files_of(const RunInputs& inputs, const config::Config&
   return files;
 }
 
-void tell_of_cameras(const config::Config& config, const run::Plan& plan) {
+void print_other_cameras(const config::Config& config, const run::Plan& plan) {
   for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
     const scene::Scene& scene = plan.scenes[i].scene;
     for (const std::string& text : {run::without_field_of_view(plan.scenes[i], config.scenes[i]),
                                     run::fewer_frames(plan.scenes[i]), run::dark_lights(plan.scenes[i])})
-      if (!text.empty()) tell("warning: " + scene.name + ": " + text);
+      if (!text.empty()) print_message("warning: " + scene.name + ": " + text);
     const std::vector<std::string> others = scene::cameras_left_out(scene, config.scenes[i].camera);
     if (others.empty()) continue;
-    tell("of " + scene.name + " only camera '" + plan.scenes[i].paths.front().camera + "', and not " +
-         number_of(others.size(), "other") + "; --set 'scenes.*.camera=*' takes all");
+    print_message("of " + scene.name + " only camera '" + plan.scenes[i].paths.front().camera + "', and not " +
+                  number_of(others.size(), "other") + "; --set 'scenes.*.camera=*' takes all");
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a command measures: a configuration or scenes, and the flags that change it.
+// The input of a command that measures: a configuration or scenes, and the flags that change them.
 
 #include <filesystem>
 #include <string>
@@ -15,29 +15,28 @@ struct RunInputs {
   std::vector<std::string> paths;
   std::vector<std::vector<std::string>> settings{config::config_flags().size()};  // by flag
   bool has_all_presets = false, are_as_shipped = false;
-  config::GridChange preset_grid;  // in place of what presets have
+  config::GridChange preset_grid;  // replaces keys of the presets' grids
 };
 
-// An option for each flag of config_flags() but those named in `without`.
+// Adds an option for each flag of config_flags() except those in `without`.
 void add_config_options(Command& command, RunInputs& inputs, const std::vector<std::string>& without = {});
 
 // The flags that were given, in the order of config_flags().
 std::vector<config::FlagValue> flag_values(const RunInputs& inputs);
 
-bool is_scene(const std::string& path);  // by its ending or its content (scene/gltf_document/exporters.h)
+bool is_scene(const std::string& path);  // by its extension or its content (scene/gltf_document/exporters.h)
 
-// `first`: flags that apply before those of the command line. `standard`: what stands in place of the schema's
-// defaults. Throws Error.
+// `first`: flags that apply before those of the command line. `standard`: replaces the schema's defaults. Throws Error.
 config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first = {},
                            const nlohmann::json& standard = {});
 
-// A scene's file and those that it names, which a command that reads the scene must not write.
+// A scene's file and the files that it names; a command that reads the scene must not overwrite them.
 std::vector<std::string> files_of_scene(const std::filesystem::path& scene);
-// All that a configuration names, its baseline included.
+// All files that a configuration names, its baseline included.
 std::vector<std::string> files_of(const RunInputs& inputs, const config::Config& config);
 
-// For what searches along one camera or some of a scene: which others there are, and which a field of view that is
-// asked for does not change.
-void tell_of_cameras(const config::Config& config, const run::Plan& plan);
+// For commands that use one camera or some cameras of a scene: prints the other cameras, and those that --fov does not
+// change.
+void print_other_cameras(const config::Config& config, const run::Plan& plan);
 
 }  // namespace clusterbench::cli

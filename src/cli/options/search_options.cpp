@@ -9,7 +9,7 @@
 namespace clusterbench::cli {
 namespace {
 
-// All of the text, or not a number.
+// All of the text as a number; NaN if it is none.
 double number_in(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
@@ -100,7 +100,7 @@ search::WorstCaseRequest search_request(const SearchFlags& flags, const config::
 search::WorstCaseListener search_listener(ProgressLine& progress, std::size_t search, std::size_t searches) {
   search::WorstCaseListener listener;
   listener.on_progress = [&progress, search, searches](const std::string& doing, int done, int whole) {
-    // Of one search its frames are counted, of several the searches.
+    // Progress counts frames for a single search, and searches for several.
     const double frames_done = static_cast<double>(whole) * static_cast<double>(search) + done;
     run::Progress now{search, searches, frames_done, static_cast<double>(whole) * static_cast<double>(searches), doing};
     if (searches == 1)

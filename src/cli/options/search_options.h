@@ -17,16 +17,15 @@ struct SearchFlags {
   std::vector<std::string> added;  // "4x10"
 };
 
-// How long it searches, and its seed.
-// `only_with`: a flag that they are refused without.
+// Flags for the effort of a search, and its seed. `only_with`: a flag without which they are rejected.
 void add_effort_options(Command& command, SearchFlags& flags, const Option* only_with = nullptr);
-// What it may choose: where the camera stands, and lights that are added or moved.
+// Flags for the search space: places of the camera, and lights that are added or moved.
 void add_space_options(Command& command, SearchFlags& flags, const Option* only_with = nullptr);
 
 // Throws Error that names the flag.
 search::WorstCaseRequest search_request(const SearchFlags& flags, const config::Config& config);
 
-// Tells how far a search is, or one of several, number `search` of them from 0. `progress` outlives it.
+// Shows the progress of a search, or of search number `search` (from 0) of several. `progress` must outlive it.
 search::WorstCaseListener search_listener(ProgressLine& progress, std::size_t search = 0, std::size_t searches = 1);
 
 }  // namespace clusterbench::cli

@@ -8,7 +8,7 @@
 
 namespace clusterbench::cli {
 
-// One digit, or two of them: more would not be true.
+// One or two digits: the estimate is not more precise.
 std::string duration_text(double seconds) {
   const auto rounded = [](double value, const char* unit) {
     const double step = value < 10.0 ? 1.0 : value < 100.0 ? 5.0 : 50.0;
@@ -20,9 +20,9 @@ std::string duration_text(double seconds) {
                                         : rounded(seconds / 3600.0, "hour"));
 }
 
-std::string wait_text(const std::string& what, double seconds, const std::vector<std::string>& shorter) {
-  const std::string text = what + ": takes " + duration_text(seconds);
-  return seconds <= k_patience_s || shorter.empty() ? text : text + "; shorter: " + joined(shorter);
+std::string wait_text(const std::string& subject, double seconds, const std::vector<std::string>& shorter) {
+  const std::string text = subject + ": takes " + duration_text(seconds);
+  return seconds <= k_long_wait_s || shorter.empty() ? text : text + "; shorter: " + joined(shorter);
 }
 
 }  // namespace clusterbench::cli

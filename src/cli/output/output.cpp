@@ -13,7 +13,7 @@ namespace clusterbench::cli {
 
 namespace fs = std::filesystem;
 
-void tell(const std::string& message) {
+void print_message(const std::string& message) {
   std::cerr << "clusterbench: " << printable_lines(message) << "\n";
 }
 
@@ -30,13 +30,13 @@ bool is_for_reading(const std::string& output) {
   return output.empty() && os::is_terminal(os::StandardStream::output);
 }
 
-void tell_of_keeping() {
-  tell("the result is not kept; -o FILE keeps it, -o - prints it as JSON");
+void warn_result_not_saved() {
+  print_message("the result is not kept; -o FILE keeps it, -o - prints it as JSON");
 }
 
 namespace {
 
-// The file that a name will be, also where it does not exist yet: absolute, and through links that lead to nothing.
+// The absolute path that a name refers to, even if the file does not exist yet; dangling links are followed.
 fs::path file_of(const std::string& name) {
   std::error_code none;
   return fs::weakly_canonical(fs::absolute(os::output_target(name).path, none), none);
@@ -47,7 +47,7 @@ bool are_one_file(const std::string& a, const std::string& b) {
   return fs::equivalent(os::output_target(a).path, os::output_target(b).path, none) || file_of(a) == file_of(b);
 }
 
-// Two of them in one stream are neither. What throws away all takes any number.
+// Two documents in one stream are both unreadable. The null device accepts any number.
 bool are_mixed(const std::string& a, const std::string& b) {
   return !a.empty() && !b.empty() && are_one_file(a, b) && !are_one_file(a, "/dev/null");
 }

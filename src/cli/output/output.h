@@ -1,5 +1,5 @@
 #pragma once
-// Where results go: standard output, a device or pipe, or a file; and where messages go.
+// Destinations of results: standard output, a device or pipe, or a file; and of messages.
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,28 +10,28 @@
 
 namespace clusterbench::cli {
 
-// A message on standard error, which begins with the program's name.
-void tell(const std::string& message);
+// A message on standard error, prefixed with the program's name.
+void print_message(const std::string& message);
 
-// "", "-", and what exists and is neither a file nor a folder.
+// "", "-", and existing paths that are neither files nor folders.
 bool is_stream(const std::string& output);
 
-// Throws Error if standard output has not taken all that was printed.
+// Throws Error if not all of standard output could be written.
 void check_standard_output();
 
-// Without a file on a terminal a person reads: a table, and not the JSON.
+// Without an output file on a terminal, a person reads: print a table, not JSON.
 bool is_for_reading(const std::string& output);
-// Then it is said how the result is kept.
-void tell_of_keeping();
+// Then this hint says how to save the result.
+void warn_result_not_saved();
 
-// Throws Error if an output is one of the inputs, which would be lost, or is another output, too. "" is none.
+// Throws Error if an output is one of the inputs, which would be lost, or the same as another output. "" is none.
 void refuse_overwriting(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
-// os/output_file.h; "" and "-" are standard output. Throws Error if it could not be written whole.
+// See os/output_file.h; "" and "-" are standard output. Throws Error if the text could not be written completely.
 void write_text(const std::string& output, const std::string& text);
 void write_output(const std::string& output, const nlohmann::ordered_json& result);
 
-// An output that is written after minutes of measuring: tried before them, and a pipe stays open between.
+// An output that is written after minutes of measuring: checked before them; a pipe stays open meanwhile.
 class LaterOutput {
  public:
   // Throws Error if nothing can be written there. `is_none`: nothing is written.

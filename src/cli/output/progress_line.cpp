@@ -20,10 +20,10 @@ std::string minutes_and_seconds(double seconds) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(os::Terminal terminal, bool quiet, std::chrono::milliseconds tell_every)
-    : terminal_(terminal), quiet_(quiet), tell_every_(tell_every) {
+ProgressLine::ProgressLine(os::Terminal terminal, bool quiet, std::chrono::milliseconds print_every)
+    : terminal_(terminal), quiet_(quiet), print_every_(print_every) {
   if (!quiet_ && !terminal_.interactive)
-    teller_ = std::jthread([this](const std::stop_token& stop) { tell_in_silence(stop); });
+    printer_ = std::jthread([this](const std::stop_token& stop) { print_when_silent(stop); });
 }
 
 ProgressLine::~ProgressLine() {
@@ -39,22 +39,22 @@ std::string ProgressLine::line() const {
   return out + "  " + printable(last_.doing);
 }
 
-// In one piece, since two threads tell.
-void ProgressLine::tell_line(const std::string& line) {
+// A single write, since two threads print.
+void ProgressLine::print_line(const std::string& line) {
   std::cerr << line + "\n" << std::flush;
-  told_at_ = Clock::now();
+  printed_at_ = Clock::now();
 }
 
-// A step may take longer than a reader of a log waits for a sign of life.
-void ProgressLine::tell_in_silence(const std::stop_token& stop) {
+// A step may take longer than a reader of a log wants to wait for an update.
+void ProgressLine::print_when_silent(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
-    changed_.wait_until(lock, stop, told_at_ + tell_every_, [] { return false; });
-    if (stop.stop_requested() || Clock::now() - told_at_ < tell_every_) continue;
+    changed_.wait_until(lock, stop, printed_at_ + print_every_, [] { return false; });
+    if (stop.stop_requested() || Clock::now() - printed_at_ < print_every_) continue;
     if (has_last_)
-      tell_line(line());
+      print_line(line());
     else
-      told_at_ = Clock::now();
+      printed_at_ = Clock::now();
   }
 }
 
@@ -74,10 +74,10 @@ void ProgressLine::show(const run::Progress& progress) {
   drawn_ = true;
 }
 
-void ProgressLine::stage(const std::string& what) {
+void ProgressLine::stage(const std::string& name) {
   if (quiet_ || terminal_.interactive) return;
   const std::scoped_lock lock(mutex_);
-  tell_line(printable(what));
+  print_line(printable(name));
 }
 
 void ProgressLine::case_done(const run::CaseResult& done, std::size_t number, std::size_t total) {
@@ -96,7 +96,7 @@ void ProgressLine::case_done(const run::CaseResult& done, std::size_t number, st
     out += ", " + std::to_string(done.count->assign.instructions / static_cast<std::uint64_t>(done.count->frames)) +
            " instructions";
   const std::scoped_lock lock(mutex_);
-  tell_line(out);
+  print_line(out);
 }
 
 void ProgressLine::clear() {

@@ -13,18 +13,18 @@
 
 namespace clusterbench::cli {
 
-// A line with an estimate of the time left (by cost, not by count) on a terminal, else a line per finished case, and
-// one with the estimate where nothing else was told for ten seconds, however long a step takes.
+// On a terminal, a line with an estimate of the remaining time (by cost, not by count). Otherwise a line per finished
+// case, and a line with the estimate after ten seconds without output, even during a long step.
 class ProgressLine {
  public:
-  ProgressLine(os::Terminal terminal, bool quiet, std::chrono::milliseconds tell_every = std::chrono::seconds(10));
+  ProgressLine(os::Terminal terminal, bool quiet, std::chrono::milliseconds print_every = std::chrono::seconds(10));
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void show(const run::Progress& progress);
-  // What begins: a line where none can be redrawn.
-  void stage(const std::string& what);
+  // The name of a new stage: printed as a line if the output is not a terminal.
+  void stage(const std::string& name);
   void case_done(const run::CaseResult& done, std::size_t number, std::size_t total);
   void clear();
 
@@ -32,21 +32,21 @@ class ProgressLine {
   using Clock = std::chrono::steady_clock;
 
   std::string line() const;
-  void tell_line(const std::string& line);
-  void tell_in_silence(const std::stop_token& stop);
+  void print_line(const std::string& line);
+  void print_when_silent(const std::stop_token& stop);
 
   os::Terminal terminal_;
   bool quiet_;
-  std::chrono::milliseconds tell_every_;
+  std::chrono::milliseconds print_every_;
   bool drawn_ = false;
   Clock::time_point start_ = Clock::now(), drawn_at_{};
 
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // for the members below
   std::condition_variable_any changed_;
   run::Progress last_;
-  bool has_last_ = false;                     // and it is still going on
-  Clock::time_point told_at_ = Clock::now();  // a line that stays
-  std::jthread teller_;                       // where no line can be redrawn
+  bool has_last_ = false;                        // a step is in progress
+  Clock::time_point printed_at_ = Clock::now();  // time of the last permanent line
+  std::jthread printer_;                         // only if the output is not a terminal
 };
 
 }  // namespace clusterbench::cli

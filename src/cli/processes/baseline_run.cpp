@@ -15,13 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As many as a run of its own has, and enough for a quartile of each launch (measure::launch_log_ratio).
+// As many rounds as a run without a baseline program, but enough for a quartile of each launch
+// (measure::launch_log_ratio).
 int paired_rounds_per_launch(const config::Config& config, int launches) {
   constexpr int k_least = 4;
   return std::max(k_least, run::rounds_per_launch(config.timing, launches));
 }
 
-// An interval that reaches half of the threshold to either side tells a change of the threshold and a half from it.
+// An interval of half the threshold on each side is enough to distinguish a change of 1.5 times the threshold from one
+// of the threshold.
 run::PairedRequest paired_request(const BaselineRequest& request, const config::Config& config) {
   return {request.launches, request.most_launches, std::log1p(0.5 * request.threshold_percent / 100.0),
           paired_rounds_per_launch(config, request.launches)};
@@ -33,9 +35,9 @@ std::vector<std::string> server_command(const std::string& binary, const std::ve
   return command;
 }
 
-result::Tool tool_in(const nlohmann::ordered_json& said, const std::string& binary) {
+result::Tool tool_in(const nlohmann::ordered_json& json, const std::string& binary) {
   try {
-    return result::from_json<result::Tool>(said);
+    return result::from_json<result::Tool>(json);
   } catch (const Error& error) {
     throw Error(binary, "--baseline-binary", std::string("says of itself what cannot be read: ") + error.what());
   }
@@ -51,7 +53,7 @@ bool are_same_bytes(const fs::path& a, const fs::path& b) {
 
 void probe_baseline(const BaselineRequest& request, const std::vector<std::string>& arguments,
                     const std::atomic<bool>& stop) {
-  const RemoteProgram probe(server_command(fs::absolute(request.binary).string(), arguments), request.patience_s, stop);
+  const RemoteProgram probe(server_command(fs::absolute(request.binary).string(), arguments), request.timeout_s, stop);
 }
 
 void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
@@ -59,7 +61,7 @@ void measure_beside(const BaselineRequest& request, const std::vector<std::strin
                     const std::atomic<bool>& stop, result::Result& result) {
   nlohmann::ordered_json tool;
   const auto start = [&](const std::string& binary) {
-    return std::make_unique<RemoteProgram>(server_command(binary, arguments), request.patience_s, stop);
+    return std::make_unique<RemoteProgram>(server_command(binary, arguments), request.timeout_s, stop);
   };
   const std::string other = fs::absolute(request.binary).string();
   const run::PairedStart both{[&] {

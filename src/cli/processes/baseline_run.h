@@ -14,15 +14,15 @@ namespace clusterbench::cli {
 struct BaselineRequest {
   std::string binary;  // "" = none
   int launches = 10, most_launches = 40;
-  double patience_s = 120.0;  // for one answer of either program
+  double timeout_s = 120.0;  // for one answer of either program
   double threshold_percent = 2.0;
 };
 
-// Throws Error if the other program cannot be measured beside this one: known before minutes go into measuring.
+// Throws Error if the other program cannot be measured beside this one; the user learns it before minutes of measuring.
 void probe_baseline(const BaselineRequest& request, const std::vector<std::string>& arguments,
                     const std::atomic<bool>& stop);
 
-// Both programs are started with `arguments`, which make the plan in this one, too. Adds what they measured to the
+// Starts both programs with `arguments`, from which this program made its plan, and adds the measurements to the
 // result. Throws Error if the other program cannot do it, breaks down or hangs; with os::stopped_exit_code() once
 // `stop` is true.
 void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,

@@ -91,7 +91,7 @@ run::Counts count_under_callgrind(const CountTask& task, const OnCase& on_case, 
   const os::TemporaryFolder folder;
   const os::Ending ending = os::run_child(
       callgrind_command((folder / "dump").string(), file_argument(task.config)),
-      handed_over(task.config, task.plan) + "\n" + nlohmann::json(task.ids).dump() + "\n",
+      handover_line(task.config, task.plan) + "\n" + nlohmann::json(task.ids).dump() + "\n",
       [&](const std::string& line) {
         const auto& [id, count] = *counts.insert(count_in(line)).first;
         on_case(id);

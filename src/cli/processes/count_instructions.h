@@ -13,12 +13,12 @@ namespace clusterbench::cli {
 
 enum class CountWay { none, perf, callgrind };
 
-// From what stands behind --count: "perf", "callgrind", or "auto" for the first of them that works here; "" for none.
-// Throws Error that says what is allowed, and what is missing where it cannot be.
+// From the value of --count: "perf", "callgrind", or "auto" for the first of them that works here; "" for none. Throws
+// Error that names the allowed values, or the missing prerequisite.
 CountWay count_way(const std::string& name);
 const char* name_of(CountWay way);
 
-// What is to be counted.
+// The input of a count.
 struct CountTask {
   const config::Config& config;
   const run::Plan& plan;
@@ -30,8 +30,8 @@ run::Counts count_cases(CountWay way, const CountTask& task,
                         const std::function<void(const std::string& case_name)>& on_case,
                         const std::atomic<bool>& stop);
 
-// The other side, under callgrind: counts the cases that the next line of standard input lists, with `dumps` for
-// callgrind's own files, and prints a line for each.
+// The child process under callgrind: counts the cases listed in the next line of standard input, with `dumps` for
+// callgrind's own files, and prints one line per case.
 void print_callgrind_counts(const config::Config& config, const run::Plan& plan, const std::string& dumps);
 
 }  // namespace clusterbench::cli

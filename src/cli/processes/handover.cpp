@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* k_no_file = "-";
 
-// Where another process finds what a stream of this one is redirected from; null for all else.
+// The path by which another process can open the file behind this process's stream; null for other paths.
 Json path_for_others(const fs::path& path) {
   if (!is_stream_name(path)) return nullptr;
   std::error_code failed;
@@ -28,7 +28,7 @@ std::string file_argument(const config::Config& config) {
   return config.file.empty() ? k_no_file : config.file.string();
 }
 
-std::string handed_over(const config::Config& config, const run::Plan& plan, std::optional<std::size_t> scene) {
+std::string handover_line(const config::Config& config, const run::Plan& plan, std::optional<std::size_t> scene) {
   Json scenes = Json::array();
   for (std::size_t i = scene.value_or(0); i < (scene ? *scene + 1 : config.scenes.size()); ++i)
     scenes.push_back({{"scene_index", i},

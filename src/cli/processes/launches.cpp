@@ -122,12 +122,12 @@ class Launch {
  public:
   Launch(const config::Config& config, const run::Plan& plan, std::size_t scene, const std::atomic<bool>& stop)
       : stop_(stop), child_({os::k_this_program, "run", k_serve_launch, "--", file_argument(config)}) {
-    child_.send_line(handed_over(config, plan, scene));
+    child_.send_line(handover_line(config, plan, scene));
     if (const std::optional<std::string> line = next_line(); line && *line != k_ready)
       fail("greets with '" + *line + "'");
   }
 
-  // nullopt once it is to stop.
+  // nullopt if stopped.
   std::optional<Json> answer(const Json& request) {
     child_.send_line(request.dump());
     const std::optional<std::string> line = next_line();
@@ -139,7 +139,7 @@ class Launch {
 
  private:
   std::optional<std::string> next_line() {
-    constexpr double k_no_end_s = 1e9;  // what takes long in a process of its own takes as long here
+    constexpr double k_no_end_s = 1e9;  // no timeout: work that is slow in a child process is slow in this one, too
     std::string line;
     const os::Conversation::Received received =
         stop_ ? os::Conversation::Received::stop : child_.receive_line(line, k_no_end_s, stop_);
@@ -152,9 +152,9 @@ class Launch {
     fail("ended" + (ending.how.empty() ? "" : " (" + ending.how + ")"), refuses ? ExitCode::usage : ExitCode::internal);
   }
 
-  [[noreturn]] void fail(const std::string& what, ExitCode code = ExitCode::internal) const {
+  [[noreturn]] void fail(const std::string& problem, ExitCode code = ExitCode::internal) const {
     const std::string errors = child_.error_tail();
-    throw Error("", "--launches", "a process that was to measure " + what + (errors.empty() ? "" : ": " + errors),
+    throw Error("", "--launches", "a process that was to measure " + problem + (errors.empty() ? "" : ": " + errors),
                 code);
   }
 

@@ -54,18 +54,18 @@ void serve_rounds(const config::Config& config, const run::Plan& plan) {
   for (std::string line; std::getline(std::cin, line);) put(answer_to(cases, line));
 }
 
-RemoteProgram::RemoteProgram(const std::vector<std::string>& command, double patience_s, const std::atomic<bool>& stop)
+RemoteProgram::RemoteProgram(const std::vector<std::string>& command, double timeout_s, const std::atomic<bool>& stop)
     : name_(command.front() == os::k_this_program ? "this program" : command.front()),
-      patience_s_(patience_s),
+      timeout_s_(timeout_s),
       stop_(stop),
       child_(command) {
   greet();
 }
 
-void RemoteProgram::fail(const std::string& what) {
+void RemoteProgram::fail(const std::string& problem) {
   if (stop_) throw Error(name_, "", "interrupted", os::stopped_exit_code());
   const std::string errors = child_.error_tail();
-  throw Error(name_, "--baseline-binary", what + (errors.empty() ? "" : ": " + errors));
+  throw Error(name_, "--baseline-binary", problem + (errors.empty() ? "" : ": " + errors));
 }
 
 void RemoteProgram::greet() {
@@ -85,13 +85,13 @@ void RemoteProgram::greet() {
 
 Json RemoteProgram::answer(const std::string& request) {
   std::string line;
-  switch (child_.receive_line(line, patience_s_, stop_)) {
+  switch (child_.receive_line(line, timeout_s_, stop_)) {
     case os::Conversation::Received::line:
       break;
     case os::Conversation::Received::stop:
       fail("interrupted");
     case os::Conversation::Received::timeout:
-      fail("gave no answer to '" + request + "' in " + std::to_string(std::lround(patience_s_)) + " s");
+      fail("gave no answer to '" + request + "' in " + std::to_string(std::lround(timeout_s_)) + " s");
     case os::Conversation::Received::end: {
       const std::string ending = child_.end().how;
       const std::string how = ending.empty() ? "" : " (" + ending + ")";
@@ -104,27 +104,27 @@ Json RemoteProgram::answer(const std::string& request) {
   return read;
 }
 
-Json RemoteProgram::ask(const std::string& request) {
+Json RemoteProgram::answer_of(const std::string& request) {
   child_.send_line(request);
   return answer(request);
 }
 
 std::vector<run::ListDigest> RemoteProgram::list_digests(const std::string& id) {
-  const Json answered = ask("lists " + id);
+  const Json answered = answer_of("lists " + id);
   std::vector<run::ListDigest> digests;
   for (const Json& frame : answered.at("frames")) digests.push_back({frame.at("pairs"), frame.at("sha256")});
   return digests;
 }
 
 run::FrameLists RemoteProgram::frame_lists(const std::string& id, int frame) {
-  const Json answered = ask("frame " + id + " " + std::to_string(frame));
+  const Json answered = answer_of("frame " + id + " " + std::to_string(frame));
   const Json& cells = answered.at("cells");
   return {{cells.at(0).get<int>(), cells.at(1).get<int>(), cells.at(2).get<int>()},
           answered.at("lights").get<std::vector<std::vector<std::uint32_t>>>()};
 }
 
 double RemoteProgram::assign_ns(const std::string& id) {
-  const Json answered = ask("measure " + id);
+  const Json answered = answer_of("measure " + id);
   const double ns = answered.at("assign_ns").get<double>();
   if (!(ns > 0.0)) fail("measured " + answered.dump());
   return ns;

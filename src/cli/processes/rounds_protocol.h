@@ -1,7 +1,7 @@
 #pragma once
-// Both ends of the talk between two programs that are measured side by side (run --baseline-binary): requests are lines
-// "lists ID", "frame ID NUMBER", "measure ID"; each answer, and the greeting, is a line of JSON. A program that waits
-// for its next request takes no time from the other one.
+// Both ends of the protocol between two programs that are measured side by side (run --baseline-binary): requests are
+// lines "lists ID", "frame ID NUMBER", "measure ID"; each answer, and the greeting, is a line of JSON. A program that
+// waits for its next request uses no processor time.
 
 #include <atomic>
 #include <nlohmann/json.hpp>
@@ -14,19 +14,20 @@
 
 namespace clusterbench::cli {
 
-// The greeting carries it, and --rounds-server asks for it. Raised by whatever an older program would not understand.
+// Sent in the greeting and checked by --rounds-server. Increase it for every change that an older program would not
+// understand.
 inline constexpr int k_rounds_protocol = 1;
 
-// Greets, and answers on standard output what comes on standard input, to its end.
+// Sends the greeting, then answers requests from standard input on standard output, until the input ends.
 void serve_rounds(const config::Config& config, const run::Plan& plan);
 
-// Another program that serves rounds. Throws Error where it cannot be started, is none of the kind, dies, gives no
-// answer for `patience_s`, or answers nonsense; with os::stopped_exit_code() once `stop` is true.
+// Another program that serves rounds. Throws Error if it cannot be started, does not know the protocol, dies, gives no
+// answer for `timeout_s`, or answers nonsense; with os::stopped_exit_code() once `stop` is true.
 class RemoteProgram : public run::Program {
  public:
-  RemoteProgram(const std::vector<std::string>& command, double patience_s, const std::atomic<bool>& stop);
+  RemoteProgram(const std::vector<std::string>& command, double timeout_s, const std::atomic<bool>& stop);
 
-  // What it says of itself: `tool` of a result.
+  // Its description of itself: `tool` of a result.
   const nlohmann::ordered_json& tool() const { return tool_; }
 
   std::vector<std::string> case_ids() override { return ids_; }
@@ -35,13 +36,13 @@ class RemoteProgram : public run::Program {
   double assign_ns(const std::string& id) override;
 
  private:
-  nlohmann::ordered_json ask(const std::string& request);
+  nlohmann::ordered_json answer_of(const std::string& request);
   nlohmann::ordered_json answer(const std::string& request);
   void greet();
-  [[noreturn]] void fail(const std::string& what);
+  [[noreturn]] void fail(const std::string& problem);
 
   std::string name_;
-  double patience_s_;
+  double timeout_s_;
   const std::atomic<bool>& stop_;
   os::Conversation child_;
   nlohmann::ordered_json tool_;

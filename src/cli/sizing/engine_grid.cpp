@@ -17,7 +17,7 @@ std::string engine_name(const std::string& engine) {
   return name.substr(0, name.find(','));
 }
 
-// What can be set in place of what a flag says.
+// Throws Error that names the engine's grid settings.
 [[noreturn]] void refuse_for_engine(const config::FlagValue& flag, const std::string& engine, const std::string& why) {
   const std::string settable = report::settable_grid_text(*report::row_of_engine(engine));
   throw Error("", flag.shown(),
@@ -55,16 +55,16 @@ void check_grid_change(const config::GridChange& change, const std::string& engi
   }
 }
 
-// Flags of the grid: --grid, --tiles, --slices, --scheme and --set of its keys. They are taken out.
-std::vector<config::FlagValue> taken_grid_flags(RunInputs& inputs) {
-  std::vector<config::FlagValue> taken;
+// Removes and returns the flags of the grid: --grid, --tiles, --slices, --scheme and --set of its keys.
+std::vector<config::FlagValue> removed_grid_flags(RunInputs& inputs) {
+  std::vector<config::FlagValue> removed;
   for (const config::FlagValue& flag : flag_values(inputs))
-    if (config::changes_grid(flag)) taken.push_back(flag);
+    if (config::changes_grid(flag)) removed.push_back(flag);
   for (std::size_t i = 0; i < inputs.settings.size(); ++i) {
     const std::string name = config::config_flags()[i].name;
     std::erase_if(inputs.settings[i], [&](const std::string& value) { return config::changes_grid({name, value}); });
   }
-  return taken;
+  return removed;
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ bool choose_engine_clustering(const std::string& engine, RunInputs& inputs) {
   for (const config::FlagValue& flag : flag_values(inputs))
     if (names_method_or_lists(flag))
       refuse_for_engine(flag, engine, "names another method or other lists, and --engine sizes those of the engine");
-  const config::GridChange change = config::grid_change(taken_grid_flags(inputs));
+  const config::GridChange change = config::grid_change(removed_grid_flags(inputs));
   check_grid_change(change, engine);
   inputs.preset_grid = change;
   inputs.preset_grid.grid.erase("kind");

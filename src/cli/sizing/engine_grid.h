@@ -1,5 +1,5 @@
 #pragma once
-// `size --engine` with flags that name another grid: what of them an engine can be set to.
+// `size --engine` with flags that name another grid: the part of them that an engine can be set to.
 
 #include <string>
 
@@ -7,9 +7,9 @@
 
 namespace clusterbench::cli {
 
-// Has the engine's preset measured, and of its grid what the flags of `inputs` say in place of the engine's own: they
-// become inputs.preset_grid. Method and lists stay the engine's. Says whether flags changed the grid. Throws Error that
-// names a flag which says what the engine has no setting for.
+// Selects the engine's preset for measuring. The grid flags of `inputs` replace parts of the engine's grid: they become
+// inputs.preset_grid. Method and lists stay the engine's. Returns whether flags changed the grid. Throws Error that
+// names a flag for which the engine has no setting.
 bool choose_engine_clustering(const std::string& engine, RunInputs& inputs);
 
 }  // namespace clusterbench::cli

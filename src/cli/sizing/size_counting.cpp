@@ -25,35 +25,35 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double k_least_rate_hz = 30.0, k_most_rate_hz = 240.0;
-constexpr int k_frames_looked_at = 3, k_least_frames = 30;
-// What counting may take if nothing else is said, by the model of frame_work_ns().
+constexpr int k_sampled_frames = 3, k_least_frames = 30;
+// Limit of the work for counting by default, in units of frame_work_ns().
 constexpr double k_most_work_ns = 60e9;
 
 // A flag of the command line that chooses frames: --set scenes.*.frames=120.
-bool asks_for_frames(const config::FlagValue& flag) {
+bool requests_frames(const config::FlagValue& flag) {
   const std::string key = flag.value.substr(0, flag.value.find('='));
   return flag.name == "--set" && key.find("scenes") != std::string::npos && key.find("frames") != std::string::npos;
 }
 
-// Of each scene of the configuration, whether frames are asked for. Scenes on the command line ask for none.
-std::vector<bool> asked_for(const RunInputs& inputs, std::size_t scenes) {
-  const bool is_flagged = std::ranges::any_of(flag_values(inputs), asks_for_frames);
-  std::vector<bool> asked(scenes, is_flagged);
-  if (is_scene(inputs.paths.front()) || is_flagged) return asked;
+// For each scene of the configuration, whether it requests frames. Scenes on the command line do not.
+std::vector<bool> scenes_with_frames(const RunInputs& inputs, std::size_t scenes) {
+  const bool is_flagged = std::ranges::any_of(flag_values(inputs), requests_frames);
+  std::vector<bool> has_frames(scenes, is_flagged);
+  if (is_scene(inputs.paths.front()) || is_flagged) return has_frames;
   const Json file = json_or_discarded<Json>(file_text(inputs.paths.front()), JsonComments::allowed);
   const bool is_list = file.is_object() && file.contains("scenes") && file["scenes"].is_array();
-  // Scenes that come of axes are not those of the file.
+  // Scenes expanded from axes do not match those of the file.
   if (!is_list || file["scenes"].size() != scenes) return std::vector<bool>(scenes, true);
   for (std::size_t i = 0; i < scenes; ++i)
-    asked[i] = file["scenes"][i].is_object() && file["scenes"][i].contains("frames");
-  return asked;
+    has_frames[i] = file["scenes"][i].is_object() && file["scenes"][i].contains("frames");
+  return has_frames;
 }
 
 config::FlagValue setting(std::size_t scene, const std::string& key, const std::string& value) {
   return {"--set", "scenes." + std::to_string(scene) + "." + key + "=" + value};
 }
 
-// One allocation serves all cameras; where a scene names none, all are meant.
+// One allocation serves all cameras: a scene that names none uses all.
 std::vector<config::FlagValue> all_cameras(const RunInputs& inputs) {
   const config::Config given = read_inputs(inputs);
   std::vector<config::FlagValue> flags;
@@ -63,11 +63,11 @@ std::vector<config::FlagValue> all_cameras(const RunInputs& inputs) {
   return flags;
 }
 
-// Of scenes that come with no word of methods: those with exact lists, one for each kind of grid. Others have longer
-// lists, and would not be printed.
+// Methods for scenes without a choice of methods: exact lists, one method for each kind of grid. Other methods have
+// longer lists, which would not be printed.
 constexpr const char* k_exact_methods = "exact-fast,distance-fast,cascades-fast,world-grid-fast";
 
-bool takes_exact_methods(const RunInputs& inputs, const std::string& filter, bool all_methods) {
+bool uses_exact_methods(const RunInputs& inputs, const std::string& filter, bool all_methods) {
   const std::vector<config::FlagValue> flags = flag_values(inputs);
   const bool has_presets = std::ranges::any_of(flags, [](const auto& flag) { return flag.name == "--preset"; });
   const bool names_methods = has_presets || config::names_key(flags, "(assigners|storages|presets)") ||
@@ -75,7 +75,7 @@ bool takes_exact_methods(const RunInputs& inputs, const std::string& filter, boo
   return is_scene(inputs.paths.front()) && filter.empty() && !all_methods && !names_methods;
 }
 
-// Nothing that only times or pictures need; lists are not compared with the truth.
+// Removes the keys that only times or pictures need; lists are not compared with the truth.
 config::Config counting_only(config::Config config) {
   config.timing.measure = false;
   config.check_accuracy = false;
@@ -91,7 +91,8 @@ config::Config counting_only(config::Config config) {
   return config;
 }
 
-// Samples say whether a structure loses lights. Many frames have as many together as 30 frames would.
+// Samples show whether a structure loses lights. Paths with many frames use as many samples in total as 30 frames
+// would.
 void share_samples(config::Config& config, const run::Plan& plan) {
   constexpr int k_fewest = 32;
   std::size_t frames = 1;
@@ -110,7 +111,7 @@ run::Result counts_of(const config::Config& config, const run::Plan& plan, bool 
   return run::run_plan(config, plan, {}, listener, os::stop_on_signals(), {}, {}, costs);
 }
 
-// About what a frame of a case takes a core of 2020 to count: a model of what was counted, so that it is the same
+// Approximate time to count a frame of a case on a core of 2020: a model based on counts, so that it is the same
 // everywhere.
 double frame_work_ns(const run::CaseResult& counted) {
   constexpr double k_ns_per_frame = 1.2e5, k_ns_per_cell = 9.0, k_ns_per_entry = 1.8, k_ns_per_test = 1.2;
@@ -122,7 +123,7 @@ double frame_work_ns(const run::CaseResult& counted) {
          k_ns_per_test * static_cast<double>(counted.tests_done) / frames;
 }
 
-// How often a path of the scene is looked at each second: often enough for each of its keys.
+// Sampling rate of a scene's paths, in frames per second: high enough for each of their keys.
 double rate_of(const scene::Scene& scene, const scene::PathRequest& request) {
   scene::PathRequest keys = request;
   keys.choice = scene::FrameChoice::keys;
@@ -140,7 +141,7 @@ double frames_at(double rate_hz, const scene::CameraPath& path) {
                                : std::floor((path.shots.back().time_s - path.shots.front().time_s) * rate_hz) + 1.0;
 }
 
-// What all frames of a scene take at a rate, by what a few of them take.
+// The work for all frames of a scene at a rate, from the work for a few of them.
 double work_at(double rate_hz, const run::SceneData& data, const run::Result& few) {
   double work = 0.0;
   for (const run::CaseResult& counted : few.cases) {
@@ -154,28 +155,28 @@ double work_at(double rate_hz, const run::SceneData& data, const run::Result& fe
 
 struct Sampling {
   std::vector<config::FlagValue> flags;
-  bool is_coarser = false;  // than a path has keys, or 30 a second
+  bool is_coarser = false;  // than a path's keys, or than 30 frames a second
 };
 
-// Rates for the scenes that ask for none.
-Sampling sampling_of(const RunInputs& inputs, std::vector<config::FlagValue> flags, const std::vector<bool>& asked,
+// Rates for the scenes that request none.
+Sampling sampling_of(const RunInputs& inputs, std::vector<config::FlagValue> flags, const std::vector<bool>& has_frames,
                      const std::string& filter) {
   Sampling out;
-  std::vector<config::FlagValue> look = flags;
-  for (std::size_t i = 0; i < asked.size(); ++i)
-    if (!asked[i]) look.push_back(setting(i, "frames", std::to_string(k_frames_looked_at)));
-  config::Config config = counting_only(read_inputs(inputs, look));
+  std::vector<config::FlagValue> sampled_flags = flags;
+  for (std::size_t i = 0; i < has_frames.size(); ++i)
+    if (!has_frames[i]) sampled_flags.push_back(setting(i, "frames", std::to_string(k_sampled_frames)));
+  config::Config config = counting_only(read_inputs(inputs, sampled_flags));
   config.sample_sets.clear();
   const run::Plan plan = run::make_plan(config, filter);
   const run::Result few = counts_of(config, plan, true);
   out.flags = std::move(flags);
   double all = 0.0;
-  for (std::size_t i = 0; i < asked.size(); ++i)
-    if (!asked[i]) all += work_at(rate_of(plan.scenes[i].scene, config.scenes[i].camera), plan.scenes[i], few);
+  for (std::size_t i = 0; i < has_frames.size(); ++i)
+    if (!has_frames[i]) all += work_at(rate_of(plan.scenes[i].scene, config.scenes[i].camera), plan.scenes[i], few);
   const double share = std::min(1.0, k_most_work_ns / std::max(1.0, all));
   out.is_coarser = share < 1.0;
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (asked[i]) continue;
+  for (std::size_t i = 0; i < has_frames.size(); ++i) {
+    if (has_frames[i]) continue;
     double rate = rate_of(plan.scenes[i].scene, config.scenes[i].camera) * share;
     for (const scene::CameraPath& path : plan.scenes[i].paths)
       if (frames_at(1e9, path) > k_least_frames)
@@ -224,13 +225,13 @@ std::vector<report::GrownTiles> grown_tiles(const config::Config& limited, const
 std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string& filter, bool all_methods,
                                       const std::string& engine) {
   std::vector<config::FlagValue> flags = all_cameras(inputs);
-  const bool exact_methods = takes_exact_methods(inputs, filter, all_methods);
+  const bool exact_methods = uses_exact_methods(inputs, filter, all_methods);
   if (exact_methods) flags.push_back({"--assigner", k_exact_methods});
-  const std::vector<bool> asked = asked_for(inputs, read_inputs(inputs, flags).scenes.size());
+  const std::vector<bool> has_frames = scenes_with_frames(inputs, read_inputs(inputs, flags).scenes.size());
   const std::atomic<bool>& stop = os::stop_on_signals();
-  const bool samples = std::ranges::find(asked, false) != asked.end();
+  const bool samples = std::ranges::find(has_frames, false) != has_frames.end();
   Sampling sampling{std::move(flags), false};
-  if (samples) sampling = sampling_of(inputs, std::move(sampling.flags), asked, filter);
+  if (samples) sampling = sampling_of(inputs, std::move(sampling.flags), has_frames, filter);
   if (stop) return {};
   SizePlan out{counting_only(read_inputs(inputs, sampling.flags)), {}, {}, {}, sampling.is_coarser, exact_methods};
   if (!engine.empty()) {
@@ -242,7 +243,7 @@ std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string
   return out;
 }
 
-void tell_of_size(SizePlan& plan, const std::string& then) {
+void print_planned_counting(SizePlan& plan, const std::string& then) {
   plan.costs = run::estimated_costs(plan.config, plan.plan);
   std::size_t frames = 0, paths = 0;
   for (const run::SceneData& data : plan.plan.scenes)
@@ -257,20 +258,20 @@ void tell_of_size(SizePlan& plan, const std::string& then) {
     line +=
         ". Fewer frames than the paths have, for want of time: --grid KIND --tiles N --slices N, one structure, has "
         "more";
-  tell(line);
+  print_message(line);
   if (plan.has_exact_methods)
-    tell("of exact lists, the shortest that there are; --assigner NAME counts those of your method");
+    print_message("of exact lists, the shortest that there are; --assigner NAME counts those of your method");
 }
 
 std::optional<SizeCounts> counted_for_size(SizePlan plan, bool quiet) {
   const run::Result result = counts_of(plan.config, plan.plan, quiet, plan.costs);
   if (os::stop_on_signals()) return {};
   for (const run::SceneResult& scene : result.scenes)
-    for (const std::string& warning : scene.warnings) tell("warning: " + scene.name + ": " + warning);
+    for (const std::string& warning : scene.warnings) print_message("warning: " + scene.name + ": " + warning);
   if (result.cases.empty())
-    for (const run::Skipped& skipped : result.skipped) tell("skipped " + skipped.name + ": " + skipped.reason);
+    for (const run::Skipped& skipped : result.skipped) print_message("skipped " + skipped.name + ": " + skipped.reason);
   SizeCounts out{std::move(plan.config), std::move(plan.plan), report::record_of(result, {}), {}};
-  out.result.conclusions.emplace();  // nothing was compared, so nothing is taken
+  out.result.conclusions.emplace();  // nothing was compared, so there is no recommendation
   if (plan.limited) out.grown = grown_tiles(*plan.limited, out.plan);
   return out;
 }

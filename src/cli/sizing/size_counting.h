@@ -1,5 +1,5 @@
 #pragma once
-// What `size` counts of scenes or a configuration: their frames, as finely as high-water marks need them.
+// Counting for `size`, from scenes or a configuration: frames sampled as finely as high-water marks need.
 
 #include <optional>
 #include <string>
@@ -14,14 +14,15 @@
 
 namespace clusterbench::cli {
 
-// What is to be counted.
+// The input of a count.
 struct SizePlan {
   config::Config config;
   run::Plan plan;
-  std::optional<config::Config> limited;  // of an engine whose settings are asked for: with its own limits
-  std::vector<run::GroupCost> costs;      // once somebody was told how long it takes
-  bool is_coarser = false;                // than a path has keys, or 30 a second
-  bool has_exact_methods = false;         // since nothing names others
+  // for an engine whose settings are requested: the plan's configuration with the engine's limits
+  std::optional<config::Config> limited;
+  std::vector<run::GroupCost> costs;  // set when the duration is printed
+  bool is_coarser = false;            // than a path's keys, or than 30 frames a second
+  bool has_exact_methods = false;     // since the input names no methods
 };
 
 struct SizeCounts {
@@ -31,20 +32,19 @@ struct SizeCounts {
   std::vector<report::GrownTiles> grown;  // with an engine's own room for lists
 };
 
-// All cameras of scenes that name none, without truth and times. Where no frames are asked for, a path is sampled 30
-// times a second, or as often as it has keys if that is more, and less where that would be too much work; which it is
-// follows from counts and not from times. Nothing once it is to stop.
-// `all_methods`: also those with longer lists than others on the same grid, where nothing names methods. `engine`: ""
-// or whose settings are asked for: what is counted is then what the engine asks for, not what its limits make of it,
-// which the settings are to be judged by.
+// Plans all cameras of scenes that name none, without truth and times. If no frames are requested, a path is sampled 30
+// times a second, at the rate of its keys if that is higher, and at a lower rate if that would be too much work; the
+// choice depends on counts, not on times. nullopt if stopped. `all_methods`: if the input names no methods, also use
+// those with longer lists than others on the same grid. `engine`: "", or the engine whose settings are requested: then
+// the counts are the engine's needs without its limits, since the settings are sized from them.
 std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string& filter, bool all_methods,
                                       const std::string& engine);
 
-// What will be counted, about how long that takes, and how to have fewer or more. `then`: what follows it, "" or ",
-// then ...".
-void tell_of_size(SizePlan& plan, const std::string& then);
+// Prints the planned counting, its estimated duration, and flags for fewer or more frames. `then`: text for the next
+// step, "" or ", then ...".
+void print_planned_counting(SizePlan& plan, const std::string& then);
 
-// Nothing once it is to stop.
+// nullopt if stopped.
 std::optional<SizeCounts> counted_for_size(SizePlan plan, bool quiet);
 
 }  // namespace clusterbench::cli

@@ -20,8 +20,8 @@ const run::CasePlan* case_named(const run::Plan& plan, const std::string& name) 
   return nullptr;
 }
 
-// "" if frames elsewhere can be measured.
-std::string why_not(const config::Config& config, const run::CasePlan& case_plan) {
+// Why frames at other places cannot be measured; "" if they can.
+std::string search_obstacle(const config::Config& config, const run::CasePlan& case_plan) {
   const assign::AssignerDescriptor& method = *assign::find_assigner(config.assigners[case_plan.assigner].name);
   const std::optional<grid::Fit>& fit = config.grids[case_plan.grid].slices.fit;
   const bool needs_surfaces = method.needs.depth || method.at_surfaces || (fit && fit->needs_surfaces());
@@ -41,7 +41,7 @@ report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& s
   out.measure = search::row_of(request.measure).name;
   const run::CasePlan* case_plan = case_named(counts.plan, sized.name);
   if (case_plan == nullptr) return out.refusal = "it is not in the plan", out;
-  out.refusal = why_not(counts.config, *case_plan);
+  out.refusal = search_obstacle(counts.config, *case_plan);
   if (!out.refusal.empty()) return out;
   config::Config config = counts.config;
   search::fix_grid(config, counts.plan, *case_plan);
@@ -63,14 +63,14 @@ report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& s
     for (const assign::BufferNeed& need : found.buffers)
       out.needs.push_back({need.name, need.elements, need.most, need.element_bytes});
   } catch (const Error& error) {
-    if (error.where().starts_with("--")) throw;  // a flag that is wrong for all
+    if (error.where().starts_with("--")) throw;  // a flag that is wrong for all searches
     out.refusal = error.what();
   }
   return out;
 }
 
-// One case of each camera of each structure that may be printed: of all, or one of each grid. With several viewports
-// for one allocation of the first.
+// Of each camera, the cases that may be printed: all cases, or one per grid. If one allocation serves several
+// viewports, only those of the first one.
 std::vector<const run::CasePlan*> cases_to_search(const SizePlan& plan, const report::SizeRequest& request) {
   std::vector<const run::CasePlan*> out;
   for (const run::GroupPlan& group : plan.plan.groups) {
@@ -86,11 +86,11 @@ std::vector<const run::CasePlan*> cases_to_search(const SizePlan& plan, const re
   return out;
 }
 
-// The time that all searches together have left.
+// The remaining time of all searches together.
 class SharedSeconds {
  public:
   explicit SharedSeconds(double seconds) : seconds_(seconds) {}
-  // For the next of so many; 0: as long as they like.
+  // The time limit for the next of this many searches; 0: no limit.
   double share(std::size_t searches) const {
     if (seconds_ == 0.0) return 0.0;
     const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -104,25 +104,25 @@ class SharedSeconds {
 
 }  // namespace
 
-std::string told_of_search(const SizePlan& plan, const report::SizeRequest& request, const SearchFlags& flags) {
-  constexpr double k_most_looking_s = 2.0;
-  search::WorstCaseRequest asked = search_request(flags, plan.config);
-  asked.random = 0;
-  const SharedSeconds looking(k_most_looking_s);
-  std::size_t searches = 0, looked_at = 0;
-  double looked_at_s = 0.0;
+std::string planned_search_text(const SizePlan& plan, const report::SizeRequest& request, const SearchFlags& flags) {
+  constexpr double k_max_estimate_s = 2.0;
+  search::WorstCaseRequest planned = search_request(flags, plan.config);
+  planned.random = 0;
+  const SharedSeconds time(k_max_estimate_s);
+  std::size_t searches = 0, estimated = 0;
+  double estimated_s = 0.0;
   for (const run::CasePlan* case_plan : cases_to_search(plan, request)) {
-    if (!why_not(plan.config, *case_plan).empty()) continue;
+    if (!search_obstacle(plan.config, *case_plan).empty()) continue;
     for (const std::string& measure :
          report::sized_measures(run::storage_label(plan.config, *case_plan), request.engine)) {
       ++searches;
-      if (looking.share(1) < 0.1) continue;
-      asked.measure = measure_named(measure);
+      if (time.share(1) < 0.1) continue;
+      planned.measure = measure_named(measure);
       config::Config config = plan.config;
       search::fix_grid(config, plan.plan, *case_plan);
       try {
-        looked_at_s += search::estimated_search_s(config, plan.plan, *case_plan, asked);
-        ++looked_at;
+        estimated_s += search::estimated_search_s(config, plan.plan, *case_plan, planned);
+        ++estimated;
       } catch (const Error& error) {
         if (error.where().starts_with("--")) throw;
         --searches;
@@ -130,9 +130,9 @@ std::string told_of_search(const SizePlan& plan, const report::SizeRequest& requ
     }
   }
   if (searches == 0) return "";
-  double all_s = looked_at_s / static_cast<double>(looked_at) * static_cast<double>(searches);
-  if (asked.seconds > 0.0) all_s = std::min(all_s, asked.seconds);
-  const std::string frames = number_of(static_cast<std::uint64_t>(asked.evaluations), "frame");
+  double all_s = estimated_s / static_cast<double>(estimated) * static_cast<double>(searches);
+  if (planned.seconds > 0.0) all_s = std::min(all_s, planned.seconds);
+  const std::string frames = number_of(static_cast<std::uint64_t>(planned.evaluations), "frame");
   return ", then searches " + frames + " for worse ones" +
          (searches > 1 ? ", " + std::to_string(searches) + " times" : std::string()) + ", " + duration_text(all_s) +
          "; --evaluations N searches fewer, --seconds N ends all searches after N seconds";
@@ -162,7 +162,7 @@ std::optional<std::vector<report::FoundFrame>> search_sized(const SizeCounts& co
 std::optional<std::vector<report::GuestSamples>> samples_of_guests(const SizeCounts& counts,
                                                                    const std::vector<report::SizedCase>& cases,
                                                                    bool quiet) {
-  constexpr int k_samples = 1024;  // of a frame
+  constexpr int k_samples = 1024;  // per frame
   const std::atomic<bool>& stop = os::stop_on_signals();
   ProgressLine progress(os::terminal(os::StandardStream::error), quiet);
   std::vector<report::GuestSamples> out;

@@ -1,5 +1,5 @@
 #pragma once
-// `size --worst-case`: worse frames of the structures that are printed.
+// `size --worst-case`: searches for worse frames of the printed structures.
 
 #include <optional>
 #include <string>
@@ -11,18 +11,18 @@
 
 namespace clusterbench::cli {
 
-// What will be searched and about how long that takes, for tell_of_size(): by some frames of the cases, of which it is
-// not yet known which will be printed. "" where nothing can be.
-std::string told_of_search(const SizePlan& plan, const report::SizeRequest& request, const SearchFlags& flags);
+// Text for print_planned_counting(): the planned searches and their estimated duration, from some frames of all cases,
+// since the printed ones are not known yet. "" if nothing can be searched.
+std::string planned_search_text(const SizePlan& plan, const report::SizeRequest& request, const SearchFlags& flags);
 
-// Searches each case for the frames that need most of its buffers, or of an engine's settings; one that cannot be
-// searched has the reason. --seconds is shared by all. Nothing once it is to stop.
+// Searches each case for the frames that need most of its buffers, or of an engine's settings; a case that cannot be
+// searched gets the reason. All searches share --seconds. nullopt if stopped.
 std::optional<std::vector<report::FoundFrame>> search_sized(const SizeCounts& counts,
                                                             const std::vector<report::SizedCase>& cases,
                                                             const SearchFlags& flags, bool quiet);
 
-// What samples of cameras lack that have no grid of their own, where --grid-of names one that serves them. Nothing once
-// it is to stop.
+// Lights missed at samples of cameras without a grid of their own, if --grid-of names the camera whose grid they use.
+// nullopt if stopped.
 std::optional<std::vector<report::GuestSamples>> samples_of_guests(const SizeCounts& counts,
                                                                    const std::vector<report::SizedCase>& cases,
                                                                    bool quiet);

@@ -532,7 +532,7 @@ bool needs_times(const ObjectiveFigure& objective, const std::vector<Constraint>
          });
 }
 
-search::Judge judge_of(const Question& question, const nlohmann::json& config) {
+search::Evaluate judge_of(const Question& question, const nlohmann::json& config) {
   return [question, resolved = Json(config)](std::span<const run::CaseResult> results) {
     const std::vector<Case> cases = records_of(results, resolved);
     search::Verdict verdict;

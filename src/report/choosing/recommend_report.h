@@ -43,7 +43,7 @@ struct Question {
 // of counts, else the mean by frames; a constraint holds for each camera. A case that a run would fail for is out,
 // under the constraint after the last of the question's; under the one after that a method that could lose lights
 // elsewhere, unless the question allows losses.
-search::Judge judge_of(const Question& question, const nlohmann::json& config);
+search::Evaluate judge_of(const Question& question, const nlohmann::json& config);
 
 // One answer: docs/recommend.md, `clusterbench schema recommendation`.
 nlohmann::ordered_json answer_to_json(const config::Config& config, const run::Plan& plan, const search::View& view,

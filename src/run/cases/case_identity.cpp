@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// What a set's samples depend on, besides the scene.
+// The settings, besides the scene, that a set's samples depend on.
 Json identity(const config::SampleSetRequest& request) {
   Json out{measure::name_of(request.set),
            request.count,
@@ -36,8 +36,8 @@ Json identity(const config::MethodRequest& method, std::span<const assign::Param
 }
 
 Json identity(const config::SceneRequest& request, const SceneData& data) {
-  // By the frames that there are, as if so many had been asked for.
-  const int count = data.frames_asked == 0 ? request.camera.count : data.equal_steps;
+  // Uses the number of frames that exist, as if exactly that many had been requested.
+  const int count = data.requested_frames == 0 ? request.camera.count : data.equal_steps;
   Json out{{"sha256", data.contents_sha256()},
            {"frames", {static_cast<int>(request.camera.choice), count, request.camera.rate_hz}},
            {"range_rule", {request.range_rule.cutoff_lux, request.range_rule.max_range_m}}};
@@ -57,7 +57,7 @@ std::string short_hash(const Json& all) {
   return sha256_hex(all.dump()).substr(0, k_digits);
 }
 
-// Settings that change what a case counts; timing and threads do not.
+// Settings that change the counts of a case; timing and threads do not.
 Json identity(const config::Config& config, const SceneData& data, const CasePlan& plan) {
   const Vec2i viewport = config.viewports[plan.viewport];
   const config::MethodRequest& assigner = config.assigners[plan.assigner];

@@ -1,5 +1,5 @@
 #pragma once
-// What identifies a case: the same in every run and on every machine.
+// The identity of a case: the same in every run and on every machine.
 
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace clusterbench::run {
 
-// Short hashes of all settings that change what a case counts; timing and threads do not.
+// Short hashes of all settings that change the counts of a case; timing and threads do not.
 struct CaseIdentity {
-  std::string id;        // and of the scene's contents
-  std::string settings;  // without: stable while a level changes
+  std::string id;        // includes the scene's contents
+  std::string settings;  // excludes them: stable while a level changes
 };
 CaseIdentity identity_of(const config::Config& config, const SceneData& data, const CasePlan& plan);
 

@@ -9,8 +9,8 @@
 namespace clusterbench::run {
 namespace {
 
-// "a/own/half" with another word for "own"; the first part from the fourth on that is it: scene, camera and grid can be
-// called anything. `other_of`: of the part before, the method.
+// "a/own/half" with another word for "own". Only the parts after the fourth (the method) are searched, since scene,
+// camera and grid can have any name. `other_of` gets the method.
 template <class OtherOf>
 std::string with_part(const std::string& name, const std::string& part, const OtherOf& other_of) {
   std::string method;
@@ -26,7 +26,7 @@ std::string with_part(const std::string& name, const std::string& part, const Ot
   return name;
 }
 
-// Beside the case's name. A reader sees them as printable() has them.
+// Further names besides the case's name. Users see them after printable().
 std::vector<std::string> other_names(const CaseNames& names) {
   std::vector<std::string> all{names.id, names.grid + ", camera " + names.camera + ", " + names.viewport};
   for (const bool with_viewport : {true, false}) {
@@ -51,11 +51,11 @@ std::vector<std::string> other_names(const CaseNames& names) {
   return all;
 }
 
-// Choices of methods that were called otherwise: as they were and as they are, in the method's part of a name.
+// Renamed method options: old and new spelling within the method's part of a name.
 constexpr std::pair<const char*, const char*> k_choices[] = {{"(spot=ball", "(spot=sphere"},
                                                              {"(flaw=flat-cap-ball", "(flaw=flat-cap-sphere"}};
 
-// The method follows scene, camera and grid, which can be called anything. The end where there are fewer parts.
+// The method follows scene, camera and grid, which can have any name. Returns the end if there are fewer parts.
 std::size_t begin_of_method(const std::string& name) {
   std::size_t method = 0;
   for (int before = 0; before < 3; ++before) {
@@ -75,7 +75,7 @@ std::string with_former_choices(std::string name) {
   return name;
 }
 
-// As it has been called: choices and structures were renamed at different times.
+// All former names: options and structures were renamed at different times.
 std::vector<CaseNames> names_over_time(const CaseNames& names) {
   const auto own = [](const std::string&) { return std::string(k_own_structure); };
   const auto no_lists = [](const std::string&) { return std::string(k_no_lists); };
@@ -85,7 +85,8 @@ std::vector<CaseNames> names_over_time(const CaseNames& names) {
   std::vector<CaseNames> all;
   for (const CaseNames& choice : {names, former})
     for (const std::string& name :
-         {choice.name, with_part(choice.name, k_own_lists, no_lists),  // before tiles' lists were told apart
+         // from before tiles' lists had a name of their own
+         {choice.name, with_part(choice.name, k_own_lists, no_lists),
           with_part(with_part(choice.name, k_no_lists, own), k_own_lists, own)}) {
       all.push_back(choice);
       all.back().name = name;
@@ -116,7 +117,7 @@ std::string name_without_camera(const CaseNames& names, bool with_viewport) {
 
 bool is_selected(const Pattern& pattern, const CaseNames& names) {
   const auto is_other = [&](const std::string& name) { return pattern.is(name) || pattern.is(printable(name)); };
-  return pattern.is_in_as_it_stands(printable(names.name)) ||
+  return pattern.is_literally_in(printable(names.name)) ||
          std::ranges::any_of(names_over_time(names), [&](const CaseNames& once) {
            return pattern.is_in(once.name) || std::ranges::any_of(other_names(once), is_other);
          });

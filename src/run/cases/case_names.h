@@ -1,6 +1,6 @@
 #pragma once
-// The names that commands print for a case. Each of them, copied whole, selects it in --filter and before a budget's
-// colon.
+// The names that commands print for a case. Each of them, copied as a whole, selects the case in --filter and before a
+// budget's colon.
 
 #include <string>
 #include <vector>
@@ -13,25 +13,26 @@ struct CaseNames {
   std::string name;  // "street/walk/1920x1080 frustum 64px/exact-fast/packed"
   std::string id;    // its hash
   std::string scene, camera;
-  std::string viewport;  // "1920x1080", which names have where there are several
+  std::string viewport;  // "1920x1080"; part of the names if there are several viewports
   std::string grid;
-  std::string method;  // as tables have it: with the preset, how lights are packed and what culls them
+  std::string method;  // as in tables: with the preset, the packing of the lights and the pre-cull
   std::string storage;
 };
 
-// A name of an earlier version as it is now: "street/walk/frustum/bvh/own" had a structure that is no lists,
-// "street/walk/frustum/aabb(spot=ball)/packed" a choice of another name.
+// Converts a name of an earlier version to the current one: "street/walk/frustum/bvh/own" had a structure without
+// lists, "street/walk/frustum/aabb(spot=ball)/packed" an option that was renamed.
 std::string current_name(std::string name);
 
-// The same of a method alone, "aabb(spot=ball)".
+// The same for a method alone, "aabb(spot=ball)".
 std::string current_method(std::string label);
 
-// What follows scene and camera: "1920x1080 frustum 64px/exact-fast/packed"; without the viewport where it is not
-// wanted. Names that are not made like that are taken as they are.
+// The part after scene and camera: "1920x1080 frustum 64px/exact-fast/packed", without the viewport if `with_viewport`
+// is false. Names of any other form are returned unchanged.
 std::string name_without_camera(const CaseNames& names, bool with_viewport);
 
-// By a part of the case's name (also as earlier versions had it), as a regular expression of it, or by the whole of any
-// other name that is printed: of the structure that all cameras share (`size`), of a row or a block of a table, the id.
+// True if the pattern matches a part of the case's name (also in the form of earlier versions), as a regular
+// expression, or the whole of any other printed name: the structure that all cameras share (`size`), a row or block of
+// a table, the id.
 bool is_selected(const Pattern& pattern, const CaseNames& names);
 
 }  // namespace clusterbench::run

@@ -19,8 +19,8 @@ std::shared_ptr<const depth::DepthImage> FrameDepths::thinned(const view::Frame&
   Kept now{shot, std::make_shared<const depth::DepthImage>(caster_.depths(frame, pixels, threads))};
   ++images_cast_;
   pixels_cast_ += pixels.count();
-  // Frames are asked for in the same order grid after grid: the first ones stay, since each would be gone before it is
-  // asked for again if the latest ones did.
+  // Frames are requested in the same order for grid after grid. So the first images stay cached: if the latest ones
+  // replaced them, each image would be gone before its next request.
   std::size_t bytes = now.bytes();
   for (const Kept& kept : kept_) bytes += kept.bytes();
   if (!kept_.empty() && bytes > k_most_kept_bytes) kept_.pop_back();

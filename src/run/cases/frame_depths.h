@@ -1,5 +1,5 @@
 #pragma once
-// Depth of a scene's frames: one source for the methods that need it and for sets of samples, in all grids.
+// Depth images of a scene's frames: one source for methods and sample sets, shared by all grids.
 
 #include <memory>
 #include <vector>
@@ -8,19 +8,19 @@
 
 namespace clusterbench::run {
 
-// Of one scene. Nothing is cast before something is asked for.
+// Depth images of one scene. Nothing is cast before the first request.
 class FrameDepths {
  public:
-  // Both must outlive it.
+  // Both must outlive this object.
   FrameDepths(const scene::Scene& scene, const scene::Geometry& geometry) : caster_(scene, geometry) {}
 
-  // Of all pixels. Cast once: whoever asks for the same frame again gets the same image, as far as images fit into
-  // k_most_kept_bytes; the last one is kept in any case.
+  // Depths of all pixels, cast once: the same frame returns the same image while images fit into k_most_kept_bytes; the
+  // last image is always kept.
   std::shared_ptr<const depth::DepthImage> of(const view::Frame& frame, int threads);
-  // Of one pixel in each block of divisor x divisor: taken from the image of all pixels where that is kept, else cast
-  // for themselves and kept likewise. The depths are the same.
+  // Depths of one pixel in each block of divisor x divisor: from the cached image of all pixels if there is one, else
+  // cast separately and cached in the same way. The depths are the same.
   std::shared_ptr<const depth::DepthImage> thinned(const view::Frame& frame, int divisor, int threads);
-  // In front of these.
+  // Layers in front of these depths.
   depth::LayerImage layers(const view::Frame& frame, const depth::DepthImage& opaque, int most_layers, int threads);
 
   int images_cast() const { return images_cast_; }
@@ -29,7 +29,7 @@ class FrameDepths {
   static constexpr std::size_t k_most_kept_bytes = std::size_t{256} << 20;
 
  private:
-  // What an image depends on.
+  // The key of a cached image.
   struct Shot {
     double time_s;
     Vec3d eye;
@@ -48,7 +48,7 @@ class FrameDepths {
     std::size_t bytes() const { return image->nearest.size() * sizeof(float); }
   };
 
-  std::shared_ptr<const depth::DepthImage> kept(const Shot& shot) const;  // null: it is not
+  std::shared_ptr<const depth::DepthImage> kept(const Shot& shot) const;  // null: not cached
 
   depth::RayCaster caster_;
   std::vector<Kept> kept_;

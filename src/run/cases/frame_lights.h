@@ -13,15 +13,15 @@ class FrameLights {
   FrameLights() = default;
   FrameLights(const std::vector<config::PrecisionRequest>& precisions, const view::LightArrays& lights);
 
-  // `precision`: index in the list. What its assigners get.
+  // The lights that assigners of this precision get. `precision`: index in the configuration's list.
   const view::LightArrays& in_precision(std::size_t precision) const;
-  // What they would get without inflation.
+  // The same lights without inflation.
   const view::PackedLights& packed(std::size_t precision) const { return lights_[precision].packed; }
 
  private:
   struct Lights {
     view::PackedLights packed;
-    view::LightArrays inflated;  // only where it is asked for
+    view::LightArrays inflated;  // only if requested
     bool is_inflated;
   };
 

@@ -13,7 +13,7 @@ std::vector<FrameSampleSet> FrameSamples::of(const view::Frame& frame) {
     if (!request.needs_triangles())
       set.samples = points_of(request, frame);
     else
-      look_at_surfaces(request, frame, set);
+      add_surface_samples(request, frame, set);
   }
   return out;
 }
@@ -34,13 +34,13 @@ std::vector<grid::Sample> FrameSamples::points_of(const config::SampleSetRequest
       return measure::anywhere_samples(frame, path_.light_bounds(), request.count, seed);
     case SampleSet::opaque:
     case SampleSet::transparent:
-      break;  // look_at_surfaces()
+      break;  // see add_surface_samples()
   }
   return {};
 }
 
-void FrameSamples::look_at_surfaces(const config::SampleSetRequest& request, const view::Frame& frame,
-                                    FrameSampleSet& out) const {
+void FrameSamples::add_surface_samples(const config::SampleSetRequest& request, const view::Frame& frame,
+                                       FrameSampleSet& out) const {
   if (const std::optional<double> height_m = ground_height(request, data_)) {
     out.picture = measure::ground_depths(frame, depth::PixelGrid(frame.viewport, request.divisor), *height_m);
     out.samples = measure::opaque_samples(frame, *out.picture);

@@ -1,5 +1,5 @@
 #pragma once
-// The sets of samples that a configuration asks for, frame by frame.
+// The sample sets that a configuration requests, frame by frame.
 
 #include <optional>
 #include <vector>
@@ -18,18 +18,19 @@ struct FrameSampleSet {
   std::optional<depth::DepthImage> picture;  // of visible surfaces
 };
 
-// Of one camera's path. Casts rays only for sets of visible surfaces.
+// For one camera path. Casts rays only for sets of visible surfaces.
 class FrameSamples {
  public:
-  // All must outlive it.
+  // All must outlive this object.
   FrameSamples(const config::Config& config, const SceneData& data, const PathFrames& path);
 
-  // One per set of Config::sample_sets, in their order; those of surfaces are empty where the scene has none.
+  // One per set of Config::sample_sets, in the same order; sets of surfaces are empty if the scene has no triangles.
   std::vector<FrameSampleSet> of(const view::Frame& frame);
 
  private:
   std::vector<grid::Sample> points_of(const config::SampleSetRequest& request, const view::Frame& frame) const;
-  void look_at_surfaces(const config::SampleSetRequest& request, const view::Frame& frame, FrameSampleSet& out) const;
+  void add_surface_samples(const config::SampleSetRequest& request, const view::Frame& frame,
+                           FrameSampleSet& out) const;
 
   const config::Config& config_;
   const SceneData& data_;

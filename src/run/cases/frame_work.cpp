@@ -27,7 +27,7 @@ double lights_at_a_point(const scene::Scene& scene, const scene::CameraPath& pat
 int frames_within(int most, double most_lights, std::span<const scene::CameraPath> paths,
                   std::span<const double> lights_at_points) {
   constexpr int k_fewest = 6;
-  double lights = 0.0;  // of a frame of each path
+  double lights = 0.0;  // of one frame of each path
   for (std::size_t i = 0; i < paths.size(); ++i)
     if (paths[i].shots.size() > 1) lights += lights_at_points[i];
   if (lights * most <= most_lights) return most;

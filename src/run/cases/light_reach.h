@@ -1,19 +1,20 @@
 #pragma once
-// Where the lights of frames are: what grids that go by them, and samples, are made with.
+// The extent of the lights over frames: input for grids that depend on lights, and for samples.
 
 #include "view/frame.h"
 
 namespace clusterbench::run {
 
-// Of lights that have an end and reach something: one without an end has no box, and one of range 0 reaches nothing.
+// Covers lights with a finite, positive range: an infinite one has no box, and one of range 0 reaches nothing.
 class LightReach {
  public:
   void add(const view::Frame& frame);
 
-  // The box around their balls; without extent at the origin where there are none.
+  // The box around the lights' balls; a point at the origin without lights.
   const Vec3d& lo() const { return lo_; }
   const Vec3d& hi() const { return hi_; }
-  // How far those in view of a frame reach at most from its eye: what is behind it, or beside its view, is in no cell.
+  // The largest distance from a frame's eye at which a light in view still reaches a point; lights behind the eye or
+  // beside the view are in no cell.
   double far_m() const { return far_m_; }
 
  private:

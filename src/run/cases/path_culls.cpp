@@ -13,11 +13,11 @@ std::shared_ptr<const cull::PreCull> pre_cull_on(const config::Config& config, s
   const cull::PreCullSpec& spec = config.pre_culls[pre_cull];
   std::vector<std::shared_ptr<const cull::VisibleSets>> sets;
   for (const cull::Step& step : spec.steps) {
-    const auto* asked = std::get_if<cull::VisibleSetStep>(&step);
-    if (asked == nullptr) continue;
+    const auto* visible_set = std::get_if<cull::VisibleSetStep>(&step);
+    if (visible_set == nullptr) continue;
     if (path.visible_sets() == nullptr)
       throw Error("", "pre_cull", "visible_set: this path has no triangles to build it of", ExitCode::internal);
-    sets.push_back(path.visible_sets()->of(path.camera_path(), *asked, config.seed, config.threads));
+    sets.push_back(path.visible_sets()->of(path.camera_path(), *visible_set, config.seed, config.threads));
   }
   return std::make_shared<const cull::PreCull>(spec, std::move(sets));
 }
@@ -60,7 +60,7 @@ std::vector<std::uint32_t> most_kept_lights(const config::Config& config, const 
   return most;
 }
 
-std::uint32_t GroupCulls::most_lights_of(const Method& method) const {
+std::uint32_t GroupCulls::max_lights_of(const Method& method) const {
   return most_lights[static_cast<std::size_t>(std::ranges::find(methods, method) - methods.begin())];
 }
 

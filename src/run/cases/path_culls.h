@@ -15,11 +15,11 @@
 
 namespace clusterbench::run {
 
-// Those that a group's cases use; others stay empty. Visible sets are built here, untimed.
+// The pre-culls that a group's cases use; others stay empty. Visible sets are built here, untimed.
 class PathCulls {
  public:
   PathCulls(const config::Config& config, const GroupPlan& group, const PathFrames& path);
-  // Of one case alone.
+  // The pre-cull of one case.
   PathCulls(const config::Config& config, const CasePlan& case_plan, const PathFrames& path);
 
   const cull::PreCull& of(const Method& method) const { return *culls_[method.pre_cull]; }
@@ -28,16 +28,16 @@ class PathCulls {
  private:
   void add(const config::Config& config, std::size_t pre_cull, const PathFrames& path);
 
-  std::vector<std::shared_ptr<const cull::PreCull>> culls_;  // beside Config::pre_culls
+  std::vector<std::shared_ptr<const cull::PreCull>> culls_;  // parallel to Config::pre_culls
 };
 
-// The most lights that each of these methods gets in a frame of the path: what indices and words are wide enough for.
-// 0 where nothing is culled, and it gets all of the rig's.
+// For each method, the largest number of lights that it gets in a frame of the path: indices and words must be wide
+// enough for it. 0 without a pre-cull: the method gets all lights of the rig.
 std::vector<std::uint32_t> most_kept_lights(const config::Config& config, const GroupPlan& group,
                                             const PathFrames& path, const PathCulls& culls,
                                             const std::vector<Method>& methods);
 
-// The pre-culls of a group's methods, and what these leave at most.
+// The pre-culls of a group's methods, and the largest number of lights that they keep.
 struct GroupCulls {
   PathCulls path;
   std::vector<Method> methods;
@@ -48,23 +48,23 @@ struct GroupCulls {
         methods(methods_of(group)),
         most_lights(most_kept_lights(config, group, frames, path, methods)) {}
 
-  std::uint32_t most_lights_of(const Method& method) const;
+  std::uint32_t max_lights_of(const Method& method) const;
 };
 
-// A method at work behind a pre-cull, for measures: what it leaves is told in the rig's indices.
+// A method behind a pre-cull, for measures: its results use the rig's indices.
 class CulledRun {
  public:
-  // `pre_cull` outlives it.
+  // `pre_cull` must outlive this object.
   CulledRun(const config::Config& config, const Method& method, const cull::PreCull& pre_cull)
       : run_(start_method(config, method)), pre_cull_(&pre_cull) {}
 
   void build(const grid::Grid& grid, const assign::LightKinds& kinds);
-  // `lights`: all of the frame's, as the method's precision has them.
+  // `lights`: all lights of the frame, in the method's precision.
   void assign(const view::Frame& frame, const view::LightArrays& lights, const depth::DepthImage* depth);
 
-  // Null where nothing is culled.
+  // Null without a pre-cull.
   const cull::FrameCull* cull() const { return pre_cull_->is_none() ? nullptr : &cull_; }
-  // Of the frame that assign() was given last: it removes no light of a cell.
+  // For the frame of the last assign(): whether the pre-cull removes no light of a cell.
   bool cull_is_conservative(const view::Frame& frame, const view::LightArrays& lights) const {
     return pre_cull_->is_conservative(frame, *grid_, lights, cull_);
   }
@@ -73,13 +73,13 @@ class CulledRun {
   bool has_occupied_cells() const { return run_.has_occupied_cells(); }
   // Ascending, in the rig's indices. Only with cells.
   const assign::Lists& cell_lists() const;
-  // Puts the method's lists into a storage as an engine does: by the indices of the lights that it got. Not for a
-  // structure of its own.
+  // Writes the method's lists into a storage as an engine does: with the indices of the lights that the method got. Not
+  // for a method with its own structure.
   void store(assign::Storage& storage) const;
   // As the method made it; null if it fills lists.
   const assign::LightStructure* own_structure() const { return run_.structure(); }
-  // What a structure of this frame's lights, the method's own or a storage's, answers in the rig's indices; none where
-  // it does so itself. Refers to both.
+  // Converts the answers of a structure of this frame's lights (the method's own or a storage's) to the rig's indices;
+  // none if they need no conversion. Refers to both.
   std::optional<assign::MappedStructure> mapped(const assign::LightStructure& structure) const;
 
   std::uint64_t tests_done() const { return run_.tests_done(); }
@@ -91,7 +91,7 @@ class CulledRun {
   const cull::PreCull* pre_cull_;
   const grid::Grid* grid_ = nullptr;
   cull::FrameCull cull_;
-  mutable assign::Lists mapped_lists_;  // made when they are asked for
+  mutable assign::Lists mapped_lists_;  // made on request
 };
 
 }  // namespace clusterbench::run

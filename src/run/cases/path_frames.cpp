@@ -37,14 +37,14 @@ view::Frame PathFrames::frame_of_path(int index) const {
 }
 
 grid::GridInputs PathFrames::inputs(const grid::GridSpec& spec, const view::Frame& frame) const {
-  grid::GridInputs inputs = inputs_as_asked(spec, frame);
-  // The first frame has none before it; and what tiles make of the frame itself is there.
+  grid::GridInputs inputs = inputs_before_reaction(spec, frame);
+  // The first frame has no previous one. For other reactions the inputs of the frame itself already have the tiles.
   if (spec.reaction && spec.reaction->to == grid::Reaction::To::entries && frame.index > 0)
     inputs.tiles = reactions(spec)[static_cast<std::size_t>(frame.index)].tiles;
   return inputs;
 }
 
-grid::GridInputs PathFrames::inputs_as_asked(const grid::GridSpec& spec, const view::Frame& frame) const {
+grid::GridInputs PathFrames::inputs_before_reaction(const grid::GridSpec& spec, const view::Frame& frame) const {
   grid::GridInputs inputs = grid::grid_inputs(spec.unfitted(), frame, reach_.far_m(), reach_.lo(), reach_.hi());
   if (inputs.shape) inputs.shape = shape_;
   if (spec.slices.fit) inputs.needed = spans(spec)[static_cast<std::size_t>(frame.index)];
@@ -62,7 +62,7 @@ const std::vector<grid::Span>& PathFrames::spans(const grid::GridSpec& spec) con
   if (!spans.empty()) return spans;
   grid::SpanFollower follower(*spec.slices.fit);
   for (int i = 0; i < static_cast<int>(path_.shots.size()); ++i)
-    spans.push_back(grid::telling_span(spec.slices, follower.next(needed(spec, frame_of_path(i)))));
+    spans.push_back(grid::deciding_span(spec.slices, follower.next(needed(spec, frame_of_path(i)))));
   return spans;
 }
 
@@ -83,7 +83,7 @@ std::vector<FrameReaction> PathFrames::reactions_to_entries(const grid::GridSpec
   grid::Tiling tiles = spec.tiles;
   for (int i = 0; i < static_cast<int>(path_.shots.size()); ++i) {
     const view::Frame frame = frame_of_path(i);
-    grid::GridInputs inputs = inputs_as_asked(spec, frame);
+    grid::GridInputs inputs = inputs_before_reaction(spec, frame);
     inputs.tiles = tiles;
     const bool is_new_grid = i == 0 || !(inputs == built_for);
     if (is_new_grid) grid = grid::make_grid(spec, inputs);
@@ -102,7 +102,7 @@ std::vector<FrameReaction> PathFrames::reactions_to_lights(const grid::GridSpec&
   std::vector<FrameReaction> reactions;
   for (int i = 0; i < static_cast<int>(path_.shots.size()); ++i) {
     const view::Frame frame = frame_of_path(i);
-    const grid::Tiling tiles = *inputs_as_asked(spec, frame).tiles;
+    const grid::Tiling tiles = *inputs_before_reaction(spec, frame).tiles;
     reactions.push_back({tiles, grid::mask_words(tiles, viewport_, grid::lights_with_bits(*spec.reaction, frame))});
   }
   return reactions;
@@ -127,7 +127,8 @@ std::shared_ptr<const depth::DepthImage> depths_for(const config::Config& config
 }
 
 double sample_far(const view::Frame& frame, double path_far_m) {
-  // Behind the near plane, also where no light reaches that far; an orthographic camera can have it behind itself.
+  // Behind the near plane, even if no light reaches that far; the near plane of an orthographic camera can be behind
+  // its eye.
   const double near = frame.projection.near_m, behind_near = near > 0.0 ? 2.0 * near : 1.0 - 2.0 * near;
   return std::min(frame.projection.far_m, std::max(path_far_m, behind_near));
 }

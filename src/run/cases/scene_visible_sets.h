@@ -1,5 +1,5 @@
 #pragma once
-// Potentially visible sets of a scene (cull/visible_sets.h), each built once: for all grids, viewports and passes.
+// Potentially visible sets of a scene (cull/visible_sets.h), each built once for all grids, viewports and passes.
 
 #include <memory>
 #include <vector>
@@ -8,17 +8,17 @@
 
 namespace clusterbench::run {
 
-// Of one scene. Nothing is built before something is asked for.
+// Sets of one scene. Nothing is built before the first request.
 class SceneVisibleSets {
  public:
-  // Both must outlive it.
+  // Both must outlive this object.
   SceneVisibleSets(const scene::Scene& scene, const scene::Geometry& geometry) : scene_(scene), geometry_(geometry) {}
 
   std::shared_ptr<const cull::VisibleSets> of(const scene::CameraPath& path, const cull::VisibleSetStep& step,
                                               std::uint64_t seed, int threads);
 
  private:
-  // What a set depends on: paths with the same eyes at the same times share one.
+  // The key of a set: paths with the same eyes at the same times share one.
   struct Eye {
     double time_s;
     Vec3d place;

@@ -27,14 +27,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The name, or the name with the smallest suffix "-2", "-3" ... that is not taken.
-std::string unique_name(const std::string& name, std::set<std::string>& taken) {
+// The name, or the name with the smallest unused suffix "-2", "-3" ...
+std::string unique_name(const std::string& name, std::set<std::string>& used) {
   std::string candidate = name;
-  for (int number = 2; !taken.insert(candidate).second; ++number) candidate = name + "-" + std::to_string(number);
+  for (int number = 2; !used.insert(candidate).second; ++number) candidate = name + "-" + std::to_string(number);
   return candidate;
 }
 
-// A slash separates the parts of a case's name, so none may be inside one; nor what a terminal would obey.
+// Replaces slashes, which separate the parts of a case's name, and control characters of a terminal.
 std::string name_part(std::string text) {
   for (char& c : text)
     if (c == '/' || std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '_';
@@ -55,7 +55,8 @@ bool needs_triangles(const config::Config& config) {
          std::ranges::any_of(config.pre_culls, &cull::PreCullSpec::needs_triangles);
 }
 
-// Where frames are fewer, and which grids are compared cell by cell, depends on how many lights reach a point.
+// Sets the numbers that depend on how many lights reach a point: fewer frames, and grids that are not compared cell by
+// cell.
 void weigh_frames(const config::Config& config, const config::SceneRequest& request, SceneData& data) {
   if (request.camera.most_lights == 0.0 && !config.most_pairs) return;
   for (const scene::CameraPath& path : data.paths)
@@ -64,7 +65,7 @@ void weigh_frames(const config::Config& config, const config::SceneRequest& requ
   scene::PathRequest fewer = request.camera;
   fewer.count = frames_within(fewer.count, fewer.most_lights, data.paths, data.lights_at_points);
   if (fewer.count == request.camera.count) return;
-  data.frames_asked = request.camera.count;
+  data.requested_frames = request.camera.count;
   data.equal_steps = fewer.count;
   data.paths = scene::camera_paths(data.scene, fewer);
 }
@@ -88,7 +89,7 @@ double lowest_height(const SceneData& data) {
   return lowest_m;
 }
 
-// Finds the floor that a set of samples asks for, and says where it is.
+// Finds the floor for a set of samples, and adds a note with its height.
 void lay_ground(const config::Config& config, SceneData& data) {
   for (const config::SampleSetRequest& request : config.sample_sets) {
     if (!request.ground || data.has_triangles()) continue;
@@ -122,13 +123,13 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
     }
     if (needs_triangles(config) && !request.rig) {
       data.geometry = scene::load_geometry(data.scene);
-      const std::vector<std::string>& doubts = data.geometry->warnings;
-      data.scene.warnings.insert(data.scene.warnings.end(), doubts.begin(), doubts.end());
+      const std::vector<std::string>& warnings = data.geometry->warnings;
+      data.scene.warnings.insert(data.scene.warnings.end(), warnings.begin(), warnings.end());
     }
     lay_ground(config, data);
     scenes.push_back(std::move(data));
   }
-  for (SceneData& data : scenes)  // where they stay from now on
+  for (SceneData& data : scenes)  // their final address
     if (data.geometry && !data.geometry->empty()) {
       data.depths = std::make_shared<FrameDepths>(data.scene, *data.geometry);
       data.visible_sets = std::make_shared<SceneVisibleSets>(data.scene, *data.geometry);
@@ -146,7 +147,7 @@ bool has_lights(const scene::Scene& scene, scene::LightType type) {
   return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const auto& light) { return light.type == type; });
 }
 
-// Why this assigner cannot take this grid in this scene; "" if it can.
+// Why this assigner cannot use this grid in this scene; "" if it can.
 std::string obstacle(const config::MethodRequest& request, grid::Kind kind, const SceneData& data, bool orthographic) {
   const scene::Scene& scene = data.scene;
   const assign::AssignerDescriptor& assigner = *assign::find_assigner(request.name);
@@ -162,7 +163,7 @@ std::string obstacle(const config::MethodRequest& request, grid::Kind kind, cons
   return reason.empty() ? "" : name + " cannot run here: " + reason;
 }
 
-// Why it cannot see lights in this precision; "" if it can.
+// Why it cannot use lights in this precision; "" if it can.
 std::string precision_obstacle(const assign::AssignerDescriptor& assigner, const config::PrecisionRequest& precision,
                                const scene::Scene& scene) {
   if (!precision.is_lossy()) return "";
@@ -171,7 +172,7 @@ std::string precision_obstacle(const assign::AssignerDescriptor& assigner, const
   return assigner.name + " decides from the scene's own numbers, whatever the lights are packed in; run it in float32";
 }
 
-// Why a scene's lights cannot be culled so; "" if they can.
+// Why a scene's lights cannot be culled this way; "" if they can.
 std::string pre_cull_obstacle(const cull::PreCullSpec& pre_cull, const SceneData& data) {
   if (!pre_cull.is_none() && has_lights(data.scene, scene::LightType::box))
     return "pre-culls take points and spots; run boxes without";
@@ -179,7 +180,7 @@ std::string pre_cull_obstacle(const cull::PreCullSpec& pre_cull, const SceneData
   return "a visible set needs surfaces that hide, and the scene has no triangles";
 }
 
-// A path's first frame in a grid, by the numbers; or why the grid cannot be made for it.
+// Numbers of a path's first frame in a grid; or why the grid cannot be made for it.
 struct FirstFrame {
   std::uint32_t cells = 0;
   view::LightRanges lights;
@@ -220,13 +221,13 @@ std::string limit_obstacle(const assign::AssignerDescriptor& assigner, const con
          std::to_string(*limits.all_pairs);
 }
 
-// Why this storage cannot keep lists of so many cells and lights; "" if it can.
+// Why this storage cannot hold lists of this many cells and lights; "" if it can.
 std::string storage_obstacle(const config::MethodRequest& request, const FirstFrame& first) {
   const std::uint64_t most_bytes = memory_limit();
   try {
     const auto one_cell = assign::find_storage(request.name)->make(request.params);
     one_cell->start(1, first.lights);
-    // What it takes before anything is in it grows with the cells.
+    // The size of an empty storage grows with the number of cells.
     const std::uint64_t bytes = one_cell->use().upload_bytes * first.cells;
     if (bytes <= most_bytes) return "";
     return request.label() + " would reserve " + std::to_string(bytes >> 20) + " MiB for " +
@@ -239,7 +240,7 @@ std::string storage_obstacle(const config::MethodRequest& request, const FirstFr
 
 // One assigner in a group: of the configuration's own product, or of a preset.
 struct Family {
-  std::string group_name;  // what its cases' names begin with
+  std::string group_name;  // prefix of its cases' names
   std::size_t assigner;
   const config::PresetChoice* preset;  // null: own
 };
@@ -255,7 +256,7 @@ class Expansion {
 
   std::size_t all_cases() const { return all_cases_; }
   const std::string& example() const { return example_; }
-  const std::vector<Skipped>& impossible() const { return impossible_; }  // also those that the filter leaves out
+  const std::vector<Skipped>& impossible() const { return impossible_; }  // also those that the filter rejects
 
  private:
   void expand_scene(Plan& plan, std::size_t scene) {
@@ -293,13 +294,13 @@ class Expansion {
     const SceneData& data = plan.scenes[group.scene];
     const scene::CameraPath& path = data.paths[group.camera];
     const FirstFrame first = first_frame(config_.grids[group.grid], data, path, config_.viewports[group.viewport]);
-    std::string told;
+    std::string skipped_name;
     for (const Family& family : families) {
       if (first.obstacle.empty()) {
         expand_assigner(plan, group, family, first);
-      } else if (family.group_name != told) {
-        told = family.group_name;
-        skip(plan, family, told, first.obstacle);
+      } else if (family.group_name != skipped_name) {
+        skipped_name = family.group_name;
+        skip(plan, family, skipped_name, first.obstacle);
       }
     }
     if (!group.cases.empty()) plan.groups.push_back(std::move(group));
@@ -322,7 +323,7 @@ class Expansion {
         expand_lights(plan, group, family, {pre_cull, precision}, first, name);
   }
 
-  // The configuration's own, or what a preset has in place of them.
+  // The pre-culls of the configuration, or those of a preset instead.
   std::vector<std::size_t> pre_culls_of(const Family& family) const {
     if (family.preset != nullptr && !family.preset->pre_culls.empty()) return family.preset->pre_culls;
     std::vector<std::size_t> own(config_.own_pre_culls);
@@ -330,7 +331,7 @@ class Expansion {
     return own;
   }
 
-  // How lights come to a method.
+  // How a method gets its lights: precision and pre-cull.
   struct LightChoice {
     std::size_t pre_cull, precision;
   };
@@ -374,8 +375,8 @@ class Expansion {
       add_case(plan, group, case_plan);
   }
 
-  // The case on an earlier grid that this one would repeat, "" if there is none: a structure that has nothing of its
-  // grid is measured once in a view.
+  // The case on an earlier grid that this one would repeat, "" if there is none: a structure that does not depend on
+  // its grid is measured once in a view.
   std::string same_without_grid(const Plan& plan, const assign::AssignerDescriptor& descriptor,
                                 const CasePlan& case_plan) {
     if (!descriptor.own_without_grid || !is_selected(filter_, names_of(plan, case_plan))) return "";
@@ -422,7 +423,7 @@ class Expansion {
     if (is_selected(filter_, names_of(plan, case_plan))) group.cases.push_back(std::move(case_plan));
   }
 
-  // Sets of samples that a scene with cases cannot have.
+  // Skips sets of samples that a scene with cases cannot have.
   void skip_sets(Plan& plan) const {
     for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
       if (std::ranges::none_of(plan.groups, [&](const GroupPlan& group) { return group.scene == i; })) continue;
@@ -435,7 +436,7 @@ class Expansion {
     }
   }
 
-  // What the filter leaves out is not listed as skipped either.
+  // Cases that the filter rejects are not listed as skipped either.
   void skip(Plan& plan, const Family& family, const std::string& name, const std::string& reason,
             bool is_other_kind = false) {
     const std::string preset = family.preset == nullptr ? "" : family.preset->preset;
@@ -446,7 +447,7 @@ class Expansion {
   const config::Config& config_;
   Pattern filter_;
   std::set<std::string> names_, ids_;
-  std::map<std::string, std::string> without_grid_;  // what its structure depends on -> the case's name
+  std::map<std::string, std::string> without_grid_;  // settings that its structure depends on -> the case's name
   std::size_t all_cases_ = 0;
   std::string example_;
   std::vector<Skipped> impossible_;
@@ -517,14 +518,14 @@ assign::AssignerRun start_method(const config::Config& config, const Method& met
 
 namespace {
 
-// Where nothing matches, the case that was meant can be one that cannot be.
+// If nothing matches, the user may have meant a case that is impossible.
 std::string impossible_text(const std::vector<Skipped>& skipped, const std::string& filter) {
   if (skipped.empty()) return "";
   const Pattern whole(filter, "--filter");
   std::optional<Pattern> grid;
   try {
     grid.emplace(filter.substr(0, filter.find('/')), "--filter");
-  } catch (const Error&) {  // half a pattern need not be one
+  } catch (const Error&) {  // half of a pattern may be invalid
   }
   auto meant = std::ranges::find_if(skipped, [&](const Skipped& one) { return whole.is_in(one.name); });
   if (meant == skipped.end() && grid)

@@ -7,7 +7,7 @@
 #ifdef CLUSTERBENCH_HAS_CALLGRIND
 #include <valgrind/callgrind.h>
 #else
-// A build that callgrind cannot count says so in obstacle() and comes no further.
+// A build that callgrind cannot count reports it in obstacle() and never gets here.
 #define CALLGRIND_START_INSTRUMENTATION
 #define CALLGRIND_STOP_INSTRUMENTATION
 #define CALLGRIND_DUMP_STATS
@@ -16,7 +16,7 @@
 namespace clusterbench::run {
 namespace {
 
-// The figure behind "totals:" in a file that callgrind wrote; 0 where there is none.
+// The number after "totals:" in a callgrind output file; 0 if there is none.
 std::uint64_t total_in(const std::filesystem::path& dump) {
   std::ifstream in(dump);
   const std::string key = "totals: ";

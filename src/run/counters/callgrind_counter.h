@@ -1,6 +1,6 @@
 #pragma once
-// Instructions as valgrind's callgrind counts them, for a program that already runs under it. The same program and
-// input give the same count on every machine that valgrind shows the same instruction sets.
+// Instructions counted by valgrind's callgrind, for a program that already runs under it. The same program and input
+// give the same count on every machine on which valgrind offers the same instruction sets.
 
 #include <filesystem>
 #include <string>
@@ -11,7 +11,7 @@ namespace clusterbench::run {
 
 class CallgrindCounter final : public InstructionCounter {
  public:
-  // `dumps`: the path that callgrind was given as --callgrind-out-file, beside --instr-atstart=no. Throws Error where
+  // `dumps`: the path passed to callgrind as --callgrind-out-file, together with --instr-atstart=no. Throws Error if
   // this program does not run under callgrind.
   explicit CallgrindCounter(std::filesystem::path dumps);
 
@@ -20,7 +20,7 @@ class CallgrindCounter final : public InstructionCounter {
   void start() override;
   Counted stop() override;
 
-  // Why this build cannot be counted so; "" if it can.
+  // Why this build cannot be counted by callgrind; "" if it can.
   static std::string obstacle();
 
  private:

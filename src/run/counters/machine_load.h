@@ -1,12 +1,12 @@
 #pragma once
-// What other programs take of the machine while something is measured, and whether it gets too hot.
+// Processor time that other programs use during a measurement, and thermal throttling.
 
 #include "os/processor_time.h"
 #include "run/timing/timing_samples.h"
 
 namespace clusterbench::run {
 
-// From its making on.
+// Counts from its construction on.
 class LoadWatch {
  public:
   LoadWatch();

@@ -9,7 +9,7 @@ namespace clusterbench::run {
 class PerfCounter final : public InstructionCounter {
  public:
   PerfCounter() : counter_(k_option) {}
-  // One event of perf_event_open(2) in place of instructions.
+  // Counts one event of perf_event_open(2) in place of instructions.
   PerfCounter(std::uint32_t type, std::uint64_t event) : counter_(k_option, type, event) {}
 
   const char* source() const override { return "perf"; }

@@ -1,5 +1,5 @@
 #pragma once
-// A case beside the same case without something: a grid that follows or reacts, a storage whose room ends.
+// A case beside the same case without one feature: a grid that follows or reacts, a storage with limited room.
 
 #include <cstdint>
 #include <limits>
@@ -11,7 +11,7 @@
 
 namespace clusterbench::run {
 
-// Smallest, mean and largest of one number per frame.
+// Smallest, mean and largest value of a number per frame.
 struct Extremes {
   double least = std::numeric_limits<double>::infinity(), sum = 0.0,
          greatest = -std::numeric_limits<double>::infinity();
@@ -21,8 +21,8 @@ struct Extremes {
   double mean() const { return sum / count; }
 };
 
-// Lists that hold other lights than the same cell's in the frame before; all, where the grid has more or fewer cells
-// than there.
+// Lists whose lights differ from those of the same cell in the previous frame; all lists, if the number of cells has
+// changed.
 struct ListChanges {
   std::uint64_t lists = 0, changed = 0;  // over all steps
 
@@ -40,19 +40,19 @@ class ListChangeMeter {
   ListChanges changes_;
 };
 
-// What samples of one set found.
+// Counts at the samples of one set.
 struct EvaluatedLights {
   std::string set;
   std::uint64_t evaluated = 0, missed = 0;
 };
 
-// What of a case is compared.
+// The compared figures of a case.
 struct CaseSide {
   std::optional<double> pairs_mean;                          // with cells
   std::optional<std::uint64_t> true_pairs, false_positives;  // with cells, where accuracy is checked
   std::optional<ListChanges> list_changes;                   // with cells
   std::uint64_t index_entries = 0, bytes = 0;                // high water
-  std::vector<EvaluatedLights> evaluated;                    // where samples are asked for
+  std::vector<EvaluatedLights> evaluated;                    // if samples are requested
 };
 
 }  // namespace clusterbench::run

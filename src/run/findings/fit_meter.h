@@ -1,6 +1,6 @@
 #pragma once
-// What slices that follow a frame's needs (grid/needed_span.h) save and risk, beside the same grid without: how far
-// they move from frame to frame, and how many lists another frame has to write anew.
+// Slices that follow a frame's needs (grid/needed_span.h), beside the same grid without that: savings, movement from
+// frame to frame, and the number of lists that another frame has to write again.
 
 #include <cstddef>
 #include <vector>
@@ -13,19 +13,19 @@ namespace clusterbench::run {
 
 // Boundaries of slices along a path. A step leads from one frame to the next.
 struct GridMoves {
-  // Of frames that need something: where slices begin (exponential-first ones: where the first one ends). Of all: where
-  // they end.
+  // Start of the slices in frames that need some (exponential-first: end of the first slice); end of the slices in all
+  // frames.
   Extremes near_m, far_m;
   int steps = 0, changed = 0;  // changed: steps to a grid with other boundaries
-  double cells_changed = 0.0;  // sum over steps: share of the cells that are other ones than before
-  Extremes moved;              // of each boundary in each step: how far, in thicknesses of the slice before it
+  double cells_changed = 0.0;  // sum over steps: share of cells that differ from the previous frame
+  Extremes moved;              // movement of each boundary in each step, in thicknesses of the slice in front of it
 };
 
 class GridMoveMeter {
  public:
-  // `near_boundary`: the first one that follows.
+  // `near_boundary`: the first boundary that follows.
   explicit GridMoveMeter(std::size_t near_boundary) : near_boundary_(near_boundary) {}
-  // Once per frame, in the path's order; `needed` is what the grid was made for.
+  // Once per frame, in the path's order; `needed`: the span for which the grid was made.
   void add(const grid::ScreenGrid& grid, const grid::Span& needed);
   const GridMoves& result() const { return moves_; }
 
@@ -35,15 +35,15 @@ class GridMoveMeter {
   GridMoves moves_;
 };
 
-// A case beside the same in the grid that does not follow.
+// A case beside the same case in the grid that does not follow.
 struct FitResult {
   grid::Fit fit;
-  grid::Span asked;  // within which slices follow; in the last frame
+  grid::Span range;  // range within which slices follow, in the last frame
   GridMoves moves;
   CaseSide fitted, unfitted;
 };
 
-// The configuration with this grid not following anything.
+// The configuration with this grid changed so that it follows nothing.
 config::Config without_fit(const config::Config& config, std::size_t grid);
 
 }  // namespace clusterbench::run

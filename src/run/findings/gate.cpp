@@ -16,25 +16,25 @@ std::string percent(double share) {
   return text;
 }
 
-// Without cells there are no pairs to hold against the truth, and no cell boundary where a lookup may round.
+// Without cells there are no pairs to compare with the truth, and no cell boundaries at which a lookup may round.
 bool has_cells(const CaseResult& result) {
   return result.occupancy.has_value() || result.cells_not_compared > 0;
 }
 
-// A conservative method may not lose a light, nor an exact one: but for what a pre-cull keeps from it.
+// Conservative and exact methods may not lose a light, except for lights that a pre-cull removes.
 bool may_not_lose(const CaseResult& result) {
   const bool gets_all = !result.pre_cull || result.pre_cull->counts.conservative;
   return result.conservative || (result.exact && gets_all);
 }
 
-// True pairs of lights beside the view, which a preset's engine culls: they are of cells that nothing sees.
+// True pairs of lights outside the view, which a preset's engine culls: their cells are not visible.
 std::uint64_t pairs_culled(const CaseResult& result) {
   if (!result.error || result.preset.empty() || !result.pre_cull) return 0;
   const PreCullCounts& counts = result.pre_cull->counts;
   return std::min(result.error->false_negatives, counts.lost_pairs - counts.lost_to_limits);
 }
 
-// True pairs that are not listed, without those.
+// True pairs that are not listed, without the culled ones.
 std::uint64_t pairs_lost(const CaseResult& result) {
   return result.error ? result.error->false_negatives - pairs_culled(result) : 0;
 }
@@ -62,7 +62,7 @@ std::string worst_text(const CaseResult& result) {
          std::to_string(worst.needed);
 }
 
-// What a lookup finds whose arithmetic is that of the samples; other ways err by themselves.
+// The counts of the lookup with the same arithmetic as the samples; other lookups have errors of their own.
 const measure::LookupCounts* plain_lookup(const CaseResult& result) {
   for (const measure::LookupCounts& counts : result.lookup)
     if (counts.way.logarithm == measure::Logarithm::rounded && counts.way.depth == measure::DepthRead::given)
@@ -70,8 +70,8 @@ const measure::LookupCounts* plain_lookup(const CaseResult& result) {
   return nullptr;
 }
 
-// The first set of samples, or that of visible surfaces, that lacks a light where the structure has an answer; null if
-// none does.
+// The first set of samples (or of samples at visible surfaces) that misses a light at a point where the structure has
+// an answer; null if none does.
 const SampleSetResult* missing_set(const CaseResult& result, bool at_surfaces = false) {
   const auto found = std::ranges::find_if(result.samples, [&](const SampleSetResult& set) {
     return set.counts.missed > set.counts.missed_outside && (!at_surfaces || set.set == measure::SampleSet::opaque);
@@ -84,8 +84,8 @@ bool is_at_surfaces(const CaseResult& result) {
   return assigner != nullptr && assigner->at_surfaces;
 }
 
-// Where cells were not compared with the truth: the samples that lack more lights than lookups round away; null if none
-// do, or if cells were compared. What slices that follow surfaces promise ends there.
+// If cells were not compared with the truth: the samples that miss more lights than lookups can round away; null if
+// none do, or if cells were compared. Slices that follow surfaces promise nothing behind them.
 struct LackingSamples {
   const measure::ShadingCounts* counts = nullptr;
   measure::SampleSet set = measure::SampleSet::volume;
@@ -102,7 +102,7 @@ LackingSamples lacking_samples(const CaseResult& result) {
   return found == result.samples.end() ? LackingSamples{} : LackingSamples{&found->counts, found->set};
 }
 
-// A method that promises the lights of visible surfaces answers for them, but for what lookups round and for surfaces
+// A method that promises the lights of visible surfaces must list them, except for rounding of lookups and surfaces
 // beyond the grid.
 bool misses_at_surfaces(const CaseResult& result) {
   if (!is_at_surfaces(result)) return false;
@@ -111,7 +111,7 @@ bool misses_at_surfaces(const CaseResult& result) {
   });
 }
 
-// In the whole view; slices that follow surfaces promise nothing behind them.
+// Misses in the whole view; slices that follow surfaces promise nothing behind them.
 std::uint64_t missed_in_view(const CaseResult& result) {
   if (!result.shading) return 0;
   const bool ends_at_surfaces = result.fit && result.fit->fit.needs_surfaces();
@@ -125,8 +125,8 @@ bool misses_without_cells(const CaseResult& result) {
          (lookup != nullptr && lookup->missed > 0);
 }
 
-// A structure without cells is asked beyond those whose lights a pre-cull keeps. What that removes, the method cannot
-// find.
+// A structure without cells is also queried outside the region of a pre-cull. The method cannot find lights that the
+// pre-cull removed.
 bool is_lost_by_pre_cull(const CaseResult& result) {
   if (!result.pre_cull || has_cells(result)) return false;
   const auto missed_of = [&](measure::SampleSet set) -> std::uint64_t {
@@ -151,18 +151,19 @@ std::string missed_without_cells_text(const CaseResult& result) {
   if (const SampleSetResult* set = missing_set(result, has_cells(result) || is_at_surfaces(result)))
     return "lost " + std::to_string(set->counts.missed - set->counts.missed_outside) + " of " +
            number_of(set->counts.needed, "light") + " that its " + measure::name_of(set->set) + " samples need";
-  const measure::LookupCounts& lookup = *plain_lookup(result);  // misses_without_cells(), and nothing of the above
+  // misses_without_cells() holds, and none of the checks above
+  const measure::LookupCounts& lookup = *plain_lookup(result);
   return "lost " + std::to_string(lookup.missed) + " of " + number_of(lookup.needed, "light") +
          " that the samples of its lookup need";
 }
 
-// Samples that say what is lost, with what they are: visible surfaces if there are some, else anywhere in the view;
-// null without any.
-struct SeenSamples {
+// The samples that decide about lost lights, with a name for them: visible surfaces if there are any, else points
+// anywhere in the view; null without samples.
+struct DecidingSamples {
   const measure::ShadingCounts* counts = nullptr;
   const char* words = "";
 };
-SeenSamples seen_samples(const CaseResult& result) {
+DecidingSamples deciding_samples(const CaseResult& result) {
   for (const SampleSetResult& set : result.samples)
     if (set.set == measure::SampleSet::opaque) return {&set.counts, "visible surfaces"};
   return {result.shading ? &*result.shading : nullptr, "random points in the view"};
@@ -172,9 +173,9 @@ bool is_unlit(const measure::ShadingCounts& counts) {
   return counts.needed > 0 && counts.unlit() > measure::k_most_unlit;
 }
 
-// At the samples that say what is lost; where they need no light, at those of the whole view.
+// Tested at the samples that decide about lost lights; if they need no light, at those of the whole view.
 bool is_unlit(const CaseResult& result) {
-  const measure::ShadingCounts* seen = seen_samples(result).counts;
+  const measure::ShadingCounts* seen = deciding_samples(result).counts;
   if (seen != nullptr && seen->needed == 0 && result.shading) seen = &*result.shading;
   return seen != nullptr && is_unlit(*seen);
 }
@@ -185,9 +186,9 @@ std::string dropped_text(const CaseResult& result) {
          " of " + number_of(static_cast<std::uint64_t>(buffers.overflowing_frames), "frame");
 }
 
-// What dropped lights cost where they are missed.
+// The visible effect of dropped lights at the samples that miss them.
 std::string lost_light_text(const CaseResult& result) {
-  const auto [counts, words] = seen_samples(result);
+  const auto [counts, words] = deciding_samples(result);
   if (counts == nullptr || !counts->darkest) return "";
   const auto lux = [](double value) {
     char text[32];
@@ -207,10 +208,10 @@ std::string unlit_text(const CaseResult& result) {
          std::to_string(shading.missed_outside) + " outside of the grid" + worst_text(result);
 }
 
-// A limit of lights that removed some in a frame.
+// A light limit that removed lights in a frame.
 struct ExceededLimit {
   const PreCullCounts::Step* step = nullptr;  // null if none did
-  bool is_of_view = false;  // else of the whole scene: no step before it removes what is beside the view
+  bool is_of_view = false;  // else of the whole scene: no earlier step removes lights outside the view
 };
 ExceededLimit exceeded_limit(const CaseResult& result) {
   if (!result.pre_cull) return {};
@@ -238,7 +239,7 @@ std::string limit_text(const CaseResult& result, const ExceededLimit& limit) {
       std::to_string(static_cast<std::uint64_t>(step.removed.max)) + "; " + number_of(counts.dropped.size(), "light") +
       (counts.dropped.size() == 1 ? " is" : " are") + " lost at least once";
   for (const LostAtSamples& set : counts.samples)
-    if (set.is_asked && set.needed > 0 && set.lost > 0)
+    if (set.has_samples && set.needed > 0 && set.lost > 0)
       text += " (" + percent(static_cast<double>(set.lost) / static_cast<double>(set.needed)) + " of the lights that " +
               needing_text(set.set) + ")";
   return text;

@@ -9,7 +9,7 @@
 namespace clusterbench::run {
 namespace {
 
-// A place in the middle of all lights, which does not follow from any frame.
+// A point in the middle of all lights that does not depend on any frame.
 Vec3d middle_of(const measure::Bounds& bounds) {
   return glm::round(0.5 * (bounds.lo_m + bounds.hi_m));
 }
@@ -33,7 +33,7 @@ void LightShadows::start(const view::Frame& frame) {
   for (Kept& kept : kept_) kept.of_lights.resize(frame.lights.size());
 }
 
-// Of the maps of all lights and requests, which stay.
+// Bytes of the cached maps of all lights and requests.
 std::uint64_t LightShadows::kept_bytes() const {
   std::uint64_t bytes = 0;
   for (const Kept& kept : kept_)
@@ -93,7 +93,7 @@ std::vector<std::vector<bool>> LightShadows::lit(std::span<const grid::Sample> s
 
 std::vector<bool> LightShadows::lit(double near_m, double bias_m, std::span<const grid::Sample> samples,
                                     const measure::NeededLights& needed) const {
-  std::vector<char> found(needed.lists.lights.size(), 0);  // bits of a vector<bool> share bytes
+  std::vector<char> found(needed.lists.lights.size(), 0);  // char: bits of a vector<bool> share bytes
   parallel_ranges(samples.size(), config_.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (std::uint32_t k = needed.lists.begin[i]; k < needed.lists.begin[i + 1]; ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-// The shadow maps of a path's lights, made when a light is first in a list and kept as long as they hold.
+// Shadow maps of a path's lights: made when a light is first in a list, cached until the light or a surface moves.
 
 #include <cstdint>
 #include <memory>
@@ -14,18 +14,19 @@
 
 namespace clusterbench::run {
 
-// Of one scene's lights, for each of the configuration's shadow_cull.
+// For one scene's lights, and each shadow_cull of the configuration.
 class LightShadows {
  public:
-  // All must outlive it.
+  // All must outlive this object.
   LightShadows(const config::Config& config, const SceneData& data, const PathFrames& path);
 
-  // Puts surfaces where they stand in a frame, whose lights are meant by what follows. The frame outlives its use.
+  // Moves surfaces to their places in this frame; the following calls use its lights. The frame must stay alive during
+  // these calls.
   void start(const view::Frame& frame);
 
-  // Of each of the frame's lights in these lists; null for others.
+  // One map per light of the frame in these lists; null for other lights.
   std::vector<const depth::ShadowMap*> maps(std::size_t request, const assign::Lists& lists);
-  // What a light's map depends on: while it is the same, so is the map.
+  // The key of a light's map: the map is valid while the key is the same.
   struct Seen {
     scene::WorldLight light;
     std::uint64_t surfaces = 0;
@@ -34,11 +35,11 @@ class LightShadows {
   };
   Seen seen(std::uint32_t light) const { return {frame_->lights[light], caster_.builds()}; }
 
-  // For each request, of each entry of needed.lists: whether no surface stands between light and sample, from near_m
-  // after the light to bias_m before the sample.
+  // Per request and entry of needed.lists: whether no surface is between light and sample, from near_m after the light
+  // to bias_m before the sample.
   std::vector<std::vector<bool>> lit(std::span<const grid::Sample> samples, const measure::NeededLights& needed) const;
 
-  // What making a request's maps has taken, of all that were made.
+  // Mean times of making a request's maps.
   struct MakingTimes {
     std::uint64_t maps = 0;
     double cast_ns = 0.0, reduce_ns = 0.0;
@@ -67,17 +68,17 @@ class LightShadows {
   std::vector<Kept> kept_;  // one per request
 };
 
-// One method's lists with and without what lies in shadow, over a path.
+// Compares one method's lists with and without lights in shadow, over a path.
 class ShadowCullMeter {
  public:
   ShadowCullMeter(const config::ShadowCullRequest& request, std::size_t index) : index_(index) {
     result_.request = request;
   }
 
-  // `truth`: null where it is not known. Lists must outlive the frame.
+  // `truth`: null if unknown. The lists must outlive the frame.
   void add(LightShadows& shadows, const view::Frame& frame, const grid::Grid& grid, const assign::Lists& lists,
            const assign::Lists* truth);
-  // Of the frame at hand.
+  // For the current frame.
   void add_samples(const grid::Grid& grid, std::span<const grid::Sample> samples, const measure::NeededLights& needed,
                    const std::vector<bool>& is_lit);
   ShadowCullResult result(const LightShadows& shadows) const;
@@ -88,8 +89,8 @@ class ShadowCullMeter {
   std::size_t index_;
   ShadowCullResult result_;
   std::vector<std::optional<LightShadows::Seen>> seen_;  // by light
-  std::vector<std::size_t> bytes_;                       // likewise
-  const assign::Lists* lists_ = nullptr;                 // of the frame at hand
+  std::vector<std::size_t> bytes_;                       // by light
+  const assign::Lists* lists_ = nullptr;                 // of the current frame
   assign::Lists kept_;
   double step_ns_ = 0.0;
   int frames_ = 0;

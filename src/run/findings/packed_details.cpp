@@ -8,7 +8,7 @@
 namespace clusterbench::run {
 namespace {
 
-// What JSON takes beside the rows of numbers: keys, the camera, small numbers.
+// Bytes of JSON besides the rows of numbers: keys, the camera, small numbers.
 constexpr std::size_t k_bytes_of_all = 2500, k_bytes_of_frame = 1500, k_bytes_of_name = 3;
 
 std::size_t pair_bytes(const DetailsFrame& frame) {
@@ -85,7 +85,7 @@ void pack_pairs(DetailsFrame& out, const measure::FrameDetails& found) {
   out.pair_marks = run_length_text(found.pair_marks);
 }
 
-// "" for a grid without slices, and where they are the case's.
+// "" for a grid without slices, and if the boundaries are the case's.
 std::string own_boundaries(const grid::Grid& grid, const grid::Grid& case_grid) {
   if (!grid.has_tiles()) return "";
   const std::vector<float>& own = grid.screen().slices.boundaries;
@@ -104,7 +104,7 @@ DetailsBox box_of(const grid::WorldGrid& grid) {
           Vec3d(Vec3f{grid.x.back(), grid.y.back(), grid.z.back()})};
 }
 
-// None for other kinds, and where it is the case's.
+// Empty for other kinds, and if the box is the case's.
 std::optional<DetailsBox> own_box(const grid::Grid& grid, const grid::Grid& case_grid) {
   if (grid.kind() != grid::Kind::world || box_of(grid.world()) == box_of(case_grid.world())) return std::nullopt;
   return box_of(grid.world());

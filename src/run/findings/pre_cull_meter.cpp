@@ -56,7 +56,7 @@ void PreCullMeter::add_frame(const cull::FrameCull& cull, const view::Frame& fra
 }
 
 void PreCullMeter::add_samples(std::size_t set, const assign::Lists& needed) {
-  counts_.samples[set].is_asked = true;
+  counts_.samples[set].has_samples = true;
   counts_.samples[set].needed += needed.lights.size();
   counts_.samples[set].lost += entries_beside(needed, is_kept_);
 }

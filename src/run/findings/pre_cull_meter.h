@@ -1,5 +1,5 @@
 #pragma once
-// What a pre-cull removes over a path's frames, and what of it was needed.
+// Lights that a pre-cull removes over a path's frames, and needed lights among them.
 
 #include <cstdint>
 #include <optional>
@@ -17,7 +17,7 @@ namespace clusterbench::run {
 struct LostAtSamples {
   measure::SampleSet set = measure::SampleSet::volume;
   std::uint64_t needed = 0, lost = 0;
-  bool is_asked = false;  // the scene has such samples
+  bool has_samples = false;  // the scene has such samples
 };
 
 struct PreCullCounts {
@@ -26,18 +26,18 @@ struct PreCullCounts {
     bool is_distance = false;
     measure::MeanMax removed;  // lights per frame
     std::optional<int> limit;  // of a MostStep: its lights
-    int frames = 0;            // in which it removed lights
+    int frames = 0;            // number of frames with removed lights
   };
   bool conservative = true;                 // in every frame
   measure::MeanMax kept, removed, distant;  // lights per frame; the distant ones are among the removed
   std::vector<Step> steps;
   std::vector<std::uint32_t> dropped;  // the rig's indices of lights that limits removed in some frame, ascending
-  std::uint64_t lost_pairs = 0;        // true pairs of lights that are removed
-  std::uint64_t lost_to_limits = 0;    // of these, of lights in view that limits remove
+  std::uint64_t lost_pairs = 0;        // true pairs of removed lights
+  std::uint64_t lost_to_limits = 0;    // those of lights in view that limits remove
   std::vector<LostAtSamples> samples;
   std::uint64_t bytes = 0;  // of visible sets
   std::uint64_t view_cells = 0;
-  double build_ns = 0.0;  // of them
+  double build_ns = 0.0;  // of visible sets
 };
 
 class PreCullMeter {
@@ -45,7 +45,7 @@ class PreCullMeter {
   PreCullMeter(const cull::PreCull& pre_cull, const std::vector<measure::SampleSet>& sets);
 
   void add_frame(const cull::FrameCull& cull, const view::Frame& frame, bool is_conservative);
-  // In the frame that was added last.
+  // For the frame that was added last.
   void add_truth(const assign::Lists& truth);
   void add_samples(std::size_t set, const assign::Lists& needed);
 
@@ -59,11 +59,12 @@ class PreCullMeter {
     measure::MeanMax over(int frames) const;
   };
 
-  // Entries of lists whose lights are not in it.
+  // Entries of lists whose lights are not in this set.
   static std::uint64_t entries_beside(const assign::Lists& lists, const std::vector<bool>& is_in);
 
   PreCullCounts counts_;
-  std::vector<bool> is_kept_, is_undropped_;  // of the last frame's lights; undropped: not in view, or by no limit
+  // per light of the last frame; undropped: not in view, or not removed by a limit
+  std::vector<bool> is_kept_, is_undropped_;
   std::vector<bool> is_ever_dropped_;
   int frames_ = 0;
   Sum kept_, removed_, distant_;

@@ -6,7 +6,7 @@ namespace clusterbench::run {
 
 TileMoves tile_moves(const grid::GridSpec& spec, const PathFrames& path) {
   TileMoves moves;
-  moves.asked = moves.fewest = grid::tile_counts(spec.tiles, path.viewport());
+  moves.requested = moves.fewest = grid::tile_counts(spec.tiles, path.viewport());
   const grid::Tiling* before = nullptr;
   for (const FrameReaction& frame : path.reactions(spec)) {
     const Vec2i tiles = grid::tile_counts(frame.tiles, path.viewport());
@@ -25,7 +25,7 @@ TileMoves tile_moves(const grid::GridSpec& spec, const PathFrames& path) {
   return moves;
 }
 
-bool can_be_counted_as_asked(const grid::GridSpec& spec, Vec2i viewport, int slices) {
+bool can_count_requested_tiles(const grid::GridSpec& spec, Vec2i viewport, int slices) {
   const Vec2i tiles = grid::tile_counts(spec.tiles, viewport);
   return static_cast<std::int64_t>(tiles.x) * tiles.y * slices <= k_most_cells_beside;
 }

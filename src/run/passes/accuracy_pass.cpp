@@ -21,22 +21,22 @@ std::uint32_t real_cells(const grid::Grid& grid) {
   return count;
 }
 
-// One frame as all methods of the group see it.
+// One frame, shared by all methods of the group.
 struct PreparedFrame {
   view::Frame frame;
   bool is_new_grid = false;
   FrameLights lights;
-  std::shared_ptr<const depth::DepthImage> depth;  // where a method needs it
+  std::shared_ptr<const depth::DepthImage> depth;  // if a method needs it
   bool has_truth = false;
-  measure::Truth truth;                 // of the grid's cells, where something is compared with it
+  measure::Truth truth;                 // of the grid's cells, if something is compared with it
   std::vector<FrameSampleSet> samples;  // one per set of the configuration
   std::optional<measure::LookupFrame> lookup;
 };
 
 class MethodMeter {
  public:
-  // `shadows`: null where nothing is asked of them.
-  // `compares`: cells with the truth. Of too many cells a structure of its own is not expanded to lists either.
+  // `shadows`: null if no shadow cull is requested. `compares`: compare cells with the truth. If the cells are too many
+  // for that, a structure of the method's own is not expanded to lists either.
   MethodMeter(const config::Config& config, const Method& method, const cull::PreCull& pre_cull,
               std::uint32_t most_lights, ListsOverFrames over_frames, LightShadows* shadows, bool compares,
               bool has_too_many_cells)
@@ -74,18 +74,18 @@ class MethodMeter {
     for (ShadowCullMeter& cull : shadow_culls_)
       cull.add(*shadows_, now.frame, grid, *lists_, now.has_truth ? &now.truth.lists : nullptr);
   }
-  // Some samples of visible surfaces; `is_lit`: for each way to take out what lies in shadow.
-  void ask_lit_at(const grid::Grid& grid, std::span<const grid::Sample> samples, const measure::NeededLights& needed,
-                  const std::vector<std::vector<bool>>& is_lit) {
+  // Evaluates some samples of visible surfaces; `is_lit`: one row per way to remove lights in shadow.
+  void add_lit_samples(const grid::Grid& grid, std::span<const grid::Sample> samples,
+                       const measure::NeededLights& needed, const std::vector<std::vector<bool>>& is_lit) {
     for (std::size_t i = 0; i < shadow_culls_.size(); ++i)
       shadow_culls_[i].add_samples(grid, samples, needed, is_lit[i]);
   }
 
-  // Whether the truth of the grid's cells is what its lists are compared with: not that of cells of its own.
+  // Whether its lists are compared with the truth of the grid's cells; not if the method has cells of its own.
   bool needs_grid_truth() const { return compares_ && measures_.has_cells && !run_.has_occupied_cells(); }
 
   const CulledRun& run() const { return run_; }
-  // What a storage of its lists has room for.
+  // The ranges of light numbers for which a storage of its lists has room.
   view::LightRanges light_room(const view::Frame& frame) const {
     return run_.cull() == nullptr ? frame.ranges() : view::LightRanges(0, most_lights_);
   }
@@ -125,11 +125,11 @@ class MethodMeter {
 
   bool compares_;
   int threads_;
-  std::uint32_t most_lights_;  // that it gets in a frame
+  std::uint32_t most_lights_;  // most lights of a frame that the method gets
   LightShadows* shadows_;
   CulledRun run_;
   std::optional<PreCullMeter> cull_meter_;
-  std::vector<ShadowCullMeter> shadow_culls_;  // one per way, of lists alone
+  std::vector<ShadowCullMeter> shadow_culls_;  // one per way, for lists only
   const assign::Lists* lists_ = nullptr;       // of the cells, in the current frame
   std::optional<measure::OccupancyMeter> occupancy_;
   measure::LongestBySlice longest_by_slice_;
@@ -137,7 +137,7 @@ class MethodMeter {
   MethodMeasures measures_;
 };
 
-// One light structure over the frames: its buffers, and what samples find in it.
+// One light structure over the frames: its buffers and its lights at samples.
 class StructureMeter {
  public:
   explicit StructureMeter(const config::Config& config) : buffers_(config.allocation) {
@@ -151,12 +151,13 @@ class StructureMeter {
     buffers_.add_frame(frame, structure, method.cell_lists(), method.run().scratch_bytes());
     structure_ = &structure;
   }
-  void ask_lookup(const measure::LookupFrame& lookup) { lookup.add(*structure_, measures_.lookup); }
-  // Some samples of a set, and the lights that they need.
-  void ask_at(std::size_t set, int frame, std::span<const grid::Sample> samples, const measure::NeededLights& needed) {
+  void add_lookup(const measure::LookupFrame& lookup) { lookup.add(*structure_, measures_.lookup); }
+  // Evaluates some samples of a set with the lights that they need.
+  void add_samples(std::size_t set, int frame, std::span<const grid::Sample> samples,
+                   const measure::NeededLights& needed) {
     measure::add_samples(measures_.samples[set].counts, frame, samples, needed, *structure_);
   }
-  void ask_waves(std::size_t set, const FrameSampleSet& samples) {
+  void add_waves(std::size_t set, const FrameSampleSet& samples) {
     std::optional<measure::Coherence>& coherence = measures_.samples[set].coherence;
     if (!coherence) coherence.emplace();
     measure::add_frame(*coherence, *samples.picture, samples.samples, *structure_);
@@ -179,7 +180,7 @@ class CaseMeter {
  public:
   CaseMeter(const config::Config& config, const CasePlan& plan)
       : method_(plan.method()),
-        asks_lookup_(!assign::find_assigner(config.assigners[plan.assigner].name)->at_surfaces),
+        evaluates_lookup_(!assign::find_assigner(config.assigners[plan.assigner].name)->at_surfaces),
         meter_(config) {
     if (!plan.storage) return;
     const config::MethodRequest& request = config.storages[*plan.storage];
@@ -200,14 +201,15 @@ class CaseMeter {
     const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().own_structure();
     meter_.add(now.frame.index, structure, method);
     if (roomy_storage_) roomy_meter_->add(now.frame.index, *roomy_storage_, method);
-    if (now.lookup && asks_lookup_ && !structure.has_occupied_cells()) meter_.ask_lookup(*now.lookup);
+    if (now.lookup && evaluates_lookup_ && !structure.has_occupied_cells()) meter_.add_lookup(*now.lookup);
   }
 
-  void ask_at(std::size_t set, int frame, std::span<const grid::Sample> samples, const measure::NeededLights& needed) {
-    meter_.ask_at(set, frame, samples, needed);
-    if (roomy_meter_) roomy_meter_->ask_at(set, frame, samples, needed);
+  void add_samples(std::size_t set, int frame, std::span<const grid::Sample> samples,
+                   const measure::NeededLights& needed) {
+    meter_.add_samples(set, frame, samples, needed);
+    if (roomy_meter_) roomy_meter_->add_samples(set, frame, samples, needed);
   }
-  void ask_waves(std::size_t set, const FrameSampleSet& samples) { meter_.ask_waves(set, samples); }
+  void add_waves(std::size_t set, const FrameSampleSet& samples) { meter_.add_waves(set, samples); }
 
   const Method& method() const { return method_; }
   StructureMeasures result() const {
@@ -218,19 +220,19 @@ class CaseMeter {
 
  private:
   Method method_;
-  bool asks_lookup_;                          // its samples are anywhere in the view
+  bool evaluates_lookup_;                     // its samples are anywhere in the view
   std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
   StructureMeter meter_;
-  // Beside a storage that can run out of room.
+  // For comparison with a storage that can run out of room.
   std::unique_ptr<assign::Storage> roomy_storage_;
   std::optional<StructureMeter> roomy_meter_;
 };
 
-// What samples need is kept for so many at once: at full resolution it would not fit in memory whole.
+// Needed lights are stored for this many samples at a time: those of a full-resolution image would not fit in memory.
 constexpr std::size_t k_samples_at_once = 16384;
 
-void ask_at_samples(const PreparedFrame& now, std::vector<MethodMeter>& methods, std::vector<CaseMeter>& cases,
-                    const std::atomic<bool>& stop) {
+void evaluate_samples(const PreparedFrame& now, std::vector<MethodMeter>& methods, std::vector<CaseMeter>& cases,
+                      const std::atomic<bool>& stop) {
   for (std::size_t set = 0; set < now.samples.size(); ++set) {
     const std::span<const grid::Sample> all = now.samples[set].samples;
     for (std::size_t begin = 0; begin < all.size(); begin += k_samples_at_once) {
@@ -239,21 +241,22 @@ void ask_at_samples(const PreparedFrame& now, std::vector<MethodMeter>& methods,
       for (MethodMeter& method : methods) method.add_needed(set, needed);
       for (CaseMeter& meter : cases) {
         if (stop) return;
-        meter.ask_at(set, now.frame.index, some, needed);
+        meter.add_samples(set, now.frame.index, some, needed);
       }
     }
     const std::optional<depth::DepthImage>& picture = now.samples[set].picture;
-    if (!picture || !picture->pixels.is_full_resolution()) continue;  // waves are of neighbouring pixels
+    if (!picture || !picture->pixels.is_full_resolution()) continue;  // waves are made of neighbouring pixels
     for (CaseMeter& meter : cases) {
       if (stop) return;
-      meter.ask_waves(set, now.samples[set]);
+      meter.add_waves(set, now.samples[set]);
     }
   }
 }
 
-// Which of the needed lights are lit, by true shadow rays.
-void ask_lit(const config::Config& config, const PreparedFrame& now, const grid::Grid& grid,
-             const LightShadows& shadows, std::vector<MethodMeter>& methods, const std::atomic<bool>& stop) {
+// Finds by true shadow rays which of the needed lights are lit.
+void evaluate_lit_samples(const config::Config& config, const PreparedFrame& now, const grid::Grid& grid,
+                          const LightShadows& shadows, std::vector<MethodMeter>& methods,
+                          const std::atomic<bool>& stop) {
   for (std::size_t set = 0; set < now.samples.size(); ++set) {
     if (config.sample_sets[set].set != measure::SampleSet::opaque) continue;
     const std::span<const grid::Sample> all = now.samples[set].samples;
@@ -261,7 +264,7 @@ void ask_lit(const config::Config& config, const PreparedFrame& now, const grid:
       const std::span<const grid::Sample> some = all.subspan(begin, std::min(k_samples_at_once, all.size() - begin));
       const measure::NeededLights needed = measure::needed_lights(now.frame, some);
       const std::vector<std::vector<bool>> is_lit = shadows.lit(some, needed);
-      for (MethodMeter& method : methods) method.ask_lit_at(grid, some, needed, is_lit);
+      for (MethodMeter& method : methods) method.add_lit_samples(grid, some, needed, is_lit);
     }
   }
 }
@@ -316,7 +319,7 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
              has_too_many_cells = !group.cases.empty() && group.cases.front().cells_not_compared > 0;
   std::vector<MethodMeter> methods;
   for (const Method& method : culls.methods)
-    methods.emplace_back(config, method, culls.path.of(method), culls.most_lights_of(method), over_frames,
+    methods.emplace_back(config, method, culls.path.of(method), culls.max_lights_of(method), over_frames,
                          shadows ? &*shadows : nullptr, compares, has_too_many_cells);
   const bool needs_truth = std::ranges::any_of(methods, &MethodMeter::needs_grid_truth);
   std::vector<CaseMeter> cases;
@@ -348,8 +351,8 @@ AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data
       for (CaseMeter& meter : cases)
         if (meter.method() == method.method()) meter.add(now, grids.grid(), method);
     }
-    ask_at_samples(now, methods, cases, stop);
-    if (shadows) ask_lit(config, now, grids.grid(), *shadows, methods, stop);
+    evaluate_samples(now, methods, cases, stop);
+    if (shadows) evaluate_lit_samples(config, now, grids.grid(), *shadows, methods, stop);
     if (stop) return result;
     if (grids.grid().kind() == grid::Kind::frustum) add_depth_ranges(now, grids.grid().screen(), result);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The first pass over a group's frames: lists against truth, occupancy, buffers, samples. Nothing is timed before it.
+// The first pass over a group's frames: lists against truth, occupancy, buffers, samples. Timing comes later.
 
 #include <atomic>
 #include <functional>
@@ -13,25 +13,26 @@
 
 namespace clusterbench::run {
 
-// What a method answers, whatever keeps its lists.
+// The measures of a method, independent of the storage of its lists.
 struct MethodMeasures {
   Method method;
   bool has_cells = true;       // without: neither occupancy nor error
-  bool has_grid_cells = true;  // its cells are those of the grid, and not its own
+  bool has_grid_cells = true;  // its cells are the grid's cells
   measure::Occupancy occupancy;
   measure::ErrorCounts error;  // of the lists, before a storage drops anything
   std::uint64_t tests_done = 0, fallbacks = 0;
-  std::optional<ListChanges> list_changes;     // with cells, where asked for
-  std::optional<PreCullCounts> pre_cull;       // where there is one
-  std::vector<ShadowCullResult> shadow_culls;  // of lists, one per way, where asked for
+  std::optional<ListChanges> list_changes;     // with cells, if requested
+  std::optional<PreCullCounts> pre_cull;       // if there is one
+  std::vector<ShadowCullResult> shadow_culls;  // of lists, one per way, if requested
 };
 
-// What samples find in one case's light structure, and what it takes.
+// The measures of one case's light structure: lights at samples, and size.
 struct StructureMeasures {
   measure::Buffers buffers;
   std::vector<SampleSetResult> samples;  // one per set of the configuration
   std::vector<measure::LookupCounts> lookup;
-  // Of the same lists in the same storage with room for all, where the case's can run out of it: buffers and samples.
+  // The same for the same storage with room for all lists, if the case's storage can run out of room: buffers and
+  // samples.
   std::shared_ptr<const StructureMeasures> roomy = {};
 };
 
@@ -41,17 +42,17 @@ struct AccuracyResult {
   std::vector<measure::PackingLoss> losses;   // one per precision of the configuration; none if it has float32 alone
   measure::LightsInView lights_in_view;
   measure::LightsBeyondGrid lights_beyond_grid;
-  std::optional<measure::DepthRanges> depth_ranges;  // of visible surfaces in a frustum grid, where asked for
-  std::optional<measure::SharingCounts> sharing;     // of shadow maps, where asked for
-  std::optional<GridMoves> moves;                    // of a grid that follows what frames need
+  std::optional<measure::DepthRanges> depth_ranges;  // of visible surfaces in a frustum grid, if requested
+  std::optional<measure::SharingCounts> sharing;     // of shadow maps, if requested
+  std::optional<GridMoves> moves;                    // of a grid that follows the needs of frames
   grid::Grid last_grid;
   bool is_complete = false;  // false: stopped before the end
 };
 
-// What of a case is compared that depends on its structure.
+// The compared figures of a case that depend on its structure.
 CaseSide structure_side(const StructureMeasures& measures);
 
-// Whether lists are compared with those of the frame before.
+// Whether lists are compared with the lists of the previous frame.
 enum class ListsOverFrames { ignored, compared };
 
 AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,

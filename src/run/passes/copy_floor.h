@@ -1,5 +1,5 @@
 #pragma once
-// The copy floor of a method: how long copying what it leaves takes (`write_floor_ns`, and `floor_ratio` against it).
+// The copy floor of a method: the time to copy its output (`write_floor_ns`, and `floor_ratio` against it).
 
 #include <algorithm>
 #include <cstring>
@@ -9,12 +9,12 @@
 
 namespace clusterbench::run {
 
-// Memory traffic that no way of assigning can avoid: what each frame leaves, headers and indices, copied once. Each
-// frame has buffers of its own, one for headers and one for indices, as each frame's lists have: one pair of buffers
-// for all would stay in the cache where the lists of a long path do not.
+// Memory traffic that no assignment method can avoid: the output of each frame, headers and indices, copied once. Each
+// frame has its own buffers, one for headers and one for indices, like the lists: a single pair of buffers would stay
+// in the cache while the lists of a long path do not.
 class CopyFloor {
  public:
-  // Of what the tight storage (`packed`) writes for the lists; or of the method's own structures, as they are.
+  // For lists: the output of the tight storage (`packed`); for a method's own structures: these as they are.
   explicit CopyFloor(const TimedWork& work) {
     const std::size_t frames = work.frame_count();
     for (std::size_t i = 0; i < std::min(frames, work.structures().size()); ++i) add_frame(work.structures()[i]->use());
@@ -30,7 +30,7 @@ class CopyFloor {
   void copy_once() {
     for (Copy& copy : copies_) {
       std::memcpy(copy.to.data(), copy.from.data(), copy.from.size());
-      asm volatile("" : : "r"(copy.to.data()) : "memory");  // the copies are wanted for themselves
+      asm volatile("" : : "r"(copy.to.data()) : "memory");  // the compiler must not remove the copies
     }
   }
 

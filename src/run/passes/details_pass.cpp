@@ -9,7 +9,7 @@
 namespace clusterbench::run {
 namespace {
 
-// The frames of one method, and what was found in them.
+// The frames of one method, with their details.
 class Track {
  public:
   Track(const config::Config& config, const MethodMeasures& counted, const cull::PreCull& pre_cull, int path_frames)
@@ -47,7 +47,7 @@ class Track {
   bool with_pairs_;
   CulledRun run_;
   std::vector<int> frames_;
-  std::optional<Details> details_;  // none without cells, or where they are not the grid's
+  std::optional<Details> details_;  // none without cells, or if they are not the grid's
 };
 
 std::vector<int> frames_of(const std::vector<Track>& tracks) {

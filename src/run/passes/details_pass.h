@@ -1,5 +1,5 @@
 #pragma once
-// Chosen frames once more, cell by cell, for results that are looked into.
+// Chosen frames once more, cell by cell, for readers who want details.
 
 #include <atomic>
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace clusterbench::run {
 
-// One per case of the group, none where a method has no cells; empty if stopped before the end. Config::details is set.
-// `counted` names each method's worst frame and the case's grid.
+// One per case of the group, none for methods without cells; empty if stopped before the end. Config::details is set.
+// `counted` has each method's worst frame and the case's grid.
 std::vector<std::optional<Details>> details_pass(const config::Config& config, const GroupPlan& group,
                                                  const PathFrames& path, const scene::Scene& scene,
                                                  const AccuracyResult& counted, const std::atomic<bool>& stop);

@@ -40,7 +40,7 @@ class StabilityTrack {
 
   const Method& method() const { return method_; }
   bool has_cells() const { return run_.has_cells(); }
-  // `common`: what is the same for all methods, with the truth of the grid's cells.
+  // `common`: the facts that all methods share, with the truth of the grid's cells.
   StabilityResult result(const StabilityResult& common) const {
     StabilityResult out = common;
     out.method = meter_.result();
@@ -55,10 +55,10 @@ class StabilityTrack {
   CulledRun run_;
   measure::ChurnMeter meter_;
   measure::ChurnMeter own_truth_;  // of cells that are not the grid's
-  std::uint64_t undecided_ = 0;    // in that
+  std::uint64_t undecided_ = 0;    // pairs in that truth
 };
 
-// What all methods of the group have in common.
+// The facts that all methods of the group share.
 StabilityResult segment_facts(const scene::FinePath& segment, int window) {
   StabilityResult facts;
   facts.window = window;

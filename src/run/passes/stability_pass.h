@@ -1,5 +1,5 @@
 #pragma once
-// Lists and truth along a finely sampled piece of the path: what changes from step to step, and what changes back.
+// Lists and truth along a finely sampled piece of the path: changes from step to step, and changes back.
 
 #include <atomic>
 #include <functional>
@@ -11,8 +11,8 @@
 
 namespace clusterbench::run {
 
-// One result per case of the group, none where a method has no cells; empty if stopped before the end.
-// Config::stability is set. `on_step` is told which share of the whole pass the step is.
+// One result per case of the group, none for methods without cells; empty if stopped before the end. Config::stability
+// is set. `on_step` gets each step's share of the whole pass.
 std::vector<std::optional<StabilityResult>> stability_pass(const config::Config& config, const GroupPlan& group,
                                                            const PathFrames& path,
                                                            const std::function<void(double share)>& on_step,

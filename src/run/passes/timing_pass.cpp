@@ -24,7 +24,7 @@ EachFrame sums(EachFrame left, const EachFrame& right) {
   return left;
 }
 
-// One method and what it takes.
+// One method and its times.
 class TimingTrack {
  public:
   TimingTrack(const config::Config& config, const GroupPlan& group, const Method& method,
@@ -61,8 +61,8 @@ class TimingTrack {
       samples_.readback_ns.push_back(device->readback_ns / frames);
     }
     samples_.floor_ns.push_back(floor_.sample() / frames);
-    // Conversion's branches depend on the lists: without runs of its own before, a few of them cost up to a quarter
-    // more after a method with other lists than after one with the same.
+    // Conversion has branches that depend on the lists. Without a warm-up of its own, some conversions take up to a
+    // quarter longer after a method with other lists than after one with the same lists.
     for (std::size_t store = 0; store < samples_.stores.size(); ++store) {
       converts_[store].warm_up();
       samples_.stores[store].warm_ns.push_back(converts_[store].sample() / frames);
@@ -70,7 +70,7 @@ class TimingTrack {
     }
   }
 
-  // Frame by frame as the caches are after the round.
+  // Frame by frame, with the caches as the round left them.
   void warm_frames() {
     if (work_.culls())
       samples_.cull_warm_each.push_back(frame_by_frame([this](std::size_t frame) { work_.cull_frame(frame); }));
@@ -80,8 +80,8 @@ class TimingTrack {
           frame_by_frame([this, store](std::size_t frame) { work_.convert_frame(store, frame); }));
   }
 
-  // Each frame once after `sweep`. Of several storages each has a frame of its own: it finds its buffers cold, and the
-  // lists as the assignment has just left them, which the conversion before would have warmed.
+  // Each frame once after `sweep`. With several storages each one has its own frame: its buffers are cold and its lists
+  // are as the assignment left them. A conversion by another storage just before would have warmed them.
   void cold_frames(const std::function<void()>& sweep) {
     samples_.cold_each.emplace_back();
     if (work_.culls()) samples_.cull_cold_each.emplace_back();
@@ -109,7 +109,7 @@ class TimingTrack {
   ColdLists cold_lists(std::size_t frame, const std::function<void()>& sweep) {
     ColdLists out;
     sweep();
-    wall_ns();  // the clock's own memory is warm
+    wall_ns();  // brings the clock's own data into the cache
     double before = wall_ns();
     if (work_.culls()) {
       work_.cull_frame(frame);
@@ -122,7 +122,7 @@ class TimingTrack {
     return out;
   }
 
-  // In lists, or in the cells of a structure; none without cells, or with more than can be expanded.
+  // Pairs in lists, or in the cells of a structure; empty without cells, or if they are too many to be expanded.
   std::vector<std::uint64_t> pairs_of_frames() const {
     std::vector<std::uint64_t> pairs;
     for (const assign::Lists& lists : work_.lists()) pairs.push_back(lists.pair_count());
@@ -131,7 +131,7 @@ class TimingTrack {
     return pairs;
   }
 
-  // Passes that last as long as a tenth of a round, a look at the clock after each frame.
+  // Passes for at least a tenth of a round; the clock is read after each frame.
   template <class Once>
   EachFrame frame_by_frame(const Once& once) const {
     EachFrame each(samples_.frames.size(), 0.0);
@@ -150,14 +150,14 @@ class TimingTrack {
   bool has_too_many_cells_;
   TimedWork work_;
   MethodSamples samples_;
-  std::deque<Repeated> converts_;  // of each storage
+  std::deque<Repeated> converts_;  // one per storage
   std::optional<CopyFloor> copy_floor_;
   Repeated assign_{[this] { work_.assign(); }, min_ns_};
   Repeated cull_{[this] { work_.cull(); }, min_ns_ / 10.0};
   Repeated floor_{[this] { copy_floor_->copy_once(); }, min_ns_ / 10.0};
 };
 
-// The frames of the means, and then the fullest ones of the methods that are not among them.
+// The frames of the means, followed by the fullest frames of the methods that are not among them.
 std::vector<int> all_frames(const std::vector<int>& of_means, const std::vector<int>& fullest) {
   std::vector<int> all = of_means;
   for (const int frame : fullest)
@@ -165,7 +165,7 @@ std::vector<int> all_frames(const std::vector<int>& of_means, const std::vector<
   return all;
 }
 
-// A group's methods over the frames that are timed, in the grid of a configuration.
+// A group's methods over the timed frames, in the grid of a configuration.
 struct TimedSide {
   TimedSide(const config::Config& config, const GroupPlan& group, const PathFrames& path,
             const std::vector<int>& of_means, const LaunchRequest& request)
@@ -191,12 +191,12 @@ struct TimedSide {
   std::vector<std::unique_ptr<TimingTrack>> tracks;
 };
 
-// Per frame, in nanoseconds: what it takes to find what is needed, and to make the grid of it. Depths are there.
+// Time per frame, in nanoseconds, to find the needed span and make the grid for it. Depths are already cast.
 double time_to_follow(const grid::GridSpec& spec, const PathFrames& path, std::span<const TimedFrame> frames) {
   double sum_ns = 0.0;
   for (const TimedFrame& frame : frames) {
     const grid::GridInputs inputs = path.inputs(spec, frame.frame);
-    path.needed(spec, frame.frame);  // casts depths that are not kept
+    path.needed(spec, frame.frame);  // casts depths that are not cached
     const double start = wall_ns();
     path.needed(spec, frame.frame);
     grid::make_grid(spec, inputs);
@@ -224,7 +224,7 @@ std::vector<double> means(const std::vector<EachFrame>& rounds, std::size_t fram
   return out;
 }
 
-// All launches' samples of one method, and what follows from them for its cases.
+// All launches' samples of one method, and the timing results of its cases.
 class MethodTimes {
  public:
   MethodTimes(std::span<const GroupSamples> launches, std::size_t method, std::uint64_t seed)
@@ -304,7 +304,7 @@ class MethodTimes {
     return rounds(store, part);
   }
 
-  // Each launch finds out by itself how many passes take long enough for a sample.
+  // Each launch decides by itself how many passes are long enough for a sample.
   template <class Of>
   int fewest(const Of& of) const {
     int least = std::numeric_limits<int>::max();
@@ -312,7 +312,7 @@ class MethodTimes {
     return least;
   }
 
-  // What all cases of the method have in common.
+  // The figures that all cases of the method share.
   TimingResult of_method(const std::vector<double>& warm) const {
     TimingResult out;
     out.launches = launch_count();
@@ -359,7 +359,7 @@ class MethodTimes {
   std::uint64_t seed_;
 };
 
-// Of a grid that follows what frames need: its cases beside the same in the grid that does not.
+// For a grid that follows the needs of frames: compares its cases with the same cases in the grid that does not follow.
 void add_fit_times(const config::Config& config, const GroupPlan& group, std::span<const GroupSamples> launches,
                    std::vector<TimingResult>& timings) {
   const std::vector<Method> methods = methods_of(group);
@@ -380,8 +380,8 @@ void add_fit_times(const config::Config& config, const GroupPlan& group, std::sp
   }
 }
 
-// What a case is compared with: the group's first one in the same storage; a structure of a method's own with the first
-// of all.
+// The case to compare with: the group's first one with the same storage; for a structure of a method's own, the first
+// case.
 std::size_t reference_of(const GroupPlan& group, std::size_t index) {
   const auto is_alike = [&](const CasePlan& case_plan) { return case_plan.storage == group.cases[index].storage; };
   if (!group.cases[index].storage) return 0;

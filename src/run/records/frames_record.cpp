@@ -1,4 +1,4 @@
-// What changes from frame to frame.
+// Changes from frame to frame.
 
 #include <limits>
 
@@ -42,7 +42,7 @@ std::optional<double> share_saved(const std::optional<T>& with, const std::optio
   return share_saved(number(with), number(without));
 }
 
-// Of what both sides have: 1 - with / without.
+// For figures that both sides have: 1 - with / without.
 result::Saved saved_record(const result::FitSide& with, const result::FitSide& without) {
   result::Saved out;
   out.pairs = share_saved(with.pairs, without.pairs);
@@ -72,7 +72,7 @@ result::Fit fit_record(const FitResult& fit) {
   out.to = grid::name_of(fit.fit.to);
   out.damping = fit.fit.damping;
   out.step = fit.fit.step;
-  out.asked = {counted(fit.asked.near_m), counted(fit.asked.far_m)};
+  out.asked = {counted(fit.range.near_m), counted(fit.range.far_m)};
   out.near = extremes_record(moves.near_m);
   out.far = extremes_record(moves.far_m);
   out.moves = {static_cast<std::uint64_t>(moves.steps), static_cast<std::uint64_t>(moves.changed),
@@ -90,7 +90,7 @@ result::Reaction reaction_record(const ReactionResult& reaction) {
   out.most = static_cast<std::uint64_t>(reaction.reaction.most);
   if (!reaction.reaction.of.empty()) out.of = reaction.reaction.of;
   if (reaction.reaction.most_lights > 0) out.most_lights = static_cast<std::uint64_t>(reaction.reaction.most_lights);
-  out.tiles = {counts_record(moves.asked), counts_record(moves.fewest), extremes_record(moves.tiles)};
+  out.tiles = {counts_record(moves.requested), counts_record(moves.fewest), extremes_record(moves.tiles)};
   out.needed = extremes_record(moves.amount);
   out.frames = {static_cast<std::uint64_t>(moves.reacted), static_cast<std::uint64_t>(moves.over)};
   out.moves = {static_cast<std::uint64_t>(moves.steps), static_cast<std::uint64_t>(moves.changed)};

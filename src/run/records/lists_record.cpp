@@ -1,4 +1,4 @@
-// Lists, what holds them, and what is wrong with them.
+// Lists, their storage and their errors.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ result::HighWater high_water_record(const measure::HighWater& mark) {
   return {mark.high_water, mark.theoretical_max, mark.recommended};
 }
 
-// Along the path only where frames differ: of the others high_water says all.
+// Numbers along the path only if frames differ; otherwise high_water is enough.
 result::Buffer buffer_record(const measure::BufferHighWater& mark, const CaseResult& of) {
   result::Buffer out{.name = mark.name,
                      .element_bytes = mark.element_bytes,
@@ -126,7 +126,7 @@ result::Precision precision_record(const PrecisionResult& precision) {
   return out;
 }
 
-// `is_timed`: what is not timed is the same in every run.
+// `is_timed`: without it, untimed figures are the same in every run.
 result::PreCull pre_cull_record(const PreCullResult& culled, bool is_timed) {
   const PreCullCounts& counts = culled.counts;
   result::PreCull out;
@@ -139,7 +139,7 @@ result::PreCull pre_cull_record(const PreCullResult& culled, bool is_timed) {
     out.steps.push_back({step.label, mean_max(step.removed), static_cast<std::uint64_t>(step.frames)});
   out.lost_pairs = counts.lost_pairs;
   for (const LostAtSamples& set : counts.samples)
-    if (set.is_asked) out.lost_at_samples.push_back({measure::name_of(set.set), {set.needed, set.lost}});
+    if (set.has_samples) out.lost_at_samples.push_back({measure::name_of(set.set), {set.needed, set.lost}});
   const bool has_limit = std::ranges::any_of(counts.steps, [](const auto& step) { return step.limit.has_value(); });
   if (has_limit) out.over_limit = {converted<std::uint64_t>(counts.dropped), counts.lost_to_limits};
   out.view_cells = static_cast<std::uint64_t>(counts.view_cells);

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a case's record, and what they share.
+// The parts of a case's record, and their common helpers.
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
-// What a run found, as the records of a result (result/case.h): figures are rounded, cells have coordinates, shares and
-// means are made of counts.
+// The records of a result (result/case.h) from the results of a run: figures are rounded, cells have coordinates,
+// shares and means are computed from counts.
 
 #include <cstdint>
 #include <vector>

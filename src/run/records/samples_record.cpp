@@ -1,4 +1,4 @@
-// What samples find in lists.
+// Lights at samples.
 
 #include <cmath>
 

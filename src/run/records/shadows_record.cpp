@@ -1,4 +1,4 @@
-// What shadows say about a case's lists and maps.
+// Shadows in a case's lists, and its shadow maps.
 
 #include "run/records/parts.h"
 
@@ -24,7 +24,7 @@ result::ShadowCullSamples cull_samples_record(const measure::ShadowCullCounts& c
   return out;
 }
 
-// The settings of a way, of a cull or of its times.
+// The settings of a shadow cull, for its counts or its times.
 template <class Record>
 Record way_record(const config::ShadowCullRequest& request) {
   Record out;

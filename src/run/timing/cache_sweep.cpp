@@ -14,10 +14,10 @@ std::uint64_t sweep_bytes() {
 }
 
 void CacheSweep::operator()() {
-  constexpr std::size_t k_line = 64;  // a plain store to each: memset() may write past the caches
+  constexpr std::size_t k_line = 64;  // one plain store to each line: memset() may use stores that bypass the caches
   ++value_;
   for (std::size_t at = 0; at < buffer_.size(); at += k_line) buffer_[at] = value_;
-  asm volatile("" : : "r"(buffer_.data()) : "memory");  // what nobody reads would not be written
+  asm volatile("" : : "r"(buffer_.data()) : "memory");  // the compiler must not remove stores that nothing reads
 }
 
 int cold_rounds(int rounds, std::size_t frames, std::uint64_t bytes) {

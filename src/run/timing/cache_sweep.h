@@ -1,6 +1,7 @@
 #pragma once
-// Empties the caches before something is measured cold: in an engine all else of a frame has used them since the last
-// assignment. As the cold measurements of NVBench do, by writing through more memory than the last level holds.
+// Empties the caches before a cold measurement: in an engine the rest of the frame has used them since the last
+// assignment. The method is that of NVBench's cold measurements: write through more memory than the last cache level
+// holds.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,14 +9,14 @@
 
 namespace clusterbench::run {
 
-// A quarter more than all levels of this machine together; 64 MiB where they are not known, 1 GiB at most.
+// A quarter more than the sum of all cache levels of this machine; 64 MiB if they are unknown, at most 1 GiB.
 std::uint64_t sweep_bytes();
 
 class CacheSweep {
  public:
   explicit CacheSweep(std::uint64_t bytes) : buffer_(bytes) {}
 
-  // Writes every line of the buffer. Caches of other cores, but for a level that is shared, stay as they are.
+  // Writes every line of the buffer. Caches of other cores stay as they are, except for a shared level.
   void operator()();
 
  private:
@@ -23,8 +24,9 @@ class CacheSweep {
   unsigned char value_ = 0;
 };
 
-// How many of `rounds` passes over `frames` frames are measured cold, at least one: as many as sweep for no more than
-// some time in all. The same on each machine of the same caches, so that all launches and methods have equally many.
+// Number of cold passes, at least one, out of `rounds` passes over `frames` frames: as many as keep the total sweep
+// time below a fixed limit. It is the same on all machines with the same caches, so all launches and methods have the
+// same number.
 int cold_rounds(int rounds, std::size_t frames, std::uint64_t bytes);
 
 }  // namespace clusterbench::run

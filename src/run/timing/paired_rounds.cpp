@@ -9,7 +9,7 @@
 namespace clusterbench::run {
 namespace {
 
-// The cases of one method: the first is measured for all.
+// The cases of one method: the first one is measured for all.
 using MethodCases = std::vector<std::string>;
 using GroupMethods = std::vector<MethodCases>;
 
@@ -44,7 +44,7 @@ struct Lone {
   bool is_in_next;
 };
 
-// The smallest light that only one of two ascending lists holds.
+// The smallest light that only one of two ascending lists has.
 std::optional<Lone> first_lone(const std::vector<std::uint32_t>& base, const std::vector<std::uint32_t>& next) {
   const auto [a, b] = std::mismatch(base.begin(), base.end(), next.begin(), next.end());
   if (a == base.end() && b == next.end()) return std::nullopt;
@@ -123,7 +123,7 @@ class PairedRun {
         cases_[ids.front()].lists_differ = lists_differ(*base_, *next_, ids.front());
   }
 
-  // Those whose intervals are still too wide, in their groups.
+  // The methods whose intervals are still too wide, in their groups.
   std::vector<GroupMethods> open_methods() const {
     std::vector<GroupMethods> open;
     for (const GroupMethods& methods : groups_) {
@@ -159,7 +159,7 @@ class PairedRun {
   const OnPairedRound& on_round_;
   std::unique_ptr<Program> base_, next_;
   std::vector<GroupMethods> groups_;
-  std::map<std::string, PairedCase> cases_;  // of each method's first case, until the end
+  std::map<std::string, PairedCase> cases_;  // by each method's first case, until the end
 };
 
 }  // namespace

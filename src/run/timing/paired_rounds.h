@@ -1,6 +1,6 @@
 #pragma once
-// Two programs measured side by side on the same cases: rounds in alternating order, over several starts of both.
-// docs/comparing.md says why.
+// Two programs measured side by side on the same cases: rounds in alternating order, over several starts of both. The
+// reasons are in docs/comparing.md.
 
 #include <atomic>
 #include <cstdint>
@@ -29,26 +29,25 @@ struct FrameLists {
 };
 
 // A program that lists and measures the cases of one configuration: this one (served_cases.h), or another one at the
-// other end of a pipe. Throws Error where it cannot.
+// other end of a pipe. Throws Error on failure.
 class Program {
  public:
   virtual ~Program() = default;
 
   virtual std::vector<std::string> case_ids() = 0;
-  // Of all frames of the case's path.
+  // One digest per frame of the case's path.
   virtual std::vector<ListDigest> list_digests(const std::string& id) = 0;
   virtual FrameLists frame_lists(const std::string& id, int frame) = 0;
-  // Measures one round. Cases that follow each other in the plan should be asked for one after the other: a change of
-  // grid makes all frames anew.
+  // Measures one round. Request cases in the order of the plan: a change of grid makes all frames again.
   virtual double assign_ns(const std::string& id) = 0;
 };
 
-// Where the lists of both first differ.
+// The first difference between the lists of both programs.
 struct ListsDiffer {
-  int frames = 0, frame = 0;  // how many differ; the first of them
+  int frames = 0, frame = 0;  // number of frames that differ; the first of them
   Vec3i cell{0, 0, 0};
   std::uint32_t light = 0;
-  bool is_only_in_new = false;                   // or only in the base
+  bool is_only_in_new = false;                   // else only in the base
   std::uint64_t base_pairs = 0, next_pairs = 0;  // over all frames
 };
 
@@ -65,9 +64,9 @@ struct PairedCase {
   measure::Change change() const;
 };
 
-// Each method is measured in `launches` launches, and in further ones until half of its interval (measure::half_width)
-// is `enough` or less, or `most_launches` are done. What the interval lies around does not matter: who stops when
-// the verdict pleases will be pleased too often.
+// Each method is measured in `launches` launches, then in further ones until half of its interval (measure::half_width)
+// is at most `enough`, or `most_launches` are done. The rule ignores the centre of the interval: stopping at a welcome
+// verdict would find welcome verdicts too often.
 struct PairedRequest {
   int launches = 10, most_launches = 10;
   double enough = 0.01;
@@ -80,13 +79,14 @@ struct PairedStart {
 
 struct PairedRound {
   int launch = 0;
-  double share = 0.0;  // of the work that is certain to be done: nothing in further launches
+  double share = 0.0;  // of this round in the work of the first `launches` launches; 0 in further ones
 };
 using OnPairedRound = std::function<void(const PairedRound&)>;
 
-// By id, the plan's cases that both programs have; cases of one method share their rounds. Which program starts, and
-// which measures first, alternates from launch to launch, round to round and method to method. Lists are compared in
-// the first launch, before anything is measured. `on_round` is told of each round of a group before it begins.
+// Measures the plan's cases that both programs have; returns them by id. Cases of one method share their rounds. The
+// program that starts first, and the one that measures first, alternate from launch to launch, round to round and
+// method to method. Lists are compared in the first launch, before anything is measured. `on_round` is called before
+// each round of a group.
 std::map<std::string, PairedCase> measure_paired(const Plan& plan, const PairedRequest& request,
                                                  const PairedStart& start, const OnPairedRound& on_round);
 

@@ -32,7 +32,7 @@ void Repeated::calibrate() {
     return std::max(1.0, now_ns_() - start);
   };
   double one_ns = time_once();
-  if (one_ns < 4.0 * min_ns_) one_ns = time_once();  // the first run may have to wait for memory
+  if (one_ns < 4.0 * min_ns_) one_ns = time_once();  // the first run may have to allocate memory
   repeats_ = static_cast<int>(std::clamp(std::ceil(min_ns_ / one_ns), 1.0, 1e6));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Runs something as often as takes some time, the same number of times in every round.
+// Runs a piece of work often enough for a minimum time, the same number of times in every round.
 
 #include <functional>
 
@@ -8,8 +8,8 @@
 namespace clusterbench::run {
 
 using Clock = double (*)();  // ns since some moment
-// The processor time of this thread: knows nothing of other programs that had the processor meanwhile, nor of other
-// threads that did the work.
+// The processor time of this thread: it excludes time in which other programs had the processor, and the work of other
+// threads.
 double thread_ns();
 
 class Repeated {
@@ -19,7 +19,7 @@ class Repeated {
 
   // ns per run.
   double sample();
-  // As many runs as a sample has, untimed: caches and branch predictors then know this work, and not the one before.
+  // As many runs as a sample has, untimed: caches and branch predictors then fit this work, not the previous one.
   void warm_up();
   // In one sample; 0 before the first.
   int runs_per_sample() const { return repeats_; }

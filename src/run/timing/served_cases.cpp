@@ -41,7 +41,7 @@ class ListsOfFrames {
     depth_ = depths_for(config_, group_, path_, frame);
     run_.assign(frame, packed, depth_.get());
     if (run_.has_cells()) return run_.cell_lists();
-    ask_at_samples(frame);
+    list_at_samples(frame);
     return lists_at_samples_;
   }
   Vec3i cells() const {
@@ -52,7 +52,7 @@ class ListsOfFrames {
  private:
   static constexpr int k_samples = 4096;
 
-  void ask_at_samples(const view::Frame& frame) {
+  void list_at_samples(const view::Frame& frame) {
     assign::Lists& lists = lists_at_samples_;
     const std::optional<assign::MappedStructure> mapped = run_.mapped(*run_.own_structure());
     const assign::LightStructure* structure = run_.own_structure();
@@ -71,7 +71,7 @@ class ListsOfFrames {
   const config::Config& config_;
   const GroupPlan& group_;
   const PathFrames& path_;
-  std::shared_ptr<const depth::DepthImage> depth_;  // of the frame at hand
+  std::shared_ptr<const depth::DepthImage> depth_;  // of the current frame
   GridOfFrames grids_;
   std::size_t precision_;
   PathCulls culls_;

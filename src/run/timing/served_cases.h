@@ -13,7 +13,7 @@ namespace clusterbench::run {
 
 class ServedCases : public Program {
  public:
-  // Both outlive it.
+  // Both must outlive this object.
   ServedCases(const config::Config& config, const Plan& plan);
   ~ServedCases() override;
 

@@ -8,7 +8,7 @@ namespace clusterbench::run {
 
 namespace {
 
-// The first frame has none before it: what holds of the second is taken to hold of it.
+// The first frame has no previous one: it gets the value of the second.
 bool is_grid_new(const grid::GridSpec& spec, const PathFrames& path, const view::Frame& frame) {
   const std::optional<view::Frame> other = path.neighbour(frame);
   return other && !(path.inputs(spec, frame) == path.inputs(spec, *other));
@@ -49,7 +49,7 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
       extra_(extra),
       precision_(method.precision),
       pre_cull_(&frames.front().culls->path.of(method)),
-      most_lights_(frames.front().culls->most_lights_of(method)) {
+      most_lights_(frames.front().culls->max_lights_of(method)) {
   const std::size_t all_frames = frames.size() + (extra == nullptr ? 0 : 1);
   const config::MethodRequest& request = config.assigners[method.assigner];
   const assign::AssignerDescriptor& descriptor = *assign::find_assigner(request.name);
@@ -116,7 +116,7 @@ void TimedWork::cull_frame(std::size_t frame) {
   pre_cull_->cull(now.frame, *now.grid, now.lights.in_precision(precision_), frame_culls_[frame]);
 }
 
-// What the method gets of a frame.
+// The lights of a frame that the method gets.
 const view::LightArrays& TimedWork::lights(std::size_t frame) const {
   return culls() ? frame_culls_[frame].lights : at(frame).lights.in_precision(precision_);
 }

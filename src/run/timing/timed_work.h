@@ -1,5 +1,5 @@
 #pragma once
-// What is timed and what is counted: a group's methods over the frames that the configuration chooses for timing.
+// The work that is timed and counted: a group's methods over the frames that the configuration chooses for timing.
 
 #include <memory>
 #include <optional>
@@ -14,52 +14,52 @@
 
 namespace clusterbench::run {
 
-// A frame with all that an assigner needs; frames with the same grid share it.
+// A frame with all inputs of an assigner; frames with the same grid share it.
 struct TimedFrame {
   std::shared_ptr<const grid::Grid> grid;
   view::Frame frame;
   FrameLights lights;
-  std::shared_ptr<const depth::DepthImage> depth;  // where a method of the group needs it
+  std::shared_ptr<const depth::DepthImage> depth;  // if a method of the group needs it
   std::shared_ptr<const GroupCulls> culls;
-  bool is_grid_new = false;  // another one than that of the path's frame before: an assigner is built for it
+  bool is_grid_new = false;  // differs from that of the path's previous frame: the assigner is rebuilt
 };
 
-// The frames of the path that times are means over: `timing.frames` of them, evenly spaced, so that they stand for the
-// path; all where it is 0.
+// The frames whose times are averaged: `timing.frames` frames, evenly spaced, so that they represent the path; all if
+// it is 0.
 std::vector<int> mean_frames(const config::Config& config, const PathFrames& path);
 
-// These frames of the path, ready for a group's methods.
+// These frames of the path, prepared for a group's methods.
 std::vector<TimedFrame> timed_frames(const config::Config& config, const GroupPlan& group, const PathFrames& path,
                                      const std::vector<int>& indices);
 
-// Does this method share its work among threads?
+// Whether this method uses several threads.
 bool is_threaded(const config::MethodRequest& assigner);
 
-// One method over the frames, with the storages that its cases use. The frames outlive it. Its lists, or its own light
-// structures, are made once at the start, so that memory has grown; each frame has its own.
+// One method over the frames, with the storages that its cases use. The frames must outlive this object. Lists, or a
+// method's own light structures, are made once at the start, so that memory has grown; each frame has its own.
 class TimedWork {
  public:
-  // `extra`: a further frame, which assign_frame() and convert_frame() know as frame_count(), and no pass holds.
+  // `extra`: a further frame, which is number frame_count() for assign_frame() and convert_frame(), and in no pass.
   TimedWork(const config::Config& config, const GroupPlan& group, const Method& method,
             std::span<const TimedFrame> frames, const TimedFrame* extra = nullptr);
 
-  // Prepares for the first frame's grid.
+  // Builds for the first frame's grid.
   void build();
-  // Whether lights are culled before; and all frames' lights, as assign() wants them before it. Nothing else.
+  // Whether there is a pre-cull, which runs on all frames' lights before assign().
   bool culls() const { return !pre_cull_->is_none(); }
   void cull();
   void cull_frame(std::size_t frame);
-  // All frames. A grid that changes between frames (fit) is built within: that is what such a method costs.
+  // All frames. A grid that changes between frames (fit) is built inside: this is part of the method's cost.
   void assign();
-  // Builds for a frame's grid if that is another one than the last and not made for this frame alone.
+  // Builds for a frame's grid if it differs from the last one and is not made for this frame alone.
   void prepare_frame(std::size_t frame);
-  // One of them, as assign() does it.
+  // One frame, in the same way as assign().
   void assign_frame(std::size_t frame);
-  // Of all frames of the last assign(), by a device's own clock; null where nothing runs on one.
+  // For all frames of the last assign(), by the device's own clock; null without a device.
   const assign::DeviceSpans* device_spans() const { return device_ ? &*device_ : nullptr; }
-  // In one assign() after another.
+  // Number of builds in an assign() that follows another one.
   std::size_t builds() const;
-  // Whether its lists are converted to what its cases are named after; a structure of its own is not.
+  // Whether its lists are converted to the storages of its cases; a structure of its own is not.
   bool converts() const { return lists_assigner_ != nullptr; }
   // Puts the lists of all frames into the storage of one case.
   void convert(std::size_t store) const;
@@ -67,15 +67,15 @@ class TimedWork {
   // Puts a frame's lists into any storage that storage() made.
   void store_lists(assign::Storage& storage, std::size_t frame) const;
 
-  // The method's cases by their index in the group; a storage each, where it converts.
+  // The method's cases by their index in the group; one storage per case, if the method converts.
   const std::vector<std::size_t>& case_indices() const { return case_indices_; }
   std::size_t frame_count() const { return frames_.size(); }
   bool has_extra() const { return extra_ != nullptr; }
   int path_frame(std::size_t frame) const { return at(frame).frame.index; }
-  // Of the frames, and then of the extra one.
+  // Of the frames, followed by the extra one.
   const std::vector<assign::Lists>& lists() const { return lists_; }
   const std::vector<std::unique_ptr<assign::LightStructure>>& structures() const { return structures_; }
-  // A storage that is ready for a frame, and for others with as many cells.
+  // A storage that is ready for this frame, and for other frames with the same number of cells.
   std::unique_ptr<assign::Storage> storage(const assign::StorageDescriptor& storage, const assign::Params& params,
                                            std::size_t frame) const;
 
@@ -83,7 +83,7 @@ class TimedWork {
   assign::Assigner& assigner() const;
   const view::LightArrays& lights(std::size_t frame) const;
   void build_for(const TimedFrame& frame);
-  // The frames that stand for those with as many cells, in order of first use; fills store_of_frame_.
+  // The first frame of each number of cells, in order of first use; fills store_of_frame_.
   std::vector<std::size_t> frames_of_stores(std::size_t all_frames);
   const TimedFrame& at(std::size_t frame) const { return frame < frames_.size() ? frames_[frame] : *extra_; }
 
@@ -94,14 +94,14 @@ class TimedWork {
   std::uint32_t most_lights_ = 0;             // in a frame of the path, behind the pre-cull
   std::vector<cull::FrameCull> frame_culls_;  // empty without one
   std::unique_ptr<assign::ListAssigner> lists_assigner_;
-  std::unique_ptr<assign::StructureAssigner> structure_assigner_;  // one of the two
+  std::unique_ptr<assign::StructureAssigner> structure_assigner_;  // only one of the two is set
   const grid::Grid* built_for_ = nullptr;
   std::optional<assign::DeviceSpans> device_;
   std::vector<assign::Lists> lists_;
   std::vector<std::unique_ptr<assign::LightStructure>> structures_;
   std::vector<std::size_t> case_indices_;
-  // Of each storage one per number of cells, since an engine whose grid changes has memory for the largest; and which
-  // of them a frame is kept in.
+  // Per storage and number of cells one object, since an engine whose grid changes allocates memory for the largest
+  // grid; and the index of the object that each frame uses.
   std::vector<std::vector<std::unique_ptr<assign::Storage>>> stores_;
   std::vector<std::size_t> store_of_frame_;
 };

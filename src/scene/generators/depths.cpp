@@ -1,5 +1,5 @@
-// Depths that are hard for lists of tiles: jumps between near and far surfaces, surfaces that are seen along
-// themselves, and both. Persson's bad cases are vegetation, hallways and ground at grazing angles.
+// Depths that are hard for lists of tiles: jumps between near and far surfaces, surfaces at grazing angles, and both.
+// Persson's bad cases are vegetation, hallways and ground at grazing angles.
 
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double k_two_pi = 6.28318530717958647692;
 
-// Triangles of a hand's size anywhere in a box, turned any way about the vertical.
+// Triangles of a hand's size anywhere in a box, at any angle about the vertical.
 void add_leaves(Stage& stage, std::vector<Vec3d>& corners, const Vec3d& lo, const Vec3d& hi, int count) {
   for (int i = 0; i < count; ++i) {
     const Vec3d middle = stage.position_in(lo, hi);
@@ -25,7 +25,7 @@ void add_pole(std::vector<Vec3d>& corners, const Vec3d& foot, double width_m, do
           foot + Vec3d(width_m / 2.0, height_m, width_m / 2.0));
 }
 
-// Lights of 2 to 5 m anywhere in a box, every fourth a lamp that shines down.
+// Lights of 2 to 5 m anywhere in a box; every fourth one is a lamp that shines down.
 void fill_with_lights(Stage& stage, int lights, const Vec3d& lo, const Vec3d& hi) {
   for (int i = 0; stage.light_count() < lights; ++i) {
     const Vec3d position = stage.position_in(lo, hi);

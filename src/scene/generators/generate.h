@@ -1,5 +1,5 @@
 #pragma once
-// Seeded scenes of the project's own: light rigs with an animated camera, written as binary glTF.
+// Seeded scenes made by this project: light rigs with an animated camera, written as binary glTF.
 
 #include <cstdint>
 #include <span>
@@ -12,7 +12,7 @@ class Stage;
 struct GeneratorRow {
   std::string name;
   std::string summary;
-  std::string source;  // where its figures come from
+  std::string source;  // source of its figures
   int default_lights;
   void (*build)(Stage& stage, int lights);
 };

@@ -1,5 +1,5 @@
-// The massive worst case: many large lights jammed in front of the player, as when everything explodes at once. What a
-// list allocation has to survive.
+// The worst case: many large lights close together in front of the player, as when everything explodes at once.
+// Allocations of lists must be large enough for it.
 
 #include "scene/generators/scenes.h"
 

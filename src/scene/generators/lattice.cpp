@@ -1,7 +1,6 @@
-// Levels are built on lattices: lamps at whole metres, whole ranges, halves that mirror each other, and a camera that
-// goes along an axis or a diagonal. Each light here just touches one of the two planes through the camera's middle, the
-// line in which these meet, or a point on it at a whole depth, where slices may meet, so that whether it reaches the
-// cells there is a tie.
+// Levels are built on lattices: lamps at whole metres, whole ranges, mirrored halves, and a camera that moves along an
+// axis or a diagonal. Each light here just touches one of the two planes through the camera's middle, their common
+// line, or a point on it at a whole depth, where slices may meet. So whether it reaches the cells there is a tie.
 
 #include <array>
 #include <cmath>
@@ -15,7 +14,7 @@ int whole(SplitMix64& random, int least, int most) {
   return least + static_cast<int>(random.below(static_cast<std::uint64_t>(most - least) + 1));
 }
 
-// Beside the plane x = 0 or y = 0, beside both, or beyond a corner, with the range that ends there.
+// Beside the plane x = 0 or y = 0, beside both, or beyond a corner, with a range that just reaches it.
 struct Lamp {
   Vec3d position, towards;
   double range_m;
@@ -32,7 +31,7 @@ Lamp beside_plane(SplitMix64& random) {
   return lamp;
 }
 
-// Of Pythagorean triples, so that the range is whole, too.
+// From Pythagorean triples, so that the range is whole, too.
 Lamp beside_edge(SplitMix64& random) {
   constexpr std::array<std::array<int, 3>, 3> k_triples{{{3, 4, 5}, {6, 8, 10}, {5, 12, 13}}};
   const auto& triple = k_triples[random.below(k_triples.size())];
@@ -44,7 +43,7 @@ Lamp beside_edge(SplitMix64& random) {
   return lamp;
 }
 
-// Of four whole numbers with a² + b² + c² = d²: just reaches the corner at (0, 0, -depth), from behind it.
+// From four whole numbers with a² + b² + c² = d²: just reaches the corner at (0, 0, -depth), from behind it.
 Lamp beside_corner(SplitMix64& random) {
   constexpr std::array<std::array<int, 4>, 4> k_quadruples{{{1, 2, 2, 3}, {2, 3, 6, 7}, {4, 4, 7, 9}, {2, 6, 9, 11}}};
   const auto& quadruple = k_quadruples[random.below(k_quadruples.size())];

@@ -1,5 +1,5 @@
-// Lights all around a camera that turns: as many behind it as before it. Reflections need those too, so methods that
-// look only into the view frustum are of no use to them.
+// Lights all around a camera that turns: as many behind it as in front of it. Reflections need those too, so methods
+// that cover only the view frustum do not help them.
 
 #include "scene/generators/scenes.h"
 

@@ -1,5 +1,5 @@
 // Persson's setting: hundreds of artist-placed lights of metres to tens of metres over 500 m of open world, seen from
-// the ground: lit roads, villages, a petrol station, floodlights, cars with headlights that move.
+// the ground: lit roads, villages, a petrol station, floodlights, cars with moving headlights.
 
 #include <cmath>
 

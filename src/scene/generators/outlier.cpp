@@ -1,5 +1,5 @@
-// A small village and two lights that do not belong: one a thousand kilometres away, one that reaches a hundred
-// kilometres. A world grid around all lights keeps no resolution for the village.
+// A small village and two outliers: a light a thousand kilometres away, and one with a range of a hundred kilometres. A
+// world grid around all lights has no resolution left for the village.
 
 #include "scene/generators/scenes.h"
 

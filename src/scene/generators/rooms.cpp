@@ -1,6 +1,5 @@
 // Rooms on both sides of a hallway: an environment probe for each room and for parts of the hallway, decals on floors
-// and walls, a few lamps. Probes are large boxes that share walls, decals small and flat ones, some without any
-// thickness.
+// and walls, a few lamps. Probes are large boxes that share walls, decals small and flat ones, some with no thickness.
 
 #include <algorithm>
 #include <cmath>

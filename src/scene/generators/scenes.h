@@ -1,5 +1,5 @@
 #pragma once
-// The scenes, one function each; `lights` is how many to make.
+// The scenes, one function each; `lights` is the number to make.
 
 #include "scene/generators/stage.h"
 
@@ -15,6 +15,6 @@ void build_steps(Stage& stage, int lights);
 void build_slope(Stage& stage, int lights);
 void build_mix(Stage& stage, int lights);
 void build_rooms(Stage& stage, int lights);                      // and boxes
-void build_lattice(Stage& stage, int lights, const Vec3d& off);  // off: how far all lights are moved
+void build_lattice(Stage& stage, int lights, const Vec3d& off);  // off: offset of all lights
 
 }  // namespace clusterbench::scene

@@ -18,7 +18,7 @@ double rounded(double value, double steps) {
   return result == 0.0 ? 0.0 : result;  // no -0
 }
 
-// A tenth of a millimetre.
+// Rounded to a tenth of a millimetre.
 Json position_json(const Vec3d& p) {
   return {rounded(p.x, 1e4), rounded(p.y, 1e4), rounded(p.z, 1e4)};
 }
@@ -74,7 +74,7 @@ int Stage::light_definition(const Json& light) {
   return found->second;
 }
 
-// Warm, white or cold; as bright as to fall to 0.05 lux at its range.
+// Warm, white or cold; bright enough for 0.05 lux at its range.
 Json Stage::definition(const char* type, double range_m) {
   constexpr double k_colours[3][3] = {{1.0, 0.78, 0.55}, {1.0, 1.0, 1.0}, {0.7, 0.85, 1.0}};
   const auto& colour = k_colours[random_.below(3)];

@@ -1,6 +1,6 @@
 #pragma once
-// What generators build on: lights and cameras are put on a stage, which writes them as binary glTF. All numbers are
-// rounded to a few decimals, so that no difference between math libraries shows in the file.
+// The base of all generators: lights and cameras are added to a stage, which writes them as binary glTF. All numbers
+// are rounded to a few decimals, so that differences between math libraries do not change the file.
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -22,8 +22,7 @@ class Stage {
  public:
   explicit Stage(std::uint64_t seed);
 
-  // Compilers choose the order in which a call's arguments are evaluated: draw one number a call, the others into
-  // names.
+  // Draw one number per call, or store each in a variable: compilers choose the evaluation order of a call's arguments.
   SplitMix64& random() { return random_; }
   Vec3d position_in(const Vec3d& lo, const Vec3d& hi);
   int light_count() const { return light_count_; }
@@ -35,9 +34,9 @@ class Stage {
   // An oriented box (decal, probe), turned by a quaternion.
   void box(const std::string& name, const Vec3d& position, const Vec4d& rotation, const Vec3d& half_extents_m,
            int parent = -1);
-  // A node that moves along the keys; the number to give as a parent.
+  // A node that moves along the keys; returns its number for use as a parent.
   int mover(const std::string& name, const std::vector<PathKey>& keys);
-  // Surfaces that stand still, three corners each, counterclockwise from outside.
+  // Static surfaces, three corners each, counterclockwise from outside.
   void mesh(const std::string& name, const std::vector<Vec3d>& corners);
   // The scene's camera: vertical field of view 60°, near 0.1 m.
   void camera(const std::string& name, const std::vector<PathKey>& keys, double far_m);
@@ -58,8 +57,7 @@ class Stage {
   int light_count_ = 0;
 };
 
-// Corners of two triangles: the parallelogram from one corner along two sides, seen from where `along` x `up` points
-// to.
+// Corners of two triangles: the parallelogram from one corner along two sides; its front faces along `along` x `up`.
 void add_quad(std::vector<Vec3d>& corners, const Vec3d& from, const Vec3d& along, const Vec3d& up);
 // The six sides of a box, from outside.
 void add_box(std::vector<Vec3d>& corners, const Vec3d& lo, const Vec3d& hi);

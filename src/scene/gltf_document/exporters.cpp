@@ -37,9 +37,9 @@ constexpr const char* k_mesh_alone =
 constexpr const char* k_utf16 = "JSON in UTF-16; glTF is UTF-8: save it as that";
 
 struct Signature {
-  std::string_view bytes;  // a file begins with them
-  const char* ending;      // and ends so; "": whatever its ending
-  const char* what;
+  std::string_view bytes;  // the first bytes of a file
+  const char* ending;      // its extension; "": any
+  const char* advice;
 };
 
 using namespace std::string_view_literals;
@@ -61,7 +61,7 @@ constexpr Signature k_signatures[] = {
     {"", ".stl", k_mesh_alone},
 };
 
-// Whether the first letter that is none of a blank is JSON's of an object.
+// Whether the first non-blank character starts a JSON object.
 bool begins_as_json(std::string_view bytes) {
   const std::size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   return first != std::string_view::npos && (bytes[first] == '{' || bytes[first] == '[');
@@ -73,7 +73,7 @@ std::string other_format(std::string_view bytes, const std::filesystem::path& pa
   if (begins_as_json(bytes) || bytes.starts_with("glTF")) return "";
   const std::string ending = extension_of(path);
   for (const Signature& known : k_signatures)
-    if (bytes.starts_with(known.bytes) && (*known.ending == '\0' || ending == known.ending)) return known.what;
+    if (bytes.starts_with(known.bytes) && (*known.ending == '\0' || ending == known.ending)) return known.advice;
   return "";
 }
 
@@ -82,8 +82,8 @@ bool is_scene_file(const std::filesystem::path& path) {
   if (ending == ".gltf" || ending == ".glb" || ending == ".vrm") return true;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
-  constexpr std::size_t k_looked_at = std::size_t{1} << 20;
-  std::string bytes(k_looked_at, '\0');
+  constexpr std::size_t k_read_bytes = std::size_t{1} << 20;
+  std::string bytes(k_read_bytes, '\0');
   std::ifstream in(path, std::ios::binary);
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(in.gcount()));
@@ -94,7 +94,7 @@ bool is_scene_file(const std::filesystem::path& path) {
 
 std::string how_lights_are_exported(const std::string& generator) {
   const struct {
-    const char *name, *what;
+    const char *name, *advice;
   } exporters[] = {
       {"blender", "in Blender's glTF export tick Include > Data > Punctual Lights"},
       {"unreal", "in the options of Unreal's glTF Exporter tick Export Lights"},
@@ -106,7 +106,7 @@ std::string how_lights_are_exported(const std::string& generator) {
   };
   const std::string known = lower_case(generator);
   for (const auto& exporter : exporters)
-    if (known.find(exporter.name) != std::string::npos) return exporter.what;
+    if (known.find(exporter.name) != std::string::npos) return exporter.advice;
   return "tick Punctual Lights in Blender's glTF export, Export Lights in Unreal's; Unity's glTFast and UnityGLTF, "
          "Godot "
          "and three.js write lights (KHR_lights_punctual) by default";

@@ -1,5 +1,5 @@
 #pragma once
-// Other programs' files and exporters: what a file is by its content, and how its lights get into a glTF file.
+// Files of other programs, and exporters: the format of a file by its content, and how its lights get into a glTF file.
 
 #include <filesystem>
 #include <string>
@@ -7,16 +7,16 @@
 
 namespace clusterbench::scene {
 
-// "a Blender file; open it in Blender and ..." of a file that another program made and that glTF has to be exported
-// from; empty for what is not known. `bytes`: the file's first ones. The ending tells only what the bytes leave open.
+// "a Blender file; open it in Blender and ..." for a file of another program that must be exported to glTF; empty for
+// an unknown format. `bytes`: the file's first ones. The extension decides only if the bytes do not.
 std::string other_format(std::string_view bytes, const std::filesystem::path& path);
 
-// Whether a file is read as a scene: it begins as a GLB, is JSON with an `asset`, ends in .gltf, .glb or .vrm in any
-// case, or is another program's, for which load_gltf() says what to do.
+// Whether a file is read as a scene: it begins as a GLB, is JSON with an `asset`, has the extension .gltf, .glb or .vrm
+// in any case, or is another program's, for which load_gltf() reports how to convert it.
 bool is_scene_file(const std::filesystem::path& path);
 
-// The switch of an exporter that lets lights through, by the file's asset/generator; of the usual ones where the
-// generator is none that is known.
+// The option of an exporter that includes lights, by the file's asset/generator; for an unknown generator, those of the
+// usual exporters.
 std::string how_lights_are_exported(const std::string& generator);
 
 }  // namespace clusterbench::scene

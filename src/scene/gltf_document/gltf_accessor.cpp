@@ -76,7 +76,7 @@ std::string decoded(std::string_view base64, const JsonLocation& location) {
   return std::move(*bytes);
 }
 
-// A scene that somebody sends may name no file outside of its own folder.
+// Scenes may come from untrusted sources: they may name no file outside of their own folder.
 bool stays_in_folder(const std::filesystem::path& path) {
   const std::filesystem::path plain = path.lexically_normal();
   const bool escapes = plain.is_absolute() || (!plain.empty() && *plain.begin() == "..");
@@ -99,7 +99,7 @@ std::size_t at_least_one(const JsonLocation& location) {
   return number;
 }
 
-// Elements of the same size, so many bytes from one to the next.
+// Elements of the same size, at a fixed distance in bytes.
 struct Elements {
   std::string_view bytes;
   std::size_t size, stride;
@@ -107,7 +107,7 @@ struct Elements {
   std::string_view at(std::size_t index) const { return bytes.substr(index * stride, size); }
 };
 
-// Exporters give strides to keys of animations, too, for which glTF has none; where they say what they mean.
+// Exporters also write strides for keys of animations, although glTF allows none there; a plausible one is used.
 std::size_t stride_of(const JsonLocation& location, AccessorUse use) {
   const std::size_t stride = location.whole();
   if (stride == 0) {
@@ -121,8 +121,8 @@ std::size_t stride_of(const JsonLocation& location, AccessorUse use) {
   return stride;
 }
 
-// `count` elements of `element` bytes from byteOffset of `object` on; refuses what does not lie inside `view`, which
-// begins at byte `start` of its buffer.
+// `count` elements of `element` bytes from byteOffset of `object` on; rejects elements outside `view`, which begins at
+// byte `start` of its buffer.
 Elements elements_of(std::string_view view, std::size_t start, std::size_t stride, const JsonLocation& object,
                      std::size_t count, std::size_t element, std::size_t alignment) {
   const std::size_t offset = whole_or(object, "byteOffset", 0), step = stride == 0 ? element : stride;
@@ -137,7 +137,7 @@ Elements elements_of(std::string_view view, std::size_t start, std::size_t strid
   if (step < element)
     object.refuse("elements of " + std::to_string(element) + " bytes do not fit into a byteStride of " +
                   std::to_string(step));
-  // The last one need not be followed by a whole stride.
+  // The last element need not be followed by a whole stride.
   const bool fits =
       offset <= view.size() &&
       (count == 0 || (element <= view.size() - offset && count - 1 <= (view.size() - offset - element) / step));
@@ -259,7 +259,7 @@ AccessorReader::View AccessorReader::view(const JsonLocation& reference) {
   return plain_view(view, stride);
 }
 
-// Whether a compressed view's own buffer holds the same numbers for readers that know no compression.
+// Whether a compressed view's own buffer holds the same numbers for readers without decompression.
 bool AccessorReader::has_fallback(const JsonLocation& view) const {
   const std::size_t index = view.at("buffer").index(array_size(root_, "buffers"), "buffer");
   return root_.at("buffers").at(index).has("uri") || (index == 0 && file_.binary);

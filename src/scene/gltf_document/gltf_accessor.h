@@ -1,6 +1,6 @@
 #pragma once
-// Numbers out of a glTF document's accessors, bufferViews and buffers, read only when asked for. Everything is checked
-// before it is touched; a fault is thrown as Error with its JSON pointer.
+// Numbers from a glTF document's accessors, bufferViews and buffers, read only on request. Everything is checked before
+// use; an error is thrown as Error with its JSON pointer.
 
 #include <map>
 #include <string>
@@ -22,8 +22,7 @@ struct AccessorHead {
   std::size_t count = 0;
 };
 
-// Of animations there are few numbers, and they lie close together. Of vertices there are many, and they may be
-// interleaved (byteStride).
+// Animations have few numbers, which are contiguous. Vertices have many, and they may be interleaved (byteStride).
 enum class AccessorUse { animations, vertices };
 
 class AccessorReader {
@@ -37,25 +36,25 @@ class AccessorReader {
   // False: it names neither bufferView nor sparse values, so that all its numbers are 0.
   bool has_data(std::size_t accessor) const;
 
-  // All elements, `components` doubles each; normalized integers become -1..1 or 0..1, sparse substitution is done.
-  // All floats are finite. Together one reader hands out at most k_most_numbers of animations; what vertices take is up
-  // to the limit on memory (core/memory.h).
+  // All elements, `components` doubles each; normalized integers become -1..1 or 0..1, sparse substitution is done. All
+  // floats are finite. One reader returns at most k_most_numbers numbers of animations in total; vertices are bounded
+  // by the limit on memory (core/memory.h).
   std::vector<double> numbers(std::size_t accessor, std::size_t components);
   static constexpr std::size_t k_most_numbers = std::size_t{1} << 24;
   // So that a small document that names one large file many times does not fill the memory.
   static constexpr std::size_t k_most_external_bytes = std::size_t{1} << 31;
 
-  // The bytes of a bufferView, for what reads them by itself.
+  // The bytes of a bufferView, for readers with a format of their own.
   std::string_view view_bytes(const JsonLocation& reference) { return view(reference).bytes; }
 
-  // The bytes of the external files read so far, in the order of their buffers.
+  // Adds the bytes of the external files read so far, in the order of their buffers.
   void add_external_bytes(Sha256& hash) const;
 
  private:
   std::string_view buffer(std::size_t index);
   struct View {
     std::string_view bytes;
-    std::size_t stride = 0;  // 0: elements lie close together
+    std::size_t stride = 0;  // 0: elements are contiguous
     std::size_t offset = 0;  // of the first byte in its buffer
   };
   View view(const JsonLocation& reference);
@@ -78,7 +77,7 @@ class AccessorReader {
   AccessorUse use_;
   std::map<std::size_t, Bytes> buffers_;
   std::map<std::size_t, std::string> decoded_;  // of compressed bufferViews
-  std::size_t numbers_ = 0;                     // handed out
+  std::size_t numbers_ = 0;                     // number of values returned
   std::size_t external_bytes_left_ = k_most_external_bytes;
 };
 

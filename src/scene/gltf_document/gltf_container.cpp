@@ -48,7 +48,7 @@ void check_glb_header(const GltfFile& file) {
 // Splits the container; returns the JSON chunk. JSON comes first, BIN at most once and second, others are skipped.
 std::string_view glb_json(GltfFile& file) {
   check_glb_header(file);
-  // What comes after the length that the header gives is not part of the GLB.
+  // Bytes after the length in the header are not part of the GLB.
   const std::string_view all = std::string_view(file.bytes).substr(0, little_endian(file.bytes, 8));
   std::string_view text;
   std::size_t index = 0;
@@ -74,7 +74,7 @@ std::string_view glb_json(GltfFile& file) {
   return text;
 }
 
-// The document without its long arrays, of whose text it keeps the places.
+// The document without its long arrays; keeps the positions of their text.
 std::optional<std::string> long_arrays_left_out(const std::filesystem::path& path, GltfFile& file,
                                                 std::string_view text, std::size_t offset) {
   const TextSource source = file.binary ? TextSource(std::string_view(file.bytes)) : TextSource(path);
@@ -92,7 +92,7 @@ void parse(const std::filesystem::path& path, GltfFile& file, std::string_view t
       if (!file.binary) std::string().swap(file.bytes);
       return;
     }
-    file.lazy = {};  // what is wrong, the whole text says at its place
+    file.lazy = {};  // the parser reports the error with its place in the whole text
   }
   if (const std::optional<JsonFault> fault = parse_json(text, file.json))
     refuse_at(file, offset + fault->byte, fault->text());

@@ -1,5 +1,5 @@
 #pragma once
-// A .gltf or .glb file as bytes, JSON and binary chunk. Broken containers and JSON are refused with their byte offset.
+// A .gltf or .glb file as bytes, JSON and binary chunk. Broken containers and JSON are rejected with their byte offset.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -14,10 +14,10 @@ namespace clusterbench::scene {
 
 struct GltfFile {
   std::string name;   // the path, for messages
-  std::string bytes;  // of the whole file; nothing where `lazy` reads it again and it has no binary chunk
+  std::string bytes;  // of the whole file; empty if `lazy` reads it again and it has no binary chunk
   Sha256 hash;        // of all bytes that were read
   nlohmann::json json;
-  LazyArrays lazy;                         // which `json` has empty
+  LazyArrays lazy;                         // arrays that are empty in `json`
   bool has_byte_order_mark = false;        // before the JSON; skipped
   std::optional<std::string_view> binary;  // the GLB's BIN chunk, inside `bytes`
 
@@ -26,10 +26,10 @@ struct GltfFile {
   GltfFile& operator=(const GltfFile&) = delete;
 };
 
-// From so many bytes on the text of nodes and lights stays text (gltf_lazy.h).
+// In files of at least this size nodes and lights stay text (gltf_lazy.h).
 inline constexpr std::size_t k_lazy_from_bytes = std::size_t{4} << 20;
 
-// Fills `file`. `lazy_from_bytes`: none for who wants the whole document. Throws Error.
+// Fills `file`. `lazy_from_bytes`: none for callers that need the whole document. Throws Error.
 void read_gltf_file(const std::filesystem::path& path, GltfFile& file,
                     std::size_t lazy_from_bytes = static_cast<std::size_t>(-1));
 

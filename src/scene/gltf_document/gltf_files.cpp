@@ -50,7 +50,7 @@ std::vector<std::filesystem::path> files_named(const nlohmann::json& document, c
   return files;
 }
 
-// Most scenes that are large name none, which their bytes tell without being parsed.
+// Most large scenes name no files; a text search shows that without parsing.
 std::vector<std::filesystem::path> files_named_in(const std::filesystem::path& path) {
   const std::string bytes = read_bytes(path, path.string(), "", std::numeric_limits<std::size_t>::max());
   if (bytes.find("\"uri\"") == std::string::npos && bytes.find("\\u00") == std::string::npos) return {};

@@ -13,7 +13,7 @@ using nlohmann::json;
 constexpr std::size_t k_window_bytes = std::size_t{1} << 20;
 constexpr const char* k_blank = " \t\r\n";
 
-// Members and elements of JSON text by their positions, without judging what is inside of them.
+// Members and elements of JSON text by their positions, without checking their contents.
 class Walker {
  public:
   explicit Walker(std::string_view text) : text_(text) {}
@@ -21,15 +21,15 @@ class Walker {
   std::size_t skip_blank(std::size_t at) const { return std::min(text_.find_first_not_of(k_blank, at), text_.size()); }
   bool is(std::size_t at, char c) const { return at < text_.size() && text_[at] == c; }
 
-  // Behind the value that begins here; npos where it has no end.
-  std::size_t behind(std::size_t at) const {
+  // The position after the value that begins here; npos if it has no end.
+  std::size_t end_of_value(std::size_t at) const {
     if (at >= text_.size()) return std::string_view::npos;
-    if (text_[at] == '"') return behind_string(at);
+    if (text_[at] == '"') return end_of_string(at);
     if (text_[at] != '{' && text_[at] != '[') return std::min(text_.find_first_of(",]} \t\r\n", at), text_.size());
     for (std::size_t depth = 0; at < text_.size(); ++at) {
       const char c = text_[at];
       if (c == '"') {
-        at = behind_string(at);
+        at = end_of_string(at);
         if (at == std::string_view::npos) return at;
         --at;
       } else if (c == '{' || c == '[') {
@@ -41,8 +41,8 @@ class Walker {
     return std::string_view::npos;
   }
 
-  // Calls `use(key, begin, end)` for each member of the object at `at`; false where it is broken. A key with an escape
-  // is none that is looked for by its letters.
+  // Calls `use(key, begin, end)` for each member of the object at `at`; false if it is broken. A key with an escape
+  // matches no searched key.
   template <class Use>
   bool members(std::size_t at, Use&& use) const {
     if (!is(at, '{')) return false;
@@ -50,13 +50,13 @@ class Walker {
     if (is(at, '}')) return true;
     for (;; at = skip_blank(at + 1)) {
       if (!is(at, '"')) return false;
-      const std::size_t key_end = behind_string(at);
+      const std::size_t key_end = end_of_string(at);
       if (key_end == std::string_view::npos) return false;
       const std::string_view key = text_.substr(at + 1, key_end - at - 2);
       if (key.find('\\') != std::string_view::npos) return false;
       at = skip_blank(key_end);
       if (!is(at, ':')) return false;
-      const std::size_t begin = skip_blank(at + 1), end = behind(begin);
+      const std::size_t begin = skip_blank(at + 1), end = end_of_value(begin);
       if (end == std::string_view::npos || end == begin || !use(key, begin, end)) return false;
       at = skip_blank(end);
       if (is(at, '}')) return true;
@@ -64,14 +64,14 @@ class Walker {
     }
   }
 
-  // Likewise `use(begin, end)` for each element of the array at `at`.
+  // Calls `use(begin, end)` for each element of the array at `at`; false if it is broken.
   template <class Use>
   bool elements(std::size_t at, Use&& use) const {
     if (!is(at, '[')) return false;
     at = skip_blank(at + 1);
     if (is(at, ']')) return true;
     for (;; at = skip_blank(at + 1)) {
-      const std::size_t end = behind(at);
+      const std::size_t end = end_of_value(at);
       if (end == std::string_view::npos || end == at || !use(at, end)) return false;
       at = skip_blank(end);
       if (is(at, ']')) return true;
@@ -80,7 +80,7 @@ class Walker {
   }
 
  private:
-  std::size_t behind_string(std::size_t at) const {
+  std::size_t end_of_string(std::size_t at) const {
     for (++at; at < text_.size(); ++at) {
       if (text_[at] == '\\')
         ++at;
@@ -98,15 +98,15 @@ class LazyReader {
  public:
   LazyReader(std::string_view text, std::uint64_t offset) : text_(text), offset_(offset), walker_(text) {}
 
-  bool look() {
+  bool find_arrays() {
     const std::size_t begin = walker_.skip_blank(0);
     return walker_.members(begin, [&](std::string_view key, std::size_t at, std::size_t end) {
-      if (key == "nodes") return take(nodes_, at, end);
-      return key != "extensions" || look_for_lights(at);
+      if (key == "nodes") return add_array(nodes_, at, end);
+      return key != "extensions" || find_lights(at);
     });
   }
 
-  // The text without what was taken.
+  // The text without the removed elements.
   std::string rest() {
     std::sort(cuts_.begin(), cuts_.end());
     std::string rest;
@@ -121,30 +121,30 @@ class LazyReader {
   LazyArrays arrays(const std::string& file, const TextSource& source) {
     nodes_.shrink_to_fit();
     lights_.shrink_to_fit();
-    // A window each: a node and its light are read in turn.
+    // One window each: a node and its light are read in turn.
     return {LazyArray(std::move(nodes_), file, std::make_shared<TextSource>(source)),
             LazyArray(std::move(lights_), file, std::make_shared<TextSource>(source))};
   }
 
  private:
-  bool look_for_lights(std::size_t extensions) {
+  bool find_lights(std::size_t extensions) {
     if (!walker_.is(extensions, '{')) return true;
     return walker_.members(extensions, [&](std::string_view key, std::size_t punctual, std::size_t) {
       if (key != "KHR_lights_punctual" || !walker_.is(punctual, '{')) return true;
       return walker_.members(punctual, [&](std::string_view member, std::size_t at, std::size_t end) {
-        return member != "lights" || take(lights_, at, end);
+        return member != "lights" || add_array(lights_, at, end);
       });
     });
   }
 
-  // A key that is there twice is left to the parser.
-  bool take(std::vector<LazyArray::Range>& array, std::size_t begin, std::size_t end) {
+  // A duplicate key is left to the parser.
+  bool add_array(std::vector<LazyArray::Range>& array, std::size_t begin, std::size_t end) {
     if (!walker_.is(begin, '[')) return true;
     if (!array.empty()) return false;
     cuts_.emplace_back(begin + 1, end - 1);
-    return walker_.elements(begin, [&](std::size_t at, std::size_t behind) {
+    return walker_.elements(begin, [&](std::size_t at, std::size_t element_end) {
       constexpr std::size_t k_longest = std::size_t{1} << 24, k_farthest = std::size_t{1} << 40;
-      const std::string_view element = text_.substr(at, behind - at);
+      const std::string_view element = text_.substr(at, element_end - at);
       if (element.size() >= k_longest || offset_ + at >= k_farthest) return false;
       if (json_excess(element, JsonComments::refused) || !json::accept(element)) return false;
       array.push_back({offset_ + at, element.size()});
@@ -190,7 +190,7 @@ const LazyArray* LazyArrays::at(const std::string& pointer) const {
 std::optional<std::string> without_long_arrays(std::string_view text, std::uint64_t offset, const std::string& file,
                                                const TextSource& source, LazyArrays& out) {
   LazyReader reader(text, offset);
-  if (!reader.look()) return std::nullopt;
+  if (!reader.find_arrays()) return std::nullopt;
   out = reader.arrays(file, source);
   return reader.rest();
 }

@@ -9,7 +9,7 @@
 namespace clusterbench::scene {
 namespace {
 
-// What lies within half a step of the largest float rounds to it.
+// Numbers within half a step of the largest float round to it.
 constexpr double k_float_max = std::numeric_limits<float>::max(), k_half_step = 0x1p103;
 
 // RFC 6901: '~' and '/' inside a name are escaped.
@@ -124,10 +124,10 @@ std::size_t JsonLocation::whole() const {
   return static_cast<std::size_t>(found);
 }
 
-std::size_t JsonLocation::index(std::size_t count, const std::string& what) const {
+std::size_t JsonLocation::index(std::size_t count, const std::string& target) const {
   const std::size_t found = whole();
   if (found >= count) {
-    refuse("refers to " + what + " " + std::to_string(found) + ", but there " +
+    refuse("refers to " + target + " " + std::to_string(found) + ", but there " +
            (count == 1 ? "is 1" : "are " + std::to_string(count)));
   }
   return found;

@@ -1,5 +1,5 @@
 #pragma once
-// A value of a glTF document together with where it stands, so that every refusal names its JSON pointer.
+// A value of a glTF document with its location, so that every error message names its JSON pointer.
 
 #include <cstddef>
 #include <memory>
@@ -15,7 +15,7 @@ namespace clusterbench::scene {
 class JsonLocation {
  public:
   // `file`, `value`, `warnings` and `lazy` must outlive the JsonLocation. `lazy`: arrays of the document that are read
-  // element by element; what is below such an element lives as long as a location below it.
+  // element by element; such an element lives as long as a location at or below it.
   JsonLocation(const std::string& file, const nlohmann::json& value, Warnings& warnings, std::string pointer = "",
                const LazyArrays* lazy = nullptr)
       : file_(&file), value_(&value), warnings_(&warnings), pointer_(std::move(pointer)), lazy_(lazy) {}
@@ -25,24 +25,25 @@ class JsonLocation {
   bool has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
   std::size_t size() const { return array_ != nullptr ? array_->size() : value_->size(); }
 
-  // A member that must be there, or an element of an array.
+  // A required member, or an element of an array.
   JsonLocation at(const std::string& key) const;
   JsonLocation at(std::size_t index) const;
 
-  // Each throws Error(file, pointer, ...) when the value is not of that kind.
+  // Each throws Error(file, pointer, ...) if the value is not of that kind.
   void expect_object() const;
   void expect_array() const;
-  // Elements of an array. None at all is said once, since glTF asks for one or more: call it once per array.
+  // Number of elements of an array. Warns once of an empty one, since glTF requires one or more: call it once per
+  // array.
   std::size_t elements() const;
   const std::string& text() const;
   bool boolean() const;
   double number() const;      // rounds to a finite number in single precision
   std::size_t whole() const;  // 0 .. 2^53
-  std::size_t index(std::size_t count, const std::string& what) const;
+  std::size_t index(std::size_t count, const std::string& target) const;
   std::vector<double> numbers(std::size_t count) const;
 
   [[noreturn]] void refuse(const std::string& message) const;
-  // What is loaded all the same.
+  // For an error that does not stop loading.
   void warn(const std::string& message) const;
 
  private:
@@ -52,14 +53,13 @@ class JsonLocation {
   std::string pointer_;
   const LazyArrays* lazy_ = nullptr;
   const LazyArray* array_ = nullptr;             // this is one of them
-  std::shared_ptr<const nlohmann::json> owned_;  // the element of one that this is, or is below
+  std::shared_ptr<const nlohmann::json> owned_;  // the lazy element that is or contains this value
 };
 
-// printable(), and cut to a length that a line can bear: strings of a file in messages.
+// printable(), and cut to a length suitable for one line: strings of a file in messages.
 std::string one_line(std::string text);
 
-// The largest number of single precision, which stands for "no end" in files; also where its decimals say a little
-// more.
+// The largest single-precision number, which means "no end" in files; also if its decimals are rounded slightly up.
 bool is_float_max(double number);
 
 // "a number", "an array" ... for messages.

@@ -26,8 +26,8 @@ Value one_of(const JsonLocation& object, const char* key, const std::array<std::
 }
 
 void check_shape(const MeshoptView& view, const JsonLocation& extension) {
-  const auto need = [&](bool holds, const char* key, const std::string& what) {
-    if (!holds) extension.at(key).refuse("found " + kind_of(extension.at(key).value()) + ", " + what);
+  const auto need = [&](bool holds, const char* key, const std::string& rule) {
+    if (!holds) extension.at(key).refuse("found " + kind_of(extension.at(key).value()) + ", " + rule);
   };
   if (view.mode != MeshoptMode::attributes) {
     need(view.stride == 2 || view.stride == 4, "byteStride", "indices are 2 or 4 bytes");
@@ -42,8 +42,8 @@ void check_shape(const MeshoptView& view, const JsonLocation& extension) {
   if (view.filter == MeshoptFilter::quaternion) need(view.stride == 8, "byteStride", "QUATERNION has 8");
 }
 
-// The fewest bytes that can hold so much: of indices one per triangle or index, of vertices at most 256 elements share
-// the headers of a block, a quarter of a byte for each 16 elements of each of their bytes.
+// The minimum number of bytes for this view: one per triangle or index; for vertices, at most 256 elements share the
+// headers of a block, which are a quarter of a byte for each 16 elements of each of their bytes.
 bool can_hold(const MeshoptView& view, std::size_t bytes) {
   if (view.mode == MeshoptMode::triangles) return view.count / 3 <= bytes;
   if (view.mode == MeshoptMode::indices) return view.count <= bytes;
@@ -121,7 +121,7 @@ std::string meshopt_decoded(const MeshoptView& view, std::string_view stream, co
   std::string out(view.count * view.stride, '\0');
   if (view.count == 0) return out;
   const int failed = decode(view, stream, out.data());
-  // The library says -1 of a header that it does not know, which is the format's version, too.
+  // The library returns -1 for an unknown header, which includes an unknown version.
   if (failed == -1)
     extension.refuse(
         "the compressed data is of no format that this program's libmeshoptimizer knows; export it as "

@@ -1,5 +1,5 @@
 #pragma once
-// What a loader doubts, gathered so that one doubt in many locations is one line.
+// Warnings of a loader, grouped so that one warning for many locations is one line.
 
 #include <cstddef>
 #include <map>
@@ -10,13 +10,13 @@ namespace clusterbench::scene {
 
 class Warnings {
  public:
-  // Warnings whose pointers and messages differ in numbers alone count as one; the first is the one that is shown.
+  // Warnings whose pointers and messages differ only in numbers count as one; the first one is shown.
   void add(const std::string& pointer, const std::string& message);
 
   // A line each, in the order of their first locations: "pointer: message (and 69 more like it)".
   std::vector<std::string> lines() const;
 
-  // Different warnings that are kept; the others are only counted.
+  // The largest number of different warnings that are kept; further ones are only counted.
   static constexpr std::size_t k_most = 100;
 
  private:

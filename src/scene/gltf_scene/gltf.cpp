@@ -30,8 +30,8 @@ std::string first_name(const std::string& node, const std::string& definition, c
   return definition.empty() ? kind + std::string(" ") + std::to_string(number) : definition;
 }
 
-// Puts a checked document's nodes into a scene, and what they carry: depth first, children in their order, parents
-// before children. Reads each node once more, so that only the scene's own nodes take memory.
+// Adds a checked document's nodes to a scene, with their lights and cameras: depth first, children in their order,
+// parents before children. Reads each node again, so that only the scene's own nodes use memory.
 class NodePlacer {
  public:
   NodePlacer(const JsonLocation& root, const CheckedDocument& document, Scene& scene)
@@ -39,7 +39,7 @@ class NodePlacer {
     placed_.assign(document.nodes.size(), -1);
   }
 
-  // For each of the document's nodes its index in the scene; -1: it does not stand there.
+  // The index in the scene for each of the document's nodes; -1: not part of the scene.
   std::vector<std::int32_t> place(const LoadedScene& loaded) {
     reserve(loaded);
     push(document_.roots, -1);
@@ -53,7 +53,7 @@ class NodePlacer {
   }
 
  private:
-  // So much at once and no more; refused before it is taken.
+  // Reserves exactly this much; checks the limit before it allocates.
   void reserve(const LoadedScene& loaded) {
     std::size_t nodes = 0, lights = 0;
     for (std::size_t i = 0; i < loaded.nodes.size(); ++i) {
@@ -117,11 +117,11 @@ Interpolation interpolation_of(const std::string& name) {
   return name == "CUBICSPLINE" ? Interpolation::cubic_spline : Interpolation::linear;
 }
 
-// Which nodes move a light, a camera or a box: their own, or one below them.
+// The nodes that move a light, a camera or a box: with one of their own, or one below them.
 std::vector<bool> carrying_nodes(const Scene& scene) {
   std::vector<bool> carries(scene.nodes.size(), false);
-  const auto mark = [&](const auto& things) {
-    for (const auto& thing : things) carries[static_cast<std::size_t>(thing.node)] = true;
+  const auto mark = [&](const auto& items) {
+    for (const auto& item : items) carries[static_cast<std::size_t>(item.node)] = true;
   };
   mark(scene.lights);
   mark(scene.cameras);
@@ -132,7 +132,7 @@ std::vector<bool> carrying_nodes(const Scene& scene) {
   return carries;
 }
 
-// Adds the channels of checked animations; of several that move the same the last one wins.
+// Adds the channels of checked animations; if several move the same property, the last one wins.
 class ChannelsOfFile {
  public:
   ChannelsOfFile(const std::vector<std::int32_t>& placed, AccessorReader& reader, Scene& scene)
@@ -142,7 +142,7 @@ class ChannelsOfFile {
     for (const nlohmann::json& channel : animation["channels"]) add_channel(animation["samplers"], channel, location);
   }
   bool moves_twice() const { return moves_twice_; }
-  // When all are added.
+  // Called after all are added.
   void finish() {
     for (std::vector<Channel>* channels : {&scene_.light_channels, &scene_.camera_channels})
       std::stable_sort(channels->begin(), channels->end(),
@@ -170,7 +170,7 @@ class ChannelsOfFile {
     std::vector<Channel>& channels = is_node                     ? scene_.channels
                                      : kind == TargetKind::light ? scene_.light_channels
                                                                  : scene_.camera_channels;
-    const auto [known, first] = taken_.try_emplace({kind, index, keys->path}, channels.size());
+    const auto [known, first] = channel_of_.try_emplace({kind, index, keys->path}, channels.size());
     if (first) {
       channels.push_back(std::move(*keys));
       return;
@@ -189,8 +189,9 @@ class ChannelsOfFile {
   AccessorReader& reader_;
   Scene& scene_;
   bool moves_twice_ = false;
-  std::vector<bool> carries_;                                              // by node
-  std::map<std::tuple<TargetKind, int, ChannelPath>, std::size_t> taken_;  // which channel moves what
+  std::vector<bool> carries_;  // by node
+  // index of the channel that moves a property
+  std::map<std::tuple<TargetKind, int, ChannelPath>, std::size_t> channel_of_;
 };
 
 // KHR_node_visibility: lights of nodes that are never visible are not rendered, so they are not counted.
@@ -213,14 +214,14 @@ void leave_out_hidden_lights(Scene& scene, Warnings& warnings) {
                                   (hidden == 1 ? "'" : "first '") + name + "'"));
 }
 
-// Two cameras of one name become "name" and "name-2", so that each can be asked for.
-void tell_cameras_apart(Scene& scene) {
-  std::set<std::string> taken;
+// Two cameras of one name become "name" and "name-2", so that each can be selected.
+void make_camera_names_unique(Scene& scene) {
+  std::set<std::string> used;
   std::map<std::string, int> last;
   for (Camera& camera : scene.cameras) {
     const std::string name = camera.name;
     int& number = last.try_emplace(name, 1).first->second;
-    while (!taken.insert(camera.name).second) camera.name = name + "-" + std::to_string(++number);
+    while (!used.insert(camera.name).second) camera.name = name + "-" + std::to_string(++number);
   }
 }
 
@@ -258,10 +259,10 @@ Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice) {
   scene.contents = contents_of(root, loaded);
   if (!chosen.scene) warn_of_other_scenes(root, scene.contents);
   count_unread_lights(root, loaded, scene.contents);
-  // What there is to warn of has been said.
-  Warnings said;
+  // The first reading has already reported the warnings.
+  Warnings reported;
   const std::vector<std::int32_t> placed =
-      NodePlacer(JsonLocation(file.name, file.json, said, "", &file.lazy), document, scene).place(loaded);
+      NodePlacer(JsonLocation(file.name, file.json, reported, "", &file.lazy), document, scene).place(loaded);
   const nlohmann::json& animations = document.animations;
   ChannelsOfFile channels(placed, reader, scene);
   for (std::size_t i = 0; i < animations.size(); ++i) channels.add(animations[i], root.at("animations").at(i));
@@ -271,7 +272,7 @@ Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice) {
         .warn(number_of(animations.size(), "animation") + ", played together: " + numbered(scene.contents.animations) +
               "; the key animation (--animation) chooses one");
   mark_animated_cameras(scene);
-  tell_cameras_apart(scene);
+  make_camera_names_unique(scene);
   leave_out_hidden_lights(scene, warnings);
   check_world(scene, root);
   reader.add_external_bytes(file.hash);

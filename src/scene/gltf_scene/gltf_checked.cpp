@@ -40,8 +40,8 @@ void check_asset(const JsonLocation& root) {
   if (least > version) min_version.refuse("greater than the asset's version");
 }
 
-// Extensions that a file may require: this tool reads them, or they speak of meshes, textures, materials. Pointers of
-// KHR_animation_pointer are looked at one by one (gltf_checked_animations.cpp).
+// Extensions that a file may require: this tool reads them, or they concern meshes, textures or materials. Pointers of
+// KHR_animation_pointer are checked one by one (gltf_checked_animations.cpp).
 bool changes_no_light(const std::string& name) {
   constexpr std::array k_harmless = {"KHR_draco_mesh_compression",
                                      "KHR_lights_punctual",
@@ -76,7 +76,7 @@ void check_extensions(const JsonLocation& root) {
 
 constexpr std::uint32_t k_no_parent = static_cast<std::uint32_t>(-1);
 
-// A root has no parent. One that does not stand in the scene itself moves nothing.
+// A root has no parent. A root outside the loaded scene moves nothing.
 void check_root(const JsonLocation& root, std::size_t node, std::uint32_t parent, const NodeTable& nodes,
                 const LoadedScene& loaded) {
   if (parent == k_no_parent) return;
@@ -105,7 +105,7 @@ std::vector<std::uint32_t> checked_roots(const JsonLocation& scene, const NodeTa
   return roots;
 }
 
-// The roots of the scene that is loaded; without scenes, all nodes that have no parent.
+// The roots of the loaded scene; without scenes, all nodes that have no parent.
 std::vector<std::uint32_t> checked_scenes(const JsonLocation& root, const LoadedScene& loaded, const NodeTable& nodes) {
   std::vector<std::uint32_t> parents(nodes.size(), k_no_parent), roots;
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -150,12 +150,12 @@ void warn_of_unknown_extras(const JsonLocation& object, const std::vector<std::s
   constexpr std::string_view k_tool = "clusterbench";
   if (!object.has("extras") || !object.at("extras").value().is_object()) return;
   for (const auto& [key, value] : object.at("extras").value().items()) {
-    std::string letters;  // whatever the case, with or without dashes
+    std::string letters;  // in any case, with or without dashes
     for (const char c : key)
       if (std::isalpha(static_cast<unsigned char>(c)) != 0)
         letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     const bool is_own = std::find(own.begin(), own.end(), key) != own.end();
-    // "clusterbnch_box" is near enough to be meant, too.
+    // "clusterbnch_box" is close enough to be a misspelling, too.
     const std::vector<std::string> all{k_box, k_sides};
     if (is_own || (!letters.starts_with(k_tool) && nearest_name(key, all).empty())) continue;
     const bool is_elsewhere = std::find(all.begin(), all.end(), key) != all.end();

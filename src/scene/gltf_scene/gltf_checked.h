@@ -1,6 +1,6 @@
 #pragma once
-// The part of a glTF document that this tool reads, checked. What it does not read (meshes, materials, images, skins,
-// unknown extensions) is neither looked at nor copied, so nothing wrong in there can hurt.
+// The part of a glTF document that this tool reads, checked. Other parts (meshes, materials, images, skins, unknown
+// extensions) are neither read nor copied, so errors in them do no harm.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -15,17 +15,17 @@
 
 namespace clusterbench::scene {
 
-// The scene that is loaded: the chosen one, else the default one, else the first. Faults outside of it are no reason to
-// refuse.
+// The scene that is loaded: the chosen one, else the default one, else the first. Errors outside of it do not stop
+// loading.
 struct LoadedScene {
-  std::size_t scene = 0;    // of several; 0 where there are none
-  std::vector<bool> nodes;  // which nodes stand in it: all where there is no scene
+  std::size_t scene = 0;    // of several; 0 if there are none
+  std::vector<bool> nodes;  // the nodes that belong to it: all if there is no scene
 };
-// Walks down without judging: what is broken on the way is left to those who check.
+// Walks down without checks: errors on the way are reported by the checking functions.
 LoadedScene loaded_scene(const JsonLocation& root, std::optional<std::size_t> chosen);
 
-// Of all nodes, which may be millions, what has to be known of each while the others are looked at. The rest of a node
-// is read once more where it is placed.
+// For each of possibly millions of nodes, the facts needed while the others are checked. The rest of a node is read
+// again when it is added to the scene.
 struct NodeTable {
   std::vector<std::int32_t> light, camera;  // definitions; -1: none
   std::vector<bool> has_transform;
@@ -42,13 +42,13 @@ struct NodeTable {
 // the document (see gltf_accessor.h).
 struct CheckedDocument {
   NodeTable nodes;
-  std::vector<std::uint32_t> roots;              // of the scene that is loaded, in their order
-  std::vector<std::optional<Camera>> cameras;    // definitions; nothing: of a kind that this tool does not know
-  std::vector<std::optional<LightType>> lights;  // likewise
+  std::vector<std::uint32_t> roots;              // of the loaded scene, in their order
+  std::vector<std::optional<Camera>> cameras;    // definitions; nullopt: of a kind that this tool does not know
+  std::vector<std::optional<LightType>> lights;  // definitions; nullopt: of a kind that this tool does not know
   nlohmann::json animations;
 };
-// Throws Error at the first fault; what is wrong but clear, and what is wrong in nodes that are not loaded, is a
-// warning. `animation`: the only one that is read; nothing: all.
+// Throws Error at the first error; a recoverable mistake, and an error in nodes that are not loaded, is a warning.
+// `animation`: read only this one; nullopt: all.
 CheckedDocument checked_document(const JsonLocation& root, const LoadedScene& loaded,
                                  std::optional<std::size_t> animation);
 
@@ -56,12 +56,12 @@ CheckedDocument checked_document(const JsonLocation& root, const LoadedScene& lo
 NodeTable checked_nodes(const JsonLocation& root, const LoadedScene& loaded);
 std::vector<std::optional<Camera>> checked_cameras(const JsonLocation& root);
 std::vector<std::optional<LightType>> checked_lights(const JsonLocation& root);
-// A channel says what it moves by a TargetKind, an index and a ChannelPath.
+// A channel identifies its property by a TargetKind, an index and a ChannelPath.
 nlohmann::json checked_animations(const JsonLocation& root, const LoadedScene& loaded, const CheckedDocument& document,
                                   std::optional<std::size_t> animation);
 
-// A node and a light definition, read: nothing for a light of a kind that this tool does not know. Each checks, so that
-// it may be the first to read.
+// A node and a light definition, read: nullopt for a light of an unknown kind. Each function checks its input, so it
+// may be the first to read it.
 struct ReadNode {
   Node node;
   std::optional<Vec3d> box_half_extents_m;
@@ -70,10 +70,10 @@ struct ReadNode {
 };
 ReadNode read_node(const JsonLocation& root, const JsonLocation& node, std::size_t nodes);
 std::optional<Light> read_light(const JsonLocation& light);
-// Where the light definitions stand; nothing where there are none.
+// The location of the light definitions; nullopt if there are none.
 std::optional<JsonLocation> light_definitions(const JsonLocation& root);
 
-// How far from 1 a quaternion's length may be: what 8-bit components can be off, as in the Khronos glTF validator.
+// Largest deviation of a quaternion's length from 1: the error of 8-bit components, as in the Khronos glTF validator.
 inline constexpr double k_unit_tolerance = 0.00769;
 
 // pi/2 rounded up to single precision, as exporters write it, is still pi/2.
@@ -82,19 +82,20 @@ inline constexpr double k_angle_slack_rad = 1e-6;
 // Elements of a top-level array, 0 if it is absent.
 std::size_t count_of(const JsonLocation& root, const std::string& key);
 
-// A fault in a part of the document that is not loaded.
+// An error in a part of the document that is not loaded.
 void warn_of_unloaded(const JsonLocation& location, const Error& fault);
 
-// Is the extension in extensionsRequired?
+// Whether the extension is in extensionsRequired.
 bool is_required(const JsonLocation& root, const std::string& extension);
 
 inline constexpr const char* k_punctual = "KHR_lights_punctual";
 inline constexpr const char* k_pointers = "KHR_animation_pointer";
 
-// Extras of this tool's own.
+// Extras defined by this tool.
 inline constexpr const char* k_box = "clusterbench_box";      // of nodes
 inline constexpr const char* k_sides = "clusterbench_sides";  // of cameras
-// Keys of an object's extras that begin like this tool's own and are none. `own`: those that the object can have.
+// Warns of keys in an object's extras that look like this tool's own but are unknown. `own`: the keys that the object
+// can have.
 void warn_of_unknown_extras(const JsonLocation& object, const std::vector<std::string>& own);
 
 // The name, "" if there is none.

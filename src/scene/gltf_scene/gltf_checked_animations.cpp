@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-// What channels are checked against.
+// The parts of the document that channels refer to.
 struct Document {
   const JsonLocation& root;
   const LoadedScene& loaded;
@@ -34,7 +34,7 @@ json checked_sampler(const JsonLocation& root, const JsonLocation& sampler) {
   return out;
 }
 
-// What a channel with a core path moves: a node.
+// The target of a channel with a core path: a node.
 std::optional<Target> core_target(const JsonLocation& target, const std::string& path) {
   const auto known = target_of("/nodes/0/" + path);
   if (!known) {
@@ -47,7 +47,7 @@ std::optional<Target> core_target(const JsonLocation& target, const std::string&
   return std::nullopt;
 }
 
-// A file that requires pointers is not shown without them.
+// A file that requires pointers cannot be shown without them.
 void ignore_pointer(const Document& document, const JsonLocation& location, const std::string& message) {
   if (document.requires_pointers) location.refuse(message + "; the file requires " + k_pointers);
   location.warn(message + " and is ignored");
@@ -67,7 +67,7 @@ std::optional<Target> pointer_target(const Document& document, const JsonLocatio
     if (known->index >= there) location.refuse("'" + pointer + "' leads nowhere: there are " + std::to_string(there));
     return known;
   }
-  if (moves_only_looks(pointer)) {
+  if (moves_only_appearance(pointer)) {
     location.warn("a pointer to materials, textures, meshes or weights moves neither light nor camera and is ignored");
   } else {
     ignore_pointer(document, location, "the pointer '" + pointer + "' is not known");
@@ -90,7 +90,7 @@ void check_target(const JsonLocation& root, const JsonLocation& target, const Ta
                 " has a matrix; only translation, rotation and scale can be animated");
 }
 
-// A light has a range and angles, a camera an angle or a size, only if it is of a kind that does.
+// Lights have a range and angles, cameras an angle or a size, depending on their kind.
 bool has_property(const Document& document, const Target& moved) {
   if (moved.kind == TargetKind::node) return true;
   const ChannelPath path = moved.path;

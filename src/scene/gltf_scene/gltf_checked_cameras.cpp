@@ -26,7 +26,7 @@ void read_far(const JsonLocation& from, CameraProjection& out) {
     out.far_m = far;
 }
 
-// False for a projection that glTF allows and that shows nothing.
+// False for a projection that is valid glTF but shows nothing.
 bool read_perspective(const JsonLocation& from, CameraProjection& out) {
   from.expect_object();
   out.yfov_rad = positive(from.at("yfov"));
@@ -38,7 +38,7 @@ bool read_perspective(const JsonLocation& from, CameraProjection& out) {
   return false;
 }
 
-// An off-centre picture, an invention of this tool: see ProjectionSides.
+// An off-centre picture, an extension of this tool: see ProjectionSides.
 void read_sides(const JsonLocation& camera, CameraProjection& out) {
   if (!camera.has("extras")) return;
   warn_of_unknown_extras(camera, {k_sides});
@@ -51,7 +51,7 @@ void read_sides(const JsonLocation& camera, CameraProjection& out) {
   out.sides = ProjectionSides{sides[0], sides[1], sides[2], sides[3]};
 }
 
-// A negative magnification mirrors the picture; which lights it holds is the same.
+// A negative magnification mirrors the picture; it contains the same lights.
 double magnification(const JsonLocation& location) {
   const double number = location.number();
   if (number == 0.0) location.refuse("found 0, another number is needed");
@@ -66,7 +66,7 @@ void read_orthographic(const JsonLocation& from, CameraProjection& out) {
   out.ymag_m = magnification(from.at("ymag"));
   out.near_m = from.at("znear").number();
   if (out.near_m < 0.0) from.at("znear").refuse("found " + kind_of(from.at("znear").value()) + ", 0 or more is needed");
-  from.at("zfar");  // must be there
+  from.at("zfar");  // must exist
   read_far(from, out);
 }
 

@@ -13,7 +13,7 @@ bool has_angles(const JsonLocation& object) {
   return object.has(k_angles[0]) || object.has(k_angles[1]);
 }
 
-// Where a spot light has its cone angles. Exporters put them beside `spot`, too.
+// The location of a spot light's cone angles. Some exporters put them beside `spot`.
 JsonLocation spot_of(const JsonLocation& light) {
   if (light.has("spot")) light.at("spot").expect_object();
   if (light.has("spot") && (has_angles(light.at("spot")) || !has_angles(light))) {
@@ -27,7 +27,7 @@ JsonLocation spot_of(const JsonLocation& light) {
   return light;
 }
 
-// As the file has it.
+// As written in the file.
 std::string angle_text(const JsonLocation& spot, const char* key, const char* otherwise) {
   return spot.has(key) ? spot.at(key).value().dump() : otherwise;
 }

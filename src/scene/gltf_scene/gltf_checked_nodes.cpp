@@ -77,7 +77,7 @@ std::int32_t light_of(const JsonLocation& root, const JsonLocation& node) {
   return static_cast<std::int32_t>(reference.at("light").index(lights, "light"));
 }
 
-// Half extents of an oriented box (decal, probe), an invention of this tool: see OrientedBox.
+// Half extents of an oriented box (decal, probe), an extension of this tool: see OrientedBox.
 std::optional<Vec3d> box_of(const JsonLocation& node) {
   if (!node.has("extras")) return std::nullopt;
   warn_of_unknown_extras(node, {k_box});
@@ -89,7 +89,7 @@ std::optional<Vec3d> box_of(const JsonLocation& node) {
   return half_extents;
 }
 
-// Inherited down the tree: whether a node is drawn, and with it its light.
+// Inherited down the tree: whether a node is drawn, and its light with it.
 bool is_visible(const JsonLocation& node) {
   if (!node.has("extensions") || !node.at("extensions").has("KHR_node_visibility")) return true;
   const JsonLocation extension = node.at("extensions").at("KHR_node_visibility");
@@ -99,7 +99,7 @@ bool is_visible(const JsonLocation& node) {
 
 constexpr std::uint32_t k_none = static_cast<std::uint32_t>(-1);
 
-// The parent of each node. A node with two would stand under two parents.
+// The parent of each node. A node may not have two parents.
 std::vector<std::uint32_t> parents_of(const JsonLocation& nodes, const NodeTable& checked,
                                       const std::vector<bool>& is_loaded) {
   std::vector<std::uint32_t> parent(checked.size(), k_none);
@@ -120,7 +120,7 @@ std::vector<std::uint32_t> parents_of(const JsonLocation& nodes, const NodeTable
   return parent;
 }
 
-// A node above itself stands nowhere.
+// A node may not be its own ancestor.
 void check_forest(const JsonLocation& nodes, const NodeTable& checked, const std::vector<bool>& is_loaded) {
   const std::vector<std::uint32_t> parent = parents_of(nodes, checked, is_loaded);
   // With at most one parent each, walking up from every node finds every loop. 1: on the way up, 2: known to end.

@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-// Of the objects in a top-level array; "" where one has none.
+// Names of the objects in a top-level array; "" for objects without one.
 std::vector<std::string> names_of(const JsonLocation& root, const char* key) {
   std::vector<std::string> names;
   if (!root.has(key) || !root.value()[key].is_array()) return names;
@@ -33,7 +33,7 @@ std::optional<std::size_t> index_in(const std::string& text, std::size_t count) 
   return number && *number < count ? number : std::nullopt;
 }
 
-// A name, or a number, or a number behind a # where one has the other's number for its name.
+// A name, or a number; a number after a # if another object has that number as its name.
 std::optional<std::size_t> chosen(const JsonLocation& root, const char* key, const std::string& word,
                                   const std::string& wanted) {
   if (wanted.empty()) return std::nullopt;

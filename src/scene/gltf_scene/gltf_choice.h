@@ -1,5 +1,5 @@
 #pragma once
-// Which of a file's scenes and animations are read.
+// The choice of scenes and animations that are read from a file.
 
 #include <optional>
 
@@ -8,16 +8,17 @@
 
 namespace clusterbench::scene {
 
-// What a choice means in a document; nothing where it leaves it to the file. Throws Error that names what there is.
+// The meaning of a choice in a document; nullopt if the choice leaves it to the file. Throws Error with the available
+// names.
 struct ChosenParts {
   std::optional<std::size_t> scene, animation;
 };
 ChosenParts chosen_parts(const JsonLocation& root, const GltfChoice& choice);
 
-// What there is to choose from, and which scene is read.
+// The available scenes and animations, and which scene is read.
 GltfContents contents_of(const JsonLocation& root, const LoadedScene& loaded);
 
-// Says which scene of several is read where the choice leaves it to the file.
+// Warns which of several scenes is read if the choice leaves it to the file.
 void warn_of_other_scenes(const JsonLocation& root, const GltfContents& contents);
 
 }  // namespace clusterbench::scene

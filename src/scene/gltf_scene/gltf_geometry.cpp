@@ -1,4 +1,4 @@
-// load_geometry: meshes of the nodes that stand in the scene.
+// load_geometry: meshes of the scene's nodes.
 
 #include <algorithm>
 #include <bit>
@@ -30,7 +30,7 @@ std::size_t triangle_count(Mode mode, std::size_t corners) {
   return mode == Mode::triangles ? corners / 3 : corners - std::min<std::size_t>(corners, 2);
 }
 
-// As glTF 2.0 lists them (3.7.2.1).
+// In the order of glTF 2.0 (3.7.2.1).
 std::vector<Triangle> triangles_of(Mode mode, const std::vector<std::uint32_t>& corners) {
   std::vector<Triangle> out;
   const std::size_t count = corners.size();
@@ -70,7 +70,7 @@ class MeshReader {
     for (const std::size_t surface : known->second) out_.instances.push_back({surface, skin ? -1 : index, index});
   }
 
-  Geometry take() { return std::move(out_); }
+  Geometry result() { return std::move(out_); }
 
  private:
   std::vector<std::size_t> read_mesh(const JsonLocation& mesh, std::optional<std::size_t> skin) {
@@ -88,7 +88,7 @@ class MeshReader {
     return surfaces;
   }
 
-  // Of a light map, which is one map for all of a mesh: TEXCOORD_1 if all that is drawn has it.
+  // The UV set of a light map, which is one map for all of a mesh: TEXCOORD_1 if all drawn primitives have it.
   static int uv_set_of(const JsonLocation& primitives) {
     const std::size_t count = primitives.elements();
     for (std::size_t i = 0; i < count; ++i) {
@@ -121,7 +121,7 @@ class MeshReader {
       read_skinned(attributes, *skin, surface);
     else
       surface.vertices = vertices_of(attributes);
-    // Draco makes lists of triangles of strips and fans.
+    // Draco converts strips and fans to lists of triangles.
     surface.triangles = triangles_of(draco_ ? Mode::triangles : static_cast<Mode>(mode),
                                      corners_of(primitive, surface.vertices.size()));
     if (uv_set >= 0 && attributes.has(uvs)) {
@@ -137,7 +137,7 @@ class MeshReader {
     if (!draco_->attributes.contains("POSITION")) extension.at("attributes").refuse("'POSITION' is missing");
   }
 
-  // Of an attribute, from the primitive's compressed data where they hold it.
+  // Numbers of an attribute, from the primitive's compressed data if they contain it.
   std::vector<double> attribute_numbers(const JsonLocation& attributes, const std::string& name, const char* type,
                                         std::size_t components) {
     const std::size_t accessor = accessor_of(attributes.at(name), type);
@@ -157,7 +157,7 @@ class MeshReader {
     return mode.whole();
   }
 
-  // What all meshes keep, before those of a further one are read.
+  // Memory of all meshes so far, counted before a further one is read.
   void count_memory(std::uint64_t vertices, std::uint64_t triangles) {
     vertices_ += vertices;
     triangles_ += triangles;
@@ -211,7 +211,7 @@ class MeshReader {
     std::vector<std::uint32_t> out;
     if (draco_) {
       for (const double index : draco_->corners) out.push_back(static_cast<std::uint32_t>(index));
-      return out;  // of vertices that there are: the library looks
+      return out;  // the library checks that vertex indices are in range
     }
     if (!primitive.has("indices")) {
       for (std::size_t i = 0; i < vertices; ++i) out.push_back(static_cast<std::uint32_t>(i));
@@ -234,7 +234,7 @@ class MeshReader {
     return node.at("skin").index(count_of(reader_.root(), "skins"), "skin");
   }
 
-  // World from mesh space, per joint, at rest. Of joints that do not stand in the scene nothing is known.
+  // Transform from mesh to world space, per joint, at rest. Joints outside the scene have none.
   const std::vector<Mat4d>& joints_of(std::size_t skin) {
     const auto [known, is_new] = joints_.try_emplace(skin);
     if (!is_new) return known->second;
@@ -258,7 +258,7 @@ class MeshReader {
     return known->second;
   }
 
-  // Where the skin's joints put vertices at rest, in world space.
+  // Vertices in the rest pose of the skin's joints, in world space.
   void read_skinned(const JsonLocation& attributes, std::size_t skin, Surface& surface) {
     const std::vector<Mat4d>& joints = joints_of(skin);
     const std::vector<double> at = attribute_numbers(attributes, "POSITION", "VEC3", 3);
@@ -290,7 +290,7 @@ class MeshReader {
     }
   }
 
-  // Whole numbers of these components, as they are.
+  // Integers of these component types, not normalized.
   void expect_indices(std::size_t accessor, std::initializer_list<Component> allowed) const {
     const AccessorHead head = reader_.head(accessor);
     std::string names;
@@ -301,7 +301,7 @@ class MeshReader {
     if (head.normalized) reader_.location(accessor).at("normalized").refuse("indices are no shares");
   }
 
-  // An accessor's index, of the type that is wanted.
+  // An accessor's index, of the expected type.
   std::size_t accessor_of(const JsonLocation& reference, const char* type) const {
     const std::size_t index = reference.index(count_of(reader_.root(), "accessors"), "accessor");
     if (reader_.head(index).type != type)
@@ -310,7 +310,7 @@ class MeshReader {
   }
 
   AccessorReader& reader_;
-  std::optional<DracoMesh> draco_;  // of the primitive that is read
+  std::optional<DracoMesh> draco_;  // of the current primitive
   const Scene& scene_;
   GeometryParts parts_;
   std::map<std::size_t, int> node_of_gltf_;
@@ -361,7 +361,7 @@ Geometry load_geometry(const Scene& scene, GeometryParts parts) {
   AccessorReader reader(file, warnings, AccessorUse::vertices);
   MeshReader meshes(scene, reader, parts);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) meshes.add_node(static_cast<int>(i));
-  Geometry geometry = meshes.take();
+  Geometry geometry = meshes.result();
   geometry.sha256 = sha256_of(geometry);
   geometry.warnings = warnings.lines();
   return geometry;

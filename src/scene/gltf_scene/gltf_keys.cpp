@@ -27,7 +27,7 @@ void check_times_format(const AccessorReader& reader, const JsonLocation& sample
 
 constexpr const char* k_moves_neither = "; it moves neither light nor camera";
 
-// Nothing where keys are out of order and move neither light nor camera.
+// nullopt if keys are out of order and move neither light nor camera.
 std::optional<std::vector<double>> read_times(AccessorReader& reader, const JsonLocation& sampler, std::size_t accessor,
                                               KeysMove moved) {
   const JsonLocation input = sampler.at("input");
@@ -84,8 +84,8 @@ void check_format(const JsonLocation& output, const AccessorHead& head, ChannelP
   }
 }
 
-// What a property of a light or a projection may be; a node's may be anything. A projection is looked at as a whole
-// later on.
+// Checks the allowed values of a light's or projection's property; a node's may be anything. A projection is checked as
+// a whole later.
 void check_allowed(const JsonLocation& output, const Channel& channel) {
   const bool cubic = channel.interpolation == Interpolation::cubic_spline;
   const bool angle = channel.path == ChannelPath::inner_cone || channel.path == ChannelPath::outer_cone;

@@ -40,7 +40,7 @@ LoadedScene loaded_scene(const JsonLocation& root, std::optional<std::size_t> wa
   const JsonLocation nodes = root.at("nodes");
   std::vector<std::uint32_t> waiting;
   const auto visit = [&](const json& indices) {
-    // Taken from the end: in the order of the list, which is that of the text as a rule.
+    // Pushed in reverse, so that nodes are visited in the order of the list, usually that of the text.
     for (auto index = indices.rbegin(); index != indices.rend(); ++index) {
       const auto node = index_below(*index, count);
       if (!node || loaded.nodes[*node]) continue;

@@ -37,8 +37,8 @@ constexpr std::array k_known = {
     Known{k_camera, "/orthographic/zfar", TargetKind::camera, ChannelPath::far},
 };
 
-// Takes an index off the front of `rest`.
-std::optional<std::size_t> taken_index(std::string_view& rest) {
+// Removes an index from the front of `rest`.
+std::optional<std::size_t> removed_index(std::string_view& rest) {
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), index);
   if (error != std::errc()) return std::nullopt;
@@ -53,20 +53,21 @@ std::optional<Target> target_of(const std::string& pointer) {
     std::string_view rest = pointer;
     if (!rest.starts_with(known.before)) continue;
     rest.remove_prefix(std::string_view(known.before).size());
-    const auto index = taken_index(rest);
+    const auto index = removed_index(rest);
     if (index && rest == known.after) return Target{known.kind, *index, known.path};
   }
   return std::nullopt;
 }
 
-bool moves_only_looks(const std::string& pointer) {
-  constexpr std::array k_looks = {"/materials/", "/textures/", "/images/", "/samplers/", "/meshes/"};
-  if (std::any_of(k_looks.begin(), k_looks.end(), [&](const char* looks) { return pointer.starts_with(looks); }))
+bool moves_only_appearance(const std::string& pointer) {
+  constexpr std::array k_appearance = {"/materials/", "/textures/", "/images/", "/samplers/", "/meshes/"};
+  if (std::any_of(k_appearance.begin(), k_appearance.end(),
+                  [&](const char* prefix) { return pointer.starts_with(prefix); }))
     return true;
   std::string_view rest = pointer;
   if (!rest.starts_with(k_node)) return false;
   rest.remove_prefix(std::string_view(k_node).size());
-  return taken_index(rest) && (rest == "/weights" || rest.starts_with("/weights/"));
+  return removed_index(rest) && (rest == "/weights" || rest.starts_with("/weights/"));
 }
 
 }  // namespace clusterbench::scene

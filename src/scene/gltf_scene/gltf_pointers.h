@@ -1,5 +1,5 @@
 #pragma once
-// What a JSON pointer of KHR_animation_pointer moves.
+// The targets of JSON pointers of KHR_animation_pointer.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,17 +12,17 @@ namespace clusterbench::scene {
 
 enum class TargetKind : std::uint8_t { node, light, camera };
 
-// What an animation channel moves, by its location in the file.
+// The target of an animation channel, by its location in the file.
 struct Target {
   TargetKind kind = TargetKind::node;  // light: a definition of KHR_lights_punctual
   std::size_t index = 0;
   ChannelPath path = ChannelPath::translation;
 };
 
-// Nothing where this tool does not know the pointer.
+// nullopt if this tool does not know the pointer.
 std::optional<Target> target_of(const std::string& pointer);
 
-// Does the pointer lead to materials, textures, meshes or morph weights, which move neither light nor camera?
-bool moves_only_looks(const std::string& pointer);
+// Whether the pointer leads to materials, textures, meshes or morph weights, which move neither light nor camera.
+bool moves_only_appearance(const std::string& pointer);
 
 }  // namespace clusterbench::scene

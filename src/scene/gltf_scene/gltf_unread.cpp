@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-// KHR_lights, KHR_lights_common, EXT_lights_ies and the like, of nodes.
+// KHR_lights, KHR_lights_common, EXT_lights_ies and similar extensions of nodes.
 bool names_lights(const std::string& extension) {
   return extension != k_punctual && extension.find("_lights") != std::string::npos;
 }
@@ -20,7 +20,7 @@ const json* extensions_of(const json& node) {
   return found != node.end() && found->is_object() ? &*found : nullptr;
 }
 
-// Nodes with an extension of lights: how many have no light that is read, and how many have one beside it.
+// Nodes with an extension of lights: the number without a light that is read, and the number with one as well.
 struct Extension {
   std::size_t alone = 0, beside = 0, first = 0;
 };

@@ -17,10 +17,10 @@ constexpr double k_half_turn_rad = 3.14159265358979323846;
 
 struct Face {
   const char* name;
-  Vec4d rotation;  // that turns -z to it
+  Vec4d rotation;  // turns -z to it
 };
 
-// The faces of a cube, in the order in which graphics interfaces number them.
+// The faces of a cube, in the order of graphics interfaces.
 std::vector<Face> cube_faces() {
   std::vector<Face> faces;
   const std::pair<const char*, Vec3d> ways[] = {{"face-px", {1, 0, 0}}, {"face-nx", {-1, 0, 0}},
@@ -43,21 +43,20 @@ const Camera& camera_to_follow(const Scene& scene, const std::string& name) {
 }
 
 void check_names(const Scene& scene, const ViewsRequest& request) {
-  std::vector<std::string> taken;
-  for (const Camera& camera : scene.cameras) taken.push_back(camera.name);
-  const auto take = [&](const std::string& name) {
-    if (name.empty() || std::ranges::find(taken, name) != taken.end())
+  std::vector<std::string> used;
+  for (const Camera& camera : scene.cameras) used.push_back(camera.name);
+  const auto add_name = [&](const std::string& name) {
+    if (name.empty() || std::ranges::find(used, name) != used.end())
       throw Error(scene.path.string(), "camera", "already has one called '" + name + "'");
-    taken.push_back(name);
+    used.push_back(name);
   };
-  for (const AddedView& view : request.views) take(view.name);
+  for (const AddedView& view : request.views) add_name(view.name);
   if (request.faces_at_m)
-    for (const Face& face : cube_faces()) take(face.name);
+    for (const Face& face : cube_faces()) add_name(face.name);
 }
 
-// Its index.
-std::size_t add_node(nlohmann::json& json, const std::string& name, const Vec3d& at, const Vec4d& rotation,
-                     std::size_t camera) {
+// Returns its index.
+std::size_t add_node(nlohmann::json& json, const std::string& name, const Vec3d& at, const Vec4d& rotation, std::size_t camera) {
   json["nodes"].push_back({{"name", name},
                            {"translation", {at.x, at.y, at.z}},
                            {"rotation", {rotation.x, rotation.y, rotation.z, rotation.w}},
@@ -78,7 +77,7 @@ void add_followers(nlohmann::json& json, const Scene& scene, const ViewsRequest&
   }
 }
 
-// As far as the scene's camera sees.
+// The far plane is that of the scene's camera.
 void add_faces(nlohmann::json& json, const Scene& scene, const ViewsRequest& request) {
   if (!request.faces_at_m) return;
   nlohmann::json perspective{{"yfov", 0.5 * k_half_turn_rad}, {"aspectRatio", 1.0}, {"znear", 0.1}};

@@ -11,7 +11,7 @@
 
 namespace clusterbench::scene {
 
-// A camera like another one and moved with it.
+// A camera like another one, which moves with it.
 struct AddedView {
   std::string name;
   Vec3d offset_m{0.0};    // in the other camera's own space: x to its right, y up, -z ahead
@@ -19,15 +19,14 @@ struct AddedView {
 };
 
 struct ViewsRequest {
-  std::string camera;  // that views are added to; "": the first animated one, else the first
+  std::string camera;  // to which views are added; "": the first animated one, else the first
   std::vector<AddedView> views;
-  std::optional<Vec3d>
-      faces_at_m;  // six square cameras of 90 degrees that look along the world's axes: face-px ... face-nz
+  std::optional<Vec3d> faces_at_m;  // six square cameras of 90 degrees along the world's axes: face-px ... face-nz
 };
 
-// The bytes of the scene's file with these cameras added; nothing else is changed. `out`, which is to hold them, is of
-// the same kind (.gltf, .glb). Throws Error for a camera or a name that cannot be, and where a .gltf would lose files
-// that it refers to.
+// The bytes of the scene's file with these cameras added; the rest is unchanged. `out`, the destination, must have the
+// same format (.gltf, .glb). Throws Error for an impossible camera or name, and if a .gltf would lose files that it
+// refers to.
 std::string with_views(const Scene& scene, const ViewsRequest& request, const std::filesystem::path& out);
 
 }  // namespace clusterbench::scene

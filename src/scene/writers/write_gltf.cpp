@@ -36,7 +36,7 @@ Json light_json(const Light& light) {
   if (light.type == LightType::directional) return out;
   if (light.color != Vec3d(1.0)) out["color"] = {light.color.x, light.color.y, light.color.z};
   out["intensity"] = light.intensity;
-  // A range of 0 would be read as none, and one so short as 0 (ranges.cpp).
+  // A range of 0 would be read as none, and one this short as 0 (ranges.cpp).
   constexpr double k_read_as_nothing_m = 1e-16;
   out["range"] = light.range_m > 0.0 ? light.range_m : k_read_as_nothing_m;
   if (light.type == LightType::spot)
