@@ -67,12 +67,12 @@ Json to_json(const config::Preset& preset) {
   Json out{{"name", preset.name},
            {"engine", preset.engine},
            {"version", preset.version},
-           {"evidence", config::name_of(preset.evidence)},
+           {"evidence", preset.evidence},
            {"summary", preset.summary},
            {"source", preset.source},
            {"approximated", preset.approximated},
            {"unverified", preset.unverified},
-           {"assigns_on", config::name_of(preset.assigns_on)},
+           {"assigns_on", preset.assigns_on},
            {"grid", parts["grid"]},
            {"assigner", parts["assigner"]}};
   if (parts.contains("storage")) out["storage"] = parts["storage"];
@@ -80,8 +80,8 @@ Json to_json(const config::Preset& preset) {
   if (const std::string limit = config::limit_text(preset); !limit.empty()) out["limit"] = limit;
   if (const std::uint64_t most = config::most_lights(preset); most > 0) out["most_lights"] = most;
   if (preset.has_mistakes()) {
-    out["mistakes"] = preset.mistakes;
-    out["as_shipped"] = Json::parse(preset.as_shipped);
+    out["mistakes"] = *preset.mistakes;
+    out["as_shipped"] = result::to_json(*preset.as_shipped);
   }
   return out;
 }

@@ -101,7 +101,7 @@ config::Config read_input(const RecommendFlags& flags, std::string& in_vain) {
 // A preset whose engine makes its lists on a GPU, which no time here is that of; "" without any.
 std::string preset_on_gpu(const config::Config& config) {
   for (const config::PresetChoice& choice : config.presets)
-    if (config::find_preset(choice.preset)->assigns_on == config::AssignsOn::gpu) return choice.preset;
+    if (config::find_preset(choice.preset)->assigns_on_gpu()) return choice.preset;
   return "";
 }
 

@@ -395,7 +395,7 @@ void add_preset(const Preset& preset, std::size_t viewport, const Json& schema, 
   Json parts = preset_parts(preset, config.viewports[viewport], as_shipped);
   parts["grid"] = changed_grid(parts["grid"], preset_grid);
   JsonText text;
-  text.file = std::string("preset ") + preset.name;
+  text.file = "preset " + preset.name;
   for (const auto& [pointer, flag] : preset_grid.flags) text.flags["/grids/0" + pointer] = flag.shown();
   text.value["scenes"] = Json::array({{{"path", "any.glb"}}});
   text.value["grids"] = Json::array({parts["grid"]});

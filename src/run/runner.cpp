@@ -55,7 +55,7 @@ std::vector<int> fullest_frames(const GroupPlan& group, const AccuracyResult& co
 // What stands in for an engine's shader or rasteriser takes a time here that says nothing of that engine.
 bool is_timed(const CasePlan& case_plan) {
   const config::Preset* preset = config::find_preset(case_plan.preset);
-  return preset == nullptr || preset->assigns_on == config::AssignsOn::cpu;
+  return preset == nullptr || !preset->assigns_on_gpu();
 }
 
 // A group that has all but its times.

@@ -293,7 +293,7 @@ void check_engine(const std::string& name) {
 
 std::string engine_settings_text(const EngineRequest& request, std::span<const SizedStructure* const> structures) {
   const EngineRow& row = *row_of_engine(request.engine);
-  const std::string remark = config::find_preset(request.engine)->remark;
+  const std::string remark = config::find_preset(request.engine)->remark.value_or("");
   std::string out;
   for (const SizedStructure* structure : structures) {
     out += shown(structure->name) + "\n  " + version_text(row) + "\n";
