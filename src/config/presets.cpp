@@ -79,7 +79,7 @@ const Preset* find_preset(const std::string& name) {
 
 std::vector<std::string> preset_names() {
   std::vector<std::string> names;
-  for (const Preset& preset : presets()) names.emplace_back(preset.name);
+  for (const PresetText& file : preset_texts()) names.emplace_back(file.name);
   return names;
 }
 

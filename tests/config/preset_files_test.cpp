@@ -100,15 +100,15 @@ TEST(PresetFiles, with_a_fault_are_refused_with_their_place) {
                                 " /assigns_on: found 'cpus' (did you mean 'cpu'?), allowed: cpu, gpu");
   const std::pair<std::string, const char*> faults[] = {
       {"{", "presets/mine.json: 1:"},
-      {"[]", "1:1: /name is missing"},
-      {preset_with("engine", nullptr), "1:1: /engine is missing"},
+      {"[]", "1:1 /: /name is missing"},
+      {preset_with("engine", nullptr), "1:1 /: /engine is missing"},
       {preset_with("engine", 1), "/engine: must be a text"},
       {preset_with("grids", 1), "/grids: is not known"},
       {preset_with("evidence", "seen"), "/evidence: found 'seen', allowed: ran, read, memory"},
       {preset_with("name", "yours"), "/name: found 'yours', allowed: the name of the file, 'mine'"},
       {preset_with("tiles_by", "beevy"),
        "/tiles_by: found 'beevy' (did you mean 'bevy'?), allowed: filament, bevy, eevee"},
-      {preset_with("mistakes", "some"), "1:1: has one of mistakes and as_shipped"},
+      {preset_with("mistakes", "some"), "1:1 /: has one of mistakes and as_shipped"},
       {preset_with("as_shipped", {{"tiles", 1}}), "/as_shipped/tiles: is not known"}};
   for (const auto& [broken, message] : faults)
     EXPECT_NE(fault_of(broken).find(message), std::string::npos) << fault_of(broken) << "\nnot: " << message;
