@@ -25,11 +25,11 @@ Json to_json(const assign::ParamValue& value) {
 Json to_json(const std::vector<assign::ParamSpec>& params) {
   Json list = Json::array();
   for (const assign::ParamSpec& param : params) {
-    Json entry{{"name", param.name}, {"summary", param.summary}, {"default", to_json(param.standard)}};
+    Json entry{{"name", param.name}, {"summary", param.summary}, {"default", to_json(param.default_value)}};
     if (!param.unit.empty()) entry["unit"] = param.unit;
     if (std::isfinite(param.conservative_from)) entry["conservative_from"] = param.conservative_from;
     if (param.is_thread_count) entry["threads"] = true;
-    if (std::holds_alternative<double>(param.standard)) entry["range"] = {param.min, param.max};
+    if (std::holds_alternative<double>(param.default_value)) entry["range"] = {param.min, param.max};
     if (!param.choices.empty()) entry["choices"] = param.choices;
     list.push_back(entry);
   }

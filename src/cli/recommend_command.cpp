@@ -85,9 +85,9 @@ std::string asked_in_vain(const config::Config& config) {
 
 // `in_vain`: which keys it leaves out.
 config::Config read_input(const RecommendFlags& flags, std::string& in_vain) {
-  nlohmann::json standard = search::recommend_space();
-  standard["samples"] = {{"opaque", {{"divisor", 16}}}};
-  config::Config config = read_inputs(flags.inputs, {}, standard);
+  nlohmann::json defaults = search::recommend_space();
+  defaults["samples"] = {{"opaque", {{"divisor", 16}}}};
+  config::Config config = read_inputs(flags.inputs, {}, defaults);
   in_vain = asked_in_vain(config);
   config.details.reset();
   config.stability.reset();
@@ -109,8 +109,8 @@ std::string preset_on_gpu(const config::Config& config) {
 // are not all that is to be chosen from.
 report::ObjectiveFigure objective_of(const RecommendFlags& flags, const config::Config& config) {
   const bool has_times = !flags.no_timing && preset_on_gpu(config).empty();
-  const std::string standard = has_times ? "frame_cost_us" : "gpu_cost_us";
-  return report::objective_figure(flags.objective.empty() ? standard : flags.objective);
+  const std::string default_figure = has_times ? "frame_cost_us" : "gpu_cost_us";
+  return report::objective_figure(flags.objective.empty() ? default_figure : flags.objective);
 }
 
 // A cost is that of samples with a weight. A scene without triangles has no surfaces to shade: then each pixel is

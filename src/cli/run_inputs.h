@@ -26,10 +26,10 @@ std::vector<config::FlagValue> flag_values(const RunInputs& inputs);
 
 bool is_scene(const std::string& path);  // by its ending or its content (scene/exporters.h)
 
-// `first`: flags that apply before those of the command line. `standard`: what stands in place of the schema's
+// `first`: flags that apply before those of the command line. `defaults`: what stands in place of the schema's
 // defaults. Throws Error.
 config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first = {},
-                           const nlohmann::json& standard = {});
+                           const nlohmann::json& defaults = {});
 
 // A scene's file and those that it names, which a command that reads the scene must not write.
 std::vector<std::string> files_of_scene(const std::filesystem::path& scene);
