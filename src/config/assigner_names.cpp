@@ -14,13 +14,13 @@ bool is_glob(const std::string& name) {
 
 std::vector<std::string> matching_assigners(const std::string& pattern, const std::string& file,
                                             const std::string& where) {
-  std::vector<std::string> standard, others;
+  std::vector<std::string> defaults, others;
   for (const assign::AssignerDescriptor* descriptor : assign::assigner_descriptors())
     if (fnmatch(pattern.c_str(), descriptor->name.c_str(), 0) == 0)
-      (descriptor->is_standard() ? standard : others).push_back(descriptor->name);
-  if (standard.empty() && others.empty())
+      (descriptor->is_default() ? defaults : others).push_back(descriptor->name);
+  if (defaults.empty() && others.empty())
     throw Error(file, where, "'" + pattern + "' matches none of " + joined(assign::assigner_names()));
-  return standard.empty() ? others : standard;
+  return defaults.empty() ? others : defaults;
 }
 
 }  // namespace clusterbench::config

@@ -395,7 +395,7 @@ void add_preset(const Preset& preset, std::size_t viewport, const Json& schema, 
   Json parts = preset_parts(preset, config.viewports[viewport], as_shipped);
   parts["grid"] = changed_grid(parts["grid"], preset_grid);
   JsonText text;
-  text.file = std::string("preset ") + preset.name;
+  text.file = "preset " + preset.name;
   for (const auto& [pointer, flag] : preset_grid.flags) text.flags["/grids/0" + pointer] = flag.shown();
   text.value["scenes"] = Json::array({{{"path", "any.glb"}}});
   text.value["grids"] = Json::array({parts["grid"]});
@@ -515,12 +515,12 @@ void check_grids_of_flags(bool has_presets, bool names_own, std::span<const Flag
 }
 
 // The configuration as flags change it. Presets stand alone where neither the file nor a flag names a clustering.
-Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json& standard,
+Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json& defaults,
                     const GridChange& preset_grid) {
   const GridsFrom grids = text.value.contains("grids") ? GridsFrom::file : GridsFrom::defaults;
   const bool names_own = names_own_clusterings(text.value);
   const Usual usual(text, flags);
-  for (const auto& [key, value] : standard.items())
+  for (const auto& [key, value] : defaults.items())
     if (text.value.is_object() && !text.value.contains(key)) text.value[key] = value;
   JsonText as_written = text;
   if (text.value.contains("presets") && !names_own) drop_own_clusterings(as_written.value);
@@ -562,7 +562,7 @@ std::string MethodRequest::label() const {
   std::string inner;
   for (const assign::ParamSpec& spec : specs) {
     const auto value = params.values().find(spec.name);
-    if (value == params.values().end() || value->second == spec.standard) continue;
+    if (value == params.values().end() || value->second == spec.default_value) continue;
     inner += (inner.empty() ? "" : ",") + spec.name + "=" + param_text(spec, value->second);
   }
   return inner.empty() ? name : name + "(" + inner + ")";
@@ -573,16 +573,16 @@ std::string PrecisionRequest::label() const {
 }
 
 Config parse_config(const std::string& text, const fs::path& file, std::span<const FlagValue> flags,
-                    const Json& standard, const GridChange& preset_grid) {
-  return read_changed(parse_json_text(text, file.string()), flags, standard, preset_grid);
+                    const Json& defaults, const GridChange& preset_grid) {
+  return read_changed(parse_json_text(text, file.string()), flags, defaults, preset_grid);
 }
 
-Config load_config(const fs::path& path, std::span<const FlagValue> flags, const Json& standard,
+Config load_config(const fs::path& path, std::span<const FlagValue> flags, const Json& defaults,
                    const GridChange& preset_grid) {
-  return parse_config(file_text(path), path, flags, standard, preset_grid);
+  return parse_config(file_text(path), path, flags, defaults, preset_grid);
 }
 
-Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagValue> flags, const Json& standard,
+Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagValue> flags, const Json& defaults,
                       const GridChange& preset_grid) {
   Json list = Json::array();
   for (const fs::path& path : scenes)
@@ -592,7 +592,7 @@ Config default_config(const std::vector<fs::path>& scenes, std::span<const FlagV
                       {"timing", {{"rounds", 15}, {"min_time_ms", 2}, {"frames", 4}}}};
   JsonText text;
   text.value = document;
-  return read_changed(std::move(text), flags, standard, preset_grid);
+  return read_changed(std::move(text), flags, defaults, preset_grid);
 }
 
 }  // namespace clusterbench::config

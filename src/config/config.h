@@ -182,16 +182,16 @@ struct Config {
   nlohmann::json resolved;  // the configuration with all defaults, as the result carries it
 };
 
-// Reads and checks a configuration file, and then what the command line's flags make of it. `standard`: members of a
+// Reads and checks a configuration file, and then what the command line's flags make of it. `defaults`: members of a
 // configuration that stand for the schema's defaults where the file has none. `preset_grid`: of the grid of each preset
 // these members in place of its own. Throws Error with "line:column /json/pointer" as its location, or with the flag.
 Config load_config(const std::filesystem::path& path, std::span<const FlagValue> flags = {},
-                   const nlohmann::json& standard = {}, const GridChange& preset_grid = {});
+                   const nlohmann::json& defaults = {}, const GridChange& preset_grid = {});
 // The same from text; `file` is for messages and for relative paths.
 Config parse_config(const std::string& text, const std::filesystem::path& file, std::span<const FlagValue> flags = {},
-                    const nlohmann::json& standard = {}, const GridChange& preset_grid = {});
+                    const nlohmann::json& defaults = {}, const GridChange& preset_grid = {});
 // The sweep that `run level.glb` does: sensible defaults.
 Config default_config(const std::vector<std::filesystem::path>& scenes, std::span<const FlagValue> flags = {},
-                      const nlohmann::json& standard = {}, const GridChange& preset_grid = {});
+                      const nlohmann::json& defaults = {}, const GridChange& preset_grid = {});
 
 }  // namespace clusterbench::config

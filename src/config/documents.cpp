@@ -21,12 +21,12 @@ Json to_json(const assign::ParamValue& value) {
 }
 
 Json param_schema(const assign::ParamSpec& param) {
-  Json schema{{"default", to_json(param.standard)}, {"x-axis", true}};
+  Json schema{{"default", to_json(param.default_value)}, {"x-axis", true}};
   schema["description"] = param.summary + (param.unit.empty() ? "" : " [" + param.unit + "]");
   if (!param.unit.empty()) schema["x-unit"] = param.unit;
-  if (std::holds_alternative<bool>(param.standard)) {
+  if (std::holds_alternative<bool>(param.default_value)) {
     schema["type"] = "boolean";
-  } else if (std::holds_alternative<double>(param.standard)) {
+  } else if (std::holds_alternative<double>(param.default_value)) {
     schema.update({{"type", "number"}, {"minimum", param.min}, {"maximum", param.max}});
   } else {
     schema.update({{"type", "string"}, {"enum", param.choices}});
@@ -68,7 +68,7 @@ void insert_methods(Json& properties) {
   properties["assigners"]["items"] = method_items(assign::assigner_names(), assigners);
   Json& choices = properties["assigners"]["items"]["anyOf"];
   choices.insert(choices.begin(), name_pattern());
-  properties["assigners"]["default"] = assign::standard_assigner_names();
+  properties["assigners"]["default"] = assign::default_assigner_names();
   properties["storages"]["items"] = method_items(assign::storage_names(), storages);
 }
 
@@ -87,13 +87,14 @@ void expand_axis(Json& schema) {
 // What x-used-by says, for validators that know only draft-07.
 void require_users(Json& object) {
   const std::string selector = object["x-selector"].get<std::string>();
-  const Json standard = object["properties"][selector]["default"];
+  const Json default_value = object["properties"][selector]["default"];
   for (const auto& [key, property] : object["properties"].items()) {
     if (!property.contains("x-used-by")) continue;
     const Json a_user{{"enum", property["x-used-by"]}};
     Json needed{{"properties", {{selector, {{"anyOf", {a_user, {{"type", "array"}, {"contains", a_user}}}}}}}}};
     const Json& users = property["x-used-by"];
-    if (std::find(users.begin(), users.end(), standard) == users.end()) needed["required"] = Json::array({selector});
+    if (std::find(users.begin(), users.end(), default_value) == users.end())
+      needed["required"] = Json::array({selector});
     object["dependencies"][key] = needed;
   }
 }

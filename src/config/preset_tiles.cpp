@@ -1,9 +1,8 @@
-// Tiles that follow the viewport, as engines compute them.
+#include "config/preset_tiles.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "config/preset_tables.h"
+#include <utility>
 
 namespace clusterbench::config {
 namespace {
@@ -15,8 +14,6 @@ int divided_up(int dividend, int divisor) {
 int root_of(int number) {
   return std::max(1, static_cast<int>(std::sqrt(static_cast<double>(number))));
 }
-
-}  // namespace
 
 // Froxelizer::computeFroxelLayout(): square froxels of a multiple of 8 pixels, for 8192 of them in 16 slices. Its
 // divisions are of integers.
@@ -47,6 +44,23 @@ nlohmann::json eevee_tiles(Vec2i viewport) {
   int pixels = 32;
   while (divided_up(viewport.x, pixels) * divided_up(viewport.y, pixels) > 8192) pixels *= 2;
   return {{"pixels", {pixels, pixels}}};
+}
+
+constexpr std::pair<const char*, TilesBy> k_tiles_by[] = {
+    {"filament", filament_tiles}, {"bevy", bevy_tiles}, {"eevee", eevee_tiles}};
+
+}  // namespace
+
+TilesBy find_tiles_by(const std::string& name) {
+  for (const auto& [word, tiles] : k_tiles_by)
+    if (name == word) return tiles;
+  return nullptr;
+}
+
+std::vector<std::string> tiles_by_names() {
+  std::vector<std::string> names;
+  for (const auto& [word, tiles] : k_tiles_by) names.emplace_back(word);
+  return names;
 }
 
 }  // namespace clusterbench::config

@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "config/assigner_names.h"
-#include "config/preset_tables.h"
+#include "config/preset_file.h"
+#include "config/preset_text.h"
+#include "config/preset_tiles.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -16,53 +18,55 @@ using Json = nlohmann::json;
 
 const std::vector<Preset>& all_presets() {
   static const auto all = [] {
-    std::vector<Preset> list(published_presets().begin(), published_presets().end());
-    list.insert(list.end(), engine_presets().begin(), engine_presets().end());
+    std::vector<Preset> list;
+    for (const PresetText& file : preset_texts())
+      list.push_back(read_preset(std::string(file.text), "configs/presets/" + std::string(file.name) + ".json"));
     return list;
   }();
   return all;
 }
 
 // The preset's limit of lights, as a step of a pre-cull; null where it has none.
-Json limit_of(const Json& parts) {
-  if (parts.contains("pre_cull"))
-    for (const Json& step : parts["pre_cull"])
+Json limit_of(const Preset& preset) {
+  if (preset.pre_cull)
+    for (const result::Json& step : *preset.pre_cull)
       if (step.is_object() && step.contains("most")) return step["most"];
   return nullptr;
 }
 
-bool counts_in_view(const Json& parts) {
-  return std::ranges::find(parts["pre_cull"], Json("frustum")) != parts["pre_cull"].end();
+bool counts_in_view(const Preset& preset) {
+  return std::ranges::find(*preset.pre_cull, result::Json("frustum")) != preset.pre_cull->end();
 }
 
-std::string lights_limit_text(const Json& parts) {
-  const Json limit = limit_of(parts);
+std::string lights_limit_text(const Preset& preset) {
+  const Json limit = limit_of(preset);
   if (limit.is_null()) return "";
   std::string text = limit["lights"].dump() + (limit.value("per", "") == "type" ? " of each type" : " lights");
-  text += counts_in_view(parts) ? " in view" : " in the scene";
+  text += counts_in_view(preset) ? " in view" : " in the scene";
   const std::string keep = limit.value("keep", "first");
   return text + (keep == "first" ? ", the first" : keep == "nearest" ? ", the nearest" : ", those of least depth");
 }
 
-std::string cell_limit_text(const Json& parts) {
-  if (!parts.contains("storage")) return "";
-  const Json& storage = parts["storage"];
+std::string cell_limit_text(const Preset& preset) {
+  if (!preset.storage) return "";
+  const result::Json& storage = *preset.storage;
   if (storage.contains("cap")) return storage["cap"].dump() + " in a cell";
   if (storage.contains("nodes_per_cell")) return storage["nodes_per_cell"].dump() + " per cell in one pool";
   if (storage.contains("max_entries")) return storage["max_entries"].dump() + " entries";
   return "";
 }
 
+// {"grid": {...}, "assigner": {...}, ...}: of a preset or of its changes.
+template <class Record>
+Json parts_of(const Record& record) {
+  Json parts = Json::object();
+  const result::Json all = result::to_json(record);
+  for (const char* key : {"grid", "assigner", "storage", "pre_cull"})
+    if (all.contains(key)) parts[key] = all[key];
+  return parts;
+}
+
 }  // namespace
-
-const char* name_of(Evidence evidence) {
-  constexpr const char* k_names[] = {"ran", "read", "memory"};
-  return k_names[static_cast<int>(evidence)];
-}
-
-const char* name_of(AssignsOn place) {
-  return place == AssignsOn::cpu ? "cpu" : "gpu";
-}
 
 std::span<const Preset> presets() {
   return all_presets();
@@ -75,15 +79,15 @@ const Preset* find_preset(const std::string& name) {
 
 std::vector<std::string> preset_names() {
   std::vector<std::string> names;
-  for (const Preset& preset : presets()) names.emplace_back(preset.name);
+  for (const PresetText& file : preset_texts()) names.emplace_back(file.name);
   return names;
 }
 
 Json preset_parts(const Preset& preset, Vec2i viewport, bool as_shipped) {
-  Json parts = Json::parse(preset.parts);
-  if (preset.tiles != nullptr) parts["grid"]["tiles"] = preset.tiles(viewport);
-  if (!as_shipped || !preset.has_mistakes()) return parts;
-  const Json changes = Json::parse(preset.as_shipped);
+  Json parts = parts_of(preset);
+  if (preset.tiles_by) parts["grid"]["tiles"] = find_tiles_by(*preset.tiles_by)(viewport);
+  if (!as_shipped || !preset.as_shipped) return parts;
+  const Json changes = parts_of(*preset.as_shipped);
   for (const auto& [key, value] : changes.items())
     if (key == "grid")
       parts[key].merge_patch(value);
@@ -93,13 +97,12 @@ Json preset_parts(const Preset& preset, Vec2i viewport, bool as_shipped) {
 }
 
 std::string limit_text(const Preset& preset) {
-  const Json parts = Json::parse(preset.parts);
-  const std::string lights = lights_limit_text(parts), cell = cell_limit_text(parts);
+  const std::string lights = lights_limit_text(preset), cell = cell_limit_text(preset);
   return lights + (lights.empty() || cell.empty() ? "" : "; ") + cell;
 }
 
 std::uint64_t most_lights(const Preset& preset) {
-  const Json limit = limit_of(Json::parse(preset.parts));
+  const Json limit = limit_of(preset);
   return limit.is_null() ? 0 : limit["lights"].get<std::uint64_t>();
 }
 

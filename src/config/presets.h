@@ -1,50 +1,60 @@
 #pragma once
 // Clusterings as engines, papers and articles have them: a grid, a method and a light structure each, and what the
-// engine does to lights before.
+// engine does to lights before. Each is a file of configs/presets.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "geom/shapes/vec.h"
+#include "result/fields.h"
 
 namespace clusterbench::config {
 
-// What a preset rests on. ran: the engine's own code, or a transcription of it, was run on the same lights, and its
-// lists were compared cell by cell. read: its code or what its authors have published was read. memory: neither.
-enum class Evidence : std::uint8_t { ran, read, memory };
-const char* name_of(Evidence evidence);  // "ran", "read", "memory"
-
-// Where an engine makes its lists. Those of a GPU's shader or rasteriser are not uploaded, and the time that a method
-// takes on a CPU is not the engine's.
-enum class AssignsOn : std::uint8_t { cpu, gpu };
-const char* name_of(AssignsOn place);  // "cpu", "gpu"
+// What changes in a preset where the engine has its mistakes.
+struct PresetChanges {
+  RECORD(PresetChanges);
+  FIELD(std::optional<result::Json>, grid, "Members of the grid that differ; the others stay");
+  FIELD(std::optional<result::Json>, assigner, "In place of the method");
+  FIELD(std::optional<result::Json>, storage, "In place of the storage");
+  FIELD(std::optional<result::Json>, pre_cull, "In place of the pre-cull");
+  END_RECORD;
+};
 
 struct Preset {
-  const char* name;
-  const char* engine;
-  const char* version;  // of the code or the publication: a release, a commit, a year
-  Evidence evidence;
-  const char* source;        // what was read or run
-  const char* summary;       // the scheme in a line
-  const char* approximated;  // what is not as there, in one sentence; "" where nothing is known to differ
-  const char* unverified;    // what stands on memory alone; "" where nothing does
-  AssignsOn assigns_on;
-  // Members of a configuration's entries as JSON: {"grid": {...}, "assigner": {...}, "storage": {...}, "pre_cull":
-  // [...]}; without storage the method's own structure, without pre_cull all lights.
-  const char* parts;
-  // What to know before it is taken, where another preset is of the same engine; "" where nothing.
-  const char* remark = "";
-  // The mistakes of the engine as it is shipped, in words, and what changes in the parts with them: members of the grid
-  // one by one, of the others as a whole. "" where none is modelled.
-  const char* mistakes = "";
-  const char* as_shipped = "";
-  // The grid's tiles where they depend on the viewport, as a configuration has them; or null.
-  nlohmann::json (*tiles)(Vec2i viewport) = nullptr;
+  RECORD(Preset);
+  FIELD(std::string, name, "Unique, and the name of the file");
+  FIELD(std::string, engine, "Of which engine, game, paper or article");
+  FIELD(std::string, version, "Of the code or the publication: a release, a commit, a year");
+  // ran: the engine's own code, or a transcription of it, was run on the same lights, and its lists were compared cell
+  // by cell. read: its code or what its authors have published was read. memory: neither.
+  FIELD(std::string, evidence, result::About("What it rests on").one_of({"ran", "read", "memory"}));
+  FIELD(std::string, source, "What was read or run");
+  FIELD(std::string, summary, "The scheme in a line");
+  FIELD(std::string, approximated, "What is not as there, in one sentence; empty where nothing is known to differ");
+  FIELD(std::string, unverified, "What stands on memory alone; empty where nothing does");
+  // gpu: lists of a shader or a rasteriser are not uploaded, and the time that a method takes on a CPU is not the
+  // engine's.
+  FIELD(std::string, assigns_on, result::About("Where the engine makes its lists").one_of({"cpu", "gpu"}));
+  FIELD(std::optional<std::string>, remark,
+        "What to know before it is taken, where another preset is of the same engine");
+  FIELD(std::optional<std::string>, tiles_by,
+        "How tiles follow the viewport (preset_tiles.h); the grid has those of 1920 x 1080 pixels");
+  // As entries of a configuration's lists have them.
+  FIELD(result::Json, grid, "Entry of grids");
+  FIELD(result::Json, assigner, "Entry of assigners");
+  FIELD(std::optional<result::Json>, storage, "Entry of storages; without it the method's own structure");
+  FIELD(std::optional<result::Json>, pre_cull, "Entry of pre_cull, a list of steps; without it all lights");
+  FIELD(std::optional<std::string>, mistakes, "Of the engine as it is shipped, in words");
+  FIELD(std::optional<PresetChanges>, as_shipped, "What changes with the mistakes");
+  END_RECORD;
 
-  bool has_mistakes() const { return *mistakes != '\0'; }
+  bool has_mistakes() const { return as_shipped.has_value(); }
+  bool is_from_memory() const { return evidence == "memory"; }
+  bool assigns_on_gpu() const { return assigns_on == "gpu"; }
 };
 
 // In the order in which they are shown; names are unique.

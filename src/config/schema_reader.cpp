@@ -222,8 +222,8 @@ class Reader {
         if (!used) fail_unused(schema, unresolved, key, selected, member);
         out[key] = read(unresolved, value[key], member);
       } else if (used && (unresolved.contains("default") || property.contains("default"))) {
-        const Json& standard = unresolved.contains("default") ? unresolved["default"] : property["default"];
-        out[key] = read(unresolved, standard, member);
+        const Json& default_value = unresolved.contains("default") ? unresolved["default"] : property["default"];
+        out[key] = read(unresolved, default_value, member);
       }
     }
     return out;

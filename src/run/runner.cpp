@@ -57,7 +57,7 @@ std::vector<int> fullest_frames(const GroupPlan& group, const AccuracyResult& co
 // Methods that emulate an engine's shader or rasteriser are not timed: their time here says nothing about the engine's.
 bool is_timed(const CasePlan& case_plan) {
   const config::Preset* preset = config::find_preset(case_plan.preset);
-  return preset == nullptr || preset->assigns_on == config::AssignsOn::cpu;
+  return preset == nullptr || !preset->assigns_on_gpu();
 }
 
 // A group whose counts are complete but whose times are missing.

@@ -88,11 +88,11 @@ std::string hash_of(const Scene& scene) {
 }  // namespace
 
 std::string RigSpec::name() const {
-  const RigSpec standard;
+  const RigSpec defaults;
   std::string text = "rig-" + std::to_string(lights) + "-r" + number(range_m);
-  if (spots != standard.spots) text += "-s" + number(spots);
-  if (size_m != standard.size_m) text += "-" + number(size_m.x) + "x" + number(size_m.y) + "x" + number(size_m.z);
-  if (seed != standard.seed) text += "-seed" + std::to_string(seed);
+  if (spots != defaults.spots) text += "-s" + number(spots);
+  if (size_m != defaults.size_m) text += "-" + number(size_m.x) + "x" + number(size_m.y) + "x" + number(size_m.z);
+  if (seed != defaults.seed) text += "-seed" + std::to_string(seed);
   return text;
 }
 

@@ -28,7 +28,7 @@ Json grids() {
 }
 
 bool is_wanted(const assign::AssignerDescriptor& method) {
-  return method.is_standard() && !method.all_pairs && assign::is_conservative(method, assign::Params(method.params)) &&
+  return method.is_default() && !method.all_pairs && assign::is_conservative(method, assign::Params(method.params)) &&
          assign::find_assigner(method.name + "-fast") == nullptr;
 }
 

@@ -133,7 +133,7 @@ std::vector<StressMethod> stress_methods() {
     add(*assigner, assign::Params(assigner->params));
     for (const assign::ParamSpec& spec : assigner->params)
       for (const std::string& choice : spec.choices)
-        if (assign::ParamValue(choice) != spec.standard)
+        if (assign::ParamValue(choice) != spec.default_value)
           add(*assigner, assign::Params(assigner->params, {{spec.name, choice}}));
   }
   return methods;

@@ -11,20 +11,20 @@ namespace {
 const std::vector<ParamSpec> k_specs{
     {.name = "spot",
      .summary = "",
-     .standard = std::string("both"),
+     .default_value = std::string("both"),
      .unit = "",
      .choices = {"sphere", "both"},
      .former = {{"ball", "sphere"}}},
-    {.name = "margin", .summary = "", .standard = 2.0, .unit = "m", .min = 0.5, .max = 4.0, .choices = {}},
+    {.name = "margin", .summary = "", .default_value = 2.0, .unit = "m", .min = 0.5, .max = 4.0, .choices = {}},
     {.name = "cap",
      .summary = "",
-     .standard = 100.0,
+     .default_value = 100.0,
      .unit = "lights",
      .min = 1,
      .max = 65535,
      .choices = {},
      .whole = true},
-    {.name = "fast", .summary = "", .standard = true, .unit = "", .choices = {}}};
+    {.name = "fast", .summary = "", .default_value = true, .unit = "", .choices = {}}};
 
 // The refusal of one value, as "where: message".
 std::string refusal(const std::string& name, const ParamValue& value) {

@@ -21,7 +21,7 @@ void expect_valid(const std::vector<ParamSpec>& params) {
   for (const ParamSpec& param : params) {
     EXPECT_TRUE(names.insert(param.name).second) << param.name << " is there twice";
     EXPECT_FALSE(param.summary.empty()) << param.name;
-    EXPECT_NO_THROW(Params(params, {{param.name, param.standard}})) << param.name << " refuses its own default";
+    EXPECT_NO_THROW(Params(params, {{param.name, param.default_value}})) << param.name << " refuses its own default";
   }
 }
 
@@ -79,7 +79,7 @@ TEST(Registry, what_takes_the_conservative_promise_away_and_what_shares_work_is_
   AssignerDescriptor any = *find_assigner("exact-fast");
   any.params = {{.name = "slack",
                  .summary = "of its tests",
-                 .standard = 2.0,
+                 .default_value = 2.0,
                  .unit = "",
                  .min = 0.0,
                  .max = 9.0,
@@ -87,7 +87,7 @@ TEST(Registry, what_takes_the_conservative_promise_away_and_what_shares_work_is_
                  .conservative_from = 1.5},
                 {.name = "workers",
                  .summary = "that share a frame",
-                 .standard = 1.0,
+                 .default_value = 1.0,
                  .unit = "",
                  .min = 1.0,
                  .max = 9.0,

@@ -260,7 +260,7 @@ inline std::vector<Params> params_of(const AssignerDescriptor& row) {
   std::vector<Params> all{Params(row.params)};
   for (const ParamSpec& param : row.params)
     for (const std::string& choice : param.choices)
-      if (ParamValue(choice) != param.standard)
+      if (ParamValue(choice) != param.default_value)
         all.emplace_back(row.params, std::map<std::string, ParamValue>{{param.name, choice}});
   return all;
 }

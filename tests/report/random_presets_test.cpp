@@ -179,9 +179,8 @@ PresetLevel level_at_limits(std::uint64_t round, SplitMix64& random) {
 
 // Whether a limit counts the lights of the view, and not those of the scene.
 bool is_of_view(const config::Preset& preset) {
-  const Json parts = Json::parse(preset.parts);
-  return std::ranges::any_of(parts.value("pre_cull", Json::array()),
-                             [](const Json& step) { return step == "frustum"; });
+  return std::ranges::any_of(preset.pre_cull.value_or(result::Json::array()),
+                             [](const result::Json& step) { return step == "frustum"; });
 }
 
 bool is_by_type(const config::Preset& preset) {

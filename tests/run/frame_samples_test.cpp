@@ -410,7 +410,7 @@ TEST(DepthMethods, of_a_scene_without_triangles_are_skipped_with_the_reason) {
 TEST(DepthMethods, have_triangles_read_where_they_are_named_and_are_not_in_what_runs_by_default) {
   EXPECT_TRUE(run_of(room(), "", R"("explicit")").plan.scenes[0].geometry);
   EXPECT_FALSE(run_of(room(), "", R"("aabb")").plan.scenes[0].geometry);
-  for (const std::string& name : assign::standard_assigner_names())
+  for (const std::string& name : assign::default_assigner_names())
     EXPECT_FALSE(assign::find_assigner(name)->needs.depth) << name;
 }
 

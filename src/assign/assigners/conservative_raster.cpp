@@ -127,12 +127,12 @@ std::vector<ParamSpec> conservative_raster_params() {
            .summary =
                "how fine meshes are: 0 (a sphere has 20 triangles), 1 (80), 2 (320), 3 (1280), or screen: the first of "
                "them whose spheres stand off by at most `excess`",
-           .standard = std::string("screen"),
+           .default_value = std::string("screen"),
            .unit = "",
            .choices = {"screen", "0", "1", "2", "3"}},
           {.name = "excess",
            .summary = "level screen: how far a mesh may stand off its sphere, but for the finest one",
-           .standard = 0.25,
+           .default_value = 0.25,
            .unit = "tiles",
            .min = 0.0,
            .max = 1000.0,
@@ -141,7 +141,7 @@ std::vector<ParamSpec> conservative_raster_params() {
            .summary =
                "the depths of a tile that a triangle touches. exact: those of the part in the tile; triangle: all of "
                "the triangle's",
-           .standard = std::string("exact"),
+           .default_value = std::string("exact"),
            .unit = "",
            .choices = {"exact", "triangle"}},
           inflation_param()};

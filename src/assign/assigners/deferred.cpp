@@ -271,12 +271,12 @@ std::vector<ParamSpec> deferred_params() {
        .summary = "which drawn pixels are shaded: all (none), those in front of the sphere's far side (back), or those "
                   "in it, as "
                   "a stencil of both sides finds them, and of a spot those in its cone (both)",
-       .standard = std::string("both"),
+       .default_value = std::string("both"),
        .unit = "",
        .choices = {"none", "back", "both"}},
       {.name = "gbuffer_bytes",
        .summary = "read for each shaded pixel of each light; four targets of RGBA8",
-       .standard = 16.0,
+       .default_value = 16.0,
        .unit = "B",
        .min = 0.0,
        .max = 1024.0,
@@ -284,7 +284,7 @@ std::vector<ParamSpec> deferred_params() {
        .whole = true},
       {.name = "target_bytes",
        .summary = "read and written for each shaded pixel of each light; RGBA16F",
-       .standard = 8.0,
+       .default_value = 8.0,
        .unit = "B",
        .min = 0.0,
        .max = 1024.0,

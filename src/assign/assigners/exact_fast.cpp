@@ -173,7 +173,7 @@ const AssignerDescriptor exact_fast_descriptor{
     .exact = true,
     .params = {{.name = "threads",
                 .summary = "threads that share a frame; the lists do not depend on it",
-                .standard = 1.0,
+                .default_value = 1.0,
                 .unit = "",
                 .min = 1.0,
                 .max = 256.0,

@@ -92,7 +92,7 @@ const AssignerDescriptor light_boxes_descriptor{
                 .summary =
                     "where a light's cells end along an axis. ceil: one after the last that its box meets, as in "
                     "PlayCanvas, which rounds up; floor: that one",
-                .standard = std::string("ceil"),
+                .default_value = std::string("ceil"),
                 .unit = "",
                 .choices = {"ceil", "floor"}}},
     .make = make_list_assigner<LightBoxes>,

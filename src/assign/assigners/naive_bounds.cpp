@@ -176,7 +176,7 @@ const AssignerDescriptor naive_bounds_descriptor{
                 .summary = "the mistake. log-slice: slices by a natural logarithm where the lookup has log2; "
                            "fast-log-slice: by a fast logarithm; textbook-tangents: cancellation in single precision; "
                            "tile-division: whole tiles only; padded-tiles: tile sizes rounded up",
-                .standard = std::string("log-slice"),
+                .default_value = std::string("log-slice"),
                 .unit = "",
                 .choices = {"log-slice", "fast-log-slice", "textbook-tangents", "tile-division", "padded-tiles"}}},
     .make = make_list_assigner<NaiveBounds>,

@@ -94,7 +94,7 @@ const AssignerDescriptor naive_cone_descriptor{
     .params = {{.name = "flaw",
                 .summary = "the mistake. sine-from-cosine: the sine of the angle is computed from its cosine; "
                            "no-range: no test against the range; flat-cap-sphere: the sphere of a cone with a flat cap",
-                .standard = std::string("sine-from-cosine"),
+                .default_value = std::string("sine-from-cosine"),
                 .unit = "",
                 .choices = {"sine-from-cosine", "no-range", "flat-cap-sphere"},
                 .former = {{"flat-cap-ball", "flat-cap-sphere"}}}},

@@ -171,7 +171,7 @@ std::vector<ParamSpec> scalar_params() {
                     .summary =
                         "by which planes a column is tested. both: its left and its right one; nearest: the one "
                         "towards the centre of what is left of the sphere, whose column is always taken (Filament)",
-                    .standard = std::string("both"),
+                    .default_value = std::string("both"),
                     .unit = "",
                     .choices = {"both", "nearest"},
                     .is_late = true});

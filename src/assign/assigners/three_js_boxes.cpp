@@ -115,7 +115,7 @@ const AssignerDescriptor three_js_boxes_descriptor{
     .by_name = true,
     .params = {{.name = "most",
                 .summary = "lights that a cell keeps, the farthest ones",
-                .standard = 64.0,
+                .default_value = 64.0,
                 .unit = "lights",
                 .min = 1.0,
                 .max = 65535.0,

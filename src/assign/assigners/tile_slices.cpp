@@ -287,7 +287,7 @@ std::vector<ParamSpec> tile_slices_params() {
                                  .summary =
                                      "how many times as thick as the one before it a slice is at least; of n slices "
                                      "2^(64/n) is enough",
-                                 .standard = 1.02,
+                                 .default_value = 1.02,
                                  .unit = "",
                                  .min = 1.0001,
                                  .max = 4.0,

@@ -230,7 +230,7 @@ const AssignerDescriptor tile_spans_descriptor{
                 .summary =
                     "what a depth bin has. ranges: the first and the last of its lights; masks: a bit for each of "
                     "them, too, so that a sample loops over none that its bin has not (Unity URP)",
-                .standard = std::string("ranges"),
+                .default_value = std::string("ranges"),
                 .unit = "",
                 .choices = {"ranges", "masks"},
                 .is_late = true}},

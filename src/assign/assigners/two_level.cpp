@@ -91,7 +91,7 @@ std::vector<ParamSpec> two_level_params() {
   std::vector<ParamSpec> params = light_params();
   params.push_back({.name = "coarse",
                     .summary = "tiles along a side of a coarse tile",
-                    .standard = 4.0,
+                    .default_value = 4.0,
                     .unit = "tiles",
                     .min = 1.0,
                     .max = 64.0,

@@ -56,7 +56,7 @@ std::vector<ParamSpec> refinement_params() {
   spot.summary =
       "how spots are tested. sphere, range, cone-sphere, both: as for other methods; narrowing: both, after the box of "
       "cells is narrowed by planes from six sides";
-  spot.standard = std::string("narrowing");
+  spot.default_value = std::string("narrowing");
   spot.choices.emplace_back("narrowing");
   return {spot, inflation_param()};
 }

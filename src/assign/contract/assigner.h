@@ -25,7 +25,7 @@ using ParamValue = std::variant<bool, double, std::string>;
 struct ParamSpec {
   std::string name;
   std::string summary;
-  ParamValue standard;               // the default; its type is the parameter's type
+  ParamValue default_value;          // the default; its type is the parameter's type
   std::string unit;                  // "" = none
   double min = 0.0, max = 0.0;       // numbers
   std::vector<std::string> choices;  // for texts
@@ -177,7 +177,7 @@ struct AssignerDescriptor {
   bool takes(grid::Kind kind) const;
   bool answers(Answer answer) const;
   // Does it run if a configuration names no methods? Methods that need depth do not: tracing the rays takes long.
-  bool is_standard() const { return !naive && !by_name && !needs.depth; }
+  bool is_default() const { return !naive && !by_name && !needs.depth; }
   // Do samples search its own structure for their lights (a hierarchy, masks of bits)? Then their reads and visits are
   // counted, but no GPU has measured their cost.
   bool own_is_searched() const { return make_own != nullptr && !own_lists && !draws_lights; }
@@ -225,6 +225,6 @@ const AssignerDescriptor* find_assigner(const std::string& name);
 int slowness_of(const std::string& name);
 std::vector<std::string> assigner_names();
 // The methods that run if a configuration names none.
-std::vector<std::string> standard_assigner_names();
+std::vector<std::string> default_assigner_names();
 
 }  // namespace clusterbench::assign

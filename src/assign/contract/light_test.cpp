@@ -10,7 +10,7 @@ ParamSpec spot_param() {
               "how spots are tested. sphere: the one around their cone; range: the sphere of their range; "
               "cone-sphere: the sphere of their range, and the cone against each cell's bounding sphere; both: a cell "
               "has to pass sphere and cone-sphere",
-          .standard = std::string("both"),
+          .default_value = std::string("both"),
           .unit = "",
           .choices = {"sphere", "range", "cone-sphere", "both"},
           .former = {{"ball", "sphere"}}};
@@ -20,7 +20,7 @@ ParamSpec inflation_param() {
   return {
       .name = "inflation",
       .summary = "padding of the light's radius, in units of the derived rounding error; below 1 lights can be lost",
-      .standard = 1.0,
+      .default_value = 1.0,
       .unit = "",
       .min = 0.0,
       .max = 1e6,

@@ -52,8 +52,8 @@ const ParamSpec& spec_of(std::span<const ParamSpec> specs, const std::string& na
 }
 
 void check(const ParamSpec& spec, const ParamValue& value) {
-  if (value.index() != spec.standard.index())
-    throw Error("", spec.name, "is " + shown(value) + "; it must be " + type_name(spec.standard));
+  if (value.index() != spec.default_value.index())
+    throw Error("", spec.name, "is " + shown(value) + "; it must be " + type_name(spec.default_value));
   if (const auto* given = std::get_if<double>(&value)) check_number(spec, *given);
   if (const auto* given = std::get_if<std::string>(&value)) check_choice(spec, *given);
 }
@@ -73,7 +73,7 @@ ParamValue first_value(const ParamSpec& spec, const ParamValue& value) {
 }
 
 Params::Params(std::span<const ParamSpec> specs) {
-  for (const ParamSpec& spec : specs) values_[spec.name] = spec.standard;
+  for (const ParamSpec& spec : specs) values_[spec.name] = spec.default_value;
 }
 
 Params::Params(std::span<const ParamSpec> specs, const std::map<std::string, ParamValue>& given) : Params(specs) {

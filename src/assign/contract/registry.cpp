@@ -33,7 +33,8 @@ bool AssignerDescriptor::answers(Answer answer) const {
 bool is_conservative(const AssignerDescriptor& descriptor, const Params& params) {
   return descriptor.conservative &&
          std::none_of(descriptor.params.begin(), descriptor.params.end(), [&](const ParamSpec& spec) {
-           return std::holds_alternative<double>(spec.standard) && params.number(spec.name) < spec.conservative_from;
+           return std::holds_alternative<double>(spec.default_value) &&
+                  params.number(spec.name) < spec.conservative_from;
          });
 }
 
@@ -80,10 +81,10 @@ std::vector<std::string> assigner_names() {
   return names;
 }
 
-std::vector<std::string> standard_assigner_names() {
+std::vector<std::string> default_assigner_names() {
   std::vector<std::string> names;
   for (const AssignerDescriptor* descriptor : assigner_descriptors())
-    if (descriptor->is_standard()) names.push_back(descriptor->name);
+    if (descriptor->is_default()) names.push_back(descriptor->name);
   return names;
 }
 

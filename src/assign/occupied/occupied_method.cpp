@@ -27,7 +27,7 @@ ParamSpec tile_test_param() {
           .summary =
               "the sides of the tile's frustum (as the light's extents on the screen), the box around the part "
               "between its depths, or both; depth in any case",
-          .standard = std::string("both"),
+          .default_value = std::string("both"),
           .unit = "",
           .choices = {"planes", "aabb", "both"}};
 }

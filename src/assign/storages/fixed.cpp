@@ -121,7 +121,7 @@ const StorageDescriptor fixed_descriptor{
     .source = "DaveH355, three.js, PlayCanvas",
     .params = {{.name = "cap",
                 .summary = "room for lights in each cell",
-                .standard = 100.0,
+                .default_value = 100.0,
                 .unit = "lights",
                 .min = 1.0,
                 .max = 65535.0,
@@ -131,7 +131,7 @@ const StorageDescriptor fixed_descriptor{
                 .summary =
                     "how a shader knows where a list ends. kept: by a count of 4 bytes per cell; none: by an index "
                     "that is no light's, unless the list is full (PlayCanvas, Just Cause 2)",
-                .standard = std::string("kept"),
+                .default_value = std::string("kept"),
                 .unit = "",
                 .choices = {"kept", "none"},
                 .is_late = true}},

@@ -133,7 +133,7 @@ const StorageDescriptor linked_descriptor{
     .source = "Örtegren and Persson 2016, GPU Pro 7; Unreal's light grid",
     .params = {{.name = "nodes_per_cell",
                 .summary = "nodes in the pool, per cell of the grid",
-                .standard = 32.0,
+                .default_value = 32.0,
                 .unit = "nodes",
                 .min = 0.01,
                 .max = 65535.0,

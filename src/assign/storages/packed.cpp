@@ -297,19 +297,19 @@ const StorageDescriptor packed_descriptor{
     .source = "Persson 2015, Practical Clustered Shading",
     .params = {{.name = "index_bits",
                 .summary = "bits of a light index. auto: the fewest that can number all lights",
-                .standard = std::string("auto"),
+                .default_value = std::string("auto"),
                 .unit = "",
                 .choices = {"auto", "8", "16", "32"}},
                {.name = "headers",
                 .summary = "cells that have a header. dense: all; sparse: those with lights, found through 8 bytes per "
                            "32 cells (mask and rank, Jacobson 1989)",
-                .standard = std::string("dense"),
+                .default_value = std::string("dense"),
                 .unit = "",
                 .choices = {"dense", "sparse"}},
                {.name = "equal_lists",
                 .summary = "what becomes of a list that equals that of the cell before, or of the cell a row before. "
                            "repeated: it is written again; shared: its header points to the other one (Filament)",
-                .standard = std::string("repeated"),
+                .default_value = std::string("repeated"),
                 .unit = "",
                 .choices = {"repeated", "shared"},
                 .is_late = true},
@@ -318,7 +318,7 @@ const StorageDescriptor packed_descriptor{
                     "entries that there is room for; 0: for all. Beyond them no list is written: its cell and all "
                     "after it that have lights read one list of all lights in any cell of the frame, which is "
                     "always written first and counts (Filament)",
-                .standard = 0.0,
+                .default_value = 0.0,
                 .unit = "entries",
                 .min = 0.0,
                 .max = 4294967295.0,
@@ -330,7 +330,7 @@ const StorageDescriptor packed_descriptor{
                     "bytes of a cell's header, rounded up to 4; 0: as few as the offset and the counts take. In a "
                     "header of a given size offset and counts have 32 bits each, and the rest is what an engine "
                     "keeps there of other objects (Bevy: 32)",
-                .standard = 0.0,
+                .default_value = 0.0,
                 .unit = "bytes",
                 .min = 0.0,
                 .max = 256.0,

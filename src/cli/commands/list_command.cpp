@@ -25,11 +25,11 @@ Json to_json(const assign::ParamValue& value) {
 Json to_json(const std::vector<assign::ParamSpec>& params) {
   Json list = Json::array();
   for (const assign::ParamSpec& param : params) {
-    Json entry{{"name", param.name}, {"summary", param.summary}, {"default", to_json(param.standard)}};
+    Json entry{{"name", param.name}, {"summary", param.summary}, {"default", to_json(param.default_value)}};
     if (!param.unit.empty()) entry["unit"] = param.unit;
     if (std::isfinite(param.conservative_from)) entry["conservative_from"] = param.conservative_from;
     if (param.is_thread_count) entry["threads"] = true;
-    if (std::holds_alternative<double>(param.standard)) entry["range"] = {param.min, param.max};
+    if (std::holds_alternative<double>(param.default_value)) entry["range"] = {param.min, param.max};
     if (!param.choices.empty()) entry["choices"] = param.choices;
     list.push_back(entry);
   }
@@ -67,12 +67,12 @@ Json to_json(const config::Preset& preset) {
   Json out{{"name", preset.name},
            {"engine", preset.engine},
            {"version", preset.version},
-           {"evidence", config::name_of(preset.evidence)},
+           {"evidence", preset.evidence},
            {"summary", preset.summary},
            {"source", preset.source},
            {"approximated", preset.approximated},
            {"unverified", preset.unverified},
-           {"assigns_on", config::name_of(preset.assigns_on)},
+           {"assigns_on", preset.assigns_on},
            {"grid", parts["grid"]},
            {"assigner", parts["assigner"]}};
   if (parts.contains("storage")) out["storage"] = parts["storage"];
@@ -80,8 +80,8 @@ Json to_json(const config::Preset& preset) {
   if (const std::string limit = config::limit_text(preset); !limit.empty()) out["limit"] = limit;
   if (const std::uint64_t most = config::most_lights(preset); most > 0) out["most_lights"] = most;
   if (preset.has_mistakes()) {
-    out["mistakes"] = preset.mistakes;
-    out["as_shipped"] = Json::parse(preset.as_shipped);
+    out["mistakes"] = *preset.mistakes;
+    out["as_shipped"] = result::to_json(*preset.as_shipped);
   }
   return out;
 }

@@ -85,9 +85,9 @@ std::string ignored_keys(const config::Config& config) {
 
 // `ignored`: receives the keys that are left out.
 config::Config read_input(const RecommendFlags& flags, std::string& ignored) {
-  nlohmann::json standard = search::recommend_space();
-  standard["samples"] = {{"opaque", {{"divisor", 16}}}};
-  config::Config config = read_inputs(flags.inputs, {}, standard);
+  nlohmann::json defaults = search::recommend_space();
+  defaults["samples"] = {{"opaque", {{"divisor", 16}}}};
+  config::Config config = read_inputs(flags.inputs, {}, defaults);
   ignored = ignored_keys(config);
   config.details.reset();
   config.stability.reset();
@@ -101,7 +101,7 @@ config::Config read_input(const RecommendFlags& flags, std::string& ignored) {
 // A preset whose engine makes its lists on a GPU, so that times measured here are not the engine's; "" without any.
 std::string preset_on_gpu(const config::Config& config) {
   for (const config::PresetChoice& choice : config.presets)
-    if (config::find_preset(choice.preset)->assigns_on == config::AssignsOn::gpu) return choice.preset;
+    if (config::find_preset(choice.preset)->assigns_on_gpu()) return choice.preset;
   return "";
 }
 
@@ -109,8 +109,8 @@ std::string preset_on_gpu(const config::Config& config) {
 // part alone.
 report::ObjectiveFigure objective_of(const RecommendFlags& flags, const config::Config& config) {
   const bool has_times = !flags.no_timing && preset_on_gpu(config).empty();
-  const std::string standard = has_times ? "frame_cost_us" : "gpu_cost_us";
-  return report::objective_figure(flags.objective.empty() ? standard : flags.objective);
+  const std::string default_figure = has_times ? "frame_cost_us" : "gpu_cost_us";
+  return report::objective_figure(flags.objective.empty() ? default_figure : flags.objective);
 }
 
 // Costs need samples with a weight. A scene without triangles has no surfaces to shade: then each pixel is shaded once

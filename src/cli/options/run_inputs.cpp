@@ -47,15 +47,15 @@ bool is_scene(const std::string& path) {
 }
 
 config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first,
-                           const nlohmann::json& standard) {
+                           const nlohmann::json& defaults) {
   std::vector<config::FlagValue> flags = first;
   const std::vector<config::FlagValue> given = flag_values(inputs);
   flags.insert(flags.end(), given.begin(), given.end());
   const auto scenes = static_cast<std::size_t>(std::count_if(inputs.paths.begin(), inputs.paths.end(), is_scene));
   if (scenes == inputs.paths.size())
-    return config::default_config({inputs.paths.begin(), inputs.paths.end()}, flags, standard, inputs.preset_grid);
+    return config::default_config({inputs.paths.begin(), inputs.paths.end()}, flags, defaults, inputs.preset_grid);
   if (scenes == 0 && inputs.paths.size() == 1)
-    return config::load_config(inputs.paths.front(), flags, standard, inputs.preset_grid);
+    return config::load_config(inputs.paths.front(), flags, defaults, inputs.preset_grid);
   throw Error("", "command line",
               "takes one configuration (.json), or one or more scenes (.glb, .gltf), not " + joined(inputs.paths));
 }

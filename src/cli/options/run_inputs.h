@@ -26,9 +26,9 @@ std::vector<config::FlagValue> flag_values(const RunInputs& inputs);
 
 bool is_scene(const std::string& path);  // by its extension or its content (scene/gltf_document/exporters.h)
 
-// `first`: flags that apply before those of the command line. `standard`: replaces the schema's defaults. Throws Error.
+// `first`: flags that apply before those of the command line. `defaults`: replaces the schema's defaults. Throws Error.
 config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first = {},
-                           const nlohmann::json& standard = {});
+                           const nlohmann::json& defaults = {});
 
 // A scene's file and the files that it names; a command that reads the scene must not overwrite them.
 std::vector<std::string> files_of_scene(const std::filesystem::path& scene);

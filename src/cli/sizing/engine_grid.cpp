@@ -13,7 +13,7 @@ namespace clusterbench::cli {
 namespace {
 
 std::string engine_name(const std::string& engine) {
-  const std::string name = config::find_preset(engine)->engine;
+  const std::string& name = config::find_preset(engine)->engine;
   return name.substr(0, name.find(','));
 }
 
@@ -42,8 +42,7 @@ void check_square_tiles(const config::FlagValue& flag, const std::string& engine
 void check_grid_change(const config::GridChange& change, const std::string& engine) {
   const report::EngineRow& row = *report::row_of_engine(engine);
   for (const auto& [pointer, flag] : change.flags) {
-    if (pointer == "/kind" &&
-        change.grid["kind"] == nlohmann::json::parse(config::find_preset(engine)->parts)["grid"]["kind"])
+    if (pointer == "/kind" && change.grid["kind"] == config::find_preset(engine)->grid.at("kind").get<std::string>())
       continue;
     if (is_far_of_slices(pointer))
       refuse_for_engine(

@@ -214,7 +214,7 @@ std::vector<report::GrownTiles> grown_tiles(const config::Config& limited, const
                      static_cast<std::uint64_t>(moves.reacted),
                      static_cast<std::uint64_t>(moves.over),
                      static_cast<std::uint64_t>(moves.amount.greatest),
-                     {moves.asked.x, moves.asked.y},
+                     {moves.requested.x, moves.requested.y},
                      {moves.fewest.x, moves.fewest.y}});
   }
   return out;

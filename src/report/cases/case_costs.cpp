@@ -193,7 +193,7 @@ std::optional<WholeFrame> whole_frame(const Case& result_case, const Json& confi
 
 bool makes_lists_on_gpu(const Case& result_case) {
   const config::Preset* preset = config::find_preset(result_case.preset.value_or(""));
-  return preset != nullptr && preset->assigns_on == config::AssignsOn::gpu;
+  return preset != nullptr && preset->assigns_on_gpu();
 }
 
 std::vector<const SampleSet*> ranking_samples(const Case& result_case) {

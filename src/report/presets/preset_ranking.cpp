@@ -136,7 +136,7 @@ std::string place_text(const result::RankedPreset& line) {
 // Of an engine that assigns on a GPU the time here is none of its own; older results have it.
 std::string assign_text(const Case& result_case) {
   const config::Preset* preset = config::find_preset(result_case.preset.value_or(""));
-  if (preset != nullptr && preset->assigns_on == config::AssignsOn::gpu) return "gpu";
+  if (preset != nullptr && preset->assigns_on_gpu()) return "gpu";
   return text_of(number<&Case::timing, &result::Timing::assign_ns, &result::Time::median>(result_case), "%.1f", 1e-3);
 }
 
@@ -205,14 +205,14 @@ std::vector<result::Preset> preset_facts(const std::vector<Case>& cases, const s
     fact.name = preset.name;
     fact.engine = preset.engine;
     fact.version = preset.version;
-    fact.evidence = config::name_of(preset.evidence);
-    if (preset.has_mistakes()) fact.mistakes = preset.mistakes;
+    fact.evidence = preset.evidence;
+    fact.mistakes = preset.mistakes;
     fact.summary = preset.summary;
     fact.source = preset.source;
     fact.approximated = preset.approximated;
     fact.unverified = preset.unverified;
     if (const std::uint64_t most = config::most_lights(preset); most > 0) fact.most_lights = most;
-    fact.assigns_on = config::name_of(preset.assigns_on);
+    fact.assigns_on = preset.assigns_on;
   }
   return facts;
 }

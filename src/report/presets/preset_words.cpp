@@ -46,9 +46,8 @@ std::string milliseconds(double ns) {
 std::string shortage(const RankedPreset& row) {
   const config::Preset* preset = preset_of(row);
   if (preset == nullptr) return "";
-  const auto parts = nlohmann::json::parse(preset->parts);
-  if (parts.contains("storage") && parts["storage"].contains("cap"))
-    return " (room for " + number_of(parts["storage"]["cap"].get<std::uint64_t>(), "light") +
+  if (preset->storage && preset->storage->contains("cap"))
+    return " (room for " + number_of(preset->storage->at("cap").get<std::uint64_t>(), "light") +
            " per cell, the first ones of the file: in another order others are lost)";
   return " (its pool of entries is too small)";
 }
@@ -80,7 +79,7 @@ std::string room_text(const RankedPreset& row) {
 std::string remark_of(const RankedPreset& row) {
   const config::Preset* preset = preset_of(row);
   std::vector<std::string> remarks;
-  if (preset != nullptr && !std::string(preset->remark).empty()) remarks.emplace_back(preset->remark);
+  if (preset != nullptr && preset->remark) remarks.push_back(*preset->remark);
   if (const std::string limit = at_surfaces_text(row.result_case->assigner.name); !limit.empty())
     remarks.push_back(limit);
   return joined(remarks, "; ");
@@ -89,7 +88,7 @@ std::string remark_of(const RankedPreset& row) {
 // Nobody has looked into the engine for it: no reason to take one engine over another.
 bool is_from_memory(const RankedPreset& row) {
   const config::Preset* preset = preset_of(row);
-  return preset != nullptr && preset->evidence == config::Evidence::memory;
+  return preset != nullptr && preset->is_from_memory();
 }
 
 // What the note on its grid says of where slices end.
@@ -215,15 +214,8 @@ std::string load_text(const RankedPreset& row) {
 std::string evidence_text(const RankedPreset& row) {
   const config::Preset* preset = preset_of(row);
   if (preset == nullptr) return "of another version of this program";
-  switch (preset->evidence) {
-    case config::Evidence::ran:
-      return "compared with the engine's own code";
-    case config::Evidence::read:
-      return "its source was studied, not run";
-    case config::Evidence::memory:
-      break;
-  }
-  return "from memory alone";
+  if (preset->is_from_memory()) return "from memory alone";
+  return preset->evidence == "ran" ? "compared with the engine's own code" : "its source was studied, not run";
 }
 
 std::string names_text(const std::vector<const RankedPreset*>& rows) {

@@ -192,7 +192,7 @@ const std::vector<EngineRow>& engine_rows() {
 
 std::string version_text(const EngineRow& row) {
   const config::Preset& preset = *config::find_preset(row.preset);
-  const std::string engine = preset.engine;
+  const std::string& engine = preset.engine;
   return engine.substr(0, engine.find(',')) + " (" + preset.version + "), " + row.settings;
 }
 

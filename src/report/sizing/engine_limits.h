@@ -27,7 +27,7 @@ bool is_of_lists(Needed needed);
 struct LimitSetting {
   const char* name;  // as it stands in the engine
   Needed needed;
-  std::uint64_t standard, least, most;  // as the engine comes, and what it takes
+  std::uint64_t default_value, least, most;  // as the engine comes, and what it takes
   std::uint64_t multiple = 1;
   bool is_constant = false;  // compiled in: nothing to set, and frames can still have more
 };

@@ -71,13 +71,13 @@ std::string tiles_text(const std::array<int, 2>& tiles) {
 std::string value_text(const SettingValue& value) {
   const LimitSetting& setting = *value.setting;
   if (setting.is_constant) return "at most " + std::to_string(setting.most) + ", compiled in";
-  const std::string standard = std::to_string(setting.standard);
+  const std::string default_value = std::to_string(setting.default_value);
   std::string out = std::to_string(value.value);
   if (value.is_too_much()) return out + ", and that is NOT ENOUGH";
-  if (setting.standard == 0 || value.needed() == 0) return out;
-  if (value.needed() > setting.standard) return out + " (the engine comes with " + standard + ")";
-  return out + " (the engine's own " + standard + " is enough" +
-         (value.wanted > setting.standard ? " for what was seen, not for the margin)" : ": leave it)");
+  if (setting.default_value == 0 || value.needed() == 0) return out;
+  if (value.needed() > setting.default_value) return out + " (the engine comes with " + default_value + ")";
+  return out + " (the engine's own " + default_value + " is enough" +
+         (value.wanted > setting.default_value ? " for what was seen, not for the margin)" : ": leave it)");
 }
 
 std::string search_text(const SettingValue& value, const SizedStructure& structure) {
@@ -119,7 +119,7 @@ GrownTiles together(const std::vector<GrownTiles>& all) {
 
 // What a limit is with which the engine's tiles grow, as far as that was looked at.
 std::optional<GrownTiles> grown_tiles(const SettingValue& value, const SizedStructure& structure) {
-  const bool makes_tiles_grow = value.setting->needed == Needed::entries && value.setting->standard > 0;
+  const bool makes_tiles_grow = value.setting->needed == Needed::entries && value.setting->default_value > 0;
   if (!makes_tiles_grow || structure.grown.empty()) return {};
   return together(structure.grown);
 }
@@ -127,7 +127,7 @@ std::optional<GrownTiles> grown_tiles(const SettingValue& value, const SizedStru
 // What becomes of these frames with what the engine comes with; "" where that is enough, or is not known.
 std::string own_value_text(const SettingValue& value, const SizedStructure& structure) {
   const LimitSetting& setting = *value.setting;
-  const std::string with = "    with its own " + std::to_string(setting.standard) + ": ";
+  const std::string with = "    with its own " + std::to_string(setting.default_value) + ": ";
   if (const std::optional<GrownTiles> tiles = grown_tiles(value, structure)) {
     if (tiles->grown == 0 && tiles->over == 0) return "";
     return with + "tiles grow in " + std::to_string(tiles->grown) + " of " + number_of(tiles->frames, "frame") +
@@ -138,17 +138,17 @@ std::string own_value_text(const SettingValue& value, const SizedStructure& stru
                       " did not fit: tiles were still those of the frame before, or none are large enough") +
            " (" + std::to_string(tiles->entries) + " entries at most in a frame)\n";
   }
-  if (setting.standard == 0 || setting.is_constant || setting.needed == Needed::entries) return "";
+  if (setting.default_value == 0 || setting.is_constant || setting.needed == Needed::entries) return "";
   // Beyond what it takes at all, another line says the same.
-  const bool is_told = value.is_too_much() && setting.standard >= setting.most;
-  if (value.needed() <= setting.standard || is_told) return "";
-  return with + lost_text(setting.needed, value.needed() - setting.standard) + "\n";
+  const bool is_told = value.is_too_much() && setting.default_value >= setting.most;
+  if (value.needed() <= setting.default_value || is_told) return "";
+  return with + lost_text(setting.needed, value.needed() - setting.default_value) + "\n";
 }
 
 Json own_value_json(const SettingValue& value, const SizedStructure& structure) {
   const LimitSetting& setting = *value.setting;
-  if (setting.standard == 0 || setting.is_constant || !value.seen) return nullptr;
-  Json out{{"value", setting.standard}};
+  if (setting.default_value == 0 || setting.is_constant || !value.seen) return nullptr;
+  Json out{{"value", setting.default_value}};
   if (const std::optional<GrownTiles> tiles = grown_tiles(value, structure)) {
     out.update({{"frames", tiles->frames},
                 {"frames_with_grown_tiles", tiles->grown},
@@ -158,7 +158,7 @@ Json own_value_json(const SettingValue& value, const SizedStructure& structure) 
     return out;
   }
   if (setting.needed == Needed::entries) return nullptr;
-  out["lost"] = value.needed() > setting.standard ? value.needed() - setting.standard : 0;
+  out["lost"] = value.needed() > setting.default_value ? value.needed() - setting.default_value : 0;
   return out;
 }
 
@@ -190,7 +190,7 @@ std::string setting_lines(const SettingValue& value, const SizedStructure& struc
 
 // Whether the engine comes with less than is asked for.
 bool is_to_be_set(const SettingValue& value) {
-  return !value.setting->is_constant && value.seen && value.value > value.setting->standard;
+  return !value.setting->is_constant && value.seen && value.value > value.setting->default_value;
 }
 
 // Whether the engine has both at once: one setting serves them. Grids that differ in what can be set are alternatives.
@@ -208,7 +208,7 @@ std::string advice_text(const EngineRequest& request, std::span<const SizedStruc
     for (const LimitSetting& setting : row_of_engine(request.engine)->limits) {
       const SettingValue value = value_of(setting, *structure, request.rules);
       is_too_much |= value.is_too_much();
-      is_settable |= !setting.is_constant && value.seen && value.value != setting.standard;
+      is_settable |= !setting.is_constant && value.seen && value.value != setting.default_value;
       is_known &= value.seen.has_value();
       (is_to_be_set(value) ? is_any_to_be_set : is_any_enough) |= !setting.is_constant;
     }
@@ -293,7 +293,7 @@ void check_engine(const std::string& name) {
 
 std::string engine_settings_text(const EngineRequest& request, std::span<const SizedStructure* const> structures) {
   const EngineRow& row = *row_of_engine(request.engine);
-  const std::string remark = config::find_preset(request.engine)->remark;
+  const std::string remark = config::find_preset(request.engine)->remark.value_or("");
   std::string out;
   for (const SizedStructure* structure : structures) {
     out += shown(structure->name) + "\n  " + version_text(row) + "\n";

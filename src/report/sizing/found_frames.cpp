@@ -160,10 +160,10 @@ void check_settings(const std::string& path, const Json& settings, const result:
   if (const auto fov = asked_of_scene(result, scene, "fov"); fov && !is_same_angle(settings["fov"], *fov))
     differs("fov", *fov);
   const std::pair<const char*, Json> plain[] = {{"camera_fit", "contain"}, {"boxes", false}, {"far", nullptr}};
-  for (const auto& [key, standard] : plain)
+  for (const auto& [key, default_value] : plain)
     if (auto asked = asked_of_scene(result, scene, key)) {
-      const Json here = asked->is_null() ? standard : *asked;
-      if (settings.value(key, standard) != here) differs(key, here);
+      const Json here = asked->is_null() ? default_value : *asked;
+      if (settings.value(key, default_value) != here) differs(key, here);
     }
   const Json rule = result::to_json(result.scenes[scene].range_rule);
   for (const char* key : {"cutoff_lux", "max_range"})

@@ -29,7 +29,7 @@ Json identity(const config::MethodRequest& method, std::span<const assign::Param
   Json params = Json::object();
   for (const assign::ParamSpec& spec : specs) {
     const assign::ParamValue& value = method.params.values().at(spec.name);
-    if (spec.is_late && spec.standard == value) continue;
+    if (spec.is_late && spec.default_value == value) continue;
     params[spec.name] = std::visit([](const auto& one) { return Json(one); }, assign::first_value(spec, value));
   }
   return {{"name", method.name}, {"params", params}};

@@ -15,8 +15,8 @@ namespace {
 
 template <typename Value, std::size_t Count>
 Value one_of(const JsonLocation& object, const char* key, const std::array<std::pair<const char*, Value>, Count>& all,
-             const char* standard) {
-  const std::string text = object.has(key) ? object.at(key).text() : standard;
+             const char* default_text) {
+  const std::string text = object.has(key) ? object.at(key).text() : default_text;
   std::string names;
   for (const auto& [name, value] : all) {
     if (text == name) return value;
