@@ -12,9 +12,15 @@ namespace clusterbench::test {
 // A field that no record has throws.
 inline void fill(const result::Type& type, const result::Json& json, void* value) {
   using result::Kind;
+  const bool holds_others = type.kind == Kind::object || type.kind == Kind::list || type.kind == Kind::by_name;
+  if (holds_others && !json.is_structured()) throw std::invalid_argument("no object or list: " + json.dump());
   if (type.kind == Kind::nullable) {
     if (!json.is_null()) fill(*type.element, json, type.append(value, 0, ""));
+  } else if (type.kind == Kind::integer && (!json.is_number_integer() || (type.is_unsigned && json < 0))) {
+    throw std::invalid_argument("no whole number of its kind: " + json.dump());
   } else if (type.kind == Kind::list) {
+    if (type.fixed_size != 0 && json.size() != type.fixed_size)
+      throw std::invalid_argument("another number of elements: " + json.dump());
     for (std::size_t i = 0; i < json.size(); ++i) fill(*type.element, json[i], type.append(value, i, ""));
   } else if (type.kind == Kind::by_name) {
     for (const auto& [name, element] : json.items()) fill(*type.element, element, type.append(value, 0, name));
@@ -46,6 +52,23 @@ inline result::Case case_of(const result::Json& json) {
 }
 inline std::vector<result::Case> cases_of(const result::Json& json) {
   return record_of<std::vector<result::Case>>(json);
+}
+
+// Gives each number of a record, and of all that it can hold, a value.
+template <class Next>
+void fill_with_numbers(const result::Type& type, void* value, Next&& next) {
+  using result::Kind;
+  if (type.kind == Kind::object) {
+    for (const result::Field& field : type.fields) fill_with_numbers(*field.type, field.make(value), next);
+  } else if (type.kind == Kind::list) {
+    for (std::size_t i = 0; i < type.fixed_size; ++i) fill_with_numbers(*type.element, type.append(value, i, ""), next);
+  } else if (type.kind == Kind::integer || type.kind == Kind::number) {
+    type.from_json(next(), value);
+  }
+}
+template <class Record, class Next>
+void fill_with_numbers(Record& record, Next&& next) {
+  fill_with_numbers(result::type_of<Record>(), &record, next);
 }
 
 }  // namespace clusterbench::test

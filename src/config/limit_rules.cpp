@@ -11,45 +11,11 @@
 #include "core/pattern.h"
 #include "core/text.h"
 #include "measure/samples/samples.h"
+#include "result/case_figure.h"
+#include "result/sample_sets.h"
 
 namespace clusterbench::config {
 namespace {
-
-constexpr bool k_choosable = true, k_given = false, k_timed = true, k_counted = false, k_at_samples = true;
-
-constexpr LimitFigure k_figures[] = {
-    {"frame_us", "median time of a frame in microseconds: assign and convert", k_choosable, k_timed},
-    {"frame_us.max", "time of the slowest frame that is timed, in microseconds", k_choosable, k_timed},
-    {"frame_cost_us", "modelled time of a frame with its shading, in microseconds", k_choosable, k_timed},
-    {"assign_us", "median time to assign a frame's lights, in microseconds", k_choosable, k_timed},
-    {"convert_us", "median time to convert a frame's lists, in microseconds", k_choosable, k_timed},
-    {"build_us", "median time to prepare for a grid, in microseconds", k_choosable, k_timed},
-    {"index_entries", "entries in the fullest frame: light indices, or words, nodes, boxes (docs/sizing.md)"},
-    {"bytes", "bytes of indices and headers in the fullest frame"},
-    {"upload_bytes", "bytes to copy in the largest frame"},
-    {"scratch_bytes", "bytes of the method's own memory"},
-    {"longest", "lights in the fullest cell of any frame, before a storage drops any"},
-    {"pairs", "(cell, light) pairs in the fullest frame"},
-    {"pairs.mean", "(cell, light) pairs of a frame, mean of all frames"},
-    {"dropped", "pairs that the storage dropped, over all frames"},
-    {"missed", "true pairs that lists lack, over all frames"},
-    {"excess", "pairs beside the truth, by true pairs"},
-    {"undecided", "pairs that the truth could not decide, over all frames"},
-    {"unlit", "share of the lights that samples (of the sets that rank) need and are not given", k_choosable, k_counted,
-     k_at_samples},
-    {"lost_irradiance", "share of the irradiance that such lights carry", k_choosable, k_counted, k_at_samples},
-    {"overshade", "lights that samples are given / lights that they need", k_choosable, k_counted, k_at_samples},
-    {"needed", "lights that reach a sample, mean: what the level itself asks for, whatever the method", k_given,
-     k_counted, k_at_samples},
-    {"instructions", "instructions of a frame: cull, assign and convert (--count)", k_given},
-    {"assign_instructions", "instructions to assign a frame's lights (--count)", k_given},
-    {"convert_instructions", "instructions to convert a frame's lists (--count)", k_given},
-    {"lights", "lights of the scene that methods get", k_given},
-    {"lights_lit", "those of them that shine in some frame: not of intensity 0, black, or of range 0", k_given},
-    {"lights_seen", "those of them that are in view in a frame in which they shine", k_given},
-    {"lights_seen.mean", "lights of a frame that are in view and shine in it, mean of all frames", k_given},
-    {"lights_in_view", "lights whose bounding sphere is in view, in the frame with most", k_given},
-};
 
 constexpr const char* k_form =
     "is no budget; takes a figure, then >, >=, <, <= or == and a number or a range (A..B, which fails outside of it), "
@@ -62,26 +28,18 @@ std::string_view without_blanks(std::string_view text) {
   return text;
 }
 
-std::vector<std::string> figure_names() {
+std::vector<std::string> names_of_figures(bool (*is_named)(const result::Figure& figure)) {
   std::vector<std::string> names;
-  for (const LimitFigure& figure : k_figures) names.emplace_back(figure.name);
+  for (const result::Figure& figure : result::figures())
+    if (is_named(figure)) names.emplace_back(figure.name);
   return names;
 }
 
-std::vector<std::string> sets_of_samples() {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < measure::k_sample_set_count; ++i)
-    names.emplace_back(measure::name_of(static_cast<measure::SampleSet>(i)));
-  return names;
-}
-
-// "; of one set of samples as 'opaque.unlit' (sets: volume, opaque ...; figures: unlit ...)".
+// "; of one set of samples as in 'opaque.unlit' (sets: volume, opaque ...; figures: unlit ...)".
 std::string at_samples_text() {
-  std::vector<std::string> figures;
-  for (const LimitFigure& figure : k_figures)
-    if (figure.is_at_samples) figures.emplace_back(figure.name);
-  return "; of one set of samples as in 'opaque.unlit' (sets: " + joined(sets_of_samples()) +
-         "; figures: " + joined(figures) + ")";
+  return "; of one set of samples as in 'opaque.unlit' (sets: " + joined(result::sample_set_names()) +
+         "; figures: " + joined(names_of_figures([](const result::Figure& figure) { return figure.is_at_samples(); })) +
+         ")";
 }
 
 struct Number {
@@ -182,15 +140,13 @@ class RuleParser {
   }
 
   void check_figure() const {
-    const std::vector<std::string> names = figure_names();
-    const FigureAtSamples parts = figure_at_samples(rule_.figure);
-    const LimitFigure* figure = std::ranges::find_if(k_figures, [&](const LimitFigure& known) {
-      return parts.figure == known.name && (parts.set.empty() || known.is_at_samples);
-    });
-    if (figure == std::end(k_figures))
-      refuse("names no figure of a case" + did_you_mean(parts.figure, names) + "; there are: " + joined(names) +
-             at_samples_text());
-    if (rule_.is_relative && figure->is_timed)
+    const result::Figure* figure = result::figure_named(rule_.figure);
+    if (figure == nullptr) {
+      const std::vector<std::string> names = names_of_figures([](const result::Figure&) { return true; });
+      refuse("names no figure of a case" + did_you_mean(result::figure_at_samples(rule_.figure).figure, names) +
+             "; there are: " + joined(names) + at_samples_text());
+    }
+    if (rule_.is_relative && figure->rests_on_times())
       refuse(
           "holds times of two runs against each other, and two runs of one program can differ several-fold; hold "
           "instructions against the "
@@ -206,22 +162,6 @@ std::string number_text(double value, bool is_relative) {
 }
 
 }  // namespace
-
-std::span<const LimitFigure> limit_figures() {
-  return k_figures;
-}
-
-FigureAtSamples figure_at_samples(const std::string& name) {
-  const std::size_t point = name.find('.');
-  if (point == std::string::npos || !measure::sample_set_named(name.substr(0, point))) return {"", name};
-  return {name.substr(0, point), name.substr(point + 1)};
-}
-
-bool is_at_samples(const std::string& name) {
-  const std::string figure = figure_at_samples(name).figure;
-  return std::ranges::any_of(k_figures,
-                             [&](const LimitFigure& known) { return known.is_at_samples && figure == known.name; });
-}
 
 bool LimitRule::is_broken_by(double value) const {
   switch (side) {

@@ -3,28 +3,9 @@
 // "opaque.unlit > 0".
 // report/gates/limits.h holds results against them.
 
-#include <span>
 #include <string>
-#include <vector>
 
 namespace clusterbench::config {
-
-// A figure of a case that a budget can be about.
-struct LimitFigure {
-  const char* name;
-  const char* meaning;
-  bool is_choosable = true;    // `recommend` can choose grids, methods and structures by it
-  bool is_timed = false;       // rests on times, so that two runs of one program differ in it
-  bool is_at_samples = false;  // can be asked of one set of samples: "opaque.unlit"
-};
-std::span<const LimitFigure> limit_figures();
-
-// "opaque.unlit" in its parts; the set is "" where none is named.
-struct FigureAtSamples {
-  std::string set, figure;
-};
-FigureAtSamples figure_at_samples(const std::string& name);
-bool is_at_samples(const std::string& name);  // of one set or of those that rank
 
 // A budget says what fails.
 struct LimitRule {
@@ -35,7 +16,7 @@ struct LimitRule {
     outside  // of limit..upper
   };
 
-  std::string figure;         // one of limit_figures(), or of one set of samples: "opaque.unlit"
+  std::string figure;         // result/case_figure.h: "longest", "opaque.unlit"
   bool is_inclusive = false;  // ">=" and "<="
   double limit = 0.0;
   Side side = Side::above;

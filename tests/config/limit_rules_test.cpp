@@ -1,6 +1,7 @@
 // Budgets as people write them.
 
 #include "config/limit_rules.h"
+#include "result/case_figure.h"
 
 #include <gtest/gtest.h>
 
@@ -110,8 +111,8 @@ TEST(LimitRules, are_near_on_the_side_that_they_fail_on) {
 TEST(LimitRules, a_figure_at_samples_can_name_its_set_and_others_can_not) {
   for (const char* text : {"opaque.unlit > 0", "volume.overshade > 3", "fog.lost_irradiance >= 0.5"})
     EXPECT_EQ(limit_rule(text, "", "--fail-if").text(), text);
-  EXPECT_EQ(figure_at_samples("opaque.unlit").set, "opaque");
-  EXPECT_EQ(figure_at_samples("frame_us.max").set, "");
+  EXPECT_EQ(result::figure_at_samples("opaque.unlit").set, "opaque");
+  EXPECT_EQ(result::figure_at_samples("frame_us.max").set, "");
   for (const char* text : {"opaque.bytes > 0", "opaqe.unlit > 0", "opaque. > 0"}) {
     std::string message;
     try {

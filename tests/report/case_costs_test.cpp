@@ -1,7 +1,7 @@
 // Costs of a result's cases, and what is ranked by them.
 
 #include "report/cases/case_costs.h"
-#include "report/cases/named_figures.h"
+#include "result/case_figure.h"
 
 #include <gtest/gtest.h>
 
@@ -147,8 +147,8 @@ TEST(FrameCosts, samples_that_need_few_lights_say_no_overshade_anywhere) {
     run::Result result = costly();
     for (run::CaseResult& one : result.cases) one.samples[0].counts.needed = needed;
     const Json json = of(result);
-    EXPECT_EQ(limit_figure(test::case_of(json["cases"][1]), "overshade").has_value(), needed >= 100u);
-    EXPECT_EQ(limit_figure(test::case_of(json["cases"][1]), "opaque.overshade").has_value(), needed >= 100u);
+    EXPECT_EQ(result::figure_of(test::case_of(json["cases"][1]), "overshade").has_value(), needed >= 100u);
+    EXPECT_EQ(result::figure_of(test::case_of(json["cases"][1]), "opaque.overshade").has_value(), needed >= 100u);
     EXPECT_EQ(json["cases"][1]["cost"]["overshade"].is_null(), needed < 100u);
   }
 }
@@ -216,12 +216,9 @@ TEST(FrameCosts, what_is_drawn_has_no_bytes_to_be_best_in) {
 
 // A history of it would show the changes of times as if counts had changed.
 TEST(FrameCosts, follow_from_times_and_counts_and_have_no_history_of_their_own) {
-  const auto basis = [](const std::string& name) {
-    const auto metrics = export_metrics();
-    return basis_of(*std::ranges::find(metrics, name, &Metric::name));
-  };
-  EXPECT_EQ(basis("frame_cost"), Basis::derived);
-  EXPECT_EQ(basis("gpu_cost"), Basis::count);
+  const auto basis = [](const std::string& name) { return result::find_figure(name)->basis; };
+  EXPECT_EQ(basis("frame_cost_us"), result::Basis::derived);
+  EXPECT_EQ(basis("gpu_cost_us"), result::Basis::count);
 }
 
 TEST(FrameCosts, a_case_that_lacks_lights_at_samples_with_a_weight_is_on_no_front) {
@@ -261,13 +258,13 @@ TEST(FrameCosts, table_and_budgets_have_overshade_and_unlit_of_the_samples_that_
   EXPECT_EQ(table.find("0.50 %"), std::string::npos) << "of another set, unnamed\n" << table;
   EXPECT_NE(table.find("0.10 %              259.20"), std::string::npos) << table;
   const result::Case one = test::case_of(json["cases"][1]);
-  EXPECT_NEAR(*limit_figure(one, "overshade"), 259.2, 1e-9);
-  EXPECT_NEAR(*limit_figure(one, "opaque.overshade"), 259.2, 1e-9);
-  EXPECT_EQ(limit_figure(one, "volume.overshade"), 1.5);
-  EXPECT_EQ(limit_figure(one, "unlit"), 0.001);
-  EXPECT_EQ(limit_figure(one, "volume.unlit"), 0.0);
-  EXPECT_EQ(limit_figure(test::case_of(json["cases"][0]), "volume.unlit"), 0.005);
-  EXPECT_EQ(limit_figure(one, "fog.unlit"), std::nullopt);
+  EXPECT_NEAR(*result::figure_of(one, "overshade"), 259.2, 1e-9);
+  EXPECT_NEAR(*result::figure_of(one, "opaque.overshade"), 259.2, 1e-9);
+  EXPECT_EQ(result::figure_of(one, "volume.overshade"), 1.5);
+  EXPECT_EQ(result::figure_of(one, "unlit"), 0.001);
+  EXPECT_EQ(result::figure_of(one, "volume.unlit"), 0.0);
+  EXPECT_EQ(result::figure_of(test::case_of(json["cases"][0]), "volume.unlit"), 0.005);
+  EXPECT_EQ(result::figure_of(one, "fog.unlit"), std::nullopt);
 }
 
 TEST(FrameCosts, of_several_sets_overshade_is_weighted_and_unlit_that_of_the_one_that_lacks_most) {
@@ -284,9 +281,9 @@ TEST(FrameCosts, of_several_sets_overshade_is_weighted_and_unlit_that_of_the_one
             std::string::npos)
       << table;
   const result::Case one = test::case_of(json["cases"][0]);
-  EXPECT_EQ(limit_figure(one, "unlit"), 0.001);
-  EXPECT_EQ(limit_figure_location(one, "unlit"), "fog froxels");
-  EXPECT_EQ(limit_figure(one, "overshade"), one.cost->overshade);
+  EXPECT_EQ(result::figure_of(one, "unlit"), 0.001);
+  EXPECT_EQ(result::figure_value(one, "unlit")->location, "fog froxels");
+  EXPECT_EQ(result::figure_of(one, "overshade"), one.cost->overshade);
 }
 
 TEST(FrameCosts, without_sets_of_samples_the_legend_says_that_they_are_random_points_in_the_view) {

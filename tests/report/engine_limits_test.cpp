@@ -33,7 +33,7 @@ TEST(EngineLimits, that_an_engine_comes_with_are_those_that_its_preset_has) {
   for (const EngineRow& row : engine_rows()) {
     const nlohmann::json parts = config::preset_parts(preset_of_row(row), {1920, 1080});
     for (const LimitSetting& setting : row.limits) {
-      if (setting.standard == 0 && &setting != row.limits.data()) continue;  // room that grows
+      if (setting.default_value == 0 && &setting != row.limits.data()) continue;  // room that grows
       std::uint64_t has = 0;
       if (setting.needed == Needed::longest_list)
         has = parts.value("/storage/cap"_json_pointer, std::uint64_t{0});
@@ -43,7 +43,7 @@ TEST(EngineLimits, that_an_engine_comes_with_are_those_that_its_preset_has) {
         has = parts.value("/grid/react/most"_json_pointer, std::uint64_t{0});
       else
         has = config::most_lights(preset_of_row(row));
-      EXPECT_EQ(has, setting.standard) << row.preset << ": " << setting.name;
+      EXPECT_EQ(has, setting.default_value) << row.preset << ": " << setting.name;
       compared += has > 0 ? 1 : 0;
     }
     const std::string limit = config::limit_text(preset_of_row(row));

@@ -44,34 +44,23 @@ std::vector<std::string> violations(const char* schema, const std::string& insta
   return config::schema_violations(nlohmann::json::parse(schema), nlohmann::json::parse(instance));
 }
 
-// Gives each number of a record another value.
-void fill_with_numbers(const result::Type& type, void* value, int& last) {
-  using result::Kind;
-  if (type.kind == Kind::object) {
-    for (const result::Field& field : type.fields) fill_with_numbers(*field.type, field.make(value), last);
-  } else if (type.kind == Kind::list) {
-    for (std::size_t i = 0; i < type.fixed_size; ++i) fill_with_numbers(*type.element, type.append(value, i, ""), last);
-  } else if (type.kind == Kind::integer || type.kind == Kind::number) {
-    type.from_json(++last, value);
-  }
-}
-
 TEST(Exports, no_two_figures_are_of_one_number_and_each_interval_stands_beside_its_value) {
   result::Case full;
   int last = 0;
-  fill_with_numbers(result::type_of<result::Case>(), &full, last);
+  test::fill_with_numbers(full, [&last] { return ++last; });
   std::map<double, std::string_view> name_of;
-  for (const Metric& metric : export_metrics()) {
-    const std::optional<double> value = metric.value(full);
-    ASSERT_TRUE(value) << metric.name;
-    const std::string_view other = name_of.try_emplace(*value, metric.name).first->second;
-    const bool is_inverse = other == "pair_rate" && metric.name == "time_per_pair";
-    EXPECT_TRUE(other == metric.name || is_inverse) << metric.name << " is " << other;
-    if (metric.interval == nullptr) continue;
-    const result::Interval* ends = metric.interval(full);
-    ASSERT_NE(ends, nullptr) << metric.name;
-    EXPECT_GT((*ends)[0], *value) << metric.name;
-    EXPECT_LE((*ends)[0], *value + 4.0) << metric.name;  // the least, the 95th percentile and the like lie between
+  for (const result::Figure* exported : export_figures()) {
+    const result::Figure& figure = *exported;
+    const std::optional<double> value = figure.recorded(full);
+    ASSERT_TRUE(value) << figure.name;
+    const std::string_view other = name_of.try_emplace(*value, figure.name).first->second;
+    const bool is_inverse = other == "pair_rate" && figure.name == "time_per_pair";
+    EXPECT_TRUE(other == figure.name || is_inverse) << figure.name << " is " << other;
+    if (figure.interval == nullptr) continue;
+    const result::Interval* ends = figure.interval(full);
+    ASSERT_NE(ends, nullptr) << figure.name;
+    EXPECT_GT((*ends)[0], *value) << figure.name;
+    EXPECT_LE((*ends)[0], *value + 4.0) << figure.name;  // the least, the 95th percentile and the like lie between
   }
 }
 
@@ -89,7 +78,7 @@ TEST(Exports, a_quotient_takes_its_interval_along) {
   const Json entry = result()["cases"][1];
   const std::vector<Measured> figures = measured(test::case_of(entry), false);
   const auto speedup = std::find_if(figures.begin(), figures.end(),
-                                    [](const Measured& figure) { return figure.metric->name == "speedup"; });
+                                    [](const Measured& figure) { return figure.figure->exported_as() == "speedup"; });
   ASSERT_NE(speedup, figures.end());
   EXPECT_EQ(speedup->value, 4.0);
   EXPECT_EQ(speedup->ci95.low, 2.0);

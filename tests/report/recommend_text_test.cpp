@@ -13,7 +13,7 @@ std::string stopped(const std::vector<search::Record>& records, int runners_up =
     view.candidates.push_back({std::string(1, static_cast<char>('a' + view.candidates.size())), 0, 0, {}});
     found.records.push_back(record);
   }
-  return unfinished_text(view, found, {objective_figure("bytes"), {}, 0.05, runners_up});
+  return unfinished_text(view, found, {result::find_figure("bytes"), {}, 0.05, runners_up});
 }
 
 search::Record record(std::size_t frames, double objective, bool is_broken = false) {

@@ -11,6 +11,8 @@
 #include "cli/command_line/commands.h"
 #include "config/presets.h"
 #include "cull/pre_cull_spec.h"
+#include "report/history/history.h"
+#include "result/figure_table.h"
 #include "scene/generators/generate.h"
 
 namespace clusterbench::cli {
@@ -86,6 +88,24 @@ Json to_json(const config::Preset& preset) {
   return out;
 }
 
+// Where a figure can be used.
+Json uses_of(const result::Figure& figure) {
+  Json uses{{"budget", true}, {"budget_of_one_sample_set", figure.is_at_samples()}, {"recommend", figure.is_choosable}};
+  if (figure.is_exported())
+    uses["export"] = {{"name", figure.exported_as()}, {"unit", figure.unit}, {"headline", figure.is_headline}};
+  uses["history"] = report::is_kept(figure);
+  return uses;
+}
+
+Json to_json(const result::Figure& figure) {
+  return {{"name", figure.name},
+          {"unit", figure.named_unit()},
+          {"meaning", figure.meaning},
+          {"better", result::name_of(figure.better)},
+          {"rests_on", result::name_of(figure.basis)},
+          {"uses", uses_of(figure)}};
+}
+
 Json everything() {
   Json all{{"assigners", Json::array()}, {"storages", Json::array()}, {"grids", Json::array()}};
   for (const assign::AssignerDescriptor* assigner : assign::assigner_descriptors())
@@ -101,6 +121,7 @@ Json everything() {
   for (const scene::GeneratorRow& row : scene::generators())
     all["scenes"].push_back(
         {{"name", row.name}, {"summary", row.summary}, {"source", row.source}, {"default_lights", row.default_lights}});
+  for (const result::Figure& figure : result::figures()) all["figures"].push_back(to_json(figure));
   return all;
 }
 
@@ -164,9 +185,32 @@ void print_presets(const Json& presets) {
   for (const Json& preset : presets) print_preset(preset);
 }
 
+void print_figure(const Json& figure) {
+  const Json& uses = figure["uses"];
+  std::cout << "  " << word_of(figure["name"]) << " [" << word_of(figure["unit"]) << "]: " << word_of(figure["meaning"])
+            << "\n      better: " << word_of(figure["better"]) << "; rests on: " << word_of(figure["rests_on"])
+            << "; budget";
+  if (uses["budget_of_one_sample_set"]) std::cout << ", also as SET." << word_of(figure["name"]);
+  if (uses["recommend"]) std::cout << "; recommend";
+  if (uses.contains("export"))
+    std::cout << "; export " << word_of(uses["export"]["name"]) << " [" << word_of(uses["export"]["unit"]) << "]"
+              << (uses["export"]["headline"] ? "" : " with --all");
+  std::cout << (uses["history"] ? "; history" : "") << "\n";
+}
+
+void print_figures(const Json& figures) {
+  std::cout << "figures of a case (budget: --fail-if and limits.fail_if; recommend: --by and limits such as --longest; "
+               "SET: volume, opaque,\ntransparent, fog, mirror, anywhere)\n";
+  for (const Json& figure : figures) print_figure(figure);
+}
+
 void print_section(const Json& all, const char* section) {
   if (std::string_view(section) == "presets") {
     print_presets(all[section]);
+    return;
+  }
+  if (std::string_view(section) == "figures") {
+    print_figures(all[section]);
     return;
   }
   std::cout << section << "\n";
@@ -190,7 +234,7 @@ void print_section(const Json& all, const char* section) {
   }
 }
 
-constexpr const char* k_sections[] = {"assigners", "storages", "grids", "pre_culls", "scenes", "presets"};
+constexpr const char* k_sections[] = {"assigners", "storages", "grids", "pre_culls", "scenes", "presets", "figures"};
 
 // `wanted`: "" for all sections.
 void print_text(const Json& all, const std::string& wanted) {
@@ -203,11 +247,13 @@ void print_text(const Json& all, const std::string& wanted) {
 }  // namespace
 
 void add_list(Command& program, Action& action) {
-  Command command = program.add_command(
-      "list", "Assigners, storages, grids, pre-culls, scenes and presets that exist, with their parameters");
+  Command command = program.add_command("list",
+                                        "Assigners, storages, grids, pre-culls, scenes and presets that exist, with "
+                                        "their parameters, and figures of cases");
   auto as_json = std::make_shared<bool>(false);
   auto section = std::make_shared<std::string>();
-  command.add_option("SECTION", *section, "Only these: assigners, storages, grids, pre_culls, scenes or presets")
+  command
+      .add_option("SECTION", *section, "Only these: assigners, storages, grids, pre_culls, scenes, presets or figures")
       .one_of({std::begin(k_sections), std::end(k_sections)});
   command.add_flag("--json", *as_json, "As JSON");
   command.when_named([as_json, section, &action] {

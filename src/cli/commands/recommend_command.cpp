@@ -17,6 +17,7 @@
 #include "core/text.h"
 #include "os/stop_signals.h"
 #include "report/choosing/recommend_report.h"
+#include "result/case_figure.h"
 #include "run/cases/sweep.h"
 #include "search/recommend.h"
 #include "search/recommend_space.h"
@@ -39,7 +40,7 @@ constexpr double k_no_limit = -1.0;
 struct RecommendFlags {
   RunInputs inputs;
   std::string output, written, objective, within = "5%", filter;
-  std::vector<double> most = std::vector<double>(config::limit_figures().size(), k_no_limit);  // by figure
+  std::vector<double> most = std::vector<double>(report::objective_figures().size(), k_no_limit);  // by figure
   int runners_up = 5, written_runners_up = 0;
   bool no_timing = false, quiet = false;
 };
@@ -65,8 +66,9 @@ std::vector<config::LimitRule> rules_of(const RecommendFlags& flags, const confi
     if (rule.side != config::LimitRule::Side::above || rule.is_relative || !rule.cases.empty())
       throw Error("", "limits.fail_if",
                   "'" + rule.text() + "': recommend takes budgets with > or >= and a number alone");
-  for (std::size_t i = 0; i < flags.most.size(); ++i)
-    if (flags.most[i] != k_no_limit) rules.push_back({config::limit_figures()[i].name, false, flags.most[i]});
+  const std::vector<const result::Figure*> figures = report::objective_figures();
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    if (flags.most[i] != k_no_limit) rules.push_back({std::string(figures[i]->name), false, flags.most[i]});
   return rules;
 }
 
@@ -107,10 +109,10 @@ std::string preset_on_gpu(const config::Config& config) {
 
 // The default objective: the modelled cost of a frame; without times, or if not all candidates have them, the GPU's
 // part alone.
-report::ObjectiveFigure objective_of(const RecommendFlags& flags, const config::Config& config) {
+const result::Figure* objective_of(const RecommendFlags& flags, const config::Config& config) {
   const bool has_times = !flags.no_timing && preset_on_gpu(config).empty();
   const std::string default_figure = has_times ? "frame_cost_us" : "gpu_cost_us";
-  return report::objective_figure(flags.objective.empty() ? default_figure : flags.objective);
+  return result::find_figure(flags.objective.empty() ? default_figure : flags.objective);
 }
 
 // Costs need samples with a weight. A scene without triangles has no surfaces to shade: then each pixel is shaded once
@@ -131,7 +133,7 @@ bool weight_volume_samples(config::Config& config, const run::Plan& plan) {
 
 // Returns whether times are measured.
 bool check_timing(const RecommendFlags& flags, const report::Question& question, const config::Config& config) {
-  if (!report::needs_times(question.objective, question.constraints)) return false;
+  if (!report::needs_times(*question.objective, question.constraints)) return false;
   if (flags.no_timing) throw Error("", "--no-timing", "leaves out the times that the objective or a constraint needs");
   if (const std::string preset = preset_on_gpu(config); !preset.empty())
     throw Error("", "presets",
@@ -219,9 +221,9 @@ void warn_of_random_depths() {
 }
 
 bool needs_cost(const report::Question& question) {
-  return question.objective.is_cost ||
+  return question.objective->is_modelled_cost ||
          std::ranges::any_of(question.constraints, [](const report::Constraint& constraint) {
-           return constraint.rule.figure.ends_with("_cost_us");
+           return result::figure_named(constraint.rule.figure)->is_modelled_cost;
          });
 }
 
@@ -269,7 +271,7 @@ ExitCode recommend(const RecommendFlags& flags) {
   if (!flags.written.empty() && searches.views.size() != 1)
     throw Error(flags.written, "--write-config",
                 "takes one scene in one viewport; these are " + std::to_string(searches.views.size()));
-  const search::Request request{report::judge_of(question, config.resolved), is_timed, question.objective.only_grows,
+  const search::Request request{report::judge_of(question, config.resolved), is_timed, question.objective->only_grows,
                                 question.within};
   if (!flags.quiet) print_duration(config, plan, request, searches);
   print_notes(config, plan, ignored);
@@ -296,17 +298,18 @@ void add_recommend(Command& program, Action& action) {
           "A scene (.glb, .gltf) with a space of candidates of its own, or a configuration (.json), whose grids, "
           "assigners and storages are the candidates")
       .required();
+  const std::vector<const result::Figure*> figures = report::objective_figures();
   std::vector<std::string> objectives;
-  for (const report::ObjectiveFigure& figure : report::objective_figures()) objectives.push_back(figure.name);
+  for (const result::Figure* figure : figures) objectives.emplace_back(figure->name);
   command
       .add_option("--by", flags->objective,
                   "What is to be least; frame_cost_us if nothing is said, gpu_cost_us without timing")
       .one_of(objectives);
-  for (std::size_t i = 0; i < flags->most.size(); ++i) {
-    const config::LimitFigure& figure = config::limit_figures()[i];
-    if (!figure.is_choosable) continue;
-    command.add_option(flag_of(figure.name), flags->most[i], std::string("At most: ") + figure.meaning).non_negative();
-  }
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    command
+        .add_option(flag_of(std::string(figures[i]->name)), flags->most[i],
+                    "At most: " + std::string(figures[i]->meaning))
+        .non_negative();
   command.add_option("--within", flags->within, "How much worse than the best a coarser grid may be").shows_standard();
   command.add_option("--runners-up", flags->runners_up, "How many are told behind the choice")
       .range(0, 100)

@@ -8,9 +8,9 @@
 #include "measure/samples/shading.h"
 #include "measure/statistics/frame_cost.h"
 #include "report/cases/contender.h"
-#include "report/cases/sample_sets.h"
 #include "result/at.h"
 #include "result/rounding.h"
+#include "result/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {
@@ -55,11 +55,6 @@ double shaded_in_frame(const Case& result_case, const std::string& set, const Js
          pixels_per_sample(result_case, set, config);
 }
 
-double mean_per_sample(const SampleSet& counts, SampleFigure count) {
-  const auto samples = static_cast<double>(counts.samples);
-  return samples > 0.0 ? count(counts).value_or(0.0) / samples : 0.0;
-}
-
 // With the set's name; those that are there and have a weight.
 struct WeightedSet {
   std::string name;
@@ -93,27 +88,6 @@ double upload_bytes(const Case& result_case) {
 
 double traffic_bytes(const Case& result_case) {
   return result::number<&Case::buffers, &Buffers::traffic_bytes, &FrameBytes::mean>(result_case).value_or(0.0);
-}
-
-// A set that a case is ranked by; shaded: how many of its samples a frame shades.
-struct RankingSet {
-  const SampleSet* counts;
-  double shaded;
-};
-
-const result::SetCost* cost_of_set(const Cost& cost, const std::string& name) {
-  const auto found = std::ranges::find_if(cost.sets, [&](const auto& set) { return set.first == name; });
-  return found == cost.sets.end() ? nullptr : &found->second;
-}
-
-std::vector<RankingSet> ranking_sets(const Case& result_case) {
-  std::vector<RankingSet> sets;
-  const bool is_paid = result_case.cost && !result_case.cost->sets.empty();
-  for (const std::string& name : ranking_set_names(result_case)) {
-    const double shaded = is_paid ? cost_of_set(*result_case.cost, name)->samples : 1.0;
-    sets.push_back({samples_of_set(result_case, name), std::isfinite(shaded) ? shaded : 0.0});
-  }
-  return sets;
 }
 
 Cost cost_of(const Case& result_case, const std::vector<WeightedSet>& sets, const Json& config) {
@@ -194,33 +168,6 @@ std::optional<WholeFrame> whole_frame(const Case& result_case, const Json& confi
 bool makes_lists_on_gpu(const Case& result_case) {
   const config::Preset* preset = config::find_preset(result_case.preset.value_or(""));
   return preset != nullptr && preset->assigns_on_gpu();
-}
-
-std::vector<const SampleSet*> ranking_samples(const Case& result_case) {
-  std::vector<const SampleSet*> all;
-  for (const RankingSet& set : ranking_sets(result_case)) all.push_back(set.counts);
-  return all;
-}
-
-double sum_at_samples(const Case& result_case, SampleFigure count) {
-  double sum = 0.0;
-  for (const SampleSet* set : ranking_samples(result_case)) sum += count(*set).value_or(0.0);
-  return sum;
-}
-
-std::optional<double> unlit_at_samples(const Case& result_case) {
-  const SampleSet* most = most_at_sets(result_case, result::number<&SampleSet::unlit>);
-  return most != nullptr ? std::optional(most->unlit) : std::nullopt;
-}
-
-std::optional<double> mean_at_samples(const Case& result_case, SampleFigure count) {
-  double sum = 0.0, shaded = 0.0;
-  for (const RankingSet& set : ranking_sets(result_case)) {
-    if (!count(*set.counts)) return std::nullopt;
-    sum += set.shaded * mean_per_sample(*set.counts, count);
-    shaded += set.shaded;
-  }
-  return shaded > 0.0 ? std::optional(sum / shaded) : std::nullopt;
 }
 
 void add_costs(std::vector<Case>& cases, const Json& config) {

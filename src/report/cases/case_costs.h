@@ -42,15 +42,4 @@ bool makes_lists_on_gpu(const result::Case& result_case);
 // more; and what they loop over is a rough mean.
 inline constexpr double k_least_needed_to_choose = 1.0 / measure::k_most_unlit;
 
-// The counts of the sets of samples that a case is ranked by: those that cost something; without any, visible surfaces
-// if they are asked for, else the whole view. Empty without samples.
-std::vector<const result::SampleSet*> ranking_samples(const result::Case& result_case);
-// A count of theirs together, as result::number<&result::SampleSet::needed>; 0 where they do not have it.
-double sum_at_samples(const result::Case& result_case, SampleFigure count);
-// Share of the lights that they need and lack, of the set that lacks most. None where no sample needs a light.
-std::optional<double> unlit_at_samples(const result::Case& result_case);
-// A count at one of them as a frame shades them, as result::number<&result::SampleSet::evaluated>. None without samples
-// and where they do not have it.
-std::optional<double> mean_at_samples(const result::Case& result_case, SampleFigure count);
-
 }  // namespace clusterbench::report

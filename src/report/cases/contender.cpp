@@ -5,8 +5,8 @@
 
 #include "assign/contract/assigner.h"
 #include "report/cases/columns.h"
-#include "report/cases/named_figures.h"
 #include "result/at.h"
+#include "result/case_figure.h"
 #include "run/cases/sweep.h"
 
 namespace clusterbench::report {
@@ -28,7 +28,7 @@ measure::Costs costs_of(const Case& result_case, RankBy by) {
   // What is drawn has no lists to be small.
   if (!draws_lights(result_case)) costs.bytes = static_cast<double>(result_case.buffers.bytes.high_water);
   if (by == RankBy::frame_time) {
-    costs.overshade = limit_figure(result_case, "overshade").value_or(costs.k_unknown);
+    costs.overshade = figure_of(result_case, "overshade").value_or(costs.k_unknown);
     return costs;
   }
   const double gpu_ns = result::number<&Case::cost, &Cost::gpu_ns>(result_case).value_or(costs.k_unknown);

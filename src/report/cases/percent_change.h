@@ -5,15 +5,11 @@
 #include <string>
 
 #include "config/limit_rules.h"
+#include "result/case_figure.h"
 
 namespace clusterbench::report {
 
-// A figure as it was counted: a share of two counts, or a number by 1.
-struct Quotient {
-  double numerator = 0.0, denominator = 1.0;  // finite; the second above 0
-
-  double value() const { return numerator / denominator; }
-};
+using result::Quotient;
 
 // For people, in percent: infinite from 0 to more; 0 where both are 0.
 double percent_change(const Quotient& then, const Quotient& now);

@@ -54,7 +54,7 @@ std::string alike_title(bool is_modelled, bool is_timed) {
 }
 
 std::string samples_text(const std::vector<std::string>& sets) {
-  return "Its samples" + (sets.empty() ? "" : " (" + words_of_sets(sets) + ")");
+  return "Its samples" + (sets.empty() ? "" : " (" + result::words_of_sets(sets) + ")");
 }
 
 std::string few_samples_text(double needed, const std::vector<std::string>& sets) {

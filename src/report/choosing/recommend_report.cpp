@@ -16,12 +16,12 @@
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
 #include "report/cases/json_values.h"
-#include "report/cases/named_figures.h"
 #include "report/cases/nothing_seen.h"
 #include "report/cases/sample_sets.h"
 #include "report/cases/timing_warnings.h"
 #include "report/sizing/list_code.h"
 #include "result/at.h"
+#include "result/case_figure.h"
 #include "run/findings/gate.h"
 #include "run/records/records.h"
 #include "run/scene_facts.h"
@@ -33,74 +33,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 using result::Case;
 using result::Cost;
+using result::Figure;
 using result::SampleSet;
 using result::SampleSets;
 
-// How a figure of several cameras is made of theirs.
-enum class OverCameras : std::uint8_t { largest, sum, mean };
-
-struct FigureKind {
-  const char* name;
-  OverCameras over = OverCameras::mean;
-  bool is_timed = false, only_grows = false;
-};
-constexpr FigureKind k_kinds[] = {{"frame_us", OverCameras::mean, true},
-                                  {"frame_us.max", OverCameras::largest, true},
-                                  {"frame_cost_us", OverCameras::mean, true},
-                                  {"assign_us", OverCameras::mean, true},
-                                  {"convert_us", OverCameras::mean, true},
-                                  {"build_us", OverCameras::mean, true},
-                                  {"index_entries", OverCameras::largest, false, true},
-                                  {"bytes", OverCameras::largest, false, true},
-                                  {"upload_bytes", OverCameras::largest, false, true},
-                                  {"scratch_bytes", OverCameras::largest},
-                                  {"longest", OverCameras::largest, false, true},
-                                  {"pairs", OverCameras::largest, false, true},
-                                  {"dropped", OverCameras::sum, false, true},
-                                  {"missed", OverCameras::sum, false, true},
-                                  {"undecided", OverCameras::sum, false, true}};
-
-FigureKind figure_kind(const std::string& name) {
-  const auto* const found =
-      std::ranges::find(k_kinds, name, [](const FigureKind& kind) { return std::string(kind.name); });
-  return found == std::end(k_kinds) ? FigureKind{"", OverCameras::mean} : *found;
-}
-
 // What surfaces of the path do not need can be needed by what moves there.
 constexpr const char* k_unlit_in_view = "volume.unlit";
-constexpr const char *k_gpu_cost = "gpu_cost_us", *k_evaluated = "evaluated", *k_read_bytes = "read_bytes";
-
-std::optional<double> figure_of(const Case& result_case, const std::string& name) {
-  if (name == k_gpu_cost) {
-    const std::optional<double> ns = result::number<&Case::cost, &Cost::gpu_ns>(result_case);
-    return ns ? std::optional(1e-3 * *ns) : std::nullopt;
-  }
-  if (name == k_evaluated) return mean_at_samples(result_case, result::number<&SampleSet::evaluated>);
-  if (name == k_read_bytes) return mean_at_samples(result_case, result::number<&SampleSet::read_bytes>);
-  return limit_figure(result_case, name);
-}
-
-bool is_of_samples(const std::string& name) {
-  return name == k_evaluated || name == k_read_bytes || config::is_at_samples(name);
-}
-
-// Nothing where a camera lacks it. One that sees no surface has no samples, and no part in figures of samples.
-std::optional<double> figure_over(const std::vector<Case>& cases, const std::string& name) {
-  const OverCameras over = figure_kind(name).over;
-  double all = 0.0, weights = 0.0;
-  for (const Case& result_case : cases) {
-    const std::optional<double> value = figure_of(result_case, name);
-    if (!value && is_of_samples(name) && sum_at_samples(result_case, result::number<&SampleSet::samples>) == 0.0)
-      continue;
-    if (!value) return {};
-    const double weight = over == OverCameras::mean ? static_cast<double>(result_case.frames) : 1.0;
-    all = over == OverCameras::largest ? std::max(all, *value) : all + weight * *value;
-    weights += weight;
-  }
-  if (weights == 0.0) return {};
-  return over == OverCameras::mean ? all / weights : all;
-}
-
 std::vector<Case> records_of(std::span<const run::CaseResult> cases, const Json& config) {
   std::vector<Case> out;
   for (const run::CaseResult& case_result : cases) out.push_back(run::record_of(case_result));
@@ -110,7 +48,8 @@ std::vector<Case> records_of(std::span<const run::CaseResult> cases, const Json&
 
 // What breaks it stays broken: marks and counts only grow, and a share of something is no longer none.
 bool stays_broken(const config::LimitRule& rule) {
-  return figure_kind(rule.figure).only_grows || (rule.limit == 0.0 && !figure_kind(rule.figure).is_timed);
+  const Figure& figure = *result::figure_named(rule.figure);
+  return figure.only_grows || (rule.limit == 0.0 && !figure.rests_on_times());
 }
 
 // The largest figure that breaks a constraint, nothing where none does. What somebody asks for and a case has no figure
@@ -147,14 +86,13 @@ bool takes_sound_methods_only(const Question& question) {
   });
 }
 
-bool rests_on_samples(const ObjectiveFigure& objective) {
-  const std::string& name = objective.name;
-  return objective.is_cost || name == k_evaluated || name == k_read_bytes || config::is_at_samples(name);
+bool rests_on_samples(const Figure& objective) {
+  return objective.is_modelled_cost || objective.is_at_samples();
 }
 
 // What draws lights has no lists to be small, fast or read: it is ranked by what pixels cost.
 bool takes_what_draws(const Question& question) {
-  return rests_on_samples(question.objective) && question.objective.name != k_read_bytes;
+  return rests_on_samples(*question.objective) && question.objective->name != "read_bytes";
 }
 
 // The question's; then four that are always asked for.
@@ -164,7 +102,7 @@ std::vector<std::string> constraint_texts(const Question& question) {
   texts.emplace_back("a run of it does not fail");
   texts.emplace_back("conservative or exact (--unlit allows others)");
   texts.emplace_back("has lists (methods that draw lights are ranked by cost alone)");
-  texts.emplace_back("a known " + question.objective.name + " on these frames");
+  texts.emplace_back("a known " + std::string(question.objective->name) + " on these frames");
   return texts;
 }
 
@@ -221,7 +159,7 @@ measure::FrameCost cost_over(const std::vector<Case>& cases) {
 
 // How much longer one takes than another, where the objective is a time with rounds.
 std::optional<measure::Ratio> ratio_of(const Ranked& a, const Ranked& b, const Question& question, std::uint64_t seed) {
-  const std::string& figure = question.objective.name;
+  const std::string_view figure = question.objective->name;
   if ((figure != "frame_us" && figure != "frame_cost_us") || a.candidate == b.candidate) return {};
   const RankBy by = figure == "frame_us" ? RankBy::frame_time : RankBy::frame_cost;
   return run::ratio_between(pooled(a.cases, by), pooled(b.cases, by), seed);
@@ -252,7 +190,8 @@ bool is_known_worse(const Ranked& a, const Ranked& b, const Question& question, 
   const std::optional<measure::Ratio> ratio = ratio_of(a, b, question, seed);
   const bool has_interval = ratio && std::isfinite(ratio->ci95.low) && std::isfinite(ratio->ci95.high);
   const double times_as_much = ratio ? ratio->ratio : a.objective / b.objective;
-  const bool is_by_ratio = question.objective.is_cost || (question.objective.is_timed && !has_interval);
+  const bool is_by_ratio =
+      question.objective->is_modelled_cost || (question.objective->rests_on_times() && !has_interval);
   if (is_by_ratio && times_as_much <= measure::k_alike_ratio) return false;
   return has_interval ? measure::takes_longer(ratio) : a.objective > b.objective;
 }
@@ -283,9 +222,10 @@ Json method_json(const config::MethodRequest& request) {
 bool is_repeated(const Json& record, const Json& other) {
   return record["assigner"] == other["assigner"] && record["storage"] == other["storage"] &&
          record["precision"] == other["precision"] &&
-         std::ranges::all_of(objective_figures(), [&](const ObjectiveFigure& figure) {
-           return figure.is_timed ||
-                  record["figures"].value(figure.name, Json()) == other["figures"].value(figure.name, Json());
+         std::ranges::all_of(objective_figures(), [&](const Figure* figure) {
+           const std::string name(figure->name);
+           return figure->rests_on_times() ||
+                  record["figures"].value(name, Json()) == other["figures"].value(name, Json());
          });
 }
 
@@ -319,16 +259,18 @@ Json ranked_json(const config::Config& config, const search::View& view, const R
     out["by_choice"] = six_digits(ratio->ratio);
     out["ci95"] = {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)};
   }
-  if (question.objective.is_cost && ranked.objective > choice.objective)
+  if (question.objective->is_modelled_cost && ranked.objective > choice.objective)
     out["by_prices"] =
         interval_json(measure::around(out["by_choice"].get<double>(), ranked.objective / choice.objective,
                                       measure::ratio_by_prices(cost_over(ranked.cases), cost_over(choice.cases))));
   Json figures = Json::object();
-  for (const ObjectiveFigure& figure : objective_figures())
-    if (const std::optional<double> value = figure_over(ranked.cases, figure.name))
-      figures[figure.name] = figure.is_timed ? six_digits(*value) : number_or_null(*value);
+  for (const Figure* figure : objective_figures()) {
+    const std::string name(figure->name);
+    if (const std::optional<double> value = result::figure_over(ranked.cases, name))
+      figures[name] = figure->rests_on_times() ? six_digits(*value) : number_or_null(*value);
+  }
   out["figures"] = figures;
-  const std::optional<double> overshade = figure_over(ranked.cases, "overshade");
+  const std::optional<double> overshade = result::figure_over(ranked.cases, "overshade");
   out["overshade"] = overshade ? number_or_null(*overshade) : Json();
   return out;
 }
@@ -361,7 +303,7 @@ std::string why_nothing_is_seen(const search::Found& found, const config::Config
     std::ranges::move(records_of(finalist.cases, config.resolved), std::back_inserter(all));
   std::vector<const Case*> cases;
   for (const Case& one : all) cases.push_back(&one);
-  return why_nothing_is_seen(cases, rests_on_samples(question.objective) ? RankedBy::samples : RankedBy::no_samples);
+  return why_nothing_is_seen(cases, rests_on_samples(*question.objective) ? RankedBy::samples : RankedBy::no_samples);
 }
 
 // The best behind the choice. Of those that differ in cells only, which their method then does not use, the first.
@@ -493,25 +435,11 @@ void add_once(Json& list, const Json& entry) {
 
 }  // namespace
 
-std::vector<ObjectiveFigure> objective_figures() {
-  std::vector<ObjectiveFigure> all;
-  for (const config::LimitFigure& figure : config::limit_figures()) {
-    if (!figure.is_choosable) continue;
-    const FigureKind kind = figure_kind(figure.name);
-    all.push_back(
-        {figure.name, figure.meaning, kind.is_timed, std::string(figure.name) == "frame_cost_us", kind.only_grows});
-  }
-  all.push_back(
-      {k_gpu_cost, "modelled time of a frame's upload, reading and shading, in microseconds", false, true, false});
-  all.push_back({k_evaluated, "lights that a sample is given, mean", false, false, false});
-  all.push_back(
-      {k_read_bytes, "bytes that a sample reads of the structure to know its lights, mean", false, false, false});
+std::vector<const Figure*> objective_figures() {
+  std::vector<const Figure*> all;
+  for (const Figure& figure : result::figures())
+    if (figure.is_choosable) all.push_back(&figure);
   return all;
-}
-
-const ObjectiveFigure& objective_figure(const std::string& name) {
-  static const std::vector<ObjectiveFigure> all = objective_figures();
-  return *std::ranges::find(all, name, &ObjectiveFigure::name);
 }
 
 std::vector<Constraint> constraints_of(const std::vector<config::LimitRule>& given) {
@@ -526,9 +454,9 @@ std::vector<Constraint> constraints_of(const std::vector<config::LimitRule>& giv
   return all;
 }
 
-bool needs_times(const ObjectiveFigure& objective, const std::vector<Constraint>& constraints) {
-  return objective.is_timed || std::ranges::any_of(constraints, [](const Constraint& constraint) {
-           return figure_kind(constraint.rule.figure).is_timed;
+bool needs_times(const Figure& objective, const std::vector<Constraint>& constraints) {
+  return objective.rests_on_times() || std::ranges::any_of(constraints, [](const Constraint& constraint) {
+           return result::figure_named(constraint.rule.figure)->rests_on_times();
          });
 }
 
@@ -536,8 +464,9 @@ search::Evaluate judge_of(const Question& question, const nlohmann::json& config
   return [question, resolved = Json(config)](std::span<const run::CaseResult> results) {
     const std::vector<Case> cases = records_of(results, resolved);
     search::Verdict verdict;
-    verdict.objective = figure_over(cases, question.objective.name).value_or(std::numeric_limits<double>::quiet_NaN());
-    verdict.bytes = figure_over(cases, "bytes").value_or(0.0);
+    verdict.objective = result::figure_over(cases, std::string(question.objective->name))
+                            .value_or(std::numeric_limits<double>::quiet_NaN());
+    verdict.bytes = result::figure_over(cases, "bytes").value_or(0.0);
     for (std::size_t i = 0; i < question.constraints.size(); ++i) {
       const config::LimitRule& rule = question.constraints[i].rule;
       const std::optional<double> by = breaking_figure(cases, question.constraints[i]);
@@ -550,7 +479,7 @@ search::Evaluate judge_of(const Question& question, const nlohmann::json& config
       verdict.broken.push_back(constraint);
       verdict.broken_by.push_back(std::numeric_limits<double>::quiet_NaN());
     };
-    if (verdict.broken.empty() && fails(cases, question.objective.is_cost))
+    if (verdict.broken.empty() && fails(cases, question.objective->is_modelled_cost))
       break_by_no_figure(question.constraints.size());
     if (takes_sound_methods_only(question) && !std::ranges::all_of(results, run::is_sound)) {
       break_by_no_figure(question.constraints.size() + 1);
@@ -615,9 +544,9 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
     if (const auto height = result::number<&Case::samples, &SampleSets::opaque, &SampleSet::ground_m>(all[0].cases[0]))
       out["ground_m"] = result::number_json(*height, false);
     if (const std::string why = why_no_reader(all[0].cases); !why.empty()) out["no_reader"] = why;
-    if (question.objective.is_cost) out["needed_at_samples"] = needed_over(all[0].cases);
+    if (question.objective->is_modelled_cost) out["needed_at_samples"] = needed_over(all[0].cases);
     out["samples"] = ranking_set_names(all[0].cases[0]);
-    out["random_depths"] = rests_on_samples(question.objective) && ranks_at_random_depths(all[0].cases[0]);
+    out["random_depths"] = rests_on_samples(*question.objective) && ranks_at_random_depths(all[0].cases[0]);
   }
   const Ranked* best = has_choice ? &all[0] : nullptr;
   for (const Ranked& ranked : apart) {
@@ -635,13 +564,14 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
 }
 
 Json recommendation_to_json(const config::Config& config, const Question& question, const Json& answers) {
-  const ObjectiveFigure& objective = question.objective;
+  const Figure& objective = *question.objective;
   return {{"recommendation_version", k_recommendation_version},
           {"name", config.name},
           {"tool", result::to_json(run::record_of(run::tool_facts()))},
           {"machine", result::to_json(run::record_of(run::machine_facts()))},
           {"config", config.resolved},
-          {"objective", {{"figure", objective.name}, {"meaning", objective.meaning}, {"timed", objective.is_timed}}},
+          {"objective",
+           {{"figure", objective.name}, {"meaning", objective.meaning}, {"timed", objective.rests_on_times()}}},
           {"answers", answers}};
 }
 

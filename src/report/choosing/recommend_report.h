@@ -8,21 +8,15 @@
 
 #include "config/config.h"
 #include "config/limit_rules.h"
+#include "result/figure_table.h"
 #include "search/recommend.h"
 
 namespace clusterbench::report {
 
 inline constexpr int k_recommendation_version = 1;
 
-// What can be smallest: the figures of budgets (config/limit_rules.h) and some more.
-struct ObjectiveFigure {
-  std::string name, meaning;
-  bool is_timed = false;    // differs from run to run
-  bool is_cost = false;     // of the cost model: there where a set of samples has a weight
-  bool only_grows = false;  // with further frames
-};
-std::vector<ObjectiveFigure> objective_figures();
-const ObjectiveFigure& objective_figure(const std::string& name);  // one of them
+// The figures that a choice can make smallest.
+std::vector<const result::Figure*> objective_figures();
 
 struct Constraint {
   config::LimitRule rule;
@@ -30,10 +24,10 @@ struct Constraint {
 };
 // Those of a configuration's and the command line's budgets; and that no light is missed, dropped or unlit.
 std::vector<Constraint> constraints_of(const std::vector<config::LimitRule>& given);
-bool needs_times(const ObjectiveFigure& objective, const std::vector<Constraint>& constraints);
+bool needs_times(const result::Figure& objective, const std::vector<Constraint>& constraints);
 
 struct Question {
-  ObjectiveFigure objective;
+  const result::Figure* objective = nullptr;
   std::vector<Constraint> constraints;
   double within = 0.05;
   int runners_up = 5;

@@ -108,7 +108,7 @@ std::string sets_line(const Json& answer) {
   const std::vector<std::string> sets = answer_sets(answer);
   if (sets.empty()) return "";
   const std::string heading = heading_of_sets(sets);
-  return heading.substr(2, heading.size() - 3) + ": samples of " + words_of_sets(sets) +
+  return heading.substr(2, heading.size() - 3) + ": samples of " + result::words_of_sets(sets) +
          (sets.size() > 1 ? ", by the weights of the key `cost`" : "") + "; read: bytes that one reads\n";
 }
 
@@ -180,7 +180,7 @@ std::string unfinished_text(const search::View& view, const search::Found& found
                                          : record.verdict.objective < other.verdict.objective;
   });
   order.resize(std::min(order.size(), static_cast<std::size_t>(question.runners_up) + 1));
-  std::vector<Cells> rows{{" ", "best so far", question.objective.name, "on frames"}};
+  std::vector<Cells> rows{{" ", "best so far", std::string(question.objective->name), "on frames"}};
   for (const std::size_t i : order) {
     const search::Record& record = found.records[i];
     rows.push_back(

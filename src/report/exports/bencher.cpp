@@ -25,7 +25,7 @@ std::string bencher(const ExportResult& result) {
   for (const ExportCase& export_case : result.cases) {
     Json& measures = out[export_case.name] = Json::object();
     for (const Measured& figure : export_case.figures) {
-      Json& measure = measures[measure_name(figure.metric->name)];
+      Json& measure = measures[measure_name(figure.figure->exported_as())];
       measure = {{"value", figure.value}};
       if (!figure.ci95.is_known()) continue;
       measure["lower_value"] = figure.ci95.low;

@@ -10,6 +10,8 @@
 namespace clusterbench::report {
 namespace {
 
+using result::Figure;
+
 // A spreadsheet takes a cell that begins like a formula for one and runs it: an apostrophe in front makes it text.
 // Names come from scene files, so anybody can have written them.
 std::string inert(const std::string& text) {
@@ -32,25 +34,25 @@ std::string exact_number(double value) {
   return is_whole ? std::to_string(static_cast<long long>(value)) : nlohmann::json(value).dump();
 }
 
-bool has_column(const Metric& metric, const ExportResult& result) {
-  return metric.is_headline || result.all;
+bool has_column(const Figure& figure, const ExportResult& result) {
+  return figure.is_headline || result.all;
 }
 
 // "assign_time_ns"; the unit only where the name does not have it.
-std::string csv_column(const Metric& metric) {
-  std::string name(metric.name);
-  if (metric.unit == "ratio" || name.find(metric.unit) != std::string::npos) return name;
-  const std::string unit = metric.unit == "pairs/s" ? "pairs_per_s" : std::string(metric.unit);
+std::string csv_column(const Figure& figure) {
+  std::string name(figure.exported_as());
+  if (figure.unit == "ratio" || name.find(figure.unit) != std::string::npos) return name;
+  const std::string unit = figure.unit == "pairs/s" ? "pairs_per_s" : std::string(figure.unit);
   return name + "_" + unit;
 }
 
 std::string heading(const ExportResult& result) {
   std::string line = "id,name,scene,camera,viewport,grid,assigner,precision,storage";
-  for (const Metric& metric : export_metrics()) {
-    if (!has_column(metric, result)) continue;
-    const std::string name = csv_column(metric);
+  for (const Figure* figure : export_figures()) {
+    if (!has_column(*figure, result)) continue;
+    const std::string name = csv_column(*figure);
     line += "," + name;
-    if (metric.interval != nullptr) line += "," + name + "_low," + name + "_high";
+    if (figure->interval != nullptr) line += "," + name + "_low," + name + "_high";
   }
   return line + "\n";
 }
@@ -58,13 +60,13 @@ std::string heading(const ExportResult& result) {
 std::string row(const ExportResult& result, const ExportCase& export_case) {
   std::string line = field(export_case.id) + "," + field(export_case.name);
   for (const auto& [part, text] : export_case.parts) line += "," + field(text);
-  for (const Metric& metric : export_metrics()) {
-    if (!has_column(metric, result)) continue;
-    const Measured* figure = find_figure(export_case, metric.name);
-    line += "," + (figure == nullptr ? "" : exact_number(figure->value));
-    if (metric.interval == nullptr) continue;
-    const bool is_known = figure != nullptr && figure->ci95.is_known();
-    line += is_known ? "," + exact_number(figure->ci95.low) + "," + exact_number(figure->ci95.high) : ",,";
+  for (const Figure* figure : export_figures()) {
+    if (!has_column(*figure, result)) continue;
+    const Measured* found = find_figure(export_case, figure->exported_as());
+    line += "," + (found == nullptr ? "" : exact_number(found->value));
+    if (figure->interval == nullptr) continue;
+    const bool is_known = found != nullptr && found->ci95.is_known();
+    line += is_known ? "," + exact_number(found->ci95.low) + "," + exact_number(found->ci95.high) : ",,";
   }
   return line + "\n";
 }

@@ -89,7 +89,7 @@ std::string exported(const result::Result& result, const ExportFormat& format, b
 
 const Measured* find_figure(const ExportCase& export_case, std::string_view name) {
   for (const Measured& figure : export_case.figures)
-    if (figure.metric->name == name) return &figure;
+    if (figure.figure->exported_as() == name) return &figure;
   return nullptr;
 }
 

@@ -18,13 +18,13 @@ std::string plus_minus(const Measured& figure) {
   return text;
 }
 
-std::string list_of(const ExportResult& result, Better better, const char* format) {
+std::string list_of(const ExportResult& result, result::Better better, const char* format) {
   Json list = Json::array();
   for (const ExportCase& export_case : result.cases)
     for (const Measured& figure : export_case.figures) {
-      if (figure.metric->better != better) continue;
-      Json entry{{"name", export_case.name + " " + std::string(figure.metric->name)},
-                 {"unit", figure.metric->unit},
+      if (figure.figure->better != better) continue;
+      Json entry{{"name", export_case.name + " " + std::string(figure.figure->exported_as())},
+                 {"unit", figure.figure->unit},
                  {"value", figure.value}};
       if (figure.ci95.is_known()) entry["range"] = plus_minus(figure);
       entry["extra"] = "case " + export_case.id;
@@ -37,11 +37,11 @@ std::string list_of(const ExportResult& result, Better better, const char* forma
 }  // namespace
 
 std::string github_smaller_is_better(const ExportResult& result) {
-  return list_of(result, Better::smaller, "github-smaller");
+  return list_of(result, result::Better::smaller, "github-smaller");
 }
 
 std::string github_bigger_is_better(const ExportResult& result) {
-  return list_of(result, Better::bigger, "github-bigger");
+  return list_of(result, result::Better::bigger, "github-bigger");
 }
 
 }  // namespace clusterbench::report

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view k_time = "frame_time";  // the metric of the samples
+constexpr std::string_view k_time = "frame_time";  // the figure of the samples
 
 double mean(const std::vector<double>& samples) {
   return std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
@@ -48,7 +48,7 @@ Json repetition(const ExportCase& export_case, std::size_t family, std::size_t i
   out["repetition_index"] = index;
   add_time(out, export_case.samples_ns[index], export_case.frames_timed);
   for (const Measured& figure : export_case.figures)
-    if (figure.metric->name != k_time) out[std::string(figure.metric->name)] = figure.value;
+    if (figure.figure->exported_as() != k_time) out[std::string(figure.figure->exported_as())] = figure.value;
   return out;
 }
 

@@ -20,8 +20,8 @@ Json test(const ExportCase& export_case) {
   Json out{{"name", export_case.name}};
   if (!export_case.samples_ns.empty()) out["execution_time"] = seconds(export_case.samples_ns);
   for (const Measured& figure : export_case.figures) {
-    if (figure.metric->name == "list_bytes") out["mem_bytes"] = figure.value;
-    if (!figure.metric->is_headline) out[std::string(figure.metric->name)] = figure.value;
+    if (figure.figure->exported_as() == "list_bytes") out["mem_bytes"] = figure.value;
+    if (!figure.figure->is_headline) out[std::string(figure.figure->exported_as())] = figure.value;
   }
   return out;
 }

@@ -11,6 +11,8 @@
 namespace clusterbench::report {
 namespace {
 
+using result::Figure;
+
 // Four digits, or all of what was counted: 40.61, 1234.6, 102905.
 std::string short_number(double value) {
   char text[48];
@@ -22,19 +24,19 @@ std::string short_number(double value) {
   return text;
 }
 
-bool is_used(const Metric& metric, const ExportResult& result) {
+bool is_used(const Figure& figure, const ExportResult& result) {
   for (const ExportCase& export_case : result.cases)
-    if (find_figure(export_case, metric.name) != nullptr) return true;
+    if (find_figure(export_case, figure.exported_as()) != nullptr) return true;
   return false;
 }
 
 // "assign time (ns)"; the unit only where the name does not say it.
-std::string heading(const Metric& metric) {
-  std::string name(metric.name);
+std::string heading(const Figure& figure) {
+  std::string name(figure.exported_as());
   std::replace(name.begin(), name.end(), '_', ' ');
-  return metric.unit == "ratio" || name.find(metric.unit) != std::string::npos
+  return figure.unit == "ratio" || name.find(figure.unit) != std::string::npos
              ? name
-             : name + " (" + std::string(metric.unit) + ")";
+             : name + " (" + std::string(figure.unit) + ")";
 }
 
 // Places of the parts that are shown.
@@ -62,9 +64,9 @@ std::string failed_list(const ExportResult& result) {
 }  // namespace
 
 std::string markdown(const ExportResult& result) {
-  std::vector<const Metric*> columns;
-  for (const Metric& metric : export_metrics())
-    if (is_used(metric, result)) columns.push_back(&metric);
+  std::vector<const Figure*> columns;
+  for (const Figure* figure : export_figures())
+    if (is_used(*figure, result)) columns.push_back(figure);
 
   const std::vector<std::size_t> parts = shown_parts(result);
   std::string out = failed_list(result) + "|", rule = "|";
@@ -72,16 +74,16 @@ std::string markdown(const ExportResult& result) {
     out += " " + result.cases.front().parts[part].first + " |";
     rule += "---|";
   }
-  for (const Metric* metric : columns) {
-    out += " " + heading(*metric) + " |";
+  for (const Figure* column : columns) {
+    out += " " + heading(*column) + " |";
     rule += "---:|";
   }
   out += "\n" + rule + "\n";
   for (const ExportCase& export_case : result.cases) {
     out += "|";
     for (const std::size_t part : parts) out += " " + markdown_cell(export_case.parts[part].second) + " |";
-    for (const Metric* metric : columns) {
-      const Measured* figure = find_figure(export_case, metric->name);
+    for (const Figure* column : columns) {
+      const Measured* figure = find_figure(export_case, column->exported_as());
       out += " " + (figure == nullptr ? "" : short_number(figure->value)) + " |";
     }
     out += "\n";

@@ -11,14 +11,15 @@
 
 #include "core/text.h"
 #include "report/cases/columns.h"
-#include "report/cases/named_figures.h"
 #include "report/cases/percent_change.h"
 #include "report/gates/baseline_cases.h"
+#include "result/case_figure.h"
 
 namespace clusterbench::report {
 namespace {
 
 using result::Case;
+using result::FigureValue;
 using Lines = std::vector<std::string>;
 
 constexpr const char* k_instructions =
@@ -87,21 +88,20 @@ class Changes {
   std::string changed(const Case& before, const Case& now, std::span<const char* const> figures) {
     std::string out, last_location;
     for (const char* figure : figures) {
-      const std::optional<double> was = limit_figure(before, figure), is = limit_figure(now, figure);
+      const std::optional<FigureValue> was = figure_value(before, figure), is = figure_value(now, figure);
       if (figure == std::string_view(k_instructions) && (!was || !baseline_.obstacle_to_instructions(now).empty()))
         continue;
       if (is && !was) add_once(figure, not_told_);
-      if (!is || !was || *is == *was) continue;
-      const double percent = percent_change({*was}, {*is});
+      if (!is || !was || is->value() == was->value()) continue;
+      const double percent = percent_change({was->value()}, {is->value()});
       Lines remarks;
       if (std::isfinite(percent)) remarks.push_back(report::text("%+.3g %%", percent));
       if (const std::string width = other_width(before, now); figure == std::string("bytes") && !width.empty())
         remarks.push_back(width);
-      const std::string location = limit_figure_location(now, figure);
-      if (!location.empty() && location != last_location) remarks.push_back(location);
-      last_location = location;
-      out += (out.empty() ? "" : ", ") + std::string(figure) + " " + config::budget_number(*was) + " -> " +
-             config::budget_number(*is) + (remarks.empty() ? "" : " (" + joined(remarks, "; ") + ")");
+      if (!is->location.empty() && is->location != last_location) remarks.push_back(is->location);
+      last_location = is->location;
+      out += (out.empty() ? "" : ", ") + std::string(figure) + " " + config::budget_number(was->value()) + " -> " +
+             config::budget_number(is->value()) + (remarks.empty() ? "" : " (" + joined(remarks, "; ") + ")");
     }
     return out;
   }

@@ -10,15 +10,17 @@
 #include "core/pattern.h"
 #include "core/text.h"
 #include "report/cases/case_filter.h"
-#include "report/cases/named_figures.h"
+#include "report/cases/percent_change.h"
 #include "report/cases/sample_sets.h"
 #include "report/gates/baseline_cases.h"
 #include "result/at.h"
+#include "result/case_figure.h"
 
 namespace clusterbench::report {
 namespace {
 
 using result::Case;
+using result::FigureValue;
 
 std::string listed_names(const std::vector<std::string>& names) {
   constexpr std::size_t k_most = 3;
@@ -26,7 +28,7 @@ std::string listed_names(const std::vector<std::string>& names) {
   return joined(std::span(names).first(shown_names)) + (names.size() > k_most ? " ..." : "");
 }
 
-std::string is_text(const config::LimitRule& rule, const Figure& found) {
+std::string is_text(const config::LimitRule& rule, const FigureValue& found) {
   return rule.figure + " is " + config::budget_number(found.value()) +
          (found.location.empty() ? "" : " (" + found.location + ")");
 }
@@ -92,7 +94,7 @@ class RuleCheck {
     for (const Case* result_case : cases_) {
       bool has_none = true;
       for (const std::string& figure : figures_of({result_case}))
-        if (const std::optional<Figure> found = case_figure(*result_case, figure)) {
+        if (const std::optional<FigureValue> found = figure_value(*result_case, figure)) {
           has_none = false;
           judge(*result_case, rule_.is_broken_by(found->value()), found->value(), is_text(rule_, *found));
         }
@@ -115,7 +117,7 @@ class RuleCheck {
 
   // Whoever names cases means them; a budget of all is held against those that can have the figure.
   void add_without(const std::vector<std::string>& without) {
-    const std::string hint = why_no_figure(rule_.figure);
+    const std::string hint = result::why_no_figure(rule_.figure);
     if (without.size() == cases_.size())
       findings_.broken.push_back(quoted_ + " could not be checked: no case has " + rule_.figure + hint);
     else if (!without.empty())
@@ -138,10 +140,10 @@ class RuleCheck {
         not_in_base.push_back(name);
         continue;
       }
-      const std::string why = is_instructions() ? baseline_->obstacle_to_instructions(*result_case) : "";
+      const std::string why = is_of_instructions() ? baseline_->obstacle_to_instructions(*result_case) : "";
       bool has_none = true, lacks_one = false;
       for (const std::string& figure : figures_of({result_case, before})) {
-        const std::optional<Figure> now = case_figure(*result_case, figure), then = case_figure(*before, figure);
+        const std::optional<FigureValue> now = figure_value(*result_case, figure), then = figure_value(*before, figure);
         has_none = has_none && !now && !then;
         if (!now || !then)
           lacks_one = lacks_one || now || then;
@@ -158,11 +160,11 @@ class RuleCheck {
     if (!in_one.empty())
       findings_.broken.push_back(quoted_ + " could not be checked for " + number_of(in_one.size(), "case") +
                                  ", since only one of this result and " + baseline_->name() + " has " + rule_.figure +
-                                 why_no_figure(rule_.figure) + ": " + listed_names(in_one));
+                                 result::why_no_figure(rule_.figure) + ": " + listed_names(in_one));
     add_unmatched(not_in_base, without, obstacle);
   }
 
-  void judge_change(const Case& result_case, const Figure& now, const Figure& then) {
+  void judge_change(const Case& result_case, const FigureValue& now, const FigureValue& then) {
     const double percent = percent_change(then.quotient, now.quotient);
     const std::string change =
         std::isfinite(percent) ? percent_text(percent, rule_.limit) + " against " : std::string("was ");
@@ -170,7 +172,7 @@ class RuleCheck {
           is_text(rule_, now) + ", " + change + config::budget_number(then.value()) + " in " + baseline_->name());
   }
 
-  void add_other_samples(const std::string& name, const Figure& now, const Figure& then) {
+  void add_other_samples(const std::string& name, const FigureValue& now, const FigureValue& then) {
     findings_.broken.push_back(quoted_ + " could not be checked for " + name + ": " + rule_.figure +
                                " is at samples of " + now.samples + " here and of " + then.samples + " in " +
                                baseline_->name() + "; name one set, as in 'volume." + rule_.figure + "'");
@@ -184,7 +186,7 @@ class RuleCheck {
           begin + " for " + number_of(not_in_base.size(), "case") + " that " + baseline_->name() +
           " does not have (of that camera, viewport, grid, method and structure): " + listed_names(not_in_base) +
           "; measure the baseline again, or name cases before a colon");
-    const std::string hint = why_no_figure(rule_.figure);
+    const std::string hint = result::why_no_figure(rule_.figure);
     if (!without.empty() && without.size() == cases_.size())
       findings_.broken.push_back(begin + ": no case has " + rule_.figure + " here and in " + baseline_->name() + hint);
     else if (!without.empty())
@@ -204,7 +206,7 @@ class RuleCheck {
                                  "; measure the baseline again, or name cases before a colon");
   }
 
-  bool is_instructions() const { return rule_.figure.ends_with("instructions"); }
+  bool is_of_instructions() const { return result::figure_named(rule_.figure)->basis == result::Basis::instructions; }
 
   void judge(const Case& result_case, bool is_broken, double value, const std::string& text) {
     ++findings_.checked;

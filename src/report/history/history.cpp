@@ -23,6 +23,10 @@
 namespace clusterbench::report {
 namespace {
 
+using result::Basis;
+using result::Better;
+using result::Figure;
+
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
@@ -39,14 +43,6 @@ bool has_cold_times(const result::Result& result) {
   return std::ranges::any_of(result.cases, [](const result::Case& result_case) {
     return result_case.timing && result_case.timing->caches == "cold";
   });
-}
-
-// The headline, and what gates go by (docs/ci.md); what follows from others is no series.
-bool is_kept(const Metric& metric) {
-  constexpr std::string_view k_of_gates[] = {"entries_high_water", "lights_per_cell_max", "pairs_mean",
-                                             "lights_seen_mean"};
-  return basis_of(metric) != Basis::derived &&
-         (metric.is_headline || std::ranges::find(k_of_gates, metric.name) != std::end(k_of_gates));
 }
 
 Json history_line(const result::Result& result, const std::string& commit) {
@@ -67,7 +63,7 @@ Json history_line(const result::Result& result, const std::string& commit) {
   for (const result::Case& result_case : result.cases) {
     Json figures = Json::object();
     for (const Measured& figure : measured(result_case, true))
-      if (is_kept(*figure.metric)) figures[std::string(figure.metric->name)] = figure.value;
+      if (is_kept(*figure.figure)) figures[std::string(figure.figure->exported_as())] = figure.value;
     line["cases"].push_back({{"id", result_case.id},
                              {"settings", result_case.settings.value_or("")},
                              {"name", result_case.name},
@@ -189,15 +185,15 @@ fs::path history_path(const std::string& path) {
   return target.path;
 }
 
-const Metric* metric_named(const std::string& name) {
-  for (const Metric& metric : export_metrics())
-    if (metric.name == name) return &metric;
+const Figure* exported_figure(const std::string& name) {
+  for (const Figure* figure : export_figures())
+    if (figure->exported_as() == name) return figure;
   return nullptr;
 }
 
 // Whose figures are one series: times of another machine, or instructions that another counter counted, are not.
-std::string origin(const HistoryEntry& entry, const Metric& metric) {
-  switch (basis_of(metric)) {
+std::string origin(const HistoryEntry& entry, const Figure& figure) {
+  switch (figure.basis) {
     case Basis::time:
       return entry.machine + (entry.caches.empty() ? "" : ", " + entry.caches + " caches");
     case Basis::instructions:
@@ -211,12 +207,12 @@ std::string origin(const HistoryEntry& entry, const Metric& metric) {
 
 // What counting leaves open: hardware counts interrupts, too; even valgrind's depend a little on where memory lies.
 double counting_noise(const Series& series) {
-  if (basis_of(*series.metric) != Basis::instructions) return 0.0;
+  if (series.figure->basis != Basis::instructions) return 0.0;
   return series.machine.ends_with(", callgrind") ? 0.001 : 0.01;
 }
 
 std::vector<measure::ChangePoint> changes_of(const Series& series, const measure::ChangeRule& rule) {
-  if (basis_of(*series.metric) == Basis::time) return measure::change_points(series.values, rule);
+  if (series.figure->basis == Basis::time) return measure::change_points(series.values, rule);
   return measure::counted_changes(series.values, std::max(rule.min_change, counting_noise(series)));
 }
 
@@ -321,15 +317,15 @@ std::string values_text(const Series& series) {
   const auto [least, most] = std::ranges::minmax_element(values);
   const auto is_end = [&](double value) { return value == values.front() || value == values.back(); };
   return figure_text(values.front()) + " to " + figure_text(values.back()) +
-         (basis_of(*series.metric) == Basis::time || (is_end(*least) && is_end(*most))
+         (series.figure->basis == Basis::time || (is_end(*least) && is_end(*most))
               ? ""
               : ", between " + figure_text(*least) + " and " + figure_text(*most));
 }
 
 std::string series_text(const Series& series) {
   std::string text =
-      series.case_name + "  " + std::string(series.metric->name) + " (" + std::string(series.metric->unit) + ")" +
-      (series.machine.empty() ? "" : "  on " + series.machine) + "\n" +
+      series.case_name + "  " + std::string(series.figure->exported_as()) + " (" + std::string(series.figure->unit) +
+      ")" + (series.machine.empty() ? "" : "  on " + series.machine) + "\n" +
       (series.settings_since.empty()
            ? ""
            : "  other settings than before, from " + series.settings_since + " on: a series of its own\n") +
@@ -353,6 +349,10 @@ std::string least_text(const measure::ChangeRule& rule) {
 }
 
 }  // namespace
+
+bool is_kept(const Figure& figure) {
+  return figure.is_exported() && figure.basis != Basis::derived && (figure.is_headline || figure.is_kept);
+}
 
 std::vector<HistoryEntry> read_history(const std::string& path) {
   return parsed_file(path, file_text(history_path(path)));
@@ -395,7 +395,7 @@ Addition add_to_history(const std::string& path, const result::Result& result, c
 
 std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const measure::ChangeRule& rule) {
   std::vector<Series> all;
-  std::map<std::tuple<std::string, std::ptrdiff_t, const Metric*, std::string>, std::size_t> index_of;
+  std::map<std::tuple<std::string, std::ptrdiff_t, const Figure*, std::string>, std::size_t> index_of;
   std::map<std::string, std::vector<std::string>> settings_of;  // by name, in the order in which they came
   for (const HistoryEntry& entry : history)
     for (const HistoryEntry::Case& history_case : entry.cases) {
@@ -409,16 +409,16 @@ std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const me
       const auto at = history_case.settings.empty() ? known.end() - 1 : std::ranges::find(known, history_case.settings);
       const auto version = at - known.begin();
       for (const auto& [name, value] : history_case.figures) {
-        const Metric* metric = metric_named(name);
-        if (metric == nullptr || basis_of(*metric) == Basis::derived) continue;  // of an older version
-        const std::string from = origin(entry, *metric);
-        const auto [found, is_new] = index_of.try_emplace({history_case.name, version, metric, from}, all.size());
+        const Figure* figure = exported_figure(name);
+        if (figure == nullptr || figure->basis == Basis::derived) continue;  // of an older version
+        const std::string from = origin(entry, *figure);
+        const auto [found, is_new] = index_of.try_emplace({history_case.name, version, figure, from}, all.size());
         if (is_new)
           all.push_back({history_case.name,
                          *at,
                          version > 0 ? entry.commit : std::string(),
                          from,
-                         metric,
+                         figure,
                          {},
                          {},
                          {},
@@ -434,7 +434,7 @@ std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const me
     }
   for (Series& series : all) {
     series.is_too_short =
-        basis_of(*series.metric) == Basis::time && series.values.size() < measure::least_values(rule.max_p);
+        series.figure->basis == Basis::time && series.values.size() < measure::least_values(rule.max_p);
     series.changes = changes_of(series, rule);
   }
   return all;
@@ -461,15 +461,15 @@ std::vector<std::string> path_changes_in(const std::vector<HistoryEntry>& histor
 }
 
 std::string direction(const Series& series, const measure::ChangePoint& change) {
-  const Metric& metric = *series.metric;
-  if (metric.better == Better::neither || digests_around(series, series.lights, change) != Around::same ||
+  const Figure& figure = *series.figure;
+  if (figure.better == Better::neither || digests_around(series, series.lights, change) != Around::same ||
       digests_around(series, series.paths, change) != Around::same)
     return "";
-  return (change.after < change.before) == (metric.better == Better::smaller) ? "better" : "worse";
+  return (change.after < change.before) == (figure.better == Better::smaller) ? "better" : "worse";
 }
 
 std::string direction_text(const Series& series, const measure::ChangePoint& change) {
-  if (series.metric->better == Better::neither) return "";
+  if (series.figure->better == Better::neither) return "";
   const Around lights = digests_around(series, series.lights, change),
                paths = digests_around(series, series.paths, change);
   if (lights == Around::others) return "of other lights";

@@ -23,6 +23,10 @@ struct CameraPath {
   double from_s = 0.0, to_s = 0.0;
 };
 
+// Whether histories have a figure: the headline, and the figures of gates (docs/ci.md); one that follows from others is
+// no series.
+bool is_kept(const result::Figure& figure);
+
 struct HistoryEntry {
   std::string commit;   // as it was given
   std::string machine;  // processor and instruction set
@@ -30,7 +34,7 @@ struct HistoryEntry {
   std::string caches;   // of times: "cold"; "" if warm, or of an older version
   struct Case {
     std::string settings, name;                           // the first is "" in lines of older versions
-    std::vector<std::pair<std::string, double>> figures;  // by the metric's name
+    std::vector<std::pair<std::string, double>> figures;  // by the exported name
     std::string scene = {};                               // "" in lines of older versions
     CameraPath path = {};
   };
@@ -52,7 +56,7 @@ struct Series {
   std::string settings;        // others are another series
   std::string settings_since;  // the commit from which on the case has these settings; "" if it has no others before
   std::string machine;         // and counter: two of them are two series; "" for what is counted, the same on all
-  const Metric* metric;
+  const result::Figure* figure;
   std::vector<std::string> commits;
   std::vector<double> values;
   // The digests of the scene's lights and of the camera's path, for each value; "" where it is not known.
@@ -79,7 +83,7 @@ struct Addition {
 // failed write.
 Addition add_to_history(const std::string& path, const result::Result& result, const std::string& commit);
 
-// By case in order of first appearance, then by metric, without those that say another in another way; the changes
+// By case in order of first appearance, then by figure, without those that say another in another way; the changes
 // found by `rule`.
 std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const measure::ChangeRule& rule);
 
@@ -87,7 +91,7 @@ std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const me
 std::string history_text(const std::vector<Series>& series, std::size_t entries, bool all,
                          const measure::ChangeRule& rule = {}, const std::vector<std::string>& light_changes = {});
 
-// "better", "worse", or "" where the metric has no direction. A figure of other lights or another camera path is
+// "better", "worse", or "" where the figure has no direction. A figure of other lights or another camera path is
 // neither.
 std::string direction(const Series& series, const measure::ChangePoint& change);
 // That direction in words, "of other lights", "of another camera path" where this is why there is none.

@@ -25,10 +25,14 @@ Json to_json(const Series& series) {
   for (const measure::ChangePoint& change : series.changes)
     changes.push_back(
         {{"index", change.index}, {"text", sentence(series, change)}, {"direction", direction(series, change)}});
-  return {{"metric", series.metric->name},  {"unit", series.metric->unit},
-          {"case", series.case_name},       {"machine", series.machine},
-          {"since", series.settings_since}, {"commits", series.commits},
-          {"values", series.values},        {"changes", changes}};
+  return {{"metric", series.figure->exported_as()},
+          {"unit", series.figure->unit},
+          {"case", series.case_name},
+          {"machine", series.machine},
+          {"since", series.settings_since},
+          {"commits", series.commits},
+          {"values", series.values},
+          {"changes", changes}};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "report/cases/case_costs.h"
 #include "result/at.h"
+#include "result/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {

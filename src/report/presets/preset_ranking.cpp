@@ -174,7 +174,7 @@ std::string heading(const result::PresetRanking& ranking, const std::vector<Case
            text_of(number<&result::RankedLights::max>(*lights), "%.0f") + " at most";
   const Case* first = case_of(ranking.cases.front().id, cases);
   const std::vector<std::string> sets = first == nullptr ? std::vector<std::string>{} : ranking_set_names(*first);
-  return out + (sets.empty() ? "" : "; samples: " + words_of_sets(sets)) + "\n";
+  return out + (sets.empty() ? "" : "; samples: " + result::words_of_sets(sets)) + "\n";
 }
 
 constexpr const char* k_legend =

@@ -151,12 +151,12 @@ std::string needed_lights_text(const RankedPreset& row) {
 }
 
 std::string sample_word(const RankedPreset& row) {
-  return "sample (" + words_of_sets(ranking_set_names(*row.result_case)) + ")";
+  return "sample (" + result::words_of_sets(ranking_set_names(*row.result_case)) + ")";
 }
 
 // "samples (visible surfaces)".
 std::string samples_words(const RankedPreset& row) {
-  return "samples (" + words_of_sets(ranking_set_names(*row.result_case)) + ")";
+  return "samples (" + result::words_of_sets(ranking_set_names(*row.result_case)) + ")";
 }
 
 // Of the samples by which presets are ranked.

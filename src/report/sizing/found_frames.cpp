@@ -13,8 +13,8 @@
 #include "report/cases/case_filter.h"
 #include "report/cases/columns.h"
 #include "report/cases/json_values.h"
-#include "report/cases/named_figures.h"
 #include "report/documents/result_file.h"
+#include "result/case_figure.h"
 #include "run/cases/case_names.h"
 #include "scene/camera_path.h"
 
@@ -206,7 +206,7 @@ template <class Figure>
 void raise_figure(Figure& figure, std::uint64_t found, std::uint64_t& worst_frame) {
   if (!(static_cast<double>(found) > static_cast<double>(figure))) return;
   figure = static_cast<Figure>(found);
-  worst_frame = k_found_frame;
+  worst_frame = result::k_found_frame;
 }
 
 void raise_measure(result::Case& result_case, const std::string& measure, std::uint64_t found) {

@@ -9,7 +9,6 @@
 #include "core/text.h"
 #include "report/cases/case_costs.h"
 #include "report/cases/columns.h"
-#include "report/cases/named_figures.h"
 #include "report/cases/sample_sets.h"
 #include "report/cases/timing_warnings.h"
 #include "report/comparing/ratios.h"
@@ -24,29 +23,19 @@
 #include "report/tables/stability_table.h"
 #include "report/tables/warnings.h"
 #include "result/at.h"
+#include "result/case_figure.h"
 
 namespace clusterbench::report {
 namespace {
 
 using result::Case;
-using result::Cost;
-using result::ListError;
 using result::number;
 using result::SampleSet;
-using result::Time;
 using result::Timing;
 
 constexpr const char* k_red = "\033[31m";
 constexpr const char* k_bold = "\033[1m";
 constexpr const char* k_plain = "\033[0m";
-
-using CaseFigure = std::optional<double> (*)(const Case& result_case);
-constexpr CaseFigure k_frame_ns = number<&Case::timing, &Timing::frame_ns, &Time::median>,
-                     k_instructions =
-                         number<&Case::count, &result::Count::instructions_per_frame, &result::PerFrame::assign>,
-                     k_excess = number<&Case::error, &ListError::excess_ratio>,
-                     k_frame_cost_ns = number<&Case::cost, &Cost::frame_ns>,
-                     k_gpu_cost_ns = number<&Case::cost, &Cost::gpu_ns>;
 
 struct Line {
   const Case* result_case = nullptr;
@@ -61,119 +50,105 @@ struct Extras {
        dropped = false, cold = false, launches = false, costs = false, searched = false;
 };
 
-std::string time_text(const std::optional<double>& ns) {
-  if (!ns) return "-";
-  const double us = *ns / 1e3;
-  return text(us < 10.0 ? "%.2f" : us < 1000.0 ? "%.1f" : "%.0f", us);
+std::string time_text(const std::optional<double>& us) {
+  if (!us) return "-";
+  return text(*us < 10.0 ? "%.2f" : *us < 1000.0 ? "%.1f" : "%.0f", *us);
+}
+std::string two_digits(const std::optional<double>& value) {
+  return text_of(value, "%.2f");
 }
 
 std::string worst_text(const Case& result_case) {
-  using result::WorstTimedFrame;
   const auto* worst = result::part<&Case::timing, &Timing::worst_frame>(result_case);
-  return worst == nullptr ? "-" : time_text(number<&WorstTimedFrame::ns>(*worst)) + " @" + std::to_string(worst->frame);
+  return worst == nullptr ? "-"
+                          : time_text(figure_of(result_case, "frame_us.max")) + " @" + std::to_string(worst->frame);
 }
 
 // The pairs of the frames that the time is of; without times those of all frames.
 std::string pairs_text(const Case& result_case) {
-  return short_count(k_frame_ns(result_case)
-                         ? number<&Case::timing, &Timing::pairs, &result::TimedPairs::mean>(result_case)
-                         : number<&Case::occupancy, &result::Occupancy::pairs, &result::Spread::mean>(result_case));
+  return short_count(figure_of(result_case, figure_of(result_case, "frame_us") ? "pairs_timed" : "pairs.mean"));
 }
 
 // Of the samples that the case is ranked by, as `unlit`.
-std::string lost_lux_text(const Case& result_case, SampleFigure what) {
+std::string lost_lux_text(const Case& result_case, result::SampleFigure what) {
   const SampleSet* most = most_at_sets(result_case, what);
   if (most == nullptr) return "-";
   return most->lost_lux == 0.0 ? "0" : text_of(what(*most), "%.3g");
 }
 
-// What the star goes by; lists that leave lights out are short.
-std::string overshade_text(const Case& result_case) {
-  const std::optional<double> overshade = limit_figure(result_case, "overshade");
-  return overshade ? text("%.2f", *overshade) : "-";
-}
-
 // Bytes of the structure that a sample reads to know its lights.
-std::string read_bytes_text(const Case& result_case) {
-  const std::optional<double> bytes = mean_at_samples(result_case, number<&SampleSet::read_bytes>);
+std::string read_bytes_text(const std::optional<double>& bytes) {
   return bytes ? text(*bytes < 100.0 ? "%.3g" : "%.0f", *bytes) : "-";
 }
 
 // Where nothing is timed what the GPU does.
 std::string cost_text(const Case& result_case) {
-  const std::optional<double> frame_ns = k_frame_cost_ns(result_case);
-  return time_text(frame_ns ? frame_ns : k_gpu_cost_ns(result_case));
+  const std::optional<double> frame_us = figure_of(result_case, "frame_cost_us");
+  return time_text(frame_us ? frame_us : figure_of(result_case, "gpu_cost_us"));
 }
 
 // By cost those that leave lights out come last: theirs is not the cost of the same picture.
 std::pair<bool, double> sort_key(const Case& result_case, RankBy by) {
   if (by == RankBy::frame_cost)
-    for (const CaseFigure figure : {k_frame_cost_ns, k_gpu_cost_ns})
-      if (const auto found = figure(result_case)) return {!result_case.cost->lit, *found};
-  for (const CaseFigure figure : {k_frame_ns, k_instructions, k_excess})
-    if (const auto found = figure(result_case)) return {false, *found};
+    for (const char* figure : {"frame_cost_us", "gpu_cost_us"})
+      if (const auto found = figure_of(result_case, figure)) return {!result_case.cost->lit, *found};
+  for (const char* figure : {"frame_us", "assign_instructions", "excess"})
+    if (const auto found = figure_of(result_case, figure)) return {false, *found};
   return {false, 0.0};
 }
 
 constexpr const char* k_frame_heading = "frame us";
 constexpr const char* k_cost_heading = "cost us";
 
+// A figure (result/figure_table.h) in a format, or a text of its own.
 struct Column {
   const char* heading;
-  std::string (*text)(const Case& result_case);
+  const char* figure = nullptr;
+  std::string (*format)(const std::optional<double>& value) = nullptr;
+  std::string (*own_text)(const Case& result_case) = nullptr;
   bool Extras::*needed = nullptr;  // left out where the table has none of it
   bool is_at_samples = false;      // the heading says of which
+
+  std::string text(const Case& result_case) const {
+    return figure != nullptr ? format(figure_of(result_case, figure)) : own_text(result_case);
+  }
 };
-constexpr bool k_at_samples = true;
 
 constexpr Column k_columns[] = {
-    {k_frame_heading, [](const Case& result_case) { return time_text(k_frame_ns(result_case)); }, &Extras::times},
-    {"±", frame_interval_text, &Extras::times},
-    {"worst us", worst_text, &Extras::times},
-    {"assign",
-     [](const Case& result_case) {
-       return time_text(number<&Case::timing, &Timing::assign_ns, &Time::median>(result_case));
-     },
-     &Extras::times},
-    {"convert",
-     [](const Case& result_case) {
-       return time_text(number<&Case::timing, &Timing::convert_ns, &Time::median>(result_case));
-     },
-     &Extras::conversions},
-    {"build",
-     [](const Case& result_case) {
-       return time_text(number<&Case::timing, &Timing::build_ns, &Time::median>(result_case));
-     },
-     &Extras::builds},
-    {k_cost_heading, cost_text, &Extras::costs},
-    {"instr", [](const Case& result_case) { return short_count(k_instructions(result_case)); }, &Extras::instructions},
-    {"pairs", pairs_text},
-    {"ns/pair",
-     [](const Case& result_case) { return text_of(number<&Case::timing, &Timing::ns_per_pair>(result_case), "%.2f"); },
-     &Extras::times},
-    {"excess", [](const Case& result_case) { return text_of(k_excess(result_case), "%.1f %%", 100.0); }},
-    {"missed",
-     [](const Case& result_case) {
-       return text_of(number<&Case::error, &ListError::false_negatives>(result_case), "%.0f");
-     }},
-    {"dropped",
-     [](const Case& result_case) {
-       return short_count(static_cast<double>(result_case.buffers.overflow.dropped_pairs));
-     },
-     &Extras::dropped},
-    {"lost lx", [](const Case& result_case) { return lost_lux_text(result_case, number<&SampleSet::lost_lux>); },
-     &Extras::dropped},
-    {"worst lx",
-     [](const Case& result_case) {
-       return lost_lux_text(result_case, number<&SampleSet::darkest, &result::DarkestSample::lost_lux>);
-     },
-     &Extras::dropped},
-    {"unlit", [](const Case& result_case) { return unlit_text(unlit_at_samples(result_case)); }, &Extras::samples,
-     k_at_samples},
-    {"overshade", overshade_text, &Extras::samples, k_at_samples},
-    {"read", read_bytes_text, &Extras::searched},
-    {"bytes",
-     [](const Case& result_case) { return short_count(static_cast<double>(result_case.buffers.bytes.high_water)); }},
+    {.heading = k_frame_heading, .figure = "frame_us", .format = time_text, .needed = &Extras::times},
+    {.heading = "±", .own_text = frame_interval_text, .needed = &Extras::times},
+    {.heading = "worst us", .own_text = worst_text, .needed = &Extras::times},
+    {.heading = "assign", .figure = "assign_us", .format = time_text, .needed = &Extras::times},
+    {.heading = "convert", .figure = "convert_us", .format = time_text, .needed = &Extras::conversions},
+    {.heading = "build", .figure = "build_us", .format = time_text, .needed = &Extras::builds},
+    {.heading = k_cost_heading, .own_text = cost_text, .needed = &Extras::costs},
+    {.heading = "instr", .figure = "assign_instructions", .format = short_count, .needed = &Extras::instructions},
+    {.heading = "pairs", .own_text = pairs_text},
+    {.heading = "ns/pair", .figure = "time_per_pair", .format = two_digits, .needed = &Extras::times},
+    {.heading = "excess",
+     .figure = "excess",
+     .format = [](const std::optional<double>& ratio) { return text_of(ratio, "%.1f %%", 100.0); }},
+    {.heading = "missed",
+     .figure = "missed",
+     .format = [](const std::optional<double>& pairs) { return text_of(pairs, "%.0f"); }},
+    {.heading = "dropped", .figure = "dropped", .format = short_count, .needed = &Extras::dropped},
+    {.heading = "lost lx",
+     .own_text = [](const Case& result_case) { return lost_lux_text(result_case, number<&SampleSet::lost_lux>); },
+     .needed = &Extras::dropped},
+    {.heading = "worst lx",
+     .own_text =
+         [](const Case& result_case) {
+           return lost_lux_text(result_case, number<&SampleSet::darkest, &result::DarkestSample::lost_lux>);
+         },
+     .needed = &Extras::dropped},
+    {.heading = "unlit", .figure = "unlit", .format = unlit_text, .needed = &Extras::samples, .is_at_samples = true},
+    {.heading = "overshade",
+     .figure = "overshade",
+     .format = two_digits,
+     .needed = &Extras::samples,
+     .is_at_samples = true},
+    {.heading = "read", .figure = "read_bytes", .format = read_bytes_text, .needed = &Extras::searched},
+    {.heading = "bytes", .figure = "bytes", .format = short_count},
 };
 
 bool is_shown(const Column& column, const Extras& extras) {
@@ -230,9 +205,9 @@ Extras extras_of(const std::vector<Case>& cases) {
   std::set<std::string> storages;
   for (const Case& result_case : cases) {
     storages.insert(result_case.storage);
-    extras.times |= k_frame_ns(result_case).has_value();
-    extras.conversions |= number<&Case::timing, &Timing::convert_ns, &Time::median>(result_case).has_value();
-    extras.builds |= number<&Case::timing, &Timing::builds_per_frame>(result_case).value_or(0.0) != 0.0;
+    extras.times |= figure_of(result_case, "frame_us").has_value();
+    extras.conversions |= figure_of(result_case, "convert_us").has_value();
+    extras.builds |= figure_of(result_case, "builds_per_frame").value_or(0.0) != 0.0;
     extras.instructions |= result_case.count.has_value();
     extras.cold |= result_case.timing && result_case.timing->caches == "cold";
     extras.launches |= result_case.timing && result_case.timing->launches > 1u;
@@ -282,7 +257,7 @@ std::string sets_text(const std::vector<Case>& cases) {
     if (sets.empty()) continue;
     const std::string heading = heading_of_sets(result_case);
     std::string line = heading.empty() ? "samples" : heading.substr(2, heading.size() - 3);
-    line += ": " + words_of_sets(sets);
+    line += ": " + result::words_of_sets(sets);
     if (sets.size() > 1) line += ", by the weights of the key `cost`; unlit: of the set that lacks most";
     if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
   }

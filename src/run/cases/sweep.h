@@ -100,8 +100,8 @@ std::string shadow_obstacle(const SceneData& data);
 
 struct Skipped {
   std::string name, reason;
-  bool is_other_kind = false;  // a method on a kind of grid that it does not take
-  std::string preset = {};     // that it is of; "" for the configuration's own clusterings
+  bool is_other_kind = false;  // the method does not support this kind of grid
+  std::string preset = {};     // "" for the configuration's own clusterings
 };
 
 struct Plan {

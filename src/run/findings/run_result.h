@@ -35,12 +35,6 @@
 
 namespace clusterbench::run {
 
-struct Skipped {
-  std::string name, reason;
-  bool is_other_kind = false;  // the method does not support this kind of grid
-  std::string preset = {};     // "" for the configuration's own clusterings
-};
-
 struct ToolFacts {
   std::string version, git_sha, compiler, flags, build_type, simd_target;
   std::vector<std::pair<std::string, std::string>> libraries;
