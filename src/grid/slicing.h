@@ -33,7 +33,7 @@ struct Slicing {
   // With an orthographic camera the scheme is linear from near to far, as in engines (Bevy, Unity URP).
   bool linear_when_orthographic = false;
 
-  // Whether, with this far plane of the camera, slices end where the lights of the path end, so neither engine nor
+  // Whether, with this far plane of the camera, slices end where the lights in view end, so neither engine nor
   // configuration gives an end.
   bool ends_with_lights(double camera_far_m) const;
 };

@@ -88,7 +88,7 @@ class SchemaWriter {
   }
 
   static Json integer_schema(const Type& type, const About& about) {
-    if (about.constant) return {{"const", *about.constant}};
+    if (about.constant) return {{"type", "integer"}, {"const", *about.constant}};
     Json out{{"type", "integer"}};
     if (type.is_unsigned) out["minimum"] = 0;
     add_bounds(out, about);

@@ -30,12 +30,12 @@ std::string end_text(const grid::Slicing& slices, double far_m) {
   const std::string remedy = "; --set 'scenes.*.far=METRES' gives cameras the far plane of your game";
   if (slices.far_at_most_m > 0.0 && far_m >= slices.far_at_most_m)
     return std::string("the grid ends at ") + at +
-           ", its slices' far_at_most, whether lights of the path reach farther or not";
+           ", its slices' far_at_most, whether lights in view reach farther or not";
   if (slices.far_default_m > 0.0)
     return std::string(k_no_far_plane) + ": the grid ends at " + at +
            ", as that of the engine's own cameras does by default (slices.far_default)" + remedy;
-  return std::string(k_no_far_plane) + " and slices.far is not set: the grid ends at " + at + ", " +
-         k_ends_with_lights + ", and lists depend on that" + remedy;
+  return std::string(k_no_far_plane) + " and " + k_ends_with_lights + ": the grid ends at " + at +
+         ", beyond which no light in view reaches, and lists depend on that" + remedy;
 }
 
 std::string note_of_reaction(const grid::Reaction& reaction) {

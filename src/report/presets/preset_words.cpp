@@ -115,7 +115,7 @@ std::string far_text(const std::vector<RankedPreset>& rows) {
   std::string out = "costs depend on the far plane, which the camera does not have: slices end ";
   if (!by_engine.empty()) out += "with that of the engine's own cameras (" + joined(by_engine) + ")";
   if (!by_lights.empty())
-    out += std::string(by_engine.empty() ? "" : " and ") + "with the lights of the path (" + joined(by_lights) + ")";
+    out += std::string(by_engine.empty() ? "" : " and ") + "with the lights in view (" + joined(by_lights) + ")";
   return out + "; --set 'scenes.*.far=METRES' gives cameras that of your game";
 }
 

@@ -125,14 +125,17 @@ bool is_same_angle(const Json& a, const Json& b) {
 
 // Slices whose cells have a shape end with the one that holds the end that was asked for.
 bool ends_at(const result::Slices& slices, double end_m) {
+  const std::size_t count = slices.boundaries.size();
+  if (count < 2) return false;
   const double last_m = slices.boundaries.back();
   return is_near(end_m, last_m, last_m) ||
-         (slices.scheme.starts_with("cubical") && end_m > slices.boundaries.end()[-2] && end_m < last_m);
+         (slices.scheme.starts_with("cubical") && end_m > slices.boundaries[count - 2] && end_m < last_m);
 }
 
 // "" if the grid ends where that of the search did, or follows something from frame to frame.
 std::string other_end(const Json& searched, const result::Grid& grid) {
-  if (const std::optional<double> end_m = number_at(searched, "/slices_m"); end_m && grid.slices) {
+  if (const std::optional<double> end_m = number_at(searched, "/slices_m");
+      end_m && grid.slices && !grid.slices->boundaries.empty()) {
     const double here_m = grid.slices->boundaries.back();
     return ends_at(*grid.slices, *end_m)
                ? ""
