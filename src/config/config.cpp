@@ -437,6 +437,8 @@ Config read_config(const JsonText& text, const GridChange& preset_grid) {
   check_utf8(text);
   Config config;
   config.file = text.file;
+  config.preset_grid = preset_grid;
+  config.text = text;
   config.resolved = filled(text);
   config.resolved.erase("$schema");
   const Json& document = config.resolved;
@@ -570,6 +572,13 @@ std::string MethodRequest::label() const {
 
 std::string PrecisionRequest::label() const {
   return std::string(view::packing_name(packing)) + (inflate ? "+inflate" : "");
+}
+
+Config changed(const Config& config, const Json& patch) {
+  JsonText text = config.text;
+  text.value = config.resolved;
+  text.value.merge_patch(patch);
+  return read_config(text, config.preset_grid);
 }
 
 Config parse_config(const std::string& text, const fs::path& file, std::span<const FlagValue> flags,

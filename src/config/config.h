@@ -12,6 +12,7 @@
 
 #include "assign/contract/assigner.h"
 #include "config/config_flags.h"
+#include "config/json_text.h"
 #include "config/limit_rules.h"
 #include "core/memory.h"
 #include "cull/pre_cull_spec.h"
@@ -180,7 +181,12 @@ struct Config {
   bool compares_precisions() const { return precisions != std::vector<PrecisionRequest>{{}}; }
 
   nlohmann::json resolved;  // the configuration with all defaults, as the result carries it
+  GridChange preset_grid;   // members in place of those of the presets' grids
+  JsonText text;            // as it was read: where each value stands, for messages
 };
+
+// The configuration with a merge patch (RFC 7396) of its keys: read again, so that it is what its keys say. Throws Error.
+Config changed(const Config& config, const nlohmann::json& patch);
 
 // Reads and checks a configuration file, and then what the command line's flags make of it. `defaults`: members of a
 // configuration that stand for the schema's defaults where the file has none. `preset_grid`: of the grid of each preset

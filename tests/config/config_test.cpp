@@ -183,6 +183,20 @@ std::string with_names(std::string message) {
   return message;
 }
 
+// Flags, defaults and places stay: a change is no other way to read a configuration.
+TEST(Config, is_what_its_keys_say_after_a_change) {
+  const Config config = parsed(R"(, "limits": {"fail_if": ["bytes > 1e6"]}, "lookup": {}, "stability": {"steps": 7})");
+  const Config next = changed(config, {{"stability", nullptr}, {"timing", {{"measure", false}}}});
+  EXPECT_TRUE(config.stability && config.timing.measure && config.resolved["stability"]["steps"] == 7);
+  EXPECT_FALSE(next.stability || next.timing.measure);
+  EXPECT_TRUE(next.resolved["stability"].is_null());
+  EXPECT_EQ(next.resolved["timing"]["measure"], false);
+  EXPECT_TRUE(next.lookup);
+  EXPECT_EQ(next.limits.fail_if.at(0).text(), "bytes > 1000000");
+  EXPECT_EQ(next.scenes.at(0).named_at, config.scenes.at(0).named_at);
+  EXPECT_EQ(changed(next, {{"stability", {{"steps", 7}}}, {"timing", {{"measure", true}}}}).resolved, config.resolved);
+}
+
 TEST(Config, a_fault_is_named_with_its_place_what_was_found_and_what_is_allowed) {
   for (const Broken& broken : k_broken)
     EXPECT_EQ(message_of(broken.text), "configs/c.json: " + with_names(broken.message)) << broken.text;

@@ -91,13 +91,8 @@ config::Config read_input(const RecommendFlags& flags, std::string& ignored) {
   defaults["samples"] = {{"opaque", {{"divisor", 16}}}};
   config::Config config = read_inputs(flags.inputs, {}, defaults);
   ignored = ignored_keys(config);
-  config.details.reset();
-  config.stability.reset();
-  for (const char* key : {"details", "stability"}) config.resolved[key] = nullptr;
-  config.shadow_culls.clear();
-  config.shared_frusta.reset();
-  for (const char* key : {"shadow_cull", "shadow_frusta"}) config.resolved.erase(key);
-  return config;
+  return config::changed(
+      config, {{"details", nullptr}, {"stability", nullptr}, {"shadow_cull", nullptr}, {"shadow_frusta", nullptr}});
 }
 
 // A preset whose engine makes its lists on a GPU, so that times measured here are not the engine's; "" without any.
@@ -118,7 +113,7 @@ const result::Figure* objective_of(const RecommendFlags& flags, const config::Co
 // Costs need samples with a weight. A scene without triangles has no surfaces to shade: then each pixel is shaded once
 // at a random depth of its view. Returns whether that is the case.
 bool weight_volume_samples(config::Config& config, const run::Plan& plan) {
-  nlohmann::json& weights = config.resolved["cost"]["weights"];
+  const nlohmann::json& weights = config.resolved["cost"]["weights"];
   const auto has_cost = [&](const config::SampleSetRequest& set) {
     return weights[measure::name_of(set.set)] != 0.0 &&
            std::ranges::all_of(plan.scenes, [&](const auto& data) { return run::set_obstacle(set, data).empty(); });
@@ -127,7 +122,7 @@ bool weight_volume_samples(config::Config& config, const run::Plan& plan) {
   if (std::ranges::find(config.sample_sets, measure::SampleSet::volume, &config::SampleSetRequest::set) ==
       config.sample_sets.end())
     throw Error("", "--by", "a cost is that of samples, and there are none; take another figure, or shading.samples");
-  weights["volume"] = "pixels";
+  config = config::changed(config, {{"cost", {{"weights", {{"volume", "pixels"}}}}}});
   return true;
 }
 
@@ -259,8 +254,7 @@ ExitCode recommend(const RecommendFlags& flags) {
                     std::to_string(config.own_pre_culls) + " pre-culls, allowed: 1");
   question.constraints = report::constraints_of(rules_of(flags, config));
   const bool is_timed = check_timing(flags, question, config);
-  config.timing.measure = is_timed;
-  config.resolved["timing"]["measure"] = is_timed;
+  config = config::changed(config, {{"timing", {{"measure", is_timed}}}});
   run::Plan plan = run::make_plan(config, flags.filter);
   refuse_overwriting({flags.output, flags.written}, files_of(flags.inputs, config));
   for (const std::string& output : {flags.output, flags.written})

@@ -75,10 +75,7 @@ config::Config read_config(const RunFlags& flags) {
 }
 
 config::Config overridden(config::Config config, const RunFlags& flags) {
-  if (flags.no_timing) {
-    config.timing.measure = false;
-    config.resolved["timing"]["measure"] = false;
-  }
+  if (flags.no_timing) config = config::changed(config, {{"timing", {{"measure", false}}}});
   set_gates(config, flags.gates);
   return config;
 }

@@ -35,13 +35,13 @@ void add_gate_options(Command& command, GateFlags& flags) {
 }
 
 void set_gates(config::Config& config, const GateFlags& flags) {
-  nlohmann::json& limits = config.resolved["limits"];
-  if (!flags.baseline.empty()) {
-    config.limits.baseline = flags.baseline;
-    limits["baseline"] = flags.baseline;
-  }
-  if (flags.allows_no_lights) limits["allow_no_lights"] = config.limits.allows_no_lights = true;
-  if (flags.allows_changed_lights) limits["allow_changed_lights"] = config.limits.allows_changed_lights = true;
+  nlohmann::json limits = nlohmann::json::object();
+  if (!flags.baseline.empty()) limits["baseline"] = flags.baseline;
+  if (flags.allows_no_lights) limits["allow_no_lights"] = true;
+  if (flags.allows_changed_lights) limits["allow_changed_lights"] = true;
+  if (limits.empty()) return;
+  config = config::changed(config, {{"limits", limits}});
+  if (!flags.baseline.empty()) config.limits.baseline = flags.baseline;  // not relative to the configuration's file
 }
 
 void keep_counted_budgets(config::Config& config, const std::string& doing) {

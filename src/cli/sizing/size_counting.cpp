@@ -76,19 +76,14 @@ bool uses_exact_methods(const RunInputs& inputs, const std::string& filter, bool
 }
 
 // Removes the keys that only times or pictures need; lists are not compared with the truth.
-config::Config counting_only(config::Config config) {
-  config.timing.measure = false;
-  config.check_accuracy = false;
-  config.stability.reset();
-  config.lookup.reset();
-  config.details.reset();
-  config.resolved["timing"]["measure"] = false;
-  config.resolved["accuracy"]["check"] = false;
-  for (const char* key : {"stability", "lookup", "details"}) config.resolved[key] = nullptr;
-  config.shadow_culls.clear();
-  config.shared_frusta.reset();
-  for (const char* key : {"shadow_cull", "shadow_frusta"}) config.resolved.erase(key);
-  return config;
+config::Config counting_only(const config::Config& config) {
+  return config::changed(config, {{"timing", {{"measure", false}}},
+                                  {"accuracy", {{"check", false}}},
+                                  {"stability", nullptr},
+                                  {"lookup", nullptr},
+                                  {"details", nullptr},
+                                  {"shadow_cull", nullptr},
+                                  {"shadow_frusta", nullptr}});
 }
 
 // Samples show whether a structure loses lights. Paths with many frames use as many samples in total as 30 frames
