@@ -104,8 +104,9 @@ class Reader {
     const std::vector<std::string> types = types_of(schema);
     const bool typed = std::any_of(types.begin(), types.end(), [&](const auto& type) { return has_type(type, value); });
     if (!types.empty() && !typed) fail(schema, value, pointer);
-    if (value.is_object()) return read_object(schema, nullptr, value, pointer);
-    if (value.is_array()) return read_array(schema, value, pointer);
+    const bool is_of_words = schema.contains("enum") || schema.contains("const");
+    if (value.is_object() && !is_of_words) return read_object(schema, nullptr, value, pointer);
+    if (value.is_array() && !is_of_words) return read_array(schema, value, pointer);
     check_scalar(schema, value, pointer);
     return value;
   }
