@@ -6,6 +6,8 @@
 #include <sstream>
 
 #include "cli/tool.h"
+#include "config/limit_rules.h"
+#include "result/figure_table.h"
 
 namespace clusterbench::test {
 namespace {
@@ -129,6 +131,27 @@ TEST(CommandLine, list_tells_where_presets_come_from_and_what_of_them_is_unverif
   EXPECT_NE(text.find("limit: 255 lights in view, the first; 255 in a cell"), std::string::npos) << text;
   EXPECT_NE(text.find("with --as-shipped: the row of a light's centre is taken once"), std::string::npos) << text;
   EXPECT_EQ(text.find("brute-force:"), std::string::npos) << "nothing else";
+}
+
+TEST(CommandLine, list_figures_tells_each_figure_and_where_it_can_be_used) {
+  const Json figures = Json::parse(tool("list figures --json").out);
+  EXPECT_EQ(figures.size(), result::figures().size());
+  const std::string text = tool("list figures").out, help = tool("recommend --help").out;
+  for (const Json& figure : figures) {
+    const auto name = figure["name"].get<std::string>();
+    EXPECT_NE(text.find("\n  " + name + " [" + figure["unit"].get<std::string>() + "]: "), std::string::npos) << name;
+    EXPECT_EQ(config::limit_rule(name + " > 1", "", "--fail-if").figure, name);
+    const bool is_objective = help.find(name + ",") != std::string::npos || help.find(name + "}") != std::string::npos;
+    EXPECT_TRUE(!figure["uses"]["recommend"] || is_objective) << name;
+  }
+  EXPECT_NE(text.find("  frame_us [us]: median time of a frame in microseconds: assign and convert\n      better: "
+                      "smaller; rests on: derived; budget; recommend; export frame_time [ns]\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("better: smaller; rests on: count; budget, also as SET.unlit; recommend; export unlit [ratio]; "
+                      "history\n"),
+            std::string::npos)
+      << text;
 }
 
 TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
