@@ -9,7 +9,7 @@
 #include "assign/contract/storage.h"
 #include "config/schema_text.h"
 #include "core/error.h"
-#include "result/result.h"
+#include "result/documents/ratios.h"
 
 namespace clusterbench::config {
 namespace {
@@ -124,7 +124,7 @@ std::span<const DocumentRow> document_rows() {
       {Document::result, "result", "a result of `clusterbench run`", result_schema},
       {Document::comparison, "comparison", "a comparison of `clusterbench compare`",
        [] { return Json::parse(comparison_schema_text()); }},
-      {Document::ratios, "ratios", "ratios of `clusterbench ratio`", [] { return Json::parse(ratios_schema_text()); }},
+      {Document::ratios, "ratios", "ratios of `clusterbench ratio`", [] { return Json(result::ratios_schema()); }},
       {Document::recommendation, "recommendation", "a recommendation of `clusterbench recommend`",
        [] { return Json::parse(recommendation_schema_text()); }},
       {Document::stress, "stress", "a result of `clusterbench stress`",
