@@ -9,6 +9,7 @@
 #include "assign/contract/storage.h"
 #include "config/schema_text.h"
 #include "core/error.h"
+#include "result/documents/comparison.h"
 #include "result/documents/ratios.h"
 
 namespace clusterbench::config {
@@ -123,7 +124,7 @@ std::span<const DocumentRow> document_rows() {
       {Document::config, "config", "a configuration", config_schema},
       {Document::result, "result", "a result of `clusterbench run`", result_schema},
       {Document::comparison, "comparison", "a comparison of `clusterbench compare`",
-       [] { return Json::parse(comparison_schema_text()); }},
+       [] { return Json(result::comparison_schema()); }},
       {Document::ratios, "ratios", "ratios of `clusterbench ratio`", [] { return Json(result::ratios_schema()); }},
       {Document::recommendation, "recommendation", "a recommendation of `clusterbench recommend`",
        [] { return Json::parse(recommendation_schema_text()); }},

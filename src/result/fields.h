@@ -57,7 +57,7 @@ struct About {
   std::size_t least_items = 0, most_items = 0;  // of a list; 0: any number
   const char* of_each = "";                     // what the values by name are
   std::optional<int> constant{};                // of a whole number
-  const char* shape = "";                       // of any JSON: what else its schema says
+  const char* shape = "";                       // of any JSON: its schema; of a struct: what else its schema says
   bool is_late = false;                         // always written; results of earlier versions may lack it
 
  private:

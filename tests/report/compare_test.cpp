@@ -35,11 +35,25 @@ run::Result with_times(double slow_ns, double fast_ns) {
 
 // Every comparison of these tests is held against its schema.
 Json compared(const Json& base, const Json& next, double threshold, const CompareOptions& options = {}) {
-  Json comparison = compare_results(test::result_of(base), test::result_of(next), threshold, options);
+  Json comparison = result::to_json(compare_results(test::result_of(base), test::result_of(next), threshold, options));
   const Json violations = config::schema_violations(config::row_of(config::Document::comparison).schema(),
                                                     nlohmann::json::parse(comparison.dump()));
   EXPECT_TRUE(violations.empty()) << violations.dump(1) << comparison.dump(1);
   return comparison;
+}
+
+// What is read back of a comparison says the same.
+result::Comparison read(const Json& comparison) {
+  return result::from_json<result::Comparison>(comparison);
+}
+ExitCode outcome(const Json& comparison, bool is_strict) {
+  return report::outcome(read(comparison), is_strict);
+}
+std::string comparison_text(const Json& comparison) {
+  return report::comparison_text(read(comparison));
+}
+std::string comparison_markdown(const Json& comparison) {
+  return report::comparison_markdown(read(comparison));
 }
 
 std::string verdict_of(const Json& comparison, std::size_t place) {

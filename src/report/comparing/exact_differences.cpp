@@ -11,6 +11,7 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using result::Difference;
 
 enum class Kind {
   cost,      // less is better
@@ -136,7 +137,7 @@ bool holds_objects(const Json& value) {
 }
 
 // Goes down both values side by side and adds each leaf that differs.
-void walk(const std::string& pointer, const Json& base, const Json& next, Json& out) {
+void walk(const std::string& pointer, const Json& base, const Json& next, std::vector<Difference>& out) {
   if (base == next) return;
   if (base.is_object() && next.is_object()) {
     for (const auto& [key, value] : base.items())
@@ -144,7 +145,7 @@ void walk(const std::string& pointer, const Json& base, const Json& next, Json& 
   } else if (holds_objects(base) && holds_objects(next) && base.size() == next.size()) {
     for (std::size_t i = 0; i < base.size(); ++i) walk(pointer + "/" + std::to_string(i), base[i], next[i], out);
   } else {
-    out.push_back({{"what", pointer}, {"base", base}, {"new", next}, {"is", judged(kind_of(pointer), base, next)}});
+    out.push_back({.what = pointer, .base = base, .next = next, .is = judged(kind_of(pointer), base, next)});
   }
 }
 
@@ -159,14 +160,13 @@ bool follows_margin(const std::string& pointer) {
          (pointer.ends_with("/recommended") || pointer.starts_with("/buffers/used_share"));
 }
 
-bool any(const Json& differences, const char* what) {
-  return std::any_of(differences.begin(), differences.end(),
-                     [&](const Json& difference) { return difference["is"] == what; });
+bool any(const std::vector<Difference>& differences, const char* what) {
+  return std::ranges::find(differences, what, &Difference::is) != differences.end();
 }
 
-bool follows_from_nothing(const Json& differences) {
-  return std::any_of(differences.begin(), differences.end(),
-                     [](const Json& difference) { return kind_of(difference["what"]) == Kind::follows; });
+bool any_follows(const std::vector<Difference>& differences) {
+  return std::ranges::any_of(differences,
+                             [](const Difference& difference) { return kind_of(difference.what) == Kind::follows; });
 }
 
 }  // namespace
@@ -178,19 +178,18 @@ std::string deepest_loss_text(const result::Case& result_case) {
          std::to_string(deepest->light) + " ('" + shown(deepest->light_name) + "')";
 }
 
-Json exact_differences(const result::Case& base, const result::Case& next, bool is_margin_same) {
+ExactDifferences exact_differences(const result::Case& base, const result::Case& next, bool is_margin_same) {
   const Json base_json = result::to_json(base), next_json = result::to_json(next);
-  Json found = Json::array(), differences = Json::array();
+  ExactDifferences out;
+  std::vector<Difference>& found = out.differences;
   for (const auto& [key, value] : base_json.items())
     if (is_counted(key) && next_json.contains(key)) walk("/" + key, value, next_json[key], found);
-  for (const Json& difference : found)
-    if (is_margin_same || !follows_margin(difference["what"].get<std::string>())) differences.push_back(difference);
-  const bool is_better = any(differences, "better");
-  const bool is_worse = any(differences, "worse") || (!is_better && follows_from_nothing(differences));
-  Json out{{"counts", is_worse ? "worse" : is_better ? "better" : "same"}, {"differences", differences}};
-  for (const Json& difference : differences)
-    if (difference["what"] == "/error/false_negatives" && difference["is"] == "worse")
-      out["place"] = deepest_loss_text(next);
+  if (!is_margin_same)
+    std::erase_if(found, [](const Difference& difference) { return follows_margin(difference.what); });
+  const bool is_better = any(found, "better"), is_worse = any(found, "worse") || (!is_better && any_follows(found));
+  out.counts = is_worse ? "worse" : is_better ? "better" : "same";
+  for (const Difference& difference : found)
+    if (difference.what == "/error/false_negatives" && difference.is == "worse") out.place = deepest_loss_text(next);
   return out;
 }
 
