@@ -28,10 +28,22 @@ using Json = nlohmann::ordered_json;
 
 inline constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
 
+// What the comparison of two results makes of a field that differs.
+enum class Compares : std::uint8_t {
+  as_holder,  // what it makes of what holds the field; of a case itself: fixed
+  fixed,      // both must have the same
+  cost,       // less is better
+  follows,    // says the same as some cost in another way
+  unjudged,   // says nothing of the case by itself: how the truth was found, what limits make of the counts
+  skipped     // not compared
+};
+
 // What a field is. "" for a unit, and for what it is over: that of what holds it.
 struct About {
-  About(const char* what = "", const char* in_unit = "", const char* taken_over = "")
-      : description(what), unit(in_unit), over(taken_over) {}
+  About(const char* what = "", const char* in_unit = "", const char* taken_over = "", Compares as = Compares::as_holder)
+      : description(what), unit(in_unit), over(taken_over), compares(as) {}
+  About(const char* what, Compares as) : About(what, "", "", as) {}
+  About(const char* what, const char* in_unit, Compares as) : About(what, in_unit, "", as) {}
 
   About at_least(double least) const { return with(&About::min, least); }
   About above(double bound) const { return with(&About::above_min, bound); }
@@ -49,6 +61,7 @@ struct About {
   About late() const { return with(&About::is_late, true); }
 
   const char *description, *unit, *over;
+  Compares compares;                                // of a struct: of all its fields that do not say it of themselves
   std::optional<double> min{}, above_min{}, max{};  // of a number, or each of a list's
   bool is_finite = false;
   bool is_fraction = false;

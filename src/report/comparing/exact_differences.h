@@ -1,5 +1,6 @@
 #pragma once
 // What is counted rather than timed, of the same case in two results: every number, string and list that is not equal.
+// What that means of each field is said where it is listed (result::Compares).
 
 #include <string>
 #include <vector>
