@@ -103,12 +103,13 @@ struct SetCost {
 };
 
 struct Cost {
+  static About about() { return About("", Compares::follows); }
   RECORD(Cost);
   FIELD(double, frame_ns,
         "assign_ns + gpu_ns; null where nothing is timed, and of presets whose engine makes its lists on a GPU, which "
         "is not timed here",
-        "ns");
-  FIELD(double, assign_ns, "timing.frame_ns.median: assignment and conversion", "ns");
+        "ns", Compares::skipped);
+  FIELD(double, assign_ns, "timing.frame_ns.median: assignment and conversion", "ns", Compares::skipped);
   FIELD(double, gpu_ns,
         "upload_ns + traffic_ns + read_ns + shade_ns: all but the assignment, and the same on every machine", "ns");
   FIELD(double, upload_ns,

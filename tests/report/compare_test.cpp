@@ -308,6 +308,19 @@ TEST(Compare, a_single_pair_or_byte_more_fails_and_one_less_does_not) {
   }
 }
 
+TEST(Compare, of_a_cost_its_times_are_not_compared_and_the_rest_follows_from_counts) {
+  Json base = json_of(result_by_hand());
+  base["cases"][1]["cost"] = {{"frame_ns", 300.0}, {"assign_ns", 100.0}, {"gpu_ns", 200.0}};
+  Json next = base;
+  next["cases"][1]["cost"]["frame_ns"] = 303.0;
+  next["cases"][1]["cost"]["assign_ns"] = 103.0;
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][1]["counts"], "same");
+  next["cases"][1]["cost"]["gpu_ns"] = 190.0;
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][1]["counts"], "worse") << "without a count that is less";
+  next["cases"][1]["tests_done"] = base["cases"][1]["tests_done"].get<double>() - 1;
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][1]["counts"], "better");
+}
+
 TEST(Compare, another_truth_or_another_list_of_the_same_length_fails) {
   const Json base = json_of(result_by_hand());
   for (const char* place : {"/cases/0/error/true_pairs", "/cases/0/occupancy/worst_frame"}) {

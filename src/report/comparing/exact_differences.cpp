@@ -100,11 +100,8 @@ ExactDifferences exact_differences(const result::Case& base, const result::Case&
   differences.add("", result::type_of<result::Case>(), Compares::fixed, result::to_json(base), result::to_json(next));
   const bool is_better = differences.any("better");
   const bool is_worse = differences.any("worse") || (!is_better && differences.any_follows());
-  ExactDifferences out{.counts = is_worse    ? "worse"
-                                 : is_better ? "better"
-                                             : "same",
-                       .differences = differences.found(),
-                       .place = {}};
+  const char* counts = is_worse ? "worse" : is_better ? "better" : "same";
+  ExactDifferences out{.counts = counts, .differences = differences.found(), .place = {}};
   for (const Difference& difference : out.differences)
     if (difference.what == "/error/false_negatives" && difference.is == "worse") out.place = deepest_loss_text(next);
   return out;
