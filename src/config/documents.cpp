@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "result/documents/comparison.h"
 #include "result/documents/ratios.h"
+#include "result/documents/worst_case.h"
 
 namespace clusterbench::config {
 namespace {
@@ -131,7 +132,7 @@ std::span<const DocumentRow> document_rows() {
       {Document::stress, "stress", "a result of `clusterbench stress`",
        [] { return Json::parse(stress_schema_text()); }},
       {Document::worst_case, "worst-case", "a result of `clusterbench worst-case`",
-       [] { return Json::parse(worst_case_schema_text()); }},
+       [] { return Json(result::worst_case_schema()); }},
       {Document::size, "size", "allocations of `clusterbench size`", [] { return Json::parse(size_schema_text()); }},
       {Document::light_map, "light-map", "light maps of `clusterbench light-map`",
        [] { return Json::parse(light_map_schema_text()); }},

@@ -1,5 +1,6 @@
 #include "result/documents/comparison.h"
 #include "result/documents/ratios.h"
+#include "result/documents/worst_case.h"
 #include "result/schema.h"
 
 namespace clusterbench::result {
@@ -7,6 +8,7 @@ namespace clusterbench::result {
 // Here once: each instance lists the fields of all records below it.
 template const Type& type_of<Comparison>();
 template const Type& type_of<Ratios>();
+template const Type& type_of<WorstCase>();
 
 Json comparison_schema() {
   return schema_of<Comparison>("clusterbench comparison",
@@ -18,6 +20,12 @@ Json ratios_schema() {
   return schema_of<Ratios>("clusterbench ratios",
                            "What `clusterbench ratio RESULT --json FILE` writes: how much longer one case takes than "
                            "another, of one result.");
+}
+
+Json worst_case_schema() {
+  return schema_of<WorstCase>("clusterbench worst-case result",
+                              "What `clusterbench worst-case` writes: the frames in which a measure of one case is "
+                              "largest.");
 }
 
 }  // namespace clusterbench::result
