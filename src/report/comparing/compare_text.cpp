@@ -14,14 +14,14 @@ using result::ComparedCase;
 using result::Comparison;
 using result::Json;
 
-std::string percent(double ratio) {
+std::string ratio_percent(double ratio) {
   return std::isfinite(ratio) ? text("%+.2f %%", 100.0 * (ratio - 1.0)) : "-";
 }
 
 std::string interval(const std::optional<result::Pair>& ci95) {
   if (!ci95) return "-";
   const auto [low, high] = *ci95;
-  return std::isfinite(high) ? percent(low) + " .. " + percent(high) : k_unknown_interval;
+  return std::isfinite(high) ? ratio_percent(low) + " .. " + ratio_percent(high) : k_unknown_interval;
 }
 
 std::string micros(const std::optional<double>& ns) {
@@ -61,9 +61,9 @@ Cells row_of(const ComparedCase& compared_case) {
           word_of(compared_case),
           micros(compared_case.base_ns),
           micros(compared_case.new_ns),
-          percent(compared_case.ratio.value_or(result::k_none)),
+          ratio_percent(compared_case.ratio.value_or(result::k_none)),
           interval(compared_case.ci95),
-          compared_case.instructions ? percent(compared_case.instructions->assign_ratio) : "-",
+          compared_case.instructions ? ratio_percent(compared_case.instructions->assign_ratio) : "-",
           compared_case.counts};
 }
 
@@ -147,8 +147,8 @@ std::string summary_text(const Comparison& comparison) {
     text += "; hints of time: " + std::to_string(summary.hints_longer) + " longer, " +
             std::to_string(summary.hints_shorter) + " shorter";
   if (summary.ratio)
-    text += "; geometric mean of " + number_of(summary.methods_timed, "method") + " " + percent(*summary.ratio) + " (" +
-            interval(summary.ci95) + ")";
+    text += "; geometric mean of " + number_of(summary.methods_timed, "method") + " " + ratio_percent(*summary.ratio) +
+            " (" + interval(summary.ci95) + ")";
   for (const auto& [names, side] :
        {std::pair{&comparison.only_in_base, "base"}, std::pair{&comparison.only_in_new, "new"}})
     if (!names->empty()) text += "; " + number_of(names->size(), "case") + " of the " + side + " not compared";

@@ -20,7 +20,7 @@ result::BoxInMetres box_of(const search::Box& box) {
 }
 
 // A count as a whole number.
-Json figure_of(double value, search::Measure measure) {
+Json figure_value(double value, search::Measure measure) {
   if (measure == search::Measure::evaluated) return value;
   return static_cast<std::uint64_t>(value);
 }
@@ -41,7 +41,7 @@ std::vector<std::string> light_names(const scene::Scene& scene) {
 result::WorstFrame frame_of(const search::FoundFrame& frame, const WorstCaseFacts& facts,
                             const std::vector<std::string>& names) {
   const search::FrameChoice& at = frame.choice;
-  result::WorstFrame out{.value = figure_of(frame.value, facts.request.measure),
+  result::WorstFrame out{.value = figure_value(frame.value, facts.request.measure),
                          .eye_m = vector_of(at.eye),
                          .direction = vector_of(search::direction_of(at.rotation)),
                          .rotation = {at.rotation.x, at.rotation.y, at.rotation.z, at.rotation.w},
@@ -164,28 +164,28 @@ result::WorstCase worst_case_document(const WorstCase& found, const WorstCaseFac
   const search::MeasureRow& row = search::row_of(measure);
   const std::vector<std::string> names = light_names(facts.plan.scenes[facts.case_plan.scene].scene);
   const auto count = [](int value) { return static_cast<std::uint64_t>(value); };
-  result::WorstCase out{
-      .schema_version = 1,
-      .kind = "worst-case",
-      .searched = searched_of(facts),
-      .other_cases = case_count(facts.plan) - 1,
-      .measure = {row.name, row.unit, row.figure},
-      .seed = facts.request.seed,
-      .evaluations = count(found.evaluations),
-      .evaluations_allowed = count(facts.request.evaluations),
-      .ended = name_of(found.ended),
-      .space = space_of(found, facts),
-      .recorded = {count(found.recorded.frames), figure_of(found.recorded.max, measure), count(found.recorded.frame)},
-      .buffers = std::vector<result::NeededBuffer>(),
-      .lights_in_view = result::LightsOfWorstFrame{found.lights_in_view, found.dark_in_view},
-      .warnings = found.warnings};
+  result::WorstCase out{.schema_version = 1,
+                        .kind = "worst-case",
+                        .searched = searched_of(facts),
+                        .other_cases = case_count(facts.plan) - 1,
+                        .measure = {row.name, row.unit, row.figure},
+                        .seed = facts.request.seed,
+                        .evaluations = count(found.evaluations),
+                        .evaluations_allowed = count(facts.request.evaluations),
+                        .ended = name_of(found.ended),
+                        .space = space_of(found, facts),
+                        .recorded = {count(found.recorded.frames), figure_value(found.recorded.max, measure),
+                                     count(found.recorded.frame)},
+                        .buffers = std::vector<result::NeededBuffer>(),
+                        .lights_in_view = result::LightsOfWorstFrame{found.lights_in_view, found.dark_in_view},
+                        .warnings = found.warnings};
   for (const search::Stage& stage : found.stages)
-    out.stages.push_back({stage.name, count(stage.evaluations), figure_of(stage.best, measure)});
+    out.stages.push_back({stage.name, count(stage.evaluations), figure_value(stage.best, measure)});
   for (const search::FoundFrame& frame : found.frames) out.frames.push_back(frame_of(frame, facts, names));
   if (found.random.frames > 0)
     out.random =
-        result::RandomFrames{count(found.random.frames), figure_of(found.random.max, measure), found.random.mean};
-  if (found.theoretical_max) out.theoretical_max = figure_of(*found.theoretical_max, measure);
+        result::RandomFrames{count(found.random.frames), figure_value(found.random.max, measure), found.random.mean};
+  if (found.theoretical_max) out.theoretical_max = figure_value(*found.theoretical_max, measure);
   for (const assign::BufferNeed& need : found.buffers)
     out.buffers->push_back({need.name, need.elements, need.most, need.element_bytes});
   if (!facts.scene_file.empty()) out.written = result::WrittenFrames{facts.scene_file, facts.config_file};
