@@ -11,10 +11,9 @@ namespace {
 using result::Compares;
 using result::Difference;
 using result::Json;
-using result::Type;
 
 // Of what a list, values by name, or a nullable value hold.
-const Type& innermost(const Type& type) {
+const result::Type& innermost(const result::Type& type) {
   return type.element != nullptr ? innermost(*type.element) : type;
 }
 
@@ -48,7 +47,8 @@ class Differences {
  public:
   explicit Differences(bool is_margin_same) : is_margin_same_(is_margin_same) {}
 
-  void add(const std::string& pointer, const Type& type, Compares compares, const Json& base, const Json& next) {
+  void add(const std::string& pointer, const result::Type& type, Compares compares, const Json& base,
+           const Json& next) {
     if (base == next || compares == Compares::skipped) return;
     if (type.kind == result::Kind::nullable) {
       add(pointer, *type.element, compares, base, next);
@@ -70,9 +70,11 @@ class Differences {
 
  private:
   // Any JSON holds any JSON.
-  static const Type& element_of(const Type& type) { return type.element != nullptr ? *type.element : type; }
+  static const result::Type& element_of(const result::Type& type) {
+    return type.element != nullptr ? *type.element : type;
+  }
 
-  void add_member(const std::string& pointer, const std::string& key, const Type& type, Compares compares,
+  void add_member(const std::string& pointer, const std::string& key, const result::Type& type, Compares compares,
                   const Json& base, const Json& next) {
     const auto field = std::ranges::find(type.fields, key, &result::Field::name);
     if (field != type.fields.end())
