@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "result/documents/comparison.h"
 #include "result/documents/ratios.h"
+#include "result/documents/stress.h"
 #include "result/documents/worst_case.h"
 
 namespace clusterbench::config {
@@ -129,8 +130,7 @@ std::span<const DocumentRow> document_rows() {
       {Document::ratios, "ratios", "ratios of `clusterbench ratio`", [] { return Json(result::ratios_schema()); }},
       {Document::recommendation, "recommendation", "a recommendation of `clusterbench recommend`",
        [] { return Json::parse(recommendation_schema_text()); }},
-      {Document::stress, "stress", "a result of `clusterbench stress`",
-       [] { return Json::parse(stress_schema_text()); }},
+      {Document::stress, "stress", "a result of `clusterbench stress`", [] { return Json(result::stress_schema()); }},
       {Document::worst_case, "worst-case", "a result of `clusterbench worst-case`",
        [] { return Json(result::worst_case_schema()); }},
       {Document::size, "size", "allocations of `clusterbench size`", [] { return Json::parse(size_schema_text()); }},

@@ -9,6 +9,5 @@ std::string_view config_schema_text();
 std::string_view recommendation_schema_text();
 std::string_view size_schema_text();
 std::string_view light_map_schema_text();
-std::string_view stress_schema_text();
 
 }  // namespace clusterbench::config

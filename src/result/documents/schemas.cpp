@@ -1,5 +1,6 @@
 #include "result/documents/comparison.h"
 #include "result/documents/ratios.h"
+#include "result/documents/stress.h"
 #include "result/documents/worst_case.h"
 #include "result/schema.h"
 
@@ -8,6 +9,7 @@ namespace clusterbench::result {
 // Here once: each instance lists the fields of all records below it.
 template const Type& type_of<Comparison>();
 template const Type& type_of<Ratios>();
+template const Type& type_of<Stress>();
 template const Type& type_of<WorstCase>();
 
 Json comparison_schema() {
@@ -20,6 +22,12 @@ Json ratios_schema() {
   return schema_of<Ratios>("clusterbench ratios",
                            "What `clusterbench ratio RESULT --json FILE` writes: how much longer one case takes than "
                            "another, of one result.");
+}
+
+Json stress_schema() {
+  return schema_of<Stress>("clusterbench stress result",
+                           "What `clusterbench stress` writes: hard cases for numerical stability, and a search for "
+                           "lost lights.");
 }
 
 Json worst_case_schema() {
