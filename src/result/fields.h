@@ -8,6 +8,7 @@
 //     END_RECORD;
 //   };
 //
+// One that derives from another has the other's fields behind its own with `using Rest = Other;`.
 // From these lists come a record's JSON, its reader, and its JSON Schema (schema.h). A std::optional is absent where it
 // has no value, a Nullable is null, and so is a double that is not finite.
 
@@ -150,7 +151,8 @@ T initial() {
 #define FIELD(Type, member, ...) FIELD_AS(#member, Type, member, __VA_ARGS__)
 #define END_RECORD static constexpr int k_last_line = __LINE__
 
-// Collects the fields of a record.
+// Collects the fields of a record, its own and those of its Rest.
+template <class Record>
 class FieldCollector {
  public:
   explicit FieldCollector(std::vector<Field>& fields) : fields_(fields) {}
@@ -161,14 +163,14 @@ class FieldCollector {
   }
 
  private:
-  template <auto Member, class Record, class T>
-  void add_typed(const char* name, const About& about, T Record::*) {
+  template <auto Member, class Holder, class T>
+  void add_typed(const char* name, const About& about, T Holder::*) {
     fields_.push_back({name, about, &type_of<T>(), false,
                        [](const void* record) -> const void* { return &(static_cast<const Record*>(record)->*Member); },
                        [](void* record) -> void* { return &(static_cast<Record*>(record)->*Member); }});
   }
-  template <auto Member, class Record, class T>
-  void add_typed(const char* name, const About& about, std::optional<T> Record::*) {
+  template <auto Member, class Holder, class T>
+  void add_typed(const char* name, const About& about, std::optional<T> Holder::*) {
     fields_.push_back({name, about, &type_of<T>(), true,
                        [](const void* record) -> const void* {
                          const auto& value = static_cast<const Record*>(record)->*Member;
@@ -308,8 +310,9 @@ Type make_type() {
     Type type{Kind::object};
     if constexpr (requires { T::k_definition; }) type.definition = T::k_definition;
     if constexpr (requires { T::about(); }) type.about = T::about();
-    FieldCollector collect(type.fields);
+    FieldCollector<T> collect(type.fields);
     list_fields<T>(collect);
+    if constexpr (requires { typename T::Rest; }) list_fields<typename T::Rest>(collect);
     return type;
   }
 }

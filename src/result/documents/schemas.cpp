@@ -1,4 +1,5 @@
 #include "result/documents/comparison.h"
+#include "result/documents/light_map.h"
 #include "result/documents/ratios.h"
 #include "result/documents/stress.h"
 #include "result/documents/worst_case.h"
@@ -8,6 +9,7 @@ namespace clusterbench::result {
 
 // Here once: each instance lists the fields of all records below it.
 template const Type& type_of<Comparison>();
+template const Type& type_of<LightMaps>();
 template const Type& type_of<Ratios>();
 template const Type& type_of<Stress>();
 template const Type& type_of<WorstCase>();
@@ -16,6 +18,12 @@ Json comparison_schema() {
   return schema_of<Comparison>("clusterbench comparison",
                                "What `clusterbench compare BASE NEW --json FILE` writes. Times are nanoseconds per "
                                "frame, ratios new / base.");
+}
+
+Json light_map_schema() {
+  return schema_of<LightMaps>("clusterbench light maps",
+                              "What `clusterbench light-map` writes: the lights that reach each texel of static "
+                              "meshes, and what they take as bit fields and in sparser forms.");
 }
 
 Json ratios_schema() {
