@@ -12,6 +12,7 @@
 #include "result/documents/comparison.h"
 #include "result/documents/light_map.h"
 #include "result/documents/ratios.h"
+#include "result/documents/recommendation.h"
 #include "result/documents/stress.h"
 #include "result/documents/worst_case.h"
 
@@ -130,7 +131,7 @@ std::span<const DocumentRow> document_rows() {
        [] { return Json(result::comparison_schema()); }},
       {Document::ratios, "ratios", "ratios of `clusterbench ratio`", [] { return Json(result::ratios_schema()); }},
       {Document::recommendation, "recommendation", "a recommendation of `clusterbench recommend`",
-       [] { return Json::parse(recommendation_schema_text()); }},
+       [] { return Json(result::recommendation_schema()); }},
       {Document::stress, "stress", "a result of `clusterbench stress`", [] { return Json(result::stress_schema()); }},
       {Document::worst_case, "worst-case", "a result of `clusterbench worst-case`",
        [] { return Json(result::worst_case_schema()); }},

@@ -6,7 +6,6 @@
 namespace clusterbench::config {
 
 std::string_view config_schema_text();
-std::string_view recommendation_schema_text();
 std::string_view size_schema_text();
 
 }  // namespace clusterbench::config

@@ -72,7 +72,7 @@ struct About {
   const char* of_each = "";                     // what the values by name are
   std::optional<int> constant{};                // of a whole number
   const char* shape = "";                       // of any JSON: its schema; of a struct: what else its schema says
-  bool is_late = false;                         // always written; results of earlier versions may lack it
+  bool is_late = false;                         // always written; documents of earlier versions may lack it
 
  private:
   template <class T, class Value>

@@ -135,8 +135,10 @@ class SchemaWriter {
     Json properties = Json::object(), required = Json::array(), late = Json::array();
     for (const Field& field : type.fields) {
       properties[field.name] = field_schema(*field.type, field.about);
-      if (field.about.is_late) late.push_back(field.name);
-      if (!field.is_optional) required.push_back(field.name);
+      if (field.about.is_late)
+        late.push_back(field.name);
+      else if (!field.is_optional)
+        required.push_back(field.name);
     }
     Json out{{"type", "object"}, {"properties", properties}};
     if (!required.empty()) out["required"] = required;

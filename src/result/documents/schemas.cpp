@@ -1,6 +1,7 @@
 #include "result/documents/comparison.h"
 #include "result/documents/light_map.h"
 #include "result/documents/ratios.h"
+#include "result/documents/recommendation.h"
 #include "result/documents/stress.h"
 #include "result/documents/worst_case.h"
 #include "result/schema.h"
@@ -11,6 +12,7 @@ namespace clusterbench::result {
 template const Type& type_of<Comparison>();
 template const Type& type_of<LightMaps>();
 template const Type& type_of<Ratios>();
+template const Type& type_of<Recommendation>();
 template const Type& type_of<Stress>();
 template const Type& type_of<WorstCase>();
 
@@ -30,6 +32,12 @@ Json ratios_schema() {
   return schema_of<Ratios>("clusterbench ratios",
                            "What `clusterbench ratio RESULT --json FILE` writes: how much longer one case takes than "
                            "another, of one result.");
+}
+
+Json recommendation_schema() {
+  return schema_of<Recommendation>("clusterbench recommendation",
+                                   "What `clusterbench recommend -o FILE` writes: of each scene and viewport the "
+                                   "candidate with the least objective among those that break no constraint.");
 }
 
 Json stress_schema() {
