@@ -1,11 +1,10 @@
 #pragma once
-// The schema files of src/config/schemas, embedded by the build (cmake/ClusterbenchEmbed.cmake).
+// The schema of configurations in src/config/schemas, embedded by the build (cmake/ClusterbenchEmbed.cmake).
 
 #include <string_view>
 
 namespace clusterbench::config {
 
 std::string_view config_schema_text();
-std::string_view size_schema_text();
 
 }  // namespace clusterbench::config

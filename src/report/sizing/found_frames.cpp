@@ -278,16 +278,17 @@ result::Result with_finds(result::Result result, const std::vector<FoundFrame>& 
   return result;
 }
 
-Json search_json(const FoundFrame& found) {
-  Json out{{"case", found.case_name}, {"measure", found.measure}};
-  if (!found.refusal.empty())
-    out["refusal"] = found.refusal;
-  else
-    out.update({{"evaluations", found.evaluations},
-                {"seed", found.seed},
-                {"flags", found.space_flags},
-                {"eye_m", found.eye_m}});
-  if (!found.direction.empty()) out["direction"] = found.direction;
+result::SizeSearch size_search(const FoundFrame& found) {
+  result::SizeSearch out{.searched = found.case_name, .measure = found.measure};
+  if (!found.refusal.empty()) {
+    out.refusal = found.refusal;
+  } else {
+    out.evaluations = static_cast<std::uint64_t>(found.evaluations);
+    out.seed = found.seed;
+    out.flags = found.space_flags;
+    out.eye_m = found.eye_m;
+  }
+  if (!found.direction.empty()) out.direction = found.direction;
   return out;
 }
 

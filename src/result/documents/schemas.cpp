@@ -2,6 +2,7 @@
 #include "result/documents/light_map.h"
 #include "result/documents/ratios.h"
 #include "result/documents/recommendation.h"
+#include "result/documents/size.h"
 #include "result/documents/stress.h"
 #include "result/documents/worst_case.h"
 #include "result/schema.h"
@@ -13,6 +14,7 @@ template const Type& type_of<Comparison>();
 template const Type& type_of<LightMaps>();
 template const Type& type_of<Ratios>();
 template const Type& type_of<Recommendation>();
+template const Type& type_of<Size>();
 template const Type& type_of<Stress>();
 template const Type& type_of<WorstCase>();
 
@@ -38,6 +40,12 @@ Json recommendation_schema() {
   return schema_of<Recommendation>("clusterbench recommendation",
                                    "What `clusterbench recommend -o FILE` writes: of each scene and viewport the "
                                    "candidate with the least objective among those that break no constraint.");
+}
+
+Json size_schema() {
+  return schema_of<Size>("clusterbench allocation",
+                         "What `clusterbench size --format json` writes: what to allocate for each buffer of light "
+                         "structures. x-unit: of a number.");
 }
 
 Json stress_schema() {
