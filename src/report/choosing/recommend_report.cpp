@@ -16,7 +16,6 @@
 #include "report/cases/contender.h"
 #include "report/cases/figures.h"
 #include "report/cases/frame_cost.h"
-#include "report/cases/json_values.h"
 #include "report/cases/nothing_seen.h"
 #include "report/cases/sample_sets.h"
 #include "report/cases/timing_warnings.h"

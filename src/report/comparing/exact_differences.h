@@ -2,6 +2,7 @@
 // What is counted rather than timed, of the same case in two results: every number, string and list that is not equal.
 // What that means of each field is said where it is listed (result::Compares).
 
+#include <optional>
 #include <string>
 #include <vector>
 

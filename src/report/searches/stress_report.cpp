@@ -169,7 +169,8 @@ void print_extra(std::ostream& out, const stress::StressResult& result) {
         whole += cell.true_pairs;
       }
     if (whole > 0)
-      out << "  " << method.label << ": " << share_in_percent(static_cast<double>(extra) / static_cast<double>(whole)) << "\n";
+      out << "  " << method.label << ": " << share_in_percent(static_cast<double>(extra) / static_cast<double>(whole))
+          << "\n";
   }
 }
 
@@ -197,7 +198,8 @@ void print_searches(std::ostream& out, const stress::StressResult& result) {
   for (const stress::SearchResult& search : result.searches) {
     out << "  " << search.method << ": " << search.tries << " tries, ";
     if (search.deepest)
-      out << search.misses << " lost, the deepest " << share_in_percent(search.deepest->depth) << " of its range inside\n";
+      out << search.misses << " lost, the deepest " << share_in_percent(search.deepest->depth)
+          << " of its range inside\n";
     else
       out << "none lost, margin " << search.least_margin << "\n";
     if (search.undecided > 0) out << "    " << search.undecided << " more not listed, and undecided\n";
