@@ -259,7 +259,8 @@ double count_tolerance(const result::Count& count) {
   return count.source == "callgrind" ? 0.001 : 0.01;
 }
 
-result::ComparedInstructions instructions(const result::Count& base, const result::Count& next, double threshold) {
+result::ComparedInstructions compared_instructions(const result::Count& base, const result::Count& next,
+                                                   double threshold) {
   const auto ratio = [](double before, double now) {
     return before > 0.0 ? now / before : now > 0.0 ? std::nan("") : 1.0;
   };
@@ -360,7 +361,7 @@ ComparedCase compared(const Match& match, const Times& times, const Scope& scope
   out.place = exact.place;
   add_list_difference(match, out);
   if (!scope.left_out.instructions && are_counts_comparable(match))
-    out.instructions = instructions(*match.base.count, *match.next.count, settings.threshold);
+    out.instructions = compared_instructions(*match.base.count, *match.next.count, settings.threshold);
   return out;
 }
 
@@ -382,7 +383,7 @@ result::ComparisonSummary summary_of(const std::vector<ComparedCase>& cases, con
   return out;
 }
 
-std::string percent_text(double ratio) {
+std::string percent_of_ratio(double ratio) {
   return std::isfinite(ratio) ? text("%+.1f %%", 100.0 * (ratio - 1.0)) : "-";
 }
 
@@ -391,13 +392,13 @@ std::vector<std::string> failures_of(const Result& next, const std::vector<Compa
   for (const ComparedCase& compared_case : cases) {
     const std::string name = shown(compared_case.name);
     const auto& verdict = compared_case.verdict;
-    if (verdict == "slower") failures.push_back(name + ": slower by " + percent_text(*compared_case.ratio));
+    if (verdict == "slower") failures.push_back(name + ": slower by " + percent_of_ratio(*compared_case.ratio));
     if (compared_case.counts == "worse") failures.push_back(name + ": what is counted has changed");
     const bool is_time_sure = verdict && compared_case.launches != 0u && verdict != "inconclusive";
     const auto& instructions = compared_case.instructions;
     if (instructions && instructions->verdict == "more" && !is_time_sure)
-      failures.push_back(name + ": more instructions, " + percent_text(instructions->assign_ratio) + " to assign, " +
-                         percent_text(instructions->convert_ratio) + " to convert");
+      failures.push_back(name + ": more instructions, " + percent_of_ratio(instructions->assign_ratio) +
+                         " to assign, " + percent_of_ratio(instructions->convert_ratio) + " to convert");
   }
   return failures;
 }
