@@ -1,4 +1,5 @@
-// The schemas: the embedded text; of configurations also the rows of assigners and storages, and the axes written out.
+// The schemas: of configurations the embedded text with the rows of assigners and storages, and the axes written out;
+// of all other documents that of their records.
 
 #include "config/documents.h"
 
@@ -9,7 +10,13 @@
 #include "assign/contract/storage.h"
 #include "config/schema_text.h"
 #include "core/error.h"
-#include "result/result.h"
+#include "result/documents/comparison.h"
+#include "result/documents/light_map.h"
+#include "result/documents/ratios.h"
+#include "result/documents/recommendation.h"
+#include "result/documents/size.h"
+#include "result/documents/stress.h"
+#include "result/documents/worst_case.h"
 
 namespace clusterbench::config {
 namespace {
@@ -106,6 +113,11 @@ void expand(Json& schema) {
   if (schema.is_object() && schema.contains("x-axis") && !schema.contains("anyOf")) expand_axis(schema);
 }
 
+template <result::Json (*schema)()>
+Json json_of() {
+  return Json(schema());
+}
+
 }  // namespace
 
 Json config_schema() {
@@ -116,7 +128,7 @@ Json config_schema() {
 }
 
 Json result_schema() {
-  return Json(result::result_schema());
+  return json_of<result::result_schema>();
 }
 
 std::span<const DocumentRow> document_rows() {
@@ -124,17 +136,14 @@ std::span<const DocumentRow> document_rows() {
       {Document::config, "config", "a configuration", config_schema},
       {Document::result, "result", "a result of `clusterbench run`", result_schema},
       {Document::comparison, "comparison", "a comparison of `clusterbench compare`",
-       [] { return Json::parse(comparison_schema_text()); }},
-      {Document::ratios, "ratios", "ratios of `clusterbench ratio`", [] { return Json::parse(ratios_schema_text()); }},
+       json_of<result::comparison_schema>},
+      {Document::ratios, "ratios", "ratios of `clusterbench ratio`", json_of<result::ratios_schema>},
       {Document::recommendation, "recommendation", "a recommendation of `clusterbench recommend`",
-       [] { return Json::parse(recommendation_schema_text()); }},
-      {Document::stress, "stress", "a result of `clusterbench stress`",
-       [] { return Json::parse(stress_schema_text()); }},
-      {Document::worst_case, "worst-case", "a result of `clusterbench worst-case`",
-       [] { return Json::parse(worst_case_schema_text()); }},
-      {Document::size, "size", "allocations of `clusterbench size`", [] { return Json::parse(size_schema_text()); }},
-      {Document::light_map, "light-map", "light maps of `clusterbench light-map`",
-       [] { return Json::parse(light_map_schema_text()); }},
+       json_of<result::recommendation_schema>},
+      {Document::stress, "stress", "a result of `clusterbench stress`", json_of<result::stress_schema>},
+      {Document::worst_case, "worst-case", "a result of `clusterbench worst-case`", json_of<result::worst_case_schema>},
+      {Document::size, "size", "allocations of `clusterbench size`", json_of<result::size_schema>},
+      {Document::light_map, "light-map", "light maps of `clusterbench light-map`", json_of<result::light_map_schema>},
   }};
   return rows;
 }

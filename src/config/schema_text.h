@@ -1,17 +1,10 @@
 #pragma once
-// The schema files of src/config/schemas, embedded by the build (cmake/ClusterbenchEmbed.cmake).
+// The schema of configurations in src/config/schemas, embedded by the build (cmake/ClusterbenchEmbed.cmake).
 
 #include <string_view>
 
 namespace clusterbench::config {
 
 std::string_view config_schema_text();
-std::string_view comparison_schema_text();
-std::string_view ratios_schema_text();
-std::string_view recommendation_schema_text();
-std::string_view size_schema_text();
-std::string_view light_map_schema_text();
-std::string_view stress_schema_text();
-std::string_view worst_case_schema_text();
 
 }  // namespace clusterbench::config

@@ -23,7 +23,7 @@ struct LightsPerCell {
   FIELD(double, p95, "95th percentile");
   FIELD(double, p99, "99th percentile");
   FIELD(double, max, "Largest");
-  FIELD(Histogram, histogram, "Cells by the length of their lists");
+  FIELD(Histogram, histogram, "Cells by the length of their lists", Compares::follows);
   END_RECORD;
 };
 
@@ -38,10 +38,11 @@ struct PairsAlongPath {
 };
 
 struct Occupancy {
+  static About about() { return About("", Compares::follows); }
   RECORD(Occupancy);
-  FIELD(Spread, pairs, "(cell, light) pairs of a frame", "pairs", "all frames");
+  FIELD(Spread, pairs, "(cell, light) pairs of a frame", "pairs", "all frames", Compares::cost);
   FIELD(LightsPerCell, lights_per_cell, "Lights in a cell's list; percentiles are nearest-rank", "lights",
-        "all cells of all frames");
+        "all cells of all frames", Compares::cost);
   FIELD(Spread, occupied_fraction, "Share of the cells with a light", "share of 1", "all frames");
   FIELD(std::uint64_t, worst_frame, "Frame with the longest list", "frame", "the path");
   FIELD(CellIndex, worst_cell, "Cell with the longest list");
@@ -65,7 +66,8 @@ struct Overflow {
   FIELD(std::uint64_t, dropped_pairs, "That the storage had no room for", "pairs", "all frames");
   FIELD(std::uint64_t, cells, "In which pairs were dropped, counted in each frame", "cells", "all frames");
   FIELD(std::uint64_t, frames, "In which pairs were dropped", "frames", "all frames");
-  FIELD(std::vector<std::uint64_t>, lights, "Indices of those that were dropped anywhere", "light index", "all frames");
+  FIELD(std::vector<std::uint64_t>, lights, "Indices of those that were dropped anywhere", "light index", "all frames",
+        Compares::follows);
   END_RECORD;
 };
 
@@ -107,6 +109,7 @@ struct Buffer {
 };
 
 struct Buffers {
+  static About about() { return About("", Compares::cost); }
   RECORD(Buffers);
   FIELD(HighWater, index_entries, "Entries of all lists", "entries", "all frames");
   FIELD(HighWater, bytes, "Headers and indices", "bytes", "all frames");
@@ -120,18 +123,21 @@ struct Buffers {
         "Of bytes, those whose number does not depend on the lights: offsets and counts of the cells", "bytes",
         "one frame");
   FIELD(FrameBytes, upload_bytes, "What a frame would send to a GPU", "bytes", "all frames");
-  FIELD(MeanMax, used_share, "Entries that a frame uses, of index_entries.recommended", "share of 1", "all frames");
+  FIELD(MeanMax, used_share, "Entries that a frame uses, of index_entries.recommended", "share of 1", "all frames",
+        Compares::follows);
   FIELD(Overflow, overflow, "What a full storage loses");
   FIELD(std::uint64_t, scratch_bytes, "The assigner's own memory, the most it held", "bytes", "all frames");
-  FIELD(std::uint64_t, worst_frame, "That made the high-water mark", "frame", "the path");
+  FIELD(std::uint64_t, worst_frame, "That made the high-water mark", "frame", "the path", Compares::follows);
   FIELD(std::optional<FrameBytes>, traffic_bytes,
         "What a GPU reads and writes for lights that are drawn over pixels; absent where none are", "bytes",
         "all frames");
-  FIELD(std::optional<CellIndex>, worst_cell, "That has this frame's longest list; absent without cells");
-  FIELD(BytesAlongPath, along_path, "Frame by frame", "", "each frame");
-  FIELD(
-      std::optional<std::vector<Buffer>>, each,
-      About("Each buffer of the structure as an engine allocates it: what it needs so that nothing is dropped").late());
+  FIELD(std::optional<CellIndex>, worst_cell, "That has this frame's longest list; absent without cells",
+        Compares::follows);
+  FIELD(BytesAlongPath, along_path, "Frame by frame", "", "each frame", Compares::follows);
+  FIELD(std::optional<std::vector<Buffer>>, each,
+        About("Each buffer of the structure as an engine allocates it: what it needs so that nothing is dropped",
+              Compares::follows)
+            .late());
   END_RECORD;
 };
 

@@ -50,7 +50,7 @@ struct Warning {
               "conservative. unchecked: no truth to hold the lists against. too_many_lights: frames have more lights "
               "than a limit lets in")
             .one_of({"dropped_pairs", "unlit", "undecided", "lost_pairs", "unchecked", "too_many_lights"}));
-  FIELD(std::string, text, "The same for people, without the case's name");
+  FIELD(std::string, text, "The same for people, without the case's name", "", "", Compares::unjudged);
   END_RECORD;
 };
 
@@ -103,12 +103,13 @@ struct SetCost {
 };
 
 struct Cost {
+  static About about() { return About("", Compares::follows); }
   RECORD(Cost);
   FIELD(double, frame_ns,
         "assign_ns + gpu_ns; null where nothing is timed, and of presets whose engine makes its lists on a GPU, which "
         "is not timed here",
-        "ns");
-  FIELD(double, assign_ns, "timing.frame_ns.median: assignment and conversion", "ns");
+        "ns", Compares::skipped);
+  FIELD(double, assign_ns, "timing.frame_ns.median: assignment and conversion", "ns", Compares::skipped);
   FIELD(double, gpu_ns,
         "upload_ns + traffic_ns + read_ns + shade_ns: all but the assignment, and the same on every machine", "ns");
   FIELD(double, upload_ns,
@@ -140,8 +141,9 @@ struct Case {
         About("The same but for the contents of the scene's file: stable while a level changes").late());
   FIELD(std::string, name,
         "scene/camera/grid/assigner/storage, then the pre-cull where there is one, and the precision where it is not "
-        "float32");
-  FIELD(std::string, scene, "Name of one of scenes");
+        "float32",
+        Compares::skipped);
+  FIELD(std::string, scene, "Name of one of scenes", Compares::unjudged);
   FIELD(std::string, camera, "Name in the scene, or of the path that was made because the scene has no camera");
   FIELD(std::optional<CameraPath>, camera_path, "Along which the camera is measured; absent in older results");
   FIELD(Counts2, viewport, "[width, height]", "pixels", "the case");
@@ -156,24 +158,26 @@ struct Case {
         "such a case stands on no front. Absent: it is none");
   FIELD(std::optional<std::string>, preset,
         "The preset that the case is of (`clusterbench list presets`); absent for the configuration's own clusterings");
-  FIELD(std::vector<Failure>, failures, "Why the case fails the run; empty: it passes");
-  FIELD(std::vector<Warning>, warnings,
-        "What to know about the case before believing its figures, beside its failures");
+  FIELD(std::vector<Failure>, failures, "Why the case fails the run; empty: it passes", Compares::unjudged);
+  FIELD(std::vector<Warning>, warnings, "What to know about the case before believing its figures, beside its failures",
+        Compares::follows);
   FIELD(bool, loses_lights,
         "Whether a shader lacks lights: pairs that are not listed or were dropped, lights that samples of a structure "
         "without cells miss, or more than 0.001 of those that visible surfaces need; without samples of surfaces, of "
-        "those that random points in the view need");
+        "those that random points in the view need",
+        Compares::follows);
   FIELD(bool, eligible,
         "Whether it may stand on the Pareto front, and be the best that others are measured by: it fails nothing, "
         "loses no lights (loses_lights), and its method is conservative, exact or of a preset: others can lose lights "
-        "in frames that were not measured");
+        "in frames that were not measured",
+        Compares::follows);
   FIELD(std::uint64_t, tests_done,
         "Over all frames: cells, rows of cells, lights or planes, whichever a method looks at one by one; a method "
         "that looks at many at a time counts otherwise than its scalar reference",
-        "tests", "all frames");
+        "tests", "all frames", Compares::cost);
   FIELD(std::uint64_t, fallbacks,
-        "Pairs that the method could not decide in single precision and decided at greater cost", "pairs",
-        "all frames");
+        "Pairs that the method could not decide in single precision and decided at greater cost", "pairs", "all frames",
+        Compares::cost);
   FIELD(std::optional<std::uint64_t>, lights,
         About("Lights of the scene that methods get: points, spots, and boxes where the configuration asks for them. "
               "Absent in older results",
@@ -222,7 +226,7 @@ struct Case {
         "samples.opaque on a frustum grid",
         "", "the visible pixels of all frames");
   FIELD(std::optional<std::vector<Lookup>>, lookup, "A shader's lookup on samples, once per logarithm and depth", "",
-        "the samples of all frames");
+        "the samples of all frames", Compares::cost);
   FIELD(std::optional<Stability>, stability,
         "Lists along a piece of the path in fine steps, beside the true lists; where the configuration asks for it");
   FIELD(std::optional<Precision>, precision,
@@ -239,13 +243,14 @@ struct Case {
         "in the tiles that were asked for");
   FIELD(std::optional<Fallback>, fallback,
         "Of a storage whose room can end (packed with max_entries): how often cells read all lights of the frame in "
-        "place of their own, and what that saves and costs beside the same case with room for all");
+        "place of their own, and what that saves and costs beside the same case with room for all",
+        Compares::cost);
   FIELD(std::optional<Shadows>, shadows,
         "What lies in the shadow of the scene's triangles, and what sharing shadow maps saves; where the configuration "
         "asks for it (shadow_cull, shadow_frusta)");
-  FIELD(std::optional<Timing>, timing, "Wall times");
+  FIELD(std::optional<Timing>, timing, "Wall times", Compares::skipped);
   FIELD(std::optional<Details>, details, "Chosen frames cell by cell");
-  FIELD(std::optional<Count>, count, "Instructions of what is timed, with --count");
+  FIELD(std::optional<Count>, count, "Instructions of what is timed, with --count", Compares::skipped);
   FIELD(std::optional<Cost>, cost,
         "What a frame costs with its shading, by the model and the constants of config.cost; where samples of a set "
         "with a weight are asked for",

@@ -120,7 +120,7 @@ void from_json(const Type& type, const Json& json, void* record, const std::stri
     if (found != json.end()) {
       ++known;
       value_from_json(*field.type, *found, field.make(record), where + "/" + field.name);
-    } else if (!field.is_optional) {
+    } else if (!field.is_optional && !field.about.is_late) {
       throw Error("", where + "/" + field.name, "is missing");
     }
   }

@@ -8,6 +8,7 @@
 //     END_RECORD;
 //   };
 //
+// One that derives from another has the other's fields behind its own with `using Rest = Other;`.
 // From these lists come a record's JSON, its reader, and its JSON Schema (schema.h). A std::optional is absent where it
 // has no value, a Nullable is null, and so is a double that is not finite.
 
@@ -28,10 +29,22 @@ using Json = nlohmann::ordered_json;
 
 inline constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
 
+// What the comparison of two results makes of a field that differs.
+enum class Compares : std::uint8_t {
+  as_holder,  // what it makes of what holds the field; of a case itself: fixed
+  fixed,      // both must have the same
+  cost,       // less is better
+  follows,    // says the same as some cost in another way
+  unjudged,   // says nothing of the case by itself: how the truth was found, what limits make of the counts
+  skipped     // not compared
+};
+
 // What a field is. "" for a unit, and for what it is over: that of what holds it.
 struct About {
-  About(const char* what = "", const char* in_unit = "", const char* taken_over = "")
-      : description(what), unit(in_unit), over(taken_over) {}
+  About(const char* what = "", const char* in_unit = "", const char* taken_over = "", Compares as = Compares::as_holder)
+      : description(what), unit(in_unit), over(taken_over), compares(as) {}
+  About(const char* what, Compares as) : About(what, "", "", as) {}
+  About(const char* what, const char* in_unit, Compares as) : About(what, in_unit, "", as) {}
 
   About at_least(double least) const { return with(&About::min, least); }
   About above(double bound) const { return with(&About::above_min, bound); }
@@ -49,6 +62,7 @@ struct About {
   About late() const { return with(&About::is_late, true); }
 
   const char *description, *unit, *over;
+  Compares compares;                                // of a struct: of all its fields that do not say it of themselves
   std::optional<double> min{}, above_min{}, max{};  // of a number, or each of a list's
   bool is_finite = false;
   bool is_fraction = false;
@@ -57,8 +71,8 @@ struct About {
   std::size_t least_items = 0, most_items = 0;  // of a list; 0: any number
   const char* of_each = "";                     // what the values by name are
   std::optional<int> constant{};                // of a whole number
-  const char* shape = "";                       // of any JSON: what else its schema says
-  bool is_late = false;                         // always written; results of earlier versions may lack it
+  const char* shape = "";                       // of any JSON: its schema; of a struct: what else its schema says
+  bool is_late = false;                         // always written; documents of earlier versions may lack it
 
  private:
   template <class T, class Value>
@@ -137,7 +151,8 @@ T initial() {
 #define FIELD(Type, member, ...) FIELD_AS(#member, Type, member, __VA_ARGS__)
 #define END_RECORD static constexpr int k_last_line = __LINE__
 
-// Collects the fields of a record.
+// Collects the fields of a record, its own and those of its Rest.
+template <class Record>
 class FieldCollector {
  public:
   explicit FieldCollector(std::vector<Field>& fields) : fields_(fields) {}
@@ -148,14 +163,14 @@ class FieldCollector {
   }
 
  private:
-  template <auto Member, class Record, class T>
-  void add_typed(const char* name, const About& about, T Record::*) {
+  template <auto Member, class Holder, class T>
+  void add_typed(const char* name, const About& about, T Holder::*) {
     fields_.push_back({name, about, &type_of<T>(), false,
                        [](const void* record) -> const void* { return &(static_cast<const Record*>(record)->*Member); },
                        [](void* record) -> void* { return &(static_cast<Record*>(record)->*Member); }});
   }
-  template <auto Member, class Record, class T>
-  void add_typed(const char* name, const About& about, std::optional<T> Record::*) {
+  template <auto Member, class Holder, class T>
+  void add_typed(const char* name, const About& about, std::optional<T> Holder::*) {
     fields_.push_back({name, about, &type_of<T>(), true,
                        [](const void* record) -> const void* {
                          const auto& value = static_cast<const Record*>(record)->*Member;
@@ -295,8 +310,9 @@ Type make_type() {
     Type type{Kind::object};
     if constexpr (requires { T::k_definition; }) type.definition = T::k_definition;
     if constexpr (requires { T::about(); }) type.about = T::about();
-    FieldCollector collect(type.fields);
+    FieldCollector<T> collect(type.fields);
     list_fields<T>(collect);
+    if constexpr (requires { typename T::Rest; }) list_fields<typename T::Rest>(collect);
     return type;
   }
 }

@@ -116,9 +116,10 @@ struct Extremes {
 
 struct BeforeAfter {
   static constexpr const char* k_definition = "before_after";
+  static About about() { return About("", Compares::follows); }
   RECORD(BeforeAfter);
   FIELD(std::uint64_t, before, "Before");
-  FIELD(std::uint64_t, after, "After");
+  FIELD(std::uint64_t, after, "After", Compares::cost);
   FIELD(double, removed, "Share that is taken out; null where there is none", "share of 1");
   END_RECORD;
 };

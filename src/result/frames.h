@@ -25,7 +25,7 @@ struct FitSide {
   FIELD(std::optional<double>, pairs,
         About("In lists, mean per frame; absent without cells", "pairs").finite().at_least(0));
   FIELD(std::optional<std::uint64_t>, true_pairs,
-        "Over all frames; absent without cells, or where accuracy is not checked", "pairs");
+        "Over all frames; absent without cells, or where accuracy is not checked", "pairs", Compares::fixed);
   FIELD(std::optional<std::uint64_t>, false_positives, "Over all frames: pairs in lists that are not true", "pairs");
   FIELD(std::optional<double>, lists_changed,
         "Share of the lists that differ from those of the same cells in the frame before; absent without cells, null "
@@ -72,9 +72,10 @@ struct Fit {
         "m", "frames that need something");
   FIELD(Extremes, far, "Where slices end", "m", "frames");
   FIELD(GridMoves, moves, "How the grid changes from frame to frame");
-  FIELD(FitSide, fitted, "This case");
-  FIELD(FitSide, unfitted, "The same case in the grid that does not follow");
-  FIELD(Saved, saved, "1 - fitted / unfitted: below 0 where following costs; null where the unfitted case has none");
+  FIELD(FitSide, fitted, "This case", Compares::cost);
+  FIELD(FitSide, unfitted, "The same case in the grid that does not follow", Compares::cost);
+  FIELD(Saved, saved, "1 - fitted / unfitted: below 0 where following costs; null where the unfitted case has none",
+        Compares::follows);
   END_RECORD;
 };
 
@@ -97,7 +98,7 @@ struct TileMoves {
   RECORD(TileMoves);
   FIELD(std::uint64_t, steps, "From a frame to the next", "steps", "the path");
   FIELD(std::uint64_t, changed, "Steps to other tiles; a method is then built again, and all lists are new", "steps",
-        "the path");
+        "the path", Compares::cost);
   END_RECORD;
 };
 
@@ -110,16 +111,17 @@ struct Reaction {
   FIELD(std::optional<std::string>, of, "The method whose lists are counted; only of entries");
   FIELD(std::optional<std::uint64_t>, most_lights,
         About("Lights that get a bit at most; absent without a limit", "lights", "the case").at_least(1));
-  FIELD(ReactingTiles, tiles, "Tiles of the frames");
+  FIELD(ReactingTiles, tiles, "Tiles of the frames", Compares::follows);
   FIELD(Extremes, needed, "Entries of the counted method's lists, or words, in a frame's own tiles", "entries",
-        "frames");
-  FIELD(ReactingFrames, frames, "Frames of the path");
+        "frames", Compares::cost);
+  FIELD(ReactingFrames, frames, "Frames of the path", Compares::cost);
   FIELD(TileMoves, moves, "How tiles change from frame to frame");
-  FIELD(FitSide, reacting, "This case");
+  FIELD(FitSide, reacting, "This case", Compares::cost);
   FIELD(std::optional<FitSide>, fixed,
-        "The same case in the tiles asked for; absent where these make more than a million cells");
+        "The same case in the tiles asked for; absent where these make more than a million cells", Compares::cost);
   FIELD(std::optional<Saved>, saved,
-        "1 - reacting / fixed: below 0 where reacting costs; null where the other case has none; absent without it");
+        "1 - reacting / fixed: below 0 where reacting costs; null where the other case has none; absent without it",
+        Compares::follows);
   END_RECORD;
 };
 
@@ -129,20 +131,21 @@ struct Fallback {
   FIELD(std::uint64_t, cells, "That read all lights", "cells", "all frames");
   FIELD(FitSide, limited, "This case");
   FIELD(FitSide, roomy, "The same case with room for all lists");
-  FIELD(Saved, saved, "1 - limited / roomy: below 0 where falling back costs; null where the other case has none");
+  FIELD(Saved, saved, "1 - limited / roomy: below 0 where falling back costs; null where the other case has none",
+        Compares::follows);
   END_RECORD;
 };
 
 struct Changed {
   RECORD(Changed);
-  FIELD(Churn, method, "In the method's lists");
+  FIELD(Churn, method, "In the method's lists", Compares::cost);
   FIELD(Churn, truth, "In the true lists");
   END_RECORD;
 };
 
 struct Flickers {
   RECORD(Flickers);
-  FIELD(std::uint64_t, method, "In the method's lists");
+  FIELD(std::uint64_t, method, "In the method's lists", Compares::cost);
   FIELD(std::uint64_t, truth, "In the true lists");
   END_RECORD;
 };
@@ -176,8 +179,9 @@ struct Stability {
   FIELD(Changed, changed, "Pairs (cell, light) added or removed from one step to the next");
   FIELD(Flickers, flickers, "Changes that undo the same pair's change at most `window` steps before, over all steps",
         "changes", "the steps");
-  FIELD(ExcessChurn, excess_churn, "Changes of the method less those of the truth", "", "the steps");
-  FIELD(ExcessFlickers, excess_flickers, "Flickers of the method less those of the truth", "", "the steps");
+  FIELD(ExcessChurn, excess_churn, "Changes of the method less those of the truth", "", "the steps", Compares::cost);
+  FIELD(ExcessFlickers, excess_flickers, "Flickers of the method less those of the truth", "", "the steps",
+        Compares::cost);
   FIELD(std::uint64_t, undecided,
         "Pairs of the truth that exact arithmetic left undecided, over all steps; counted as true", "pairs",
         "the steps");

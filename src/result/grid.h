@@ -80,7 +80,8 @@ struct Grid {
   FIELD(std::string, name, "Kind, tiles and slices in words, as in names of cases");
   FIELD(std::optional<std::string>, note,
         "What to know about the slices or the box, as text: where slices end if nothing names a far plane, or that "
-        "those of the last frame are shown");
+        "those of the last frame are shown",
+        "", "", Compares::unjudged);
   FIELD(std::optional<Vector>, origin, "Of world grids: position in the world that bounds are relative to", "m",
         "the grid");
   FIELD(std::optional<Slices>, slices, "Of frustum and distance grids");

@@ -261,6 +261,7 @@ struct Skipped {
 
 // What of a configuration readers of results go by.
 inline constexpr const char* k_config_shape = R"({
+  "type": "object",
   "properties": {
     "allocation": {
       "description": "What `recommended` is made with; `clusterbench size` goes by it",

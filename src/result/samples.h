@@ -36,11 +36,12 @@ struct Waves {
   FIELD(DistinctLists, distinct_lists, "Different lists within a wave");
   FIELD(double, mean_list,
         "Length of a wave's lists, mean over its lanes and then over waves: steps if no lane waited for another",
-        "lights");
-  FIELD(double, longest_list, "Longest list of a wave, mean over waves: steps until its last lane is done", "lights");
+        "lights", Compares::cost);
+  FIELD(double, longest_list, "Longest list of a wave, mean over waves: steps until its last lane is done", "lights",
+        Compares::cost);
   FIELD(double, united_lists,
         "Lights that any lane of a wave has, mean over waves: steps of a loop that all lanes share (scalarised)",
-        "lights");
+        "lights", Compares::cost);
   FIELD(double, divergence, "Sum over waves of the longest list by the sum of the mean ones; 1: no lane waits",
         "ratio");
   FIELD(double, scalarised, "Sum over waves of the united lists by the sum of the mean ones", "ratio");
@@ -49,16 +50,16 @@ struct Waves {
 
 struct SampleSet {
   static constexpr const char* k_definition = "sample_set";
-  static About about() { return About("What a shader would loop over at the points of a set"); }
+  static About about() { return About("What a shader would loop over at the points of a set", Compares::cost); }
   RECORD(SampleSet);
-  FIELD(std::uint64_t, samples, "Points of the set", "samples");
+  FIELD(std::uint64_t, samples, "Points of the set", "samples", Compares::fixed);
   FIELD(std::optional<std::uint64_t>, unanswered,
         About("Samples at which the light structure has no answer: outside of its cells, beside the picture, behind "
               "the eye",
               "samples")
             .late());
   FIELD(std::uint64_t, evaluated, "Lights that the light structure gives at the samples", "lights");
-  FIELD(std::uint64_t, needed, "Lights that reach the samples", "lights");
+  FIELD(std::uint64_t, needed, "Lights that reach the samples", "lights", Compares::fixed);
   FIELD(std::uint64_t, missed,
         "Of needed, those that the light structure does not give, for any reason: no pair, dropped, or outside of the "
         "grid",
@@ -86,8 +87,10 @@ struct SampleSet {
               "elements")
             .late());
   FIELD(std::optional<std::uint64_t>, read_bytes, About("Bytes of these elements", "B").late());
-  FIELD(std::optional<WorstSampledFrame>, worst_frame, "The frame that misses most; absent where none is missed");
-  FIELD(std::optional<DarkestSample>, darkest, "The sample that loses most light; absent where none is lost");
+  FIELD(std::optional<WorstSampledFrame>, worst_frame, "The frame that misses most; absent where none is missed",
+        Compares::follows);
+  FIELD(std::optional<DarkestSample>, darkest, "The sample that loses most light; absent where none is lost",
+        Compares::follows);
   FIELD(std::optional<double>, ground_m,
         About("Height of the horizontal plane (the world's y) on which these samples lie, since the scene has no "
               "triangles; absent where they lie on its surfaces",
@@ -95,7 +98,7 @@ struct SampleSet {
             .finite());
   FIELD(std::optional<std::vector<Waves>>, waves,
         "Lists among pixels that a GPU shades together; of visible surfaces at full resolution (divisor 1)", "",
-        "the waves of all frames");
+        "the waves of all frames", Compares::follows);
   END_RECORD;
 };
 
@@ -127,8 +130,9 @@ struct DeepestMiss {
 };
 
 struct ListError {
+  static About about() { return About("", Compares::cost); }
   RECORD(ListError);
-  FIELD(std::uint64_t, true_pairs, "(cell, light) pairs that touch, decided exactly", "pairs");
+  FIELD(std::uint64_t, true_pairs, "(cell, light) pairs that touch, decided exactly", "pairs", Compares::fixed);
   FIELD(std::uint64_t, reported_pairs, "In the method's lists", "pairs");
   FIELD(std::uint64_t, false_positives, "Pairs that are listed and not true", "pairs");
   FIELD(std::uint64_t, false_negatives, "True pairs that are not listed", "pairs");
@@ -138,9 +142,9 @@ struct ListError {
         "share of the light's range", "the misses");
   FIELD(std::uint64_t, undecided,
         "Pairs for which neither a common point nor a separation could be proven; counted as true", "pairs");
-  FIELD(std::uint64_t, frames_checked, "Whose lists were held against the truth", "frames");
-  FIELD(Decided, decided, "How the truth was found", "pairs");
-  FIELD(std::optional<DeepestMiss>, deepest, "The deepest miss; absent without misses");
+  FIELD(std::uint64_t, frames_checked, "Whose lists were held against the truth", "frames", Compares::fixed);
+  FIELD(Decided, decided, "How the truth was found", "pairs", Compares::unjudged);
+  FIELD(std::optional<DeepestMiss>, deepest, "The deepest miss; absent without misses", Compares::follows);
   END_RECORD;
 };
 
@@ -219,7 +223,7 @@ struct Precision {
         "Lights that the format cannot hold: without end; in half a coordinate or range beyond 65504 m. They stay in "
         "float32 here; an engine's conversion makes them infinite or cuts them off");
   FIELD(std::optional<ExtraPairs>, extra_pairs,
-        "Pairs more than the same case in float32; null where there is no such case");
+        "Pairs more than the same case in float32; null where there is no such case", Compares::cost);
   END_RECORD;
 };
 
@@ -264,15 +268,16 @@ struct PreCull {
   FIELD(std::uint64_t, lost_pairs,
         "True pairs of lights that are removed; they are among error.false_negatives. 0 where nothing is held against "
         "the truth",
-        "pairs", "all frames");
-  FIELD(ByName<LostAtSamples>, lost_at_samples, "By the set's name (volume: the random samples in the whole view)");
+        "pairs", "all frames", Compares::cost);
+  FIELD(ByName<LostAtSamples>, lost_at_samples, "By the set's name (volume: the random samples in the whole view)",
+        Compares::cost);
   FIELD(std::uint64_t, view_cells, "View cells that have a visible set; 0 without such a step", "view cells",
         "the path");
   FIELD(std::uint64_t, bytes, "Of all view cells' sets: a bit per light, and voxels where lights move", "bytes",
-        "the path");
+        "the path", Compares::cost);
   FIELD(std::optional<double>, build_ns,
         About("What building the sets took, once and beside all other times; absent where nothing is timed", "ns",
-              "one build")
+              "one build", Compares::unjudged)
             .finite()
             .at_least(0));
   FIELD(std::optional<OverLimit>, over_limit, "What a limit (most) removes; absent without one");

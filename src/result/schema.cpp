@@ -61,14 +61,17 @@ class SchemaWriter {
         return text_schema(about);
       case Kind::list:
         return list_schema(type, about);
-      case Kind::object:
-        return object_schema(type);
+      case Kind::object: {
+        Json out = object_schema(type);
+        out.update(shape_of(type.about));
+        return out;
+      }
       case Kind::by_name:
         return {{"type", "object"}, {"additionalProperties", field_schema(*type.element, element_about(about))}};
       case Kind::nullable:
         return nullable_schema(type, about);
       default:
-        return json_schema(about);
+        return *about.shape != '\0' ? shape_of(about) : Json{{"type", "object"}};
     }
   }
 
@@ -101,11 +104,7 @@ class SchemaWriter {
     return out;
   }
 
-  static Json json_schema(const About& about) {
-    Json out{{"type", "object"}};
-    if (*about.shape != '\0') out.update(Json::parse(about.shape));
-    return out;
-  }
+  static Json shape_of(const About& about) { return *about.shape != '\0' ? Json::parse(about.shape) : Json::object(); }
 
   static Json text_schema(const About& about) {
     if (!about.choices.empty()) return {{"enum", about.choices}};
@@ -136,8 +135,10 @@ class SchemaWriter {
     Json properties = Json::object(), required = Json::array(), late = Json::array();
     for (const Field& field : type.fields) {
       properties[field.name] = field_schema(*field.type, field.about);
-      if (field.about.is_late) late.push_back(field.name);
-      if (!field.is_optional) required.push_back(field.name);
+      if (field.about.is_late)
+        late.push_back(field.name);
+      else if (!field.is_optional)
+        required.push_back(field.name);
     }
     Json out{{"type", "object"}, {"properties", properties}};
     if (!required.empty()) out["required"] = required;

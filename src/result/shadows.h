@@ -14,19 +14,22 @@ struct ShadowCullSamples {
         "Of the needed, those that a ray from the light to the sample finds unobstructed: what the best of all shadow "
         "culls would keep",
         "lights");
-  FIELD(std::uint64_t, wrongly_removed, "Of the lit, those that were taken out", "lights");
-  FIELD(double, lost_irradiance, "Share of the lit lights' irradiance that is lost with them", "share of 1");
+  FIELD(std::uint64_t, wrongly_removed, "Of the lit, those that were taken out", "lights", Compares::cost);
+  FIELD(double, lost_irradiance, "Share of the lit lights' irradiance that is lost with them", "share of 1",
+        Compares::cost);
   END_RECORD;
 };
 
 struct ShadowMaps {
+  static About about() { return About("", Compares::follows); }
   RECORD(ShadowMaps);
   FIELD(std::uint64_t, lights, "Lights with a map", "lights");
   FIELD(std::uint64_t, made, "Maps that were made", "maps");
   FIELD(std::uint64_t, faces, "Of those", "faces");
   FIELD(std::uint64_t, texels, "Of those, texels into which light goes", "texels");
   FIELD(std::uint64_t, unlimited,
-        "Of those, texels without a distance: a ray meets nothing, or (proven) a gap may be left", "texels");
+        "Of those, texels without a distance: a ray meets nothing, or (proven) a gap may be left", "texels",
+        Compares::cost);
   FIELD(std::uint64_t, bytes, "One map for each light, with all levels of its pyramid, as 32-bit floats", "bytes");
   END_RECORD;
 };

@@ -35,11 +35,25 @@ run::Result with_times(double slow_ns, double fast_ns) {
 
 // Every comparison of these tests is held against its schema.
 Json compared(const Json& base, const Json& next, double threshold, const CompareOptions& options = {}) {
-  Json comparison = compare_results(test::result_of(base), test::result_of(next), threshold, options);
+  Json comparison = result::to_json(compare_results(test::result_of(base), test::result_of(next), threshold, options));
   const Json violations = config::schema_violations(config::row_of(config::Document::comparison).schema(),
                                                     nlohmann::json::parse(comparison.dump()));
   EXPECT_TRUE(violations.empty()) << violations.dump(1) << comparison.dump(1);
   return comparison;
+}
+
+// What is read back of a comparison says the same.
+result::Comparison read(const Json& comparison) {
+  return result::from_json<result::Comparison>(comparison);
+}
+ExitCode outcome(const Json& comparison, bool is_strict) {
+  return report::outcome(read(comparison), is_strict);
+}
+std::string comparison_text(const Json& comparison) {
+  return report::comparison_text(read(comparison));
+}
+std::string comparison_markdown(const Json& comparison) {
+  return report::comparison_markdown(read(comparison));
 }
 
 std::string verdict_of(const Json& comparison, std::size_t place) {
@@ -199,6 +213,22 @@ TEST(Compare, another_allocation_margin_is_another_setting_and_nothing_worse) {
   EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["counts"], "worse") << "of one setting";
 }
 
+// A later version may say the same in better words.
+TEST(Compare, other_words_of_a_note_or_a_warning_are_no_other_counts) {
+  Json base = json_of(result_by_hand());
+  Json& entry = base["cases"][0];
+  entry["grid"]["note"] = "the grid ends at 9 m";
+  entry["warnings"] = Json::array({{{"kind", "too_many_lights"}, {"text", "300 lights in view"}}});
+  Json next = base;
+  next["cases"][0]["grid"]["note"] = "slices end at 9 m";
+  next["cases"][0]["warnings"][0]["text"] = "there are 300 lights in view";
+  const Json comparison = compared(base, next, 0.02);
+  EXPECT_EQ(comparison["cases"][0]["counts"], "same");
+  EXPECT_EQ(outcome(comparison), ExitCode::ok) << comparison.dump(1);
+  next["cases"][0]["warnings"][0]["kind"] = "unlit_samples";
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["counts"], "worse") << "another warning";
+}
+
 TEST(Compare, cases_of_one_name_that_are_not_the_same_are_told_with_what_differs) {
   const Json base = json_of(result_by_hand());
   Json next = base;
@@ -292,6 +322,19 @@ TEST(Compare, a_single_pair_or_byte_more_fails_and_one_less_does_not) {
     EXPECT_EQ(outcome(compared(next, base, 0.02), false), ExitCode::ok) << place;
     EXPECT_EQ(compared(next, base, 0.02)["cases"][0]["counts"], "better") << place;
   }
+}
+
+TEST(Compare, of_a_cost_its_times_are_not_compared_and_the_rest_follows_from_counts) {
+  Json base = json_of(result_by_hand());
+  base["cases"][1]["cost"] = {{"frame_ns", 300.0}, {"assign_ns", 100.0}, {"gpu_ns", 200.0}};
+  Json next = base;
+  next["cases"][1]["cost"]["frame_ns"] = 303.0;
+  next["cases"][1]["cost"]["assign_ns"] = 103.0;
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][1]["counts"], "same");
+  next["cases"][1]["cost"]["gpu_ns"] = 190.0;
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][1]["counts"], "worse") << "without a count that is less";
+  next["cases"][1]["tests_done"] = base["cases"][1]["tests_done"].get<double>() - 1;
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][1]["counts"], "better");
 }
 
 TEST(Compare, another_truth_or_another_list_of_the_same_length_fails) {

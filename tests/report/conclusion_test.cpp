@@ -434,6 +434,11 @@ Json answer_by_hand(double by_choice, const Json& ci95) {
           {"runners_up", {runner_up}}, {"searched", Json::array()}};
 }
 
+std::string answer_conclusion(const Json& answer, const Json& objective) {
+  return report::answer_conclusion(test::record_of<result::Answer>(answer),
+                                   test::record_of<result::Objective>(objective));
+}
+
 TEST(Conclusion, of_a_recommendation_names_the_choice_and_the_next_one) {
   const Json objective{{"figure", "frame_cost_us"}, {"meaning", ""}, {"timed", true}};
   EXPECT_EQ(

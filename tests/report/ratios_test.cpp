@@ -88,13 +88,13 @@ TEST(Ratios, are_not_formed_over_grids_caches_or_unequal_rounds) {
 }
 
 TEST(Ratios, stand_in_a_ranking_and_between_all_pairs) {
-  const Json ratios = ratios_of(three_methods(), {});
+  const result::Ratios ratios = ratios_of(three_methods(), {});
   const std::string ranking = ratio_table(ratios, false), pairs = ratio_table(ratios, true);
   EXPECT_NE(ranking.find("  ~ method-c / packed"), std::string::npos) << ranking;
   EXPECT_NE(ranking.find("1.10 (1.0"), std::string::npos) << ranking;
   EXPECT_NE(pairs.find("method-c / packed  method-a / packed"), std::string::npos) << pairs;
   EXPECT_EQ(ratio_table(ratios_of(three_methods(), only("method-[ab]")), true).find("method-c"), std::string::npos);
-  EXPECT_TRUE(ratios_of(three_methods(), only("no such"))["blocks"].empty());
+  EXPECT_TRUE(ratios_of(three_methods(), only("no such")).blocks.empty());
   const std::string csv = ratio_csv(ratios);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 * 2) << csv;
   const std::string markdown = ratio_markdown(ratios, false);
@@ -102,7 +102,7 @@ TEST(Ratios, stand_in_a_ranking_and_between_all_pairs) {
 }
 
 TEST(Ratios, as_json_are_what_their_schema_says_and_what_the_table_says) {
-  const Json ratios = ratios_of(three_methods(), {});
+  const Json ratios = result::to_json(ratios_of(three_methods(), {}));
   EXPECT_EQ(config::schema_violations(config::row_of(config::Document::ratios).schema(), nlohmann::json(ratios)),
             std::vector<std::string>{});
   EXPECT_EQ(config::document_of(ratios), config::Document::ratios);
@@ -118,22 +118,22 @@ TEST(Ratios, as_json_are_what_their_schema_says_and_what_the_table_says) {
 TEST(Ratios, of_two_grids_are_those_of_the_same_launches) {
   result::Result result = three_methods();
   result.cases[1].grid.name = "frustum 32px";
-  EXPECT_EQ(ratios_of(result, {})["blocks"].size(), 2u);
-  const Json all = ratios_of(result, over_all_grids());
-  ASSERT_EQ(all["blocks"].size(), 1u);
-  const Json& block = all["blocks"][0];
-  EXPECT_EQ(block["cases"][1]["label"], "frustum 32px / method-b / packed");
-  EXPECT_EQ(block["pairs"][0]["over"], "launches");
-  EXPECT_NEAR(block["pairs"][0]["ratio"].get<double>(), 1.1, 0.01);
-  EXPECT_EQ(block["pairs"][0]["takes_longer"], true);
+  EXPECT_EQ(ratios_of(result, {}).blocks.size(), 2u);
+  const result::Ratios all = ratios_of(result, over_all_grids());
+  ASSERT_EQ(all.blocks.size(), 1u);
+  const result::RatioBlock& block = all.blocks[0];
+  EXPECT_EQ(block.cases.at(1).label, "frustum 32px / method-b / packed");
+  EXPECT_EQ(block.pairs.at(0).over, "launches");
+  EXPECT_NEAR(block.pairs[0].ratio, 1.1, 0.01);
+  EXPECT_TRUE(block.pairs[0].takes_longer);
   EXPECT_NE(ratio_table(all, false).find("of other grids of the same launches"), std::string::npos);
   EXPECT_TRUE(ratio_csv(all).starts_with("scene,view,case,other,ratio,low,high\n"))
       << "no column named grid holds a view";
   RatioRequest some = over_all_grids();
   some.methods = "^method-[ab]";
-  EXPECT_EQ(ratios_of(result, some)["blocks"].at(0)["cases"].size(), 2u) << "a pattern for the methods of one grid";
+  EXPECT_EQ(ratios_of(result, some).blocks.at(0).cases.size(), 2u) << "a pattern for the methods of one grid";
   some.methods = "32px / method-b";
-  EXPECT_EQ(ratios_of(result, some)["blocks"].at(0)["cases"].size(), 1u);
+  EXPECT_EQ(ratios_of(result, some).blocks.at(0).cases.size(), 1u);
 }
 
 TEST(Ratios, the_page_gets_each_case_beside_the_fastest_and_the_one_above_it) {

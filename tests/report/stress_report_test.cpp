@@ -77,7 +77,7 @@ TEST(HardCases, give_the_same_json_on_any_number_of_threads) {
   request.methods = Pattern("^(aabb|exact|naive-refinement)$", "--methods");
   const auto json = [&](int threads) {
     request.threads = threads;
-    return report::stress_to_json(run_stress(request, {}, k_never), request).dump();
+    return result::to_json(report::stress_document(run_stress(request, {}, k_never), request)).dump();
   };
   EXPECT_EQ(json(1), json(2));
 }
@@ -105,7 +105,7 @@ TEST(Stress, that_is_stopped_tells_of_the_cases_that_are_whole) {
   for (const StressCell& cell : result.cells) EXPECT_EQ(cell.hard_case, "H1");
   EXPECT_TRUE(result.searches.empty());
   EXPECT_FALSE(result.random);
-  EXPECT_EQ(report::stress_to_json(result, request)["interrupted"], true);
+  EXPECT_EQ(report::stress_document(result, request).interrupted, true);
 }
 
 TEST(Stress, is_written_as_its_schema_says) {
@@ -119,7 +119,7 @@ TEST(Stress, is_written_as_its_schema_says) {
   EXPECT_EQ(result.random->counts.settings, 3U);
   result.random->faults.push_back(
       {{FaultKind::truth, "", "a sentence", 1, 2, scene::LightType::box}, grid::Kind::world, false, 1, {7}, {}});
-  const auto json = nlohmann::json::parse(report::stress_to_json(result, request).dump());
+  const auto json = nlohmann::json::parse(result::to_json(report::stress_document(result, request)).dump());
   EXPECT_EQ(config::schema_violations(row_of(config::Document::stress).schema(), json), std::vector<std::string>{});
   EXPECT_EQ(config::document_of(json), config::Document::stress);
   const auto is_lost = [](const auto& element) { return !element["deepest_miss"].is_null(); };

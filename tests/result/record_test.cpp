@@ -34,6 +34,14 @@ struct Outer {
   END_RECORD;
 };
 
+struct Named : Inner {
+  using Rest = Inner;
+  RECORD(Named);
+  FIELD(std::string, name, "Whose");
+  FIELD(std::optional<double>, share, "Of it");
+  END_RECORD;
+};
+
 Outer outer_by_hand() {
   Outer outer{.mean = 2.0,
               .most = 3.0,
@@ -60,6 +68,14 @@ TEST(Record, has_its_fields_in_their_order_and_leaves_out_what_is_absent) {
 
 TEST(Record, read_back_is_what_was_written) {
   EXPECT_EQ(to_json(from_json<Outer>(Json::parse(k_outer))).dump(), k_outer);
+}
+
+TEST(Record, that_derives_from_another_has_its_fields_behind_its_own) {
+  Named named{{7, "x"}};
+  named.name = "n";
+  constexpr const char* k_named = R"({"name":"n","lights":7,"true":"x"})";
+  EXPECT_EQ(to_json(named).dump(), k_named);
+  EXPECT_EQ(to_json(from_json<Named>(Json::parse(k_named))).dump(), k_named);
 }
 
 TEST(Record, names_the_place_of_what_it_cannot_read) {

@@ -22,12 +22,11 @@ struct CompareFlags {
 };
 
 // Reports a gate on times that cannot be applied.
-void check_gate(const CompareFlags& flags, const nlohmann::ordered_json& comparison) {
-  if (!flags.gates_separate || !comparison["left_out"].contains("times")) return;
+void check_gate(const CompareFlags& flags, const result::Comparison& comparison) {
+  if (!flags.gates_separate || !comparison.left_out.times) return;
   throw Error(flags.next, "",
               "its times cannot be compared with those of " + flags.base + ": " +
-                  joined(comparison["left_out"]["times"].get<std::vector<std::string>>(), "; ") +
-                  "; --force compares all the same",
+                  joined(*comparison.left_out.times, "; ") + "; --force compares all the same",
               ExitCode::nothing_comparable);
 }
 
@@ -36,12 +35,12 @@ ExitCode compare(const CompareFlags& flags) {
   result::Result base = report::read_result(flags.base), next = report::read_result(flags.next);
   report::keep_cases(base, flags.filter, flags.base);
   report::keep_cases(next, flags.filter, flags.next);
-  const nlohmann::ordered_json comparison =
+  const result::Comparison comparison =
       report::compare_results(base, next, flags.threshold_percent / 100.0, {flags.gates_separate, flags.is_forced});
   check_gate(flags, comparison);
   if (flags.markdown != "-" && flags.json != "-") std::cout << printable_lines(report::comparison_text(comparison));
   if (!flags.markdown.empty()) write_text(flags.markdown, report::comparison_markdown(comparison));
-  if (!flags.json.empty()) write_output(flags.json, comparison);
+  if (!flags.json.empty()) write_output(flags.json, result::to_json(comparison));
   const ExitCode code = report::outcome(comparison, flags.is_strict);
   if (code == ExitCode::nothing_comparable)
     print_message(report::advice_on_nothing(base, next, flags.base, flags.next));

@@ -70,7 +70,7 @@ ExitCode light_map(const LightMapFlags& flags) {
   LaterOutput output(flags.output, for_reading);
   std::vector<report::LightMapScene> scenes;
   for (const std::string& path : flags.scenes) scenes.push_back(light_maps_of(path, flags, request));
-  output.write(report::light_maps_to_json(scenes, request));
+  output.write(result::to_json(report::light_maps_document(scenes, request)));
   if (!flags.quiet)
     (for_reading ? std::cout : std::cerr) << printable_lines(report::light_maps_text(scenes, request)) << std::flush;
   if (for_reading) warn_result_not_saved();

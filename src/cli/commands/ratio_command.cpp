@@ -23,12 +23,12 @@ struct RatioFlags {
 ExitCode show_ratios(const RatioFlags& flags) {
   refuse_overwriting({flags.csv, flags.json, flags.markdown}, {flags.result});
   const report::RatioRequest& request = flags.request;
-  const nlohmann::ordered_json ratios = report::ratios_of(report::read_result(flags.result), request);
-  if (ratios["blocks"].empty())
+  const result::Ratios ratios = report::ratios_of(report::read_result(flags.result), request);
+  if (ratios.blocks.empty())
     throw Error(flags.result, "",
                 "has no times" + (request.methods.empty() ? "" : " of methods like " + request.methods));
   if (!flags.csv.empty()) write_text(flags.csv, report::ratio_csv(ratios));
-  if (!flags.json.empty()) write_output(flags.json, ratios);
+  if (!flags.json.empty()) write_output(flags.json, result::to_json(ratios));
   if (!flags.markdown.empty()) write_text(flags.markdown, report::ratio_markdown(ratios, flags.all_pairs));
   const auto is_standard_output = [](const std::string& output) { return output == "-"; };
   if (std::ranges::none_of(std::array{flags.csv, flags.json, flags.markdown}, is_standard_output))

@@ -25,8 +25,6 @@
 namespace clusterbench::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // "--frame-us-max" for "frame_us.max".
 std::string flag_of(const std::string& figure) {
   std::string flag = "--" + figure;
@@ -140,8 +138,8 @@ bool check_timing(const RecommendFlags& flags, const report::Question& question,
 
 // "next: clusterbench size choice.json": the command that sizes the buffers of the choice; for a level, over its whole
 // paths. "" if nothing is chosen, or if one configuration cannot hold the choices.
-std::string next_text(const RecommendFlags& flags, const Json& recommendation) {
-  if (recommendation["answers"].size() != 1 || recommendation["answers"][0]["choice"].is_null()) return "";
+std::string next_text(const RecommendFlags& flags, const result::Recommendation& recommendation) {
+  if (recommendation.answers.size() != 1 || !recommendation.answers[0].choice) return "";
   const bool is_level = std::ranges::all_of(flags.inputs.paths, is_scene);
   const bool is_written = !flags.written.empty() && !is_stream(flags.written);
   std::vector<std::string> words{"clusterbench", "size", is_written ? flags.written : "choice.json"};
@@ -150,8 +148,8 @@ std::string next_text(const RecommendFlags& flags, const Json& recommendation) {
          shell_command(words) + "   sizes its buffers\n";
 }
 
-ExitCode write_and_show(const RecommendFlags& flags, const Json& recommendation) {
-  if (!flags.output.empty()) write_output(flags.output, recommendation);
+ExitCode write_and_show(const RecommendFlags& flags, const result::Recommendation& recommendation) {
+  if (!flags.output.empty()) write_output(flags.output, result::to_json(recommendation));
   std::ostream& out = is_stream(flags.output) && !flags.output.empty() ? std::cerr : std::cout;
   out << printable_lines(report::recommendation_text(recommendation, next_text(flags, recommendation))) << std::flush;
   return report::all_satisfied(recommendation) ? ExitCode::ok : ExitCode::gate_failed;
@@ -169,11 +167,11 @@ std::string budget_text(const run::Plan& plan, const search::View& view, const s
 }
 
 // Prints the answers before the stop, and the state of the interrupted search.
-ExitCode print_partial_answers(const config::Config& config, const report::Question& question, const Json& answers,
-                               const search::View& view, const search::Found& found) {
+ExitCode print_partial_answers(const config::Config& config, const report::Question& question,
+                               const std::vector<result::Answer>& answers, const search::View& view,
+                               const search::Found& found) {
   if (!answers.empty())
-    std::cerr << printable_lines(
-        report::recommendation_text(report::recommendation_to_json(config, question, answers)));
+    std::cerr << printable_lines(report::recommendation_text(report::recommendation_of(config, question, answers)));
   std::cerr << printable_lines(report::unfinished_text(view, found, question)) << std::flush;
   return os::stopped_exit_code();
 }
@@ -225,7 +223,7 @@ bool needs_cost(const report::Question& question) {
 // Runs all searches; fills `answers`. Returns the exit code if stopped.
 std::optional<ExitCode> search_all(const RecommendFlags& flags, const config::Config& config, run::Plan& plan,
                                    const report::Question& question, const search::Request& request, Searches& searches,
-                                   Json& answers) {
+                                   std::vector<result::Answer>& answers) {
   const std::atomic<bool>& stop = os::stop_on_signals();
   const run::Launcher launcher =
       request.is_timed && config.timing.launches > 1 ? make_launcher(config, plan, nullptr, stop) : run::Launcher{};
@@ -238,7 +236,7 @@ std::optional<ExitCode> search_all(const RecommendFlags& flags, const config::Co
     const search::Found found = search::search_view(config, plan, view, request, launcher, watch, searches.costs[i]);
     progress.clear();
     if (stop) return print_partial_answers(config, question, answers, view, found);
-    answers.push_back(report::answer_to_json(config, plan, view, found, question));
+    answers.push_back(report::answer_of(config, plan, view, found, question));
   }
   return std::nullopt;
 }
@@ -270,9 +268,9 @@ ExitCode recommend(const RecommendFlags& flags) {
   if (!flags.quiet) print_duration(config, plan, request, searches);
   print_notes(config, plan, ignored);
   if (has_random_depths) warn_of_random_depths();
-  Json answers = Json::array();
+  std::vector<result::Answer> answers;
   if (const auto stopped = search_all(flags, config, plan, question, request, searches, answers)) return *stopped;
-  const Json recommendation = report::recommendation_to_json(config, question, answers);
+  const result::Recommendation recommendation = report::recommendation_of(config, question, answers);
   const ExitCode code = write_and_show(flags, recommendation);
   if (!flags.written.empty() && code == ExitCode::ok)
     write_output(flags.written, report::recommended_config(config, searches.views.front(), answers[0], question,

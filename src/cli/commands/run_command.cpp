@@ -266,9 +266,8 @@ bool add_baseline(const RunFlags& flags, const config::Config& config, const run
 
 // The checks of a finished run.
 struct Verdicts {
-  // with the program beside it; its gates include those of the run; empty without one
-  Json comparison = Json::object();
-  std::string changes;  // since the baseline
+  std::optional<result::Comparison> comparison;  // with the program beside it; its gates include those of the run
+  std::string changes;                           // since the baseline
   std::vector<report::LimitFindings> findings;
 };
 
@@ -281,8 +280,9 @@ Verdicts verdicts_of(const RunFlags& flags, const Gates& gates, result::Result& 
   verdicts.findings = gates.findings(result);
   const std::vector<std::string> of_cases = report::gate_failures(result);
   std::vector<std::string> failures;
-  for (const Json& failure : verdicts.comparison.value("failures", Json::array()))
-    if (std::ranges::find(of_cases, failure.get<std::string>()) == of_cases.end()) failures.push_back(failure);
+  if (verdicts.comparison)
+    for (const std::string& failure : verdicts.comparison->failures)
+      if (std::ranges::find(of_cases, failure) == of_cases.end()) failures.push_back(failure);
   for (const report::LimitFindings& some : verdicts.findings)
     failures.insert(failures.end(), some.broken.begin(), some.broken.end());
   report::conclude_failures(result, failures);
@@ -291,11 +291,11 @@ Verdicts verdicts_of(const RunFlags& flags, const Gates& gates, result::Result& 
 
 ExitCode report_verdicts(const Verdicts& verdicts, const result::Result& result) {
   ExitCode code = ExitCode::ok;
-  if (verdicts.comparison.empty()) {
-    code = report_gates(result);
+  if (verdicts.comparison) {
+    std::cerr << printable_lines(report::comparison_text(*verdicts.comparison));
+    code = report::outcome(*verdicts.comparison, false);
   } else {
-    std::cerr << printable_lines(report::comparison_text(verdicts.comparison));
-    code = report::outcome(verdicts.comparison, false);
+    code = report_gates(result);
   }
   std::cerr << printable_lines(verdicts.changes) << std::flush;
   const ExitCode limits = report_findings(verdicts.findings);

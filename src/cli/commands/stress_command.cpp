@@ -110,7 +110,7 @@ ExitCode stress(const StressFlags& flags) {
     throw Error("", "--cases",
                 "'" + flags.cases + "' names none" + pattern_hint(flags.cases) + "; there are H1 to H35");
   const bool for_reading = is_for_reading(flags.output);
-  output.write(report::stress_to_json(result, request));
+  output.write(result::to_json(report::stress_document(result, request)));
   if (!flags.quiet) report::print_stress(for_reading ? std::cout : std::cerr, result);
   if (for_reading) warn_result_not_saved();
   if (!flags.failures.empty()) write_replays(flags.failures, result);

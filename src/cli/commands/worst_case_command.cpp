@@ -111,7 +111,7 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
       config, plan, case_plan, request, has_frames ? flags.path : "", has_frames ? config_path(flags.path) : ""};
   if (!facts.scene_file.empty()) write_path(found, facts);
   const bool for_reading = is_for_reading(flags.output);
-  output.write(report::worst_case_to_json(found, facts));
+  output.write(result::to_json(report::worst_case_document(found, facts)));
   if (!facts.scene_file.empty()) check_path(found, facts);
   if (!flags.quiet)
     (for_reading ? std::cout : std::cerr) << printable_lines(report::worst_case_text(found, facts)) << std::flush;

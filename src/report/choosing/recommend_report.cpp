@@ -15,13 +15,14 @@
 #include "report/cases/case_costs.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
-#include "report/cases/json_values.h"
 #include "report/cases/nothing_seen.h"
 #include "report/cases/sample_sets.h"
 #include "report/cases/timing_warnings.h"
+#include "report/choosing/answer_conclusion.h"
 #include "report/sizing/list_code.h"
 #include "result/at.h"
 #include "result/case_figure.h"
+#include "result/rounding.h"
 #include "run/findings/gate.h"
 #include "run/records/records.h"
 #include "run/scene_facts.h"
@@ -219,59 +220,52 @@ Json method_json(const config::MethodRequest& request) {
 }
 
 // Whether it differs from another in cells only, which its method then does not use.
-bool is_repeated(const Json& record, const Json& other) {
-  return record["assigner"] == other["assigner"] && record["storage"] == other["storage"] &&
-         record["precision"] == other["precision"] &&
+bool is_repeated(const result::Candidate& record, const result::Candidate& other) {
+  return record.assigner == other.assigner && record.storage == other.storage && record.precision == other.precision &&
          std::ranges::all_of(objective_figures(), [&](const Figure* figure) {
            const std::string name(figure->name);
-           return figure->rests_on_times() ||
-                  record["figures"].value(name, Json()) == other["figures"].value(name, Json());
+           return figure->rests_on_times() || candidate_figure(record, name) == candidate_figure(other, name);
          });
 }
 
 // What a configuration needs of a candidate.
-Json parts_json(const config::Config& config, const search::View& view, const search::Candidate& candidate) {
+result::Candidate configured_parts(const config::Config& config, const search::View& view,
+                                   const search::Candidate& candidate) {
   const run::CasePlan& plan = *candidate.cases.front();
   const config::PrecisionRequest& precision = config.precisions[plan.precision];
   Json packing{{"packing", view::packing_name(precision.packing)}};
   if (precision.is_lossy()) packing["inflate"] = precision.inflate;
-  Json ids = Json::array();
-  for (std::size_t i = 0; i < view.cameras.size(); ++i) ids.push_back(candidate.cases[i]->id);
-  return {{"name", candidate.name},
-          {"ids", ids},
-          {"grid", config::grid_request(config.grids[plan.grid])},
-          {"cells", candidate.cells},
-          {"assigner", method_json(config.assigners[plan.assigner])},
-          {"storage", plan.storage ? method_json(config.storages[*plan.storage]) : Json()},
-          {"precision", packing}};
+  result::Candidate out{.name = candidate.name,
+                        .grid = config::grid_request(config.grids[plan.grid]),
+                        .cells = candidate.cells,
+                        .assigner = method_json(config.assigners[plan.assigner]),
+                        .storage = plan.storage ? method_json(config.storages[*plan.storage]) : Json(),
+                        .precision = packing};
+  for (std::size_t i = 0; i < view.cameras.size(); ++i) out.ids.push_back(candidate.cases[i]->id);
+  return out;
 }
 
-Json interval_json(const measure::Interval& interval) {
-  return {number_or_null(interval.low), number_or_null(interval.high)};
-}
-
-Json ranked_json(const config::Config& config, const search::View& view, const Ranked& ranked, const Ranked& choice,
-                 const Question& question) {
-  Json out = parts_json(config, view, view.candidates[ranked.candidate]);
-  out["objective"] = number_or_null(ranked.objective);
-  out["by_choice"] = number_or_null(ranked.objective / choice.objective);
+result::Candidate candidate_of(const config::Config& config, const search::View& view, const Ranked& ranked,
+                               const Ranked& choice, const Question& question) {
+  result::Candidate out = configured_parts(config, view, view.candidates[ranked.candidate]);
+  out.objective = result::counted(ranked.objective);
+  out.by_choice = result::counted(ranked.objective / choice.objective);
   if (const std::optional<measure::Ratio> ratio = ratio_of(ranked, choice, question, config.seed)) {
-    out["by_choice"] = six_digits(ratio->ratio);
-    out["ci95"] = {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)};
+    out.by_choice = result::measured(ratio->ratio);
+    out.ci95 = {result::measured(ratio->ci95.low), result::measured(ratio->ci95.high)};
   }
-  if (question.objective->is_modelled_cost && ranked.objective > choice.objective)
-    out["by_prices"] =
-        interval_json(measure::around(out["by_choice"].get<double>(), ranked.objective / choice.objective,
-                                      measure::ratio_by_prices(cost_over(ranked.cases), cost_over(choice.cases))));
-  Json figures = Json::object();
+  if (question.objective->is_modelled_cost && ranked.objective > choice.objective) {
+    const measure::Interval by_prices =
+        measure::around(out.by_choice, ranked.objective / choice.objective,
+                        measure::ratio_by_prices(cost_over(ranked.cases), cost_over(choice.cases)));
+    out.by_prices = {result::counted(by_prices.low), result::counted(by_prices.high)};
+  }
   for (const Figure* figure : objective_figures()) {
     const std::string name(figure->name);
     if (const std::optional<double> value = result::figure_over(ranked.cases, name))
-      figures[name] = figure->rests_on_times() ? six_digits(*value) : number_or_null(*value);
+      out.figures.emplace_back(name, figure->rests_on_times() ? result::measured(*value) : result::counted(*value));
   }
-  out["figures"] = figures;
-  const std::optional<double> overshade = result::figure_over(ranked.cases, "overshade");
-  out["overshade"] = overshade ? number_or_null(*overshade) : Json();
+  out.overshade = result::counted(result::figure_over(ranked.cases, "overshade").value_or(result::k_none));
   return out;
 }
 
@@ -307,16 +301,16 @@ std::string why_nothing_is_seen(const search::Found& found, const config::Config
 }
 
 // The best behind the choice. Of those that differ in cells only, which their method then does not use, the first.
-Json runners_up_json(const config::Config& config, const search::View& view, const std::vector<Ranked>& all,
-                     const Question& question) {
-  Json told = Json::array({ranked_json(config, view, all[0], all[0], question)});
+std::vector<result::Candidate> runners_up_of(const config::Config& config, const search::View& view,
+                                             const std::vector<Ranked>& all, const Question& question) {
+  std::vector<result::Candidate> told{candidate_of(config, view, all[0], all[0], question)};
   for (std::size_t i = 1; i < all.size() && all[i].is_feasible(); ++i) {
     if (told.size() > static_cast<std::size_t>(question.runners_up)) break;
-    const Json record = ranked_json(config, view, all[i], all[0], question);
-    if (std::ranges::none_of(told, [&](const Json& other) { return is_repeated(record, other); }))
+    const result::Candidate record = candidate_of(config, view, all[i], all[0], question);
+    if (std::ranges::none_of(told, [&](const result::Candidate& other) { return is_repeated(record, other); }))
       told.push_back(record);
   }
-  told.erase(0);
+  told.erase(told.begin());
   return told;
 }
 
@@ -350,50 +344,84 @@ Excluded excluded_by(std::size_t constraint, const search::View& view, const sea
   return excluded;
 }
 
-Json excluded_json(const search::View& view, const search::Found& found, const Question& question) {
+std::vector<result::ConstraintOfAnswer> constraints_of_answer(const search::View& view, const search::Found& found,
+                                                              const Question& question) {
   const std::vector<std::string> texts = constraint_texts(question);
-  Json out = Json::array();
+  std::vector<result::ConstraintOfAnswer> out;
   for (std::size_t constraint = 0; constraint < texts.size(); ++constraint) {
     const Excluded excluded = excluded_by(constraint, view, found);
     const bool is_given = constraint < question.constraints.size() && question.constraints[constraint].is_given;
-    Json row{{"constraint", texts[constraint]}, {"given", is_given},  {"excluded", excluded.count},
-             {"alone", excluded.alone},         {"nearest", nullptr}, {"best", nullptr}};
+    result::ConstraintOfAnswer row{
+        .constraint = texts[constraint], .given = is_given, .excluded = excluded.count, .alone = excluded.alone};
     if (excluded.nearest)
-      row["nearest"] = {{"name", view.candidates[*excluded.nearest].name},
-                        {"figure", number_or_null(excluded.nearest_figure)},
-                        {"frames", found.records[*excluded.nearest].frames}};
+      row.nearest =
+          result::NearestRejected{view.candidates[*excluded.nearest].name, result::counted(excluded.nearest_figure),
+                                  found.records[*excluded.nearest].frames};
     if (excluded.best) {
       const search::Record& best = found.records[*excluded.best];
       const bool is_comparable = !view.candidates[*excluded.best].is_apart ||
                                  std::ranges::all_of(view.candidates, &search::Candidate::is_apart);
-      row["best"] = {{"name", view.candidates[*excluded.best].name},
-                     {"objective", number_or_null(best.verdict.objective)},
-                     {"by_best", is_comparable ? number_or_null(best.by_best) : Json()},
-                     {"frames", best.frames}};
+      row.best = result::BestRejected{view.candidates[*excluded.best].name, result::counted(best.verdict.objective),
+                                      is_comparable ? result::counted(best.by_best) : result::k_none, best.frames};
     }
     out.push_back(row);
   }
   return out;
 }
 
-Json work_json(const search::Work& work) {
-  const auto share = [](double some, double all) { return number_or_null(all > 0.0 ? some / all : 0.0); };
-  return {
-      {"measurements", work.measurements},
-      {"evaluations", work.evaluations},
-      {"all_evaluations", work.all_evaluations},
-      {"evaluations_share", share(static_cast<double>(work.evaluations), static_cast<double>(work.all_evaluations))},
-      {"tests", number_or_null(work.tests)},
-      {"all_tests", number_or_null(work.all_tests)},
-      {"tests_share", share(work.tests, work.all_tests)}};
+result::SearchWork work_of(const search::Work& work) {
+  const auto share = [](double some, double all) { return result::counted(all > 0.0 ? some / all : 0.0); };
+  return {.measurements = work.measurements,
+          .evaluations = work.evaluations,
+          .all_evaluations = work.all_evaluations,
+          .evaluations_share = share(static_cast<double>(work.evaluations), static_cast<double>(work.all_evaluations)),
+          .tests = result::counted(work.tests),
+          .all_tests = result::counted(work.all_tests),
+          .tests_share = share(work.tests, work.all_tests)};
 }
 
-Json rungs_json(const std::vector<search::Rung>& rungs) {
-  Json out = Json::array();
-  for (const search::Rung& rung : rungs)
-    out.push_back(
-        {{"frames", rung.frames}, {"candidates", rung.candidates}, {"excluded", rung.out}, {"kept", rung.kept}});
+// An answer's question, and how much was measured for it.
+result::Answer asked_of(const config::Config& config, const run::SceneData& data, const search::View& view,
+                        const search::Found& found, const Question& question) {
+  const Vec2i viewport = config.viewports[view.viewport];
+  result::Answer out{.scene = data.scene.name,
+                     .sha256 = data.scene.sha256,
+                     .viewport = {static_cast<std::uint64_t>(viewport.x), static_cast<std::uint64_t>(viewport.y)},
+                     .frames = view.frames,
+                     .lights = data.scene.lights.size(),
+                     .candidates = view.candidates.size(),
+                     .incomplete = view.incomplete,
+                     .within = question.within,
+                     .constraints = constraints_of_answer(view, found, question),
+                     .finalists = found.finalists.size(),
+                     .challengers = found.challengers,
+                     .work = work_of(found.work)};
+  for (const std::size_t camera : view.cameras) out.cameras.push_back(data.paths[camera].camera);
+  for (const std::size_t camera : view.blind) out.blind_cameras.push_back(data.paths[camera].camera);
+  for (const search::Rung& rung : found.rungs) out.rungs.push_back({rung.frames, rung.candidates, rung.out, rung.kept});
   return out;
+}
+
+// The first of all is the choice.
+void add_choice(result::Answer& out, const config::Config& config, const search::View& view,
+                const std::vector<Ranked>& all, const Question& question) {
+  const Ranked& choice = all[0];
+  out.choice = candidate_of(config, view, choice, choice, question);
+  double best = choice.objective;
+  const Ranked* coarsest = &choice;
+  for (const Ranked& ranked : all)
+    if (ranked.is_feasible()) best = std::min(best, ranked.objective);
+  for (const Ranked& ranked : all)
+    if (ranked.is_feasible() && ranked.objective <= best * (1.0 + question.within) && ranked.cells < coarsest->cells)
+      coarsest = &ranked;
+  if (coarsest != &choice) out.coarsest = candidate_of(config, view, *coarsest, choice, question);
+  out.runners_up = runners_up_of(config, view, all, question);
+  out.ground_m = result::number<&Case::samples, &SampleSets::opaque, &SampleSet::ground_m>(choice.cases[0])
+                     .value_or(result::k_none);
+  if (const std::string why = why_no_reader(choice.cases); !why.empty()) out.no_reader = why;
+  if (question.objective->is_modelled_cost) out.needed_at_samples = needed_over(choice.cases);
+  out.samples = ranking_set_names(choice.cases[0]);
+  out.random_depths = rests_on_samples(*question.objective) && ranks_at_random_depths(choice.cases[0]);
 }
 
 // The configuration's entry of a scene, which can stand for several.
@@ -495,8 +523,8 @@ search::Evaluate judge_of(const Question& question, const nlohmann::json& config
   };
 }
 
-Json answer_to_json(const config::Config& config, const run::Plan& plan, const search::View& view,
-                    const search::Found& found, const Question& question) {
+result::Answer answer_of(const config::Config& config, const run::Plan& plan, const search::View& view,
+                         const search::Found& found, const Question& question) {
   std::vector<Ranked> all = ranked(config, view, found);
   const std::vector<Ranked> apart(std::ranges::find(all, true, &Ranked::is_apart), all.end());
   all.resize(all.size() - apart.size());
@@ -504,103 +532,57 @@ Json answer_to_json(const config::Config& config, const run::Plan& plan, const s
   const run::SceneData& data = plan.scenes[view.scene];
   const std::string unseen = why_nothing_is_seen(found, config, data.scene, question);
   const bool has_choice = unseen.empty() && !all.empty() && all.front().is_feasible();
-  const Vec2i viewport = config.viewports[view.viewport];
-  Json cameras = Json::array();
-  for (const std::size_t camera : view.cameras) cameras.push_back(data.paths[camera].camera);
-  Json blind = Json::array();
-  for (const std::size_t camera : view.blind) blind.push_back(data.paths[camera].camera);
-  Json out{{"scene", data.scene.name},
-           {"sha256", data.scene.sha256},
-           {"cameras", cameras},
-           {"blind_cameras", blind},
-           {"viewport", {viewport.x, viewport.y}},
-           {"frames", view.frames},
-           {"lights", data.scene.lights.size()},
-           {"candidates", view.candidates.size()},
-           {"incomplete", view.incomplete},
-           {"samples", Json::array()},
-           {"random_depths", false},
-           {"ground_m", nullptr},
-           {"needed_at_samples", nullptr},
-           {"no_reader", nullptr},
-           {"nothing_seen", unseen.empty() ? Json() : Json(unseen)},
-           {"timing_doubts", doubts_of(all)},
-           {"choice", nullptr},
-           {"runners_up", Json::array()},
-           {"searched", Json::array()},
-           {"within", question.within},
-           {"coarsest", nullptr}};
-  if (has_choice) {
-    out["choice"] = ranked_json(config, view, all[0], all[0], question);
-    double best = all[0].objective;
-    const Ranked* coarsest = &all[0];
-    for (const Ranked& ranked : all)
-      if (ranked.is_feasible()) best = std::min(best, ranked.objective);
-    for (const Ranked& ranked : all)
-      if (ranked.is_feasible() && ranked.objective <= best * (1.0 + question.within) && ranked.cells < coarsest->cells)
-        coarsest = &ranked;
-    if (coarsest != &all[0]) out["coarsest"] = ranked_json(config, view, *coarsest, all[0], question);
-    out["runners_up"] = runners_up_json(config, view, all, question);
-    if (const auto height = result::number<&Case::samples, &SampleSets::opaque, &SampleSet::ground_m>(all[0].cases[0]))
-      out["ground_m"] = result::number_json(*height, false);
-    if (const std::string why = why_no_reader(all[0].cases); !why.empty()) out["no_reader"] = why;
-    if (question.objective->is_modelled_cost) out["needed_at_samples"] = needed_over(all[0].cases);
-    out["samples"] = ranking_set_names(all[0].cases[0]);
-    out["random_depths"] = rests_on_samples(*question.objective) && ranks_at_random_depths(all[0].cases[0]);
-  }
+  result::Answer out = asked_of(config, data, view, found, question);
+  if (!unseen.empty()) out.nothing_seen = unseen;
+  out.timing_doubts = doubts_of(all);
+  if (has_choice) add_choice(out, config, view, all, question);
   const Ranked* best = has_choice ? &all[0] : nullptr;
   for (const Ranked& ranked : apart) {
     if (!unseen.empty() || !ranked.is_feasible()) continue;
     if (best == nullptr) best = &ranked;
-    if (!has_choice) out["samples"] = ranking_set_names(ranked.cases[0]);
-    out["searched"].push_back(ranked_json(config, view, ranked, *best, question));
+    if (!has_choice) out.samples = ranking_set_names(ranked.cases[0]);
+    out.searched.push_back(candidate_of(config, view, ranked, *best, question));
   }
-  out["constraints"] = excluded_json(view, found, question);
-  out["rungs"] = rungs_json(found.rungs);
-  out["finalists"] = found.finalists.size();
-  out["challengers"] = found.challengers;
-  out["work"] = work_json(found.work);
   return out;
 }
 
-Json recommendation_to_json(const config::Config& config, const Question& question, const Json& answers) {
+result::Recommendation recommendation_of(const config::Config& config, const Question& question,
+                                         const std::vector<result::Answer>& answers) {
   const Figure& objective = *question.objective;
-  return {{"recommendation_version", k_recommendation_version},
-          {"name", config.name},
-          {"tool", result::to_json(run::record_of(run::tool_facts()))},
-          {"machine", result::to_json(run::record_of(run::machine_facts()))},
-          {"config", config.resolved},
-          {"objective",
-           {{"figure", objective.name}, {"meaning", objective.meaning}, {"timed", objective.rests_on_times()}}},
-          {"answers", answers}};
+  return {.recommendation_version = 1,
+          .name = config.name,
+          .tool = run::record_of(run::tool_facts()),
+          .machine = run::record_of(run::machine_facts()),
+          .config = config.resolved,
+          .objective = {std::string(objective.name), std::string(objective.meaning), objective.rests_on_times()},
+          .answers = answers};
 }
 
-bool all_satisfied(const Json& recommendation) {
-  return std::ranges::none_of(recommendation["answers"], [](const Json& answer) { return answer["choice"].is_null(); });
+bool all_satisfied(const result::Recommendation& recommendation) {
+  return std::ranges::all_of(recommendation.answers, [](const result::Answer& answer) { return bool(answer.choice); });
 }
 
-Json recommended_config(const config::Config& config, const search::View& view, const Json& answer,
+Json recommended_config(const config::Config& config, const search::View& view, const result::Answer& answer,
                         const Question& question, int runners_up, const std::string& file) {
-  if (answer["choice"].is_null())
+  if (!answer.choice)
     throw Error(file, "", "is not written: no candidate satisfies all constraints", ExitCode::gate_failed);
   Json out = config.resolved;
   out["scenes"] = Json::array({scene_json(config, view.scene, file)});
-  out["viewports"] = Json::array({answer["viewport"]});
+  out["viewports"] = Json::array({Json(answer.viewport)});
   for (const char* key : {"presets", "as_shipped"}) out.erase(key);
   for (const char* key : {"grids", "assigners", "storages", "precision"}) out[key] = Json::array();
-  for (int i = 0; i <= runners_up && i <= static_cast<int>(answer["runners_up"].size()); ++i) {
-    const Json& record = i == 0 ? answer["choice"] : answer["runners_up"][static_cast<std::size_t>(i) - 1];
-    add_once(out["grids"], record["grid"]);
-    add_once(out["assigners"], record["assigner"]);
-    add_once(out["storages"], record["storage"]);
-    add_once(out["precision"], record["precision"]);
+  for (int i = 0; i <= runners_up && i <= static_cast<int>(answer.runners_up.size()); ++i) {
+    const result::Candidate& record = i == 0 ? *answer.choice : answer.runners_up[static_cast<std::size_t>(i) - 1];
+    add_once(out["grids"], record.grid);
+    add_once(out["assigners"], record.assigner);
+    add_once(out["storages"], record.storage);
+    add_once(out["precision"], record.precision);
   }
   if (out["storages"].empty()) out["storages"].push_back("packed");  // of lists, which it may have besides
   // Of a method that leaves lists and a structure of its own only the choice has to hold.
-  const assign::AssignerDescriptor& method =
-      *assign::find_assigner(answer["choice"]["assigner"]["name"].get<std::string>());
+  const assign::AssignerDescriptor& method = *assign::find_assigner(answer.choice->assigner["name"].get<std::string>());
   const bool has_others = method.answers(assign::Answer::lists) && method.answers(assign::Answer::structure);
-  const std::string only_choice = has_others ? answer["choice"]["name"].get<std::string>() + ": " : "";
+  const std::string only_choice = has_others ? answer.choice->name + ": " : "";
   Json budgets = Json::array();
   for (const Constraint& constraint : question.constraints)
     if (constraint.is_given)

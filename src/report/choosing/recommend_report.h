@@ -1,5 +1,5 @@
 #pragma once
-// What `recommend` asks of cases, and its answer as JSON, as text and as a configuration.
+// What `recommend` asks of cases, and its answer as a document, as text and as a configuration.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,12 +8,11 @@
 
 #include "config/config.h"
 #include "config/limit_rules.h"
+#include "result/documents/recommendation.h"
 #include "result/figure_table.h"
 #include "search/recommend.h"
 
 namespace clusterbench::report {
-
-inline constexpr int k_recommendation_version = 1;
 
 // The figures that a choice can make smallest.
 std::vector<const result::Figure*> objective_figures();
@@ -39,26 +38,26 @@ struct Question {
 // elsewhere, unless the question allows losses.
 search::Evaluate judge_of(const Question& question, const nlohmann::json& config);
 
-// One answer: docs/recommend.md, `clusterbench schema recommendation`.
-nlohmann::ordered_json answer_to_json(const config::Config& config, const run::Plan& plan, const search::View& view,
-                                      const search::Found& found, const Question& question);
+// One answer: docs/recommend.md.
+result::Answer answer_of(const config::Config& config, const run::Plan& plan, const search::View& view,
+                         const search::Found& found, const Question& question);
 // All answers of one configuration.
-nlohmann::ordered_json recommendation_to_json(const config::Config& config, const Question& question,
-                                              const nlohmann::ordered_json& answers);
+result::Recommendation recommendation_of(const config::Config& config, const Question& question,
+                                         const std::vector<result::Answer>& answers);
 // `next`: a line that stands before the conclusions, what to do with the choice; ""
-std::string recommendation_text(const nlohmann::ordered_json& recommendation, const std::string& next = "");
+std::string recommendation_text(const result::Recommendation& recommendation, const std::string& next = "");
 // Of a search that was stopped: the candidates that were measured on the most frames and break nothing there, the best
 // first.
 std::string unfinished_text(const search::View& view, const search::Found& found, const Question& question);
 
 // Whether each answer has a choice.
-bool all_satisfied(const nlohmann::ordered_json& recommendation);
+bool all_satisfied(const result::Recommendation& recommendation);
 
 // What `run` measures the choice with, and the first `runners_up` behind it: they are of one product of grids,
 // assigners and storages, and so more cases may come with them. `file`: where it will lie. Throws Error if there is no
 // choice.
 nlohmann::ordered_json recommended_config(const config::Config& config, const search::View& view,
-                                          const nlohmann::ordered_json& answer, const Question& question,
-                                          int runners_up, const std::string& file);
+                                          const result::Answer& answer, const Question& question, int runners_up,
+                                          const std::string& file);
 
 }  // namespace clusterbench::report

@@ -16,6 +16,7 @@
 #include "report/comparing/compare_advice.h"
 #include "report/comparing/exact_differences.h"
 #include "result/at.h"
+#include "result/rounding.h"
 #include "run/cases/sweep.h"
 
 namespace clusterbench::report {
@@ -23,8 +24,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using result::Case;
+using result::ComparedCase;
+using result::Comparison;
 using result::number;
+using result::PartOfOne;
 using result::PerFrame;
+using result::RenamedCase;
 using result::Result;
 using result::Timing;
 
@@ -52,21 +57,20 @@ std::vector<const Case*> missing_from(const Result& other, const Result& result)
   return missing;
 }
 
-Json names_of(const std::vector<const Case*>& cases) {
-  Json names = Json::array();
+std::vector<std::string> names_of(const std::vector<const Case*>& cases) {
+  std::vector<std::string> names;
   for (const Case* result_case : cases) names.push_back(result_case->name);
   return names;
 }
 
 // The same name on both sides, and not the same case.
-Json renamed(const Result& base, const std::vector<const Case*>& only_in_base, const Result& next,
-             const std::vector<const Case*>& only_in_new) {
-  Json out = Json::array();
+std::vector<RenamedCase> renamed(const Result& base, const std::vector<const Case*>& only_in_base, const Result& next,
+                                 const std::vector<const Case*>& only_in_new) {
+  std::vector<RenamedCase> out;
   for (const Case* base_case : only_in_base)
     for (const Case* next_case : only_in_new)
       if (base_case->name == next_case->name)
-        out.push_back(
-            {{"name", base_case->name}, {"differs_in", differing_settings(base, *base_case, next, *next_case)}});
+        out.push_back({base_case->name, differing_settings(base, *base_case, next, *next_case)});
   return out;
 }
 
@@ -88,16 +92,16 @@ constexpr Part k_parts[] = {
 };
 
 // Of the cases of both, how many have a part in one result alone.
-Json parts_of_one(const std::vector<Match>& matches) {
-  Json out = Json::array();
+std::vector<PartOfOne> parts_of_one(const std::vector<Match>& matches) {
+  std::vector<PartOfOne> out;
   for (const Part& part : k_parts) {
     std::size_t base = 0, next = 0;
     for (const Match& match : matches) {
       base += part.is_in(match.base) && !part.is_in(match.next) ? 1 : 0;
       next += part.is_in(match.next) && !part.is_in(match.base) ? 1 : 0;
     }
-    if (base > 0) out.push_back({{"part", part.name}, {"only_in", "base"}, {"cases", base}});
-    if (next > 0) out.push_back({{"part", part.name}, {"only_in", "new"}, {"cases", next}});
+    if (base > 0) out.push_back({part.name, "base", base});
+    if (next > 0) out.push_back({part.name, "new", next});
   }
   return out;
 }
@@ -235,10 +239,12 @@ class Times {
   std::vector<double> corrected_;
 };
 
-void add_ratio(Json& out, const measure::Change& change) {
+// Of a case, or of the summary.
+template <class Record>
+void add_ratio(Record& out, const measure::Change& change) {
   const measure::Ratio ratio = measure::ratio_of(change);
-  out["ratio"] = number_or_null(ratio.ratio);
-  out["ci95"] = {number_or_null(ratio.ci95.low), number_or_null(ratio.ci95.high)};
+  out.ratio = result::counted(ratio.ratio);
+  out.ci95 = {result::counted(ratio.ci95.low), result::counted(ratio.ci95.high)};
 }
 
 // Counted alike: by the same means, for the same instruction set.
@@ -253,7 +259,8 @@ double count_tolerance(const result::Count& count) {
   return count.source == "callgrind" ? 0.001 : 0.01;
 }
 
-Json instructions(const result::Count& base, const result::Count& next, double threshold) {
+result::ComparedInstructions compared_instructions(const result::Count& base, const result::Count& next,
+                                                   double threshold) {
   const auto ratio = [](double before, double now) {
     return before > 0.0 ? now / before : now > 0.0 ? std::nan("") : 1.0;
   };
@@ -268,47 +275,49 @@ Json instructions(const result::Count& base, const result::Count& next, double t
   const char* verdict = assign > 1.0 + limit || convert > 1.0 + limit   ? "more"
                         : assign < 1.0 - limit || convert < 1.0 - limit ? "fewer"
                                                                         : "same";
-  return {{"verdict", verdict},
-          {"assign_ratio", number_or_null(assign)},
-          {"convert_ratio", number_or_null(convert)},
-          {"build_ratio", number_or_null(build)},
-          {"tolerance", count_tolerance(next)}};
+  return {.verdict = verdict,
+          .assign_ratio = result::counted(assign),
+          .convert_ratio = result::counted(convert),
+          .build_ratio = result::counted(build),
+          .tolerance = count_tolerance(next)};
 }
 
 // What two programs that were measured side by side listed differently.
-void add_list_difference(const Match& match, Json& out) {
+void add_list_difference(const Match& match, ComparedCase& out) {
   const auto* lists = result::part<&Case::timing, &Timing::baseline, &result::BaselineTimes::lists_differ>(match.next);
   if (lists == nullptr) return;
   const bool is_better =
       lists->new_pairs < lists->base_pairs && match.next.error && match.next.error->false_negatives == 0;
-  out["lists"] = result::to_json(*lists);
-  if (out["counts"] == "same" || !is_better) out["counts"] = is_better ? "better" : "worse";
+  out.lists = *lists;
+  if (out.counts == "same" || !is_better) out.counts = is_better ? "better" : "worse";
 }
 
 // What stands between two results, beside their exact counts.
 struct Scope {
-  Json left_out = Json::object();   // "times", "instructions": the obstacles
+  result::NotComparable left_out;
   std::vector<std::string> forced;  // obstacles in spite of which they are compared
-
-  bool leaves_out(const char* what) const { return left_out.contains(what); }
 };
 
 Scope scope_of(const Result& base, const Result& next, const std::vector<Match>& matches, bool is_paired,
                bool is_forced) {
   const Obstacles found = obstacles(base, next);
   Scope scope;
-  const auto add = [&](const char* what, bool (*can_be)(const Match&), const std::vector<std::string>& in_the_way) {
+  const auto add = [&](std::optional<std::vector<std::string>>& what, bool (*can_be)(const Match&),
+                       const std::vector<std::string>& in_the_way) {
     if (in_the_way.empty() || std::ranges::none_of(matches, can_be)) return;
     if (is_forced)
       scope.forced = in_the_way;
     else
-      scope.left_out[what] = in_the_way;
+      what = in_the_way;
   };
-  add("instructions", are_counted, found.to_instructions);
+  std::optional<std::vector<std::string>>& instructions = scope.left_out.instructions;
+  add(instructions, are_counted, found.to_instructions);
   if (std::ranges::any_of(matches,
-                          [](const Match& match) { return are_counted(match) && !are_counts_comparable(match); }))
-    scope.left_out["instructions"].push_back("/cases are counted by other means, or of other frames");
-  if (!is_paired) add("times", are_timed, found.to_times);
+                          [](const Match& match) { return are_counted(match) && !are_counts_comparable(match); })) {
+    if (!instructions) instructions.emplace();
+    instructions->push_back("/cases are counted by other means, or of other frames");
+  }
+  if (!is_paired) add(scope.left_out.times, are_timed, found.to_times);
   return scope;
 }
 
@@ -322,20 +331,20 @@ struct Settings {
 };
 
 // A program beside itself is the same, whatever the times of this hour say.
-void add_time(Json& out, const TimeChange& time, double corrected_p, const Settings& settings) {
+void add_time(ComparedCase& out, const TimeChange& time, double corrected_p, const Settings& settings) {
   const measure::Verdict verdict = settings.is_same_program
                                        ? measure::Verdict::same
                                        : measure::verdict_on(time.change, corrected_p, settings.threshold);
   if (time.launches.empty() && !settings.gates_separate) {
-    out["hint"] = hint_of(verdict);
+    out.hint = hint_of(verdict);
   } else {
-    out["verdict"] = measure::name_of(verdict);
-    out["p_corrected"] = corrected_p;
+    out.verdict = measure::name_of(verdict);
+    out.p_corrected = corrected_p;
   }
   add_ratio(out, time.change);
-  out["base_ns"] = time.base_ns;
-  out["new_ns"] = time.next_ns;
-  out["launches"] = time.launches.size();
+  out.base_ns = time.base_ns;
+  out.new_ns = time.next_ns;
+  out.launches = time.launches.size();
 }
 
 Json margin_of(const Result& result) {
@@ -343,60 +352,61 @@ Json margin_of(const Result& result) {
   return margin == nullptr ? Json() : *margin;
 }
 
-Json compared(const Match& match, const Times& times, const Scope& scope, const Settings& settings) {
-  Json out{{"id", match.next.id}, {"name", match.next.name}};
+ComparedCase compared(const Match& match, const Times& times, const Scope& scope, const Settings& settings) {
+  ComparedCase out{.id = match.next.id, .name = match.next.name};
   if (const auto index = times.index_of(match)) add_time(out, times.at(*index), times.corrected_p(*index), settings);
-  out.update(exact_differences(match.base, match.next, settings.is_margin_same));
+  ExactDifferences exact = exact_differences(match.base, match.next, settings.is_margin_same);
+  out.counts = exact.counts;
+  out.differences = std::move(exact.differences);
+  out.place = exact.place;
   add_list_difference(match, out);
-  if (!scope.leaves_out("instructions") && are_counts_comparable(match))
-    out["instructions"] = instructions(*match.base.count, *match.next.count, settings.threshold);
+  if (!scope.left_out.instructions && are_counts_comparable(match))
+    out.instructions = compared_instructions(*match.base.count, *match.next.count, settings.threshold);
   return out;
 }
 
-std::size_t count_of(const Json& cases, const char* key, const char* value) {
-  return static_cast<std::size_t>(std::count_if(cases.begin(), cases.end(), [&](const Json& compared_case) {
-    return compared_case.contains(key) && compared_case[key] == value;
-  }));
-}
-
-Json summary_of(const Json& cases, const Times& times) {
-  Json out{{"cases", cases.size()}, {"methods_timed", times.count()}};
-  for (const char* verdict : {"faster", "slower", "same", "inconclusive"})
-    out[verdict] = count_of(cases, "verdict", verdict);
-  for (const char* hint : {"shorter", "longer"}) out[std::string("hints_") + hint] = count_of(cases, "hint", hint);
-  for (const char* counts : {"better", "worse"})
-    out[std::string("counts_") + counts] = count_of(cases, "counts", counts);
+result::ComparisonSummary summary_of(const std::vector<ComparedCase>& cases, const Times& times) {
+  const auto count_of = [&](auto member, const char* value) {
+    return static_cast<std::uint64_t>(std::ranges::count(cases, value, member));
+  };
+  result::ComparisonSummary out{.cases = cases.size(),
+                                .methods_timed = times.count(),
+                                .faster = count_of(&ComparedCase::verdict, "faster"),
+                                .slower = count_of(&ComparedCase::verdict, "slower"),
+                                .same = count_of(&ComparedCase::verdict, "same"),
+                                .inconclusive = count_of(&ComparedCase::verdict, "inconclusive"),
+                                .hints_shorter = count_of(&ComparedCase::hint, "shorter"),
+                                .hints_longer = count_of(&ComparedCase::hint, "longer"),
+                                .counts_better = count_of(&ComparedCase::counts, "better"),
+                                .counts_worse = count_of(&ComparedCase::counts, "worse")};
   if (const measure::Change mean = times.mean(); mean.is_known()) add_ratio(out, mean);
   return out;
 }
 
-std::string percent_text(const Json& ratio) {
-  return ratio.is_null() ? "-" : text("%+.1f %%", 100.0 * (ratio.get<double>() - 1.0));
+std::string percent_of_ratio(double ratio) {
+  return std::isfinite(ratio) ? text("%+.1f %%", 100.0 * (ratio - 1.0)) : "-";
 }
 
-Json failures_of(const Result& next, const Json& cases) {
-  Json failures = Json::array();
-  for (const std::string& failure : gate_failures(next)) failures.push_back(failure);
-  for (const Json& compared_case : cases) {
-    const std::string name = shown(compared_case["name"]);
-    const bool has_verdict = compared_case.contains("verdict");
-    if (has_verdict && compared_case["verdict"] == "slower")
-      failures.push_back(name + ": slower by " + percent_text(compared_case["ratio"]));
-    if (compared_case["counts"] == "worse") failures.push_back(name + ": what is counted has changed");
-    const bool is_time_sure =
-        has_verdict && compared_case["launches"] != 0 && compared_case["verdict"] != "inconclusive";
-    if (compared_case.contains("instructions") && compared_case["instructions"]["verdict"] == "more" && !is_time_sure)
-      failures.push_back(name + ": more instructions, " + percent_text(compared_case["instructions"]["assign_ratio"]) +
-                         " to assign, " + percent_text(compared_case["instructions"]["convert_ratio"]) + " to convert");
+std::vector<std::string> failures_of(const Result& next, const std::vector<ComparedCase>& cases) {
+  std::vector<std::string> failures = gate_failures(next);
+  for (const ComparedCase& compared_case : cases) {
+    const std::string name = shown(compared_case.name);
+    const auto& verdict = compared_case.verdict;
+    if (verdict == "slower") failures.push_back(name + ": slower by " + percent_of_ratio(*compared_case.ratio));
+    if (compared_case.counts == "worse") failures.push_back(name + ": what is counted has changed");
+    const bool is_time_sure = verdict && compared_case.launches != 0u && verdict != "inconclusive";
+    const auto& instructions = compared_case.instructions;
+    if (instructions && instructions->verdict == "more" && !is_time_sure)
+      failures.push_back(name + ": more instructions, " + percent_of_ratio(instructions->assign_ratio) +
+                         " to assign, " + percent_of_ratio(instructions->convert_ratio) + " to convert");
   }
   return failures;
 }
 
-std::string listed(const Json& names) {
+std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t k_most = 3;
   std::string text;
-  for (std::size_t i = 0; i < std::min(k_most, names.size()); ++i)
-    text += (i == 0 ? "" : ", ") + shown(names[i].get<std::string>());
+  for (std::size_t i = 0; i < std::min(k_most, names.size()); ++i) text += (i == 0 ? "" : ", ") + shown(names[i]);
   return names.size() > k_most ? text + " and " + std::to_string(names.size() - k_most) + " more" : text;
 }
 
@@ -408,45 +418,45 @@ constexpr const char* k_separate_verdicts =
     "machine every second comparison of a program with itself failed";
 
 // The names that stand on one side alone. What the other has under the same name is told apart, with the difference.
-Json without_renamed(const Json& names, const Json& renamed_cases) {
-  Json out = Json::array();
-  for (const Json& name : names)
-    if (std::ranges::none_of(renamed_cases, [&](const Json& renamed) { return renamed["name"] == name; }))
-      out.push_back(name);
-  return out;
+std::vector<std::string> without_renamed(std::vector<std::string> names,
+                                         const std::vector<RenamedCase>& renamed_cases) {
+  std::erase_if(names, [&](const std::string& name) {
+    return std::ranges::find(renamed_cases, name, &RenamedCase::name) != renamed_cases.end();
+  });
+  return names;
 }
 
 // `is_beside`: of one result, and what the other program had beside it.
-Json warnings_of(const Result& base, const Result& next, const Json& comparison, bool is_beside,
-                 const std::vector<std::string>& forced, bool gates_separate) {
-  Json warnings = Json::array();
+std::vector<std::string> warnings_of(const Result& base, const Result& next, const Comparison& comparison,
+                                     bool is_beside, const std::vector<std::string>& forced, bool gates_separate) {
+  std::vector<std::string> warnings;
   for (const std::string& obstacle : forced) warnings.push_back("compared all the same: " + obstacle);
-  for (const auto& [what, in_the_way] : comparison["left_out"].items())
-    warnings.push_back(what + " are not compared: " + joined(in_the_way.get<std::vector<std::string>>(), "; "));
-  if (comparison["data"] == "separate" && comparison["summary"]["methods_timed"] != 0)
-    warnings.push_back(gates_separate ? k_separate_verdicts : k_separate_hints);
-  if (margin_of(base) != margin_of(next) && !comparison["cases"].empty())
+  const auto& [instructions, times] = comparison.left_out;
+  if (instructions) warnings.push_back("instructions are not compared: " + joined(*instructions, "; "));
+  if (times) warnings.push_back("times are not compared: " + joined(*times, "; "));
+  if (comparison.data == "separate" && comparison.summary.methods_timed != 0)
+    warnings.emplace_back(gates_separate ? k_separate_verdicts : k_separate_hints);
+  if (margin_of(base) != margin_of(next) && !comparison.cases.empty())
     warnings.push_back("allocation.margin is " + margin_of(base).dump() + " and " + margin_of(next).dump() +
                        ", another setting: what is recommended follows it and is not compared");
-  const Json only_in_base = without_renamed(comparison["only_in_base"], comparison["renamed"]),
-             only_in_new = without_renamed(comparison["only_in_new"], comparison["renamed"]);
+  const std::vector<std::string> only_in_base = without_renamed(comparison.only_in_base, comparison.renamed),
+                                 only_in_new = without_renamed(comparison.only_in_new, comparison.renamed);
   if (!only_in_base.empty()) warnings.push_back("only in the base, not compared: " + listed(only_in_base));
   if (!only_in_new.empty())
     warnings.push_back(std::string(is_beside ? "the other program does not have them, not compared: "
                                              : "only in the new result, not compared: ") +
                        listed(only_in_new));
-  std::map<std::string, Json> by_reason;
-  for (const Json& renamed_case : comparison["renamed"])
-    by_reason[joined(renamed_case["differs_in"].get<std::vector<std::string>>())].push_back(renamed_case["name"]);
+  std::map<std::string, std::vector<std::string>> by_reason;
+  for (const RenamedCase& renamed_case : comparison.renamed)
+    by_reason[joined(renamed_case.differs_in)].push_back(renamed_case.name);
   for (const auto& [reason, names] : by_reason)
     warnings.push_back("of one name, but not the same, so not compared: they differ in " + reason + ": " +
                        listed(names));
-  for (const Json& part : comparison["not_compared"])
-    warnings.push_back(part["part"].get<std::string>() + " is not compared in " +
-                       number_of(part["cases"].get<std::uint64_t>(), "case") + ": only the " +
-                       (part["only_in"] == "base" ? "base" : "new result") + " has it");
+  for (const PartOfOne& part : comparison.not_compared)
+    warnings.push_back(part.part + " is not compared in " + number_of(part.cases, "case") + ": only the " +
+                       (part.only_in == "base" ? "base" : "new result") + " has it");
   if (is_beside)
-    warnings.push_back(
+    warnings.emplace_back(
         "times and lists of both programs were compared; bytes, samples and whatever else is counted were not: that "
         "takes a result of the other program");
   return warnings;
@@ -466,9 +476,9 @@ Json facts_of(const Result& result) {
 }
 
 // Something that would have failed the comparison had it become worse.
-bool is_gated_part_missing(const Json& comparison) {
-  return std::any_of(comparison["not_compared"].begin(), comparison["not_compared"].end(),
-                     [](const Json& part) { return part["only_in"] == "base" && part["part"] != "timing"; });
+bool is_gated_part_missing(const Comparison& comparison) {
+  return std::ranges::any_of(comparison.not_compared,
+                             [](const PartOfOne& part) { return part.only_in == "base" && part.part != "timing"; });
 }
 
 }  // namespace
@@ -499,7 +509,7 @@ Obstacles obstacles(const Result& base, const Result& next) {
   return out;
 }
 
-Json compare_results(const Result& base, const Result& next, double threshold, const CompareOptions& options) {
+Comparison compare_results(const Result& base, const Result& next, double threshold, const CompareOptions& options) {
   const auto [is_paired, is_one] = relation_of(base, next);
   std::vector<Match> matches = matches_of(base, next);
   const std::vector<const Case*> only_in_base = missing_from(next, base);
@@ -514,35 +524,34 @@ Json compare_results(const Result& base, const Result& next, double threshold, c
     matches.swap(beside);
   }
   const Scope scope = scope_of(base, next, matches, is_paired, options.is_forced);
-  const Times times = scope.leaves_out("times") ? Times() : Times(matches, is_paired);
-  Json out{{"comparison_version", 1},
-           {"threshold", threshold},
-           {"data", is_paired ? "paired" : "separate"},
-           {"time", is_paired ? "assign" : "frame"},
-           {"base", {{"tool", result::to_json(is_paired ? next.baseline->tool : base.tool)}}},
-           {"new", {{"tool", result::to_json(next.tool)}}},
-           {"left_out", scope.left_out},
-           {"cases", Json::array()}};
+  const Times times = scope.left_out.times ? Times() : Times(matches, is_paired);
+  Comparison out{.comparison_version = 1,
+                 .threshold = threshold,
+                 .data = is_paired ? "paired" : "separate",
+                 .time = is_paired ? "assign" : "frame",
+                 .base = {is_paired ? next.baseline->tool : base.tool},
+                 .next = {next.tool},
+                 .left_out = scope.left_out};
   const bool is_same_program = is_paired && next.baseline->is_same_program.value_or(false);
-  if (is_same_program) out["is_same_program"] = true;
+  if (is_same_program) out.is_same_program = true;
   const Settings settings{threshold, options.gates_separate, margin_of(base) == margin_of(next), is_same_program};
-  for (const Match& match : matches) out["cases"].push_back(compared(match, times, scope, settings));
-  out["summary"] = summary_of(out["cases"], times);
-  out["only_in_base"] = names_of(only_in_base);
-  out["only_in_new"] = names_of(only_in_new);
-  out["renamed"] = renamed(base, only_in_base, next, only_in_new);
-  out["not_compared"] = parts_of_one(matches);
-  out["failures"] = failures_of(next, out["cases"]);
-  out["warnings"] = warnings_of(base, next, out, is_one, scope.forced, options.gates_separate);
-  if (const std::vector<std::string> advice = advice_on(out); !advice.empty()) out["advice"] = advice;
+  for (const Match& match : matches) out.cases.push_back(compared(match, times, scope, settings));
+  out.summary = summary_of(out.cases, times);
+  out.only_in_base = names_of(only_in_base);
+  out.only_in_new = names_of(only_in_new);
+  out.renamed = renamed(base, only_in_base, next, only_in_new);
+  out.not_compared = parts_of_one(matches);
+  out.failures = failures_of(next, out.cases);
+  out.warnings = warnings_of(base, next, out, is_one, scope.forced, options.gates_separate);
+  if (const std::vector<std::string> advice = advice_on(out); !advice.empty()) out.advice = advice;
   return out;
 }
 
-ExitCode outcome(const Json& comparison, bool is_strict) {
-  if (comparison["cases"].empty()) return ExitCode::nothing_comparable;
-  if (!comparison["failures"].empty()) return ExitCode::gate_failed;
-  const bool is_open = comparison["summary"]["inconclusive"] != 0 || !comparison["only_in_base"].empty() ||
-                       comparison["left_out"].contains("instructions") || is_gated_part_missing(comparison);
+ExitCode outcome(const Comparison& comparison, bool is_strict) {
+  if (comparison.cases.empty()) return ExitCode::nothing_comparable;
+  if (!comparison.failures.empty()) return ExitCode::gate_failed;
+  const bool is_open = comparison.summary.inconclusive != 0 || !comparison.only_in_base.empty() ||
+                       comparison.left_out.instructions || is_gated_part_missing(comparison);
   return is_strict && is_open ? ExitCode::inconclusive : ExitCode::ok;
 }
 

@@ -3,12 +3,11 @@
 // verdict per case, times of separate runs a hint.
 // docs/comparing.md says how a verdict is found.
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
-#include "result/result.h"
+#include "result/documents/comparison.h"
 
 namespace clusterbench::report {
 
@@ -24,18 +23,18 @@ struct CompareOptions {
   bool is_forced = false;       // times and instructions are compared in spite of obstacles
 };
 
-// As src/config/schemas/comparison.schema.json says. `threshold`: the smallest change of time that matters, 0.02 for 2
+// `threshold`: the smallest change of time that matters, 0.02 for 2
 // %. Times: of rounds side by side where the new result has them for this base ("data": "paired"), else of medians
 // ("separate").
-nlohmann::ordered_json compare_results(const result::Result& base, const result::Result& next, double threshold,
-                                       const CompareOptions& options = {});
+result::Comparison compare_results(const result::Result& base, const result::Result& next, double threshold,
+                                   const CompareOptions& options = {});
 
 // ok, gate_failed (a failure), nothing_comparable (no case in common); with `is_strict` inconclusive where a verdict
 // is, a case of the base is missing, or instructions could not be compared.
-ExitCode outcome(const nlohmann::ordered_json& comparison, bool is_strict);
+ExitCode outcome(const result::Comparison& comparison, bool is_strict);
 
 // For people: the table, and the same for a pull request.
-std::string comparison_text(const nlohmann::ordered_json& comparison);
-std::string comparison_markdown(const nlohmann::ordered_json& comparison);
+std::string comparison_text(const result::Comparison& comparison);
+std::string comparison_markdown(const result::Comparison& comparison);
 
 }  // namespace clusterbench::report

@@ -6,13 +6,13 @@
 
 #include "core/text.h"
 #include "report/cases/columns.h"
-#include "report/cases/json_values.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using result::Case;
+using result::ComparedCase;
+using result::Comparison;
 using result::Result;
 
 // In percent, upward to one digit behind the point.
@@ -26,14 +26,14 @@ struct OpenVerdict {
 };
 
 // Verdicts that are open, with an interval; `without`: how many have none.
-std::vector<OpenVerdict> open_verdicts(const Json& comparison, std::size_t& without) {
+std::vector<OpenVerdict> open_verdicts(const Comparison& comparison, std::size_t& without) {
   std::vector<OpenVerdict> open;
-  for (const Json& compared_case : comparison["cases"]) {
-    if (compared_case.value("verdict", "") != "inconclusive") continue;
-    const auto low = number_at(compared_case, "/ci95/0"), high = number_at(compared_case, "/ci95/1"),
-               ratio = number_at(compared_case, "/ratio");
-    if (low && high && ratio && *low > 0.0 && *ratio > 0.0)
-      open.push_back({std::log(*ratio), 0.5 * std::log(*high / *low), compared_case["launches"].get<double>()});
+  for (const ComparedCase& compared_case : comparison.cases) {
+    if (compared_case.verdict != "inconclusive") continue;
+    const auto [low, high] = *compared_case.ci95;
+    const double ratio = *compared_case.ratio;
+    if (std::isfinite(low) && std::isfinite(high) && std::isfinite(ratio) && low > 0.0 && ratio > 0.0)
+      open.push_back({std::log(ratio), 0.5 * std::log(high / low), static_cast<double>(*compared_case.launches)});
     else
       ++without;
   }
@@ -46,8 +46,8 @@ double launches_needed(const OpenVerdict& verdict, double limit) {
   return verdict.launches * std::pow(verdict.half_width / room, 2.0);
 }
 
-std::string advice_on_open(const Json& comparison, const std::vector<OpenVerdict>& open) {
-  const double limit = std::log1p(comparison["threshold"].get<double>());
+std::string advice_on_open(const Comparison& comparison, const std::vector<OpenVerdict>& open) {
+  const double limit = std::log1p(comparison.threshold);
   double widest = 0.0, shows = 0.0, launches = 0.0;
   for (const OpenVerdict& verdict : open) {
     widest = std::max(widest, verdict.half_width);
@@ -58,9 +58,9 @@ std::string advice_on_open(const Json& comparison, const std::vector<OpenVerdict
       number_of(open.size(), "case") +
       (open.size() == 1 ? " is inconclusive: its interval reaches " : " are inconclusive: their intervals reach ") +
       percent_up(std::expm1(widest)) + " to either side, and the threshold is " +
-      text("%g %%", 100.0 * comparison["threshold"].get<double>()) + ". ";
+      text("%g %%", 100.0 * comparison.threshold) + ". ";
   const std::string less = "count instructions, which hardly vary (`run --count` with both programs, then `compare`)";
-  if (comparison["data"] != "paired")
+  if (comparison.data != "paired")
     return begin + "Measure both programs side by side (`run --baseline-binary`), or " + less;
   constexpr double k_most = 1000.0;  // of --baseline-launches
   const double round_launches = 10.0 * std::ceil(launches / 10.0);
@@ -73,13 +73,13 @@ std::string advice_on_open(const Json& comparison, const std::vector<OpenVerdict
          percent_up(std::expm1(shows)).substr(0, percent_up(std::expm1(shows)).find(' ')) + "), or " + less;
 }
 
-std::string advice_on_same_program(const Json& comparison) {
+std::string advice_on_same_program(const Comparison& comparison) {
   double most = 0.0;
   bool is_known = false;
-  for (const Json& compared_case : comparison["cases"])
-    for (const char* end : {"/ci95/0", "/ci95/1"})
-      if (const auto bound = number_at(compared_case, end); bound && *bound > 0.0) {
-        most = std::max(most, std::abs(*bound - 1.0));
+  for (const ComparedCase& compared_case : comparison.cases)
+    for (const double bound : compared_case.ci95.value_or(result::Pair{}))
+      if (std::isfinite(bound) && bound > 0.0) {
+        most = std::max(most, std::abs(bound - 1.0));
         is_known = true;
       }
   return std::string("no difference: both are the same program, byte for byte") +
@@ -98,8 +98,8 @@ bool share(const Result& base, const Result& next, Get get) {
 
 }  // namespace
 
-std::vector<std::string> advice_on(const Json& comparison) {
-  if (comparison.value("is_same_program", false)) return {advice_on_same_program(comparison)};
+std::vector<std::string> advice_on(const Comparison& comparison) {
+  if (comparison.is_same_program.value_or(false)) return {advice_on_same_program(comparison)};
   std::vector<std::string> lines;
   std::size_t without = 0;
   const std::vector<OpenVerdict> open = open_verdicts(comparison, without);
@@ -107,7 +107,7 @@ std::vector<std::string> advice_on(const Json& comparison) {
   if (without > 0)
     lines.push_back(number_of(without, "case") + (without == 1 ? " is" : " are") +
                     " inconclusive for want of an interval, which takes several launches: " +
-                    (comparison["data"] == "paired" ? "--baseline-launches 10" : "--launches 5"));
+                    (comparison.data == "paired" ? "--baseline-launches 10" : "--launches 5"));
   return lines;
 }
 

@@ -1,6 +1,7 @@
 #include "report/comparing/ratios.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/pattern.h"
@@ -9,12 +10,17 @@
 #include "report/cases/contender.h"
 #include "report/cases/json_values.h"
 #include "result/at.h"
+#include "result/rounding.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using result::Case;
+using result::RatioBlock;
+using result::RatioCase;
+using result::RatioPair;
+using result::Ratios;
 using result::Result;
 using result::Timing;
 
@@ -73,109 +79,106 @@ Json beside(const Timed& timed, const Timed& other, const std::optional<measure:
           {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}}};
 }
 
-Json pairs_of(const Block& block, std::uint64_t seed) {
-  Json pairs = Json::array();
+std::vector<RatioPair> pairs_of(const Block& block, std::uint64_t seed) {
+  std::vector<RatioPair> pairs;
   for (std::size_t i = 1; i < block.cases.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const run::Contender &slower = block.cases[i].contender, &faster = block.cases[j].contender;
       const std::optional<measure::Ratio> ratio = run::ratio_between(slower, faster, seed);
       if (!ratio) continue;
-      pairs.push_back({{"case", i},
-                       {"other", j},
-                       {"ratio", six_digits(ratio->ratio)},
-                       {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}},
-                       {"over", slower.grid == faster.grid ? "rounds" : "launches"},
-                       {"takes_longer", measure::takes_longer(ratio)}});
+      pairs.push_back({.slower = i,
+                       .faster = j,
+                       .ratio = result::measured(ratio->ratio),
+                       .ci95 = {result::measured(ratio->ci95.low), result::measured(ratio->ci95.high)},
+                       .over = slower.grid == faster.grid ? "rounds" : "launches",
+                       .takes_longer = measure::takes_longer(ratio)});
     }
   return pairs;
 }
 
-Json block_json(const Block& block, std::uint64_t seed, bool across_grids) {
-  Json out{{"scene", block.scene}, {"name", block.name}, {"cases", Json::array()}};
+RatioBlock block_of_ratios(const Block& block, std::uint64_t seed, bool across_grids) {
+  RatioBlock out{.scene = block.scene, .name = block.name, .pairs = pairs_of(block, seed)};
   for (const Timed& timed : block.cases)
-    out["cases"].push_back({{"id", timed.result_case->id},
-                            {"name", timed.result_case->name},
-                            {"label", name_of_case(*timed.result_case, across_grids)},
-                            {"frame_ns", six_digits(timed.frame_ns)},
-                            {"samples_search", samples_search(*timed.result_case)}});
-  out["pairs"] = pairs_of(block, seed);
+    out.cases.push_back({.id = timed.result_case->id,
+                         .name = timed.result_case->name,
+                         .label = name_of_case(*timed.result_case, across_grids),
+                         .frame_ns = result::measured(timed.frame_ns),
+                         .samples_search = samples_search(*timed.result_case)});
   return out;
 }
 
 // A block's pairs by the indices of their cases.
 class PairIndex {
  public:
-  explicit PairIndex(const Json& block) : cases_(block["cases"].size()), pairs_(cases_ * cases_, nullptr) {
-    for (const Json& pair : block["pairs"])
-      pairs_[pair["case"].get<std::size_t>() * cases_ + pair["other"].get<std::size_t>()] = &pair;
+  explicit PairIndex(const RatioBlock& block) : cases_(block.cases.size()), pairs_(cases_ * cases_, nullptr) {
+    for (const RatioPair& pair : block.pairs) pairs_[pair.slower * cases_ + pair.faster] = &pair;
   }
 
   // Of a slower case and a faster one; nullptr where they have no ratio.
-  const Json* find(std::size_t slower, std::size_t faster) const { return pairs_[slower * cases_ + faster]; }
+  const RatioPair* find(std::size_t slower, std::size_t faster) const { return pairs_[slower * cases_ + faster]; }
 
  private:
   std::size_t cases_;
-  std::vector<const Json*> pairs_;
+  std::vector<const RatioPair*> pairs_;
 };
 
-measure::Interval interval_of(const Json& pair) {
-  const Json &low = pair["ci95"][0], &high = pair["ci95"][1];
-  return low.is_number() && high.is_number() ? measure::Interval{low, high} : measure::Interval{};
+measure::Interval interval_of(const RatioPair& pair) {
+  const auto [low, high] = pair.ci95;
+  return std::isfinite(low) && std::isfinite(high) ? measure::Interval{low, high} : measure::Interval{};
 }
 
-std::string ratio_text(const Json* pair) {
+std::string ratio_text(const RatioPair* pair) {
   if (pair == nullptr) return "-";
   const measure::Interval ci95 = interval_of(*pair);
-  const std::string ratio = text("%.2f", (*pair)["ratio"].get<double>());
+  const std::string ratio = text("%.2f", pair->ratio);
   if (!ci95.is_known()) return ratio + " (" + k_unknown_interval + ")";
   return ratio + text(" (%.2f", ci95.low) + text(" to %.2f)", ci95.high);
 }
 
-bool is_longer(const Json* pair) {
-  return pair != nullptr && (*pair)["takes_longer"].get<bool>();
+bool is_longer(const RatioPair* pair) {
+  return pair != nullptr && pair->takes_longer;
 }
 
-std::string label_at(const Json& block, std::size_t index) {
-  return shown(block["cases"][index]["label"]);
+std::string label_at(const RatioBlock& block, std::size_t index) {
+  return shown(block.cases[index].label);
 }
 
-std::vector<Cells> ranking(const Json& block) {
+std::vector<Cells> ranking(const RatioBlock& block) {
   std::vector<Cells> rows{{"", "assigner", "frame us", "/ fastest", "/ row above"}};
   const PairIndex pairs(block);
-  for (std::size_t i = 0; i < block["cases"].size(); ++i) {
-    const Json* above = i > 0 ? pairs.find(i, i - 1) : nullptr;
+  for (std::size_t i = 0; i < block.cases.size(); ++i) {
+    const RatioPair* above = i > 0 ? pairs.find(i, i - 1) : nullptr;
     rows.push_back({i > 0 && !is_longer(above) ? "~" : "", label_at(block, i),
-                    text("%.2f", block["cases"][i]["frame_ns"].get<double>() / 1e3),
-                    i == 0 ? "" : ratio_text(pairs.find(i, 0)), i == 0 ? "" : ratio_text(above)});
+                    text("%.2f", block.cases[i].frame_ns / 1e3), i == 0 ? "" : ratio_text(pairs.find(i, 0)),
+                    i == 0 ? "" : ratio_text(above)});
   }
   return rows;
 }
 
-std::vector<Cells> pair_rows(const Json& block) {
+std::vector<Cells> pair_rows(const RatioBlock& block) {
   std::vector<Cells> rows{{"", "assigner", "/ assigner", "ratio"}};
   const PairIndex pairs(block);
-  for (std::size_t i = 1; i < block["cases"].size(); ++i)
+  for (std::size_t i = 1; i < block.cases.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const Json* pair = pairs.find(i, j);
+      const RatioPair* pair = pairs.find(i, j);
       rows.push_back({is_longer(pair) ? "" : "~", label_at(block, i), label_at(block, j), ratio_text(pair)});
     }
   return rows;
 }
 
-std::vector<Cells> rows_of(const Json& block, bool all_pairs) {
+std::vector<Cells> rows_of(const RatioBlock& block, bool all_pairs) {
   return all_pairs ? pair_rows(block) : ranking(block);
 }
 
-std::string legend_of(const Json& ratios, bool all_pairs) {
-  bool has_unknown = false;
-  for (const Json& block : ratios["blocks"])
-    for (const Json& pair : block["pairs"]) has_unknown |= !interval_of(pair).is_known();
-  const bool has_searched = std::ranges::any_of(ratios["blocks"], [](const Json& block) {
-    return std::ranges::any_of(block["cases"], [](const Json& one) { return one.value("samples_search", false); });
-  });
+std::string legend_of(const Ratios& ratios, bool all_pairs) {
+  bool has_unknown = false, has_searched = false;
+  for (const RatioBlock& block : ratios.blocks) {
+    for (const RatioPair& pair : block.pairs) has_unknown |= !interval_of(pair).is_known();
+    for (const RatioCase& one : block.cases) has_searched |= one.samples_search.value_or(false);
+  }
   const std::string unknown = has_unknown ? k_unknown_interval + (": " + what_intervals_take()) + ".\n" : "";
   return unknown + std::string("Ratios of frame times of the same ") +
-         (ratios["across_grids"].get<bool>() ? "rounds, or of other grids of the same launches" : "rounds") +
+         (ratios.across_grids ? "rounds, or of other grids of the same launches" : "rounds") +
          ", median and 95 % interval; not the quotient of the two times.\n~: the interval does not say that " +
          (all_pairs ? "the first takes longer.\n" : "it takes longer than the row above.\n") +
          (has_searched ? "Without lists: samples search the structure, which these times leave out.\n" : "");
@@ -206,14 +209,10 @@ bool takes_longer(const Result& result, const Case& numerator, const Case& denom
   return measure::takes_longer(ratio_of_cases(result, numerator, denominator, by));
 }
 
-Json ratios_of(const Result& result, const RatioRequest& request) {
-  Json out{{"ratios_version", k_ratios_version},
-           {"name", result.name},
-           {"tool", result::to_json(result.tool)},
-           {"across_grids", request.across_grids},
-           {"blocks", Json::array()}};
+Ratios ratios_of(const Result& result, const RatioRequest& request) {
+  Ratios out{.ratios_version = 1, .name = result.name, .tool = result.tool, .across_grids = request.across_grids};
   for (const Block& block : timed_blocks(result, request))
-    out["blocks"].push_back(block_json(block, seed_of(result), request.across_grids));
+    out.blocks.push_back(block_of_ratios(block, seed_of(result), request.across_grids));
   return out;
 }
 
@@ -237,24 +236,24 @@ Json ratio_rankings(const Result& result) {
   return out;
 }
 
-std::string ratio_table(const Json& ratios, bool all_pairs) {
+std::string ratio_table(const Ratios& ratios, bool all_pairs) {
   std::string out, scene;
-  for (const Json& block : ratios["blocks"]) {
-    if (block["scene"] != scene) out += shown(block["scene"]) + "\n";
-    scene = block["scene"].get<std::string>();
+  for (const RatioBlock& block : ratios.blocks) {
+    if (block.scene != scene) out += shown(block.scene) + "\n";
+    scene = block.scene;
     const std::vector<Cells> rows = rows_of(block, all_pairs);
     const std::vector<std::size_t> widths = widths_of(rows);
-    out += " " + shown(block["name"]) + "\n";
+    out += " " + shown(block.name) + "\n";
     for (const Cells& row : rows) out += aligned(row, widths);
   }
   if (out.empty()) return out;
   return out + "\n" + legend_of(ratios, all_pairs);
 }
 
-std::string ratio_markdown(const Json& ratios, bool all_pairs) {
+std::string ratio_markdown(const Ratios& ratios, bool all_pairs) {
   std::string out;
-  for (const Json& block : ratios["blocks"]) {
-    out += "### " + markdown_cell(block["scene"]) + ", " + markdown_cell(block["name"]) + "\n\n";
+  for (const RatioBlock& block : ratios.blocks) {
+    out += "### " + markdown_cell(block.scene) + ", " + markdown_cell(block.name) + "\n\n";
     const std::vector<Cells> rows = rows_of(block, all_pairs);
     for (const Cells& row : rows) {
       out += "|";
@@ -267,20 +266,19 @@ std::string ratio_markdown(const Json& ratios, bool all_pairs) {
   return out + legend_of(ratios, all_pairs);
 }
 
-std::string ratio_csv(const Json& ratios) {
-  const bool across_grids = ratios["across_grids"].get<bool>();
+std::string ratio_csv(const Ratios& ratios) {
   std::string out =
-      across_grids ? "scene,view,case,other,ratio,low,high\n" : "scene,grid,method,other,ratio,low,high\n";
-  for (const Json& block : ratios["blocks"]) {
+      ratios.across_grids ? "scene,view,case,other,ratio,low,high\n" : "scene,grid,method,other,ratio,low,high\n";
+  for (const RatioBlock& block : ratios.blocks) {
     const PairIndex pairs(block);
-    const Json& cases = block["cases"];
+    const std::vector<RatioCase>& cases = block.cases;
     for (std::size_t i = 0; i < cases.size(); ++i)
       for (std::size_t j = 0; j < cases.size(); ++j) {
-        const Json* pair = pairs.find(std::max(i, j), std::min(i, j));
+        const RatioPair* pair = pairs.find(std::max(i, j), std::min(i, j));
         if (pair == nullptr) continue;
-        const double ratio = (*pair)["ratio"];
+        const double ratio = pair->ratio;
         const measure::Interval ci95 = interval_of(*pair);
-        const std::vector<std::string> names{block["scene"], block["name"], cases[i]["label"], cases[j]["label"]};
+        const std::vector<std::string> names{block.scene, block.name, cases[i].label, cases[j].label};
         out += i > j ? csv_row(names, ratio, ci95) : csv_row(names, 1.0 / ratio, {1.0 / ci95.high, 1.0 / ci95.low});
       }
   }

@@ -10,11 +10,9 @@
 
 #include "measure/statistics/time_statistics.h"
 #include "report/cases/contender.h"
-#include "result/result.h"
+#include "result/documents/ratios.h"
 
 namespace clusterbench::report {
-
-inline constexpr int k_ratios_version = 1;
 
 // Frame time (or cost) of `numerator` / that of `denominator`, two cases of a grid; nullopt where other launches have
 // measured them.
@@ -31,8 +29,8 @@ struct RatioRequest {
 };
 
 // Of each grid (or view) the timed cases, the fastest first, and the ratio of any two, the slower by the faster one:
-// docs/results.md, `clusterbench schema ratios`. "blocks" is empty where nothing is timed.
-nlohmann::ordered_json ratios_of(const result::Result& result, const RatioRequest& request);
+// docs/results.md. No blocks where nothing is timed.
+result::Ratios ratios_of(const result::Result& result, const RatioRequest& request);
 
 // Of each timed case with lists the pairs of a ranking over all grids of its scene, camera and viewport, for the page:
 // {"id", "fastest": {"id", "ratio", "ci95"} or null, "above": the same of the next faster one, "is_like_above"}.
@@ -40,9 +38,9 @@ nlohmann::ordered_json ratio_rankings(const result::Result& result);
 
 // Of what ratios_of() gives: a ranking, with each case beside the fastest one and beside the one before it, or with
 // `all_pairs` each case beside each faster one.
-std::string ratio_table(const nlohmann::ordered_json& ratios, bool all_pairs);
-std::string ratio_markdown(const nlohmann::ordered_json& ratios, bool all_pairs);
+std::string ratio_table(const result::Ratios& ratios, bool all_pairs);
+std::string ratio_markdown(const result::Ratios& ratios, bool all_pairs);
 // All pairs, both ways around; an interval that is unknown is empty.
-std::string ratio_csv(const nlohmann::ordered_json& ratios);
+std::string ratio_csv(const result::Ratios& ratios);
 
 }  // namespace clusterbench::report

@@ -10,7 +10,6 @@
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using measure::LightMap;
 using measure::LightMapCounts;
 using measure::LightMapRequest;
@@ -28,89 +27,75 @@ bool is_test_done(const LightMapRequest& request, measure::TexelTest test) {
                                                   : true;
 }
 
-Json map_tests_json(const LightMapCounts& counts, const LightMapRequest& request) {
-  Json out = Json::object();
-  for (std::size_t test = 0; test < measure::k_texel_tests; ++test)
-    out[measure::k_texel_test_names[test]] =
-        is_test_done(request, static_cast<measure::TexelTest>(test)) ? Json(counts.left[test]) : Json(nullptr);
-  return out;
+result::LeftAfterTests left_after_tests(const LightMapCounts& counts, const LightMapRequest& request) {
+  const auto left = [&](measure::TexelTest test) -> result::Nullable<std::uint64_t> {
+    if (!is_test_done(request, test)) return {};
+    return counts.left[static_cast<std::size_t>(test)];
+  };
+  using enum measure::TexelTest;
+  return {left(range), left(cone), left(facing), left(visibility)};
 }
 
-Json lights_per_texel_json(const LightMapCounts& counts) {
+result::LightsPerTexel lights_per_texel(const LightMapCounts& counts) {
   const measure::Spread spread = measure::spread_of_histogram(counts.histogram);
   const measure::Histogram histogram = measure::short_histogram(counts.histogram);
-  return {{"mean", spread.mean},
-          {"p50", static_cast<std::uint64_t>(spread.p50)},
-          {"p95", static_cast<std::uint64_t>(spread.p95)},
-          {"p99", static_cast<std::uint64_t>(spread.p99)},
-          {"max", static_cast<std::uint64_t>(spread.max)},
-          {"histogram", {{"lights_per_entry", histogram.lights_per_entry}, {"texels", histogram.cells}}}};
+  return {.mean = spread.mean,
+          .p50 = static_cast<std::uint64_t>(spread.p50),
+          .p95 = static_cast<std::uint64_t>(spread.p95),
+          .p99 = static_cast<std::uint64_t>(spread.p99),
+          .max = static_cast<std::uint64_t>(spread.max),
+          .histogram = {histogram.lights_per_entry, histogram.cells}};
 }
 
-Json optional_json(const std::optional<std::uint64_t>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json map_counts_json(const LightMapCounts& counts, const LightMapRequest& request) {
-  return {{"triangles",
-           {{"all", counts.triangles},
-            {"wrapped", counts.wrapped_triangles},
-            {"degenerate", counts.degenerate_triangles},
-            {"in_no_texel", counts.missed_triangles}}},
-          {"texels",
-           {{"all", counts.texels},
-            {"covered", counts.covered},
-            {"dead", counts.dead()},
-            {"overlapping", counts.overlapping},
-            {"lit", counts.lit}}},
-          {"dead_share", share_of(counts.dead(), counts.texels)},
-          {"overlapping_share", share_of(counts.overlapping, counts.covered)},
-          {"occupied_fraction", share_of(counts.lit, counts.covered)},
-          {"bits_set", counts.pairs},
-          {"left_after", map_tests_json(counts, request)},
-          {"lights_per_texel", lights_per_texel_json(counts)},
-          {"distinct_sets", counts.sets},
-          {"tiles",
-           {{"covered", counts.tiles},
-            {"bits_set", counts.tile_pairs},
-            {"false_positives", counts.tile_false_positives()},
-            {"excess_ratio", counts.pairs > 0 ? Json(share_of(counts.tile_false_positives(), counts.pairs)) : Json()}}},
-          {"bytes",
-           {{"bit_field", counts.bytes.bits_of_all},
-            {"bit_field_of_own_lights", counts.bytes.bits_of_own},
-            {"lists_8", optional_json(counts.bytes.lists_8)},
-            {"lists_16", optional_json(counts.bytes.lists_16)},
-            {"palette", counts.bytes.palette},
-            {"tile_bit_fields", counts.bytes.tiles}}}};
-}
-
-Json light_map_json(const LightMap& map, const LightMapRequest& request) {
-  Json out{{"mesh", map.name},        {"uv_set", map.uv_set < 0 ? Json(nullptr) : Json(map.uv_set)},
-           {"width", map.grid.width}, {"height", map.grid.height},
-           {"area_m2", map.area_m2},  {"own_lights", map.lights}};
-  out.update(map_counts_json(map.counts, request));
+result::MapBytes map_bytes(const measure::LightMapBytes& bytes) {
+  result::MapBytes out{.bit_field = bytes.bits_of_all,
+                       .bit_field_of_own_lights = bytes.bits_of_own,
+                       .palette = bytes.palette,
+                       .tile_bit_fields = bytes.tiles};
+  if (bytes.lists_8) out.lists_8.emplace(*bytes.lists_8);
+  if (bytes.lists_16) out.lists_16.emplace(*bytes.lists_16);
   return out;
 }
 
-Json light_map_scene_json(const LightMapScene& scene, const LightMapRequest& request) {
-  Json out{{"name", scene.scene.name},
-           {"sha256", scene.scene.sha256},
-           {"geometry_sha256", scene.geometry_sha256},
-           {"range_rule",
-            {{"cutoff_lux", scene.scene.range_rule.cutoff_lux}, {"max_range_m", scene.scene.range_rule.max_range_m}}},
-           {"lights",
-            {{"point", scene.found.points},
-             {"spot", scene.found.spots},
-             {"moving", scene.found.moving_lights},
-             {"directional", scene.found.directional}}},
-           {"maps", Json::array()},
-           {"all", map_counts_json(scene.found.all, request)},
-           {"left_out", Json::array()},
-           {"warnings", scene.warnings},
-           {"seconds", scene.found.seconds}};
-  for (const LightMap& map : scene.found.maps) out["maps"].push_back(light_map_json(map, request));
-  for (const measure::LeftOut& mesh : scene.found.left_out)
-    out["left_out"].push_back({{"mesh", mesh.name}, {"reason", mesh.reason}});
+result::LightMapFigures map_figures(const LightMapCounts& counts, const LightMapRequest& request) {
+  return {
+      .triangles = {counts.triangles, counts.wrapped_triangles, counts.degenerate_triangles, counts.missed_triangles},
+      .texels = {counts.texels, counts.covered, counts.dead(), counts.overlapping, counts.lit},
+      .dead_share = share_of(counts.dead(), counts.texels),
+      .overlapping_share = share_of(counts.overlapping, counts.covered),
+      .occupied_fraction = share_of(counts.lit, counts.covered),
+      .bits_set = counts.pairs,
+      .left_after = left_after_tests(counts, request),
+      .lights_per_texel = lights_per_texel(counts),
+      .distinct_sets = counts.sets,
+      .tiles = {counts.tiles, counts.tile_pairs, counts.tile_false_positives(),
+                counts.pairs > 0 ? share_of(counts.tile_false_positives(), counts.pairs) : result::k_none},
+      .bytes = map_bytes(counts.bytes)};
+}
+
+result::LightMap map_document(const LightMap& map, const LightMapRequest& request) {
+  result::LightMap out{map_figures(map.counts, request)};
+  out.mesh = map.name;
+  if (map.uv_set >= 0) out.uv_set.emplace(static_cast<std::uint64_t>(map.uv_set));
+  out.width = static_cast<std::uint64_t>(map.grid.width);
+  out.height = static_cast<std::uint64_t>(map.grid.height);
+  out.area_m2 = map.area_m2;
+  out.own_lights = map.lights;
+  return out;
+}
+
+result::LightMapScene scene_document(const LightMapScene& scene, const LightMapRequest& request) {
+  const LightMaps& found = scene.found;
+  result::LightMapScene out{.name = scene.scene.name,
+                            .sha256 = scene.scene.sha256,
+                            .geometry_sha256 = scene.geometry_sha256,
+                            .range_rule = {scene.scene.range_rule.cutoff_lux, scene.scene.range_rule.max_range_m},
+                            .lights = {found.points, found.spots, found.moving_lights, found.directional},
+                            .all = map_figures(found.all, request),
+                            .warnings = scene.warnings,
+                            .seconds = found.seconds};
+  for (const LightMap& map : found.maps) out.maps.push_back(map_document(map, request));
+  for (const measure::LeftOut& mesh : found.left_out) out.left_out.push_back({mesh.name, mesh.reason});
   return out;
 }
 
@@ -243,20 +228,20 @@ std::string left_out_lines(const LightMaps& found) {
 
 }  // namespace
 
-Json light_maps_to_json(const std::vector<LightMapScene>& scenes, const LightMapRequest& request) {
-  const bool has_density = request.unwrap || !request.resolution;
-  Json out{{"light_map_version", 1},
-           {"request",
-            {{"texels_per_metre", has_density ? Json(request.texels_per_metre) : Json(nullptr)},
-             {"resolution", has_density ? Json(nullptr) : Json{request.resolution->x, request.resolution->y}},
-             {"uvs", request.unwrap ? "made" : "file"},
-             {"coverage", request.coverage == measure::TexelCoverage::centres ? "centres" : "conservative"},
-             {"facing", request.facing},
-             {"visibility", request.visibility},
-             {"lamp_radius_m", request.lamp_radius_m},
-             {"tile", request.tile}}},
-           {"scenes", Json::array()}};
-  for (const LightMapScene& scene : scenes) out["scenes"].push_back(light_map_scene_json(scene, request));
+result::LightMaps light_maps_document(const std::vector<LightMapScene>& scenes, const LightMapRequest& request) {
+  result::LightMaps out{
+      .light_map_version = 1,
+      .request = {.uvs = request.unwrap ? "made" : "file",
+                  .coverage = request.coverage == measure::TexelCoverage::centres ? "centres" : "conservative",
+                  .facing = request.facing,
+                  .visibility = request.visibility,
+                  .lamp_radius_m = request.lamp_radius_m,
+                  .tile = static_cast<std::uint64_t>(request.tile)}};
+  if (request.unwrap || !request.resolution)
+    out.request.texels_per_metre = request.texels_per_metre;
+  else
+    out.request.resolution = result::Size2{request.resolution->x, request.resolution->y};
+  for (const LightMapScene& scene : scenes) out.scenes.push_back(scene_document(scene, request));
   return out;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
-// What `light-map` found, as JSON and as a table.
+// What `light-map` found, as a document and as a table.
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "measure/light_maps/light_map.h"
+#include "result/documents/light_map.h"
 
 namespace clusterbench::report {
 
@@ -16,9 +16,9 @@ struct LightMapScene {
   measure::LightMaps found;
 };
 
-// Byte-identical for the same input, but for `seconds`.
-nlohmann::ordered_json light_maps_to_json(const std::vector<LightMapScene>& scenes,
-                                          const measure::LightMapRequest& request);
+// The same for the same input, but for `seconds`.
+result::LightMaps light_maps_document(const std::vector<LightMapScene>& scenes,
+                                      const measure::LightMapRequest& request);
 std::string light_maps_text(const std::vector<LightMapScene>& scenes, const measure::LightMapRequest& request);
 
 }  // namespace clusterbench::report

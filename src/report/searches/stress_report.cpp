@@ -10,68 +10,72 @@
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string share_in_percent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g %%", 100.0 * share);
   return text;
 }
 
-Json to_json(const std::optional<stress::Loss>& loss) {
-  if (!loss) return nullptr;
-  return {{"trial", loss->trial}, {"cell", loss->cell}, {"light", loss->light}, {"depth", loss->depth}};
+std::uint64_t tally(int value) {
+  return static_cast<std::uint64_t>(value);
 }
 
-Json to_json(const stress::StressCell& cell) {
-  return {{"case", cell.hard_case},
-          {"method", cell.method},
-          {"trials", cell.trials},
-          {"refused", cell.refused},
-          {"true_pairs", cell.true_pairs},
-          {"misses", cell.misses},
-          {"deepest_miss", to_json(cell.deepest)},
-          {"extra_pairs", cell.extra_pairs},
-          {"undecided", cell.undecided},
-          {"faults", cell.faults}};
+result::Nullable<result::LostLight> lost_light(const std::optional<stress::Loss>& loss) {
+  if (!loss) return {};
+  return result::LostLight{loss->trial, loss->cell, loss->light, loss->depth};
 }
 
-Json counts_json(const stress::SettingCounts& counts) {
-  Json by_kind = Json::object();
+result::HardCaseOfMethod case_of_method(const stress::StressCell& cell) {
+  return {.hard_case = cell.hard_case,
+          .method = cell.method,
+          .trials = tally(cell.trials),
+          .refused = tally(cell.refused),
+          .true_pairs = cell.true_pairs,
+          .misses = cell.misses,
+          .deepest_miss = lost_light(cell.deepest),
+          .extra_pairs = cell.extra_pairs,
+          .undecided = cell.undecided,
+          .faults = cell.faults};
+}
+
+result::RandomFault random_fault(const stress::RandomFault& found) {
+  result::RandomFault out{.name = found.name(),
+                          .kind = stress::fault_kind_name(found.fault.kind),
+                          .grid = grid::kind_name(found.grid),
+                          .orthographic = found.orthographic,
+                          .light = stress::type_name(found.fault.type),
+                          .settings = found.settings,
+                          .seeds = found.seeds,
+                          .detail = found.fault.detail};
+  if (!found.fault.method.empty()) out.method = found.fault.method;
+  return out;
+}
+
+result::Nullable<result::RandomSettings> random_settings(const std::optional<stress::RandomSearch>& random) {
+  if (!random) return {};
+  const stress::SettingCounts& counts = random->counts;
+  result::RandomSettings out{.first_seed = random->first_seed,
+                             .settings = counts.settings,
+                             .refused = counts.refused,
+                             .points = counts.points,
+                             .spots = counts.spots,
+                             .boxes = counts.boxes,
+                             .pairs = counts.pairs,
+                             .true_pairs = counts.true_pairs,
+                             .listed_pairs = counts.compared_pairs,
+                             .decisions = counts.decisions,
+                             .cells_sampled = counts.sampled,
+                             .undecided = counts.undecided,
+                             .lights_shaded = counts.shaded};
   for (std::size_t kind = 0; kind < counts.by_kind.size(); ++kind)
-    by_kind[grid::kind_name(static_cast<grid::Kind>(kind))] = counts.by_kind[kind];
-  return {{"settings", counts.settings},   {"refused", counts.refused},       {"settings_by_grid", by_kind},
-          {"points", counts.points},       {"spots", counts.spots},           {"boxes", counts.boxes},
-          {"pairs", counts.pairs},         {"true_pairs", counts.true_pairs}, {"listed_pairs", counts.compared_pairs},
-          {"decisions", counts.decisions}, {"cells_sampled", counts.sampled}, {"undecided", counts.undecided},
-          {"lights_shaded", counts.shaded}};
-}
-
-Json to_json(const stress::RandomFault& found) {
-  return {{"name", found.name()},
-          {"kind", stress::fault_kind_name(found.fault.kind)},
-          {"method", found.fault.method.empty() ? Json(nullptr) : Json(found.fault.method)},
-          {"grid", grid::kind_name(found.grid)},
-          {"orthographic", found.orthographic},
-          {"light", stress::type_name(found.fault.type)},
-          {"settings", found.settings},
-          {"seeds", found.seeds},
-          {"detail", found.fault.detail}};
-}
-
-Json to_json(const std::optional<stress::RandomSearch>& random) {
-  if (!random) return nullptr;
-  Json out{{"first_seed", random->first_seed}};
-  out.update(counts_json(random->counts));
-  out["fault_count"] = Json::object();
+    out.settings_by_grid.emplace_back(grid::kind_name(static_cast<grid::Kind>(kind)), counts.by_kind[kind]);
   for (int kind = 0; kind < stress::k_fault_kinds; ++kind) {
     std::uint64_t settings = 0;
     for (const stress::RandomFault& found : random->faults)
       if (static_cast<int>(found.fault.kind) == kind) settings += found.settings;
-    out["fault_count"][stress::fault_kind_name(static_cast<stress::FaultKind>(kind))] = settings;
+    out.fault_count.emplace_back(stress::fault_kind_name(static_cast<stress::FaultKind>(kind)), settings);
   }
-  out["faults"] = Json::array();
-  for (const stress::RandomFault& found : random->faults) out["faults"].push_back(to_json(found));
+  for (const stress::RandomFault& found : random->faults) out.faults.push_back(random_fault(found));
   return out;
 }
 
@@ -165,7 +169,8 @@ void print_extra(std::ostream& out, const stress::StressResult& result) {
         whole += cell.true_pairs;
       }
     if (whole > 0)
-      out << "  " << method.label << ": " << share_in_percent(static_cast<double>(extra) / static_cast<double>(whole)) << "\n";
+      out << "  " << method.label << ": " << share_in_percent(static_cast<double>(extra) / static_cast<double>(whole))
+          << "\n";
   }
 }
 
@@ -193,7 +198,8 @@ void print_searches(std::ostream& out, const stress::StressResult& result) {
   for (const stress::SearchResult& search : result.searches) {
     out << "  " << search.method << ": " << search.tries << " tries, ";
     if (search.deepest)
-      out << search.misses << " lost, the deepest " << share_in_percent(search.deepest->depth) << " of its range inside\n";
+      out << search.misses << " lost, the deepest " << share_in_percent(search.deepest->depth)
+          << " of its range inside\n";
     else
       out << "none lost, margin " << search.least_margin << "\n";
     if (search.undecided > 0) out << "    " << search.undecided << " more not listed, and undecided\n";
@@ -202,32 +208,31 @@ void print_searches(std::ostream& out, const stress::StressResult& result) {
 
 }  // namespace
 
-Json stress_to_json(const stress::StressResult& result, const stress::StressRequest& request) {
-  Json out{{"schema_version", 1}, {"kind", "stress"}, {"seed", request.seed}, {"tries", request.tries}};
-  out["interrupted"] = result.interrupted;
-  out["methods"] = Json::array();
+result::Stress stress_document(const stress::StressResult& result, const stress::StressRequest& request) {
+  result::Stress out{.schema_version = 1,
+                     .kind = "stress",
+                     .seed = request.seed,
+                     .tries = request.tries,
+                     .interrupted = result.interrupted,
+                     .random = random_settings(result.random),
+                     .failures = stress_failures(result)};
   for (const stress::StressMethod& method : result.methods)
-    out["methods"].push_back(
-        {{"label", method.label}, {"conservative", method.conservative}, {"exact", method.assigner->exact}});
-  out["cases"] = Json::array();
+    out.methods.push_back({method.label, method.conservative, method.assigner->exact});
   for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    Json hard_case{{"id", result.cases[i].id}, {"title", result.cases[i].title}, {"checks", Json::array()}};
+    result::HardCase& hard_case = out.cases.emplace_back();
+    hard_case.id = result.cases[i].id;
+    hard_case.title = result.cases[i].title;
     for (const stress::ToolCheck& check : result.checks[i])
-      hard_case["checks"].push_back({{"what", check.what}, {"passed", check.passed}, {"detail", check.detail}});
-    out["cases"].push_back(hard_case);
+      hard_case.checks.push_back({check.what, check.passed, check.detail});
   }
-  out["results"] = Json::array();
-  for (const stress::StressCell& cell : result.cells) out["results"].push_back(to_json(cell));
-  out["searches"] = Json::array();
+  for (const stress::StressCell& cell : result.cells) out.results.push_back(case_of_method(cell));
   for (const stress::SearchResult& search : result.searches)
-    out["searches"].push_back({{"method", search.method},
-                               {"tries", search.tries},
-                               {"misses", search.misses},
-                               {"undecided", search.undecided},
-                               {"least_margin_roundoffs", search.least_margin},
-                               {"deepest_miss", to_json(search.deepest)}});
-  out["random"] = to_json(result.random);
-  out["failures"] = stress_failures(result);
+    out.searches.push_back({.method = search.method,
+                            .tries = search.tries,
+                            .misses = search.misses,
+                            .undecided = search.undecided,
+                            .least_margin_roundoffs = search.least_margin,
+                            .deepest_miss = lost_light(search.deepest)});
   return out;
 }
 

@@ -1,14 +1,14 @@
 #pragma once
-// What `stress` found, as JSON and as a table.
+// What `stress` found, as a document and as a table.
 
-#include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "result/documents/stress.h"
 #include "stress/stress_run.h"
 
 namespace clusterbench::report {
 
-nlohmann::ordered_json stress_to_json(const stress::StressResult& result, const stress::StressRequest& request);
+result::Stress stress_document(const stress::StressResult& result, const stress::StressRequest& request);
 
 // A matrix hard case x method, then every loss, fault and failed check in a line of its own, then the search.
 void print_stress(std::ostream& out, const stress::StressResult& result);

@@ -11,16 +11,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 using search::WorstCase;
 
-Json vector_json(const Vec3d& v) {
-  return Json::array({v.x, v.y, v.z});
+result::Vector vector_of(const Vec3d& v) {
+  return {{{v.x, v.y, v.z}}};
 }
 
-Json box_json(const search::Box& box) {
-  return {{"min", vector_json(box.lo)}, {"max", vector_json(box.hi)}};
+result::BoxInMetres box_of(const search::Box& box) {
+  return {vector_of(box.lo), vector_of(box.hi)};
 }
 
 // A count as a whole number.
-Json figure_json(double value, search::Measure measure) {
+Json figure_value(double value, search::Measure measure) {
   if (measure == search::Measure::evaluated) return value;
   return static_cast<std::uint64_t>(value);
 }
@@ -38,82 +38,75 @@ std::vector<std::string> light_names(const scene::Scene& scene) {
   return names;
 }
 
-Json frame_json(const search::FoundFrame& frame, const WorstCaseFacts& facts, const std::vector<std::string>& names) {
+result::WorstFrame frame_of(const search::FoundFrame& frame, const WorstCaseFacts& facts,
+                            const std::vector<std::string>& names) {
   const search::FrameChoice& at = frame.choice;
-  Json out{{"value", figure_json(frame.value, facts.request.measure)},
-           {"eye_m", vector_json(at.eye)},
-           {"direction", vector_json(search::direction_of(at.rotation))},
-           {"rotation", {at.rotation.x, at.rotation.y, at.rotation.z, at.rotation.w}},
-           {"moment", at.moment},
-           {"added_lights", Json::array()},
-           {"moved_lights", Json::array()}};
+  result::WorstFrame out{.value = figure_value(frame.value, facts.request.measure),
+                         .eye_m = vector_of(at.eye),
+                         .direction = vector_of(search::direction_of(at.rotation)),
+                         .rotation = {at.rotation.x, at.rotation.y, at.rotation.z, at.rotation.w},
+                         .moment = at.moment};
   for (std::size_t i = 0; i < at.extra_lights.size(); ++i)
-    out["added_lights"].push_back(
-        {{"position_m", vector_json(at.extra_lights[i])}, {"range_m", facts.request.extra_ranges_m[i]}});
-  for (const auto& [light, position] : at.moved)
-    out["moved_lights"].push_back({{"light", names[light]}, {"position_m", vector_json(position)}});
+    out.added_lights.push_back({vector_of(at.extra_lights[i]), facts.request.extra_ranges_m[i]});
+  for (const auto& [light, position] : at.moved) out.moved_lights.push_back({names[light], vector_of(position)});
   return out;
 }
 
 // Where slices end, or how far boxes reach, that do not follow something: made up from the recorded path, if the camera
 // or the configuration does not say it.
-Json grid_end_json(const grid::GridSpec& spec) {
+result::Nullable<result::SearchedGridEnd> grid_end_of(const grid::GridSpec& spec) {
   if (spec.has_bounds && spec.follow == grid::Follow::nothing)
-    return {{"bounds_m", box_json({spec.bounds_lo_m, spec.bounds_hi_m})}};
+    return result::SearchedGridEnd{.bounds_m = box_of({spec.bounds_lo_m, spec.bounds_hi_m})};
   const bool is_fixed = spec.has_tiles() && spec.slices.far_m > 0.0 && !spec.slices.fit &&
                         spec.slices.scheme != grid::Scheme::fit && spec.slices.scheme != grid::Scheme::list;
-  if (is_fixed) return {{"slices_m", spec.slices.far_m}};
-  return nullptr;
+  if (is_fixed) return result::SearchedGridEnd{.slices_m = spec.slices.far_m};
+  return {};
 }
 
 // As a configuration has it: "90h"; null: the file's own.
-Json fov_json(const std::optional<scene::FieldOfView>& fov) {
-  if (!fov) return nullptr;
+result::Nullable<std::string> fov_of(const std::optional<scene::FieldOfView>& fov) {
+  if (!fov) return {};
   return text("%.12g", fov->angle_rad * 180.0 / std::numbers::pi) + (fov->is_horizontal ? "h" : "v");
 }
 
 // What else of the configuration a find is of, besides what the case's name tells.
-Json settings_json(const WorstCaseFacts& facts) {
+result::SearchedSettings settings_of(const WorstCaseFacts& facts) {
   const config::SceneRequest& request = facts.config.scenes[facts.case_plan.scene];
-  return {
-      {"fov", fov_json(request.camera.field_of_view)},
-      {"far", request.camera.far_m ? Json(*request.camera.far_m) : Json()},
-      {"camera_fit", request.camera.fit == scene::CameraFit::vertical ? "vertical" : "contain"},
-      {"boxes", request.boxes},
-      {"range_rule", {{"cutoff_lux", request.range_rule.cutoff_lux}, {"max_range", request.range_rule.max_range_m}}},
-      {"grid_end", grid_end_json(facts.config.grids[facts.case_plan.grid])}};
+  return {.fov = fov_of(request.camera.field_of_view),
+          .far = request.camera.far_m.value_or(result::k_none),
+          .camera_fit = request.camera.fit == scene::CameraFit::vertical ? "vertical" : "contain",
+          .boxes = request.boxes,
+          .range_rule = {request.range_rule.cutoff_lux, request.range_rule.max_range_m},
+          .grid_end = grid_end_of(facts.config.grids[facts.case_plan.grid])};
 }
 
-Json case_json(const WorstCaseFacts& facts) {
+result::SearchedCase searched_of(const WorstCaseFacts& facts) {
   const run::CasePlan& case_plan = facts.case_plan;
   const run::SceneData& data = facts.plan.scenes[case_plan.scene];
   const Vec2i viewport = facts.config.viewports[case_plan.viewport];
-  return {{"name", case_plan.name},
-          {"id", case_plan.id},
-          {"scene", data.scene.name},
-          {"sha256", data.scene.sha256},
-          {"camera", data.paths[case_plan.camera].camera},
-          {"viewport", {viewport.x, viewport.y}},
-          {"grid", facts.config.grids[case_plan.grid].name()},
-          {"assigner", facts.config.assigners[case_plan.assigner].label()},
-          {"storage", run::storage_label(facts.config, case_plan)},
-          {"settings", settings_json(facts)}};
+  return {.name = case_plan.name,
+          .id = case_plan.id,
+          .scene = data.scene.name,
+          .sha256 = data.scene.sha256,
+          .camera = data.paths[case_plan.camera].camera,
+          .viewport = {static_cast<std::uint64_t>(viewport.x), static_cast<std::uint64_t>(viewport.y)},
+          .grid = facts.config.grids[case_plan.grid].name(),
+          .assigner = facts.config.assigners[case_plan.assigner].label(),
+          .storage = run::storage_label(facts.config, case_plan),
+          .settings = settings_of(facts)};
 }
 
-Json space_json(const WorstCase& found, const WorstCaseFacts& facts) {
-  Json out{{"eyes_m", box_json(found.eyes)},
-           {"floor", nullptr},
-           {"directions", found.directions},
-           {"moments", found.moments},
-           {"lights", found.own_lights},
-           {"added_ranges_m", facts.request.extra_ranges_m},
-           {"added_within_m", box_json(found.lights)},
-           {"move_m", facts.request.move_m},
-           {"flags", search::space_flags(facts.request)}};
+result::SearchSpace space_of(const WorstCase& found, const WorstCaseFacts& facts) {
+  result::SearchSpace out{.eyes_m = box_of(found.eyes),
+                          .directions = found.directions,
+                          .moments = found.moments,
+                          .lights = found.own_lights,
+                          .added_ranges_m = facts.request.extra_ranges_m,
+                          .added_within_m = box_of(found.lights),
+                          .move_m = facts.request.move_m,
+                          .flags = search::space_flags(facts.request)};
   if (facts.request.walkable)
-    out["floor"] = {{"triangles", found.floor_triangles},
-                    {"area_m2", found.floor_area_m2},
-                    {"eye_height_m", facts.request.eye_height_m}};
+    out.floor = result::Floor{found.floor_triangles, found.floor_area_m2, facts.request.eye_height_m};
   return out;
 }
 
@@ -166,46 +159,36 @@ bool is_random_one(const WorstCase& found) {
 
 }  // namespace
 
-Json worst_case_to_json(const WorstCase& found, const WorstCaseFacts& facts) {
+result::WorstCase worst_case_document(const WorstCase& found, const WorstCaseFacts& facts) {
   const search::Measure measure = facts.request.measure;
   const search::MeasureRow& row = search::row_of(measure);
   const std::vector<std::string> names = light_names(facts.plan.scenes[facts.case_plan.scene].scene);
-  Json out{{"schema_version", 1},
-           {"kind", "worst-case"},
-           {"case", case_json(facts)},
-           {"other_cases", case_count(facts.plan) - 1},
-           {"measure", {{"name", row.name}, {"unit", row.unit}, {"figure", row.figure}}},
-           {"seed", facts.request.seed},
-           {"evaluations", found.evaluations},
-           {"evaluations_allowed", facts.request.evaluations},
-           {"ended", name_of(found.ended)},
-           {"space", space_json(found, facts)},
-           {"stages", Json::array()},
-           {"frames", Json::array()},
-           {"recorded",
-            {{"frames", found.recorded.frames},
-             {"max", figure_json(found.recorded.max, measure)},
-             {"frame", found.recorded.frame}}},
-           {"random", nullptr},
-           {"theoretical_max", nullptr},
-           {"buffers", Json::array()},
-           {"lights_in_view", {{"all", found.lights_in_view}, {"dark", found.dark_in_view}}},
-           {"written", nullptr},
-           {"warnings", found.warnings}};
+  const auto count = [](int value) { return static_cast<std::uint64_t>(value); };
+  result::WorstCase out{.schema_version = 1,
+                        .kind = "worst-case",
+                        .searched = searched_of(facts),
+                        .other_cases = case_count(facts.plan) - 1,
+                        .measure = {row.name, row.unit, row.figure},
+                        .seed = facts.request.seed,
+                        .evaluations = count(found.evaluations),
+                        .evaluations_allowed = count(facts.request.evaluations),
+                        .ended = name_of(found.ended),
+                        .space = space_of(found, facts),
+                        .recorded = {count(found.recorded.frames), figure_value(found.recorded.max, measure),
+                                     count(found.recorded.frame)},
+                        .buffers = std::vector<result::NeededBuffer>(),
+                        .lights_in_view = result::LightsOfWorstFrame{found.lights_in_view, found.dark_in_view},
+                        .warnings = found.warnings};
   for (const search::Stage& stage : found.stages)
-    out["stages"].push_back(
-        {{"name", stage.name}, {"evaluations", stage.evaluations}, {"best", figure_json(stage.best, measure)}});
-  for (const search::FoundFrame& frame : found.frames) out["frames"].push_back(frame_json(frame, facts, names));
+    out.stages.push_back({stage.name, count(stage.evaluations), figure_value(stage.best, measure)});
+  for (const search::FoundFrame& frame : found.frames) out.frames.push_back(frame_of(frame, facts, names));
   if (found.random.frames > 0)
-    out["random"] = {
-        {"frames", found.random.frames}, {"max", figure_json(found.random.max, measure)}, {"mean", found.random.mean}};
-  if (found.theoretical_max) out["theoretical_max"] = figure_json(*found.theoretical_max, measure);
+    out.random =
+        result::RandomFrames{count(found.random.frames), figure_value(found.random.max, measure), found.random.mean};
+  if (found.theoretical_max) out.theoretical_max = figure_value(*found.theoretical_max, measure);
   for (const assign::BufferNeed& need : found.buffers)
-    out["buffers"].push_back({{"name", need.name},
-                              {"elements", need.elements},
-                              {"theoretical_max", need.most},
-                              {"element_bytes", need.element_bytes}});
-  if (!facts.scene_file.empty()) out["written"] = {{"scene", facts.scene_file}, {"config", facts.config_file}};
+    out.buffers->push_back({need.name, need.elements, need.most, need.element_bytes});
+  if (!facts.scene_file.empty()) out.written = result::WrittenFrames{facts.scene_file, facts.config_file};
   return out;
 }
 

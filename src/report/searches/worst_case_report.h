@@ -1,9 +1,9 @@
 #pragma once
-// What `worst-case` found, as JSON and as text.
+// What `worst-case` found, as a document and as text.
 
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "result/documents/worst_case.h"
 #include "search/worst_case.h"
 
 namespace clusterbench::report {
@@ -17,7 +17,7 @@ struct WorstCaseFacts {
   std::string scene_file, config_file;  // "": not written
 };
 
-nlohmann::ordered_json worst_case_to_json(const search::WorstCase& found, const WorstCaseFacts& facts);
+result::WorstCase worst_case_document(const search::WorstCase& found, const WorstCaseFacts& facts);
 std::string worst_case_text(const search::WorstCase& found, const WorstCaseFacts& facts);
 
 }  // namespace clusterbench::report

@@ -9,13 +9,11 @@
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // What capacities are named for: at 60 frames per second once in half an hour.
 constexpr double k_rare = 1e-5;
 
-Json chance_json(const measure::Chance& chance) {
-  return {{"estimate", chance.estimate}, {"ci95", {chance.ci95.low, chance.ci95.high}}};
+result::ChanceOfFrame chance_of(const measure::Chance& chance) {
+  return {chance.estimate, {chance.ci95.low, chance.ci95.high}};
 }
 
 // What k_rare of the frames exceed; never more than there can be.
@@ -89,29 +87,28 @@ std::string tail_text(const SizedBuffer& buffer) {
          "); from " + number_of(tail.peaks, "peak");
 }
 
-Json tail_json(const SizedBuffer& buffer) {
-  if (const std::string still = still_text(buffer); !still.empty()) return {{"refusal", still}};
+std::optional<result::BeyondThePath> beyond_the_path(const SizedBuffer& buffer) {
+  if (const std::string still = still_text(buffer); !still.empty()) return result::BeyondThePath{.refusal = still};
   const std::optional<measure::TailEstimate> found = tail_of(buffer);
-  if (!found) return nullptr;
-  if (!found->tail) return {{"refusal", found->refusal}};
+  if (!found) return {};
+  if (!found->tail) return result::BeyondThePath{.refusal = found->refusal};
   const measure::Tail& tail = *found->tail;
   const measure::Tail::Capacity rare = capacity_for_rare(tail, buffer);
-  Json out{{"above_capacity", chance_json(tail.chance_above(buffer.capacity))},
-           {"above_high_water", chance_json(tail.chance_above(buffer.high_water))},
-           {"capacity_for_1_in_100000", {{"estimate", rare.estimate}, {"upper", *rare.upper}}}};
-  out["fits"] = tail.fits;
-  out["fit_p"] = tail.fit_p;
-  out["frames"] = tail.frames;
-  out["threshold"] = tail.threshold;
-  out["frames_above"] = tail.frames_above;
-  out["peaks"] = tail.peaks;
-  out["cut_peaks"] = tail.cut_peaks;
-  out["extremal_index"] = tail.extremal_index;
-  out["shape"] = tail.shape;
-  out["scale"] = tail.scale;
-  if (tail.end) out["end"] = *tail.end;
-  out["is_upper_bound"] = tail.has_merged_frames;
-  return out;
+  return result::BeyondThePath{.above_capacity = chance_of(tail.chance_above(buffer.capacity)),
+                               .above_high_water = chance_of(tail.chance_above(buffer.high_water)),
+                               .capacity_for_1_in_100000 = result::RareCapacity{rare.estimate, *rare.upper},
+                               .fits = tail.fits,
+                               .fit_p = tail.fit_p,
+                               .frames = tail.frames,
+                               .threshold = tail.threshold,
+                               .frames_above = tail.frames_above,
+                               .peaks = tail.peaks,
+                               .cut_peaks = tail.cut_peaks,
+                               .extremal_index = tail.extremal_index,
+                               .shape = tail.shape,
+                               .scale = tail.scale,
+                               .end = tail.end,
+                               .is_upper_bound = tail.has_merged_frames};
 }
 
 }  // namespace clusterbench::report

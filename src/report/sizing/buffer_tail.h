@@ -1,13 +1,13 @@
 #pragma once
-// How likely a frame that was not recorded exceeds what a buffer has: words and JSON of
+// How likely a frame that was not recorded exceeds what a buffer has: words and figures of
 // measure/statistics/peaks_over_threshold.h.
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "measure/statistics/peaks_over_threshold.h"
 #include "report/sizing/allocation.h"
+#include "result/documents/size.h"
 
 namespace clusterbench::report {
 
@@ -19,8 +19,8 @@ std::optional<measure::TailEstimate> tail_of(const SizedBuffer& buffer);
 // where there is no estimate.
 std::string tail_text(const SizedBuffer& buffer);
 
-// Null where there is no estimate; with "refusal" alone where there can be none.
-nlohmann::ordered_json tail_json(const SizedBuffer& buffer);
+// None where there is no estimate; with a refusal alone where there can be none.
+std::optional<result::BeyondThePath> beyond_the_path(const SizedBuffer& buffer);
 
 // "1 in 30000", "1 in 10^7", "never" for 0. One digit, so that it does not look more certain than it is.
 std::string one_in_text(double chance);

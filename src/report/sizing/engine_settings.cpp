@@ -16,8 +16,6 @@
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 const char* unit_of(Needed needed) {
   switch (needed) {
     case Needed::lights_in_view:
@@ -145,20 +143,20 @@ std::string own_value_text(const SettingValue& value, const SizedStructure& stru
   return with + lost_text(setting.needed, value.needed() - setting.default_value) + "\n";
 }
 
-Json own_value_json(const SettingValue& value, const SizedStructure& structure) {
+std::optional<result::WithOwnValue> with_own_value(const SettingValue& value, const SizedStructure& structure) {
   const LimitSetting& setting = *value.setting;
-  if (setting.default_value == 0 || setting.is_constant || !value.seen) return nullptr;
-  Json out{{"value", setting.default_value}};
+  if (setting.default_value == 0 || setting.is_constant || !value.seen) return {};
+  result::WithOwnValue out{.value = setting.default_value};
   if (const std::optional<GrownTiles> tiles = grown_tiles(value, structure)) {
-    out.update({{"frames", tiles->frames},
-                {"frames_with_grown_tiles", tiles->grown},
-                {"frames_over", tiles->over},
-                {"fewest_tiles", tiles->fewest},
-                {"entries", tiles->entries}});
+    out.frames = tiles->frames;
+    out.frames_with_grown_tiles = tiles->grown;
+    out.frames_over = tiles->over;
+    out.fewest_tiles = {static_cast<std::uint64_t>(tiles->fewest[0]), static_cast<std::uint64_t>(tiles->fewest[1])};
+    out.entries = tiles->entries;
     return out;
   }
-  if (setting.needed == Needed::entries) return nullptr;
-  out["lost"] = value.needed() > setting.default_value ? value.needed() - setting.default_value : 0;
+  if (setting.needed == Needed::entries) return {};
+  out.lost = value.needed() > setting.default_value ? value.needed() - setting.default_value : 0;
   return out;
 }
 
@@ -312,28 +310,28 @@ std::string engine_settings_text(const EngineRequest& request, std::span<const S
   return out + advice_text(request, structures);
 }
 
-Json engine_settings_json(const EngineRequest& request, const SizedStructure& structure,
-                          std::span<const SizedStructure* const> structures) {
+result::EngineSettings engine_settings_of(const EngineRequest& request, const SizedStructure& structure,
+                                          std::span<const SizedStructure* const> structures) {
   const EngineRow& row = *row_of_engine(request.engine);
-  Json out{{"engine", request.engine},
-           {"version", version_text(row)},
-           {"grid", filled_in(row.grid, structure)},
-           {"limits", Json::array()}};
+  result::EngineSettings out{
+      .engine = request.engine, .version = version_text(row), .grid = filled_in(row.grid, structure)};
   for (const LimitSetting& setting : row.limits) {
     const SettingValue value = value_of(setting, structure, request.rules);
-    Json entry{{"name", setting.name}, {"needed", unit_of(setting.needed)}};
-    entry["seen"] = value.seen ? Json(*value.seen) : Json();
-    entry["found"] = value.found ? Json(*value.found) : Json();
+    result::EngineLimit limit{.name = setting.name,
+                              .needed = unit_of(setting.needed),
+                              .is_too_much = value.is_too_much(),
+                              .with_own_value = with_own_value(value, structure)};
+    if (value.seen) limit.seen.emplace(*value.seen);
+    if (value.found) limit.found.emplace(*value.found);
     if (const FoundFrame* search = structure.search_for(measure_of(setting.needed)))
-      entry["search"] = search_json(*search);
-    const bool is_told = value.seen && !setting.is_constant && !is_sized_from_nothing(structure);
-    entry["value"] = is_told ? Json(value.value) : Json();
-    if (is_told) entry["value_for_all"] = value_for_all(request, setting, structure, structures).value;
-    entry["most"] = setting.most == k_any ? Json() : Json(setting.most);
-    entry["is_too_much"] = value.is_too_much();
-    if (value.is_too_much()) entry["lost"] = value.needed() - setting.most;
-    if (const Json own = own_value_json(value, structure); !own.is_null()) entry["with_own_value"] = own;
-    out["limits"].push_back(entry);
+      limit.search = size_search(*search);
+    if (value.seen && !setting.is_constant && !is_sized_from_nothing(structure)) {
+      limit.value.emplace(value.value);
+      limit.value_for_all = value_for_all(request, setting, structure, structures).value;
+    }
+    if (setting.most != k_any) limit.most.emplace(setting.most);
+    if (value.is_too_much()) limit.lost = value.needed() - setting.most;
+    out.limits.push_back(std::move(limit));
   }
   return out;
 }

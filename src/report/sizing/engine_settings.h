@@ -1,12 +1,12 @@
 #pragma once
 // What `size --engine NAME` prints: an allocation in an engine's own settings, for engines whose limits can be set.
 
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "report/sizing/allocation.h"
+#include "result/documents/size.h"
 
 namespace clusterbench::report {
 
@@ -29,8 +29,8 @@ struct EngineRequest {
 // Of each structure the settings: their names as the engine has them, its version, the value to set, what it comes of,
 // and what the engine drops beyond it. Then, of several that the engine has one setting for, the value for all.
 std::string engine_settings_text(const EngineRequest& request, std::span<const SizedStructure* const> structures);
-// Of one of them, for the JSON of `size`: {"engine", "version", "grid", "limits": [...]}.
-nlohmann::ordered_json engine_settings_json(const EngineRequest& request, const SizedStructure& structure,
-                                            std::span<const SizedStructure* const> structures);
+// Of one of them, for the document of `size`.
+result::EngineSettings engine_settings_of(const EngineRequest& request, const SizedStructure& structure,
+                                          std::span<const SizedStructure* const> structures);
 
 }  // namespace clusterbench::report

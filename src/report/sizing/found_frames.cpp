@@ -15,6 +15,7 @@
 #include "report/cases/json_values.h"
 #include "report/documents/result_file.h"
 #include "result/case_figure.h"
+#include "result/documents/worst_case.h"
 #include "run/cases/case_names.h"
 #include "scene/camera_path.h"
 
@@ -22,19 +23,21 @@ namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using result::SearchedCase;
 
-Json read_worst_case(const std::string& path) {
+result::WorstCase read_worst_case(const std::string& path) {
   const std::string text = file_text(path);
   refuse_history(path, text);
-  Json json = read_json<Json>(text, path);
+  const Json json = read_json<Json>(text, path);
   const config::DocumentRow& row = config::row_of(config::Document::worst_case);
   if (config::document_of(json) != config::Document::worst_case)
     throw Error(path, "", "is not what `clusterbench worst-case -o FILE` writes");
   const std::vector<std::string> violations = config::schema_violations(row.schema(), nlohmann::json(json));
   if (!violations.empty())
     throw Error(path, "", "is not valid: " + violations.front() + "; `clusterbench validate` lists all");
-  if (json["frames"].empty()) throw Error(path, "", "holds no frame: the search was ended before it tried any");
-  return json;
+  result::WorstCase found = result::from_json<result::WorstCase>(json);
+  if (found.frames.empty()) throw Error(path, "", "holds no frame: the search was ended before it tried any");
+  return found;
 }
 
 // What is searched, whatever the scene is called and how many viewports there are beside it: grid, method, storage, how
@@ -44,12 +47,12 @@ std::string structure_of(run::CaseNames names) {
   return run::name_without_camera(names, false);
 }
 
-std::string structure_of_searched(const Json& searched) {
+std::string structure_of_searched(const SearchedCase& searched) {
   run::CaseNames names;
-  names.name = searched["name"].get<std::string>();
-  names.scene = searched["scene"].get<std::string>();
-  names.camera = searched["camera"].get<std::string>();
-  names.viewport = viewport_text(searched["viewport"].get<result::Counts2>());
+  names.name = searched.name;
+  names.scene = searched.scene;
+  names.camera = searched.camera;
+  names.viewport = viewport_text(searched.viewport);
   return structure_of(names);
 }
 
@@ -69,30 +72,30 @@ std::string viewports_text(const std::vector<const result::Case*>& cases) {
 
 // The cases of its structure, camera and viewport on its scene. Of a scene that the result has several times those that
 // are called like it come first.
-std::vector<const result::Case*> matches_of(const std::string& path, const Json& searched,
+std::vector<const result::Case*> matches_of(const std::string& path, const SearchedCase& searched,
                                             const result::Result& result) {
-  const auto scene = searched["scene"].get<std::string>(), camera = searched["camera"].get<std::string>(),
-             sha256 = searched["sha256"].get<std::string>(), structure = structure_of_searched(searched);
+  const std::string& sha256 = searched.sha256;
+  const std::string structure = structure_of_searched(searched);
   std::vector<const result::Case*> alike, seen_alike, out;
   for (const result::Case& one : result.cases) {
-    const bool is_its_scene = one.scene == scene || sha256_of_scene(result, one) == sha256;
-    if (is_its_scene && one.camera == camera && structure_of(names_of_case(one)) == structure) alike.push_back(&one);
+    const bool is_its_scene = one.scene == searched.scene || sha256_of_scene(result, one) == sha256;
+    if (is_its_scene && one.camera == searched.camera && structure_of(names_of_case(one)) == structure)
+      alike.push_back(&one);
   }
   if (alike.empty())
     throw Error(path, "/case/name",
-                "is '" + searched["name"].get<std::string>() +
-                    "', and no case here has its scene, camera, grid, method and storage" +
+                "is '" + searched.name + "', and no case here has its scene, camera, grid, method and storage" +
                     (result.cases.empty() ? "" : "; one of them is '" + result.cases[0].name + "'"));
   for (const result::Case* one : alike)
-    if (one->viewport == searched["viewport"].get<result::Counts2>()) seen_alike.push_back(one);
+    if (one->viewport == searched.viewport) seen_alike.push_back(one);
   if (seen_alike.empty())
     throw Error(path, "/case/viewport",
-                "is " + searched["viewport"].dump() + ", and here it is " + viewports_text(alike) +
+                "is " + Json(searched.viewport).dump() + ", and here it is " + viewports_text(alike) +
                     "; search with the same --viewport");
   for (const result::Case* one : seen_alike)
     if (sha256_of_scene(result, *one) == sha256) out.push_back(one);
   if (out.empty()) throw Error(path, "/case/sha256", "is of another version of the scene; search again");
-  std::stable_partition(out.begin(), out.end(), [&](const result::Case* one) { return one->scene == scene; });
+  std::stable_partition(out.begin(), out.end(), [&](const result::Case* one) { return one->scene == searched.scene; });
   return out;
 }
 
@@ -133,19 +136,17 @@ bool ends_at(const result::Slices& slices, double end_m) {
 }
 
 // "" if the grid ends where that of the search did, or follows something from frame to frame.
-std::string other_end(const Json& searched, const result::Grid& grid) {
-  if (const std::optional<double> end_m = number_at(searched, "/slices_m");
+std::string other_end(const result::SearchedGridEnd& searched, const result::Grid& grid) {
+  if (const std::optional<double>& end_m = searched.slices_m;
       end_m && grid.slices && !grid.slices->boundaries.empty()) {
     const double here_m = grid.slices->boundaries.back();
     return ends_at(*grid.slices, *end_m)
                ? ""
                : text("is %.6g m", *end_m) + text(", and the grid here ends at %.6g m", here_m);
   }
-  if (!searched.contains("bounds_m") || !grid.bounds || !grid.origin) return "";
-  const Json& box = searched["bounds_m"];
+  if (!searched.bounds_m || !grid.bounds || !grid.origin) return "";
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double origin = (*grid.origin)[axis], lo = box["min"][axis].get<double>(),
-                 hi = box["max"][axis].get<double>();
+    const double origin = (*grid.origin)[axis], lo = searched.bounds_m->min[axis], hi = searched.bounds_m->max[axis];
     if (!is_near(lo, origin + grid.bounds->min[axis], hi - lo) ||
         !is_near(hi, origin + grid.bounds->max[axis], hi - lo))
       return "is another box than that of the grid here";
@@ -153,8 +154,9 @@ std::string other_end(const Json& searched, const result::Grid& grid) {
   return "";
 }
 
-void check_settings(const std::string& path, const Json& settings, const result::Result& result, std::size_t scene,
-                    const result::Case& match) {
+void check_settings(const std::string& path, const result::SearchedSettings& searched, const result::Result& result,
+                    std::size_t scene, const result::Case& match) {
+  const Json settings = result::to_json(searched);
   const auto differs = [&](const std::string& key, const Json& here) {
     throw Error(path, "/case/settings/" + key,
                 "is " + settings.value(key, Json()).dump() + ", and here it is " + here.dump() +
@@ -172,22 +174,23 @@ void check_settings(const std::string& path, const Json& settings, const result:
   for (const char* key : {"cutoff_lux", "max_range"})
     if (settings["range_rule"][key] != rule[key])
       differs("range_rule", {{"cutoff_lux", rule["cutoff_lux"]}, {"max_range", rule["max_range"]}});
-  if (const std::string other = other_end(settings["grid_end"], match.grid); !other.empty())
+  const std::string other = searched.grid_end ? other_end(*searched.grid_end, match.grid) : "";
+  if (!other.empty())
     throw Error(path, "/case/settings/grid_end",
                 other +
                     ": it follows from the lights of the recorded path; fix it for both, as with --set "
                     "'grids.*.slices.far=METRES' (of boxes, bounds), and search again");
 }
 
-void check_settings(const std::string& path, const Json& searched, const result::Result& result,
+void check_settings(const std::string& path, const SearchedCase& searched, const result::Result& result,
                     const result::Case& match) {
-  if (!searched.contains("settings")) return;
+  if (!searched.settings) return;
   for (std::size_t i = 0; i < result.scenes.size(); ++i)
-    if (result.scenes[i].name == match.scene) check_settings(path, searched["settings"], result, i, match);
+    if (result.scenes[i].name == match.scene) check_settings(path, *searched.settings, result, i, match);
 }
 
 // The case that was searched: of several that are alike the first one of its settings.
-const result::Case& searched_case(const std::string& path, const Json& searched, const result::Result& result) {
+const result::Case& searched_case(const std::string& path, const SearchedCase& searched, const result::Result& result) {
   const std::vector<const result::Case*> matches = matches_of(path, searched, result);
   for (const result::Case* match : matches) {
     try {
@@ -241,31 +244,32 @@ void raise_to_find(result::Case& result_case, const FoundFrame& found) {
 }  // namespace
 
 FoundFrame read_found(const std::string& path, const result::Result& result) {
-  const Json json = read_worst_case(path);
+  const result::WorstCase read = read_worst_case(path);
+  const result::WorstFrame& worst = read.frames.front();
   FoundFrame out;
-  out.case_name = searched_case(path, json["case"], result).name;
-  if (!json["case"].contains("settings")) out.not_compared = k_not_compared;
-  out.measure = json["measure"]["name"].get<std::string>();
-  out.value = static_cast<std::uint64_t>(std::max(0.0, json["frames"][0]["value"].get<double>()));
-  out.evaluations = json["evaluations"].get<int>();
-  if (const auto random = number_at(json, "/random/frames")) out.evaluations += static_cast<int>(*random);
-  out.seed = json["seed"].get<std::uint64_t>();
-  out.space_flags = json["space"].value("flags", "");
-  out.eye_m = json["frames"][0]["eye_m"].get<std::vector<double>>();
-  out.direction = json["frames"][0].value("direction", std::vector<double>());
-  out.lights = json["space"]["lights"].get<std::uint64_t>() + json["space"]["added_ranges_m"].size();
-  out.lights_in_view = static_cast<std::uint64_t>(number_at(json, "/lights_in_view/all").value_or(0.0));
-  out.dark_in_view = static_cast<std::uint64_t>(number_at(json, "/lights_in_view/dark").value_or(0.0));
-  if (!json.contains("buffers"))
+  out.case_name = searched_case(path, read.searched, result).name;
+  if (!read.searched.settings) out.not_compared = k_not_compared;
+  out.measure = read.measure.name;
+  out.value = static_cast<std::uint64_t>(std::max(0.0, worst.value.get<double>()));
+  out.evaluations = static_cast<int>(read.evaluations + (read.random ? read.random->frames : 0));
+  out.seed = read.seed;
+  out.space_flags = read.space.flags.value_or("");
+  out.eye_m.assign(worst.eye_m.begin(), worst.eye_m.end());
+  out.direction.assign(worst.direction.begin(), worst.direction.end());
+  out.lights = read.space.lights + read.space.added_ranges_m.size();
+  if (read.lights_in_view) {
+    out.lights_in_view = read.lights_in_view->all;
+    out.dark_in_view = read.lights_in_view->dark;
+  }
+  if (!read.buffers)
     throw Error(path, "/buffers", "is missing: an earlier version wrote the file, without what each buffer needs");
-  for (std::size_t i = 0; i < json["buffers"].size(); ++i) {
-    const Json& need = json["buffers"][i];
-    if (!need.contains("element_bytes"))
+  for (std::size_t i = 0; i < read.buffers->size(); ++i) {
+    const result::NeededBuffer& need = (*read.buffers)[i];
+    if (!need.element_bytes)
       throw Error(path, "/buffers/" + std::to_string(i) + "/element_bytes",
                   "is missing: an earlier version wrote the file, and nothing says how wide the indices of its lights "
                   "are; search again");
-    out.needs.push_back({need["name"].get<std::string>(), need["elements"].get<std::uint64_t>(),
-                         need["theoretical_max"].get<std::uint64_t>(), need["element_bytes"].get<std::uint64_t>()});
+    out.needs.push_back({need.name, need.elements, need.theoretical_max, *need.element_bytes});
   }
   return out;
 }
@@ -277,16 +281,17 @@ result::Result with_finds(result::Result result, const std::vector<FoundFrame>& 
   return result;
 }
 
-Json search_json(const FoundFrame& found) {
-  Json out{{"case", found.case_name}, {"measure", found.measure}};
-  if (!found.refusal.empty())
-    out["refusal"] = found.refusal;
-  else
-    out.update({{"evaluations", found.evaluations},
-                {"seed", found.seed},
-                {"flags", found.space_flags},
-                {"eye_m", found.eye_m}});
-  if (!found.direction.empty()) out["direction"] = found.direction;
+result::SizeSearch size_search(const FoundFrame& found) {
+  result::SizeSearch out{.searched = found.case_name, .measure = found.measure};
+  if (!found.refusal.empty()) {
+    out.refusal = found.refusal;
+  } else {
+    out.evaluations = static_cast<std::uint64_t>(found.evaluations);
+    out.seed = found.seed;
+    out.flags = found.space_flags;
+    out.eye_m = found.eye_m;
+  }
+  if (!found.direction.empty()) out.direction = found.direction;
   return out;
 }
 

@@ -2,11 +2,11 @@
 // What `clusterbench worst-case -o FILE` found, for `size`.
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "report/sizing/allocation.h"
+#include "result/documents/size.h"
 #include "result/result.h"
 
 namespace clusterbench::report {
@@ -20,7 +20,7 @@ FoundFrame read_found(const std::string& path, const result::Result& result);
 // lights in view, and the bytes of all buffers, of the cases that were searched. Budgets then hold both.
 result::Result with_finds(result::Result result, const std::vector<FoundFrame>& found);
 
-// For the JSON of `size`.
-nlohmann::ordered_json search_json(const FoundFrame& found);
+// For the document of `size`.
+result::SizeSearch size_search(const FoundFrame& found);
 
 }  // namespace clusterbench::report

@@ -25,8 +25,6 @@
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 AllocationRules rules_of(const result::Result& result, const SizeRequest& request) {
   AllocationRules rules;
   rules.margin = request.margin.value_or(number_at(result.config, "/allocation/margin").value_or(rules.margin));
@@ -114,40 +112,46 @@ std::vector<std::size_t> best_of_groups(const result::Result& result, const std:
   return best;
 }
 
-Json spread_json(const FrameSpread& spread) {
-  return {{"min", spread.min}, {"p50", spread.p50}, {"p90", spread.p90},
-          {"p99", spread.p99}, {"max", spread.max}, {"is_exact", spread.is_exact}};
+result::ElementSpread element_spread(const FrameSpread& spread) {
+  return {spread.min, spread.p50, spread.p90, spread.p99, spread.max, spread.is_exact};
 }
 
-Json buffer_json(const SizedBuffer& buffer, const std::string& name, const std::vector<FoundFrame>& searches) {
-  Json worst{{"camera", buffer.worst_camera}, {"frame", buffer.worst_frame}};
-  if (buffer.worst_cell) worst["cell"] = *buffer.worst_cell;
-  Json out{{"name", buffer.name},
-           {"identifier", name},
-           {"element_bytes", buffer.element_bytes},
-           {"high_water", buffer.high_water},
-           {"theoretical_max", buffer.theoretical_max},
-           {"worst", worst}};
-  if (buffer.apart > 0) out["views_apart"] = buffer.apart;
-  if (!buffer.why_sum.empty()) out["views_not_paired"] = buffer.why_sum;
-  if (buffer.spread) out["frames"] = spread_json(*buffer.spread);
-  for (const FrameGroup& group : buffer.groups)
-    out["groups"].push_back({{"cameras", group.cameras},
-                             {"count", group.frames},
-                             {"high_water", group.high_water},
-                             {"frames", group.spread ? spread_json(*group.spread) : Json()}});
+void add_groups(const SizedBuffer& buffer, result::AllocatedBuffer& out) {
+  if (!buffer.groups.empty()) out.groups.emplace();
+  for (const FrameGroup& group : buffer.groups) {
+    result::ViewGroup& added = out.groups->emplace_back();
+    added.cameras = group.cameras;
+    added.count = group.frames;
+    added.high_water = group.high_water;
+    if (group.spread) added.frames = element_spread(*group.spread);
+  }
+  if (!buffer.growth.empty()) out.high_water_of_every.emplace();
   for (const Growth& growth : buffer.growth)
-    out["high_water_of_every"].push_back({{"every", growth.every}, {"high_water", growth.high_water}});
-  if (buffer.found) out.update({{"found", *buffer.found}, {"found_by", search_json(searches[buffer.found_by])}});
-  out["is_bounded"] = buffer.is_bounded;
+    out.high_water_of_every->push_back({static_cast<std::uint64_t>(growth.every), growth.high_water});
+}
+
+result::AllocatedBuffer allocated_buffer(const SizedBuffer& buffer, const std::string& name,
+                                         const std::vector<FoundFrame>& searches) {
+  result::AllocatedBuffer out{.name = buffer.name,
+                              .identifier = name,
+                              .element_bytes = buffer.element_bytes,
+                              .high_water = buffer.high_water,
+                              .theoretical_max = buffer.theoretical_max,
+                              .worst = {buffer.worst_camera, buffer.worst_frame, buffer.worst_cell},
+                              .found = buffer.found,
+                              .is_bounded = buffer.is_bounded,
+                              .capacity = buffer.capacity,
+                              .warn_above = buffer.warn_above,
+                              .bytes = buffer.bytes,
+                              .double_buffered_bytes = buffer.double_buffered_bytes(),
+                              .beyond_the_path = beyond_the_path(buffer)};
+  if (buffer.apart > 0) out.views_apart = buffer.apart;
+  if (!buffer.why_sum.empty()) out.views_not_paired = buffer.why_sum;
+  if (buffer.spread) out.frames = element_spread(*buffer.spread);
+  add_groups(buffer, out);
+  if (buffer.found) out.found_by = size_search(searches[buffer.found_by]);
   if (buffer.is_bounded)
-    out["never_overflows"] = {{"elements", buffer.theoretical_max},
-                              {"bytes", buffer.theoretical_max * buffer.element_bytes}};
-  out["capacity"] = buffer.capacity;
-  out["warn_above"] = buffer.warn_above;
-  out["bytes"] = buffer.bytes;
-  out["double_buffered_bytes"] = buffer.double_buffered_bytes();
-  if (const Json tail = tail_json(buffer); !tail.is_null()) out["beyond_the_path"] = tail;
+    out.never_overflows = result::NeverOverflows{buffer.theoretical_max, buffer.theoretical_max * buffer.element_bytes};
   return out;
 }
 
@@ -158,57 +162,65 @@ std::vector<std::string> cameras_of(const std::vector<const result::Case*>& case
   return out;
 }
 
-Json structure_json(const NamedStructure& named) {
-  const SizedStructure& structure = named.structure;
-  const result::Case& first = *structure.cases.front();
-  Json out{{"name", structure.name},      {"identifier", named.name},
-           {"scene", first.scene},        {"cameras", cameras_of(structure.cases)},
-           {"grid", first.grid.name},     {"assigner", first.assigner.label},
-           {"storage", first.storage},    {"bytes", structure.bytes()},
-           {"frames", structure.frames()}};
-  for (const std::vector<std::string>& view : structure.views) out["views"].push_back(view);
+std::vector<result::GuestCamera> guest_cameras(const SizedStructure& structure) {
+  std::vector<result::GuestCamera> out;
   for (const GuestSamples& guest : structure.guest_samples)
-    out["guests"].push_back({{"camera", guest.camera},
-                             {"samples", guest.samples},
-                             {"outside", guest.outside},
-                             {"needed", guest.needed},
-                             {"missed", guest.missed},
-                             {"missed_outside", guest.missed_outside},
-                             {"worst_frame", guest.worst_frame}});
-  if (const FoundFrame* search = structure.main_search()) out["search"] = search_json(*search);
-  if (!structure.choice.empty()) out["choice"] = structure.choice;
-  const std::string unseen = nothing_seen_text(structure);
-  out["nothing_seen"] = unseen.empty() ? Json() : Json(unseen);
-  std::uint64_t dropped = 0;
-  for (const result::Case* result_case : structure.cases) dropped += result_case->buffers.overflow.dropped_pairs;
-  out["dropped_pairs"] = dropped;
-  if (const std::vector<std::string> notes = grid_notes(structure); !notes.empty()) out["grid_notes"] = notes;
-  if (const std::vector<std::string> notes = limit_notes(structure); !notes.empty()) out["limit_notes"] = notes;
-  if (const std::string why = why_no_reader(structure); !why.empty()) out["no_reader"] = why;
-  out["buffers"] = Json::array();
-  for (std::size_t i = 0; i < structure.buffers.size(); ++i)
-    out["buffers"].push_back(buffer_json(structure.buffers[i], named.buffers[i], structure.searches));
-  out["lookups"] = Json::array();
-  for (const NamedLookup& lookup : named.lookups)
-    out["lookups"].push_back({{"identifier", lookup.name},
-                              {"cameras", cameras_of(lookup.cases)},
-                              {"constants", lookup_json(lookup_constants(*lookup.cases.front()))}});
+    out.push_back({guest.camera, guest.samples, guest.outside, guest.needed, guest.missed, guest.missed_outside,
+                   static_cast<std::uint64_t>(guest.worst_frame)});
   return out;
 }
 
-std::string size_json(const std::vector<NamedStructure>& structures, std::size_t all, const SizeRequest& request,
-                      const AllocationRules& rules) {
-  Json out{{"size_version", k_size_version}, {"margin", rules.margin},   {"warn_at", rules.warn_at},
-           {"rounding", request.rounding},   {"structures_in_all", all}, {"structures", Json::array()}};
+void add_notes(const SizedStructure& structure, result::AllocatedStructure& out) {
+  if (const FoundFrame* search = structure.main_search()) out.search = size_search(*search);
+  if (!structure.choice.empty()) out.choice = structure.choice;
+  if (const std::string unseen = nothing_seen_text(structure); !unseen.empty()) out.nothing_seen = unseen;
+  if (const std::vector<std::string> notes = grid_notes(structure); !notes.empty()) out.grid_notes = notes;
+  if (const std::vector<std::string> notes = limit_notes(structure); !notes.empty()) out.limit_notes = notes;
+  if (const std::string why = why_no_reader(structure); !why.empty()) out.no_reader = why;
+}
+
+result::AllocatedStructure allocated_structure(const NamedStructure& named) {
+  const SizedStructure& structure = named.structure;
+  const result::Case& first = *structure.cases.front();
+  result::AllocatedStructure out{.name = structure.name,
+                                 .identifier = named.name,
+                                 .scene = first.scene,
+                                 .cameras = cameras_of(structure.cases),
+                                 .grid = first.grid.name,
+                                 .assigner = first.assigner.label,
+                                 .storage = first.storage,
+                                 .bytes = structure.bytes(),
+                                 .frames = structure.frames()};
+  if (!structure.views.empty()) out.views.emplace();
+  for (const std::vector<std::string>& view : structure.views) out.views->push_back({view});
+  if (!structure.guest_samples.empty()) out.guests = guest_cameras(structure);
+  add_notes(structure, out);
+  for (const result::Case* result_case : structure.cases)
+    out.dropped_pairs += result_case->buffers.overflow.dropped_pairs;
+  for (std::size_t i = 0; i < structure.buffers.size(); ++i)
+    out.buffers.push_back(allocated_buffer(structure.buffers[i], named.buffers[i], structure.searches));
+  for (const NamedLookup& lookup : named.lookups)
+    out.lookups.push_back(
+        {lookup.name, cameras_of(lookup.cases), lookup_json(lookup_constants(*lookup.cases.front()))});
+  return out;
+}
+
+result::Size size_document(const std::vector<NamedStructure>& structures, std::size_t all, const SizeRequest& request,
+                           const AllocationRules& rules) {
+  result::Size out{.size_version = 1,
+                   .margin = rules.margin,
+                   .warn_at = rules.warn_at,
+                   .rounding = request.rounding,
+                   .structures_in_all = all};
   std::vector<const SizedStructure*> all_structures;
   for (const NamedStructure& named : structures) all_structures.push_back(&named.structure);
   for (const NamedStructure& named : structures) {
-    out["structures"].push_back(structure_json(named));
+    out.structures.push_back(allocated_structure(named));
     if (!request.engine.empty())
-      out["structures"].back()["settings"] =
-          engine_settings_json({request.engine, request.has_changed_grid, rules}, named.structure, all_structures);
+      out.structures.back().settings =
+          engine_settings_of({request.engine, request.has_changed_grid, rules}, named.structure, all_structures);
   }
-  return out.dump(1) + "\n";
+  return out;
 }
 
 // By what one structure is chosen.
@@ -368,7 +380,7 @@ std::string size_report(const result::Result& result, const SizeRequest& request
   const std::vector<NamedStructure> named = request.name.empty()
                                                 ? named_structures(std::move(chosen), request.all, lookups)
                                                 : named_structures(std::move(chosen), request.name, lookups);
-  if (request.format == "json") return size_json(named, count, request, rules);
+  if (request.format == "json") return result::to_json(size_document(named, count, request, rules)).dump(1) + "\n";
   if (request.format == "cpp") return size_code(SizeLanguage::cpp, named, left_out, rules);
   if (request.format == "hlsl") return size_code(SizeLanguage::hlsl, named, left_out, rules);
   if (request.format == "glsl") return size_code(SizeLanguage::glsl, named, left_out, rules);

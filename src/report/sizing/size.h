@@ -10,8 +10,6 @@
 
 namespace clusterbench::report {
 
-inline constexpr int k_size_version = 1;
-
 struct SizeRequest {
   std::string filter;  // a regular expression as RE2 has them, "" = all: only cases whose name matches
   // Every structure, and names in full. Without: of each scene and grid one structure that loses no light, and names
