@@ -58,19 +58,20 @@ result::MapBytes map_bytes(const measure::LightMapBytes& bytes) {
 }
 
 result::LightMapFigures map_figures(const LightMapCounts& counts, const LightMapRequest& request) {
-  return {
-      .triangles = {counts.triangles, counts.wrapped_triangles, counts.degenerate_triangles, counts.missed_triangles},
-      .texels = {counts.texels, counts.covered, counts.dead(), counts.overlapping, counts.lit},
-      .dead_share = share_of(counts.dead(), counts.texels),
-      .overlapping_share = share_of(counts.overlapping, counts.covered),
-      .occupied_fraction = share_of(counts.lit, counts.covered),
-      .bits_set = counts.pairs,
-      .left_after = left_after_tests(counts, request),
-      .lights_per_texel = lights_per_texel(counts),
-      .distinct_sets = counts.sets,
-      .tiles = {counts.tiles, counts.tile_pairs, counts.tile_false_positives(),
-                counts.pairs > 0 ? share_of(counts.tile_false_positives(), counts.pairs) : result::k_none},
-      .bytes = map_bytes(counts.bytes)};
+  result::LightMapFigures out;
+  out.triangles = {counts.triangles, counts.wrapped_triangles, counts.degenerate_triangles, counts.missed_triangles};
+  out.texels = {counts.texels, counts.covered, counts.dead(), counts.overlapping, counts.lit};
+  out.dead_share = share_of(counts.dead(), counts.texels);
+  out.overlapping_share = share_of(counts.overlapping, counts.covered);
+  out.occupied_fraction = share_of(counts.lit, counts.covered);
+  out.bits_set = counts.pairs;
+  out.left_after = left_after_tests(counts, request);
+  out.lights_per_texel = lights_per_texel(counts);
+  out.distinct_sets = counts.sets;
+  out.tiles = {counts.tiles, counts.tile_pairs, counts.tile_false_positives(),
+               counts.pairs > 0 ? share_of(counts.tile_false_positives(), counts.pairs) : result::k_none};
+  out.bytes = map_bytes(counts.bytes);
+  return out;
 }
 
 result::LightMap map_document(const LightMap& map, const LightMapRequest& request) {
