@@ -489,15 +489,15 @@ const char* name_of(Better better) {
 const char* name_of(Basis basis) {
   switch (basis) {
     case count:
-      return "count";
+      return "counts";
     case instructions:
       return "instructions";
     case time:
-      return "time";
+      return "measured times";
     case derived:
       break;
   }
-  return "derived";
+  return "derived times";
 }
 
 std::span<const Figure> figures() {

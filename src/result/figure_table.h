@@ -21,7 +21,7 @@ enum class Basis : std::uint8_t {
   time,          // of a machine, and noisy
   derived        // follows from times
 };
-const char* name_of(Basis basis);
+const char* name_of(Basis basis);  // "counts", "instructions", "measured times", "derived times"
 
 // How the figures of several cameras become one.
 enum class OverCameras : std::uint8_t { mean, largest, sum };  // mean: by the number of frames
