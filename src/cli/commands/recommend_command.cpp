@@ -17,6 +17,7 @@
 #include "core/text.h"
 #include "os/stop_signals.h"
 #include "report/choosing/recommend_report.h"
+#include "report/choosing/recommended_config.h"
 #include "result/case_figure.h"
 #include "run/cases/sweep.h"
 #include "search/recommend.h"

@@ -38,75 +38,6 @@ using result::Figure;
 using result::SampleSet;
 using result::SampleSets;
 
-// What surfaces of the path do not need can be needed by what moves there.
-constexpr const char* k_unlit_in_view = "volume.unlit";
-std::vector<Case> records_of(std::span<const run::CaseResult> cases, const Json& config) {
-  std::vector<Case> out;
-  for (const run::CaseResult& case_result : cases) out.push_back(run::record_of(case_result));
-  add_costs(out, config);
-  return out;
-}
-
-// What breaks it stays broken: marks and counts only grow, and a share of something is no longer none.
-bool stays_broken(const config::LimitRule& rule) {
-  const Figure& figure = *result::figure_named(rule.figure);
-  return figure.only_grows || (rule.limit == 0.0 && !figure.rests_on_times());
-}
-
-// The largest figure that breaks a constraint, nothing where none does. What somebody asks for and a case has no figure
-// of, as a structure without lists has no longest one, is not satisfied: NaN.
-std::optional<double> breaking_figure(const std::vector<Case>& cases, const Constraint& constraint) {
-  std::optional<double> largest;
-  for (const Case& result_case : cases) {
-    const std::optional<double> value = figure_of(result_case, constraint.rule.figure);
-    if (!value && constraint.is_given) return std::numeric_limits<double>::quiet_NaN();
-    if (!constraint.is_given && constraint.rule.figure == k_unlit_in_view &&
-        ranking_set_names(result_case) == std::vector<std::string>{"volume"})
-      continue;
-    if (value && constraint.rule.is_broken_by(*value)) largest = std::max(*value, largest.value_or(*value));
-  }
-  return largest;
-}
-
-// A run would fail for it, or its cost is that of less light.
-bool fails(const std::vector<Case>& cases, bool is_cost) {
-  return std::ranges::any_of(cases, [&](const Case& result_case) {
-    return !result_case.failures.empty() || (is_cost && result_case.cost && !result_case.cost->lit);
-  });
-}
-
-std::string rule_text_of(const config::LimitRule& rule) {
-  if (rule.limit == 0.0 && !rule.is_inclusive) return rule.figure + " = 0";
-  return rule.figure + (rule.is_inclusive ? " < " : " <= ") + amount_text(rule.limit);
-}
-
-// Whoever allows some lights to be lost may have a method that can lose some.
-bool takes_sound_methods_only(const Question& question) {
-  return std::ranges::none_of(question.constraints, [](const Constraint& constraint) {
-    return constraint.is_given && constraint.rule.figure == "unlit";
-  });
-}
-
-bool rests_on_samples(const Figure& objective) {
-  return objective.is_modelled_cost || objective.is_at_samples();
-}
-
-// What draws lights has no lists to be small, fast or read: it is ranked by what pixels cost.
-bool takes_what_draws(const Question& question) {
-  return rests_on_samples(*question.objective) && question.objective->name != "read_bytes";
-}
-
-// The question's; then four that are always asked for.
-std::vector<std::string> constraint_texts(const Question& question) {
-  std::vector<std::string> texts;
-  for (const Constraint& constraint : question.constraints) texts.push_back(rule_text_of(constraint.rule));
-  texts.emplace_back("a run of it does not fail");
-  texts.emplace_back("conservative or exact (--unlit allows others)");
-  texts.emplace_back("has lists (methods that draw lights are ranked by cost alone)");
-  texts.emplace_back("a known " + std::string(question.objective->name) + " on these frames");
-  return texts;
-}
-
 // A finalist with what it is ranked by.
 struct Ranked {
   std::size_t candidate = 0;
@@ -424,104 +355,7 @@ void add_choice(result::Answer& out, const config::Config& config, const search:
   out.random_depths = rests_on_samples(*question.objective) && ranks_at_random_depths(choice.cases[0]);
 }
 
-// The configuration's entry of a scene, which can stand for several.
-Json scene_json(const config::Config& config, std::size_t scene, const std::string& file) {
-  namespace fs = std::filesystem;
-  const config::SceneRequest& request = config.scenes[scene];
-  const Json resolved = config.resolved["scenes"];
-  std::size_t first = 0;
-  Json entry;
-  for (const Json& candidate : resolved) {
-    std::size_t count = candidate.contains("paths") ? candidate["paths"].size() : 1;
-    if (candidate.contains("rig"))
-      for (const auto& [key, value] : candidate["rig"].items())
-        if (value.is_array() && !(key == "size" && value[0].is_number())) count *= value.size();
-    if (scene < first + count) {
-      entry = candidate;
-      break;
-    }
-    first += count;
-  }
-  entry.erase("paths");
-  if (request.rig) {
-    const scene::RigSpec& rig = *request.rig;
-    entry["rig"] = {{"lights", rig.lights},
-                    {"spots", rig.spots},
-                    {"range", rig.range_m},
-                    {"size", {rig.size_m.x, rig.size_m.y, rig.size_m.z}},
-                    {"seed", rig.seed}};
-    return entry;
-  }
-  const fs::path folder = fs::absolute(file).parent_path();
-  entry["path"] = fs::absolute(request.path).lexically_normal().lexically_proximate(folder.lexically_normal()).string();
-  return entry;
-}
-
-void add_once(Json& list, const Json& entry) {
-  if (!entry.is_null() && std::ranges::find(list, entry) == list.end()) list.push_back(entry);
-}
-
 }  // namespace
-
-std::vector<const Figure*> objective_figures() {
-  std::vector<const Figure*> all;
-  for (const Figure& figure : result::figures())
-    if (figure.is_choosable) all.push_back(&figure);
-  return all;
-}
-
-std::vector<Constraint> constraints_of(const std::vector<config::LimitRule>& given) {
-  std::vector<Constraint> all;
-  for (const config::LimitRule& rule : given) all.push_back({rule, true});
-  const auto is_given = [&](const std::string& figure) {
-    return std::ranges::find(given, figure, &config::LimitRule::figure) != given.end();
-  };
-  for (const char* figure : {"missed", "dropped", "unlit"})
-    if (!is_given(figure)) all.push_back({{figure, false, 0.0}, false});
-  if (!is_given("unlit") && !is_given(k_unlit_in_view)) all.push_back({{k_unlit_in_view, false, 0.0}, false});
-  return all;
-}
-
-bool needs_times(const Figure& objective, const std::vector<Constraint>& constraints) {
-  return objective.rests_on_times() || std::ranges::any_of(constraints, [](const Constraint& constraint) {
-           return result::figure_named(constraint.rule.figure)->rests_on_times();
-         });
-}
-
-search::Evaluate judge_of(const Question& question, const nlohmann::json& config) {
-  return [question, resolved = Json(config)](std::span<const run::CaseResult> results) {
-    const std::vector<Case> cases = records_of(results, resolved);
-    search::Verdict verdict;
-    verdict.objective = result::figure_over(cases, std::string(question.objective->name))
-                            .value_or(std::numeric_limits<double>::quiet_NaN());
-    verdict.bytes = result::figure_over(cases, "bytes").value_or(0.0);
-    for (std::size_t i = 0; i < question.constraints.size(); ++i) {
-      const config::LimitRule& rule = question.constraints[i].rule;
-      const std::optional<double> by = breaking_figure(cases, question.constraints[i]);
-      if (!by) continue;
-      verdict.broken.push_back(i);
-      verdict.broken_by.push_back(*by);
-      verdict.is_final = verdict.is_final || stays_broken(rule);
-    }
-    const auto break_by_no_figure = [&](std::size_t constraint) {
-      verdict.broken.push_back(constraint);
-      verdict.broken_by.push_back(std::numeric_limits<double>::quiet_NaN());
-    };
-    if (verdict.broken.empty() && fails(cases, question.objective->is_modelled_cost))
-      break_by_no_figure(question.constraints.size());
-    if (takes_sound_methods_only(question) && !std::ranges::all_of(results, run::is_sound)) {
-      break_by_no_figure(question.constraints.size() + 1);
-      verdict.is_final = true;
-    }
-    if (!takes_what_draws(question) && std::ranges::any_of(cases, draws_lights)) {
-      break_by_no_figure(question.constraints.size() + 2);
-      verdict.is_final = true;
-    }
-    if (verdict.broken.empty() && !std::isfinite(verdict.objective))
-      break_by_no_figure(question.constraints.size() + 3);
-    return verdict;
-  };
-}
 
 result::Answer answer_of(const config::Config& config, const run::Plan& plan, const search::View& view,
                          const search::Found& found, const Question& question) {
@@ -560,36 +394,6 @@ result::Recommendation recommendation_of(const config::Config& config, const Que
 
 bool all_satisfied(const result::Recommendation& recommendation) {
   return std::ranges::all_of(recommendation.answers, [](const result::Answer& answer) { return bool(answer.choice); });
-}
-
-Json recommended_config(const config::Config& config, const search::View& view, const result::Answer& answer,
-                        const Question& question, int runners_up, const std::string& file) {
-  if (!answer.choice)
-    throw Error(file, "", "is not written: no candidate satisfies all constraints", ExitCode::gate_failed);
-  Json out = config.resolved;
-  out["scenes"] = Json::array({scene_json(config, view.scene, file)});
-  out["viewports"] = Json::array({Json(answer.viewport)});
-  for (const char* key : {"presets", "as_shipped"}) out.erase(key);
-  for (const char* key : {"grids", "assigners", "storages", "precision"}) out[key] = Json::array();
-  for (int i = 0; i <= runners_up && i <= static_cast<int>(answer.runners_up.size()); ++i) {
-    const result::Candidate& record = i == 0 ? *answer.choice : answer.runners_up[static_cast<std::size_t>(i) - 1];
-    add_once(out["grids"], record.grid);
-    add_once(out["assigners"], record.assigner);
-    add_once(out["storages"], record.storage);
-    add_once(out["precision"], record.precision);
-  }
-  if (out["storages"].empty()) out["storages"].push_back("packed");  // of lists, which it may have besides
-  // Of a method that leaves lists and a structure of its own only the choice has to hold.
-  const assign::AssignerDescriptor& method = *assign::find_assigner(answer.choice->assigner["name"].get<std::string>());
-  const bool has_others = method.answers(assign::Answer::lists) && method.answers(assign::Answer::structure);
-  const std::string only_choice = has_others ? answer.choice->name + ": " : "";
-  Json budgets = Json::array();
-  for (const Constraint& constraint : question.constraints)
-    if (constraint.is_given)
-      budgets.push_back(only_choice + constraint.rule.figure + (constraint.rule.is_inclusive ? " >= " : " > ") +
-                        Json(constraint.rule.limit).dump());
-  out["limits"]["fail_if"] = budgets;
-  return out;
 }
 
 }  // namespace clusterbench::report

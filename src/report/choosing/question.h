@@ -1,0 +1,48 @@
+#pragma once
+// The question of `recommend`: the figure to make smallest, and the constraints of candidates.
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "config/limit_rules.h"
+#include "result/case.h"
+#include "result/figure_table.h"
+#include "search/recommend.h"
+
+namespace clusterbench::report {
+
+// The figures that a choice can make smallest.
+std::vector<const result::Figure*> objective_figures();
+
+struct Constraint {
+  config::LimitRule rule;
+  bool is_given = true;  // else it holds unless another one of its figure is given
+};
+// Those of a configuration's and the command line's budgets; and that no light is missed, dropped or unlit.
+std::vector<Constraint> constraints_of(const std::vector<config::LimitRule>& given);
+bool needs_times(const result::Figure& objective, const std::vector<Constraint>& constraints);
+
+struct Question {
+  const result::Figure* objective = nullptr;
+  std::vector<Constraint> constraints;
+  double within = 0.05;
+  int runners_up = 5;
+};
+
+// Judges by the cases as a result has them. Of several cameras a figure is the worst one of high-water marks, the sum
+// of counts, else the mean by frames; a constraint holds for each camera. A case that a run would fail for is out,
+// under the constraint after the last of the question's; under the one after that a method that could lose lights
+// elsewhere, unless the question allows losses.
+search::Evaluate judge_of(const Question& question, const nlohmann::json& config);
+
+// The cases as a result has them, with their modelled costs.
+std::vector<result::Case> records_of(std::span<const run::CaseResult> cases, const nlohmann::ordered_json& config);
+
+// The constraints in words: the question's, then the four that always hold, in the order of a verdict.
+std::vector<std::string> constraint_texts(const Question& question);
+
+// Whether the objective needs samples: a modelled cost, or a figure of samples.
+bool rests_on_samples(const result::Figure& objective);
+
+}  // namespace clusterbench::report
