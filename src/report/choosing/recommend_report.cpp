@@ -37,7 +37,7 @@ using result::Figure;
 using result::SampleSet;
 using result::SampleSets;
 
-// What surfaces of the path do not need can be needed by what moves there.
+// Lights that no surface of the path needs may be needed by moving objects.
 constexpr const char* k_unlit_in_view = "volume.unlit";
 std::vector<Case> records_of(std::span<const run::CaseResult> cases, const Json& config) {
   std::vector<Case> out;
@@ -46,14 +46,15 @@ std::vector<Case> records_of(std::span<const run::CaseResult> cases, const Json&
   return out;
 }
 
-// What breaks it stays broken: marks and counts only grow, and a share of something is no longer none.
+// Whether a broken constraint stays broken with more frames: marks and counts only grow, and a share above 0 stays
+// above 0.
 bool stays_broken(const config::LimitRule& rule) {
   const Figure& figure = *result::figure_named(rule.figure);
   return figure.only_grows || (rule.limit == 0.0 && !figure.rests_on_times());
 }
 
-// The largest figure that breaks a constraint, nothing where none does. What somebody asks for and a case has no figure
-// of, as a structure without lists has no longest one, is not satisfied: NaN.
+// The largest figure that breaks a constraint; none if it holds. A given constraint on a figure that a case does not
+// have (a structure without lists has no longest one) is not satisfied: NaN.
 std::optional<double> breaking_figure(const std::vector<Case>& cases, const Constraint& constraint) {
   std::optional<double> largest;
   for (const Case& result_case : cases) {
@@ -67,7 +68,7 @@ std::optional<double> breaking_figure(const std::vector<Case>& cases, const Cons
   return largest;
 }
 
-// A run would fail for it, or its cost is that of less light.
+// Whether a run would fail for it, or it is cheaper because it misses lights.
 bool fails(const std::vector<Case>& cases, bool is_cost) {
   return std::ranges::any_of(cases, [&](const Case& result_case) {
     return !result_case.failures.empty() || (is_cost && result_case.cost && !result_case.cost->lit);
@@ -79,7 +80,7 @@ std::string rule_text_of(const config::LimitRule& rule) {
   return rule.figure + (rule.is_inclusive ? " < " : " <= ") + amount_text(rule.limit);
 }
 
-// Whoever allows some lights to be lost may have a method that can lose some.
+// If the question allows lost lights, methods that can lose lights are allowed.
 bool takes_sound_methods_only(const Question& question) {
   return std::ranges::none_of(question.constraints, [](const Constraint& constraint) {
     return constraint.is_given && constraint.rule.figure == "unlit";
@@ -90,12 +91,12 @@ bool rests_on_samples(const Figure& objective) {
   return objective.is_modelled_cost || objective.is_at_samples();
 }
 
-// What draws lights has no lists to be small, fast or read: it is ranked by what pixels cost.
+// Methods that draw lights have no lists whose size, time or reads could be compared: only costs of pixels rank them.
 bool takes_what_draws(const Question& question) {
   return rests_on_samples(*question.objective) && question.objective->name != "read_bytes";
 }
 
-// The question's; then four that are always asked for.
+// The question's constraints; then four fixed ones.
 std::vector<std::string> constraint_texts(const Question& question) {
   std::vector<std::string> texts;
   for (const Constraint& constraint : question.constraints) texts.push_back(rule_text_of(constraint.rule));
@@ -106,7 +107,7 @@ std::vector<std::string> constraint_texts(const Question& question) {
   return texts;
 }
 
-// A finalist with what it is ranked by.
+// A finalist with the figures that rank it.
 struct Ranked {
   std::size_t candidate = 0;
   std::vector<Case> cases;
@@ -116,14 +117,14 @@ struct Ranked {
   bool is_apart = false;
 
   bool is_feasible() const { return broken.empty() && std::isfinite(objective); }
-  // Of those that are alike the least is chosen: one that lights more than opaque surfaces before others.
+  // Among equal candidates the smallest is chosen; those that light only opaque surfaces come last.
   auto smaller() const {
     const bool is_limited = is_at_surfaces(cases[0].assigner.name);
     return std::tuple(is_limited, bytes, cells, candidate);
   }
 };
 
-// Frame times of all cameras as one: round by round their mean by frames.
+// Frame times of all cameras as one: round by round their mean, weighted by frames.
 run::Contender pooled(const std::vector<Case>& cases, RankBy by) {
   run::Contender all = contender_of(cases[0], by);
   std::vector<double> sum(all.rounds_ns.size(), 0.0);
@@ -141,7 +142,7 @@ run::Contender pooled(const std::vector<Case>& cases, RankBy by) {
   return all;
 }
 
-// The modelled cost of a frame: of all cameras the mean by frames.
+// The modelled cost of a frame: mean over all cameras, weighted by frames.
 measure::FrameCost cost_over(const std::vector<Case>& cases) {
   const auto mean = [&](std::optional<double> (*figure)(const Case&)) {
     double sum = 0.0, frames = 0.0;
@@ -157,7 +158,7 @@ measure::FrameCost cost_over(const std::vector<Case>& cases) {
           mean(result::number<&Case::cost, &Cost::shade_ns>)};
 }
 
-// How much longer one takes than another, where the objective is a time with rounds.
+// The ratio of two times, if the objective is a time with rounds.
 std::optional<measure::Ratio> ratio_of(const Ranked& a, const Ranked& b, const Question& question, std::uint64_t seed) {
   const std::string_view figure = question.objective->name;
   if ((figure != "frame_us" && figure != "frame_cost_us") || a.candidate == b.candidate) return {};
@@ -165,7 +166,7 @@ std::optional<measure::Ratio> ratio_of(const Ranked& a, const Ranked& b, const Q
   return run::ratio_between(pooled(a.cases, by), pooled(b.cases, by), seed);
 }
 
-// Those that are apart come last.
+// Candidates with is_apart come last.
 std::vector<Ranked> ranked(const config::Config& config, const search::View& view, const search::Found& found) {
   const Json resolved = config.resolved;
   std::vector<Ranked> all;
@@ -184,8 +185,8 @@ std::vector<Ranked> ranked(const config::Config& config, const search::View& vie
   return all;
 }
 
-// Whether one is known to be worse than another: of a cost by more than the model can tell; of times by their interval,
-// or without one by more than times usually differ by.
+// Whether `a` is worse than `b` for certain: by more than the precision of the model for a cost; by the interval for
+// times, or without one by more than their usual variation.
 bool is_known_worse(const Ranked& a, const Ranked& b, const Question& question, std::uint64_t seed) {
   const std::optional<measure::Ratio> ratio = ratio_of(a, b, question, seed);
   const bool has_interval = ratio && std::isfinite(ratio->ci95.low) && std::isfinite(ratio->ci95.high);
@@ -196,8 +197,8 @@ bool is_known_worse(const Ranked& a, const Ranked& b, const Question& question, 
   return has_interval ? measure::takes_longer(ratio) : a.objective > b.objective;
 }
 
-// The smallest of those that none is known to beat is brought to the front: so neither noise nor what a model cannot
-// tell apart decides.
+// Moves the smallest candidate that no other beats for certain to the front, so that neither noise nor imprecision of
+// the model decides.
 void choose(std::vector<Ranked>& all, const Question& question, std::uint64_t seed) {
   const auto end = std::ranges::find_if_not(all, &Ranked::is_feasible);
   const auto is_beaten = [&](const Ranked& one) {
@@ -218,7 +219,7 @@ Json method_json(const config::MethodRequest& request) {
   return out;
 }
 
-// Whether it differs from another in cells only, which its method then does not use.
+// Whether it differs from another only in cells, which its method does not use.
 bool is_repeated(const Json& record, const Json& other) {
   return record["assigner"] == other["assigner"] && record["storage"] == other["storage"] &&
          record["precision"] == other["precision"] &&
@@ -229,7 +230,7 @@ bool is_repeated(const Json& record, const Json& other) {
          });
 }
 
-// What a configuration needs of a candidate.
+// The parts of a configuration for a candidate.
 Json parts_json(const config::Config& config, const search::View& view, const search::Candidate& candidate) {
   const run::CasePlan& plan = *candidate.cases.front();
   const config::PrecisionRequest& precision = config.precisions[plan.precision];
@@ -275,14 +276,14 @@ Json ranked_json(const config::Config& config, const search::View& view, const R
   return out;
 }
 
-// Lights that reach the samples which a cost is that of, of all cameras.
+// Lights that reach the samples of the cost, over all cameras.
 double needed_over(const std::vector<Case>& cases) {
   double needed = 0.0;
   for (const Case& result_case : cases) needed += sum_at_samples(result_case, result::number<&SampleSet::needed>);
   return needed;
 }
 
-// What speaks against the times of all that is ranked.
+// Reasons to doubt the times of all ranked candidates.
 std::vector<std::string> doubts_of(const std::vector<Ranked>& all) {
   std::vector<Case> cases;
   for (const Ranked& ranked : all)
@@ -290,8 +291,8 @@ std::vector<std::string> doubts_of(const std::vector<Ranked>& all) {
   return timing_doubts(cases, "leave times out (--no-timing)");
 }
 
-// Of all cameras together: what one of them sees is something to choose by. A scene of dark lights alone is one before
-// candidates are rejected for what it does not need.
+// Over all cameras: a light that one of them sees is a basis for a choice. A scene of dark lights alone is reported
+// before candidates are rejected because of it.
 std::string why_nothing_is_seen(const search::Found& found, const config::Config& config, const scene::Scene& scene,
                                 const Question& question) {
   const auto lights = static_cast<int>(std::ranges::count_if(scene.lights, [](const scene::Light& light) {
@@ -306,7 +307,7 @@ std::string why_nothing_is_seen(const search::Found& found, const config::Config
   return why_nothing_is_seen(cases, rests_on_samples(*question.objective) ? RankedBy::samples : RankedBy::no_samples);
 }
 
-// The best behind the choice. Of those that differ in cells only, which their method then does not use, the first.
+// The best candidates after the choice. Of those that differ only in cells, which their method does not use, the first.
 Json runners_up_json(const config::Config& config, const search::View& view, const std::vector<Ranked>& all,
                      const Question& question) {
   Json told = Json::array({ranked_json(config, view, all[0], all[0], question)});
@@ -320,16 +321,17 @@ Json runners_up_json(const config::Config& config, const search::View& view, con
   return told;
 }
 
-// Those that one constraint has excluded.
+// The candidates that one constraint excludes.
 struct Excluded {
   std::size_t count = 0, alone = 0;    // alone: by this constraint only
-  std::optional<std::size_t> best;     // by the objective, beside the best on the same frames
-  std::optional<std::size_t> nearest;  // to satisfying it
+  std::optional<std::size_t> best;     // by the objective, compared with the best on the same frames
+  std::optional<std::size_t> nearest;  // closest to satisfying it
   double nearest_figure = 0.0;
 };
 
 Excluded excluded_by(std::size_t constraint, const search::View& view, const search::Found& found) {
-  // What is not known beside the best accepted one comes last. What samples search is never held against lists.
+  // Candidates not measured on the frames of the best accepted one come last. Those whose samples search a structure
+  // are never compared with lists.
   const auto by_best = [&](std::size_t index) {
     const double by = found.records[index].by_best;
     return std::tuple(view.candidates[index].is_apart, std::isnan(by), std::isnan(by) ? 0.0 : by);
@@ -396,7 +398,7 @@ Json rungs_json(const std::vector<search::Rung>& rungs) {
   return out;
 }
 
-// The configuration's entry of a scene, which can stand for several.
+// The configuration's entry for a scene; an entry can contain several scenes.
 Json scene_json(const config::Config& config, std::size_t scene, const std::string& file) {
   namespace fs = std::filesystem;
   const config::SceneRequest& request = config.scenes[scene];
@@ -595,8 +597,8 @@ Json recommended_config(const config::Config& config, const search::View& view, 
     add_once(out["storages"], record["storage"]);
     add_once(out["precision"], record["precision"]);
   }
-  if (out["storages"].empty()) out["storages"].push_back("packed");  // of lists, which it may have besides
-  // Of a method that leaves lists and a structure of its own only the choice has to hold.
+  if (out["storages"].empty()) out["storages"].push_back("packed");  // for its lists, if it makes any
+  // If a method makes lists and its own structure, only the choice must be complete.
   const assign::AssignerDescriptor& method =
       *assign::find_assigner(answer["choice"]["assigner"]["name"].get<std::string>());
   const bool has_others = method.answers(assign::Answer::lists) && method.answers(assign::Answer::structure);

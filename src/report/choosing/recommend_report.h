@@ -1,5 +1,5 @@
 #pragma once
-// What `recommend` asks of cases, and its answer as JSON, as text and as a configuration.
+// The question of `recommend` for cases, and its answer as JSON, as text and as a configuration.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,14 +15,14 @@ namespace clusterbench::report {
 
 inline constexpr int k_recommendation_version = 1;
 
-// The figures that a choice can make smallest.
+// The figures that a choice can minimise.
 std::vector<const result::Figure*> objective_figures();
 
 struct Constraint {
   config::LimitRule rule;
-  bool is_given = true;  // else it holds unless another one of its figure is given
+  bool is_given = true;  // false: applies unless another constraint on its figure is given
 };
-// Those of a configuration's and the command line's budgets; and that no light is missed, dropped or unlit.
+// The constraints of the configuration's and the command line's budgets; and that no light is missed, dropped or unlit.
 std::vector<Constraint> constraints_of(const std::vector<config::LimitRule>& given);
 bool needs_times(const result::Figure& objective, const std::vector<Constraint>& constraints);
 
@@ -33,10 +33,10 @@ struct Question {
   int runners_up = 5;
 };
 
-// Judges by the cases as a result has them. Of several cameras a figure is the worst one of high-water marks, the sum
-// of counts, else the mean by frames; a constraint holds for each camera. A case that a run would fail for is out,
-// under the constraint after the last of the question's; under the one after that a method that could lose lights
-// elsewhere, unless the question allows losses.
+// Evaluates cases as in a result. Over several cameras a figure is the maximum for high-water marks, the sum for
+// counts, else the mean weighted by frames; a constraint must hold for each camera. The index after the question's
+// constraints stands for a case that a run would fail for, the next one for a method that could lose lights elsewhere,
+// unless the question allows losses.
 search::Evaluate judge_of(const Question& question, const nlohmann::json& config);
 
 // One answer: docs/recommend.md, `clusterbench schema recommendation`.
@@ -45,17 +45,16 @@ nlohmann::ordered_json answer_to_json(const config::Config& config, const run::P
 // All answers of one configuration.
 nlohmann::ordered_json recommendation_to_json(const config::Config& config, const Question& question,
                                               const nlohmann::ordered_json& answers);
-// `next`: a line that stands before the conclusions, what to do with the choice; ""
+// `next`: a line before the conclusions on the use of the choice; ""
 std::string recommendation_text(const nlohmann::ordered_json& recommendation, const std::string& next = "");
-// Of a search that was stopped: the candidates that were measured on the most frames and break nothing there, the best
-// first.
+// For an interrupted search: the candidates measured on the most frames that break no constraint there, the best first.
 std::string unfinished_text(const search::View& view, const search::Found& found, const Question& question);
 
 // Whether each answer has a choice.
 bool all_satisfied(const nlohmann::ordered_json& recommendation);
 
-// What `run` measures the choice with, and the first `runners_up` behind it: they are of one product of grids,
-// assigners and storages, and so more cases may come with them. `file`: where it will lie. Throws Error if there is no
+// A configuration with which `run` measures the choice, and the first `runners_up` after it. It is one product of
+// grids, assigners and storages, so it may contain more cases. `file`: its future path. Throws Error if there is no
 // choice.
 nlohmann::ordered_json recommended_config(const config::Config& config, const search::View& view,
                                           const nlohmann::ordered_json& answer, const Question& question,

@@ -1,7 +1,6 @@
 #pragma once
-// Two results side by side: what is counted must be equal or better; times that were measured side by side get a
-// verdict per case, times of separate runs a hint.
-// docs/comparing.md says how a verdict is found.
+// Compares two results: counts must be equal or better; times measured side by side get a verdict per case, times of
+// separate runs a hint. docs/comparing.md explains verdicts.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,8 +11,8 @@
 
 namespace clusterbench::report {
 
-// "/machine/cpu is 'A' and 'B'" for each field in which two results differ and that the figures depend on. What is
-// counted of lists, buffers and errors depends on none.
+// "/machine/cpu is 'A' and 'B'" for each differing field that figures depend on. Counts of lists, buffers and errors
+// depend on none.
 struct Obstacles {
   std::vector<std::string> to_times, to_instructions;
 };
@@ -21,20 +20,20 @@ Obstacles obstacles(const result::Result& base, const result::Result& next);
 
 struct CompareOptions {
   bool gates_separate = false;  // times of separate runs get verdicts, not hints
-  bool is_forced = false;       // times and instructions are compared in spite of obstacles
+  bool is_forced = false;       // compares times and instructions in spite of obstacles
 };
 
-// As src/config/schemas/comparison.schema.json says. `threshold`: the smallest change of time that matters, 0.02 for 2
-// %. Times: of rounds side by side where the new result has them for this base ("data": "paired"), else of medians
+// In the format of src/config/schemas/comparison.schema.json. `threshold`: the smallest relevant change of time, 0.02
+// for 2 %. Times: of rounds side by side if the new result has them for this base ("data": "paired"), else of medians
 // ("separate").
 nlohmann::ordered_json compare_results(const result::Result& base, const result::Result& next, double threshold,
                                        const CompareOptions& options = {});
 
-// ok, gate_failed (a failure), nothing_comparable (no case in common); with `is_strict` inconclusive where a verdict
-// is, a case of the base is missing, or instructions could not be compared.
+// ok, gate_failed (a failure), nothing_comparable (no common case); with `is_strict` inconclusive if a verdict is, if a
+// case of the base is missing, or if instructions could not be compared.
 ExitCode outcome(const nlohmann::ordered_json& comparison, bool is_strict);
 
-// For people: the table, and the same for a pull request.
+// As a table for terminals, and for a pull request.
 std::string comparison_text(const nlohmann::ordered_json& comparison);
 std::string comparison_markdown(const nlohmann::ordered_json& comparison);
 

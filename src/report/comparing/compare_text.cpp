@@ -1,4 +1,4 @@
-// A comparison for people: a table for terminals, Markdown for pull requests.
+// The text of a comparison: a table for terminals, Markdown for pull requests.
 
 #include <algorithm>
 #include <array>
@@ -89,7 +89,7 @@ const char* mark_of(const Json& compared_case) {
   return is_worse(compared_case) ? "!" : is_open(compared_case) ? "?" : is_remarkable(compared_case) ? "+" : " ";
 }
 
-// Of the marks that the table has.
+// Explains the marks of the table.
 std::string legend(const Json& cases) {
   const auto has = [&](const std::string& mark) {
     return std::any_of(cases.begin(), cases.end(),
@@ -104,7 +104,7 @@ std::string legend(const Json& cases) {
   return out;
 }
 
-// The first element in which two lists differ; of values that are no lists both.
+// The first element in which two lists differ; both values if they are not lists.
 std::string times_text(const Json& base, const Json& next) {
   if (!base.is_array() || !next.is_array() || base.size() != next.size() || base.size() <= 3)
     return shown(base.dump() + " -> " + next.dump());

@@ -1,7 +1,7 @@
 #pragma once
-// How much longer one method takes than another. Cases of one scene, camera, viewport and grid are measured in the same
-// rounds, and so any two of them have a ratio, round by round, that is far steadier than their times. Those of other
-// grids have one launch by launch (measure/statistics/side_by_side.h).
+// Ratios of times between methods. Cases of one scene, camera, viewport and grid are measured in the same rounds, so
+// any two of them have a ratio, round by round, that is far more stable than their times. Cases of different grids have
+// one launch by launch (measure/statistics/side_by_side.h).
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,33 +16,33 @@ namespace clusterbench::report {
 
 inline constexpr int k_ratios_version = 1;
 
-// Frame time (or cost) of `numerator` / that of `denominator`, two cases of a grid; nullopt where other launches have
+// Frame time (or cost) of `numerator` / that of `denominator`, two cases of a grid; nullopt if different launches
 // measured them.
 std::optional<measure::Ratio> ratio_of_cases(const result::Result& result, const result::Case& numerator,
                                              const result::Case& denominator, RankBy by = RankBy::frame_time);
 
-// False unless that ratio says that `numerator` takes longer, with 95 % certainty.
+// True only if that ratio is above 1 with 95 % certainty.
 bool takes_longer(const result::Result& result, const result::Case& numerator, const result::Case& denominator,
                   RankBy by = RankBy::frame_time);
 
 struct RatioRequest {
-  std::string methods;        // a regular expression; all: empty
+  std::string methods;        // a regular expression; empty: all
   bool across_grids = false;  // all grids of a scene, camera and viewport together
 };
 
-// Of each grid (or view) the timed cases, the fastest first, and the ratio of any two, the slower by the faster one:
-// docs/results.md, `clusterbench schema ratios`. "blocks" is empty where nothing is timed.
+// For each grid (or view) the timed cases, the fastest first, and the ratio of any two, the slower divided by the
+// faster: docs/results.md, `clusterbench schema ratios`. "blocks" is empty without times.
 nlohmann::ordered_json ratios_of(const result::Result& result, const RatioRequest& request);
 
-// Of each timed case with lists the pairs of a ranking over all grids of its scene, camera and viewport, for the page:
-// {"id", "fastest": {"id", "ratio", "ci95"} or null, "above": the same of the next faster one, "is_like_above"}.
+// For each timed case with lists its place in a ranking over all grids of its scene, camera and viewport, for the page:
+// {"id", "fastest": {"id", "ratio", "ci95"} or null, "above": the same for the next faster one, "is_like_above"}.
 nlohmann::ordered_json ratio_rankings(const result::Result& result);
 
-// Of what ratios_of() gives: a ranking, with each case beside the fastest one and beside the one before it, or with
-// `all_pairs` each case beside each faster one.
+// `ratios`: of ratios_of(). A ranking that compares each case with the fastest one and the one before it, or with
+// `all_pairs` with each faster one.
 std::string ratio_table(const nlohmann::ordered_json& ratios, bool all_pairs);
 std::string ratio_markdown(const nlohmann::ordered_json& ratios, bool all_pairs);
-// All pairs, both ways around; an interval that is unknown is empty.
+// All pairs, in both directions; an unknown interval is empty.
 std::string ratio_csv(const nlohmann::ordered_json& ratios);
 
 }  // namespace clusterbench::report

@@ -96,7 +96,7 @@ const stress::StressMethod& method_of(const stress::StressResult& result, const 
                        [&](const stress::StressMethod& method) { return method.label == label; });
 }
 
-// Columns of the matrix: a conservative assigner with all its choices is one, of others each choice is.
+// Columns of the matrix: all settings of a conservative assigner share one, each setting of the others has its own.
 std::string column_of(const stress::StressMethod& method) {
   return method.assigner->conservative ? method.assigner->name : method.label;
 }
@@ -165,7 +165,8 @@ void print_extra(std::ostream& out, const stress::StressResult& result) {
         whole += cell.true_pairs;
       }
     if (whole > 0)
-      out << "  " << method.label << ": " << share_in_percent(static_cast<double>(extra) / static_cast<double>(whole)) << "\n";
+      out << "  " << method.label << ": " << share_in_percent(static_cast<double>(extra) / static_cast<double>(whole))
+          << "\n";
   }
 }
 
@@ -193,7 +194,8 @@ void print_searches(std::ostream& out, const stress::StressResult& result) {
   for (const stress::SearchResult& search : result.searches) {
     out << "  " << search.method << ": " << search.tries << " tries, ";
     if (search.deepest)
-      out << search.misses << " lost, the deepest " << share_in_percent(search.deepest->depth) << " of its range inside\n";
+      out << search.misses << " lost, the deepest " << share_in_percent(search.deepest->depth)
+          << " of its range inside\n";
     else
       out << "none lost, margin " << search.least_margin << "\n";
     if (search.undecided > 0) out << "    " << search.undecided << " more not listed, and undecided\n";
@@ -264,7 +266,8 @@ std::vector<std::string> stress_failures(const stress::StressResult& result) {
       failures.push_back("H31 " + search.method + ": " + number_of(search.undecided, "light") +
                          " not listed, and undecided");
   if (result.random)
-    for (const stress::RandomFault& found : result.random->faults)  // what stays undecided is told, and nobody's fault
+    for (const stress::RandomFault& found :
+         result.random->faults)  // undecided pairs are reported, but they are not an error
       if (found.fault.kind != stress::FaultKind::undecided) failures.push_back("random " + in_lines(found));
   return failures;
 }

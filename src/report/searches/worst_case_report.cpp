@@ -30,7 +30,7 @@ const char* name_of(search::Ended ended) {
   return k_names[static_cast<int>(ended)];
 }
 
-// In the order in which the search numbers them.
+// In the search's order.
 std::vector<std::string> light_names(const scene::Scene& scene) {
   std::vector<std::string> names;
   for (const scene::Light& light : scene.lights)
@@ -55,8 +55,8 @@ Json frame_json(const search::FoundFrame& frame, const WorstCaseFacts& facts, co
   return out;
 }
 
-// Where slices end, or how far boxes reach, that do not follow something: made up from the recorded path, if the camera
-// or the configuration does not say it.
+// The end of slices, or the extent of boxes, that do not follow frames: computed from the recorded path if neither
+// camera nor configuration has it.
 Json grid_end_json(const grid::GridSpec& spec) {
   if (spec.has_bounds && spec.follow == grid::Follow::nothing)
     return {{"bounds_m", box_json({spec.bounds_lo_m, spec.bounds_hi_m})}};
@@ -66,13 +66,13 @@ Json grid_end_json(const grid::GridSpec& spec) {
   return nullptr;
 }
 
-// As a configuration has it: "90h"; null: the file's own.
+// In the format of a configuration: "90h"; null: the file's own.
 Json fov_json(const std::optional<scene::FieldOfView>& fov) {
   if (!fov) return nullptr;
   return text("%.12g", fov->angle_rad * 180.0 / std::numbers::pi) + (fov->is_horizontal ? "h" : "v");
 }
 
-// What else of the configuration a find is of, besides what the case's name tells.
+// Further settings of the configuration that a finding depends on, besides the case's name.
 Json settings_json(const WorstCaseFacts& facts) {
   const config::SceneRequest& request = facts.config.scenes[facts.case_plan.scene];
   return {
@@ -159,7 +159,7 @@ std::string frames_text(const WorstCase& found, const WorstCaseFacts& facts) {
   return out;
 }
 
-// Whether what was searched for is less than a random frame has.
+// Whether the figure found is less than that of a random frame.
 bool is_random_one(const WorstCase& found) {
   return !found.stages.empty() && found.random.frames > 0 && found.random.max > found.stages.back().best;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What `worst-case` found, as JSON and as text.
+// The findings of `worst-case`, as JSON and as text.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace clusterbench::report {
 
-// What was searched, and where it is written.
+// The searched case, and the written files.
 struct WorstCaseFacts {
   const config::Config& config;
   const run::Plan& plan;

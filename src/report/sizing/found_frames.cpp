@@ -37,8 +37,8 @@ Json read_worst_case(const std::string& path) {
   return json;
 }
 
-// What is searched, whatever the scene is called and how many viewports there are beside it: grid, method, storage, how
-// lights are packed and culled, as a case's name has them.
+// Identifies the searched structure independent of the scene's name and the number of viewports: grid, method, storage,
+// packing and cull of lights, as in a case's name.
 std::string structure_of(run::CaseNames names) {
   names.name = run::current_name(names.name);
   return run::name_without_camera(names, false);
@@ -58,7 +58,7 @@ std::string sha256_of_scene(const result::Result& result, const result::Case& re
   return scene == result.scenes.end() ? "" : scene->sha256;
 }
 
-// Each once, in words: "[640,360] or [320,180]".
+// Each once: "[640,360] or [320,180]".
 std::string viewports_text(const std::vector<const result::Case*>& cases) {
   std::vector<std::string> all;
   for (const result::Case* one : cases)
@@ -67,8 +67,8 @@ std::string viewports_text(const std::vector<const result::Case*>& cases) {
   return joined(all, " or ");
 }
 
-// The cases of its structure, camera and viewport on its scene. Of a scene that the result has several times those that
-// are called like it come first.
+// The cases of its structure, camera and viewport on its scene. If the result has several scenes with these contents,
+// those of the same name come first.
 std::vector<const result::Case*> matches_of(const std::string& path, const Json& searched,
                                             const result::Result& result) {
   const auto scene = searched["scene"].get<std::string>(), camera = searched["camera"].get<std::string>(),
@@ -96,8 +96,8 @@ std::vector<const result::Case*> matches_of(const std::string& path, const Json&
   return out;
 }
 
-// Of what the configuration asks of the scene a key; nothing where scenes differ in it and the result does not tell
-// which is whose.
+// A key of the configuration's request for the scene; none if scenes differ in it and the result does not record whose
+// it is.
 std::optional<Json> asked_of_scene(const result::Result& result, std::size_t scene, const char* key) {
   const Json* in_config = value_at(result.config, "/scenes");
   const Json scenes = in_config == nullptr ? Json::array() : *in_config;
@@ -123,14 +123,14 @@ bool is_same_angle(const Json& a, const Json& b) {
          std::abs(left->angle_rad - right->angle_rad) < 1e-9;
 }
 
-// Slices whose cells have a shape end with the one that holds the end that was asked for.
+// Slices whose cells have a fixed shape end with the one that contains the requested end.
 bool ends_at(const result::Slices& slices, double end_m) {
   const double last_m = slices.boundaries.back();
   return is_near(end_m, last_m, last_m) ||
          (slices.scheme.starts_with("cubical") && end_m > slices.boundaries.end()[-2] && end_m < last_m);
 }
 
-// "" if the grid ends where that of the search did, or follows something from frame to frame.
+// "" if the grid ends at the same place as that of the search, or follows frames.
 std::string other_end(const Json& searched, const result::Grid& grid) {
   if (const std::optional<double> end_m = number_at(searched, "/slices_m"); end_m && grid.slices) {
     const double here_m = grid.slices->boundaries.back();
@@ -183,7 +183,7 @@ void check_settings(const std::string& path, const Json& searched, const result:
     if (result.scenes[i].name == match.scene) check_settings(path, searched["settings"], result, i, match);
 }
 
-// The case that was searched: of several that are alike the first one of its settings.
+// The searched case: of several similar ones the first with its settings.
 const result::Case& searched_case(const std::string& path, const Json& searched, const result::Result& result) {
   const std::vector<const result::Case*> matches = matches_of(path, searched, result);
   for (const result::Case* match : matches) {
@@ -201,7 +201,7 @@ constexpr const char* k_not_compared =
     "an earlier version wrote it, without the field of view, the range rule and the end of the grid: whether they "
     "are those of the case here is not known; search again";
 
-// The frame that the figure was seen in is not that of the find.
+// The recorded worst frame of the figure is not the finding's frame.
 template <class Figure>
 void raise_figure(Figure& figure, std::uint64_t found, std::uint64_t& worst_frame) {
   if (!(static_cast<double>(found) > static_cast<double>(figure))) return;
@@ -218,7 +218,7 @@ void raise_measure(result::Case& result_case, const std::string& measure, std::u
     raise_figure(lights->max, found, lights->worst_frame);
 }
 
-// Of structures whose size follows from what they hold; "fixed" and "linked" have theirs whatever a frame needs.
+// Structures whose size depends on their contents; "fixed" and "linked" have a fixed size.
 bool has_bytes_of_needs(const result::Buffers& buffers) {
   double needs = 0.0;
   if (buffers.each)

@@ -1,6 +1,5 @@
 #pragma once
-// The functions with which a shader reads a cell's lights out of the buffers of report/sizing/allocation.h, in HLSL and
-// GLSL.
+// Shader functions that read a cell's lights from the buffers of report/sizing/allocation.h, in HLSL and GLSL.
 
 #include <string>
 
@@ -21,12 +20,12 @@ enum class ShaderLanguage : std::uint8_t { hlsl, glsl };
 // such function.
 std::string list_code(const NamedStructure& named, ShaderLanguage language, int& slot);
 
-// Why nothing of it reads a structure's lists: "its tiles react, ..."; "" where it has them.
+// Why no code here can read a structure's lists: "its tiles react, ..."; "" if one can.
 std::string why_no_reader(const SizedStructure& structure);
-// The same of the cases of one structure on its cameras, as a result has them.
+// The same for the cases of one structure on its cameras, as in a result.
 std::string why_no_reader(const std::vector<result::Case>& cases);
 
-// What list_code() declares.
+// The names that list_code() declares.
 std::vector<std::string> list_code_names(const NamedStructure& named);
 
 }  // namespace clusterbench::report
