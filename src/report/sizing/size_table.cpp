@@ -45,7 +45,8 @@ std::vector<Cells> table_rows(const SizedStructure& structure) {
   return rows;
 }
 
-// True if the need is equal in all frames of every group, as for headers, which depend only on the grid.
+// True if the need is equal in all frames of every group; groups may differ in a buffer that is always full, such as
+// headers, whose number depends only on the grid.
 bool is_same_in_all_frames(const SizedBuffer& buffer) {
   const auto is_constant = [](const std::optional<FrameSpread>& spread) {
     return spread && spread->min == spread->max;
