@@ -1,5 +1,4 @@
-// The schemas: the embedded text; that of configurations is completed by the rows of assigners and storages, and axes
-// are written out.
+// The schemas: the embedded text; of configurations also the rows of assigners and storages, and the axes written out.
 
 #include "config/documents.h"
 

@@ -8,8 +8,8 @@
 //     END_RECORD;
 //   };
 //
-// These lists give a record's JSON, its reader, and its JSON Schema (schema.h). A std::optional without a value is
-// absent, a Nullable without a value is null, and so is a double that is not finite.
+// From these lists come a record's JSON, its reader, and its JSON Schema (schema.h). A std::optional is absent where it
+// has no value, a Nullable is null, and so is a double that is not finite.
 
 #include <array>
 #include <cstddef>
@@ -28,10 +28,10 @@ using Json = nlohmann::ordered_json;
 
 inline constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
 
-// The description of a field. "" for `unit` or `over`: inherited from the enclosing field.
+// What a field is. "" for a unit, and for what it is over: that of what holds it.
 struct About {
-  About(const char* meaning = "", const char* in_unit = "", const char* taken_over = "")
-      : description(meaning), unit(in_unit), over(taken_over) {}
+  About(const char* what = "", const char* in_unit = "", const char* taken_over = "")
+      : description(what), unit(in_unit), over(taken_over) {}
 
   About at_least(double least) const { return with(&About::min, least); }
   About above(double bound) const { return with(&About::above_min, bound); }
@@ -49,7 +49,7 @@ struct About {
   About late() const { return with(&About::is_late, true); }
 
   const char *description, *unit, *over;
-  std::optional<double> min{}, above_min{}, max{};  // of a number, or of each number of a list
+  std::optional<double> min{}, above_min{}, max{};  // of a number, or each of a list's
   bool is_finite = false;
   bool is_fraction = false;
   std::vector<const char*> choices{};           // of a text
@@ -57,8 +57,8 @@ struct About {
   std::size_t least_items = 0, most_items = 0;  // of a list; 0: any number
   const char* of_each = "";                     // description of the values by name
   std::optional<int> constant{};                // of a whole number
-  const char* shape = "";                       // of any JSON: further keywords of its schema
-  bool is_late = false;                         // always written; results of earlier versions may not have it
+  const char* shape = "";                       // of any JSON: what else its schema says
+  bool is_late = false;                         // always written; results of earlier versions may lack it
 
  private:
   template <class T, class Value>

@@ -35,11 +35,11 @@ bool is_cost(const Json& objective) {
   return objective["figure"].get<std::string>().ends_with("_cost_us");
 }
 
-// Whether the candidate counts as equal to the choice: costs within the precision of the model, times within their
-// interval or, without one, within the usual variation of times, and equal figures.
+// Modelled costs within what the model can tell, times that differ by less than their interval or, without one, by less
+// than times usually do, and equal figures.
 bool is_like_choice(const Json& record, const Json& objective) {
   const std::optional<double> by = number_at(record, "/by_choice");
-  if (!by) return number_at(record, "/objective").value_or(0.0) <= 0.0;  // no ratio to a choice of 0
+  if (!by) return number_at(record, "/objective").value_or(0.0) <= 0.0;  // beside a choice of nothing there is no ratio
   if (is_cost(objective) && *by <= measure::k_alike_ratio) return true;
   if (const measure::Interval interval = interval_at(record, "/ci95"); interval.is_known()) return interval.low <= 1.0;
   return *by <= (objective["timed"] == true ? measure::k_alike_ratio : 1.0);
@@ -50,7 +50,7 @@ std::string beside_choice_text(const Json& record) {
          more_text(record["by_choice"].get<double>(), interval_at(record, "/ci95"), interval_at(record, "/by_prices"));
 }
 
-// The other costs of the choice: " (13.3 MB of buffers, 1072 us of GPU by the model)".
+// What the choice takes beside what it was chosen for: " (13.3 MB of buffers, 1072 us of GPU by the model)".
 std::string price_text(const Json& choice, const Json& objective) {
   std::vector<std::string> prices;
   const std::optional<double> bytes = number_at(choice, "/figures/bytes"),
@@ -60,7 +60,7 @@ std::string price_text(const Json& choice, const Json& objective) {
   return prices.empty() ? "" : " (" + joined(prices) + ")";
 }
 
-// Why a candidate with a smaller figure is not better for certain.
+// Why a candidate that takes less is not known to be better than the choice.
 std::string why_alike(const Json& record, const Json& objective) {
   if (is_cost(objective) && record["by_choice"].get<double>() * measure::k_alike_ratio >= 1.0)
     return "within the 5 % to which the model tells costs apart";
@@ -70,7 +70,7 @@ std::string why_alike(const Json& record, const Json& objective) {
          less_or_more(interval.high) + ")";
 }
 
-// Why the choice does not have the smallest figure: among equal candidates it has the fewest bytes.
+// Why the choice is not the one with least: of those that are like it, it has the fewest bytes.
 std::string smallest_text(const Json& answer, const Json& objective) {
   const Json* least = nullptr;
   for (const Json& record : answer["runners_up"]) {
@@ -82,7 +82,7 @@ std::string smallest_text(const Json& answer, const Json& objective) {
   if (!bytes || !more_bytes || *bytes >= *more_bytes) return "";
   const std::string name = shown((*least)["name"].get<std::string>()),
                     less = less_or_more((*least)["by_choice"].get<double>());
-  // The ratio of times measured side by side, which is not the ratio of the two figures.
+  // The ratio of times that were measured side by side, which the two figures' own does not give.
   const bool is_measured = interval_at(*least, "/ci95").is_known();
   return "; " + name + " takes " + less +
          (is_measured ? " where both were measured side by side" : " (" + objective_text(*least, objective) + ")") +
@@ -110,7 +110,7 @@ std::string excluding_text(const Json& answer) {
   return texts.empty() ? "" : ": " + joined(texts);
 }
 
-// Recommends none, and names possible candidates.
+// That nothing is to be taken, and what could be.
 std::string none_text(const Json& answer, const Json& objective) {
   const Json searched = answer.value("searched", Json::array());
   if (searched.empty()) return "take none: no candidate satisfies all constraints" + excluding_text(answer);

@@ -219,7 +219,7 @@ Json method_json(const config::MethodRequest& request) {
   return out;
 }
 
-// Whether it differs from another only in cells, which its method does not use.
+// Whether it differs from another in cells only, which its method then does not use.
 bool is_repeated(const Json& record, const Json& other) {
   return record["assigner"] == other["assigner"] && record["storage"] == other["storage"] &&
          record["precision"] == other["precision"] &&
@@ -230,7 +230,7 @@ bool is_repeated(const Json& record, const Json& other) {
          });
 }
 
-// The parts of a configuration for a candidate.
+// What a configuration needs of a candidate.
 Json parts_json(const config::Config& config, const search::View& view, const search::Candidate& candidate) {
   const run::CasePlan& plan = *candidate.cases.front();
   const config::PrecisionRequest& precision = config.precisions[plan.precision];
@@ -307,7 +307,7 @@ std::string why_nothing_is_seen(const search::Found& found, const config::Config
   return why_nothing_is_seen(cases, rests_on_samples(*question.objective) ? RankedBy::samples : RankedBy::no_samples);
 }
 
-// The best candidates after the choice. Of those that differ only in cells, which their method does not use, the first.
+// The best behind the choice. Of those that differ in cells only, which their method then does not use, the first.
 Json runners_up_json(const config::Config& config, const search::View& view, const std::vector<Ranked>& all,
                      const Question& question) {
   Json told = Json::array({ranked_json(config, view, all[0], all[0], question)});
@@ -398,7 +398,7 @@ Json rungs_json(const std::vector<search::Rung>& rungs) {
   return out;
 }
 
-// The configuration's entry for a scene; an entry can contain several scenes.
+// The configuration's entry of a scene, which can stand for several.
 Json scene_json(const config::Config& config, std::size_t scene, const std::string& file) {
   namespace fs = std::filesystem;
   const config::SceneRequest& request = config.scenes[scene];
@@ -597,8 +597,8 @@ Json recommended_config(const config::Config& config, const search::View& view, 
     add_once(out["storages"], record["storage"]);
     add_once(out["precision"], record["precision"]);
   }
-  if (out["storages"].empty()) out["storages"].push_back("packed");  // for its lists, if it makes any
-  // If a method makes lists and its own structure, only the choice must be complete.
+  if (out["storages"].empty()) out["storages"].push_back("packed");  // of lists, which it may have besides
+  // Of a method that leaves lists and a structure of its own only the choice has to hold.
   const assign::AssignerDescriptor& method =
       *assign::find_assigner(answer["choice"]["assigner"]["name"].get<std::string>());
   const bool has_others = method.answers(assign::Answer::lists) && method.answers(assign::Answer::structure);

@@ -1,5 +1,5 @@
 #pragma once
-// The question of `recommend` for cases, and its answer as JSON, as text and as a configuration.
+// What `recommend` asks of cases, and its answer as JSON, as text and as a configuration.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,7 +15,7 @@ namespace clusterbench::report {
 
 inline constexpr int k_recommendation_version = 1;
 
-// The figures that a choice can minimise.
+// The figures that a choice can make smallest.
 std::vector<const result::Figure*> objective_figures();
 
 struct Constraint {
@@ -45,9 +45,10 @@ nlohmann::ordered_json answer_to_json(const config::Config& config, const run::P
 // All answers of one configuration.
 nlohmann::ordered_json recommendation_to_json(const config::Config& config, const Question& question,
                                               const nlohmann::ordered_json& answers);
-// `next`: a line before the conclusions on the use of the choice; ""
+// `next`: a line that stands before the conclusions, what to do with the choice; ""
 std::string recommendation_text(const nlohmann::ordered_json& recommendation, const std::string& next = "");
-// For an interrupted search: the candidates measured on the most frames that break no constraint there, the best first.
+// Of a search that was stopped: the candidates that were measured on the most frames and break nothing there, the best
+// first.
 std::string unfinished_text(const search::View& view, const search::Found& found, const Question& question);
 
 // Whether each answer has a choice.

@@ -20,7 +20,7 @@ std::string within_text(double within) {
 }
 
 // "frustum/exact-fast/packed": one line of the table of candidates.
-// `is_first`: no other one is better.
+// `is_first`: nothing is better.
 Cells candidate_row(const std::string& mark, const Json& record, const std::string& objective, bool is_first = false) {
   std::string distance;
   if (const Json& by = record["by_choice"]; by.is_number() && mark != "*" && !is_first) {
@@ -44,7 +44,7 @@ Cells candidate_row(const std::string& mark, const Json& record, const std::stri
           text_of(number_at(record, "/overshade"), "%.2f")};
 }
 
-// Times are compared within rounds, so their ratio is more precise than either of them.
+// Times are compared within rounds, so that their ratio is known better than either of them.
 std::string worse_by_line(const Json& answer) {
   for (const Json& record : answer["runners_up"])
     if (record.contains("ci95") && record["ci95"][0].is_number())
@@ -60,7 +60,7 @@ std::string table_of(const std::vector<Cells>& rows) {
   return out;
 }
 
-// If no candidate satisfies all constraints: how far each given constraint would have to be relaxed.
+// Where nothing satisfies them all: what would have to be given up of each constraint that was asked for.
 std::string nearest_text(const Json& answer) {
   std::string out = "no candidate satisfies all constraints\n";
   for (const Json& row : answer["constraints"]) {
@@ -103,7 +103,7 @@ Cells candidate_headings(const Json& answer, const std::string& figure) {
           "longest",  "read" + of_sets, "overshade" + of_sets};
 }
 
-// The meaning of the headings.
+// What the headings mean.
 std::string sets_line(const Json& answer) {
   const std::vector<std::string> sets = answer_sets(answer);
   if (sets.empty()) return "";
@@ -112,7 +112,7 @@ std::string sets_line(const Json& answer) {
          (sets.size() > 1 ? ", by the weights of the key `cost`" : "") + "; read: bytes that one reads\n";
 }
 
-// Separate from the others: only the model gives the cost of their search on a GPU.
+// Never beside the others: what their search costs on a GPU is a model's.
 std::string searched_text(const Json& answer, const std::string& figure) {
   const Json searched = answer.value("searched", Json::array());
   if (searched.empty()) return "";

@@ -58,7 +58,7 @@ Json names_of(const std::vector<const Case*>& cases) {
   return names;
 }
 
-// Cases with the same name on both sides that are not the same case.
+// The same name on both sides, and not the same case.
 Json renamed(const Result& base, const std::vector<const Case*>& only_in_base, const Result& next,
              const std::vector<const Case*>& only_in_new) {
   Json out = Json::array();
@@ -87,7 +87,7 @@ constexpr Part k_parts[] = {
     {"timing", has<&Case::timing>},       {"count", has<&Case::count>},
 };
 
-// For each part, the number of common cases that have it in only one result.
+// Of the cases of both, how many have a part in one result alone.
 Json parts_of_one(const std::vector<Match>& matches) {
   Json out = Json::array();
   for (const Part& part : k_parts) {
@@ -275,7 +275,7 @@ Json instructions(const result::Count& base, const result::Count& next, double t
           {"tolerance", count_tolerance(next)}};
 }
 
-// Adds the differences between the lists of two programs that were measured side by side.
+// What two programs that were measured side by side listed differently.
 void add_list_difference(const Match& match, Json& out) {
   const auto* lists = result::part<&Case::timing, &Timing::baseline, &result::BaselineTimes::lists_differ>(match.next);
   if (lists == nullptr) return;
@@ -288,7 +288,7 @@ void add_list_difference(const Match& match, Json& out) {
 // Obstacles to a comparison of two results, other than their exact counts.
 struct Scope {
   Json left_out = Json::object();   // "times", "instructions": the obstacles
-  std::vector<std::string> forced;  // obstacles that the user overrides
+  std::vector<std::string> forced;  // obstacles in spite of which they are compared
 
   bool leaves_out(const char* what) const { return left_out.contains(what); }
 };
@@ -321,7 +321,7 @@ struct Settings {
   bool gates_separate = false, is_margin_same = true, is_same_program = false;
 };
 
-// A program compared with itself is the same, independent of the measured times.
+// A program beside itself is the same, whatever the times of this hour say.
 void add_time(Json& out, const TimeChange& time, double corrected_p, const Settings& settings) {
   const measure::Verdict verdict = settings.is_same_program
                                        ? measure::Verdict::same
@@ -407,8 +407,7 @@ constexpr const char* k_separate_verdicts =
     "--gate-separate: two runs of one program can differ several-fold, and intervals know nothing of that; on a busy "
     "machine every second comparison of a program with itself failed";
 
-// The names that only one side has, without cases of the same name on both sides, which are reported separately with
-// the difference.
+// The names that stand on one side alone. What the other has under the same name is told apart, with the difference.
 Json without_renamed(const Json& names, const Json& renamed_cases) {
   Json out = Json::array();
   for (const Json& name : names)
@@ -417,7 +416,7 @@ Json without_renamed(const Json& names, const Json& renamed_cases) {
   return out;
 }
 
-// `is_beside`: one result, compared with its baseline program.
+// `is_beside`: of one result, and what the other program had beside it.
 Json warnings_of(const Result& base, const Result& next, const Json& comparison, bool is_beside,
                  const std::vector<std::string>& forced, bool gates_separate) {
   Json warnings = Json::array();
@@ -466,7 +465,7 @@ Json facts_of(const Result& result) {
       {"machine", result::to_json(result.machine)}, {"tool", result::to_json(result.tool)}, {"config", result.config}};
 }
 
-// A missing part that could have failed the comparison.
+// Something that would have failed the comparison had it become worse.
 bool is_gated_part_missing(const Json& comparison) {
   return std::any_of(comparison["not_compared"].begin(), comparison["not_compared"].end(),
                      [](const Json& part) { return part["only_in"] == "base" && part["part"] != "timing"; });

@@ -23,17 +23,17 @@ struct CompareOptions {
   bool is_forced = false;       // compares times and instructions in spite of obstacles
 };
 
-// In the format of src/config/schemas/comparison.schema.json. `threshold`: the smallest relevant change of time, 0.02
-// for 2 %. Times: of rounds side by side if the new result has them for this base ("data": "paired"), else of medians
+// As src/config/schemas/comparison.schema.json says. `threshold`: the smallest change of time that matters, 0.02 for 2
+// %. Times: of rounds side by side where the new result has them for this base ("data": "paired"), else of medians
 // ("separate").
 nlohmann::ordered_json compare_results(const result::Result& base, const result::Result& next, double threshold,
                                        const CompareOptions& options = {});
 
-// ok, gate_failed (a failure), nothing_comparable (no common case); with `is_strict` inconclusive if a verdict is, if a
-// case of the base is missing, or if instructions could not be compared.
+// ok, gate_failed (a failure), nothing_comparable (no case in common); with `is_strict` inconclusive where a verdict
+// is, a case of the base is missing, or instructions could not be compared.
 ExitCode outcome(const nlohmann::ordered_json& comparison, bool is_strict);
 
-// As a table for terminals, and for a pull request.
+// For people: the table, and the same for a pull request.
 std::string comparison_text(const nlohmann::ordered_json& comparison);
 std::string comparison_markdown(const nlohmann::ordered_json& comparison);
 

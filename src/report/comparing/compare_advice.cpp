@@ -25,7 +25,7 @@ struct OpenVerdict {
   double launches = 0.0;
 };
 
-// Inconclusive verdicts with an interval; `without`: the number of those without.
+// Verdicts that are open, with an interval; `without`: how many have none.
 std::vector<OpenVerdict> open_verdicts(const Json& comparison, std::size_t& without) {
   std::vector<OpenVerdict> open;
   for (const Json& compared_case : comparison["cases"]) {

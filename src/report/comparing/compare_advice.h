@@ -9,7 +9,7 @@
 
 namespace clusterbench::report {
 
-// `comparison`: of compare_results(), without its "advice". Empty if every verdict is conclusive.
+// Of what compare_results() gives, but for its "advice"; none where every verdict stands.
 std::vector<std::string> advice_on(const nlohmann::ordered_json& comparison);
 
 // Why two results have no common case, and the command for the user's probable intention. `base_name`: its file.

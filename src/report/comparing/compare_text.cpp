@@ -89,7 +89,7 @@ const char* mark_of(const Json& compared_case) {
   return is_worse(compared_case) ? "!" : is_open(compared_case) ? "?" : is_remarkable(compared_case) ? "+" : " ";
 }
 
-// Explains the marks of the table.
+// Of the marks that the table has.
 std::string legend(const Json& cases) {
   const auto has = [&](const std::string& mark) {
     return std::any_of(cases.begin(), cases.end(),

@@ -14,9 +14,9 @@ using Json = nlohmann::ordered_json;
 
 enum class Kind {
   cost,      // less is better
-  follows,   // repeats some cost in another form
-  unjudged,  // no cost by itself: how the truth was decided, effects of limits on counts
-  fixed      // must be equal
+  follows,   // says the same as some cost in another way
+  unjudged,  // says nothing of the case by itself: how the truth was found, what limits make of the counts
+  fixed      // what both must have in common
 };
 
 struct Rule {
@@ -24,9 +24,9 @@ struct Rule {
   Kind kind;
 };
 
-// The first match applies; without a match: fixed.
+// The first that fits; what none fits is fixed.
 constexpr std::array k_rules{
-    Rule{"/failures", Kind::unjudged},  // a gate of their own
+    Rule{"/failures", Kind::unjudged},  // they fail by themselves
     Rule{"/scene", Kind::unjudged},     // its name: follows the file's, and the order of files of one name
     Rule{"/warnings", Kind::follows},
     Rule{"/loses_lights", Kind::follows},
@@ -95,7 +95,7 @@ constexpr std::array k_rules{
     Rule{"/shadow_cull/maps", Kind::follows},
 };
 
-// Sets of samples have the same rules as the whole view: "/samples/fog/missed" counts as "/shading/missed".
+// Sets of samples are shaded like those of the whole view: "/samples/fog/missed" counts as "/shading/missed".
 std::string as_shading(const std::string& pointer) {
   constexpr std::string_view k_sets = "/samples/";
   if (!pointer.starts_with(k_sets)) return pointer;
@@ -108,7 +108,7 @@ std::string as_shading(const std::string& pointer) {
   return "/shading/waves" + (size_end == std::string::npos ? "" : rest.substr(size_end));
 }
 
-// All shadow culls have the same rules: "/shadows/culls/0/pairs/after" counts as "/shadow_cull/pairs/after".
+// Ways to take out what lies in shadow count alike: "/shadows/culls/0/pairs/after" as "/shadow_cull/pairs/after".
 std::string as_shadow_cull(const std::string& pointer) {
   constexpr std::string_view k_ways = "/shadows/culls/";
   if (!pointer.starts_with(k_ways)) return pointer;
@@ -125,7 +125,7 @@ Kind kind_of(const std::string& of) {
 
 const char* judged(Kind kind, const Json& base, const Json& next) {
   if (kind == Kind::unjudged || kind == Kind::follows) return "changed";
-  // A ratio that is undefined on one side; its counts are compared.
+  // A quotient that says nothing on one side; what it is made of is compared.
   if (kind == Kind::cost && (base.is_null() || next.is_null())) return "changed";
   if (kind == Kind::fixed || !base.is_number() || !next.is_number()) return "worse";
   return next.get<double>() < base.get<double>() ? "better" : "worse";
@@ -135,7 +135,7 @@ bool holds_objects(const Json& value) {
   return value.is_array() && !value.empty() && value.front().is_object();
 }
 
-// Compares both values recursively and adds each leaf that differs.
+// Goes down both values side by side and adds each leaf that differs.
 void walk(const std::string& pointer, const Json& base, const Json& next, Json& out) {
   if (base == next) return;
   if (base.is_object() && next.is_object()) {
@@ -153,7 +153,7 @@ bool is_counted(const std::string& key) {
   return std::find(k_others.begin(), k_others.end(), key) == k_others.end();
 }
 
-// The underlying high-water marks are always compared.
+// The high-water marks behind it are compared in any case.
 bool follows_margin(const std::string& pointer) {
   return pointer.starts_with("/buffers/") &&
          (pointer.ends_with("/recommended") || pointer.starts_with("/buffers/used_share"));

@@ -1,5 +1,5 @@
 #pragma once
-// Counted values of the same case in two results (no times): every number, string and list that differs.
+// What is counted rather than timed, of the same case in two results: every number, string and list that is not equal.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,10 +10,11 @@ namespace clusterbench::report {
 
 // {"counts": "same" | "better" | "worse", "differences": [{"what": pointer, "base", "new", "is": "better" | "worse" |
 // "changed"}], "place": where the deepest lost light is, if the new result loses more}.
-// better: some cost is lower, and none is higher; values that only follow from it (a histogram, the worst frame) may
-// change with it. Any other difference is worse. Values that the other result's version does not record are skipped.
-// `is_margin_same`: whether allocation.margin is equal in both; if not, recommended sizes and their used share differ
-// because of it, and are skipped.
+// better: something costs less, and nothing costs more; what only follows from that (a histogram, the worst frame) may
+// change with it. Any other difference is worse. What one result has and the other's version does not know is passed
+// over.
+// `is_margin_same`: allocation.margin of both; else what is recommended, and its used share, differ by that setting and
+// are passed over.
 nlohmann::ordered_json exact_differences(const result::Case& base, const result::Case& next,
                                          bool is_margin_same = true);
 

@@ -110,7 +110,7 @@ class PairIndex {
       pairs_[pair["case"].get<std::size_t>() * cases_ + pair["other"].get<std::size_t>()] = &pair;
   }
 
-  // The pair of a slower and a faster case; nullptr if they have no ratio.
+  // Of a slower case and a faster one; nullptr where they have no ratio.
   const Json* find(std::size_t slower, std::size_t faster) const { return pairs_[slower * cases_ + faster]; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// The findings of `light-map`, as JSON and as a table.
+// What `light-map` found, as JSON and as a table.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,7 +16,7 @@ struct LightMapScene {
   measure::LightMaps found;
 };
 
-// Byte-identical for the same input, except for `seconds`.
+// Byte-identical for the same input, but for `seconds`.
 nlohmann::ordered_json light_maps_to_json(const std::vector<LightMapScene>& scenes,
                                           const measure::LightMapRequest& request);
 std::string light_maps_text(const std::vector<LightMapScene>& scenes, const measure::LightMapRequest& request);

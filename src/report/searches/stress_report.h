@@ -1,5 +1,5 @@
 #pragma once
-// The findings of `stress`, as JSON and as a table.
+// What `stress` found, as JSON and as a table.
 
 #include <nlohmann/json.hpp>
 #include <ostream>

@@ -55,8 +55,8 @@ Json frame_json(const search::FoundFrame& frame, const WorstCaseFacts& facts, co
   return out;
 }
 
-// The end of slices, or the extent of boxes, that do not follow frames: computed from the recorded path if neither
-// camera nor configuration has it.
+// Where slices end, or how far boxes reach, that do not follow something: made up from the recorded path, if the camera
+// or the configuration does not say it.
 Json grid_end_json(const grid::GridSpec& spec) {
   if (spec.has_bounds && spec.follow == grid::Follow::nothing)
     return {{"bounds_m", box_json({spec.bounds_lo_m, spec.bounds_hi_m})}};
@@ -66,13 +66,13 @@ Json grid_end_json(const grid::GridSpec& spec) {
   return nullptr;
 }
 
-// In the format of a configuration: "90h"; null: the file's own.
+// As a configuration has it: "90h"; null: the file's own.
 Json fov_json(const std::optional<scene::FieldOfView>& fov) {
   if (!fov) return nullptr;
   return text("%.12g", fov->angle_rad * 180.0 / std::numbers::pi) + (fov->is_horizontal ? "h" : "v");
 }
 
-// Further settings of the configuration that a finding depends on, besides the case's name.
+// What else of the configuration a find is of, besides what the case's name tells.
 Json settings_json(const WorstCaseFacts& facts) {
   const config::SceneRequest& request = facts.config.scenes[facts.case_plan.scene];
   return {

@@ -1,5 +1,5 @@
 #pragma once
-// The findings of `worst-case`, as JSON and as text.
+// What `worst-case` found, as JSON and as text.
 
 #include <nlohmann/json.hpp>
 #include <string>

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The probability for reported capacities: at 60 frames per second once in half an hour.
+// What capacities are named for: at 60 frames per second once in half an hour.
 constexpr double k_rare = 1e-5;
 
 Json chance_json(const measure::Chance& chance) {

@@ -1,5 +1,5 @@
 #pragma once
-// The probability that a frame that was not recorded exceeds a buffer: words and JSON of
+// How likely a frame that was not recorded exceeds what a buffer has: words and JSON of
 // measure/statistics/peaks_over_threshold.h.
 
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ std::optional<measure::TailEstimate> tail_of(const SizedBuffer& buffer);
 // no estimate is necessary.
 std::string tail_text(const SizedBuffer& buffer);
 
-// Null if no estimate is necessary; only "refusal" if none is possible.
+// Null where there is no estimate; with "refusal" alone where there can be none.
 nlohmann::ordered_json tail_json(const SizedBuffer& buffer);
 
 // "1 in 30000", "1 in 10^7", "never" for 0. One digit, so that it does not look too precise.

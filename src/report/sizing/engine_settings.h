@@ -29,7 +29,7 @@ struct EngineRequest {
 // For each structure the settings: their names in the engine, its version, the value to set, its basis, and the losses
 // beyond it. Then, for structures that share one setting of the engine, the value for all.
 std::string engine_settings_text(const EngineRequest& request, std::span<const SizedStructure* const> structures);
-// For one of them, for the JSON of `size`: {"engine", "version", "grid", "limits": [...]}.
+// Of one of them, for the JSON of `size`: {"engine", "version", "grid", "limits": [...]}.
 nlohmann::ordered_json engine_settings_json(const EngineRequest& request, const SizedStructure& structure,
                                             std::span<const SizedStructure* const> structures);
 
