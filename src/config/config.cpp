@@ -53,8 +53,7 @@ std::vector<MethodRequest> methods(const Json& list, const char* key, const Json
         return earlier.name == request.name && earlier.params.values() == request.params.values();
       });
       const std::string pointer = std::string("/") + key;
-      const bool as_written =
-          text.value.contains(key) && text.value[key].size() == list.size();  // false after the expansion of a pattern
+      const bool as_written = text.value.contains(key) && text.value[key].size() == list.size();  // not from a pattern
       if (twice)
         throw Error(text.file, text.where(as_written ? child_pointer(pointer, i) : pointer),
                     "'" + request.label() + "' stands here twice with the same parameters");

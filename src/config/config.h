@@ -115,11 +115,8 @@ struct SharedFrustaRequest {
 
 // Frames that a result contains cell by cell.
 struct DetailsRequest {
-  enum class Choice : std::uint8_t {
-    worst,
-    evenly,
-    listed
-  };  // worst: the one with the case's longest list; evenly: `count` of them; listed: `frames`
+  // worst: the one with the case's longest list; evenly: `count` of them; listed: `frames`
+  enum class Choice : std::uint8_t { worst, evenly, listed };
   Choice choice = Choice::worst;
   int count = 0;
   std::vector<int> frames;  // ascending, each once

@@ -20,7 +20,8 @@ struct JsonText {
   nlohmann::json value;
   std::map<std::string, TextPosition> keys;    // JSON pointer of a member -> position of its key
   std::map<std::string, TextPosition> values;  // JSON pointer -> start of its value; "" is the whole document
-  std::map<std::string, std::string> flags;    // JSON pointer -> the command line's flag that set it; without positions
+  // JSON pointer -> the command line's flag that set it; without positions
+  std::map<std::string, std::string> flags;
 
   bool has(const std::string& pointer) const { return values.contains(pointer); }
   // "line:column /pointer" of the value, or of the nearest enclosing value that the text has. For text changed by

@@ -25,8 +25,7 @@ struct HighWater {
 
 // The need of one buffer of the structure (assign::BufferNeed), over all frames.
 struct BufferHighWater {
-  static constexpr std::size_t k_most_entries =
-      4096;  // enough to keep nearly every path frame by frame for the tail estimate
+  static constexpr std::size_t k_most_entries = 4096;  // nearly every path frame by frame, for the tail estimate
 
   std::string name;
   std::uint32_t element_bytes = 0;
@@ -47,8 +46,7 @@ struct Buffers {
   std::uint64_t dropped_pairs = 0, overflowing_cells = 0;
   int overflowing_frames = 0;
   std::set<std::uint32_t> dropped_lights;
-  std::uint64_t fallback_cells =
-      0;  // cells that use the list of all lights because the buffer is full, over all frames
+  std::uint64_t fallback_cells = 0;  // cells without room that read the list of all lights, over all frames
   int fallback_frames = 0;
   std::uint64_t scratch_bytes = 0;             // of the assigner, high water
   int worst_frame = 0;                         // with the high-water mark of index entries

@@ -15,11 +15,8 @@ namespace clusterbench::measure {
 struct LightsInView {
   std::uint64_t frames = 0, sum = 0, shining_sum = 0;  // all lights; those that shine in the frame
   std::uint64_t most = 0, frames_with_most = 0;
-  int worst_frame = 0;  // first frame with the maximum
-  std::array<std::uint64_t, view::k_light_types>
-      most_of_type{};  // points, spots, boxes; each maximum can be in another frame
-  // By index of a frame's lights: those that shine in some frame (scene/digests.h), and those that are in view in a
-  // frame in which they shine. Dark lights also count as in view.
+  int worst_frame = 0;                                            // first frame with the maximum
+  std::array<std::uint64_t, view::k_light_types> most_of_type{};  // points, spots, boxes: each in its own frame
   std::vector<bool> is_lit, is_seen;
 
   std::uint64_t lit() const { return static_cast<std::uint64_t>(std::ranges::count(is_lit, true)); }

@@ -18,9 +18,8 @@ struct WaveCounts {
   std::uint64_t distinct_lists = 0;  // sum over the waves
   std::uint64_t most_distinct = 0;   // in one wave
   std::uint64_t longest = 0;         // sum over the waves of their longest list: loop steps until the last lane is done
-  std::uint64_t united =
-      0;              // sum over the waves of the number of distinct lights of all lanes: steps of a scalarised loop
-  double mean = 0.0;  // sum over the waves of their mean list length: steps if no lane waited
+  std::uint64_t united = 0;          // sum over the waves of distinct lights of all lanes: steps of a scalarised loop
+  double mean = 0.0;                 // sum over the waves of their mean list length: steps if no lane waited
 
   int lanes() const { return width * height; }
   double divergence() const;  // longest / mean; NaN if all lists are empty

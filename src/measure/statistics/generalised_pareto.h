@@ -18,9 +18,8 @@ struct GeneralisedPareto {
 
   double shape() const { return bend / rate; }
   double scale() const { return 1.0 / rate; }
-  double log_survival(double excess) const;  // ln P(excess > y), -infinity beyond the end
-  double quantile(
-      double log_survival) const;  // inverse of log_survival: the excess with this probability of being exceeded
+  double log_survival(double excess) const;    // ln P(excess > y), -infinity beyond the end
+  double quantile(double log_survival) const;  // the excess that is exceeded with this probability
 };
 
 struct Excess {

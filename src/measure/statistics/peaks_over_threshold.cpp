@@ -19,9 +19,8 @@ constexpr std::array k_quantiles{0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95, 0.975, 
 constexpr double k_never = 1e-12;  // smaller probabilities are rounded to 0
 constexpr std::uint64_t k_seed = 1;
 constexpr int k_draws = 99;
-constexpr int k_stop_at_worse = 10;  // early stop after this many worse samples: p is k_least_fit_p at k_draws
-constexpr int k_stop_at_draws =
-    40;  // early stop with at most one worse sample: happens to 1 of 13 fits with a p of k_least_fit_p
+constexpr int k_stop_at_worse = 10;  // of k_draws: a p of k_least_fit_p
+constexpr int k_stop_at_draws = 40;  // with at most one worse: 1 of 13 fits with a p of k_least_fit_p
 
 double rounded(double value) {
   std::array<char, 40> text{};

@@ -13,8 +13,7 @@ struct PresetLosses {
   bool is_compared = false;  // its lists were compared with the truth, cell by cell
   std::uint64_t true_pairs = 0;
   std::uint64_t by_method = 0;  // true pairs of the lights it gets that the method does not find
-  std::uint64_t by_limit =
-      0;  // pairs of lights that a limit removes; those outside of the view are no loss and not counted
+  std::uint64_t by_limit = 0;   // pairs of lights in view that a limit removes
   std::uint64_t dropped = 0;    // pairs that do not fit into the storage
   std::uint64_t limited = 0;    // lights that a limit removes in some frame
   double outside = 0.0;         // samples outside of its cells that a light may reach

@@ -266,8 +266,7 @@ std::vector<std::string> stress_failures(const stress::StressResult& result) {
       failures.push_back("H31 " + search.method + ": " + number_of(search.undecided, "light") +
                          " not listed, and undecided");
   if (result.random)
-    for (const stress::RandomFault& found :
-         result.random->faults)  // undecided pairs are reported, but they are not an error
+    for (const stress::RandomFault& found : result.random->faults)  // undecided pairs are reported, but are no error
       if (found.fault.kind != stress::FaultKind::undecided) failures.push_back("random " + in_lines(found));
   return failures;
 }
