@@ -53,7 +53,7 @@ std::vector<MethodRequest> methods(const Json& list, const char* key, const Json
         return earlier.name == request.name && earlier.params.values() == request.params.values();
       });
       const std::string pointer = std::string("/") + key;
-      const bool as_written = text.value.contains(key) && text.value[key].size() == list.size();  // no pattern
+      const bool as_written = text.value.contains(key) && text.value[key].size() == list.size();  // not from a pattern
       if (twice)
         throw Error(text.file, text.where(as_written ? child_pointer(pointer, i) : pointer),
                     "'" + request.label() + "' stands here twice with the same parameters");
@@ -125,7 +125,7 @@ std::optional<SharedFrustaRequest> shared_frusta(const Json& document) {
                              frusta["growth"].get<double>()};
 }
 
-// Patterns are kept until the list has been checked.
+// Patterns are kept until the list is checked.
 bool is_assigner_glob(const std::string& list, const Json& entry) {
   return list == "assigners" && is_glob(entry.get_ref<const std::string&>());
 }
@@ -141,8 +141,7 @@ Json square_tiles(Json pixels) {
   return pixels;
 }
 
-// Short forms written out: "aabb" is {"name": "aabb"}, a scene's path is {"path": ...}, viewport is one of viewports,
-// tiles of 64 pixels are of [64, 64].
+// Expands short forms: "aabb" is {"name": "aabb"}, a scene's path is {"path": ...}, tiles of 64 pixels are [64, 64].
 Json long_form(Json document, const JsonText& text) {
   if (!document.is_object()) return document;
   const std::pair<const char*, const char*> lists[] = {
@@ -161,7 +160,7 @@ Json long_form(Json document, const JsonText& text) {
   return document;
 }
 
-// A pattern stands for all methods that it matches and that the list does not name itself.
+// Replaces each pattern by the methods that match it and that the list does not name itself.
 Json without_globs(const Json& list, const JsonText& text) {
   Json out = Json::array();
   const auto is_named = [](const Json& entries, const std::string& name) {
@@ -191,7 +190,8 @@ void drop_own_clusterings(Json& document) {
   for (const char* key : k_own_keys) document.erase(key);
 }
 
-// Defaults filled in; short forms in the defaults, too. Presets alone have no clusterings beside them.
+// Fills in defaults and expands short forms, those of the defaults as well. Presets alone have no default clusterings
+// beside them.
 Json filled(const JsonText& text) {
   const Json schema = config_schema();
   Json document = read_by_schema(schema, long_form(text.value, text), text);
@@ -238,7 +238,7 @@ Named named(const std::string& name, int count) {
   return static_cast<Named>(i);
 }
 
-// Every logarithm with every depth.
+// Every logarithm with every depth read.
 std::optional<LookupRequest> lookup_request(const Json& lookup) {
   if (lookup.is_null()) return std::nullopt;
   LookupRequest request{lookup["samples"].get<int>(), {}};
@@ -319,7 +319,8 @@ void read_settings(const Json& document, Config& config) {
   config.allocation = {document["allocation"]["margin"].get<double>(), document["allocation"]["warn_at"].get<double>()};
 }
 
-// A result, which is JSON, carries all of it. Of a file that is so already; names and flags can be anything.
+// A result contains the whole configuration, and JSON is UTF-8. The file itself is valid; file names and flags may not
+// be.
 void check_utf8(const JsonText& text) {
   const Json flat = text.value.flatten();
   for (const auto& [pointer, value] : flat.items())
@@ -328,7 +329,7 @@ void check_utf8(const JsonText& text) {
                   "'" + value.get<std::string>() + "' is not UTF-8, and no result could name it");
 }
 
-// A horizontal field of view would not be met in a wider picture.
+// For a wider picture the horizontal field of view would not be exact.
 void check_fields_of_view(const Config& config, const JsonText& text) {
   for (std::size_t i = 0; i < config.viewports.size(); ++i) {
     const Vec2i size = config.viewports[i];
@@ -344,7 +345,7 @@ void check_fields_of_view(const Config& config, const JsonText& text) {
   }
 }
 
-// A cost is that of samples with a weight.
+// The frame cost needs samples with a weight.
 void check_ranking(const Json& document, const std::vector<SampleSetRequest>& sets, const JsonText& text) {
   if (document["rank_by"] != "frame_cost") return;
   const Json& weights = document["cost"]["weights"];
@@ -355,7 +356,7 @@ void check_ranking(const Json& document, const std::vector<SampleSetRequest>& se
                 "is frame_cost, and no set of samples with a weight is asked for; add \"samples\": {\"opaque\": {}}");
 }
 
-// The index of what equals `item`, which is appended if nothing does.
+// The index of the first element equal to `item`, which is appended if there is none.
 template <class Item, class IsEqual>
 std::size_t index_in(std::vector<Item>& list, const Item& item, IsEqual is_equal) {
   const auto found = std::ranges::find_if(list, [&](const Item& other) { return is_equal(other, item); });
@@ -371,8 +372,8 @@ bool is_same_method(const MethodRequest& a, const MethodRequest& b) {
   return a.name == b.name && a.params.values() == b.params.values();
 }
 
-// Each pre-cull of the configuration with the engine's own steps behind it.
-void add_own_steps(const Json& parts, const Json& document, Config& config, PresetChoice& choice) {
+// Appends the engine's own steps to each pre-cull of the configuration.
+void add_engine_steps(const Json& parts, const Json& document, Config& config, PresetChoice& choice) {
   if (!parts.contains("pre_cull")) return;
   const std::vector<cull::Step> own = pre_cull_spec(document["pre_cull"][0]).steps;
   for (std::size_t i = 0; i < config.own_pre_culls; ++i) {
@@ -383,7 +384,7 @@ void add_own_steps(const Json& parts, const Json& document, Config& config, Pres
   }
 }
 
-// A preset's grid with members in place of its own; tiles have one size, and not two.
+// Replaces members of a preset's grid; new tiles replace the old ones completely, so that there are never two sizes.
 Json changed_grid(Json grid, const GridChange& change) {
   if (change.grid.contains("tiles")) grid.erase("tiles");
   grid.merge_patch(change.grid);
@@ -409,7 +410,7 @@ void add_preset(const Preset& preset, std::size_t viewport, const Json& schema, 
   if (parts.contains("storage"))
     choice.storage = index_in(config.storages, methods(document["storages"], "storages", text, storage_params).front(),
                               is_same_method);
-  add_own_steps(parts, document, config, choice);
+  add_engine_steps(parts, document, config, choice);
   for (const grid::GridSpec& spec : grid_specs(document["grids"], text)) {
     choice.grid = index_in(config.grids, spec, is_same_grid);
     config.presets.push_back(choice);
@@ -462,18 +463,19 @@ Config read_config(const JsonText& text, const GridChange& preset_grid) {
   return config;
 }
 
-// Runs that somebody waits for, and did not set up, are to end within two minutes on two cores: scenes on the command
-// line, and presets.
+// For runs whose limits the user did not choose (scenes on the command line, presets): they should end within two
+// minutes on two cores.
 constexpr std::uint64_t k_usual_most_pairs = 4'000'000;
 constexpr int k_usual_frames = 30;
 constexpr double k_usual_lights = 1200.0;
 
-// What nobody says otherwise. Presets are ranked by what they cost at visible surfaces: a ray per 16 x 16 pixels.
-class Usual {
+// Defaults for settings that neither the file nor a flag has. Presets are ranked by their cost at visible surfaces: a
+// ray per 16 x 16 pixels.
+class UnsetDefaults {
  public:
-  Usual(const JsonText& text, std::span<const FlagValue> flags)
+  UnsetDefaults(const JsonText& text, std::span<const FlagValue> flags)
       : has_scenes_only_(text.file.empty()),
-        names_surfaces_(names_surfaces(text.value) || names_key(flags, "samples[./]opaque") || says_none(flags)),
+        names_surfaces_(names_surfaces(text.value) || names_key(flags, "samples[./]opaque") || removes_samples(flags)),
         names_accuracy_(text.value.contains("accuracy") || names_key(flags, "accuracy")) {}
 
   void add_to(Json& document) const {
@@ -489,12 +491,12 @@ class Usual {
     if (samples.is_null() || (samples.is_object() && !samples.contains("opaque")))
       samples["opaque"] = {{"divisor", 16}};
   }
-  // "samples": {} is no set at all.
+  // "samples": {} requests no set.
   static bool names_surfaces(const Json& document) {
     return document.contains("samples") && document["samples"].is_object() &&
            (document["samples"].empty() || document["samples"].contains("opaque"));
   }
-  static bool says_none(std::span<const FlagValue> flags) {
+  static bool removes_samples(std::span<const FlagValue> flags) {
     return std::ranges::any_of(
         flags, [](const FlagValue& flag) { return flag.name == "--set" && flag.value == "samples={}"; });
   }
@@ -502,7 +504,7 @@ class Usual {
   bool has_scenes_only_, names_surfaces_, names_accuracy_;
 };
 
-// Beside presets the defaults' grids are not measured, and a flag that changes these would change nothing.
+// Beside presets the default grids are not measured, so a flag that changes only these has no effect: an Error.
 void check_grids_of_flags(bool has_presets, bool names_own, std::span<const FlagValue> flags) {
   const FlagValue* flag = flag_of_unnamed_grids(flags);
   if (!has_presets || names_own || flag == nullptr) return;
@@ -516,17 +518,18 @@ void check_grids_of_flags(bool has_presets, bool names_own, std::span<const Flag
           "changed in a configuration: `clusterbench list presets` prints it");
 }
 
-// The configuration as flags change it. Presets stand alone where neither the file nor a flag names a clustering.
+// Reads the configuration with the changes by flags. Presets run alone if neither the file nor a flag names a
+// clustering.
 Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json& defaults,
                     const GridChange& preset_grid) {
   const GridsFrom grids = text.value.contains("grids") ? GridsFrom::file : GridsFrom::defaults;
   const bool names_own = names_own_clusterings(text.value);
-  const Usual usual(text, flags);
+  const UnsetDefaults unset(text, flags);
   for (const auto& [key, value] : defaults.items())
     if (text.value.is_object() && !text.value.contains(key)) text.value[key] = value;
   JsonText as_written = text;
   if (text.value.contains("presets") && !names_own) drop_own_clusterings(as_written.value);
-  usual.add_to(as_written.value);
+  unset.add_to(as_written.value);
   Config config = read_config(as_written, flags.empty() ? preset_grid : GridChange{});
   if (flags.empty()) return config;
   Json document = config.resolved;
@@ -538,7 +541,7 @@ Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json&
   JsonText changed = changed_by_flags(document, grids, text.file, flags);
   check_grids_of_flags(changed.value.contains("presets"), names_own, flags);
   if (changed.value.contains("presets") && !names_own && !name_clusterings(flags)) drop_own_clusterings(changed.value);
-  usual.add_to(changed.value);
+  unset.add_to(changed.value);
   if (grids == GridsFrom::defaults && changed.value.contains("grids")) {
     const Json whole = filled(changed)["grids"], usable = usable_default_grids(whole);
     if (usable != whole) changed.value["grids"] = usable;

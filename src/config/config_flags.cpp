@@ -19,7 +19,7 @@ using Json = nlohmann::json;
   throw Error("", flag.shown(), what);
 }
 
-// "a,[b,c],{d,e}" at its commas outside of brackets and quotes.
+// Splits "a,[b,c],{d,e}" at commas outside of brackets and quotes.
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts(1);
   int depth = 0;
@@ -39,7 +39,7 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
-// JSON, or a word that needs no quotes; several make a list.
+// JSON, or a word without quotes; several make a list.
 Json value_of(const std::string& text) {
   Json list = Json::array();
   for (const std::string& part : split(text)) {
@@ -49,7 +49,7 @@ Json value_of(const std::string& text) {
   return list.size() == 1 ? list.front() : list;
 }
 
-// Whether the schema has a list there, and nothing else: --set precision=half is the list of one.
+// Whether the schema allows only a list there: --set precision=half is a list of one.
 bool wants_list(const std::string& pointer) {
   static const Json schema = config_schema();
   const std::string key = pointer.substr(0, pointer.find('/', 1));
@@ -59,7 +59,7 @@ bool wants_list(const std::string& pointer) {
   return part != nullptr && part->value("type", Json()) == "array";
 }
 
-// A configuration, and which flag has set what.
+// A configuration, and the flag behind each changed key.
 class FlaggedConfig {
  public:
   explicit FlaggedConfig(JsonText& text) : text_(text) {}
@@ -68,8 +68,8 @@ class FlaggedConfig {
   Json& operator[](const char* key) { return text_.value[key]; }
   void mark(const std::string& pointer, const FlagValue& flag) { text_.flags[pointer] = flag.shown(); }
 
-  // Sets what `steps` lead to from `at`, which stands at `pointer`: a key, an entry by its number, or "*" for each
-  // entry that has the next key. Says how many there were.
+  // Sets the values that `steps` lead to from `at`, whose pointer is `pointer`. A step is a key, the index of an entry,
+  // or "*" for each entry that has the next key. Returns the number of values set.
   int set(Json& at, const std::string& pointer, std::span<const std::string> steps, const FlagValue& flag,
           const Json& value) {
     if (steps.empty()) {
@@ -78,7 +78,7 @@ class FlaggedConfig {
       return 1;
     }
     if (at.is_array()) return set_in_list(at, pointer, steps, flag, value);
-    if (at.is_null()) at = Json::object();  // "stability" and the like, which are off
+    if (at.is_null()) at = Json::object();  // an optional part that is off, such as "stability"
     if (!at.is_object()) refuse(flag, pointer + " has no keys");
     const std::string member = child_pointer(pointer, steps.front());
     if (!at.contains(steps.front())) mark(member, flag);
@@ -101,7 +101,7 @@ class FlaggedConfig {
                        " entries: takes a number from 0, or * for all, not '" + steps.front() + "'");
     int count = 0;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      // Scenes take the same keys, some of which are not there until they are set.
+      // All scenes accept the same keys, even those that are not present yet.
       const bool is_meant =
           is_entry ? number == i : steps.size() == 1 || pointer == "/scenes" || has_step(list[i], steps[1]);
       if (is_meant) count += set(list[i], child_pointer(pointer, i), steps.subspan(1), flag, value);
@@ -116,7 +116,7 @@ bool has_tiles(const Json& grid) {
   return grid["kind"] == "frustum" || grid["kind"] == "distance";
 }
 
-// Grids of these kinds stay; a kind that is not there comes with its defaults.
+// Keeps the configuration's grids of these kinds; a kind that it does not have is added with its defaults.
 void choose_grids(FlaggedConfig& document, const FlagValue& flag) {
   Json chosen = Json::array();
   for (const std::string& kind : split(flag.value)) {
@@ -183,8 +183,8 @@ void choose_scheme(FlaggedConfig& document, const FlagValue& flag) {
   set_of_slices(document, "scheme", flag);
 }
 
-// Flags that change the grids that are there.
-bool shapes_grids(const FlagValue& flag) {
+// Flags that change existing grids.
+bool changes_existing_grids(const FlagValue& flag) {
   return flag.name == "--tiles" || flag.name == "--slices" || flag.name == "--scheme";
 }
 
@@ -232,7 +232,7 @@ void set_field_of_view(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"scenes", "*", "fov"}, flag, Json(flag.value));
 }
 
-// A number from 0, or a name; "12" may be either, which the file decides.
+// An index from 0, or a name; "12" may be either, depending on the names in the file.
 void set_scene(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"scenes", "*", "scene"}, flag, Json(flag.value));
 }
@@ -261,7 +261,7 @@ void set_threads(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"threads"}, flag, value_of(flag.value));
 }
 
-// A step of a JSON pointer (RFC 6901): ~1 is a slash, ~0 a tilde.
+// Decodes a step of a JSON pointer (RFC 6901): ~1 is a slash, ~0 a tilde.
 std::string unescaped(const std::string& step, const FlagValue& flag) {
   std::string out;
   for (std::size_t i = 0; i < step.size(); ++i) {
@@ -285,7 +285,7 @@ void add_budget(FlaggedConfig& document, const FlagValue& flag) {
 
 // "a.b.0.c", or as a JSON pointer, "/a/b/0/c".
 std::vector<std::string> steps_of(const std::string& key, const FlagValue& flag) {
-  constexpr std::size_t k_most_steps = 16;  // no key is as deep
+  constexpr std::size_t k_most_steps = 16;  // deeper than any key
   const bool is_pointer = key.starts_with('/');
   const auto depth = static_cast<std::size_t>(std::count(key.begin(), key.end(), is_pointer ? '/' : '.'));
   if (depth > k_most_steps)
@@ -319,7 +319,7 @@ struct FlagRow {
   void (*apply)(FlaggedConfig& document, const FlagValue& flag);
 };
 
-// In the order in which they are applied.
+// In the order of their application.
 constexpr FlagRow k_rows[] = {
     {{"--grid", "KIND[,KIND]: only grids of these kinds; one that the configuration lacks comes with its defaults"},
      choose_grids},
@@ -349,7 +349,7 @@ constexpr FlagRow k_rows[] = {
      set_any},
 };
 
-// Whether a flag has set this key of a grid's slices, by itself or with all that stands around it.
+// Whether a flag set this key of a grid's slices, directly or as part of a larger value.
 bool is_set_by_flag(const JsonText& text, const std::string& grid, const std::string& key) {
   const auto is_set = [&](const std::string& pointer) {
     const auto found = text.flags.find(pointer);
@@ -358,7 +358,7 @@ bool is_set_by_flag(const JsonText& text, const std::string& grid, const std::st
   return text.flags.contains(grid + "/slices/" + key) || is_set(grid + "/slices") || is_set(grid) || is_set("/grids");
 }
 
-// Keys of `slices` that none of its schemes uses, and that no flag has set: another scheme has been chosen.
+// Drops keys of `slices` that none of its schemes uses and that no flag set: a flag chose another scheme.
 void drop_unused_slice_keys(JsonText& text) {
   const Json properties = config_schema()["definitions"]["slices"]["properties"];
   Json& grids = text.value["grids"];
@@ -375,8 +375,8 @@ void drop_unused_slice_keys(JsonText& text) {
   }
 }
 
-// The default has several grids of a kind, which differ in their tiles and slices: who names tiles or slices wants one
-// of each kind with these.
+// The defaults have several grids per kind, with different tiles and slices; with tiles or slices from flags one of
+// each kind is enough.
 void keep_one_of_each_kind(Json& grids) {
   Json kept = Json::array();
   for (const Json& grid : grids)
@@ -386,7 +386,7 @@ void keep_one_of_each_kind(Json& grids) {
   grids = kept;
 }
 
-// Two grids that differed in what a flag has set.
+// Grids can be equal after a flag has set the key in which they differed.
 void drop_repeated(Json& list) {
   Json once = Json::array();
   for (const Json& entry : list)
@@ -419,7 +419,7 @@ bool names_key(std::span<const FlagValue> values, const std::string& key) {
 
 bool name_clusterings(std::span<const FlagValue> values) {
   const auto is_own = [](const FlagValue& flag) {
-    return flag.name == "--grid" || flag.name == "--assigner" || shapes_grids(flag);
+    return flag.name == "--grid" || flag.name == "--assigner" || changes_existing_grids(flag);
   };
   return std::ranges::any_of(values, is_own) || names_key(values, "(grids|assigners|storages)");
 }
@@ -436,7 +436,7 @@ const FlagValue* flag_of_unnamed_grids(std::span<const FlagValue> values) {
 }
 
 bool changes_grid(const FlagValue& flag) {
-  return flag.name == "--grid" || shapes_grids(flag) || names_key(std::span(&flag, 1), "grids");
+  return flag.name == "--grid" || changes_existing_grids(flag) || names_key(std::span(&flag, 1), "grids");
 }
 
 GridChange grid_change(std::span<const FlagValue> values) {
@@ -472,7 +472,7 @@ JsonText changed_by_flags(const Json& document, GridsFrom grids, const std::stri
   text.file = file;
   text.value = document;
   FlaggedConfig changed(text);
-  if (grids == GridsFrom::defaults && std::any_of(values.begin(), values.end(), shapes_grids))
+  if (grids == GridsFrom::defaults && std::any_of(values.begin(), values.end(), changes_existing_grids))
     keep_one_of_each_kind(text.value["grids"]);
   for (const FlagRow& row : k_rows)
     for (const FlagValue& flag : values)

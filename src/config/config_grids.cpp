@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A key that can be an axis, and how deep lists are nested in a single value of it.
+// A key that can be an axis, and the nesting depth of lists in a single value of it.
 struct Axis {
   const char* pointer;
   int depth;
@@ -49,7 +49,7 @@ int nesting(const Json& value) {
   return value.is_array() && !value.empty() ? 1 + nesting(value.front()) : 0;
 }
 
-// Every object of `all` with the axis' list replaced by each of its values.
+// Copies of each object of `all`, with each value of the list of the axis.
 std::vector<Json> expand_axis(const std::vector<Json>& all, const Json::json_pointer& axis, int depth) {
   std::vector<Json> out;
   for (const Json& object : all) {
@@ -77,7 +77,7 @@ void drop_unused_reaction(Json& grid) {
     react["of"] = grid["kind"] == "distance" ? "distance-fast" : "exact-fast";
 }
 
-// A key that only other schemes of the axis use must not make several equal grids.
+// A key that only other schemes use must not make several equal grids.
 void drop_unused(Json& grid) {
   drop_unused_reaction(grid);
   if (grid.contains("cell_size") && grid.value("follow", Json()) != "camera") grid.erase("cell_size");
@@ -134,7 +134,7 @@ void check_slices(const Json& slices, const std::string& pointer, const JsonText
            "found " + boundaries[i].dump() + " after " + boundaries[i - 1].dump() + ", allowed: ascending numbers");
 }
 
-// What a grid cannot react to, whatever the scene.
+// Rejects settings that no grid with `react` can have, in any scene.
 void check_reaction(const Json& grid, const std::string& pointer, const JsonText& text) {
   const Json& react = grid["react"];
   const auto fail = [&](const char* key, const std::string& message) {
@@ -149,7 +149,7 @@ void check_reaction(const Json& grid, const std::string& pointer, const JsonText
     fail("/to", "found 'mask-words', which doubles tiles in pixels, beside tiles.count; allowed: tiles.pixels");
 }
 
-// The method whose lists tiles react to: it has to have lists, in this kind of grid, of nothing but lights.
+// The method whose lists tiles react to must have lists for this kind of grid, and must not need depth.
 void check_method_of_reaction(const Json& grid, const std::string& pointer, const JsonText& text) {
   const Json& react = grid["react"];
   if (react["to"] != "entries") return;

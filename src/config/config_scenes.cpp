@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// "${NAME}" becomes the environment variable's value.
+// Replaces "${NAME}" by the value of the environment variable.
 std::string expanded(std::string path, const std::string& file, const std::string& where) {
   for (std::size_t begin = path.find("${"); begin != std::string::npos; begin = path.find("${", begin)) {
     const std::size_t end = path.find('}', begin);
@@ -61,18 +61,18 @@ scene::PathRequest path_request(const Json& scene, const std::string& pointer, c
   return request;
 }
 
-// A name, or a number.
+// The name, or the index as text.
 std::string chosen(const Json& scene, const char* key) {
   if (!scene.contains(key)) return "";
   return scene[key].is_string() ? scene[key].get<std::string>() : std::to_string(scene[key].get<std::uint64_t>());
 }
 
-// Where relative paths start: beside the configuration, and of one that comes through a pipe, here.
+// The folder of relative paths: that of the configuration, or the working directory if it comes through a pipe.
 fs::path folder_of(const std::string& file) {
   return is_stream_name(file) ? fs::path() : fs::path(file).parent_path();
 }
 
-// A rig's axes expanded into their product. `rig` has its defaults filled in.
+// Expands a rig's axes into their product. `rig` has its defaults filled in.
 std::vector<scene::RigSpec> rig_specs(const nlohmann::json& rig) {
   std::vector<scene::RigSpec> specs;
   for (const nlohmann::json& sized : expand_all_axes(rig, {"size"})) {

@@ -11,15 +11,15 @@
 
 namespace clusterbench::config {
 
-// A path that a configuration has: from its folder on, with environment variables (${NAME}). `where`: in the text, for
-// messages.
+// Resolves a path of a configuration: relative to its folder, with environment variables (${NAME}). `where`: position
+// in the text, for messages.
 std::filesystem::path path_in(const JsonText& text, const std::string& given, const std::string& where);
 
-// `scene` has its defaults filled in, and stands at `pointer`. Several: of `paths`, and of a rig's axes.
+// `scene` has its defaults filled in; its pointer is `pointer`. Adds several scenes for `paths`, and for axes of a rig.
 void add_scenes(const nlohmann::json& scene, const std::string& pointer, const JsonText& text,
                 std::vector<SceneRequest>& out);
 
-// In pixels, one for each frame in turn; none without.
+// In pixels, one per frame in turn; empty without jitter.
 std::vector<Vec2d> jitter_of(const nlohmann::json& jitter);
 
 }  // namespace clusterbench::config

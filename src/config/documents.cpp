@@ -79,7 +79,7 @@ void insert_methods(Json& properties) {
   properties["storages"]["items"] = method_items(assign::storage_names(), storages);
 }
 
-// {"x-axis": true, ...single} becomes a single value or a list of them.
+// Expands {"x-axis": true, ...single} to a single value or a list of them.
 void expand_axis(Json& schema) {
   Json single = schema;
   Json outer{{"x-axis", true}};
@@ -91,7 +91,7 @@ void expand_axis(Json& schema) {
   schema = outer;
 }
 
-// What x-used-by says, for validators that know only draft-07.
+// Expresses x-used-by as `dependencies`, for validators that know only draft-07.
 void require_users(Json& object) {
   const std::string selector = object["x-selector"].get<std::string>();
   const Json default_value = object["properties"][selector]["default"];

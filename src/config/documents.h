@@ -11,14 +11,14 @@ enum class Document { config, result, comparison, ratios, recommendation, stress
 
 struct DocumentRow {
   Document document;
-  const char* name;   // as `clusterbench schema` takes it
+  const char* name;   // argument of `clusterbench schema`
   const char* title;  // for messages: "a result of `clusterbench run`"
   nlohmann::json (*schema)();
 };
 std::span<const DocumentRow> document_rows();
 const DocumentRow& row_of(Document document);
 
-// What a JSON value is meant to be. What has the keys of none of the others is taken for a configuration.
+// Detects the type of a JSON document by its keys; a document without the keys of any other type is a configuration.
 template <class Json>
 Document document_of(const Json& value) {
   if (!value.is_object()) return Document::config;
@@ -32,10 +32,10 @@ Document document_of(const Json& value) {
   return value.contains("kind") && value["kind"] == "stress" ? Document::stress : Document::result;
 }
 
-// Throws Error for a written document of another version than its schema's: names and meanings differ.
+// Throws Error if a written document has another version than its schema: names and meanings differ.
 void check_version(const std::string& path, const nlohmann::json& document, const DocumentRow& row);
 
-// Assembled from the embedded text and the rows of assigners and storages.
+// The embedded text, completed by the rows of assigners and storages.
 nlohmann::json config_schema();
 nlohmann::json result_schema();
 

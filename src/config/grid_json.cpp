@@ -118,7 +118,7 @@ OrderedJson react_json(const grid::Reaction& reaction) {
   return out;
 }
 
-// null along an axis that does not follow.
+// null for an axis that does not follow.
 OrderedJson cell_size_json(const grid::GridSpec& spec) {
   OrderedJson out = OrderedJson::array();
   for (int axis = 0; axis < 3; ++axis)
@@ -126,7 +126,7 @@ OrderedJson cell_size_json(const grid::GridSpec& spec) {
   return out;
 }
 
-// One member of a request; null where it is not said.
+// One member of a request; null if it is not set.
 OrderedJson requested(const grid::GridSpec& spec, const std::string& key) {
   if (key == "tiles") return tiles_json(spec.tiles);
   if (key == "slices") return slices_json(spec.slices);
@@ -142,7 +142,7 @@ OrderedJson requested(const grid::GridSpec& spec, const std::string& key) {
   return nullptr;
 }
 
-// What a member adds to that by which grids are told apart. These are in recorded results: they stay as they are.
+// Adds a member to the identity of the grid. Identities are part of recorded results: they must not change.
 void add_identity(const grid::GridSpec& spec, const std::string& key, Json& out) {
   const grid::Slicing& slices = spec.slices;
   if (key == "tiles") out[key] = {spec.tiles.pixels.x, spec.tiles.pixels.y, spec.tiles.count.x, spec.tiles.count.y};

@@ -1,5 +1,6 @@
 #pragma once
-// A grid's request as JSON and back: with the schema, all that a kind of grid has outside of src/grid.
+// A grid's request as JSON and back; together with the schema the only code outside of src/grid that depends on the
+// kind of grid.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,14 +12,14 @@ namespace clusterbench::config {
 
 const char* scheme_name(grid::Scheme scheme);
 std::vector<std::string> scheme_names();
-// A length in `slices`; 0 if it is not given or null.
+// A length in `slices`; 0 if it is missing or null.
 double slices_metres(const nlohmann::json& slices, const char* key);
 
-// One without axes, checked against the schema.
+// `grid`: without axes, checked against the schema.
 grid::GridSpec grid_spec(const nlohmann::json& grid);
-// As a configuration has it.
+// In the format of a configuration.
 nlohmann::ordered_json grid_request(const grid::GridSpec& spec);
-// Everything that tells two requests apart; keys that the kind does not use are left out.
+// All settings that distinguish two requests; without keys that the kind does not use.
 nlohmann::json grid_identity(const grid::GridSpec& spec);
 
 }  // namespace clusterbench::config

@@ -30,7 +30,7 @@ std::string to_text(TextPosition position, const std::string& pointer) {
          (pointer.empty() ? "/" : pointer);
 }
 
-// Walks over text that the parser has accepted, which is not deep, and notes where things stand.
+// Scans text that the parser has accepted, which limits its depth, and records positions.
 class Scanner {
  public:
   Scanner(std::string_view text, JsonText& out) : text_(text), out_(out) {
@@ -52,7 +52,7 @@ class Scanner {
   }
 
  private:
-  // Places are asked for in ascending order, so each character is counted once.
+  // Positions are queried in ascending order, so each character is counted once.
   TextPosition here() {
     const TextPosition step = position_of(text_.substr(counted_), at_ - counted_);
     position_.column = step.line == 1 ? position_.column + step.column - 1 : step.column;

@@ -1,6 +1,6 @@
 #pragma once
-// JSON as a person writes it: with // and /* */ comments, and with the location of every key and value in the text, so
-// that a message can say where. Trailing commas and duplicate keys are refused.
+// Hand-written JSON: with // and /* */ comments, and with the position of every key and value in the text, for
+// messages. Trailing commas and duplicate keys are rejected.
 
 #include <filesystem>
 #include <map>
@@ -18,14 +18,14 @@ struct TextPosition {
 struct JsonText {
   std::string file;  // for messages
   nlohmann::json value;
-  std::map<std::string, TextPosition> keys;    // JSON pointer of a member -> where its key stands
-  std::map<std::string, TextPosition> values;  // JSON pointer -> where its value begins; "" is the whole document
-  std::map<std::string, std::string>
-      flags;  // JSON pointer -> the command line's flag that has set it; has no locations
+  std::map<std::string, TextPosition> keys;    // JSON pointer of a member -> position of its key
+  std::map<std::string, TextPosition> values;  // JSON pointer -> start of its value; "" is the whole document
+  // JSON pointer -> the command line's flag that set it; without positions
+  std::map<std::string, std::string> flags;
 
   bool has(const std::string& pointer) const { return values.contains(pointer); }
-  // "line:column /pointer" of the value, or of the nearest value around it that the text has. Where flags have changed
-  // the text: "--flag=value /pointer" of the flag that has set it, or of all flags.
+  // "line:column /pointer" of the value, or of the nearest enclosing value that the text has. For text changed by
+  // flags: "--flag=value /pointer" of the flag that set it, or of all flags.
   std::string where(std::string pointer) const;
   // The same for a member's key.
   std::string where_key(const std::string& pointer) const;
@@ -34,8 +34,8 @@ struct JsonText {
   std::string flag_of(std::string pointer) const;
 };
 
-// Throws Error (file, "line:column /pointer") for broken syntax, a duplicate key, or what core/json_document.h allows
-// none of.
+// Throws Error (file, "line:column /pointer") for broken syntax, a duplicate key, or a value that core/json_document.h
+// rejects.
 JsonText parse_json_text(const std::string& text, const std::string& file);
 
 // pointer + "/" + key with ~ and / escaped (RFC 6901).

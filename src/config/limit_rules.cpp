@@ -61,7 +61,7 @@ std::optional<Number> number_in(std::string_view text) {
   return out;
 }
 
-// A budget in the pieces that its text has.
+// Splits the text of a budget into its parts.
 class RuleParser {
  public:
   RuleParser(const std::string& text, const std::string& file, const std::string& where)

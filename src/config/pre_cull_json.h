@@ -1,5 +1,5 @@
 #pragma once
-// A pre-cull as a configuration asks for it.
+// A pre-cull in the format of a configuration, and back.
 
 #include <nlohmann/json.hpp>
 
@@ -7,9 +7,9 @@
 
 namespace clusterbench::config {
 
-// Of "none", one step, or a list of steps, with all defaults filled in.
+// `request`: "none", one step, or a list of steps, with all defaults filled in.
 cull::PreCullSpec pre_cull_spec(const nlohmann::json& request);
-// The same the other way: "none", or a list of steps.
+// The inverse: "none", or a list of steps.
 nlohmann::ordered_json pre_cull_request(const cull::PreCullSpec& spec);
 
 }  // namespace clusterbench::config

@@ -1,5 +1,5 @@
 #pragma once
-// A file of configs/presets: one preset as JSON, with comments where one likes.
+// A file of configs/presets: one preset as JSON, with optional comments.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace clusterbench::config {
 
-// Throws Error with `file` and "line:column /pointer" for broken syntax, a key that is missing or not known, a value of
-// another type, a word that is none of those allowed, and for a name that is not the file's.
+// Throws Error with `file` and "line:column /pointer" for broken syntax, a missing or unknown key, a value of another
+// type, a word that is not allowed, or a name that is not the file's.
 Preset read_preset(const std::string& text, const std::string& file);
 
 }  // namespace clusterbench::config

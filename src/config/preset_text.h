@@ -10,7 +10,7 @@ struct PresetText {
   std::string_view name, text;  // of configs/presets/NAME.json
 };
 
-// In the order in which presets are shown, which is that of the list in CMakeLists.txt.
+// In the order of the list in CMakeLists.txt, in which presets are shown.
 std::span<const PresetText> preset_texts();
 
 }  // namespace clusterbench::config

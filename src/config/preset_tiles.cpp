@@ -15,8 +15,8 @@ int root_of(int number) {
   return std::max(1, static_cast<int>(std::sqrt(static_cast<double>(number))));
 }
 
-// Froxelizer::computeFroxelLayout(): square froxels of a multiple of 8 pixels, for 8192 of them in 16 slices. Its
-// divisions are of integers.
+// Froxelizer::computeFroxelLayout(): square froxels of a multiple of 8 pixels, for 8192 of them in 16 slices. Divisions
+// are integer divisions, as there.
 nlohmann::json filament_tiles(Vec2i viewport) {
   constexpr int k_tiles = 8192 / 16;
   const auto whole_eights = [](int pixels) { return divided_up(pixels, 8) * 8; };
@@ -27,15 +27,15 @@ nlohmann::json filament_tiles(Vec2i viewport) {
   return {{"pixels", {pixels, pixels}}};
 }
 
-// ClusterConfig::FixedZ: 4096 clusters in 24 slices, as many columns to rows as the picture is wide to high. The tile
-// in whole pixels decides how many there are; they are then spread evenly over the viewport.
+// ClusterConfig::FixedZ: 4096 clusters in 24 slices, with the picture's aspect ratio of columns to rows. The tile size
+// is rounded to whole pixels and gives the number of tiles, which are then spread evenly over the viewport.
 nlohmann::json bevy_tiles(Vec2i viewport) {
   const double aspect = static_cast<double>(viewport.x) / viewport.y;
   const double per_slice = 4096.0 / 24.0, height = std::sqrt(per_slice / aspect);
   int columns = static_cast<int>(height * aspect), rows = static_cast<int>(height);
   if (columns == 0) columns = 1, rows = static_cast<int>(per_slice);
   if (rows == 0) columns = static_cast<int>(per_slice), rows = 1;
-  const auto tiles = [](int pixels, int asked) { return divided_up(pixels, divided_up(pixels, asked)); };
+  const auto tiles = [](int pixels, int wanted) { return divided_up(pixels, divided_up(pixels, wanted)); };
   return {{"count", {tiles(viewport.x, columns), tiles(viewport.y, rows)}}};
 }
 

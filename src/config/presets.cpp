@@ -26,7 +26,7 @@ const std::vector<Preset>& all_presets() {
   return all;
 }
 
-// The preset's limit of lights, as a step of a pre-cull; null where it has none.
+// The preset's limit of lights, a step of its pre-cull; null without a limit.
 Json limit_of(const Preset& preset) {
   if (preset.pre_cull)
     for (const result::Json& step : *preset.pre_cull)
@@ -56,7 +56,7 @@ std::string cell_limit_text(const Preset& preset) {
   return "";
 }
 
-// {"grid": {...}, "assigner": {...}, ...}: of a preset or of its changes.
+// The parts {"grid": {...}, "assigner": {...}, ...} of a preset or of its changes.
 template <class Record>
 Json parts_of(const Record& record) {
   Json parts = Json::object();

@@ -1,6 +1,6 @@
 #pragma once
-// Clusterings as engines, papers and articles have them: a grid, a method and a light structure each, and what the
-// engine does to lights before. Each is a file of configs/presets.
+// Clusterings of engines, papers and articles: each has a grid, a method and a light structure, and the engine's own
+// culling of lights. Each is a file of configs/presets.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@
 
 namespace clusterbench::config {
 
-// What changes in a preset where the engine has its mistakes.
+// The changes of a preset for the engine as shipped, with its mistakes.
 struct PresetChanges {
   RECORD(PresetChanges);
   FIELD(std::optional<result::Json>, grid, "Members of the grid that differ; the others stay");
@@ -30,20 +30,19 @@ struct Preset {
   FIELD(std::string, engine, "Of which engine, game, paper or article");
   FIELD(std::string, version, "Of the code or the publication: a release, a commit, a year");
   // ran: the engine's own code, or a transcription of it, was run on the same lights, and its lists were compared cell
-  // by cell. read: its code or what its authors have published was read. memory: neither.
+  // by cell. read: the engine's code or a publication of its authors was read. memory: neither.
   FIELD(std::string, evidence, result::About("What it rests on").one_of({"ran", "read", "memory"}));
   FIELD(std::string, source, "What was read or run");
   FIELD(std::string, summary, "The scheme in a line");
   FIELD(std::string, approximated, "What is not as there, in one sentence; empty where nothing is known to differ");
   FIELD(std::string, unverified, "What stands on memory alone; empty where nothing does");
-  // gpu: lists of a shader or a rasteriser are not uploaded, and the time that a method takes on a CPU is not the
-  // engine's.
+  // gpu: lists of a shader or a rasteriser are not uploaded, and the method's time on a CPU is not the engine's.
   FIELD(std::string, assigns_on, result::About("Where the engine makes its lists").one_of({"cpu", "gpu"}));
   FIELD(std::optional<std::string>, remark,
         "What to know before it is taken, where another preset is of the same engine");
   FIELD(std::optional<std::string>, tiles_by,
         "How tiles follow the viewport (preset_tiles.h); the grid has those of 1920 x 1080 pixels");
-  // As entries of a configuration's lists have them.
+  // In the format of entries of a configuration's lists.
   FIELD(result::Json, grid, "Entry of grids");
   FIELD(result::Json, assigner, "Entry of assigners");
   FIELD(std::optional<result::Json>, storage, "Entry of storages; without it the method's own structure");
@@ -59,20 +58,20 @@ struct Preset {
 
 // In the order in which they are shown; names are unique.
 std::span<const Preset> presets();
-const Preset* find_preset(const std::string& name);  // null where there is none
+const Preset* find_preset(const std::string& name);  // null for an unknown name
 std::vector<std::string> preset_names();
 
-// Its parts for a viewport: the scheme without the engine's mistakes, or as it is shipped.
+// The preset's parts for a viewport: the scheme without the engine's mistakes, or as shipped.
 nlohmann::json preset_parts(const Preset& preset, Vec2i viewport, bool as_shipped = false);
 
-// What it has room for, of lights and per cell, in words: "255 lights in view, the first; 255 in a cell"; "" where no
-// limit is known.
+// The preset's limits on lights and on entries per cell, as text: "255 lights in view, the first; 255 in a cell"; "" if
+// no limit is known.
 std::string limit_text(const Preset& preset);
-// The most lights that it takes in a frame, of each type where the limit is one of types; 0: no limit is known.
+// The most lights per frame, per type if the limit is one per type; 0: no limit is known.
 std::uint64_t most_lights(const Preset& preset);
 
-// Names written out: each entry is a name or a pattern (* any letters, ? one); each preset once, in the order in which
-// they are first named. Throws Error with `file` and `where` for what names none.
+// Expands names: each entry is a name or a pattern (* any letters, ? one); each preset once, in the order of its first
+// match. Throws Error with `file` and `where` for an entry without a match.
 std::vector<std::string> named_presets(std::span<const std::string> entries, const std::string& file,
                                        const std::string& where);
 

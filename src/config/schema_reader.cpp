@@ -17,7 +17,7 @@ const Json& resolved(const Json& root, const Json& schema) {
   return root.at(Json::json_pointer(schema["$ref"].get<std::string>().substr(1)));
 }
 
-// The alternatives of a schema that is nothing but a choice; null otherwise.
+// The alternatives of a schema that consists only of a choice; null for others.
 const Json* alternatives(const Json& schema) {
   if (schema.contains("type")) return nullptr;
   for (const char* keyword : {"anyOf", "oneOf"})
@@ -69,7 +69,7 @@ std::vector<std::string> texts_of(const Json& values) {
   return texts;
 }
 
-// A text that looks like a number is quoted: 8 and "8" are not the same in a configuration.
+// Texts that look like numbers are quoted: 8 and "8" are different in a configuration.
 std::vector<std::string> shown_texts(const Json& values) {
   std::vector<std::string> texts = texts_of(values);
   for (std::size_t i = 0; i < texts.size(); ++i)
@@ -149,7 +149,7 @@ class Reader {
     return out;
   }
 
-  // Could this schema mean the value, judging by its shape alone?
+  // Whether the type of the value fits this schema.
   bool fits(const Json& unresolved, const Json& value) const {
     const Json& schema = resolved(root_, unresolved);
     if (const Json* choices = alternatives(schema))
@@ -174,7 +174,7 @@ class Reader {
     return read_object(*variant_of(fitting, value, pointer), &choices, value, pointer);
   }
 
-  // A list whose items fit nowhere is best explained by the first choice that is a list.
+  // For a list whose items fit no choice, the first choice that is a list gives the best message.
   const Json& nearest_choice(const Json& schema, const Json& choices, const Json& value,
                              const std::string& pointer) const {
     for (const Json& choice : choices) {
@@ -184,7 +184,7 @@ class Reader {
     fail(schema, value, pointer);
   }
 
-  // The property whose constant tells a variant from the others.
+  // The property whose constant identifies a variant.
   static std::string tag_of(const Json& variant) {
     for (const auto& [key, property] : variant["properties"].items())
       if (property.contains("const")) return key;
@@ -265,7 +265,7 @@ class Reader {
     throw Error(text_.file, where, "unknown key '" + key + "'" + did_you_mean(key, allowed) + rest);
   }
 
-  // The values of the property that decides which others have a meaning.
+  // The values of the property that decides which other properties are used.
   std::set<std::string> selection(const Json& schema, const Json& value, const std::string& pointer) const {
     if (!schema.contains("x-selector")) return {};
     const std::string selector = schema["x-selector"].get<std::string>();

@@ -7,7 +7,7 @@
 
 namespace clusterbench::config {
 
-// "/pointer: what is wrong" for each violation of the draft-07 schema; empty when the instance is valid.
+// "/pointer: message" for each violation of the draft-07 schema; empty if the instance is valid.
 std::vector<std::string> schema_violations(const nlohmann::json& schema, const nlohmann::json& instance);
 
 }  // namespace clusterbench::config

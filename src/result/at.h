@@ -3,7 +3,7 @@
 //
 //   number<&Case::timing, &Timing::frame_ns, &Time::median>(result_case)
 //
-// Each is a function: tables of figures hold them.
+// All are functions, so that tables of figures can hold pointers to them.
 
 #include <cmath>
 #include <optional>
@@ -19,7 +19,7 @@ Record record_of(T Record::*);
 template <auto Member>
 using RecordOf = decltype(record_of(Member));
 
-// The value, or what a std::optional or Nullable holds.
+// The value, or the value in a std::optional or Nullable.
 template <class T>
 const auto* present(const T& value) {
   if constexpr (requires { value.has_value(); }) {
@@ -32,7 +32,7 @@ const auto* present(const T& value) {
 
 }  // namespace detail
 
-// Null where any of the fields has no value.
+// Null if any of the fields has no value.
 template <auto First, auto... Rest>
 const auto* part(const detail::RecordOf<First>& record) {
   const auto* found = detail::present(record.*First);
@@ -44,7 +44,7 @@ const auto* part(const detail::RecordOf<First>& record) {
   }
 }
 
-// None where any of the fields has no value, and for a number that is null.
+// None if any of the fields has no value, or if the number is null.
 template <auto First, auto... Rest>
 std::optional<double> number(const detail::RecordOf<First>& record) {
   const auto* found = part<First, Rest...>(record);

@@ -1,5 +1,5 @@
 #pragma once
-// How full cells are, and what lists need of memory.
+// Occupancy of cells, and memory of lists.
 
 #include "result/figures.h"
 

@@ -22,7 +22,7 @@ std::string text_of_place(std::optional<double> frame, const CellIndex* cell) {
   return text;
 }
 
-// Nothing for a share of nothing.
+// None if the whole is 0.
 template <class Record>
 std::optional<Quotient> quotient_of(const Share<Record>& share, const Record& record) {
   const std::optional<double> count = share.count(record);
@@ -30,7 +30,7 @@ std::optional<Quotient> quotient_of(const Share<Record>& share, const Record& re
   return count && whole > 0.0 ? std::optional(Quotient{*count, whole}) : std::nullopt;
 }
 
-// It is divided once, so that it is the double nearest to it, as the number of a budget is.
+// Kept as a quotient: its only division gives the double nearest to the exact value, like the number of a budget.
 std::optional<Quotient> recorded(const Figure& figure, const Case& result_case) {
   if (figure.share.count != nullptr)
     if (const std::optional<Quotient> share = quotient_of(figure.share, result_case)) return share;
@@ -48,7 +48,7 @@ std::optional<FigureValue> value_in_case(const Figure& figure, const Case& resul
                                            worst.cell != nullptr ? worst.cell(result_case) : nullptr)};
 }
 
-// Of several sets the one where it is largest: another set cannot make up for what one lacks.
+// The value of the set with the largest one: a good set must not compensate for a bad one.
 std::optional<FigureValue> largest_of_sets(const Figure& figure, const Case& result_case,
                                            const std::vector<std::string>& sets) {
   std::optional<FigureValue> most;
@@ -71,10 +71,10 @@ std::optional<FigureValue> value_of_ranking_sets(const Figure& figure, const Cas
     const std::optional<double> mean = mean_at_samples(result_case, figure.samples.share.count);
     return mean ? std::optional(of_all_sets(*mean)) : std::nullopt;
   }
-  // Of sets that have weights it is that of all of them, as a frame shades them.
+  // With weights, overshade is the weighted value over all sets, as a frame shades them.
   if (figure.name == "overshade")
     if (const auto weighted = number<&Case::cost, &Cost::overshade>(result_case)) {
-      if (!result_case.cost->lit) return {};  // older results have the ratio all the same
+      if (!result_case.cost->lit) return {};  // older results have the ratio even then
       return of_all_sets(*weighted);
     }
   return largest_of_sets(figure, result_case, sets);

@@ -1,6 +1,6 @@
 #pragma once
-// A figure (figure_table.h) of a case or of the cases of several cameras, by its name; "opaque.unlit" asks one set of
-// samples.
+// A figure (figure_table.h) of a case or of the cases of several cameras, by its name; "opaque.unlit" is that of one
+// set of samples.
 
 #include <optional>
 #include <span>
@@ -11,41 +11,41 @@
 
 namespace clusterbench::result {
 
-// "opaque.unlit" in its parts; the set is "" where none is named.
+// The parts of "opaque.unlit"; the set is "" if the name has none.
 struct FigureAtSamples {
   std::string set, figure;
 };
 FigureAtSamples figure_at_samples(const std::string& name);
-bool is_at_samples(const std::string& name);  // of one set or of those that rank
+bool is_at_samples(const std::string& name);  // of one set or of the ranking sets
 
-// The row of a name, which may name a set; null: there is no such figure, or it is not one of samples.
+// The row of a name, with or without a set; null: unknown, or no figure of samples.
 const Figure* figure_named(const std::string& name);
 
-// A number as it was counted: a share of two counts, or a number by 1.
+// A counted number: a share of two counts, or a number divided by 1.
 struct Quotient {
-  double numerator = 0.0, denominator = 1.0;  // finite; the second above 0
+  double numerator = 0.0, denominator = 1.0;  // finite; the denominator is above 0
 
   double value() const { return numerator / denominator; }
 };
 
-// Its value under its name, and where that is ("frame 9, cell [8,4,13]"; "" where the case does not tell).
+// The value of a figure, and the place of it ("frame 9, cell [8,4,13]"; "" if unknown).
 struct FigureValue {
   Quotient quotient = {};
   std::string location = {};
-  std::string samples = {};  // the names of the sets; "" where it is not one of samples
+  std::string samples = {};  // the names of the sets; "" if it is not a figure of samples
 
   double value() const { return quotient.value(); }
 };
-// Nothing where the case has none: why_no_figure() says why that may be.
+// None if the case has no value; why_no_figure() gives possible reasons.
 std::optional<FigureValue> figure_value(const Case& result_case, const std::string& name);
 std::optional<double> figure_of(const Case& result_case, const std::string& name);
 std::string why_no_figure(const std::string& name);
 
-// Of one case per camera. Nothing where a camera lacks it; but one that sees no surface has no samples, and no part in
-// figures of samples.
+// For one case per camera. None if a camera has no value; but a camera without visible surfaces has no samples, and is
+// left out for figures of samples.
 std::optional<double> figure_over(std::span<const Case> cases, const std::string& name);
 
-// In place of the worst frame, where a search has found a worse one than every frame of the path.
+// Marks that a search found a worse frame than every frame of the path.
 inline constexpr std::uint64_t k_found_frame = std::uint64_t{1} << 63;
 
 }  // namespace clusterbench::result

@@ -59,7 +59,7 @@ bool is_of_kind(const Type& type, const Json& json) {
     case Kind::boolean:
       return json.is_boolean();
     case Kind::integer:
-      // What was made from an int is not marked as unsigned.
+      // JSON made from an int is not marked as unsigned.
       return json.is_number_integer() &&
              (!type.is_unsigned || json.is_number_unsigned() || json.get<std::int64_t>() >= 0);
     case Kind::number:

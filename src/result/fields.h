@@ -1,5 +1,5 @@
 #pragma once
-// Records: plain structs that list each field once, with its name, meaning, unit, and what it is taken over.
+// Records: plain structs that list each field once, with its name, meaning, unit, and the range that it covers.
 //
 //   struct Spread {
 //     RECORD(Spread);
@@ -50,13 +50,13 @@ struct About {
   About above(double bound) const { return with(&About::above_min, bound); }
   About at_most(double most) const { return with(&About::max, most); }
   About finite() const { return with(&About::is_finite, true); }         // a number that is never null
-  About as_fraction() const { return with(&About::is_fraction, true); }  // a number that is written as 2.0, not 2
+  About as_fraction() const { return with(&About::is_fraction, true); }  // written as 2.0, not 2
   About one_of(std::vector<const char*> words) const { return with(&About::choices, std::move(words)); }
   About matches(const char* expression) const { return with(&About::pattern, expression); }
   About items(std::size_t least, std::size_t most) const {
     return with(&About::least_items, least).with(&About::most_items, most);
   }
-  About each(const char* what) const { return with(&About::of_each, what); }
+  About each(const char* meaning) const { return with(&About::of_each, meaning); }
   About always(int value) const { return with(&About::constant, value); }
   About shaped(const char* json_schema) const { return with(&About::shape, json_schema); }
   About late() const { return with(&About::is_late, true); }
@@ -69,7 +69,7 @@ struct About {
   std::vector<const char*> choices{};           // of a text
   const char* pattern = "";                     // of a text
   std::size_t least_items = 0, most_items = 0;  // of a list; 0: any number
-  const char* of_each = "";                     // what the values by name are
+  const char* of_each = "";                     // description of the values by name
   std::optional<int> constant{};                // of a whole number
   const char* shape = "";                       // of any JSON: its schema; of a struct: what else its schema says
   bool is_late = false;                         // always written; documents of earlier versions may lack it
@@ -83,14 +83,14 @@ struct About {
   }
 };
 
-// Null where it has no value.
+// Null without a value.
 template <class T>
 struct Nullable : std::optional<T> {
   using std::optional<T>::optional;
   using std::optional<T>::operator=;
 };
 
-// Values by name, in the order in which they are written.
+// Values by name, in the order of output.
 template <class T>
 using ByName = std::vector<std::pair<std::string, T>>;
 
@@ -103,20 +103,20 @@ struct Field {
   About about;
   const Type* type = nullptr;
   bool is_optional = false;
-  const void* (*get)(const void* record) = nullptr;  // nothing where it is absent
-  void* (*make)(void* record) = nullptr;             // makes an absent one
+  const void* (*get)(const void* record) = nullptr;  // null if it is absent
+  void* (*make)(void* record) = nullptr;             // creates an absent one
 };
 
-// How values of a C++ type are read and written.
+// Reading and writing of values of a C++ type.
 struct Type {
   Kind kind = Kind::json;
-  About about{};                // of a struct that says it of itself
-  const char* definition = "";  // the schema has it once, under this name; "": in place
+  About about{};                // for a struct with its own description
+  const char* definition = "";  // name of its definition in the schema, which is written once; "": in place
   bool is_unsigned = false;     // an integer
   std::vector<Field> fields{};  // of an object
-  // Of a list, values by name, or a nullable one (which has one element or none).
+  // Of a list, values by name, or a nullable one (a list of one element or none).
   const Type* element = nullptr;
-  std::size_t fixed_size = 0;  // of a list that always has so many elements
+  std::size_t fixed_size = 0;  // of a list with a fixed length
   std::size_t (*size)(const void* list) = nullptr;
   const void* (*at)(const void* list, std::size_t index) = nullptr;
   const std::string& (*name_at)(const void* list, std::size_t index) = nullptr;
@@ -137,7 +137,7 @@ T initial() {
     return T{};
 }
 
-// C++20 cannot name the members of a struct, so these do: a field is known by its line.
+// C++20 cannot list the members of a struct, so these macros do: a field is identified by its source line.
 #define RECORD(Name) \
   using Self = Name; \
   static constexpr int k_first_line = __LINE__
@@ -182,7 +182,7 @@ class FieldCollector {
   std::vector<Field>& fields_;
 };
 
-Json number_json(double value, bool is_fraction);  // null where it is not finite
+Json number_json(double value, bool is_fraction);  // null if it is not finite
 
 namespace detail {
 
@@ -245,7 +245,7 @@ Type by_name() {
   return type;
 }
 
-// A std::vector, or a std::array and what is made of one.
+// A std::vector, or a std::array and types derived from it.
 template <class T>
 Type list() {
   Type type{Kind::list};
@@ -323,10 +323,10 @@ const Type& type_of() {
   return type;
 }
 
-// Of a record of a type: its JSON, its fields in their order.
+// The JSON of a record of the given type, fields in their order.
 Json to_json(const Type& type, const void* record);
-// Fills a record that was just made. Throws Error (where: the JSON pointer below `where`) for what is not of its
-// field's type, and for a field that is missing or not known. Ranges of values are the schema's to check.
+// Fills a newly created record. Throws Error (where: the JSON pointer below `where`) for a value of another type than
+// its field's, and for a missing or unknown field. Does not check ranges of values; the schema does.
 void from_json(const Type& type, const Json& json, void* record, const std::string& where);
 
 template <class Record>

@@ -17,7 +17,7 @@ constexpr std::string_view k_of_truth =
 constexpr std::string_view k_of_counts = " (--count counts instructions)";
 constexpr std::string_view k_of_lights = " (a result of an older version tells none)";
 
-// Older results have the instructions of its parts alone.
+// Older results have only the instructions of the parts.
 std::optional<double> frame_instructions(const Case& result_case) {
   if (const auto frame = number<&Case::count, &Count::instructions_per_frame, &PerFrame::frame>(result_case))
     return frame;

@@ -1,6 +1,6 @@
 #pragma once
 // Every figure of a case, one row each: budgets, exports, tables, `recommend`, `history`, `compare` and `list figures`
-// read it. A new figure is one row in figure_table.cpp.
+// use it. A new figure is one row in figure_table.cpp.
 
 #include <cstdint>
 #include <optional>
@@ -14,42 +14,42 @@ namespace clusterbench::result {
 enum class Better : std::uint8_t { smaller, bigger, neither };
 const char* name_of(Better better);  // "smaller", "bigger", "neither"
 
-// What a figure rests on.
+// The source of a figure.
 enum class Basis : std::uint8_t {
-  count,         // of lists, buffers and errors: the same on every machine, and every time
-  instructions,  // nearly the same every time; of a compiler and an instruction set
-  time,          // of a machine, and noisy
-  derived        // follows from times
+  count,         // of lists, buffers and errors: the same on every machine, and in every run
+  instructions,  // nearly the same in every run; depends on the compiler and the instruction set
+  time,          // depends on the machine, and is noisy
+  derived        // computed from times
 };
 const char* name_of(Basis basis);  // "counts", "instructions", "measured times", "derived times"
 
-// How the figures of several cameras become one.
-enum class OverCameras : std::uint8_t { mean, largest, sum };  // mean: by the number of frames
+// The combination of one figure over several cameras.
+enum class OverCameras : std::uint8_t { mean, largest, sum };  // mean: weighted by the number of frames
 
-// How the figures of the sets of samples that rank become one.
-enum class OverSets : std::uint8_t { largest, mean };  // mean: weighted by how many samples a frame shades
+// The combination of one figure over the ranking sets of samples.
+enum class OverSets : std::uint8_t { largest, mean };  // mean: weighted by the number of samples per frame
 
 template <class Record>
 using Number = std::optional<double> (*)(const Record& record);
 
-// A figure that is decided exactly: a quotient of two counts. null whole: the count itself.
+// A figure that is compared exactly: a quotient of two counts. null whole: the count itself.
 template <class Record>
 struct Share {
   Number<Record> count = nullptr, whole = nullptr;
 };
 
-// Frame and cell where a figure is largest; null: it has no such place.
+// Frame and cell of the largest value; null: unknown.
 template <class Record>
 struct Place {
   Number<Record> frame = nullptr;
   const CellIndex* (*cell)(const Record& record) = nullptr;
 };
 
-// Of a figure of samples, which a budget can ask of one set: "opaque.unlit".
+// For a figure of samples. A budget can use one set: "opaque.unlit".
 struct AtSamples {
   Share<SampleSet> share = {};
   OverSets over = OverSets::largest;
-  bool is_of_needed = false;  // a set whose samples need no light has none
+  bool is_of_needed = false;  // no value for a set whose samples need no light
   Number<SampleSet> worst_frame = nullptr;
 };
 
@@ -60,26 +60,26 @@ struct Figure {
   Better better = Better::smaller;
   Basis basis = Basis::count;
 
-  // The number that a result has; of samples that of random points in the view. Exports have it with this unit.
+  // The number in a result; for a figure of samples, that of random points in the view. Exports use it with this unit.
   Number<Case> recorded = nullptr;
-  const Interval* (*interval)(const Case& result_case) = nullptr;  // 95 %, of the recorded number; null: it has none
-  double dividend = 0.0;   // the figure is dividend / recorded where this is not 0
-  bool is_in_us = false;   // under its name it is in microseconds
-  Share<Case> share = {};  // decides budgets where a case has both
-  AtSamples samples = {};  // likewise, of each set
+  const Interval* (*interval)(const Case& result_case) = nullptr;  // 95 %, of the recorded number; null: none
+  double dividend = 0.0;                                           // if not 0, the figure is dividend / recorded
+  bool is_in_us = false;                                           // the named figure is in microseconds
+  Share<Case> share = {};                                          // used for budgets if a case has the counts
+  AtSamples samples = {};                                          // the same for each set
   Place<Case> worst = {};
-  std::string_view none = "";  // why a case may have none, in parentheses
+  std::string_view none = "";  // possible reason for a missing value, in parentheses
 
   // `recommend`.
-  bool is_choosable = false;      // grids, methods and structures differ in it
-  bool is_modelled_cost = false;  // of the cost model
-  bool only_grows = false;        // with further frames
+  bool is_choosable = false;      // depends on grid, method or structure
+  bool is_modelled_cost = false;  // computed by the cost model
+  bool only_grows = false;        // never decreases with more frames
   OverCameras over_cameras = OverCameras::mean;
 
-  // Exports and histories; names there are stable.
-  std::string_view export_name = "";  // "": the same
-  bool is_headline = false;           // exported unless all figures are asked for
-  bool is_kept = false;               // in histories, beside the headline
+  // Exports and histories; these names are stable.
+  std::string_view export_name = "";  // "": `name`
+  bool is_headline = false;           // exported by default
+  bool is_kept = false;               // in histories, with the headline
 
   std::string_view exported_as() const { return export_name.empty() ? name : export_name; }
   std::string_view named_unit() const { return is_in_us ? "us" : unit; }
@@ -88,8 +88,8 @@ struct Figure {
   bool rests_on_times() const { return basis == Basis::time || basis == Basis::derived; }
 };
 
-// The headline first, else in the order of a result.
+// Headline figures first, then the order of a result.
 std::span<const Figure> figures();
-const Figure* find_figure(std::string_view name);  // null: there is none of this name
+const Figure* find_figure(std::string_view name);  // null for an unknown name
 
 }  // namespace clusterbench::result

@@ -1,5 +1,5 @@
 #pragma once
-// What figures of several kinds have in common.
+// Parts that figures of several kinds share.
 
 #include "result/fields.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What changes from frame to frame: slices that follow, tiles that react, storages that fall back, pairs that flicker.
+// Changes from frame to frame: slices that follow, tiles that react, storages that fall back, pairs that flicker.
 
 #include "result/figures.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// How space is cut into cells.
+// The partition of space into cells.
 
 #include "result/figures.h"
 

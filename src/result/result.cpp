@@ -4,7 +4,7 @@
 
 namespace clusterbench::result {
 
-// Here once: each instance lists the fields of all records below it.
+// Instantiated only here: each instance lists the fields of all records below it.
 template const Type& type_of<Tool>();
 template const Type& type_of<Machine>();
 template const Type& type_of<Scene>();

@@ -1,5 +1,5 @@
 #pragma once
-// A result: what `clusterbench run` writes.
+// A result: the output of `clusterbench run`.
 
 #include "result/case.h"
 
@@ -259,7 +259,7 @@ struct Skipped {
   END_RECORD;
 };
 
-// What of a configuration readers of results go by.
+// Parts of a configuration that readers of results use.
 inline constexpr const char* k_config_shape = R"({
   "type": "object",
   "properties": {
@@ -339,7 +339,7 @@ struct Result {
   END_RECORD;
 };
 
-// What is known of any result: `clusterbench schema result`, its fields in their order.
+// The schema of any result: `clusterbench schema result`, fields in their order.
 Json result_schema();
 
 extern template const Type& type_of<Tool>();

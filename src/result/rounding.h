@@ -1,11 +1,11 @@
 #pragma once
-// How many digits of a number a record keeps.
+// The number of digits that a record keeps.
 
 namespace clusterbench::result {
 
-// Of what is counted: nine digits of a fraction, since the counts stand beside it; whole numbers are exact.
+// For counts: nine digits of a fraction, since the counts are recorded, too; whole numbers are exact.
 double counted(double value);
-// Of what is measured: six digits, far more than any clock gives.
+// For measurements: six digits, far more than the precision of any clock.
 double measured(double value);
 
 }  // namespace clusterbench::result

@@ -31,7 +31,7 @@ const SetRow* row_of(std::string_view name) {
   return found == std::end(k_sets) ? nullptr : found;
 }
 
-// How many samples of a set a frame shades, where the case has a cost.
+// The number of samples of a set that a frame shades, if the case has a cost.
 struct RankingSet {
   const SampleSet* counts;
   double shaded;
@@ -80,7 +80,7 @@ const SampleSet* samples_of_set(const Case& result_case, const std::string& set)
 std::vector<std::string> ranking_set_names(const Case& result_case) {
   std::vector<std::string> sets;
   if (result_case.cost && !result_case.cost->sets.empty()) {
-    // Without one of a set that has no samples in any frame, unless none has.
+    // Skips sets without samples in any frame, unless all are.
     for (const auto& [name, _] : result_case.cost->sets)
       if (const SampleSet* counts = samples_of_set(result_case, name); counts != nullptr && counts->samples > 0)
         sets.push_back(name);

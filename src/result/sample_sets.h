@@ -1,6 +1,6 @@
 #pragma once
-// The sets of samples of a case: it can have several, and is ranked by those that cost something. Tables, budgets and
-// sentences name the sets in the same words.
+// The sets of samples of a case, and which of them rank it: those with a cost. Tables, budgets and sentences use the
+// same words for sets.
 
 #include <optional>
 #include <string>
@@ -13,34 +13,35 @@ namespace clusterbench::result {
 
 std::vector<std::string> sample_set_names();  // "volume", "opaque" ...
 bool is_sample_set(std::string_view name);
-// "visible surfaces" of opaque, "random points in the view" of volume.
+// "visible surfaces" for opaque, "random points in the view" for volume.
 std::string words_of_set(const std::string& set);
 // "visible surfaces, fog froxels".
 std::string words_of_sets(const std::vector<std::string>& sets);
 
-// The counts of a case's set of samples; null without them.
+// The counts of a case's set of samples; null if it has none.
 const SampleSet* samples_of_set(const Case& result_case, const std::string& set);
 
-// The sets that a case is ranked by: those that cost something; without any, visible surfaces if they are asked for,
-// else points of the whole view. Empty without samples.
+// The sets that rank a case: those with a cost; if there are none, visible surfaces if requested, otherwise points of
+// the whole view. Empty without samples.
 std::vector<std::string> ranking_set_names(const Case& result_case);
 std::vector<const SampleSet*> ranking_samples(const Case& result_case);
 
 // A number of a set: number<&SampleSet::unlit>.
 using SampleFigure = std::optional<double> (*)(const SampleSet& set);
-// The ranking set with the largest number of a kind; null where none has one.
+// The ranking set with the largest value; null if none has one.
 const SampleSet* most_at_sets(const Case& result_case, SampleFigure figure);
-// A count over all ranking sets; 0 where they do not have it.
+// A count summed over all ranking sets; 0 if they do not have it.
 double sum_at_samples(const Case& result_case, SampleFigure count);
-// A count per sample, mean over the samples of the ranking sets as a frame shades them. None without samples, and where
-// a set does not have it.
+// A count per sample, mean over the samples of the ranking sets as a frame shades them. None without samples, or if a
+// set does not have the count.
 std::optional<double> mean_at_samples(const Case& result_case, SampleFigure count);
 // A count per sample of one set; 0 without samples.
 double mean_per_sample(const SampleSet& counts, SampleFigure count);
-// Share of the needed lights that the samples lack, of the ranking set that lacks most. None where no sample needs one.
+// Share of the needed lights that the samples miss, of the ranking set with the largest share. None if no sample needs
+// a light.
 std::optional<double> unlit_at_samples(const Case& result_case);
 
-// What the model says of a set; null where it has no part in the cost.
+// The cost of a set by the model; null if the set is not part of the cost.
 const SetCost* cost_of_set(const Cost& cost, const std::string& name);
 
 }  // namespace clusterbench::result

@@ -1,5 +1,5 @@
 #pragma once
-// Lists beside the truth, and what samples find in them.
+// Lists compared with the truth, and lights that samples find in them.
 
 #include "result/figures.h"
 

@@ -5,7 +5,7 @@
 namespace clusterbench::result {
 namespace {
 
-// A bound as a whole number where it is one.
+// An integer if the bound is a whole number.
 Json bound_json(double bound) {
   return std::floor(bound) == bound ? Json(static_cast<std::int64_t>(bound)) : Json(bound);
 }
@@ -26,7 +26,7 @@ class SchemaWriter {
     if (*about.over != '\0') out["x-over"] = about.over;
   }
 
-  // Where a field holds it: a type with a definition is referred to.
+  // The schema of a field; refers to the definition of a type that has one.
   Json field_schema(const Type& type, const About& about) {
     Json out = Json::object();
     if (*type.definition != '\0') {
@@ -42,7 +42,7 @@ class SchemaWriter {
 
   void define(const Type& type) {
     if (definitions_.contains(type.definition)) return;
-    definitions_[type.definition] = nullptr;  // its place
+    definitions_[type.definition] = nullptr;  // keeps its position
     Json out = Json::object();
     add_words(out, type.about);
     out.update(value_schema(type, type.about));
@@ -75,7 +75,7 @@ class SchemaWriter {
     }
   }
 
-  // What of a list's field is of each of its elements.
+  // The part of a list field's description that applies to each element.
   static About element_about(const About& about) {
     About of_each = about;
     of_each.description = about.of_each;

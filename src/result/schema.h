@@ -1,5 +1,5 @@
 #pragma once
-// JSON Schema (draft-07) of a record, of what its fields say of themselves.
+// JSON Schema (draft-07) of a record, made from the descriptions of its fields.
 
 #include "result/fields.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Pairs in shadow, and shadow maps that lights share.
+// Pairs in shadow, and shadow maps that spots share.
 
 #include "result/figures.h"
 

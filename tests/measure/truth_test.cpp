@@ -106,8 +106,8 @@ class PairsOfCells final : public TruthCells {
 
   std::uint32_t cell_count() const override { return grid_.cell_count(); }
   const view::Space& space() const override { return space_; }
-  void settle(std::uint32_t cell, const grid::IndexRange&, LightSearch& search) const override {
-    search.settle(cell, [&] {
+  void decide(std::uint32_t cell, const grid::IndexRange&, LightSearch& search) const override {
+    search.decide(cell, [&] {
       return meets_any(parts(cell), [&](std::uint32_t part) { return search.decided(grid_.cell(part)); });
     });
   }

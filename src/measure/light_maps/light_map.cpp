@@ -22,7 +22,7 @@ using LightSet = std::span<const std::uint32_t>;
 
 struct HashSet {
   std::size_t operator()(LightSet set) const {
-    std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a, a light at a time
+    std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a, one light at a time
     for (const std::uint32_t light : set) hash = (hash ^ light) * 0x100000001b3U;
     return static_cast<std::size_t>(hash ^ hash >> 32);
   }
@@ -31,7 +31,7 @@ struct EqualSets {
   bool operator()(LightSet a, LightSet b) const { return std::ranges::equal(a, b); }
 };
 
-// Which of the scene's lights a map has, and what follows from the sets alone.
+// The lights of the scene that a map has, and the counts that depend on the sets alone.
 class SetCounter {
  public:
   SetCounter(const TexelCover& cover, const TexelLights& sets, std::uint64_t lights)
@@ -94,7 +94,7 @@ class SetCounter {
 
   const TexelCover& cover_;
   const TexelLights& sets_;
-  std::vector<std::uint64_t> mark_;  // by light: the last tile that has it
+  std::vector<std::uint64_t> mark_;  // by light: the last tile with it
 };
 
 std::uint64_t divided_up(std::uint64_t a, std::uint64_t b) {
@@ -144,7 +144,7 @@ double whole_area(const Triangles& triangles) {
   return sum;
 }
 
-// The lights that stand still, and how many others there are.
+// Lights that stand still; counts the others in `out`.
 std::vector<scene::WorldLight> still_lights(const scene::Scene& scene, LightMaps& out) {
   const std::vector<bool> moving = scene::moving_nodes(scene);
   std::vector<scene::WorldLight> lights = world_lights(scene, 0.0);
@@ -159,7 +159,7 @@ std::vector<scene::WorldLight> still_lights(const scene::Scene& scene, LightMaps
   return lights;
 }
 
-// Of all triangles, so that rays are as precise in one mesh as in the other.
+// The middle of all triangles: rays then have the same precision in each mesh.
 Vec3d middle_of(const StaticMeshes& meshes) {
   Vec3d lo(std::numeric_limits<double>::infinity()), hi = -lo;
   for (const MapMesh& mesh : meshes.meshes)

@@ -1,7 +1,7 @@
 #pragma once
 // Clustered light maps (Persson, "Practical Clustered Shading", SIGGRAPH 2015): a bit per light and texel of a static
-// UV map says which precomputed shadow factors a shader has to fetch. What such maps would take for a scene, and how
-// many lights a texel has.
+// UV map says which precomputed shadow factors a shader has to fetch. Computes the size of such maps for a scene, and
+// the number of lights per texel.
 
 #include <optional>
 #include <string>
@@ -13,18 +13,18 @@
 namespace clusterbench::measure {
 
 struct LightMapRequest {
-  double texels_per_metre = 4.0;    // on the average over a mesh: its map is as wide as high
-  std::optional<Vec2i> resolution;  // of every map, in place of that
-  bool unwrap = false;              // UVs are made (unwrap.h), and those of the file not read
+  double texels_per_metre = 4.0;    // mean over a mesh; its map is square
+  std::optional<Vec2i> resolution;  // of every map, replaces texels_per_metre
+  bool unwrap = false;              // UVs are generated (unwrap.h); those of the file are not read
   TexelCoverage coverage = TexelCoverage::centres;
   bool facing = false, visibility = false;
   double lamp_radius_m = 0.0;
-  int tile = 8;  // texels squared that share a bit field
+  int tile = 8;  // edge length in texels of a tile that shares a bit field
   int threads = 1;
 };
 
-// How many bytes the same sets take. A bit field is of whole 32-bit words; `own` are the lights that reach the map at
-// all, of which a list of 8 or 16 bits says which they are in the scene: not counted.
+// Size in bytes of the same sets in several formats. A bit field has whole 32-bit words. `own` lights are those that
+// reach the map at all; the list of 8 or 16 bits that maps them to lights of the scene is not counted.
 struct LightMapBytes {
   std::uint64_t bits_of_all = 0;                   // a bit per light of the scene and texel
   std::uint64_t bits_of_own = 0;                   // a bit per own light and texel
@@ -33,18 +33,18 @@ struct LightMapBytes {
   std::uint64_t tiles = 0;                         // a bit field of own lights per tile
 };
 
-// Of one map, or sums over several.
+// Counts of one map, or sums over several.
 struct LightMapCounts {
   std::uint64_t triangles = 0;
   std::uint64_t wrapped_triangles = 0, degenerate_triangles = 0, missed_triangles = 0;  // as in TexelCover
   std::uint64_t texels = 0, covered = 0, overlapping = 0;
-  std::uint64_t lit = 0;                            // texels that a light reaches
-  std::uint64_t pairs = 0;                          // bits that are set
+  std::uint64_t lit = 0;                            // texels with at least one light
+  std::uint64_t pairs = 0;                          // set bits
   std::array<std::uint64_t, k_texel_tests> left{};  // after each test
   std::vector<std::uint64_t> histogram;             // [n] = covered texels with n lights
-  std::uint64_t sets = 0;                           // distinct ones; dead and dark texels have the same, empty one
+  std::uint64_t sets = 0;                           // distinct sets; dead and dark texels share the empty set
   std::uint64_t tiles = 0, tile_pairs = 0;          // tiles with a covered texel; bits set in their unions
-  std::uint64_t tile_evaluated = 0;                 // the unions' lights over the covered texels in them
+  std::uint64_t tile_evaluated = 0;                 // sum over covered texels of the lights in their tile's union
   LightMapBytes bytes;
 
   std::uint64_t dead() const { return texels - covered; }
@@ -54,28 +54,28 @@ struct LightMapCounts {
 
 struct LightMap {
   std::string name;
-  int uv_set = -1;  // -1: made
+  int uv_set = -1;  // -1: generated
   TexelGrid grid;
   double area_m2 = 0.0;      // of its triangles
-  std::uint64_t lights = 0;  // that reach it: its own
+  std::uint64_t lights = 0;  // own lights: those that reach the map
   LightMapCounts counts;
 };
 
 struct LightMaps {
-  std::uint64_t points = 0, spots = 0;               // that have a bit
-  std::uint64_t moving_lights = 0, directional = 0;  // that have none
+  std::uint64_t points = 0, spots = 0;               // with a bit
+  std::uint64_t moving_lights = 0, directional = 0;  // without a bit
   std::vector<LightMap> maps;
   std::vector<LeftOut> left_out;
   LightMapCounts all;
   double seconds = 0.0;  // wall time, from triangles to sets and their sizes
 };
 
-// The figures of one map. `lights`: of the scene.
+// Counts one map. `lights`: number of lights of the scene.
 LightMapCounts count_light_map(const TexelCover& cover, const TexelLights& sets, std::uint64_t lights, int tile);
-// Side lengths for a mesh whose UVs have an area. Throws Error for sides above k_longest_map_side.
+// Side lengths of the map of a mesh whose UVs have an area. Throws Error for sides above k_longest_map_side.
 TexelGrid grid_of(const MapMesh& mesh, const LightMapRequest& request);
 
-// Of a scene whose ranges are resolved, as it stands at time 0. The geometry has UVs unless they are to be made.
+// Measures a scene with resolved ranges at time 0. The geometry must have UVs unless they are generated.
 LightMaps measure_light_maps(const scene::Scene& scene, const scene::Geometry& geometry,
                              const LightMapRequest& request);
 

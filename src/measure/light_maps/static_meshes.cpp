@@ -26,7 +26,7 @@ class Collector {
         moving_(moving_nodes(scene)),
         shown_(visible_nodes(scene, 0.0)) {}
 
-  // Instances of one node, which stand side by side.
+  // `instances`: all of one node, which are consecutive in the scene.
   void add_node(std::span<const scene::SurfaceInstance> instances) {
     const auto node = static_cast<std::size_t>(instances.front().shown_by);
     const std::string name = name_of(scene_.nodes[node]);
@@ -63,7 +63,7 @@ class Collector {
     check_memory("triangles", triangles_ += surface.triangles.size(), sizeof(MapTriangle) + sizeof(UvTriangle),
                  scene::k_fewer_triangles);
     mesh.uv_set = surface.uv_set;
-    // In a mirrored node fronts stay fronts (glTF 2.0, 3.7.4).
+    // A mirrored node does not swap front and back faces (glTF 2.0, 3.7.4).
     const bool is_mirrored = glm::determinant(Mat3d(world_[node])) < 0.0;
     for (const scene::Triangle& triangle : surface.triangles) {
       const scene::Triangle turned = is_mirrored ? scene::Triangle{triangle[0], triangle[2], triangle[1]} : triangle;

@@ -1,5 +1,5 @@
 #pragma once
-// The meshes of a scene that light maps are made for: those that never move, where they stand in the world.
+// The meshes of a scene that get light maps: those that never move, in world space.
 
 #include <string>
 #include <vector>
@@ -11,16 +11,16 @@
 namespace clusterbench::measure {
 
 struct MapTriangle {
-  std::array<Vec3d, 3> corners;  // in the world, counter-clockwise seen from its front, in mirrored nodes, too
+  std::array<Vec3d, 3> corners;  // in world space, counter-clockwise seen from the front, also in mirrored nodes
   bool double_sided = false;
 };
 
-// All of a node's mesh: one map.
+// The whole mesh of a node: one map.
 struct MapMesh {
   std::string name;  // the node's, else "node N" as the file numbers it
-  int uv_set = -1;   // n of TEXCOORD_n; -1: no UVs were asked for
+  int uv_set = -1;   // n of TEXCOORD_n; -1: UVs were not requested
   std::vector<MapTriangle> triangles;
-  std::vector<UvTriangle> uvs;  // of each triangle, or none
+  std::vector<UvTriangle> uvs;  // one per triangle, or empty
 };
 
 struct LeftOut {
@@ -32,11 +32,11 @@ struct StaticMeshes {
   std::vector<LeftOut> left_out;
 };
 
-// With UVs: a mesh or a part of it that has none is left out. Throws Error for what reaches out of the domain, and
-// beyond the limit on memory.
+// `with_uvs`: meshes and parts without UVs are left out. Throws Error for UVs outside of the domain, and beyond the
+// memory limit.
 StaticMeshes static_meshes(const scene::Scene& scene, const scene::Geometry& geometry, bool with_uvs);
 
-// The geometry without what moves: what throws shadows that are known beforehand.
+// The geometry without moving parts: its shadows are known in advance.
 scene::Geometry static_geometry(const scene::Scene& scene, scene::Geometry geometry);
 
 }  // namespace clusterbench::measure

@@ -14,7 +14,7 @@
 namespace clusterbench::measure {
 namespace {
 
-// Lights are left out by the box around a block of so many texels squared.
+// Edge length in texels of a block: lights that miss the box around a block are rejected for all its texels.
 constexpr std::size_t k_block = 8;
 
 struct Bounds {
@@ -28,7 +28,7 @@ struct Bounds {
     lo = glm::min(lo, box.lo);
     hi = glm::max(hi, box.hi);
   }
-  // False only where no point in the box is in the light's range.
+  // False only if no point of the box is in the light's range.
   bool may_meet(const scene::WorldLight& light) const {
     constexpr double k_slack = 1e-9;  // far more than any rounding of distances
     const Vec3d gap = glm::max(Vec3d(0.0), glm::max(lo - light.position, light.position - hi));
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> lights_near(const Bounds& bounds, std::span<const sce
   return out;
 }
 
-// Rows of blocks, whose texels follow each other.
+// Rows of blocks, with consecutive texels.
 struct Band {
   std::vector<std::uint32_t> lights;
   std::array<std::uint64_t, k_texel_tests> left{};
@@ -60,7 +60,7 @@ class BandMaker {
 
   std::size_t count() const { return (static_cast<std::size_t>(cover_.grid.height) + k_block - 1) / k_block; }
 
-  // Writes the numbers of its texels' lights to counts[texel].
+  // Writes the number of lights of each texel of the band to counts[texel].
   Band make(std::size_t band, std::uint64_t* counts) {
     const auto width = static_cast<std::size_t>(cover_.grid.width),
                height = static_cast<std::size_t>(cover_.grid.height);
@@ -83,7 +83,7 @@ class BandMaker {
     for (std::size_t texel = first; texel < last; ++texel) {
       counts[texel] = add_texel(cover_.of(texel), at, near[texel % width / k_block], out);
       at += cover_.of(texel).size();
-      // Twice: the bands and what they are put together to.
+      // The factor 2: the bands, and the array that they are joined into.
       check_memory("lights of texels", found_ += counts[texel], 2 * sizeof(std::uint32_t), "use fewer texels");
     }
     return out;
@@ -108,7 +108,7 @@ class BandMaker {
     return out.lights.size() - before;
   }
 
-  // How many in their order; one that is not done is passed.
+  // Number of tests passed, in their order; a disabled test counts as passed.
   std::size_t tests_passed(const MapTriangle& triangle, const Vec3d& at, const scene::WorldLight& light) const {
     const Vec3d to_point = at - light.position;
     if (!is_in_range(light, to_point)) return 0;

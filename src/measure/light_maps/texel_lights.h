@@ -11,18 +11,18 @@
 
 namespace clusterbench::measure {
 
-// In this order; a light that fails one is not asked about the next ones.
+// In this order; a light that fails one test skips the rest.
 enum class TexelTest : std::uint8_t { range, cone, facing, visibility };
 inline constexpr std::size_t k_texel_tests = 4;
 inline constexpr std::array<const char*, k_texel_tests> k_texel_test_names{"range", "cone", "facing", "visibility"};
 
-// What is asked of a light and a texel besides range and cone, which are those of `needed` samples
-// (light_reaches_point.h).
+// Tests of a light and a texel besides range and cone, which are those of `needed` samples (light_reaches_point.h).
 struct TexelTests {
-  // The light is in front of the triangle's plane, of a double-sided one not in it: exactly (geom/shapes/plane_side.h).
+  // The light is in front of the triangle's plane; for a double-sided triangle, not in the plane. Exact test
+  // (geom/shapes/plane_side.h).
   bool facing = false;
-  // Nothing opaque stands between, by one ray that begins RayCaster::clearance_m() above the triangle and ends
-  // lamp_radius_m before the light. Rays are cast in single precision, and at triangles' edges not exact.
+  // No opaque surface blocks one ray from RayCaster::clearance_m() above the triangle to lamp_radius_m before the
+  // light. Rays are cast in single precision, and are not exact at triangle edges.
   const depth::RayCaster* shadows = nullptr;
   double lamp_radius_m = 0.0;
 
@@ -31,8 +31,8 @@ struct TexelTests {
   }
 };
 
-// The lights of texel t are lights[begin[t]] .. lights[begin[t + 1] - 1], ascending. A texel that several triangles
-// cover has the lights of all of them.
+// The lights of texel t are lights[begin[t]] .. lights[begin[t + 1] - 1], ascending. A texel covered by several
+// triangles has the lights of all of them.
 struct TexelLights {
   std::vector<std::uint64_t> begin;
   std::vector<std::uint32_t> lights;
@@ -43,7 +43,7 @@ struct TexelLights {
   }
 };
 
-// The same for any number of threads. Throws Error beyond the limit on memory.
+// The result does not depend on the number of threads. Throws Error beyond the memory limit.
 TexelLights texel_lights(const MapMesh& mesh, const TexelCover& cover, std::span<const scene::WorldLight> lights,
                          const TexelTests& tests, int threads);
 

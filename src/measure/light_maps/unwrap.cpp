@@ -23,7 +23,7 @@ Side side_of(const MapTriangle& triangle, std::size_t i) {
   return a < b ? Side{a, b} : Side{b, a};
 }
 
-// Without length for a triangle without area.
+// Of length 0 for a triangle without area.
 Vec3d normal_of(const MapTriangle& triangle) {
   const Vec3d normal = glm::cross(triangle.corners[1] - triangle.corners[0], triangle.corners[2] - triangle.corners[0]);
   const double size = glm::length(normal);
@@ -32,16 +32,16 @@ Vec3d normal_of(const MapTriangle& triangle) {
 
 struct Face {
   std::vector<std::uint32_t> triangles;
-  Vec3d along{1.0, 0.0, 0.0}, up{0.0, 1.0, 0.0};  // unit, in its plane
-  Vec2d least{0.0};                               // of its corners, in texels along these
-  std::int64_t width = 0, height = 0;             // texels, with the one around it
-  std::int64_t x = 0, y = 0;                      // where it lies in the map
+  Vec3d along{1.0, 0.0, 0.0}, up{0.0, 1.0, 0.0};  // unit vectors in the plane of the face
+  Vec2d least{0.0};                               // smallest coordinates of its corners, in texels along these vectors
+  std::int64_t width = 0, height = 0;             // texels, with the border of one texel
+  std::int64_t x = 0, y = 0;                      // position in the map
 };
 
 class Unwrapper {
  public:
   Unwrapper(const MapMesh& mesh, double texels_per_metre) : mesh_(mesh), scale_(texels_per_metre) {
-    // A node of a tree of edges, and what faces take.
+    // One node of the edge tree, and the memory of faces.
     check_memory("edges of triangles", 3 * mesh.triangles.size(), 160, scene::k_fewer_triangles);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       normals_.push_back(normal_of(mesh.triangles[t]));
@@ -87,7 +87,7 @@ class Unwrapper {
     }
   }
 
-  // Edges at which no other triangle of the face lies.
+  // No other triangle of the face shares this edge.
   bool is_outer(const Side& side, std::uint32_t face) const {
     const std::vector<std::uint32_t>& there = at_side_.at(side);
     return std::ranges::count_if(there, [&](std::uint32_t t) { return face_of_[t] == face; }) == 1;
@@ -124,7 +124,7 @@ class Unwrapper {
     face.height = static_cast<std::int64_t>(std::ceil(size.y)) + 2;
   }
 
-  // In rows, the highest first.
+  // Packs faces in rows, the highest first.
   TexelGrid pack() {
     std::int64_t texels = 0, widest = 1;
     std::vector<Face*> order;

@@ -26,15 +26,16 @@ Whole ceil_divided(Whole a, Whole b) {
   return -floor_divided(-a, b);
 }
 
-// Columns first .. last of a row; none if first > last.
+// Columns first .. last of a row; empty if first > last.
 struct Span {
   Whole first, last;
 };
 
-// The line through an edge; what lies on the triangle's side of it has at(p) > 0.
+// The line through an edge; points on the triangle's side have at(p) > 0.
 struct Edge {
   Whole along_x, along_y, constant;
-  bool owns_points;  // on it: of the two triangles at an edge one does
+  bool owns_points;  // whether points on the line belong to this triangle: exactly one of two triangles at an edge owns
+                     // them
 
   Edge(const Point& from, const Point& to)
       : along_x(from.y - to.y),
@@ -45,7 +46,7 @@ struct Edge {
   Whole at(const Point& p) const { return along_x * p.x + along_y * p.y + constant; }
   bool holds(const Point& p) const { return at(p) + (owns_points ? 1 : 0) > 0; }
 
-  // Clips a row's columns to those whose centre, or of which any corner, lies on this side.
+  // Clips a row's columns to those whose centre (or, conservative, any corner) is on this side.
   void clip(Whole row, TexelCoverage coverage, Span& span) const {
     const Whole more = coverage == TexelCoverage::centres ? (owns_points ? 1 : 0)
                                                           : (std::abs(along_x) + std::abs(along_y)) * (k_step / 2);
@@ -56,7 +57,7 @@ struct Edge {
   }
 };
 
-// A triangle in snapped coordinates, counter-clockwise, in the repeat of the map in which its least corner lies.
+// A triangle in snapped coordinates, counter-clockwise, in the repeat of the map that contains its least corner.
 class Snapped {
  public:
   Snapped(const UvTriangle& triangle, const TexelGrid& grid) {
@@ -69,7 +70,7 @@ class Snapped {
     is_wrapped_ = least_x() < 0 || least_y() < 0 || most_x() > wide || most_y() > high;
     const Whole left = floor_divided(least_x(), wide) * wide, low = floor_divided(least_y(), high) * high;
     for (Point& corner : corners_) corner = {corner.x - left, corner.y - low};
-    if (longest() > k_longest_triangle_texels) return;  // its area might overflow
+    if (longest() > k_longest_triangle_texels) return;  // the area might overflow
     area_ = (corners_[1].x - corners_[0].x) * (corners_[2].y - corners_[0].y) -
             (corners_[1].y - corners_[0].y) * (corners_[2].x - corners_[0].x);
     is_turned_ = area_ < 0;
@@ -110,10 +111,10 @@ class Snapped {
   Whole most_x() const { return std::max({corners_[0].x, corners_[1].x, corners_[2].x}); }
   Whole most_y() const { return std::max({corners_[0].y, corners_[1].y, corners_[2].y}); }
 
-  // Across from corner i.
+  // The edge opposite to corner i.
   Edge edge(std::size_t i) const { return {corners_[(i + 1) % 3], corners_[(i + 2) % 3]}; }
 
-  // Of the point of the triangle's outline that is nearest to a point outside.
+  // Weights of the point on the triangle's outline that is nearest to an outside point.
   Vec3d nearest_weights(const Point& p) const {
     double least = -1.0;
     Vec3d weights(0.0);
@@ -135,27 +136,27 @@ class Snapped {
   }
 
   std::array<Point, 3> corners_{};
-  Whole area_ = 0;  // twice
+  Whole area_ = 0;  // twice the area
   bool is_wrapped_ = false, is_turned_ = false;
 };
 
-// take(column, row) for each texel of a triangle, columns and rows before they are wrapped.
-template <class Take>
-void each_texel(const Snapped& triangle, TexelCoverage coverage, Take&& take) {
+// Calls visit(column, row) for each texel of a triangle, columns and rows before they are wrapped.
+template <class Visit>
+void each_texel(const Snapped& triangle, TexelCoverage coverage, Visit&& visit) {
   const Span rows = triangle.rows();
   for (Whole row = rows.first; row <= rows.last; ++row) {
     const Span span = triangle.columns(row, coverage);
-    for (Whole column = span.first; column <= span.last; ++column) take(column, row);
+    for (Whole column = span.first; column <= span.last; ++column) visit(column, row);
   }
 }
 
 std::size_t texel_at(const TexelGrid& grid, Whole column, Whole row) {
-  // The least corner lies in the map, so none is negative.
+  // The least corner lies in the map, so columns and rows are not negative.
   return static_cast<std::size_t>(row % grid.height) * static_cast<std::size_t>(grid.width) +
          static_cast<std::size_t>(column % grid.width);
 }
 
-// Counts what is to come before any of it is made: rows, too, since each is work.
+// Counts the work before it starts. Rows count, too, since each is work.
 void check_work(std::span<const UvTriangle> triangles, const TexelGrid& grid, TexelCoverage coverage) {
   std::uint64_t work = 0;
   for (const UvTriangle& corners : triangles) {
@@ -206,7 +207,7 @@ TexelCover cover_texels(std::span<const UvTriangle> triangles, const TexelGrid& 
   }
   for (std::size_t texel = 0; texel < grid.count(); ++texel) out.begin[texel + 1] += out.begin[texel];
   out.samples.resize(out.begin.back());
-  // Each texel's begin moves to its end while it is filled, and then back by one texel.
+  // While a texel is filled, its begin moves to its end; afterwards all move back by one texel.
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const Snapped triangle(triangles[i], grid);
     if (triangle.has_area())

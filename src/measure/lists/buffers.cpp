@@ -31,7 +31,8 @@ void BufferMeter::add_frame(int frame, const assign::LightStructure& structure, 
   raise(sum_.bytes.theoretical_max, limit.bytes);
   sum_.bytes_along_path.add_frame(use.index_bytes + use.header_bytes);
   add_to_each(frame, structure.buffers(), lists);
-  sum_.index_bits = std::max(sum_.index_bits, structure.index_bits());  // of lights that a cull leaves, frame by frame
+  // Depends on the lights that a cull leaves in each frame.
+  sum_.index_bits = std::max(sum_.index_bits, structure.index_bits());
   raise(laid_out_entries_, use.index_bytes * 8 / structure.index_bits());
   sum_.dropped_pairs += use.dropped_pairs;
   sum_.overflowing_cells += use.overflowing_cells;

@@ -8,7 +8,7 @@
 namespace clusterbench::measure {
 namespace {
 
-// No point of the light is deeper than this, or farther from the eye. `along`: depth or distance of a point.
+// Upper bound of along(point) over the points of the light. `along`: depth or distance of a point.
 template <class Along>
 double end_of(const view::Frame& frame, const scene::WorldLight& light, const Along& along) {
   const grid::WorldBall around = grid::ball_around(light);
@@ -17,7 +17,7 @@ double end_of(const view::Frame& frame, const scene::WorldLight& light, const Al
   return std::min(along(apex) + light.range_m, along(middle) + around.radius_m) + grid::slack_of(apex, light.range_m);
 }
 
-// The picture's tiles hold what is in view, up to the last slice; what lies before the first is looked up in it.
+// The tiles of the picture cover the view up to the last slice; points before the first slice use the first slice.
 bool ends_behind(const view::Frame& frame, const grid::ScreenGrid& screen, const scene::WorldLight& light) {
   const float last = screen.slices.boundaries.back();
   if (screen.by_distance)
@@ -26,7 +26,7 @@ bool ends_behind(const view::Frame& frame, const grid::ScreenGrid& screen, const
   return end > static_cast<double>(last) && static_cast<float>(frame.projection.far_m) > last;
 }
 
-// In view space, of the coarsest level; in front of the eye, as all that is in view.
+// In view space, against the coarsest level; only the part in front of the eye can be in view.
 bool leaves_box(const view::Frame& frame, const grid::CascadesGrid& cascades, const scene::WorldLight& light) {
   const double edge = static_cast<double>(cascades.edge_m(cascades.levels - 1)), across = edge * cascades.cells.x / 2.0,
                up = edge * cascades.cells.y / 2.0, deep = edge * cascades.cells.z;

@@ -1,5 +1,5 @@
 #pragma once
-// How many lights of a frame are in view: what an engine's limit of lights is held against.
+// Number of lights in view per frame: compared with an engine's light limit.
 
 #include <algorithm>
 #include <array>
@@ -10,15 +10,13 @@
 
 namespace clusterbench::measure {
 
-// By grid/lights_in_view.h, over the frames of a path. Before any pre-cull: it depends on camera and lights alone, and
+// Counted by grid/lights_in_view.h, over the frames of a path, before any pre-cull: depends on camera and lights only,
 // not on the grid.
 struct LightsInView {
-  std::uint64_t frames = 0, sum = 0, shining_sum = 0;  // of all frames; of those that shine in the frame
+  std::uint64_t frames = 0, sum = 0, shining_sum = 0;  // all lights; those that shine in the frame
   std::uint64_t most = 0, frames_with_most = 0;
-  int worst_frame = 0;                                            // the first with most
-  std::array<std::uint64_t, view::k_light_types> most_of_type{};  // points, spots, boxes: each in a frame of its own
-  // By index of a frame's lights: those that shine in some frame (scene/digests.h), and those that are in view in
-  // a frame in which they shine. Lights that are dark are in view like others.
+  int worst_frame = 0;                                            // first frame with the maximum
+  std::array<std::uint64_t, view::k_light_types> most_of_type{};  // points, spots, boxes: each in its own frame
   std::vector<bool> is_lit, is_seen;
 
   std::uint64_t lit() const { return static_cast<std::uint64_t>(std::ranges::count(is_lit, true)); }

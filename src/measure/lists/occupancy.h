@@ -15,23 +15,23 @@ struct Spread {
 };
 // Nearest-rank percentiles.
 Spread spread_of(std::vector<double> values);
-// The same over a histogram, whose n-th entry counts the value n.
+// The same for a histogram: entry n is the number of values n.
 Spread spread_of_histogram(const std::vector<std::uint64_t>& histogram);
 
 struct Occupancy {
   Spread pairs;                          // per frame
-  Spread lights_per_cell;                // over all cells of all frames, empty ones included, holes not
+  Spread lights_per_cell;                // all cells of all frames, with empty ones, without holes
   std::vector<std::uint64_t> histogram;  // [n] = cells with n lights
   Spread occupied_fraction;              // per frame: cells with at least one light / cells
   int worst_frame = 0;                   // with the longest list
   std::uint32_t worst_cell = 0;
   std::uint32_t worst_count = 0;
-  int fullest_frame = 0;                            // with the most pairs; the first of several
-  PathSeries pairs_along_path, longest_along_path;  // longest: the frame's longest list
+  int fullest_frame = 0;                            // with the most pairs; the first if several
+  PathSeries pairs_along_path, longest_along_path;  // longest: the longest list of the frame
   std::vector<std::uint32_t> longest_by_slice;      // LongestBySlice
 };
 
-// A histogram of at most 256 entries, each of so many successive lengths, a power of two.
+// A histogram of at most 256 bins, each of a power of two of consecutive lengths.
 struct Histogram {
   std::uint64_t lights_per_entry = 1;
   std::vector<std::uint64_t> cells;
@@ -40,8 +40,8 @@ Histogram short_histogram(std::vector<std::uint64_t> cells_by_lights);
 
 class OccupancyMeter {
  public:
-  explicit OccupancyMeter(std::uint32_t real_cells) : real_cells_(real_cells) {}  // holes not counted
-  // Of the frames to come, whose grid has other cells.
+  explicit OccupancyMeter(std::uint32_t real_cells) : real_cells_(real_cells) {}  // without holes
+  // For the next frames, whose grid has other cells.
   void set_real_cells(std::uint32_t real_cells) { real_cells_ = real_cells; }
   void add_frame(int frame, const assign::Lists& lists);
   Occupancy result() const;
@@ -56,11 +56,11 @@ class OccupancyMeter {
   PathSeries pairs_along_path_, longest_along_path_;
 };
 
-// The longest list among the cells of each slice, over all frames: how many lights there are at which depth. None in a
-// world grid, which has no slices, and where slices move along the path.
+// The longest list among the cells of each slice, over all frames: shows the number of lights by depth. Empty for a
+// world grid, which has no slices, and for slices that move along the path.
 class LongestBySlice {
  public:
-  void add_frame(const grid::Grid& grid, const assign::Lists& lists);  // lists: one per cell of the grid
+  void add_frame(const grid::Grid& grid, const assign::Lists& lists);  // `lists`: one per cell of the grid
   std::vector<std::uint32_t> result() const;
 
  private:

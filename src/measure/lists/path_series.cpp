@@ -15,7 +15,7 @@ void PathSeries::add_frame(std::uint64_t value) {
   frames_in_last_ = 1;
 }
 
-// The entries are full and even in number when this is called.
+// Precondition: the entries are full and their number is even.
 void PathSeries::join_neighbours() {
   for (std::size_t i = 0; i < entries_.size() / 2; ++i) entries_[i] = std::max(entries_[2 * i], entries_[2 * i + 1]);
   entries_.resize(entries_.size() / 2);

@@ -1,18 +1,18 @@
 #pragma once
-// One figure frame by frame along a camera path, in bounded room.
+// One value per frame along a camera path, in bounded memory.
 
 #include <cstdint>
 #include <vector>
 
 namespace clusterbench::measure {
 
-// Keeps every frame of a path of up to so many entries. Of a longer one each entry is the largest of so many successive
-// frames, a power of two, that they fit: what is allocated has to hold the largest.
+// Keeps every frame of a path of up to `most_entries` frames. For a longer path each entry is the maximum over a power
+// of two of consecutive frames, since an allocation has to hold the maximum.
 class PathSeries {
  public:
   static constexpr std::size_t k_most_entries = 512;
 
-  // `most_entries`: even.
+  // `most_entries` must be even.
   explicit PathSeries(std::size_t most_entries = k_most_entries) : most_entries_(most_entries) {}
 
   void add_frame(std::uint64_t value);

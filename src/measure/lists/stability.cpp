@@ -25,8 +25,8 @@ void ChurnMeter::add(const assign::Lists& lists) {
     churn_.changes += changed.size();
     churn_.most_changes = std::max<std::uint64_t>(churn_.most_changes, changed.size());
     for (const std::uint64_t pair : changed) churn_.flickers += has_changed_lately(pair) ? 1 : 0;
-    lately_.push_back(std::move(changed));
-    if (lately_.size() > window_) lately_.pop_front();
+    recent_changes_.push_back(std::move(changed));
+    if (recent_changes_.size() > window_) recent_changes_.pop_front();
   }
   has_begun_ = true;
   last_ = lists;
@@ -37,7 +37,7 @@ void ChurnMeter::add_new_grid(const assign::Lists& lists) {
   ++churn_.steps;
   churn_.changes += changes;
   churn_.most_changes = std::max(churn_.most_changes, changes);
-  lately_.clear();
+  recent_changes_.clear();
 }
 
 ChurnMeter::Pairs ChurnMeter::changed_from_last(const assign::Lists& lists) const {
@@ -54,7 +54,7 @@ ChurnMeter::Pairs ChurnMeter::changed_from_last(const assign::Lists& lists) cons
 }
 
 bool ChurnMeter::has_changed_lately(std::uint64_t pair) const {
-  return std::any_of(lately_.begin(), lately_.end(),
+  return std::any_of(recent_changes_.begin(), recent_changes_.end(),
                      [&](const Pairs& step) { return std::binary_search(step.begin(), step.end(), pair); });
 }
 

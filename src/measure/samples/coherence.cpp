@@ -16,7 +16,7 @@ double quotient(double above, double below) {
   return below > 0.0 ? above / below : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Counts the lights of lists that have not been seen since the last start().
+// Counts the distinct lights of all lists that were added since the last start().
 class Union {
  public:
   void start() { ++now_; }
@@ -54,7 +54,7 @@ void add_wave(WaveCounts& counts, std::vector<const List*>& lanes, Union& lights
   counts.mean += static_cast<double>(entries) / static_cast<double>(lanes.size());
 }
 
-// The sample of each pixel; none where nothing is seen.
+// Index of the sample of each pixel; k_none for a pixel without a surface.
 constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
 std::vector<std::uint32_t> samples_of_pixels(const depth::DepthImage& image) {
   std::vector<std::uint32_t> out;

@@ -11,14 +11,15 @@ namespace clusterbench::measure {
 namespace {
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
-// From one pixel to the next, of what changes in the whole tile; beside what a plane through it changes by there.
+// Of a step from one pixel to the next, as a share of the change over the whole tile; in addition to the step of a
+// plane.
 constexpr double k_discontinuity = 0.25;
 constexpr int k_parts = 32;
 
-// Step 0 is of no length at all. Lengths below 2^-30 m are in step 1, those from 2^66 m on in the last.
+// Step 0 is for length 0. Lengths below 2^-30 m are in step 1, those from 2^66 m on in the last.
 constexpr int k_steps = 16, k_least_exponent = -30, k_exponents = 96;
 
-// frexp is exact, so that no two machines disagree.
+// frexp is exact, so the result is the same on every machine.
 std::size_t step_of(double length_m) {
   int exponent = 0;
   const double mantissa = 2.0 * std::frexp(length_m, &exponent) - 1.0;  // 0 to 1
@@ -33,7 +34,7 @@ double end_of_step(std::size_t step) {
   return std::ldexp(1.0 + static_cast<double>(at % k_steps) / k_steps, at / k_steps + k_least_exponent);
 }
 
-// From the least to the greatest of some numbers.
+// The range of some numbers.
 struct Span {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   std::uint64_t pixels = 0;
@@ -47,8 +48,8 @@ struct Span {
 };
 
 struct Tile {
-  Span depth, evenly;  // evenly: what changes evenly along a plane
-  Span columns, rows;  // of its pixels with a surface
+  Span depth, evenly;  // evenly: a quantity that is linear along a plane in screen space
+  Span columns, rows;  // of the tile's pixels with a surface
   double widest_step = 0.0;
   std::uint32_t parts = 0;
 
@@ -62,7 +63,7 @@ struct Tile {
   }
 };
 
-// A picture's pixels in the cells of a grid.
+// The pixels of a picture in the cells of a grid.
 class Picture {
  public:
   Picture(const depth::DepthImage& image, std::span<const grid::Sample> samples, const grid::ScreenGrid& grid)
@@ -102,12 +103,12 @@ class Picture {
 
   std::uint64_t outside() const { return outside_; }
   const std::vector<Tile>& tiles() const { return tiles_; }
-  const std::vector<Span>& cells() const { return spans_; }  // depths of the surfaces in each cell
+  const std::vector<Span>& cells() const { return spans_; }  // range of the surface depths in each cell
   const Tile& tile_of_cell(std::size_t cell) const { return tiles_[cell % tile_count_]; }
   std::size_t slice_of_cell(std::size_t cell) const { return cell / tile_count_; }
 
  private:
-  static constexpr std::int64_t k_nothing = -2;  // nothing is seen
+  static constexpr std::int64_t k_nothing = -2;  // no surface is visible
 
   static std::size_t tiles_in(const grid::ScreenGrid& grid) {
     return static_cast<std::size_t>(grid.tiles.count.x) * static_cast<std::size_t>(grid.tiles.count.y);
@@ -127,7 +128,7 @@ class Picture {
   Vec2i size_;
   bool is_orthographic_;
   std::size_t tile_count_;
-  std::vector<std::int64_t> cells_;  // of each pixel
+  std::vector<std::int64_t> cells_;  // cell of each pixel
   std::vector<double> depths_;
   std::vector<Tile> tiles_;
   std::vector<Span> spans_;

@@ -18,13 +18,13 @@ float moved(float value, int ulps) {
   return value;
 }
 
-// The depth at which a pixel's ray is so far from the eye.
+// The depth of the point on a pixel's ray at a distance from the eye.
 double depth_at_distance(const view::Frame& frame, double pixel_x, double pixel_y, double distance) {
   const Vec3d ray = sample_at(frame, pixel_x, pixel_y, 1.0).from_eye;
   return distance / glm::length(ray);
 }
 
-// At a slice boundary, or a few ulp beside it.
+// A sample at a slice boundary, or a few ulp beside it.
 grid::Sample at_boundary(const view::Frame& frame, const grid::ScreenGrid& grid, SplitMix64& random) {
   const std::vector<float>& boundaries = grid.slices.boundaries;
   const double x = random.between(0.0, frame.viewport.x), y = random.between(0.0, frame.viewport.y);
@@ -35,7 +35,7 @@ grid::Sample at_boundary(const view::Frame& frame, const grid::ScreenGrid& grid,
   return sample_at(frame, x, y, depth);
 }
 
-// The centre of a pixel beside a tile's edge.
+// The centre of a pixel beside a tile edge.
 double beside_edge(int tiles, float scale, int pixels, SplitMix64& random) {
   const auto edge =
       static_cast<double>(random.below(static_cast<std::uint64_t>(tiles) + 1)) / static_cast<double>(scale);
@@ -43,7 +43,8 @@ double beside_edge(int tiles, float scale, int pixels, SplitMix64& random) {
   return std::clamp(pixel, 0.0, pixels - 1.0) + 0.5;
 }
 
-// Just inside a light, where it is nearest to the eye or farthest from it; nothing if that is not in view.
+// Adds a sample just inside a light, at its nearest or farthest point from the eye; no sample if that point is not in
+// view.
 void add_at_light_end(const view::Frame& frame, bool by_distance, SplitMix64& random,
                       std::vector<grid::Sample>& samples) {
   if (frame.lights.empty()) return;
@@ -73,14 +74,14 @@ bool takes_logarithm(const grid::Grid& grid) {
   return grid.has_tiles() && grid.screen().slices.lookup.form == grid::SliceLookup::Form::log2;
 }
 
-// Where the grid has no cells, no lookup is to blame.
+// A sample outside of all cells is not an error of the lookup.
 bool is_beyond(const view::Frame& frame, const grid::Grid& grid, const grid::Sample& sample) {
   if (!grid.has_tiles()) return grid::lookup(grid, sample) < 0;
   const Vec3d local = frame.view_space.rotation * sample.from_eye;
   return grid.screen().along(local) > static_cast<double>(grid.screen().slices.boundaries.back());
 }
 
-// The ends of what a logarithm may give.
+// The smallest and the largest result that a logarithm may have.
 std::vector<grid::Log2> ends_of(Logarithm logarithm) {
   if (logarithm == Logarithm::glsl) return {grid::Log2::glsl_low, grid::Log2::glsl_high};
   return {logarithm == Logarithm::fast ? grid::Log2::fast : grid::Log2::rounded};
@@ -109,7 +110,7 @@ double read_depth(const view::Projection& projection, DepthRead read, double dep
   constexpr double k_steps = (1 << 24) - 1;
   stored = read == DepthRead::d24 ? std::round(stored * k_steps) / k_steps : static_cast<float>(stored);
   if (projection.orthographic) return static_cast<float>(far - stored * (far - near));
-  // As a shader does it: in single precision, from constants that were rounded once. Nothing stored is the far end.
+  // As in a shader: single precision, constants rounded once. A stored 0 is the far end.
   if (std::isinf(far)) return static_cast<float>(near) / static_cast<float>(stored);
   const auto scale = static_cast<float>((far - near) / (near * far)), bias = static_cast<float>(1.0 / far);
   return 1.0f / (static_cast<float>(stored) * scale + bias);
@@ -173,7 +174,7 @@ void LookupFrame::add_way(const Way& way, const assign::LightStructure& structur
                           std::back_inserter(left));
       missed.insert(missed.end(), left.begin(), left.end());
     }
-    // A light that both ends miss is missed once.
+    // A light missed at both ends counts once.
     std::sort(missed.begin(), missed.end());
     missed.erase(std::unique(missed.begin(), missed.end()), missed.end());
     counts.needed += reaching_.of(i).size();

@@ -1,5 +1,5 @@
 #pragma once
-// What lights lose when they are packed, against the scene's own numbers.
+// Errors of packed lights, compared with the scene's own numbers.
 
 #include <cstdint>
 
@@ -8,23 +8,23 @@
 namespace clusterbench::measure {
 
 struct MeanMax {
-  double mean = 0.0, max = 0.0;  // not a number: over nothing
+  double mean = 0.0, max = 0.0;  // NaN without values
 };
 
-// Over all lights of all frames that end somewhere and that the format holds.
+// Over all lights of all frames that have a finite range and that the format can hold.
 struct PackingLoss {
   MeanMax position_error_m;
-  MeanMax range_error_m;                    // by how much it is too long
+  MeanMax range_error_m;                    // by how much the range is too long
   MeanMax axis_error_rad, angle_error_rad;  // of spots
-  MeanMax safe_inflation_m;                 // of the bound: by how much growing in all directions would be enough
-  // Lights that the format does not hold: the most in one frame, and in how many frames there is one.
+  MeanMax safe_inflation_m;                 // of the bound: the growth in all directions that would be sufficient
+  // Lights that the format cannot hold: maximum of one frame, and number of frames with any.
   std::uint64_t unrepresentable_lights = 0;
   int unrepresentable_frames = 0;
 };
 
 class PackingLossMeter {
  public:
-  // The lights before they are inflated.
+  // `packed`: the lights before they are inflated.
   void add_frame(const view::PackedLights& packed);
   PackingLoss result() const;
 

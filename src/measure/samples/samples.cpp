@@ -18,7 +18,7 @@ constexpr const char* k_fewer_samples = "ask for fewer samples";
 constexpr const char* k_larger_blocks = "ask for a larger divisor";
 constexpr const char* k_fewer_froxels = "ask for fewer froxels";
 
-// Room for so many; throws Error, which names the remedy, where that would be more than the limit on memory.
+// Reserves `count` samples. Throws Error, which names the remedy, beyond the memory limit.
 std::vector<grid::Sample> room_for(std::uint64_t count, const char* remedy) {
   check_memory("samples", count, sizeof(grid::Sample), remedy);
   std::vector<grid::Sample> samples;
@@ -26,12 +26,12 @@ std::vector<grid::Sample> room_for(std::uint64_t count, const char* remedy) {
   return samples;
 }
 
-// Mixed once more: neighbouring states of this generator give the same numbers one step apart.
+// Hashed once more: consecutive seeds of this generator give the same sequence, shifted by one.
 SplitMix64 random_of(std::uint64_t seed, const view::Frame& frame) {
   return SplitMix64(SplitMix64(seed + static_cast<std::uint64_t>(frame.index)).next());
 }
 
-// Depths from near to far: in a perspective picture uniform in log depth, as slices are.
+// Depths from near to far: in a perspective picture uniform in log depth, like slices.
 class Depths {
  public:
   Depths(const view::Projection& projection, double far_m)
@@ -123,7 +123,7 @@ depth::DepthImage ground_depths(const view::Frame& frame, const depth::PixelGrid
   for (std::size_t i = 0; i < pixels.count(); ++i) {
     const view::PictureRay ray = view::picture_ray(frame, pixels.pixel(i));
     const double begins_at = frame.view_space.origin.y + (world_from_view * ray.at(0.0)).y;
-    const double climbs = (world_from_view * (ray.at(1.0) - ray.at(0.0))).y;  // by metre of depth
+    const double climbs = (world_from_view * (ray.at(1.0) - ray.at(0.0))).y;  // per metre of depth
     const double depth_m = (height_m - begins_at) / climbs;
     if (depth_m > 0.0 && depth_m >= frame.projection.near_m && depth_m <= far_m)
       image.nearest[i] = static_cast<float>(depth_m);

@@ -14,14 +14,14 @@
 namespace clusterbench::measure {
 namespace {
 
-// From a light to a sample, by their positions seen from the eye: those in the world may be rounded to metres.
+// From a light to a sample, relative to the eye: world positions may be rounded to metres.
 Vec3d way_to(const grid::Sample& sample, const scene::WorldLight& light) {
   return sample.from_eye - (light.position - sample.eye);
 }
 
-// A spot's share of its intensity in a direction, as KHR_lights_punctual recommends it: 1 within the inner cone, 0 from
-// the outer one on. In between it falls with the square of the cosine's share, over no less than a thousandth: cones
-// that differ by less have no direction with all of it.
+// A spot's falloff in a direction, as KHR_lights_punctual recommends: 1 within the inner cone, 0 outside of the outer
+// one, and in between the square of a ramp in the cosine. The ramp is at least a thousandth wide: if the cones differ
+// by less, no direction has full intensity.
 double spot_falloff(const scene::WorldLight& spot, double cos_to_sample) {
   constexpr double k_least_span = 0.001;
   const double cos_outer = std::cos(spot.outer_cone_rad);
@@ -30,19 +30,19 @@ double spot_falloff(const scene::WorldLight& spot, double cos_to_sample) {
   return share * share;
 }
 
-// What a surface that faces the light gets of it: inverse square with the extension's window, 1 - (d/r)^4.
+// Illuminance of a surface that faces the light: inverse square with the extension's window, 1 - (d/r)^4.
 double irradiance_lux(const scene::WorldLight& light, const Vec3d& to_sample) {
-  constexpr double k_smallest_square = 1e-4;  // 1 cm: a sample within the lamp. The window has no such limit.
+  constexpr double k_smallest_square = 1e-4;  // 1 cm: closer samples are within the lamp. The window has no such limit.
   if (light.type == scene::LightType::box) return 0.0;
   const double square = glm::dot(to_sample, to_sample), share = square / (light.range_m * light.range_m);
   const double window = std::clamp(1.0 - share * share, 0.0, 1.0);
   const double lux = light.luminous_intensity_cd * window / std::max(square, k_smallest_square);
-  // At the apex there is no direction: as along the axis.
+  // At the apex there is no direction: full intensity.
   if (light.type != scene::LightType::spot || square == 0.0) return lux;
   return lux * spot_falloff(light, glm::dot(to_sample, light.direction) / std::sqrt(square));
 }
 
-// A box in space around the eye, along the world's axes, and the samples that lie in it: exactly.
+// A box around the eye, along the world's axes, that contains the samples exactly.
 class BoxOfSamples {
  public:
   BoxOfSamples(const scene::WorldLight& light, const Vec3d& eye)

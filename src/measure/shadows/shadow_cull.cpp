@@ -10,7 +10,7 @@
 namespace clusterbench::measure {
 namespace {
 
-// A frustum around a shell cell: its pyramid between the depths that the cell can have.
+// A frustum around a shell cell: the cell's pyramid between its smallest and largest depth.
 geom::FrustumCell frustum_around_shell(const geom::ShellCell& cell) {
   const double x = std::max(std::fabs(cell.x0), std::fabs(cell.x1)),
                y = std::max(std::fabs(cell.y0), std::fabs(cell.y1));
@@ -22,7 +22,7 @@ double gap(double lo, double at, double hi) {
   return std::max({lo - at, at - hi, 0.0});
 }
 
-// What the cell, or a body around it, is to a light.
+// Corners of the cell, or of a body around it.
 struct Corners {
   geom::Corners operator()(const geom::FrustumCell& cell) const { return geom::exact_corners(cell); }
   geom::Corners operator()(const geom::ShellCell& cell) const {
@@ -31,7 +31,7 @@ struct Corners {
   geom::Corners operator()(const geom::Box& cell) const { return geom::exact_corners(cell); }
 };
 
-// No more than the distance of a point to the cell.
+// Lower bound of the distance from a point to the cell.
 struct Distance {
   Vec3d from;
 
@@ -50,7 +50,7 @@ struct Distance {
   double operator()(const geom::ShellCell& cell) const { return (*this)(frustum_around_shell(cell)); }
 
  private:
-  // Less than its length by more than roundoffs, and than a depth that is only nearly the nearest makes it too long.
+  // Below the exact length by more than all roundoff, and by more than the error of an approximate nearest depth.
   static double least(const Vec3d& apart) { return glm::length(apart) * (1.0 - 1e-9); }
 };
 
@@ -64,7 +64,7 @@ void remove_shadowed(const view::Frame& frame, const grid::Grid& grid, const ass
                      std::span<const depth::ShadowMap* const> maps, double bias_m, assign::Lists& kept) {
   const view::Space space = grid::space_of(grid, frame);
   const Mat3d world_from_local = glm::transpose(space.rotation);
-  std::vector<Vec3d> in_world, local;  // of lights, from the space's origin
+  std::vector<Vec3d> in_world, local;  // positions of lights, relative to the space's origin
   for (const scene::WorldLight& light : frame.lights) {
     in_world.push_back(light.position - space.origin);
     local.push_back(space.rotation * in_world.back());
@@ -116,7 +116,7 @@ void add_samples(ShadowCullCounts& counts, const grid::Grid& grid, std::span<con
     counts.evaluated_kept += kept.of(cell).size();
     for (std::uint32_t k = needed.lists.begin[i]; k < needed.lists.begin[i + 1]; ++k) {
       const std::uint32_t light = needed.lists.lights[k];
-      if (!contains(lists.of(cell), light)) continue;  // lost before
+      if (!contains(lists.of(cell), light)) continue;  // already missing
       ++counts.needed;
       if (!is_lit[k]) continue;
       ++counts.lit;

@@ -14,22 +14,23 @@
 namespace clusterbench::measure {
 namespace {
 
-constexpr double k_slack = 1e-9;  // more than roundoffs of angles, and of lengths relative to those at hand
-// More than those of an apex, and of differences from it, relative to how far from the origin it is.
+constexpr double k_slack = 1e-9;  // more than roundoff of angles, and of lengths relative to nearby lengths
+// More than roundoff of an apex, and of differences from it, relative to its distance from the origin.
 constexpr double k_position_slack = 0x1p-49;
 
-// How deep a spot's sphere-capped cone reaches from its apex along an axis that its cone does not lean away from.
+// The depth of a spot's sphere-capped cone from its apex along an axis at the angle `turned_rad` to its own; the cone
+// must not turn away from that axis.
 double depth_along(const scene::WorldLight& spot, double turned_rad) {
   return spot.range_m * std::cos(std::max(0.0, turned_rad - spot.outer_cone_rad));
 }
 
-// Whether these two may be in one group, whatever else is.
+// Whether these two may be in one group, before other members are tested.
 bool may_share(const scene::WorldLight& a, const scene::WorldLight& b, const SharingLimits& limits) {
   return glm::length(a.position - b.position) <= limits.most_apart_m &&
          geom::angle_between(a.direction, b.direction) <= limits.most_turned_rad;
 }
 
-// Groups by number: first the spots by themselves, then what they are joined to.
+// Groups by index: first the single spots, then the joined groups.
 class Grouping {
  public:
   Grouping(std::span<const scene::WorldLight> lights, std::span<const std::uint32_t> spots, const SharingLimits& limits)
@@ -56,9 +57,9 @@ class Grouping {
  private:
   struct Group {
     SharedFrustum frustum;
-    double largest_m3 = 0.0;  // of its members' own
+    double largest_m3 = 0.0;  // of the members' own frusta
     bool is_gone = false;
-    std::set<std::size_t> neighbours{};  // with which it may be joined, as far as pairs of members say
+    std::set<std::size_t> neighbours{};  // candidates for a join, by tests of pairs of members
   };
   struct Union {
     SharedFrustum frustum;
@@ -67,7 +68,7 @@ class Grouping {
 
   void add_group(SharedFrustum frustum, double largest_m3) { groups_.push_back({std::move(frustum), largest_m3}); }
 
-  // Sorted along x, only spots that are not too far apart along it are looked at.
+  // The groups are sorted along x, so only spots that are close along x are tested.
   void find_neighbours() {
     std::vector<std::size_t> order(groups_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -79,12 +80,12 @@ class Grouping {
       for (std::size_t k = i + 1; k < order.size(); ++k) {
         const scene::WorldLight &a = spot_of(order[i]), &b = spot_of(order[k]);
         if (b.position.x - a.position.x > limits_.most_apart_m) break;
-        if (may_share(a, b, limits_)) meet(std::min(order[i], order[k]), std::max(order[i], order[k]));
+        if (may_share(a, b, limits_)) add_neighbours(std::min(order[i], order[k]), std::max(order[i], order[k]));
       }
   }
 
-  // Neither is gone. a < b.
-  void meet(std::size_t a, std::size_t b) {
+  // Adds two existing groups as neighbours if they can be joined. a < b.
+  void add_neighbours(std::size_t a, std::size_t b) {
     const std::optional<Union> both = united(a, b);
     if (!both) return;
     groups_[a].neighbours.insert(b);
@@ -106,7 +107,7 @@ class Grouping {
     return Union{std::move(*frustum), largest};
   }
 
-  // What one of both was a neighbour of may be one of both together: a frustum around more may be no larger.
+  // Neighbours of either group are tested again with the joined group: a frustum around more lights can be smaller.
   void join(std::size_t a, std::size_t b) {
     Union both = *united(a, b);
     std::set<std::size_t> neighbours = groups_[a].neighbours;
@@ -115,14 +116,14 @@ class Grouping {
     const std::size_t joined = groups_.size();
     add_group(std::move(both.frustum), both.largest_m3);
     for (const std::size_t neighbour : neighbours)
-      if (!groups_[neighbour].is_gone) meet(neighbour, joined);
+      if (!groups_[neighbour].is_gone) add_neighbours(neighbour, joined);
   }
 
   std::span<const scene::WorldLight> lights_;
   SharingLimits limits_;
   std::vector<Group> groups_;
-  using Offer = std::tuple<double, std::size_t, std::size_t>;  // cost, two groups
-  std::priority_queue<Offer, std::vector<Offer>, std::greater<>> queue_;
+  using Join = std::tuple<double, std::size_t, std::size_t>;  // cost, two groups
+  std::priority_queue<Join, std::vector<Join>, std::greater<>> queue_;
 };
 
 void add_growth(SharingCounts& counts, std::span<const scene::WorldLight> lights, const SharedFrustum& frustum) {
@@ -155,7 +156,7 @@ std::optional<SharedFrustum> frustum_around(std::span<const scene::WorldLight> l
                                             std::span<const std::uint32_t> spots) {
   SharedFrustum out;
   out.members.assign(spots.begin(), spots.end());
-  // From one of them on: far from the origin positions themselves are rounded.
+  // Relative to one of them: far from the origin the positions themselves are rounded.
   const Vec3d origin = lights[spots.front()].position;
   Vec3d middle(0.0), axis(0.0);
   double away_m = 0.0;
@@ -180,7 +181,7 @@ std::optional<SharedFrustum> frustum_around(std::span<const scene::WorldLight> l
     back_m = std::max(back_m, glm::length(from_middle - along * out.axis) / out.slope - along);
     size_m = std::max(size_m, glm::length(from_middle));
   }
-  // What the apex, and depths from there, lose to rounding.
+  // Rounding error of the apex, and of depths from it.
   const double rounding_m = spots.size() > 1 ? k_position_slack * away_m : 0.0;
   if (spots.size() > 1) back_m += k_slack * (size_m + back_m) + rounding_m * (1.0 + 1.0 / out.slope);
   out.apex = origin + (middle - back_m * out.axis);

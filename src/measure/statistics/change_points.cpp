@@ -14,16 +14,16 @@ namespace {
 constexpr std::size_t k_min_stretch = 2;
 constexpr std::uint64_t k_seed = 0x636c7573746572;
 
-// Of max_p, what single steps get; the rest is for stretches that rise and fall back. Both together keep to max_p.
+// The part of max_p for single steps; the rest is for stretches that rise and fall back. The sum does not exceed max_p.
 constexpr double k_share_of_steps = 0.9;
 
-// So many permutations may reach the observed statistic where p is the level itself.
+// Number of permutations that may reach the observed statistic if p equals the level.
 constexpr double k_reached_at_level = 5.0;
 
-// values[begin, end) against all others. A step is one that reaches to the end.
+// values[begin, end) against all others. A step extends to the end of the series.
 struct Stretch {
   std::size_t begin = 0, end = 0;
-  double explained = 0.0;  // share of the sum of squares between both means, 0 to 1
+  double explained = 0.0;  // share of the total sum of squares explained by the two means, 0 to 1
 };
 
 double mean_of(std::span<const double> values) {
@@ -32,7 +32,8 @@ double mean_of(std::span<const double> values) {
   return sum / static_cast<double>(values.size());
 }
 
-// Sums of distances from the mean up to each value, in units in which their squares sum up to 1; empty if none varies.
+// Cumulative sums of the differences from the mean, scaled so that the squares of the differences sum up to 1; empty if
+// all values are equal.
 std::vector<double> scaled_sums(std::span<const double> values) {
   const double mean = mean_of(values);
   double squares = 0.0;
@@ -53,7 +54,7 @@ Stretch best_step(std::span<const double> sums) {
   return best;
 }
 
-// Stretches within the series. Lengths at which none can explain more than `least` are passed over.
+// The best stretch within the series. Skips lengths that cannot explain more than `least`.
 Stretch best_excursion(std::span<const double> sums, double least) {
   const std::size_t n = sums.size() - 1;
   const auto [low, high] = std::minmax_element(sums.begin(), sums.end());
@@ -70,8 +71,8 @@ Stretch best_excursion(std::span<const double> sums, double least) {
   return best;
 }
 
-// How alike neighbours are, beside their means: correlation of the residuals with the next ones, not below 0.
-double likeness_of_neighbours(std::span<const double> values, const Stretch& stretch) {
+// Correlation of each residual (value minus the mean of its side) with the next one, at least 0.
+double correlation_of_neighbours(std::span<const double> values, const Stretch& stretch) {
   std::array<double, 2> sums{}, counts{};
   const auto is_within = [&](std::size_t i) { return i >= stretch.begin && i < stretch.end ? 1u : 0u; };
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -94,12 +95,12 @@ Stretch best_of(Shape shape, std::span<const double> sums, double least) {
   return shape == Shape::step ? best_step(sums) : best_excursion(sums, least);
 }
 
-// Squares between the means over those that remain; neighbours that are alike say less than their number, and a mean of
-// a first-order autoregressive series varies (1 + r) / (1 - r) times as much.
+// Ratio of the explained to the residual sum of squares. Correlated neighbours carry less information than their
+// number: the mean of a first-order autoregressive series varies (1 + r) / (1 - r) times as much.
 double statistic(std::span<const double> values, const Stretch& stretch) {
   constexpr double k_all = 1.0 - 1e-12;
   if (stretch.explained >= k_all) return std::numeric_limits<double>::max();
-  const double r = likeness_of_neighbours(values, stretch);
+  const double r = correlation_of_neighbours(values, stretch);
   return stretch.explained / (1.0 - stretch.explained) * (1.0 - r) / (1.0 + r);
 }
 
@@ -112,13 +113,13 @@ struct Found {
   double p = 1.0;
 };
 
-// The share of orders of the same values, their own included, whose best stretch is as good; 1 as soon as that is above
-// `level`.
+// p: the share of permutations of the values, the original included, whose best stretch is at least as good. Stops with
+// 1 once it exceeds `level`.
 Found tested(std::span<const double> values, Shape shape, double level) {
   const std::vector<double> sums = scaled_sums(values);
   if (sums.empty()) return {};
   Found found{best_of(shape, sums, 0.0)};
-  // The same stretches in another order may differ by a unit roundoff.
+  // The same stretch in another order may differ by a unit roundoff.
   const double observed = statistic(values, found.stretch) * (1.0 - 1e-9);
   const double least = observed / (1.0 + observed);
   const double orders = std::ceil(k_reached_at_level / level);
@@ -157,7 +158,7 @@ void add_edges(std::span<const double> series, std::size_t begin, std::size_t en
   add_edges(series, from, end, max_p, edges);
 }
 
-// Each edge with the stretches up to its neighbours.
+// Each edge with the means of the stretches up to its neighbours.
 std::vector<ChangePoint> described(std::span<const double> series, const std::vector<Edge>& edges) {
   std::vector<ChangePoint> points;
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -169,7 +170,7 @@ std::vector<ChangePoint> described(std::span<const double> series, const std::ve
   return points;
 }
 
-// |after / before - 1|; infinite from nothing.
+// |after / before - 1|; infinite if `before` is 0.
 double size_of(double before, double after) {
   return after == before ? 0.0 : std::abs(after - before) / std::abs(before);
 }
@@ -185,7 +186,7 @@ std::vector<ChangePoint> change_points(std::span<const double> series, const Cha
       return size_of(a.before, a.after) < size_of(b.before, b.after);
     });
   };
-  // Without the smallest one its neighbours have longer stretches.
+  // Without the smallest one, the stretches of its neighbours become longer.
   for (auto least = smallest(); least != points.end() && size_of(least->before, least->after) < rule.min_change;
        least = smallest()) {
     edges.erase(edges.begin() + (least - points.begin()));
@@ -194,7 +195,7 @@ std::vector<ChangePoint> change_points(std::span<const double> series, const Cha
   return points;
 }
 
-// Of the ways to choose half of the values, two set the same halves apart.
+// Of all choices of half of the values, two give the same split.
 std::size_t least_values(double max_p) {
   std::size_t count = 2;
   for (double ways = 2.0; 2.0 / ways > k_share_of_steps * max_p; ++count) {

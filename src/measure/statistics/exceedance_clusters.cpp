@@ -6,7 +6,7 @@
 namespace clusterbench::measure {
 namespace {
 
-// From each entry above the threshold to the next on its path.
+// Distances in entries between consecutive entries above the threshold, per path.
 std::vector<std::uint64_t> distances_above(std::span<const PathNeeds> paths, std::uint64_t threshold) {
   std::vector<std::uint64_t> distances;
   for (const PathNeeds& path : paths) {
@@ -20,7 +20,7 @@ std::vector<std::uint64_t> distances_above(std::span<const PathNeeds> paths, std
   return distances;
 }
 
-// Equation 3 of the source, for distances of which one at least is above 2.
+// Equation 3 of the source; at least one distance must be above 2.
 double intervals_estimator(const std::vector<std::uint64_t>& distances) {
   double sum = 0.0, squares = 0.0;
   for (const std::uint64_t distance : distances) {
@@ -31,9 +31,9 @@ double intervals_estimator(const std::vector<std::uint64_t>& distances) {
   return std::min(1.0, 2.0 * sum * sum / (static_cast<double>(distances.size()) * squares));
 }
 
-// Section 3 of the source: the largest distances, a share of `index`, lie between clusters. Equal distances are treated
-// alike, as within a cluster. Neighbours always are of one: they are all that a single hill has, and would be taken for
-// so many peaks where its path has no other distance.
+// Section 3 of the source: the largest distances, a share of `index`, are between clusters. Equal distances are treated
+// alike, as within a cluster. Direct neighbours are always in one cluster: a path with a single hill has no other
+// distances, and would otherwise give one peak per entry.
 std::uint64_t run_of(std::vector<std::uint64_t> distances, double index) {
   std::ranges::sort(distances, std::greater<>());
   const auto between = static_cast<std::size_t>(std::floor(index * static_cast<double>(distances.size())));
@@ -52,7 +52,7 @@ void add_peaks(const PathNeeds& path, std::uint64_t threshold, std::uint64_t run
     ++peak.entries_above;
     peak.frames_above += path.frames_per_entry;
     if (need < peak.height) continue;
-    // Of equal heights one within the path shows that it was the top.
+    // If several entries have the largest need, one inside the path shows that the peak was complete.
     const bool is_end = i == 0 || i + 1 == count;
     peak.is_cut = is_end && (need > peak.height || peak.is_cut);
     peak.height = need;
@@ -69,7 +69,7 @@ Clusters clusters_above(std::span<const PathNeeds> paths, std::uint64_t threshol
   clusters.run = has_long ? run_of(std::move(distances), clusters.extremal_index) : 2;
   for (const PathNeeds& path : paths) add_peaks(path, threshold, clusters.run, clusters.peaks);
   if (has_long || clusters.peaks.empty()) return clusters;
-  // One hill per path, with gaps of a single entry at most: the estimator, which presumes long gaps, would say 1.
+  // One hill per path, with gaps of at most one entry: the estimator, which assumes long gaps, would return 1.
   std::uint64_t above = 0;
   for (const Peak& peak : clusters.peaks) above += peak.entries_above;
   clusters.extremal_index = static_cast<double>(clusters.peaks.size()) / static_cast<double>(above);

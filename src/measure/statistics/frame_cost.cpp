@@ -16,7 +16,7 @@ Interval ratio_by_prices(const FrameCost& numerator, const FrameCost& denominato
   constexpr double FrameCost::*k_priced[] = {&FrameCost::upload_ns, &FrameCost::traffic_ns, &FrameCost::read_ns,
                                              &FrameCost::shade_ns};
   Interval ratios{std::numeric_limits<double>::infinity(), 0.0};
-  // A ratio of two sums is extreme where each price is.
+  // A ratio of two sums has its extremes at the extremes of the prices.
   for (unsigned corner = 0; corner < 1u << std::size(k_priced); ++corner) {
     double above = numerator.assign_ns.value_or(0.0), below = denominator.assign_ns.value_or(0.0);
     for (unsigned i = 0; i < std::size(k_priced); ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-// What a frame costs with its shading, by a model: what is assigned, uploaded, read by samples and looped over, each at
-// a constant's price.
+// A cost model of a frame with its shading: assignment, upload, reads by samples and light loops, each multiplied by a
+// constant price.
 
 #include <optional>
 #include <vector>
@@ -12,17 +12,17 @@ namespace clusterbench::measure {
 struct CostModel {
   double ns_per_light = 0.0;                            // of one light at one sample
   double upload_gb_per_s = 1.0, memory_gb_per_s = 1.0;  // a GB/s is a byte per nanosecond
-  // Of what samples read of a light structure to know their lights; 0 bytes per ns: reading is free.
-  double ns_per_read = 0.0;    // of one element: a header, an index, a word of bits, a node that is visited
-  double read_gb_per_s = 0.0;  // of their bytes
+  // Reads of a light structure by samples, to find their lights; 0 bytes per ns: reads are free.
+  double ns_per_read = 0.0;    // per element: a header, an index, a word of bits, a visited node
+  double read_gb_per_s = 0.0;  // for their bytes
 };
 
 // Samples of one set, per frame.
 struct ShadedSamples {
   double samples = 0.0;
-  double lights = 0.0;      // looped over at one of them, mean
-  double divergence = 1.0;  // how many times longer waves take than their lanes' mean
-  double reads = 0.0;       // elements of the light structure that one of them fetches, mean
+  double lights = 0.0;      // loop iterations per sample, mean
+  double divergence = 1.0;  // duration of a wave / mean of its lanes
+  double reads = 0.0;       // elements of the light structure fetched per sample, mean
   double read_bytes = 0.0;  // their bytes
 
   double light_ns(const CostModel& model) const { return samples * lights * divergence * model.ns_per_light; }
@@ -31,28 +31,28 @@ struct ShadedSamples {
 };
 
 struct FrameCost {
-  std::optional<double> assign_ns;  // none where nothing is timed
+  std::optional<double> assign_ns;  // none without timing
   double upload_ns = 0.0, traffic_ns = 0.0;
-  double read_ns = 0.0;   // of samples, to know their lights
-  double shade_ns = 0.0;  // of those lights
+  double read_ns = 0.0;   // reads of samples to find their lights
+  double shade_ns = 0.0;  // shading of those lights
 
   double gpu_ns() const { return upload_ns + traffic_ns + read_ns + shade_ns; }
   std::optional<double> frame_ns() const { return assign_ns ? std::optional(*assign_ns + gpu_ns()) : std::nullopt; }
 };
 
-// Costs that differ by no more are alike: samples of some frames tell no less.
+// Costs within this ratio count as equal: samples of a few frames are not more precise.
 inline constexpr double k_alike_ratio = 1.05;
-// Each price of the model can be so many times lower or higher on the GPU at hand.
+// Each price of the model can be lower or higher by this factor on a real GPU.
 inline constexpr double k_price_factor = 2.0;
 
-// `numerator` / `denominator` as each price takes values within k_price_factor of the model's; measured times have
-// none.
+// Range of `numerator` / `denominator` if each price varies by k_price_factor around the model's. Measured times do not
+// vary.
 Interval ratio_by_prices(const FrameCost& numerator, const FrameCost& denominator);
 
-// A range of ratios about `nominal`, of costs, as one about `measured`, the ratio of the same that was measured side by
-// side: as many times as much.
+// Scales `range`, a range of cost ratios around `nominal`, to one around `measured`, the same ratio measured side by
+// side.
 Interval around(double measured, double nominal, const Interval& range);
-// Whether what costs more costs no more at some of these prices.
+// Whether the more expensive case costs no more at some of these prices.
 bool turns_with_prices(const FrameCost& less, const FrameCost& more);
 
 FrameCost frame_cost(const CostModel& model, std::optional<double> assign_ns, double upload_bytes, double traffic_bytes,

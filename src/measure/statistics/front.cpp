@@ -11,7 +11,7 @@ double known(double cost) {
   return std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
 }
 
-// Bytes and overshade first: they are at hand, and times may have to be compared.
+// Bytes and overshade first: they are cheap to compare, times may need a statistic.
 bool dominates(std::span<const Costs> cases, std::size_t a, std::size_t b, const TakesLonger& takes_longer) {
   const double a_bytes = known(cases[a].bytes), b_bytes = known(cases[b].bytes),
                a_overshade = known(cases[a].overshade), b_overshade = known(cases[b].overshade);

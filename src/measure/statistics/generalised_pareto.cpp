@@ -18,7 +18,7 @@ double bent(double bend, double y) {
   return inside <= -1.0 ? k_infinity : std::log1p(inside) / bend;
 }
 
-// Where a function with one peak in [low, high] is largest.
+// The argument of the maximum of a function with one peak in [low, high].
 template <class Value>
 double golden_section(double low, double high, int steps, const Value& value) {
   constexpr double k_golden = 0.6180339887498949;
@@ -38,7 +38,8 @@ double golden_section(double low, double high, int steps, const Value& value) {
   return at_left < at_right ? right : left;
 }
 
-// x with the given sign and e^x - 1 - x = loss: a Poisson rate off by the factor e^x is less likely by that, per count.
+// x with the given sign and e^x - 1 - x = loss: a Poisson rate that is wrong by the factor e^x has a log-likelihood
+// lower by `loss` per count.
 double log_factor_of_loss(double loss, double sign) {
   if (!(loss > 0.0)) return 0.0;
   double x = sign * std::sqrt(2.0 * loss);
@@ -57,10 +58,10 @@ double GeneralisedPareto::quantile(double log_survival) const {
   return bend == 0.0 ? y : std::expm1(bend * y) / bend;
 }
 
-// In the bent scale the distribution is exponential, so the logarithm of the likelihood is concave in the rate.
+// After the transform by `bend` the distribution is exponential, so the log-likelihood is concave in the rate.
 struct ParetoFit::AtBend {
   struct Term {
-    double count = 0.0, start = 0.0, width = 0.0;  // width 0: the distribution ends within
+    double count = 0.0, start = 0.0, width = 0.0;  // width 0: the distribution ends within the interval
   };
   double bend = 0.0;
   std::vector<Term> terms;
@@ -86,7 +87,7 @@ struct ParetoFit::AtBend {
     return sum;
   }
 
-  // Newton from a rate that is too low: the derivative is convex and falls, so no step goes too far.
+  // Newton's method from a rate that is too low: the derivative is convex and falls, so no step overshoots.
   double best_rate() const {
     double count = 0.0, end = 0.0;
     for (const Term& term : terms) {
@@ -116,7 +117,7 @@ constexpr int k_grid = 20;
 constexpr double k_nearest_end = 1e-4, k_farthest_end = 1e3;
 }  // namespace
 
-// From 0, an end just above the largest excess, through 1, without one, to 2, the heaviest tail looked at.
+// Maps 0 .. 2 to bends: 0: the end is just above the largest excess; 1: no end; 2: the heaviest tail considered.
 double ParetoFit::bend_at(double along) const {
   const double slightest = 1.0 / (top_ * (1.0 + k_farthest_end));
   if (along < 1.0) {
@@ -127,7 +128,7 @@ double ParetoFit::bend_at(double along) const {
   return slightest * std::expm1((along - 1.0) * std::log1p(most / slightest));
 }
 
-// A grid first, since the value need not have one peak only.
+// Starts with a grid, since the value may have several peaks.
 template <class Value>
 double ParetoFit::largest(const Value& value, int steps) const {
   double best = 0.0, best_value = -k_infinity;
@@ -161,9 +162,9 @@ ParetoFit::ParetoFit(std::vector<Excess> excesses) : excesses_(std::move(excesse
 
 ParetoFit::LogRange ParetoFit::log_survival_range(double excess, double independent, double counted) const {
   const double share = independent / count_;
-  // What lies outside of the region of likely parameters is the worse, the less likely it is.
+  // Outside of the region of likely parameters: the less likely, the lower.
   const auto outside = [](double loss) { return -1e6 * (1.0 + loss); };
-  // The largest sign ln(r P) of one bend. `sign` 1: upper end, -1: lower end.
+  // The maximum of sign ln(r P) for one bend. `sign` 1: upper end, -1: lower end.
   const auto extreme = [&](double along, double sign) {
     const AtBend at(excesses_, bend_at(along));
     const double rate = at.best_rate(), distance = std::min(bent(at.bend, excess), 1e5 / rate);
@@ -181,7 +182,7 @@ ParetoFit::LogRange ParetoFit::log_survival_range(double excess, double independ
   const auto over_bends = [&](double sign) {
     const auto value = [&](double along) { return extreme(along, sign); };
     const double found = value(largest(value, 14));
-    // The region can be narrower than the grid.
+    // The likely region can be narrower than the grid.
     const double near = value(golden_section(std::max(0.0, along_ - 0.1), std::min(2.0, along_ + 0.1), 14, value));
     return sign * std::max({found, near, value(along_)});
   };

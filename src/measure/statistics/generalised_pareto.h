@@ -1,6 +1,6 @@
 #pragma once
-// The generalised Pareto distribution of what exceeds a high threshold, fitted to whole numbers. A whole number y >= 1
-// stands for an excess in (y - 1, y], so ties and small counts are no trouble, and the likelihood is bounded for every
+// The generalised Pareto distribution of excesses above a high threshold, fitted to whole numbers. A whole number y >=
+// 1 stands for an excess in (y - 1, y], so ties and small counts are handled, and the likelihood is bounded for every
 // shape. Sources: Pickands 1975; Grimshaw 1993 for the search along shape / scale; Hitz, Davis and Samorodnitsky 2017
 // for whole numbers.
 
@@ -19,20 +19,21 @@ struct GeneralisedPareto {
   double shape() const { return bend / rate; }
   double scale() const { return 1.0 / rate; }
   double log_survival(double excess) const;    // ln P(excess > y), -infinity beyond the end
-  double quantile(double log_survival) const;  // the excess that is exceeded with this chance, inverse of the above
+  double quantile(double log_survival) const;  // the excess that is exceeded with this probability
 };
 
 struct Excess {
   std::uint64_t value = 1;  // at least 1
-  std::uint64_t count = 1;  // how many have it
+  std::uint64_t count = 1;  // number of excesses with this value
 };
 
-// Shapes outside are not considered: steeper than uniform at the end, or without a mean.
+// Shapes outside of this range are not considered: steeper than uniform at the end, or without a mean.
 inline constexpr double k_least_shape = -1.0, k_largest_shape = 1.0;
 
 class ParetoFit {
  public:
-  // By maximum likelihood. There are at least two different excesses; the time is proportional to how many.
+  // Maximum likelihood. Needs at least two different excesses; the time is proportional to the number of different
+  // values.
   explicit ParetoFit(std::vector<Excess> excesses);
 
   const GeneralisedPareto& best() const { return best_; }
@@ -40,20 +41,20 @@ class ParetoFit {
   struct LogRange {
     double low = 0.0, high = 0.0;
   };
-  // The 95 % profile-likelihood interval of ln(r P(excess > y)), where r is the factor by which the true rate of
-  // excesses differs from the counted one. -infinity for a chance of 0. `independent`: as many independent excesses
-  // would tell as much about the distribution as those given; the logarithm of their likelihood is scaled to that
-  // (Chandler and Bate 2007). `counted`: the likelihood of r is that of so many counted events, Poisson.
+  // The 95 % profile-likelihood interval of ln(r P(excess > y)), where r is the true rate of excesses divided by the
+  // counted one. -infinity for a probability of 0. `independent`: the effective number of independent excesses, to
+  // which the log-likelihood is scaled (Chandler and Bate 2007). `counted`: the number of counted events in the
+  // likelihood of r, Poisson.
   LogRange log_survival_range(double excess, double independent, double counted) const;
 
  private:
-  struct AtBend;  // the likelihood of rates, with one bend
+  struct AtBend;  // the likelihood of rates for one bend
   double bend_at(double along) const;
   template <class Value>
   double largest(const Value& value, int steps) const;
 
   std::vector<Excess> excesses_;
-  double top_ = 0.0;     // the end of the distribution is above this
+  double top_ = 0.0;     // lower bound of the end of the distribution
   double middle_ = 1.0;  // median of the excesses
   double count_ = 0.0;
   double along_ = 0.0, log_likelihood_ = 0.0;

@@ -16,11 +16,11 @@ namespace clusterbench::measure {
 namespace {
 
 constexpr std::array k_quantiles{0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95, 0.975, 0.99};
-constexpr double k_never = 1e-12;  // smaller chances are called 0
+constexpr double k_never = 1e-12;  // smaller probabilities are rounded to 0
 constexpr std::uint64_t k_seed = 1;
 constexpr int k_draws = 99;
-constexpr int k_worse_enough = 10;    // of k_draws: a p of k_least_fit_p
-constexpr int k_hopeless_draws = 40;  // with one worse at most: if p were k_least_fit_p, of 13 such one
+constexpr int k_stop_at_worse = 10;  // of k_draws: a p of k_least_fit_p
+constexpr int k_stop_at_draws = 40;  // with at most one worse: 1 of 13 fits with a p of k_least_fit_p
 
 double rounded(double value) {
   std::array<char, 40> text{};
@@ -32,9 +32,9 @@ double rounded_chance(double value) {
   return value < k_never ? 0.0 : rounded(std::min(value, 1.0));
 }
 
-using Counts = std::map<std::uint64_t, std::uint64_t>;  // whole number, how many have it
+using Counts = std::map<std::uint64_t, std::uint64_t>;  // whole number, its count
 
-// Anderson and Darling 1952. A whole number is put into the middle of its interval's probability.
+// Anderson and Darling 1952. A whole number is placed at the middle of its interval's probability.
 double anderson_darling(const Counts& excesses, const GeneralisedPareto& fit) {
   double count = 0.0, sum = 0.0, before = 0.0;
   for (const auto& [value, times] : excesses) count += static_cast<double>(times);
@@ -42,7 +42,7 @@ double anderson_darling(const Counts& excesses, const GeneralisedPareto& fit) {
     const auto y = static_cast<double>(value);
     const double above = 0.5 * (std::exp(fit.log_survival(y - 1.0)) + std::exp(fit.log_survival(y)));
     const double survival = std::clamp(above, 1e-300, 1.0 - 1e-16);
-    // Ranks before + 1 to before + times: the sums of 2 i - 1 and of 2 (count - i) + 1 over them.
+    // Ranks before + 1 to before + times: sums over them of 2 i - 1 and of 2 (count - i) + 1.
     const auto n = static_cast<double>(times);
     const double low = n * (2.0 * before + n), high = n * (2.0 * (count - before) - n);
     sum += low * std::log1p(-survival) + high * std::log(survival);
@@ -72,7 +72,7 @@ std::uint64_t total(const Counts& excesses) {
   return count;
 }
 
-// How many different values a sample of the fit has, the mean of some.
+// Expected number of different values in a sample of the fit.
 double different_values(const GeneralisedPareto& fit, std::uint64_t count) {
   constexpr int k_samples = 10;
   SplitMix64 random(k_seed);
@@ -81,23 +81,24 @@ double different_values(const GeneralisedPareto& fit, std::uint64_t count) {
   return static_cast<double>(different) / k_samples;
 }
 
-// A p-value by parametric bootstrap: each sample is fitted, too. It ends early where the answer is clear (Besag and
-// Clifford 1991). The excesses tell as much as `independent` ones, so samples have that many, and the statistic, which
-// grows with what is known, is scaled to that.
+// A p-value by parametric bootstrap: each sample is fitted, too. It stops early once the result is clear (Besag and
+// Clifford 1991). The excesses have the information of `independent` independent ones, so samples have that many, and
+// the statistic, which grows with the number of samples, is scaled to it.
 double p_of_fit(const Counts& excesses, const GeneralisedPareto& fit, std::uint64_t independent) {
   const double share = static_cast<double>(independent) / static_cast<double>(total(excesses));
   const double statistic = share * anderson_darling(excesses, fit);
   SplitMix64 random(k_seed);
   int worse = 0, draws = 0;
-  while (draws < k_draws && worse < k_worse_enough && (draws < k_hopeless_draws || worse > 1)) {
+  while (draws < k_draws && worse < k_stop_at_worse && (draws < k_stop_at_draws || worse > 1)) {
     const Counts sample = drawn(fit, independent, random);
     ++draws;
     if (sample.size() >= 2 && anderson_darling(sample, ParetoFit(as_excesses(sample)).best()) >= statistic) ++worse;
   }
-  return worse == k_worse_enough ? worse / static_cast<double>(draws) : (worse + 1.0) / (draws + 1.0);
+  return worse == k_stop_at_worse ? worse / static_cast<double>(draws) : (worse + 1.0) / (draws + 1.0);
 }
 
-// Peaks of which one is much longer than others tell less of the frames above than as many of equal length.
+// Effective number of peaks: peaks of different lengths give less information on the frames above than equally long
+// ones.
 double count_for_lengths(const std::vector<Peak>& peaks) {
   double sum = 0.0, squares = 0.0;
   for (const Peak& peak : peaks) {
@@ -121,18 +122,18 @@ std::string repeated(std::uint64_t threshold, std::uint64_t peaks, std::uint64_t
 
 }  // namespace
 
-// Tries one threshold after the other.
+// Tries one threshold after another.
 struct TailMaker {
   std::span<const PathNeeds> paths;
-  Tail common;  // what does not depend on the threshold
+  Tail common;  // independent of the threshold
   std::optional<Tail> best;
   std::string refusal;
 
   void count_frames();
   std::vector<std::uint64_t> thresholds() const;
   std::string why_no_threshold() const;
-  bool refuse(const std::string& why);          // false; the reason at the lowest threshold counts
-  bool try_threshold(std::uint64_t threshold);  // whether the fit is good
+  bool refuse(const std::string& why);          // false; the reason at the lowest threshold is kept
+  bool try_threshold(std::uint64_t threshold);  // true if the fit is good
 };
 
 void TailMaker::count_frames() {
@@ -181,7 +182,7 @@ bool TailMaker::try_threshold(std::uint64_t threshold) {
                   " independent peaks it needs" +
                   (cut > 0 ? " (and " + std::to_string(cut) + " cut off at an end of the path)" : "") +
                   "; record more frames or run worst-case");
-  // Wider steps than the unit where there are many: an excess is known to lie within one.
+  // Uses steps wider than the unit for a wide range: the likelihood only needs the interval of an excess.
   constexpr std::uint64_t k_most_steps = 250;
   const std::uint64_t range = (common.highest - threshold) / common.unit;
   const std::uint64_t step = common.unit * ((range + k_most_steps - 1) / k_most_steps);
@@ -197,7 +198,7 @@ bool TailMaker::try_threshold(std::uint64_t threshold) {
     return refuse(repeated(threshold, peaks, heights.size()) + " where " + whole(expected) +
                   " were to be expected: the paths repeat themselves or reach a limit");
   const double p = rounded(p_of_fit(excesses, fit.best(), peaks));
-  // Below that an interval from the likelihood does not hold (Smith 1985): the end lies where the largest peak is.
+  // Below that, the likelihood interval is not valid (Smith 1985): the fitted end is at the largest peak.
   constexpr double k_least_regular_shape = -0.5;
   const double shape = rounded(fit.best().shape());
   const bool fits = p >= k_least_fit_p && shape >= k_least_regular_shape;
@@ -221,14 +222,14 @@ bool TailMaker::try_threshold(std::uint64_t threshold) {
   return best->fits;
 }
 
-// In steps of the fit; needs between two units are as the lower one.
+// In steps of the fit; a need between two units is rounded down.
 double Tail::excess_of(std::uint64_t capacity) const {
   if (capacity < threshold) return 0.0;
   const std::uint64_t units = (capacity - threshold) / unit * unit;
   return static_cast<double>(units) / static_cast<double>(step_);
 }
 
-// Of frames above the capacity, or above the threshold if that is lower.
+// Share of frames above the capacity, or above the threshold if that is lower.
 double Tail::share_above(std::uint64_t capacity) const {
   std::uint64_t above = 0;
   for (const auto& [need, needed_by] : recorded_)

@@ -1,6 +1,6 @@
 #pragma once
-// How much longer the frames of one case take than those of another that was measured beside it. What disturbs a
-// machine disturbs both, so that their ratio is far steadier than their times.
+// The ratio of the frame times of two cases that were measured side by side. A disturbance of the machine affects both,
+// so the ratio is far more stable than the times.
 
 #include <cstdint>
 #include <optional>
@@ -10,22 +10,22 @@
 
 namespace clusterbench::measure {
 
-// What the frames of a case took.
+// The frame times of a case.
 struct FrameTimes {
-  std::span<const double> rounds_ns;  // launch after launch, equally many of each
+  std::span<const double> rounds_ns;  // launch after launch, the same number in each
   int launches = 1;
   bool is_cold = false;
 };
 
-// `numerator` / `denominator`, round by round, of cases that were measured in the same rounds. nullopt where they were
-// not: their rounds, launches or caches differ.
+// `numerator` / `denominator`, round by round, of cases measured in the same rounds. nullopt if they were not: rounds,
+// launches or caches differ.
 std::optional<Ratio> ratio_of_rounds(const FrameTimes& numerator, const FrameTimes& denominator, std::uint64_t seed);
 
-// `numerator` / `denominator`, launch by launch, of cases that the same launches measured, each in rounds of its own.
-// nullopt of fewer than two launches: nothing says how one launch would differ from the next.
+// `numerator` / `denominator`, launch by launch, of cases measured by the same launches, each in its own rounds.
+// nullopt with fewer than two launches: the variation between launches is unknown.
 std::optional<Ratio> ratio_of_launches(const FrameTimes& numerator, const FrameTimes& denominator, std::uint64_t seed);
 
-// False unless the ratio's 95 % interval says that the first takes longer.
+// True only if the ratio's whole 95 % interval is above 1.
 bool takes_longer(const std::optional<Ratio>& ratio);
 
 }  // namespace clusterbench::measure

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double k_level = 0.05;
 
-// In double, not long double; what is not a number stays so.
+// In double, not long double; NaN stays NaN.
 namespace policies = boost::math::policies;
 using Student = boost::math::students_t_distribution<
     double, policies::policy<policies::promote_double<false>, policies::domain_error<policies::ignore_error>,
@@ -25,14 +25,14 @@ double freedom_of(const MedianTime& time) {
   return static_cast<double>(time.launches > 1 ? static_cast<std::size_t>(time.launches) : time.samples) - 1.0;
 }
 
-// The standard error of a median's logarithm, from an interval that is some of them wide on both sides: 1.96, or what
-// Student's t has for few launches.
+// The standard error of a median's logarithm, from its interval: the half-width is 1.96 errors, or Student's t quantile
+// for few launches.
 double log_error(const MedianTime& time) {
   const double errors = time.launches > 1 ? student_quantile(k_level, freedom_of(time)) : 1.959963984540054;
   return std::log(time.ci95.high / time.ci95.low) / (2.0 * errors);
 }
 
-// Between the two values at the quarter of the way.
+// Interpolated between two values at a quarter of the sorted values.
 double lower_quartile(std::span<const double> values) {
   std::vector<double> sorted(values.begin(), values.end());
   std::sort(sorted.begin(), sorted.end());

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int k_resamples = 1000;
 
-// Of a range that it may reorder; the mean of the two middle values for an even count.
+// May reorder `values`. The mean of the two middle values for an even count.
 double median_of(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -37,7 +37,7 @@ Interval bootstrap_median(std::span<const double> values, std::uint64_t seed) {
   return {percentile(medians, 0.025), percentile(medians, 0.975)};
 }
 
-// Of values that are not empty.
+// `values` must not be empty.
 Interval interval_of(std::span<const double> values, double median, std::uint64_t seed, int launches) {
   if (launches <= 1) return values.size() < k_least_rounds ? Interval{} : bootstrap_median(values, seed);
   std::vector<double> logs = launch_medians(values, launches);
@@ -113,7 +113,7 @@ std::optional<TwoModes> two_modes(std::span<const double> samples_ns) {
 WorstFrame worst_frame(std::span<const std::vector<double>> frames_ns, std::size_t mean_frames, double mean_ns,
                        std::uint64_t seed, int launches) {
   WorstFrame worst;
-  double sum = 0.0;  // of the medians of the mean's frames
+  double sum = 0.0;  // of the medians of the frames in the mean
   for (std::size_t frame = 0; frame < frames_ns.front().size(); ++frame) {
     std::vector<double> times;
     for (const std::vector<double>& round : frames_ns) times.push_back(round[frame]);

@@ -1,4 +1,4 @@
-// The cells of grids, as the truth asks them.
+// The cells of grids as truth cells.
 
 #include <limits>
 #include <optional>
@@ -11,7 +11,7 @@ namespace {
 
 using geom::Verdict;
 
-// Of any kind: each is asked alone.
+// Cells of any kind: each is decided alone.
 class GridCells : public TruthCells {
  public:
   GridCells(const view::Frame& frame, const grid::Grid& grid)
@@ -24,10 +24,10 @@ class GridCells : public TruthCells {
   void append_candidates(const grid::BallInSpace& ball, std::vector<grid::CellRow>& rows) const final {
     broad_phase_->append_rows(ball, rows);
   }
-  void settle(std::uint32_t cell, const grid::IndexRange&, LightSearch& search) const override {
+  void decide(std::uint32_t cell, const grid::IndexRange&, LightSearch& search) const override {
     if (grid_.is_hole(cell)) return;
     const geom::Cell shape = grid_.cell(cell);
-    search.settle(cell, [&] {
+    search.decide(cell, [&] {
       const Verdict verdict = search.filtered(shape, ball_around(cell));
       return verdict == Verdict::uncertain ? search.decided(shape) : verdict;
     });
@@ -41,11 +41,11 @@ class GridCells : public TruthCells {
  private:
   view::Space space_;
   std::unique_ptr<grid::BroadPhase> broad_phase_;
-  std::vector<geom::Ball> balls_;  // around the cells, where there are spots or boxes
+  std::vector<geom::Ball> balls_;  // around the cells; only with spots or boxes
 };
 
-// What a spot reaches of one tile of a distance grid, as a filter knows it. What is proven of a shell is true of all
-// shells beyond it, or before it.
+// The filter's knowledge of a spot in one tile of a distance grid. A proof for one shell holds for all shells beyond
+// it, or before it.
 class SpotTile {
  public:
   SpotTile(const geom::LightFilter& filter, const geom::ShellCell& tile)
@@ -77,20 +77,20 @@ class SpotTile {
   double ends_before_ = std::numeric_limits<double>::infinity(), begins_after_ = -1.0;
 };
 
-// Of a distance grid: the shells of a tile are asked together, since they share most of the answer.
+// Cells of a distance grid: the shells of a tile are decided together, since they share most of the work.
 class ShellCells final : public GridCells {
  public:
   using GridCells::GridCells;
 
-  void settle(std::uint32_t tile, const grid::IndexRange& shells, LightSearch& search) const override {
+  void decide(std::uint32_t tile, const grid::IndexRange& shells, LightSearch& search) const override {
     if (search.is_endless())
-      GridCells::settle(tile, shells, search);
+      GridCells::decide(tile, shells, search);
     else if (search.is_spot())
-      settle_spot(tile, shells, search);
+      decide_spot(tile, shells, search);
     else if (search.is_box())
-      settle_box(tile, shells, search);
+      decide_box(tile, shells, search);
     else
-      settle_ball(tile, shells, search);
+      decide_ball(tile, shells, search);
   }
 
  private:
@@ -100,22 +100,22 @@ class ShellCells final : public GridCells {
   }
   geom::ShellCell shape_of(std::uint32_t cell) const { return std::get<geom::ShellCell>(grid_.cell(cell)); }
 
-  void settle_ball(std::uint32_t tile, const grid::IndexRange& shells, LightSearch& search) const {
+  void decide_ball(std::uint32_t tile, const grid::IndexRange& shells, LightSearch& search) const {
     const geom::BallDecider& decider = search.ball_decider();
     const geom::PyramidView view = decider.view_of(shape_of(tile));
     for (int shell = shells.first; shell <= shells.last; ++shell) {
       const std::uint32_t cell = cell_at(tile, shell);
-      search.settle(cell, [&] { return decider.meets(shape_of(cell), view) ? Verdict::yes : Verdict::no; });
+      search.decide(cell, [&] { return decider.meets(shape_of(cell), view) ? Verdict::yes : Verdict::no; });
     }
   }
 
-  // A spot's distances are costly: found only where a shell needs them.
-  void settle_spot(std::uint32_t tile, const grid::IndexRange& shells, LightSearch& search) const {
+  // A spot's distances are expensive: computed only if a shell needs them.
+  void decide_spot(std::uint32_t tile, const grid::IndexRange& shells, LightSearch& search) const {
     std::optional<SpotTile> reached;
     for (int shell = shells.first; shell <= shells.last; ++shell) {
       const std::uint32_t cell = cell_at(tile, shell);
       const geom::ShellCell shape = shape_of(cell);
-      search.settle(cell, [&] {
+      search.decide(cell, [&] {
         Verdict verdict = search.filtered(shape, ball_around(cell));
         if (verdict != Verdict::uncertain) return verdict;
         if (!reached) reached.emplace(search.spot_decider().filter(), up_to(tile, shells.last));
@@ -125,13 +125,13 @@ class ShellCells final : public GridCells {
     }
   }
 
-  void settle_box(std::uint32_t tile, const grid::IndexRange& shells, LightSearch& search) const {
+  void decide_box(std::uint32_t tile, const grid::IndexRange& shells, LightSearch& search) const {
     const geom::BoxDecider& decider = search.box_decider();
     std::optional<geom::BoxView> view;
     for (int shell = shells.first; shell <= shells.last; ++shell) {
       const std::uint32_t cell = cell_at(tile, shell);
       const geom::ShellCell shape = shape_of(cell);
-      search.settle(cell, [&] {
+      search.decide(cell, [&] {
         const Verdict verdict = search.filtered(shape, ball_around(cell));
         if (verdict != Verdict::uncertain) return verdict;
         if (!view) view = decider.view_of(shape);

@@ -13,7 +13,7 @@ grid::BallInSpace ball_in_space(const geom::LightVolume& volume) {
   return {center.at, range, k_slack * size + 4.0 * center.rounding_error};
 }
 
-// Is a point well inside a cell?
+// Whether a point is well inside a cell.
 struct WellInside {
   Vec3d p;
 
@@ -48,7 +48,7 @@ QuickCone::QuickCone(const geom::SpotVolume& spot, const Vec3d& apex_at)
 
 LightSearch::LightSearch(const geom::LightVolume& light)
     : ball_(ball_in_space(light)),
-      decider_(geom::source_of(light), is_endless() ? 0.0 : geom::range_of(light)) {  // endless ones ask nothing
+      decider_(geom::source_of(light), is_endless() ? 0.0 : geom::range_of(light)) {  // endless lights use no decider
   if (const auto* spot = std::get_if<geom::SpotVolume>(&light)) {
     spot_.emplace(*spot);
     cone_.emplace(*spot, ball_.center);

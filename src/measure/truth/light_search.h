@@ -1,6 +1,6 @@
 #pragma once
-// One light asked about many cells, of any kind: a filter settles most of them, a decision the others. Counts what took
-// which of the two.
+// Finds the true cells of one light among cells of any kind: a filter decides most of them, an exact test the rest.
+// Counts the decisions of both.
 
 #include <cmath>
 #include <cstdint>
@@ -19,14 +19,14 @@
 
 namespace clusterbench::measure {
 
-// A spot in double precision, for tests that settle most cells at once.
+// A spot in double precision, for tests that decide most cells at once.
 struct QuickCone {
   Vec3d apex, axis;
   double range, cos_angle, sin_angle, slack;
 
   QuickCone(const geom::SpotVolume& spot, const Vec3d& apex_at);
 
-  // Is a ball outside of the cone's side, behind its apex or beyond its range?
+  // Whether a ball is outside of the cone's side, behind its apex or beyond its range.
   bool surely_misses(const geom::Ball& around) const {
     const Vec3d v = Vec3d(around.center) - apex;
     const double along = glm::dot(v, axis);
@@ -41,7 +41,7 @@ struct QuickCone {
   }
 };
 
-// The true cells of one light, in runs of neighbours.
+// The true cells of one light, in runs of consecutive cells.
 struct LightCells {
   struct Run {
     std::uint32_t first_cell, count;
@@ -69,7 +69,7 @@ class LightSearch {
   const geom::SpotDecider& spot_decider() const { return *spot_; }    // of a spot
   const geom::BoxDecider& box_decider() const { return *box_; }       // of a box
 
-  // What the filter tells of a cell, or of a part of one. `around` it is a ball; asked for spots and boxes alone.
+  // The filter's verdict on a cell, or on a part of one. `around`: a ball around it, used for spots and boxes only.
   template <class Shape>
   geom::Verdict filtered(const Shape& shape, const geom::Ball& around) const {
     if (box_) {
@@ -83,7 +83,7 @@ class LightSearch {
     const Vec3d middle(around.center);
     return cone_->surely_holds(middle) && is_well_inside(shape, middle) ? geom::Verdict::yes : geom::Verdict::uncertain;
   }
-  // The decision, of what the filter left uncertain. Uncertain: undecided.
+  // The exact verdict, for cells that the filter left uncertain. Uncertain: undecided.
   template <class Shape>
   geom::Verdict decided(const Shape& shape) const {
     if (spot_) return spot_->meets(shape);
@@ -91,18 +91,18 @@ class LightSearch {
     return decider_.meets(shape) ? geom::Verdict::yes : geom::Verdict::no;
   }
 
-  // Adds a cell unless ask(), which filters and decides, says no; counts what it took.
-  template <class Ask>
-  void settle(std::uint32_t cell, Ask&& ask) {
+  // Adds a cell unless test(), which filters and decides, returns no; counts the kind of decision.
+  template <class Test>
+  void decide(std::uint32_t cell, Test&& test) {
     const std::uint64_t before = exact_decisions();
-    const geom::Verdict verdict = ask();
+    const geom::Verdict verdict = test();
     ++(verdict == geom::Verdict::uncertain ? found_.undecided
        : exact_decisions() != before       ? found_.exact_decided
                                            : found_.filter_decided);
     if (verdict != geom::Verdict::no) found_.add(cell);
   }
   // Adds cells that are touched for certain.
-  void take(std::uint32_t first_cell, std::uint32_t count) {
+  void add_touched(std::uint32_t first_cell, std::uint32_t count) {
     found_.filter_decided += count;
     found_.add(first_cell, count);
   }
@@ -117,9 +117,9 @@ class LightSearch {
 
   grid::BallInSpace ball_;
   geom::BallDecider decider_;
-  std::optional<geom::SpotDecider> spot_;  // and the cone: of spots
+  std::optional<geom::SpotDecider> spot_;  // this and the cone: for spots
   std::optional<QuickCone> cone_;
-  std::optional<geom::BoxDecider> box_;  // and the quick one: of boxes
+  std::optional<geom::BoxDecider> box_;  // this and the quick one: for boxes
   std::optional<geom::QuickBox> quick_box_;
   LightCells found_;
 };

@@ -14,12 +14,13 @@ void add_miss(ErrorCounts& counts, const view::Frame& frame, double distance, st
   counts.deepest_miss = depth;
 }
 
-// Where lights are lost by the thousand, few of them lie deeper than all before: only of those the depth is found.
+// A bound for the next distance: if thousands of lights are missed, only the few that are deeper than all before need
+// theirs computed.
 double least_distance(const ErrorCounts& counts) {
   return counts.deepest ? 1.0 - counts.deepest->depth : 1.0;
 }
 
-// distance(cell, light, below): how far from a light a cell is, in its ranges; 1 where that is not below a number.
+// distance(cell, light, below): distance of a cell from a light, in ranges of the light; 1 if it is not below `below`.
 template <class Distance>
 void add_pairs(ErrorCounts& counts, const view::Frame& frame, const Truth& truth, const assign::Lists& reported,
                Distance&& distance) {

@@ -1,5 +1,5 @@
 #pragma once
-// Reported lists against true lists.
+// Comparison of reported lists with true lists.
 
 #include <cstdint>
 #include <optional>
@@ -8,16 +8,16 @@
 
 namespace clusterbench::measure {
 
-// A pair that a list lacks, named so that a person can look at it.
+// A missing pair, identified so that a user can inspect it.
 struct Miss {
   int frame = 0;
   std::uint32_t cell = 0;
   std::uint32_t light = 0;  // index of the lists
   int rig_index = -1;       // index in Scene::lights
-  double depth = 0.0;       // 1 - d/r: how far inside its range the light is lost
+  double depth = 0.0;       // 1 - d/r: how far inside its range the missed light's cell is
 };
 
-// excess / true_count: 0 when the excess is 0, NaN when only the true count is.
+// excess / true_count: 0 if the excess is 0, NaN if only the true count is 0.
 double ratio_to_true(double excess, std::uint64_t true_count);
 
 struct ErrorCounts {
@@ -27,14 +27,14 @@ struct ErrorCounts {
   double deepest_miss = 0.0;
   std::optional<Miss> deepest;
 
-  double excess_ratio() const;  // FP / true; 0 when nothing is true and nothing is reported, NaN when only reported
+  double excess_ratio() const;  // FP / true; 0 if no pair is true or reported, NaN if only reported ones exist
   double miss_ratio() const;    // FN / true
 };
 
 // Adds one frame's comparison.
 void add_frame(ErrorCounts& counts, const view::Frame& frame, const grid::Grid& grid, const Truth& truth,
                const assign::Lists& reported);
-// The same for cells that depths leave of the grid's.
+// The same for the cells of an occupied subset of a grid.
 void add_frame(ErrorCounts& counts, const view::Frame& frame, const grid::OccupiedCells& cells, const Truth& truth,
                const assign::Lists& reported);
 

@@ -1,4 +1,4 @@
-// The cells that depths leave of a frustum grid's, as the truth asks them.
+// The occupied cells of a frustum grid, with depth ranges, as truth cells.
 
 #include "geom/single_precision/bounding_volumes.h"
 #include "grid/screen_broad_phase.h"
@@ -9,7 +9,7 @@ namespace {
 
 using geom::Verdict;
 
-// Tile by tile: the depths at which a tile's cells lie are the frame's.
+// Tile by tile: all cells of a tile are within the depths of the frame in that tile.
 class OccupiedTruthCells final : public TruthCells {
  public:
   OccupiedTruthCells(const view::Frame& frame, const grid::Grid& grid, const grid::OccupiedCells& cells)
@@ -26,10 +26,10 @@ class OccupiedTruthCells final : public TruthCells {
     grid::append_tile_rows(tiles_, ball, rows);
     for (grid::CellRow& row : rows) row.slices = all_slices();
   }
-  void settle(std::uint32_t tile, const grid::IndexRange& slices, LightSearch& search) const override {
+  void decide(std::uint32_t tile, const grid::IndexRange& slices, LightSearch& search) const override {
     for (int slice = slices.first; slice <= slices.last; ++slice) {
       const std::uint32_t cell = static_cast<std::uint32_t>(slice) * tile_count() + tile;
-      search.settle(cell, [&] {
+      search.decide(cell, [&] {
         return meets_any(cells_.of(cell), [&](const geom::FrustumCell& part) { return meets_part(part, search); });
       });
     }
@@ -53,7 +53,7 @@ class OccupiedTruthCells final : public TruthCells {
   view::Space space_;
   const grid::Tiles& tiles_;
   const grid::OccupiedCells& cells_;
-  std::vector<geom::Ball> balls_;  // around the parts, where there are spots or boxes
+  std::vector<geom::Ball> balls_;  // around the parts; only with spots or boxes
 };
 
 }  // namespace

@@ -11,16 +11,16 @@
 namespace clusterbench::measure {
 namespace {
 
-// Candidates that are touched for certain are taken, the others settled.
-void settle_row(const grid::CellRow& row, const TruthCells& cells, LightSearch& search) {
+// Adds candidates that are touched for certain, and decides the others.
+void decide_row(const grid::CellRow& row, const TruthCells& cells, LightSearch& search) {
   const auto first_cell = [&](int column) { return row.first_cell + static_cast<std::uint32_t>(column); };
-  const auto settle = [&](int first, int last) {
-    for (int column = first; column <= last; ++column) cells.settle(first_cell(column), row.slices, search);
+  const auto decide = [&](int first, int last) {
+    for (int column = first; column <= last; ++column) cells.decide(first_cell(column), row.slices, search);
   };
-  if (search.is_spot() || search.is_box() || row.inner.empty()) return settle(row.outer.first, row.outer.last);
-  settle(row.outer.first, row.inner.first - 1);
-  search.take(first_cell(row.inner.first), static_cast<std::uint32_t>(row.inner.count()));
-  settle(row.inner.last + 1, row.outer.last);
+  if (search.is_spot() || search.is_box() || row.inner.empty()) return decide(row.outer.first, row.outer.last);
+  decide(row.outer.first, row.inner.first - 1);
+  search.add_touched(first_cell(row.inner.first), static_cast<std::uint32_t>(row.inner.count()));
+  decide(row.inner.last + 1, row.outer.last);
 }
 
 LightCells cells_of_light(const geom::LightVolume& light, const TruthCells& cells) {
@@ -31,7 +31,7 @@ LightCells cells_of_light(const geom::LightVolume& light, const TruthCells& cell
     rows.push_back(cells.all());
   else
     cells.append_candidates(search.ball(), rows);
-  for (const grid::CellRow& row : rows) settle_row(row, cells, search);
+  for (const grid::CellRow& row : rows) decide_row(row, cells, search);
   return std::move(search).found();
 }
 
@@ -84,7 +84,7 @@ double relative_distance(const view::Frame& frame, const grid::Grid& grid, std::
 double relative_distance(const geom::LightVolume& light, const geom::Cell& cell, double below) {
   const double range = geom::range_of(light);
   if (std::isinf(range)) return 0.0;
-  constexpr double k_nothing = 0x1p-39;  // the halvings end before that
+  constexpr double k_nothing = 0x1p-39;  // the bisection ends before that
   if (below <= k_nothing) return 1.0;
   if (below < 1.0 && geom::filter_meets(geom::with_range(light, range * below), cell) == geom::Verdict::no) return 1.0;
   double misses = 0.0, meets = 1.0;

@@ -1,5 +1,5 @@
 #pragma once
-// Cells of any kind, as the truth asks them: candidate cells, then for each of them a filter and a decision.
+// Cells of any kind for the computation of the truth: candidates, then a filter and a decision for each of them.
 
 #include <cstdint>
 #include <memory>
@@ -16,26 +16,26 @@
 
 namespace clusterbench::measure {
 
-// Const, so that threads can share them.
+// Const, so that threads can share it.
 class TruthCells {
  public:
   virtual ~TruthCells() = default;
 
   virtual std::uint32_t cell_count() const = 0;
-  // In which the cells are.
+  // The space of the cells.
   virtual const view::Space& space() const = 0;
   // All cells, as one row.
   virtual grid::CellRow all() const { return {0, {0, static_cast<int>(cell_count()) - 1}, {}}; }
-  // The accelerator: those that a light with an end may touch. Without one: all.
+  // The accelerator: adds the cells that a light with a finite range may touch. Default: all.
   virtual void append_candidates(const grid::BallInSpace&, std::vector<grid::CellRow>& rows) const {
     rows.push_back(all());
   }
-  // Settles the candidates in a row's column; `first_cell` is that of its slice 0.
-  virtual void settle(std::uint32_t first_cell, const grid::IndexRange& slices, LightSearch& search) const = 0;
+  // Decides the candidates in one column of a row; `first_cell`: the cell of its slice 0.
+  virtual void decide(std::uint32_t first_cell, const grid::IndexRange& slices, LightSearch& search) const = 0;
 };
 
-// Of a cell of several parts: yes if one of them is met, uncertain if one may be and none is known to be.
-// meets(part) filters and decides.
+// For a cell of several parts: yes if one part is met, uncertain if one may be met and none is for certain. meets(part)
+// filters and decides.
 template <class Parts, class Meets>
 geom::Verdict meets_any(const Parts& parts, Meets&& meets) {
   geom::Verdict verdict = geom::Verdict::no;
@@ -47,7 +47,7 @@ geom::Verdict meets_any(const Parts& parts, Meets&& meets) {
   return verdict;
 }
 
-// The cells of a grid; and what depths leave of a frustum grid's. All that they are made of must outlive them.
+// The cells of a grid; and the occupied cells of a frustum grid. All arguments must outlive the result.
 std::unique_ptr<TruthCells> truth_cells(const view::Frame& frame, const grid::Grid& grid);
 std::unique_ptr<TruthCells> truth_cells(const view::Frame& frame, const grid::Grid& grid,
                                         const grid::OccupiedCells& occupied);

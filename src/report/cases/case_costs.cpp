@@ -25,7 +25,7 @@ using result::SampleSet;
 using result::Time;
 using result::Timing;
 
-// Of the picture's pixels one that is looked through stands for so many.
+// The number of picture pixels that one sampled pixel stands for.
 double pixels_per_sample(const Case& result_case, const std::string& set, const Json& config) {
   const Json divisor = config.value(Json::json_pointer("/samples/" + set + "/divisor"), Json());
   if (!divisor.is_number_integer()) return 1.0;
@@ -47,7 +47,7 @@ double pixels_of(const Case& result_case) {
   return static_cast<double>(result_case.viewport[0]) * static_cast<double>(result_case.viewport[1]);
 }
 
-// How many of a set's samples a frame shades. `weight`: a number, 0 for none, or "pixels": each of the picture's once.
+// The number of a set's samples per frame. `weight`: a number, 0 for none, or "pixels": one sample per pixel.
 double shaded_in_frame(const Case& result_case, const std::string& set, const Json& weight, double samples,
                        const Json& config) {
   if (weight.is_string()) return pixels_of(result_case);
@@ -55,7 +55,7 @@ double shaded_in_frame(const Case& result_case, const std::string& set, const Js
          pixels_per_sample(result_case, set, config);
 }
 
-// With the set's name; those that are there and have a weight.
+// A set of samples that the case has and that has a weight.
 struct WeightedSet {
   std::string name;
   const SampleSet* counts;
@@ -74,10 +74,11 @@ std::vector<WeightedSet> weighted_sets(const Case& result_case, const Json& conf
   return sets;
 }
 
-// Points of the whole view that have a weight, and that a method of visible surfaces does not have: it lights none.
+// True if points of the whole view have a weight, but the case has none: a method for visible surfaces, which lights no
+// other points.
 bool lacks_weighted_points(const Case& result_case, const Json& config) {
-  const bool is_asked = config.contains("shading") && config["shading"].value("samples", 0) > 0;
-  return is_asked && config["cost"]["weights"].value("volume", Json(0)) != 0.0 && !result_case.shading;
+  const bool is_requested = config.contains("shading") && config["shading"].value("samples", 0) > 0;
+  return is_requested && config["cost"]["weights"].value("volume", Json(0)) != 0.0 && !result_case.shading;
 }
 
 double upload_bytes(const Case& result_case) {
@@ -96,7 +97,7 @@ Cost cost_of(const Case& result_case, const std::vector<WeightedSet>& sets, cons
   Cost out;
   out.lit = !lacks_weighted_points(result_case, config);
   double samples = 0.0, given = 0.0, needed = 0.0;
-  std::uint64_t all_needed = 0;  // of the samples themselves
+  std::uint64_t all_needed = 0;  // without weights
   for (const WeightedSet& set : sets) {
     samples += set.shaded.samples;
     given += set.shaded.samples * set.shaded.lights;
@@ -154,7 +155,7 @@ std::optional<WholeFrame> whole_frame(const Case& result_case, const Json& confi
                       result::number<&Cost::read_ns>(cost).value_or(0.0),
                       *shade_ns},
                      cost_of_set(cost, "volume") != nullptr && cost_of_set(cost, "opaque") == nullptr};
-    if (makes_lists_on_gpu(result_case)) frame.cost.upload_ns = 0.0;  // older results have it
+    if (makes_lists_on_gpu(result_case)) frame.cost.upload_ns = 0.0;  // present in older results
     return frame;
   }
   if (!config.contains("cost") || !result_case.shading || result_case.shading->samples == 0) return std::nullopt;

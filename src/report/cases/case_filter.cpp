@@ -11,7 +11,7 @@ namespace clusterbench::report {
 
 namespace {
 
-// Of a method as a case has it: name, label and params. Whether one was called otherwise.
+// Updates params and label of a method from former names. Returns whether a name was a former one.
 bool use_current_choices(result::Method& method) {
   const assign::AssignerDescriptor* known = assign::find_assigner(method.name);
   if (known == nullptr) return false;

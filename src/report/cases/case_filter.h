@@ -1,5 +1,5 @@
 #pragma once
-// Some of a result's cases, as --filter of `run` names them.
+// Selects cases of a result, as --filter of `run` does.
 
 #include <string>
 
@@ -9,13 +9,13 @@
 namespace clusterbench::report {
 
 run::CaseNames names_of_case(const result::Case& result_case);
-// Cases of earlier versions get the names that they have now.
+// Renames cases of earlier versions to their current names.
 void use_current_names(result::Result& result);
-// By any name that is printed for it.
+// By any printed name of the case.
 bool is_selected(const Pattern& pattern, const result::Case& result_case);
 
-// Leaves only the cases that it selects; "": all. Throws Error with an example where it selects none. `path`: what the
-// message calls the result.
+// Removes all other cases; "": keeps all. Throws Error with an example if no case matches. `path`: name of the result
+// in the message.
 void keep_cases(result::Result& result, const std::string& filter, const std::string& path);
 
 }  // namespace clusterbench::report

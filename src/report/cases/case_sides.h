@@ -1,5 +1,5 @@
 #pragma once
-// A case beside the same case without something, in tables.
+// A case compared with the same case without a feature, in tables.
 
 #include <optional>
 #include <string>
@@ -8,10 +8,9 @@
 
 namespace clusterbench::report {
 
-// How much more it is than without, of the share that is saved: "+12.5 %"; "-" where nothing is known.
+// The relative increase by the feature, from the saved share: "+12.5 %"; "-" if unknown.
 std::string against_other(const std::optional<double>& saved);
-// Lights that samples loop over: of the sets of samples the first one, which is that of the whole view where that is
-// asked for.
+// The same for lights per sample, of the first set of samples; that is the whole view, if requested.
 std::string evaluated_against_other(const result::Saved& saved);
 
 }  // namespace clusterbench::report

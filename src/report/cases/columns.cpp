@@ -26,7 +26,7 @@ std::string count_text(double value) {
   return text("%.2fM", value / 1e6);
 }
 
-// In columns of a terminal: a character of several bytes takes one.
+// Width in terminal columns: a character of several bytes has width one.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));

@@ -25,7 +25,7 @@ measure::Costs costs_of(const Case& result_case, RankBy by) {
     const auto [low, high] = result::Pair(result_case.timing->frame_ns.ci95);
     if (std::isfinite(low) && std::isfinite(high)) costs.time_ns = {low, high};
   }
-  // What is drawn has no lists to be small.
+  // Drawn lights have no lists, so their size is no advantage.
   if (!draws_lights(result_case)) costs.bytes = static_cast<double>(result_case.buffers.bytes.high_water);
   if (by == RankBy::frame_time) {
     costs.overshade = figure_of(result_case, "overshade").value_or(costs.k_unknown);
@@ -35,7 +35,7 @@ measure::Costs costs_of(const Case& result_case, RankBy by) {
   if (!result_case.timing) costs.time_ns = {0.0, 0.0};
   costs.time_ns.low += gpu_ns;
   costs.time_ns.high += gpu_ns;
-  costs.overshade = 0.0;  // the same for all
+  costs.overshade = 0.0;  // equal, so that it does not count
   return costs;
 }
 

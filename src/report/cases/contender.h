@@ -1,5 +1,5 @@
 #pragma once
-// A case of a result file as what is judged beside other cases.
+// A case of a result file as a contender in a ranking.
 
 #include <cstdint>
 #include <string>
@@ -10,39 +10,38 @@
 
 namespace clusterbench::report {
 
-// What cases are ranked by.
+// The quantity that ranks cases.
 enum class RankBy : std::uint8_t { frame_time, frame_cost };
-RankBy rank_by(const result::Result& result);  // as its configuration says
+RankBy rank_by(const result::Result& result);  // from its configuration
 
-// Whether it may be the answer: no gate holds it back, and samples that cost something lack no more lights than
-// rounding leaves out.
+// Whether a case can be recommended: it passes all gates, and ranking samples miss no more lights than rounding causes.
 bool loses_nothing_seen(const result::Case& result_case);
 
-// A case that loses something, or that samples search, is never eligible: what the search costs was not measured.
-// Overshade is that of samples that cost something, where there are any, else of points of the whole view. By its cost
-// a case takes its time and, with certainty, what the model adds; overshade is in it. Where nothing is timed that is
-// all. One without that cost is not eligible: an engine's time is not known where its lists are a GPU's.
+// A case that loses lights, or whose samples search the structure, is not eligible: the cost of the search was not
+// measured. Overshade is that of the ranking samples if there are any, else of points of the whole view. By cost, the
+// time interval of a case is moved by the modelled cost; without timing it is the modelled cost alone. Overshade is
+// part of the cost. A case without this cost is not eligible: if an engine makes its lists on a GPU, their time is
+// unknown.
 run::Contender contender_of(const result::Case& result_case, RankBy by = RankBy::frame_time);
 
-// Of its method (assign/contract/assigner.h).
+// From the method (assign/contract/assigner.h).
 int slowness_of(const result::Case& result_case);
 
-// Whether its method draws lights, and leaves no lists.
+// Whether the method draws lights and makes no lists.
 bool draws_lights(const result::Case& result_case);
 
-// Whether each sample searches its structure for lights: priced by the model only, and so ranked apart.
+// Whether each sample searches the structure for lights: only the model prices that, so these cases rank separately.
 bool samples_search(const result::Case& result_case);
 
-// Whether a method's lists hold the lights of visible opaque surfaces alone.
+// Whether a method's lists contain only lights of visible opaque surfaces.
 bool is_at_surfaces(const std::string& assigner);
-// What to know of a method before it is taken whose lists are such: "lights visible opaque surfaces alone: ..."; "" of
-// others.
+// The limitation of such a method, for users: "lights visible opaque surfaces alone: ..."; "" for others.
 std::string at_surfaces_text(const std::string& assigner);
 
-// The frame times of a case's rounds; empty where it has none.
+// The frame times of a case's rounds; empty without timing.
 std::vector<double> frame_rounds(const result::Case& result_case);
 
-// What resampling begins with.
+// The seed of resampling.
 std::uint64_t seed_of(const result::Result& result);
 
 }  // namespace clusterbench::report

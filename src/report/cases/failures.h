@@ -7,7 +7,7 @@
 
 namespace clusterbench::report {
 
-// What a run fails for, a line each, as its cases' `failures` say.
+// The reasons of a failed run, a line each, from the `failures` of its cases.
 std::vector<std::string> gate_failures(const result::Result& result);
 
 }  // namespace clusterbench::report

@@ -1,6 +1,6 @@
 #pragma once
-// What stands at a JSON pointer of a configuration, or of a document that is no result, and may be absent. Fields of
-// results: result/at.h.
+// Optional values at a JSON pointer of a configuration, or of a document that is not a result. For fields of results
+// see result/at.h.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,15 +8,15 @@
 
 namespace clusterbench::report {
 
-// nullptr where there is nothing, or null.
+// nullptr if it is missing or null.
 const nlohmann::ordered_json* value_at(const nlohmann::ordered_json& from, const std::string& pointer);
 
-// Nothing where there is no number.
+// None if it is not a number.
 std::optional<double> number_at(const nlohmann::ordered_json& from, const std::string& pointer);
 
 // JSON has no infinity and no NaN.
 nlohmann::ordered_json number_or_null(double value);
-// Six digits of what is measured: far more than any clock gives.
+// Six digits for measurements: far more than the precision of any clock.
 nlohmann::ordered_json six_digits(double value);
 
 }  // namespace clusterbench::report

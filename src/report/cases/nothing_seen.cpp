@@ -16,9 +16,9 @@ using result::Case;
 using result::LightsInView;
 using result::SampleSet;
 
-// They are in lists like others, and samples get them; but of light that is not there nothing can be lost.
+// Dark lights are in lists and at samples like others, but losing them loses no light.
 
-// Of all samples that a ranking rests on.
+// Sums over the samples that rank cases.
 struct SeenAtSamples {
   std::size_t sets = 0;
   double samples = 0.0, needed = 0.0;

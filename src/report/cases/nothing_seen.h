@@ -1,5 +1,5 @@
 #pragma once
-// Whether cases see anything that a choice among them could rest on.
+// Whether cases have any visible light, so that a choice between them has a basis.
 
 #include <cstdint>
 #include <set>
@@ -10,23 +10,22 @@
 
 namespace clusterbench::report {
 
-// What cases are ranked by: the samples that rank them (report/cases/sample_sets.h), or nothing that a sample says.
+// Whether samples (report/cases/sample_sets.h) rank the cases.
 enum class RankedBy : std::uint8_t { samples, no_samples };
 
 inline constexpr const char* k_all_lights_dark = "all lights in view are dark (intensity 0 or black) in all frames";
 
-// Of the points and spots of a result's scene those that light nothing; 0 also in results that are older than this
-// count.
+// Number of points and spots of a result's scene that emit no light; 0 also for results older than this count.
 std::uint64_t dark_lights(const result::Scene& scene);
 
-// Of cases on one scene and viewport: why nothing can be said of which of them to take, as "no light is in view in any
-// frame": each would be as good as another, or better for what it leaves out. "" where something is seen.
+// For cases of one scene and viewport: why there is no basis for a choice, such as "no light is in view in any frame":
+// every case would be equally good, or better the more it leaves out. "" if a light is seen.
 std::string why_nothing_is_seen(const std::vector<const result::Case*>& cases, RankedBy by);
 
-// The same of a result's cases: those on which nothing can be chosen.
+// The ids of the cases of a result that have no such basis.
 std::set<std::string> ids_of_nothing_seen(const std::vector<result::Case>& cases);
 
-// "level, camera walk: all lights in view are dark ..." of each camera of the result of which this is so.
+// "level, camera walk: all lights in view are dark ..." for each such camera of the result.
 std::vector<std::string> views_of_dark_lights(const result::Result& result);
 
 }  // namespace clusterbench::report

@@ -16,7 +16,7 @@ namespace {
 using geom::Integer;
 using geom::Rational;
 
-// The shortest decimal that reads as this double: what a person wrote, up to 15 digits. 2.9 is 29/10.
+// The shortest decimal that reads as this double, up to 15 digits: the number as written. 2.9 is 29/10.
 Rational decimal(double value) {
   char text[64];
   const auto [end, failed] = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific);
@@ -45,14 +45,14 @@ Rational exact_value(const Quotient& quotient) {
   return geom::exact(quotient.numerator) / geom::exact(quotient.denominator);
 }
 
-// -1, 0 or 1: less, as much or more than `percent`.
+// -1, 0 or 1: the change is less than, equal to or more than `percent`.
 int compared_change(const Quotient& then, const Quotient& now, double percent) {
   const Rational before = exact_value(then), after = exact_value(now);
   if (before == 0 && after == 0) return percent > 0.0 ? -1 : percent < 0.0 ? 1 : 0;
   return Rational(100 * after - before * (100 + decimal(percent))).sign();
 }
 
-// A number that is where the change is: below, at or above the budget's numbers.
+// A number with the same position relative to the budget's limits as the exact change: below, at or above.
 double stand_in(const config::LimitRule& rule, const Quotient& then, const Quotient& now) {
   constexpr double k_endless = std::numeric_limits<double>::infinity();
   const int at_limit = compared_change(then, now, rule.limit);

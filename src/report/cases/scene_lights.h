@@ -1,5 +1,5 @@
 #pragma once
-// Which lights a result's scene has, and whether they are another one's.
+// The lights of a result's scene, and whether they differ from another result's.
 
 #include <string>
 
@@ -7,21 +7,21 @@
 
 namespace clusterbench::report {
 
-// Of a result's scene: "248 points, 52 spots"; "248 points, 12 of them dark"; "no lights".
+// "248 points, 52 spots"; "248 points, 12 of them dark"; "no lights".
 std::string lights_text(const result::Scene& scene);
 
 enum class LightChange {
   none,
   changed,
-  unknown  // as many of each kind, and one of the results is older than the digest of lights
+  unknown  // the counts are equal, and one of the results is older than the digest of lights
 };
 LightChange light_change(const result::Scene& base_scene, const result::Scene& next_scene);
 
-// The base's scene of this name; where each result has one scene alone, that one. Null: none.
+// The base's scene of this name; if each result has only one scene, that one. Null: none.
 const result::Scene* scene_before(const result::Result& base, const result::Result& next,
                                   const result::Scene& next_scene);
 
-// Null: there is none of this name.
+// Null for an unknown name.
 const result::Scene* scene_named(const std::vector<result::Scene>& scenes, const std::string& name);
 
 }  // namespace clusterbench::report

@@ -19,16 +19,16 @@ using result::number;
 using result::Time;
 using result::Timing;
 
-constexpr double k_wide = 0.1;           // half of an interval, of its time
-constexpr double k_others_cores = 0.1;   // busy with other programs
-constexpr double k_stolen_cores = 0.02;  // a guest sees little of its host's load
+constexpr double k_wide = 0.1;           // half-width of an interval / its time
+constexpr double k_others_cores = 0.1;   // used by other programs
+constexpr double k_stolen_cores = 0.02;  // lower, since a guest sees only a part of its host's load
 
-// 0 where it was not measured.
+// 0 without timing.
 double frame_ns(const Case& result_case) {
   return number<&Case::timing, &Timing::frame_ns, &Time::median>(result_case).value_or(0.0);
 }
 
-// The cases that a doubt is about: how many, and the worst.
+// The cases with one kind of problem: their number, and the worst.
 class Doubt {
  public:
   void add(const Case& result_case, double badness) {

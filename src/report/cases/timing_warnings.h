@@ -1,5 +1,5 @@
 #pragma once
-// What speaks against the times of a result, and what to try.
+// Reasons to doubt the times of a result, and remedies.
 
 #include <string>
 #include <vector>
@@ -8,11 +8,12 @@
 
 namespace clusterbench::report {
 
-// One for each kind of doubt, with the worst of the cases: intervals wider than 10 % on either side, times in two
-// groups, other programs or guests at work, processors that were too hot. `without_times`: what does without them.
+// One text per kind of problem, with the worst case: intervals wider than 10 % on either side, times in two groups,
+// load by other programs or guests, throttled processors. `without_times`: text on the results that do not depend on
+// times.
 std::vector<std::string> timing_doubts(const std::vector<result::Case>& cases,
                                        const std::string& without_times = "count instructions instead (--count)");
-// The same as lines that begin with "warning: "; "" without a doubt.
+// The same as lines that begin with "warning: "; "" without a problem.
 std::string timing_warnings(const std::vector<result::Case>& cases);
 
 }  // namespace clusterbench::report

@@ -1,5 +1,5 @@
 #pragma once
-// What to take by an answer of `recommend`, in the words of conclusion.h.
+// The recommendation of an answer of `recommend`, in the words of conclusion.h.
 
 #include <optional>
 #include <string>

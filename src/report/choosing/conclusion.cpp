@@ -30,7 +30,7 @@ std::string case_title(const Case& result_case) {
   return shown(name.substr(name.find('/', name.find('/') + 1) + 1));
 }
 
-// The first ones, of those with the same lists together the one that is known to be fastest.
+// The first cases; of those with the same lists only the fastest, if known.
 std::string first_titles(const std::vector<const WeighedCase*>& cases) {
   constexpr std::size_t k_most = 3;
   struct SameLists {
@@ -67,8 +67,8 @@ std::optional<measure::Ratio> measured_ratio(const WeighedCase& a, const Weighed
   return run::ratio_between(a.contender, b.contender, seed);
 }
 
-// Known to be dearer: beyond what a model can tell, and by the ratio of the rounds, by intervals of the costs, or where
-// nothing was measured often enough for them by the costs.
+// Whether `a` costs more for certain: by more than the precision of the model, and by the ratio of the rounds, else by
+// intervals of the costs, else, with too few measurements for both, by the costs.
 bool is_known_dearer(const WeighedCase& a, const WeighedCase& b, std::uint64_t seed) {
   const bool is_estimated = a.is_modelled || b.is_modelled;
   const std::optional<measure::Ratio> ratio = measured_ratio(a, b, seed);
@@ -76,29 +76,29 @@ bool is_known_dearer(const WeighedCase& a, const WeighedCase& b, std::uint64_t s
   if (is_estimated && times_as_much <= measure::k_alike_ratio) return false;
   if (!a.is_timed() || !b.is_timed()) return a.weight() > b.weight();
   const measure::Interval &of_a = a.contender.costs.time_ns, &of_b = b.contender.costs.time_ns;
-  if (of_b.is_known() && a.cost.gpu_ns() > of_b.high) return true;  // even if its lists cost no time
+  if (of_b.is_known() && a.cost.gpu_ns() > of_b.high) return true;  // even if making its lists took no time
   if (has_interval(ratio)) return measure::takes_longer(ratio);
   if (of_a.is_known() && of_b.is_known()) return of_a.low > of_b.high;
   return a.weight() > measure::k_alike_ratio * b.weight();
 }
 
-// The choice of a view, and what it is held against.
+// The choice for a view, and the cases that it is compared with.
 struct Choice {
   const WeighedCase* take = nullptr;
-  const WeighedCase* against = nullptr;    // the cheapest that is known to be dearer
-  const WeighedCase* cheapest = nullptr;   // by its figure, where that is one with other lists
-  const WeighedCase* fastest = nullptr;    // to make, where that is another one
-  const WeighedCase* searched = nullptr;   // where it would be cheaper
+  const WeighedCase* against = nullptr;    // the cheapest that costs more for certain
+  const WeighedCase* cheapest = nullptr;   // the one with the smallest cost, if its lists differ from the choice's
+  const WeighedCase* fastest = nullptr;    // the fastest to make its lists, if it is another one
+  const WeighedCase* searched = nullptr;   // if it would be cheaper
   std::optional<measure::Ratio> ratio;     // against / take
-  std::vector<const WeighedCase*> alike;   // all that are not known to be dearer
-  std::vector<const WeighedCase*> others;  // of them those with other lists
+  std::vector<const WeighedCase*> alike;   // all that do not cost more for certain
+  std::vector<const WeighedCase*> others;  // those of them with other lists
   std::size_t same_lists() const { return alike.size() - others.size(); }
 
   double times_as_much() const { return ratio ? ratio->ratio : against->weight() / take->weight(); }
 };
 
-// Of the cases that are not known to be dearer than the cheapest one whose samples lack no light before others, then
-// one on the front, then the smallest.
+// Of the cases that do not cost more than the cheapest for certain: first those whose samples miss no light, then those
+// on the front, then the smallest.
 Choice choose_of(const SceneView& view, std::uint64_t seed) {
   Choice choice;
   for (const WeighedCase& weighed : view.sound) {
@@ -135,7 +135,8 @@ std::string whole_cost_text(const WeighedCase& take) {
          " to make the lists on this machine, " + ns_text(take.cost.gpu_ns()) + " of " + model;
 }
 
-// About the ratio that is told: that of rounds side by side is not quite that of the costs, whose times are medians.
+// Around the reported ratio: that of rounds side by side differs slightly from that of the costs, whose times are
+// medians.
 measure::Interval by_prices(const Choice& choice) {
   if (!choice.against->is_modelled || !choice.take->is_modelled) return {};
   return measure::around(choice.times_as_much(), choice.against->weight() / choice.take->weight(),
@@ -152,7 +153,7 @@ std::string against_text(const Choice& choice) {
   return out + (is_rough ? ", not measured often enough side by side for an interval" : "");
 }
 
-// Of methods that make the same lists as the choice, and take no longer as far as is known.
+// On methods that make the same lists as the choice, and are not slower for certain.
 std::string same_lists_text(const Choice& choice) {
   const std::size_t count = choice.same_lists();
   if (count == 0) return "";
@@ -163,7 +164,7 @@ std::string same_lists_text(const Choice& choice) {
          (choice.take->has_simd() ? "; until then take one that ends in -fast" : "");
 }
 
-// What limits how far the choice can be trusted.
+// Reasons to doubt the choice.
 std::string doubts_text(const Choice& choice) {
   const WeighedCase& take = *choice.take;
   std::string out;
@@ -195,20 +196,20 @@ std::string doubts_text(const Choice& choice) {
   return out;
 }
 
-// "street, camera walk, 1920x1080: ", of a conclusion.
+// "street, camera walk, 1920x1080: ", the prefix of a conclusion.
 std::string view_text(const result::Conclusion& conclusion) {
   return shown(conclusion.scene) + ", camera " + shown(conclusion.camera) + ", " + viewport_text(conclusion.viewport) +
          ": ";
 }
 
-// Of a run that failed.
+// Of a failed run.
 std::string failure_text(const result::Result& result) {
   const std::vector<std::string> failures = run_failures(result);
   return "the run FAILED: " + shown(failures.front()) +
          (failures.size() > 1 ? " (and for " + number_of(failures.size() - 1, "other reason") + ")" : "");
 }
 
-// Why none of the cases may be taken.
+// Why no case can be recommended.
 std::string unsound_text(const std::vector<const Case*>& cases) {
   const auto lucky = std::ranges::count_if(
       cases, [](const Case* one) { return !one->loses_lights && one->failures.empty() && !one->eligible; });
@@ -226,7 +227,7 @@ std::string why_none(const SceneView& view) {
   return "take none of " + number_of(view.cases.size(), "case") + ": " + unsound_text(view.cases);
 }
 
-// What it says of what costs more.
+// Adds the comparison with a more expensive case.
 void add_against(const Choice& choice, result::Conclusion& out) {
   using result::counted, result::measured;
   out.against = choice.against->result_case->id;

@@ -1,5 +1,5 @@
 #pragma once
-// Words that what `run` concludes (conclusion.h) and what `recommend` answers (answer_conclusion.h) have in common.
+// Words shared by the conclusions of `run` (conclusion.h) and the answers of `recommend` (answer_conclusion.h).
 
 #include <string>
 #include <vector>
@@ -13,16 +13,16 @@ std::string bytes_text(double bytes);  // "232 B", "13.3 MB"
 
 // "2.1 % more", "9.6 % less".
 std::string less_or_more(double ratio);
-// "10 % more", "2.71 times as much"; in brackets what it can be by times and by prices, where that is known.
+// "10 % more", "2.71 times as much"; in brackets the ranges by times and by prices, if known.
 std::string more_text(double ratio, const measure::Interval& by_times, const measure::Interval& by_prices);
-// What leads those that cost no more than is told from the choice.
+// Introduces the cases that do not cost more than the choice for certain.
 std::string alike_title(bool is_modelled, bool is_timed);
 
 // "Its samples (visible surfaces)".
 std::string samples_text(const std::vector<std::string>& sets);
-// Of samples that need few lights. "" where they need enough.
+// A remark on samples that need few lights. "" if they need enough.
 std::string few_samples_text(double needed, const std::vector<std::string>& sets);
-// What shades surfaces in place of points at random depths.
+// A setting that shades surfaces instead of points at random depths.
 std::string remedy_text(bool has_no_triangles);
 
 }  // namespace clusterbench::report

@@ -19,17 +19,18 @@ namespace {
 using result::Case;
 using result::Figure;
 
-// Surfaces of the path may not need a light that moving objects in the view need.
+// Lights that no surface of the path needs may be needed by moving objects.
 constexpr const char* k_unlit_in_view = "volume.unlit";
 
-// What breaks it stays broken: marks and counts only grow, and a share of something is no longer none.
+// Whether a broken constraint stays broken with more frames: marks and counts only grow, and a share above 0 stays
+// above 0.
 bool stays_broken(const config::LimitRule& rule) {
   const Figure& figure = *result::figure_named(rule.figure);
   return figure.only_grows || (rule.limit == 0.0 && !figure.rests_on_times());
 }
 
-// The largest figure that breaks a constraint, nothing where none does. What somebody asks for and a case has no figure
-// of, as a structure without lists has no longest one, is not satisfied: NaN.
+// The largest figure that breaks a constraint; none if it holds. A given constraint on a figure that a case does not
+// have (a structure without lists has no longest one) is not satisfied: NaN.
 std::optional<double> breaking_figure(const std::vector<Case>& cases, const Constraint& constraint) {
   std::optional<double> largest;
   for (const Case& result_case : cases) {
@@ -43,7 +44,7 @@ std::optional<double> breaking_figure(const std::vector<Case>& cases, const Cons
   return largest;
 }
 
-// A run would fail for it, or its cost is that of less light.
+// Whether a run would fail for it, or it is cheaper because it misses lights.
 bool fails(const std::vector<Case>& cases, bool is_cost) {
   return std::ranges::any_of(cases, [&](const Case& result_case) {
     return !result_case.failures.empty() || (is_cost && result_case.cost && !result_case.cost->lit);
@@ -55,14 +56,14 @@ std::string rule_text_of(const config::LimitRule& rule) {
   return rule.figure + (rule.is_inclusive ? " < " : " <= ") + amount_text(rule.limit);
 }
 
-// Whoever allows some lights to be lost may have a method that can lose some.
+// If the question allows lost lights, methods that can lose lights are allowed.
 bool takes_sound_methods_only(const Question& question) {
   return std::ranges::none_of(question.constraints, [](const Constraint& constraint) {
     return constraint.is_given && constraint.rule.figure == "unlit";
   });
 }
 
-// What draws lights has no lists to be small, fast or read: it is ranked by what pixels cost.
+// Methods that draw lights have no lists whose size, time or reads could be compared: only costs of pixels rank them.
 bool takes_what_draws(const Question& question) {
   return rests_on_samples(*question.objective) && question.objective->name != "read_bytes";
 }

@@ -17,9 +17,9 @@ std::vector<const result::Figure*> objective_figures();
 
 struct Constraint {
   config::LimitRule rule;
-  bool is_given = true;  // else it holds unless another one of its figure is given
+  bool is_given = true;  // false: applies unless another constraint on its figure is given
 };
-// Those of a configuration's and the command line's budgets; and that no light is missed, dropped or unlit.
+// The constraints of the configuration's and the command line's budgets; and that no light is missed, dropped or unlit.
 std::vector<Constraint> constraints_of(const std::vector<config::LimitRule>& given);
 bool needs_times(const result::Figure& objective, const std::vector<Constraint>& constraints);
 
@@ -30,10 +30,10 @@ struct Question {
   int runners_up = 5;
 };
 
-// Judges by the cases as a result has them. Of several cameras a figure is the worst one of high-water marks, the sum
-// of counts, else the mean by frames; a constraint holds for each camera. A case that a run would fail for is out,
-// under the constraint after the last of the question's; under the one after that a method that could lose lights
-// elsewhere, unless the question allows losses.
+// Evaluates cases as in a result. Over several cameras a figure is the maximum for high-water marks, the sum for
+// counts, else the mean weighted by frames; a constraint must hold for each camera. The index after the question's
+// constraints stands for a case that a run would fail for, the next one for a method that could lose lights elsewhere,
+// unless the question allows losses.
 search::Evaluate judge_of(const Question& question, const nlohmann::json& config);
 
 // The cases as a result has them, with their modelled costs.

@@ -38,7 +38,7 @@ using result::Figure;
 using result::SampleSet;
 using result::SampleSets;
 
-// A finalist with what it is ranked by.
+// A finalist with the figures that rank it.
 struct Ranked {
   std::size_t candidate = 0;
   std::vector<Case> cases;
@@ -48,14 +48,14 @@ struct Ranked {
   bool is_apart = false;
 
   bool is_feasible() const { return broken.empty() && std::isfinite(objective); }
-  // Of those that are alike the least is chosen: one that lights more than opaque surfaces before others.
+  // Among equal candidates the smallest is chosen; those that light only opaque surfaces come last.
   auto smaller() const {
     const bool is_limited = is_at_surfaces(cases[0].assigner.name);
     return std::tuple(is_limited, bytes, cells, candidate);
   }
 };
 
-// Frame times of all cameras as one: round by round their mean by frames.
+// Frame times of all cameras as one: round by round their mean, weighted by frames.
 run::Contender pooled(const std::vector<Case>& cases, RankBy by) {
   run::Contender all = contender_of(cases[0], by);
   std::vector<double> sum(all.rounds_ns.size(), 0.0);
@@ -73,7 +73,7 @@ run::Contender pooled(const std::vector<Case>& cases, RankBy by) {
   return all;
 }
 
-// The modelled cost of a frame: of all cameras the mean by frames.
+// The modelled cost of a frame: mean over all cameras, weighted by frames.
 measure::FrameCost cost_over(const std::vector<Case>& cases) {
   const auto mean = [&](std::optional<double> (*figure)(const Case&)) {
     double sum = 0.0, frames = 0.0;
@@ -89,7 +89,7 @@ measure::FrameCost cost_over(const std::vector<Case>& cases) {
           mean(result::number<&Case::cost, &Cost::shade_ns>)};
 }
 
-// How much longer one takes than another, where the objective is a time with rounds.
+// The ratio of two times, if the objective is a time with rounds.
 std::optional<measure::Ratio> ratio_of(const Ranked& a, const Ranked& b, const Question& question, std::uint64_t seed) {
   const std::string_view figure = question.objective->name;
   if ((figure != "frame_us" && figure != "frame_cost_us") || a.candidate == b.candidate) return {};
@@ -97,7 +97,7 @@ std::optional<measure::Ratio> ratio_of(const Ranked& a, const Ranked& b, const Q
   return run::ratio_between(pooled(a.cases, by), pooled(b.cases, by), seed);
 }
 
-// Those that are apart come last.
+// Candidates with is_apart come last.
 std::vector<Ranked> ranked(const config::Config& config, const search::View& view, const search::Found& found) {
   const Json resolved = config.resolved;
   std::vector<Ranked> all;
@@ -116,8 +116,8 @@ std::vector<Ranked> ranked(const config::Config& config, const search::View& vie
   return all;
 }
 
-// Whether one is known to be worse than another: of a cost by more than the model can tell; of times by their interval,
-// or without one by more than times usually differ by.
+// Whether `a` is worse than `b` for certain: by more than the precision of the model for a cost; by the interval for
+// times, or without one by more than their usual variation.
 bool is_known_worse(const Ranked& a, const Ranked& b, const Question& question, std::uint64_t seed) {
   const std::optional<measure::Ratio> ratio = ratio_of(a, b, question, seed);
   const bool has_interval = ratio && std::isfinite(ratio->ci95.low) && std::isfinite(ratio->ci95.high);
@@ -128,8 +128,8 @@ bool is_known_worse(const Ranked& a, const Ranked& b, const Question& question, 
   return has_interval ? measure::takes_longer(ratio) : a.objective > b.objective;
 }
 
-// The smallest of those that none is known to beat is brought to the front: so neither noise nor what a model cannot
-// tell apart decides.
+// Moves the smallest candidate that no other beats for certain to the front, so that neither noise nor imprecision of
+// the model decides.
 void choose(std::vector<Ranked>& all, const Question& question, std::uint64_t seed) {
   const auto end = std::ranges::find_if_not(all, &Ranked::is_feasible);
   const auto is_beaten = [&](const Ranked& one) {
@@ -200,14 +200,14 @@ result::Candidate candidate_of(const config::Config& config, const search::View&
   return out;
 }
 
-// Lights that reach the samples which a cost is that of, of all cameras.
+// Lights that reach the samples of the cost, over all cameras.
 double needed_over(const std::vector<Case>& cases) {
   double needed = 0.0;
   for (const Case& result_case : cases) needed += sum_at_samples(result_case, result::number<&SampleSet::needed>);
   return needed;
 }
 
-// What speaks against the times of all that is ranked.
+// Reasons to doubt the times of all ranked candidates.
 std::vector<std::string> doubts_of(const std::vector<Ranked>& all) {
   std::vector<Case> cases;
   for (const Ranked& ranked : all)
@@ -215,8 +215,8 @@ std::vector<std::string> doubts_of(const std::vector<Ranked>& all) {
   return timing_doubts(cases, "leave times out (--no-timing)");
 }
 
-// Of all cameras together: what one of them sees is something to choose by. A scene of dark lights alone is one before
-// candidates are rejected for what it does not need.
+// Over all cameras: a light that one of them sees is a basis for a choice. A scene of dark lights alone is reported
+// before candidates are rejected because of it.
 std::string why_nothing_is_seen(const search::Found& found, const config::Config& config, const scene::Scene& scene,
                                 const Question& question) {
   const auto lights = static_cast<int>(std::ranges::count_if(scene.lights, [](const scene::Light& light) {
@@ -245,16 +245,17 @@ std::vector<result::Candidate> runners_up_of(const config::Config& config, const
   return told;
 }
 
-// Those that one constraint has excluded.
+// The candidates that one constraint excludes.
 struct Excluded {
   std::size_t count = 0, alone = 0;    // alone: by this constraint only
-  std::optional<std::size_t> best;     // by the objective, beside the best on the same frames
-  std::optional<std::size_t> nearest;  // to satisfying it
+  std::optional<std::size_t> best;     // by the objective, compared with the best on the same frames
+  std::optional<std::size_t> nearest;  // closest to satisfying it
   double nearest_figure = 0.0;
 };
 
 Excluded excluded_by(std::size_t constraint, const search::View& view, const search::Found& found) {
-  // What is not known beside the best accepted one comes last. What samples search is never held against lists.
+  // Candidates not measured on the frames of the best accepted one come last. Those whose samples search a structure
+  // are never compared with lists.
   const auto by_best = [&](std::size_t index) {
     const double by = found.records[index].by_best;
     return std::tuple(view.candidates[index].is_apart, std::isnan(by), std::isnan(by) ? 0.0 : by);

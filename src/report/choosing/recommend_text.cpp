@@ -1,4 +1,4 @@
-// What `recommend` tells a reader (recommend_report.h).
+// The text of `recommend` for users (recommend_report.h).
 
 #include <algorithm>
 #include <cmath>

@@ -58,7 +58,7 @@ std::vector<SceneView> scene_views(const result::Result& result, const Json& con
     if (!loses_nothing_seen(result_case)) continue;
     WeighedCase weighed = weigh(result_case, config);
     weighed.is_on_front = front.contains(result_case.id);
-    // What draws lights has no lists that could be small.
+    // Drawn lights have no lists whose size could be an advantage.
     if (without_samples.contains(result_case.id) || (draws_lights(result_case) && !weighed.is_modelled)) {
       ++view->unsampled;
       continue;

@@ -16,7 +16,7 @@ const Scene* scene_of(const Result& result, const Case& result_case) {
   return found == result.scenes.end() ? nullptr : &*found;
 }
 
-// What the scenes' requests say of a key, each answer once.
+// The values of a key in the scenes' requests, each once.
 Json answers_of(const Result& result, const char* key) {
   Json answers = Json::array();
   for (const Json& scene : result.config.value("scenes", Json::array()))
@@ -24,7 +24,7 @@ Json answers_of(const Result& result, const char* key) {
   return answers;
 }
 
-// "its lights (300 points, now 250 points)"; "" where they are the same, as far as results tell.
+// "its lights (300 points, now 250 points)"; "" if they are the same, as far as results record them.
 std::string lights_that_changed(const Scene& base_scene, const Scene& next_scene) {
   if (light_change(base_scene, next_scene) != LightChange::changed) return "";
   const std::string before = lights_text(base_scene), now = lights_text(next_scene);

@@ -1,5 +1,5 @@
 #pragma once
-// In which settings two cases differ that have one name, or stand for one another before and after a change.
+// The settings in which two cases differ that have the same name, or correspond before and after a change.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace clusterbench::report {
 
-// Of a result and a case of it each. Empty: none that results tell.
+// For a case of each result. Empty: no recorded difference.
 std::vector<std::string> differing_settings(const result::Result& base, const result::Case& base_case,
                                             const result::Result& next, const result::Case& next_case);
 

@@ -49,7 +49,7 @@ std::vector<Match> matches_of(const Result& base, const Result& next) {
   return matches;
 }
 
-// The cases of `result` that `other` has not.
+// The cases of `result` that `other` does not have.
 std::vector<const Case*> missing_from(const Result& other, const Result& result) {
   std::vector<const Case*> missing;
   for (const Case& result_case : result.cases)
@@ -74,7 +74,7 @@ std::vector<RenamedCase> renamed(const Result& base, const std::vector<const Cas
   return out;
 }
 
-// A part that cases may lack.
+// A part that cases may not have.
 struct Part {
   const char* name;
   bool (*is_in)(const Case& result_case);
@@ -106,13 +106,13 @@ std::vector<PartOfOne> parts_of_one(const std::vector<Match>& matches) {
   return out;
 }
 
-// In all that results tell.
+// Equal in all recorded values.
 template <class Record>
 bool are_same(const Record& base, const Record& next) {
   return &base == &next || result::to_json(base) == result::to_json(next);
 }
 
-// What is compared of two separate runs: what a frame takes.
+// The compared time of separate runs: the frame time.
 std::optional<double> frame_time(const Case& result_case) {
   return number<&Case::timing, &Timing::frame_ns, &result::Time::median>(result_case);
 }
@@ -123,10 +123,10 @@ bool are_counted(const Match& match) {
   return match.base.count && match.next.count;
 }
 
-// How two results stand to each other.
+// The relation of two results.
 struct Relation {
-  bool is_paired = false;  // the new one measured this base beside itself
-  bool is_one = false;     // one result twice: a question about just that
+  bool is_paired = false;  // the new one was measured side by side with this base
+  bool is_one = false;     // one result is compared with itself: with its own baseline
 };
 Relation relation_of(const Result& base, const Result& next) {
   if (!next.baseline) return {};
@@ -134,8 +134,8 @@ Relation relation_of(const Result& base, const Result& next) {
   return {is_one || are_same(next.baseline->tool, base.tool), is_one};
 }
 
-// What differs between methods, and not between a method's storages: those share the times of assignment, but for a
-// light structure of the method's own. What a frame takes is each case's own.
+// Identifies a method: its storages share the assignment time, except for a method's own structure. In separate runs
+// each case has its own frame time.
 std::string time_key(const Match& match, bool is_paired) {
   const Case& result_case = match.next;
   if (!is_paired) return result_case.id;
@@ -163,7 +163,7 @@ TimeChange paired_change(const result::BaselineTimes& paired) {
   return out;
 }
 
-// Without an interval nothing can be concluded: as of no samples.
+// Without an interval there is no conclusion, as without samples.
 measure::MedianTime median_frame_time(const Timing& timing) {
   const result::Time& time = timing.frame_ns;
   const double low = time.ci95[0], high = time.ci95[1];
@@ -187,7 +187,7 @@ std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
   return TimeChange{measure::change_of_medians(base, next), {}, base.ns, next.ns};
 }
 
-// The changes of all methods, in the order of their first cases, and what Holm's correction makes of their chances.
+// The changes of all methods, in the order of their first cases, with p-values by Holm's correction.
 class Times {
  public:
   Times() = default;
@@ -205,7 +205,7 @@ class Times {
     corrected_ = measure::holm(p);
   }
 
-  // nullopt where the case has no times to compare.
+  // nullopt if the case has no times to compare.
   std::optional<std::size_t> index_of(const Match& match) const {
     const auto found = indices_.find(time_key(match, is_paired_));
     return found == indices_.end() ? std::nullopt : std::optional(found->second);
@@ -214,11 +214,11 @@ class Times {
   double corrected_p(std::size_t index) const { return corrected_[index]; }
   std::size_t count() const { return changes_.size(); }
 
-  // Over all methods. What disturbs a launch as a whole is in each launch's mean; of separate runs nothing is known.
+  // Over all methods. A disturbance of a whole launch is in that launch's mean; unknown for separate runs.
   measure::Change mean() const { return measure::change_over_launches(launch_means()); }
 
  private:
-  // Further launches are of some methods only.
+  // Additional launches measured only some methods.
   std::size_t launches_of_all() const {
     std::size_t least = changes_.front().launches.size();
     for (const TimeChange& change : changes_) least = std::min(least, change.launches.size());
@@ -247,14 +247,14 @@ void add_ratio(Record& out, const measure::Change& change) {
   out.ci95 = {result::counted(ratio.ci95.low), result::counted(ratio.ci95.high)};
 }
 
-// Counted alike: by the same means, for the same instruction set.
+// Comparable counts: same counter, same instruction set.
 bool are_counts_comparable(const Match& match) {
   if (!are_counted(match)) return false;
   const result::Count &base = *match.base.count, &next = *match.next.count;
   return base.source == next.source && base.simd_target == next.simd_target && base.frames == next.frames;
 }
 
-// Hardware counts interrupts, too; even valgrind's depend a little on where memory lies.
+// Hardware counters include interrupts; even valgrind's counts depend slightly on addresses.
 double count_tolerance(const result::Count& count) {
   return count.source == "callgrind" ? 0.001 : 0.01;
 }
@@ -265,7 +265,7 @@ result::ComparedInstructions compared_instructions(const result::Count& base, co
     return before > 0.0 ? now / before : now > 0.0 ? std::nan("") : 1.0;
   };
   const PerFrame &base_frame = base.instructions_per_frame, &next_frame = next.instructions_per_frame;
-  // What leaves its own structure converts nothing.
+  // A method with its own structure converts no lists.
   const double assign = ratio(base_frame.assign, next_frame.assign),
                convert =
                    base_frame.convert && next_frame.convert ? ratio(*base_frame.convert, *next_frame.convert) : 1.0,
@@ -292,7 +292,7 @@ void add_list_difference(const Match& match, ComparedCase& out) {
   if (out.counts == "same" || !is_better) out.counts = is_better ? "better" : "worse";
 }
 
-// What stands between two results, beside their exact counts.
+// Obstacles to a comparison of two results, other than their exact counts.
 struct Scope {
   result::NotComparable left_out;
   std::vector<std::string> forced;  // obstacles in spite of which they are compared
@@ -469,7 +469,7 @@ std::optional<std::string> caches_of_times(const Result& result) {
   return {};
 }
 
-// What figures depend on, at its place in a result.
+// The fields that figures depend on, at their place in a result.
 Json facts_of(const Result& result) {
   return {
       {"machine", result::to_json(result.machine)}, {"tool", result::to_json(result.tool)}, {"config", result.config}};
@@ -490,7 +490,7 @@ Obstacles obstacles(const Result& base, const Result& next) {
     for (const char* pointer : pointers) {
       const Json *before = value_at(base_facts, pointer), *now = value_at(next_facts, pointer);
       const Json left = before == nullptr ? Json() : *before, right = now == nullptr ? Json() : *now;
-      // Results of older versions do not know the processor's numbers and caches.
+      // Results of older versions do not record the processor's numbers and caches.
       const bool is_unknown = left.is_null() != right.is_null() && std::string_view(pointer).starts_with("/machine/");
       if (left != right && !is_unknown)
         out.push_back(std::string(pointer) + " is " + left.dump() + " and " + right.dump());
@@ -514,7 +514,7 @@ Comparison compare_results(const Result& base, const Result& next, double thresh
   std::vector<Match> matches = matches_of(base, next);
   const std::vector<const Case*> only_in_base = missing_from(next, base);
   std::vector<const Case*> only_in_new = missing_from(base, next);
-  if (is_one) {  // and what the other program had beside it
+  if (is_one) {  // and the baseline program's
     std::vector<Match> beside;
     for (const Match& match : matches)
       if (result::part<&Case::timing, &Timing::baseline>(match.next) != nullptr)

@@ -1,7 +1,6 @@
 #pragma once
-// Two results side by side: what is counted must be equal or better; times that were measured side by side get a
-// verdict per case, times of separate runs a hint.
-// docs/comparing.md says how a verdict is found.
+// Compares two results: counts must be equal or better; times measured side by side get a verdict per case, times of
+// separate runs a hint. docs/comparing.md explains verdicts.
 
 #include <string>
 #include <vector>
@@ -11,8 +10,8 @@
 
 namespace clusterbench::report {
 
-// "/machine/cpu is 'A' and 'B'" for each field in which two results differ and that the figures depend on. What is
-// counted of lists, buffers and errors depends on none.
+// "/machine/cpu is 'A' and 'B'" for each differing field that figures depend on. Counts of lists, buffers and errors
+// depend on none.
 struct Obstacles {
   std::vector<std::string> to_times, to_instructions;
 };
@@ -20,7 +19,7 @@ Obstacles obstacles(const result::Result& base, const result::Result& next);
 
 struct CompareOptions {
   bool gates_separate = false;  // times of separate runs get verdicts, not hints
-  bool is_forced = false;       // times and instructions are compared in spite of obstacles
+  bool is_forced = false;       // compares times and instructions in spite of obstacles
 };
 
 // `threshold`: the smallest change of time that matters, 0.02 for 2

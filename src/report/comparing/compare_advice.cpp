@@ -15,7 +15,7 @@ using result::ComparedCase;
 using result::Comparison;
 using result::Result;
 
-// In percent, upward to one digit behind the point.
+// In percent, rounded up to one decimal.
 std::string percent_up(double share) {
   return text("%g %%", std::ceil(1000.0 * share - 1e-9) / 10.0);
 }
@@ -40,7 +40,7 @@ std::vector<OpenVerdict> open_verdicts(const Comparison& comparison, std::size_t
   return open;
 }
 
-// An interval shrinks with the root of the launches.
+// The width of an interval falls with the square root of the number of launches.
 double launches_needed(const OpenVerdict& verdict, double limit) {
   const double room = std::max(0.25 * limit, std::abs(limit - std::abs(verdict.change)));
   return verdict.launches * std::pow(verdict.half_width / room, 2.0);
@@ -88,7 +88,7 @@ std::string advice_on_same_program(const Comparison& comparison) {
                    : "; two launches tell no interval, --baseline-launches 10 does");
 }
 
-// Whether a case of each has the same.
+// Whether some case of each has the same value.
 template <class Get>
 bool share(const Result& base, const Result& next, Get get) {
   std::set<std::string> answers;

@@ -1,6 +1,5 @@
 #pragma once
-// What to do about a comparison that does not answer: nothing in common, verdicts that are inconclusive, a program
-// beside itself.
+// Advice on an inconclusive comparison: no common case, inconclusive verdicts, a program compared with itself.
 
 #include <string>
 #include <vector>
@@ -12,7 +11,7 @@ namespace clusterbench::report {
 // Of what compare_results() gives, but for its advice; none where every verdict stands.
 std::vector<std::string> advice_on(const result::Comparison& comparison);
 
-// Why two results have no case in common, and which command answers the question behind it. `base_name`: its file.
+// Why two results have no common case, and the command for the user's probable intention. `base_name`: its file.
 std::string advice_on_nothing(const result::Result& base, const result::Result& next, const std::string& base_name,
                               const std::string& next_name);
 

@@ -1,4 +1,4 @@
-// A comparison for people: a table for terminals, Markdown for pull requests.
+// The text of a comparison: a table for terminals, Markdown for pull requests.
 
 #include <algorithm>
 #include <array>
@@ -100,7 +100,7 @@ std::string legend(const std::vector<ComparedCase>& cases) {
   return out;
 }
 
-// The first element in which two lists differ; of values that are no lists both.
+// The first element in which two lists differ; both values if they are not lists.
 std::string times_text(const Json& base, const Json& next) {
   if (!base.is_array() || !next.is_array() || base.size() != next.size() || base.size() <= 3)
     return shown(base.dump() + " -> " + next.dump());

@@ -23,7 +23,7 @@ struct ExactDifferences {
 // are passed over.
 ExactDifferences exact_differences(const result::Case& base, const result::Case& next, bool is_margin_same = true);
 
-// "frame 5, cell [1,0,2], light 8 ('torch')" of error.deepest; "" where there is none.
+// "frame 5, cell [1,0,2], light 8 ('torch')" of error.deepest; "" without one.
 std::string deepest_loss_text(const result::Case& result_case);
 
 }  // namespace clusterbench::report

@@ -34,7 +34,7 @@ struct Timed {
   double frame_ns = 0.0;
 };
 
-// Cases whose times are held against each other, the fastest first.
+// Cases whose times are compared with each other, the fastest first.
 struct Block {
   std::string scene, name;
   std::vector<Timed> cases;
@@ -56,7 +56,7 @@ std::vector<Block> timed_blocks(const Result& result, const RatioRequest& reques
   std::vector<Block> blocks;
   for (const Case& result_case : result.cases) {
     const auto frame_ns = result::number<&Case::timing, &Timing::frame_ns, &result::Time::median>(result_case);
-    // The method's name alone as well, so that one pattern serves with grids and without.
+    // Also matches the method's name alone, so that one pattern works with grids and without.
     const auto is_wanted = [&](bool with_grid) { return pattern.is_in(name_of_case(result_case, with_grid)); };
     if (!frame_ns || frame_rounds(result_case).empty() ||
         !(is_wanted(false) || (request.across_grids && is_wanted(true))))
@@ -71,7 +71,7 @@ std::vector<Block> timed_blocks(const Result& result, const RatioRequest& reques
   return blocks;
 }
 
-// Of a case beside another one, for the page; null without a ratio.
+// A case compared with another one, for the page; null without a ratio.
 Json beside(const Timed& timed, const Timed& other, const std::optional<measure::Ratio>& ratio) {
   if (!ratio || timed.result_case == other.result_case) return {};
   return {{"id", other.result_case->id},

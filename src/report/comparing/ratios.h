@@ -1,7 +1,7 @@
 #pragma once
-// How much longer one method takes than another. Cases of one scene, camera, viewport and grid are measured in the same
-// rounds, and so any two of them have a ratio, round by round, that is far steadier than their times. Those of other
-// grids have one launch by launch (measure/statistics/side_by_side.h).
+// Ratios of times between methods. Cases of one scene, camera, viewport and grid are measured in the same rounds, so
+// any two of them have a ratio, round by round, that is far more stable than their times. Cases of different grids have
+// one launch by launch (measure/statistics/side_by_side.h).
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -19,12 +19,12 @@ namespace clusterbench::report {
 std::optional<measure::Ratio> ratio_of_cases(const result::Result& result, const result::Case& numerator,
                                              const result::Case& denominator, RankBy by = RankBy::frame_time);
 
-// False unless that ratio says that `numerator` takes longer, with 95 % certainty.
+// True only if that ratio is above 1 with 95 % certainty.
 bool takes_longer(const result::Result& result, const result::Case& numerator, const result::Case& denominator,
                   RankBy by = RankBy::frame_time);
 
 struct RatioRequest {
-  std::string methods;        // a regular expression; all: empty
+  std::string methods;        // a regular expression; empty: all
   bool across_grids = false;  // all grids of a scene, camera and viewport together
 };
 
@@ -32,8 +32,8 @@ struct RatioRequest {
 // docs/results.md. No blocks where nothing is timed.
 result::Ratios ratios_of(const result::Result& result, const RatioRequest& request);
 
-// Of each timed case with lists the pairs of a ranking over all grids of its scene, camera and viewport, for the page:
-// {"id", "fastest": {"id", "ratio", "ci95"} or null, "above": the same of the next faster one, "is_like_above"}.
+// For each timed case with lists its place in a ranking over all grids of its scene, camera and viewport, for the page:
+// {"id", "fastest": {"id", "ratio", "ci95"} or null, "above": the same for the next faster one, "is_like_above"}.
 nlohmann::ordered_json ratio_rankings(const result::Result& result);
 
 // Of what ratios_of() gives: a ranking, with each case beside the fastest one and beside the one before it, or with

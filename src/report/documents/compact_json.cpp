@@ -11,7 +11,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t k_line_width = 120;
 
-// The value in one line, with a blank after commas and colons, as far as `room` goes: false where it does not fit.
+// The value in one line, with a space after commas and colons; false if it is longer than `room`.
 bool append_line(const Json& value, std::string& out, std::size_t room) {
   if (!value.is_structured()) {
     out += value.dump();
@@ -54,14 +54,14 @@ class Writer {
     return text.size() - (feed == std::string::npos ? 0 : feed + 1);
   }
 
-  // What is left of the line is enough for all of it and a comma; else "".
+  // The value in one line if it fits into the rest of the line, with a comma; else "".
   std::string short_line(const Json& value) const {
     std::string line;
     const std::size_t used = columns() + 1;
     return used < k_line_width && append_line(value, line, k_line_width - used) ? line : "";
   }
 
-  // A member of an object stands in the line of the one before where both are short.
+  // A short member of an object stays in the line of a short predecessor.
   void append_members(const Json& value, std::size_t indent) {
     text += value.is_object() ? "{" : "[";
     bool is_line_open = false;

@@ -1,13 +1,13 @@
 #pragma once
-// JSON for a file that is read by programs, looked at by people and kept in a repository.
+// JSON for a file that programs and people read, and that is kept in a repository.
 
 #include <nlohmann/json.hpp>
 #include <string>
 
 namespace clusterbench::report {
 
-// Members of objects fill lines of 120 columns; a list of plain values stands in one line, however long; all else is
-// indented by a blank a level. Ends with a line feed.
+// Members of objects fill lines of 120 columns; a list of plain values is in one line of any length; everything else is
+// indented by one space per level. Ends with a line feed.
 std::string compact_json(const nlohmann::ordered_json& value);
 
 }  // namespace clusterbench::report

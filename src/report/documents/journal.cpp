@@ -19,18 +19,18 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// The lines of a run begin so; what a program that died has left of one, too.
+// The start of each line of a run, which also holds for the rest that a crashed program left.
 bool begins_as_an_entry(std::string_view line) {
   for (const std::string_view start : {R"({"case":)", R"({"request":)"})
     if (line.starts_with(start) || start.starts_with(line)) return true;
-  return line.find_first_not_of('\0') == std::string_view::npos;  // a disk that lost its power
+  return line.find_first_not_of('\0') == std::string_view::npos;  // zeros after a power failure
 }
 
 std::string header_line(const Json& header) {
   return Json{{"header", header}}.dump() + '\n';
 }
 
-// Of this program or an older one, and nothing behind it.
+// A single header line, of this program or an older one.
 bool is_header_alone(std::string_view text) {
   if (!text.ends_with('\n') || text.find('\n') + 1 != text.size()) return false;
   const Json line = json_or_discarded<Json>(text);
@@ -38,17 +38,17 @@ bool is_header_alone(std::string_view text) {
          line["header"].contains("config");
 }
 
-// Whether a line holds a case as it was measured, and one that is not among `ids`, as JSON, to which it is added.
-bool takes_case(const Json& entry, std::set<std::string>& ids) {
+// Whether a line contains an intact case with an id that is not in `ids` yet; adds the id.
+bool accepts_case(const Json& entry, std::set<std::string>& ids) {
   const Json* id = value_at(entry, "/case/id");
   return id != nullptr && entry.value("sha256", Json()) == sha256_hex(entry["case"].dump()) &&
          ids.insert(id->dump()).second;
 }
 
-// Calls take(entry) for each line behind the header, which returns whether it is one that a run writes. Returns where
-// the last whole line ends.
+// Calls accept(entry) for each line after the header; it returns false for a line that no run writes. Returns the end
+// of the last complete line.
 std::size_t each_entry(const std::string& text, const fs::path& path, const Json& header,
-                       const std::function<bool(Json& entry)>& take) {
+                       const std::function<bool(Json& entry)>& accept) {
   std::size_t begin = 0;
   for (int number = 1; begin < text.size(); ++number) {
     const std::size_t end = text.find('\n', begin);
@@ -64,20 +64,20 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
     if (number == 1 && (!entry.is_object() || !entry.contains("header"))) refuse("does not say what was run");
     if (number == 1 && entry["header"] != header)
       refuse("is an interrupted run of another configuration, --count, scene or build");
-    if (number > 1 && !(entry.is_object() && take(entry))) refuse("is not what a run writes");
+    if (number > 1 && !(entry.is_object() && accept(entry))) refuse("is not what a run writes");
     begin = end + 1;
   }
   return begin;
 }
 
-// Throws Error for what is not as the schema says.
+// Throws Error for cases that violate the schema.
 std::vector<result::Case> cases_of_run(const Json& cases, const fs::path& path) {
   const auto refuse = [&](const std::string& violation) {
     throw Error(path.string(), "", "does not hold the cases of a run: " + violation);
   };
   const nlohmann::json schema = config::result_schema();
   nlohmann::json cases_schema = schema["properties"]["cases"];
-  cases_schema["definitions"] = schema["definitions"];  // which its parts refer to
+  cases_schema["definitions"] = schema["definitions"];  // the definitions that its parts refer to
   const std::vector<std::string> violations = config::schema_violations(cases_schema, nlohmann::json(cases));
   if (!violations.empty()) refuse(violations.front());
   std::vector<result::Case> out;
@@ -108,7 +108,7 @@ std::vector<std::string> finished_ids(const fs::path& file, const Json& header) 
   std::set<std::string> known;
   each_entry(file_text(partial.string()), partial, header, [&](const Json& entry) {
     if (!entry.contains("case")) return true;
-    if (!takes_case(entry, known)) return false;
+    if (!accepts_case(entry, known)) return false;
     if (const Json& id = entry["case"]["id"]; id.is_string()) ids.push_back(id);
     return true;
   });
@@ -136,7 +136,7 @@ Journal::~Journal() {
   if (!is_finished_ && is_empty()) partial_.remove();
 }
 
-// A header alone, or its beginning, holds nothing that was measured.
+// A header alone, or the start of one, contains no measurement.
 void Journal::set_earlier_aside(const std::string& header) {
   const std::string text = partial_.text();
   if (text.empty()) return;
@@ -150,8 +150,8 @@ void Journal::read_earlier(const Json& header) {
   Json cases = Json::array();
   std::set<std::string> ids;
   const std::size_t end = each_entry(partial_.text(), partial_path(), header, [&](Json& entry) {
-    if (!entry.contains("case")) return take_answer(entry);
-    if (!takes_case(entry, ids)) return false;
+    if (!entry.contains("case")) return accept_answer(entry);
+    if (!accepts_case(entry, ids)) return false;
     cases.push_back(std::move(entry["case"]));
     return true;
   });
@@ -165,8 +165,8 @@ std::vector<std::string> Journal::earlier_ids() const {
   return ids;
 }
 
-// The digest: what launches answer has no schema that could be checked.
-bool Journal::take_answer(Json& entry) {
+// Checked by its digest: answers of launches have no schema.
+bool Journal::accept_answer(Json& entry) {
   if (!entry.contains("request") || !entry.contains("answer")) return false;
   if (entry.value("sha256", Json()) != sha256_hex(entry["request"].dump() + entry["answer"].dump())) return false;
   earlier_answers_[entry["request"].dump()] = std::move(entry["answer"]);

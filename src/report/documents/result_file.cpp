@@ -19,7 +19,7 @@ bool is_journal(std::string_view text) {
   return first.is_object() && first.contains("header");
 }
 
-// A line per result, which is the same in all of them.
+// A line per result, all of the same form.
 bool is_history(std::string_view text) {
   const Json first = json_or_discarded<Json>(text.substr(0, text.find('\n')));
   return first.is_object() && first.contains("history_version");

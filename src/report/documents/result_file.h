@@ -1,5 +1,5 @@
 #pragma once
-// Results read back from disk.
+// Reads results from disk.
 
 #include <string>
 #include <string_view>
@@ -8,11 +8,11 @@
 
 namespace clusterbench::report {
 
-// Throws Error for what cannot be read, is not JSON, is what an unfinished run left, is not a result, is one of another
-// schema version, or is not as the schema says.
+// Throws Error for a file that cannot be read, is not JSON, is the rest of an unfinished run, is not a result, has
+// another schema version, or violates the schema.
 result::Result read_result(const std::string& path);
 
-// Throws Error if the text of a file is that of a history (history.h), which is read otherwise.
+// Throws Error if the text of a file is a history (history.h), which has its own reader.
 void refuse_history(const std::string& path, std::string_view text);
 
 }  // namespace clusterbench::report

@@ -1,5 +1,5 @@
-// Comma-separated values (RFC 4180, lines end in a line feed): a row per case, with the parts of its name in columns of
-// their own. The columns do not depend on what was measured, and name their units; a figure that a case lacks is an
+// Comma-separated values (RFC 4180, lines end in a line feed): a row per case, with a column for each part of its name.
+// The columns do not depend on the measured figures, and include their units; a figure that a case does not have is an
 // empty field.
 
 #include <cmath>
@@ -12,8 +12,8 @@ namespace {
 
 using result::Figure;
 
-// A spreadsheet takes a cell that begins like a formula for one and runs it: an apostrophe in front makes it text.
-// Names come from scene files, so anybody can have written them.
+// A spreadsheet runs a cell that begins like a formula: a leading apostrophe makes it text. Names come from scene
+// files, so any author can have written them.
 std::string inert(const std::string& text) {
   const bool is_formula = !text.empty() && std::string_view("=+-@\t\r\n").find(text.front()) != std::string_view::npos;
   return is_formula ? "'" + text : text;
@@ -27,7 +27,7 @@ std::string field(const std::string& name) {
   return quoted + "\"";
 }
 
-// All digits, without ".0" behind what was counted.
+// All digits, without ".0" after counts.
 std::string exact_number(double value) {
   constexpr double k_exact_integers = 9007199254740992.0;
   const bool is_whole = std::floor(value) == value && std::abs(value) < k_exact_integers;
@@ -38,7 +38,7 @@ bool has_column(const Figure& figure, const ExportResult& result) {
   return figure.is_headline || result.all;
 }
 
-// "assign_time_ns"; the unit only where the name does not have it.
+// "assign_time_ns"; the unit is added only if the name does not contain it.
 std::string csv_column(const Figure& figure) {
   std::string name(figure.exported_as());
   if (figure.unit == "ratio" || name.find(figure.unit) != std::string::npos) return name;

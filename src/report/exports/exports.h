@@ -1,5 +1,5 @@
 #pragma once
-// Results in the formats of other tools. Adding one is a file in this folder and its row in exports.cpp.
+// Results in the formats of other tools. A new format is a file in this folder and its row in exports.cpp.
 
 #include <span>
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace clusterbench::report {
 
-// What every format is made of.
+// The input of every format.
 struct ExportCase {
   std::string id, name;
   std::vector<Measured> figures;
-  std::vector<double> samples_ns;  // frame times of the rounds, in order; empty if nothing was timed
+  std::vector<double> samples_ns;  // frame times of the rounds, in order; empty without timing
   int frames_timed = 0;
-  // What the name is made of: "scene", "camera", "viewport", "grid", "assigner", "precision", "storage", in this order.
+  // The parts of the name: "scene", "camera", "viewport", "grid", "assigner", "precision", "storage", in this order.
   std::vector<std::pair<std::string, std::string>> parts{};
 };
 
@@ -25,8 +25,8 @@ struct ExportResult {
   std::string name, version, git_sha, compiler, flags, build_type, simd_target;
   std::string machine, os;
   int cores = 0;
-  bool all = false;                 // figures of the whole table, not only the headline
-  std::vector<std::string> failed;  // what the run failed for, a sentence each
+  bool all = false;                 // all figures of the table, not only the headline
+  std::vector<std::string> failed;  // reasons of a failed run, a sentence each
   std::vector<ExportCase> cases;
 };
 
@@ -34,16 +34,16 @@ struct ExportFormat {
   std::string_view name, summary;
   std::string_view extension;  // without the dot
   std::string (*write)(const ExportResult& result);
-  bool needs_times = false;  // it has no other figure to write
+  bool needs_times = false;  // the format has no other figures
 };
 
 std::span<const ExportFormat> export_formats();
 
-// Throws Error that lists what there is.
+// Throws Error that lists all formats.
 const ExportFormat& export_format(const std::string& name);
 
-// The result in the format: its headline figures, or all of the table. Throws Error where a case lacks what each has,
-// and where the format has no place for anything that was measured.
+// The result in the format: its headline figures, or all of the table. Throws Error if a case lacks a mandatory figure,
+// or if the format can express none of the measured figures.
 std::string exported(const result::Result& result, const ExportFormat& format, bool all);
 
 // The figure of that name, or null.

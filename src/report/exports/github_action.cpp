@@ -1,6 +1,6 @@
 // The two custom formats of github-action-benchmark (https://github.com/benchmark-action/github-action-benchmark): a
-// list of {name, unit, value, range, extra}, in which either every figure is better when smaller, or every one when
-// bigger.
+// list of {name, unit, value, range, extra}. Smaller is better for all figures of one format, bigger for all of the
+// other.
 
 #include <cstdio>
 

@@ -1,5 +1,5 @@
 // Google Benchmark's JSON (https://github.com/google/benchmark, docs/user_guide.md): each timed round is a repetition,
-// so that compare.py can do its Mann-Whitney U test. One thread works, so its processor time is the time that passed.
+// so that compare.py can do its Mann-Whitney U test. One thread works, so its processor time equals the elapsed time.
 
 #include <cmath>
 #include <numeric>

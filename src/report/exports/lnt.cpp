@@ -1,5 +1,5 @@
 // A report of LLVM's LNT, format 2 (https://llvm.org/docs/lnt/importing_data.html). The headline fits LNT's own test
-// suite "nts": execution_time in seconds, a value per round, and mem_bytes. More figures (--all) want a test suite that
+// suite "nts": execution_time in seconds, a value per round, and mem_bytes. More figures (--all) need a test suite that
 // names them.
 
 #include "report/exports/export_formats.h"
@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// All rounds, for LNT takes their minimum and keeps their spread.
+// All rounds: LNT uses their minimum and keeps their spread.
 Json seconds(const std::vector<double>& samples_ns) {
   Json list = Json::array();
   for (const double sample : samples_ns) list.push_back(sample * 1e-9);

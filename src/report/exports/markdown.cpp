@@ -1,5 +1,5 @@
-// What the run failed for, and a table, as GitHub and GitLab render them. Only columns in which a case has a figure; of
-// what a name is made of, viewport and precision only where they differ.
+// The reasons of a failed run, and a table, as GitHub and GitLab render them. Only columns with a figure; the parts
+// viewport and precision of a name only if they differ.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 using result::Figure;
 
-// Four digits, or all of what was counted: 40.61, 1234.6, 102905.
+// Four digits, or all digits of a count: 40.61, 1234.6, 102905.
 std::string short_number(double value) {
   char text[48];
   std::snprintf(text, sizeof text,
@@ -30,7 +30,7 @@ bool is_used(const Figure& figure, const ExportResult& result) {
   return false;
 }
 
-// "assign time (ns)"; the unit only where the name does not say it.
+// "assign time (ns)"; the unit is added only if the name does not contain it.
 std::string heading(const Figure& figure) {
   std::string name(figure.exported_as());
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -39,7 +39,7 @@ std::string heading(const Figure& figure) {
              : name + " (" + std::string(figure.unit) + ")";
 }
 
-// Places of the parts that are shown.
+// Indices of the shown parts.
 std::vector<std::size_t> shown_parts(const ExportResult& result) {
   std::vector<std::size_t> shown;
   if (result.cases.empty()) return shown;
@@ -53,7 +53,7 @@ std::vector<std::size_t> shown_parts(const ExportResult& result) {
   return shown;
 }
 
-// With the value, the one of the baseline, and the budget. "" where nothing failed.
+// With the value, that of the baseline, and the budget. "" if no budget failed.
 std::string failed_list(const ExportResult& result) {
   if (result.failed.empty()) return "";
   std::string out = "**FAILED**\n\n";

@@ -10,7 +10,7 @@ namespace {
 using result::Case;
 using result::Figure;
 
-// A quotient by nothing is not a figure.
+// A quotient with the divisor 0 is not a figure.
 std::optional<double> exported_value(const Figure& figure, double value) {
   if (figure.dividend == 0.0) return value;
   return value > 0.0 ? std::optional(figure.dividend / value) : std::nullopt;

@@ -1,6 +1,6 @@
 #pragma once
-// The figures of a case that other tools are given: those of result/figure_table.h that a result records, under their
-// exported names. Names and units are stable.
+// The figures of a case for other tools: those of result/figure_table.h that a result records, under their exported
+// names. Names and units are stable.
 
 #include <vector>
 
@@ -15,10 +15,10 @@ std::vector<const result::Figure*> export_figures();
 struct Measured {
   const result::Figure* figure;
   double value;
-  measure::Interval ci95;  // unknown where there is none
+  measure::Interval ci95;  // unknown if there is none
 };
 
-// The figures that the case has, the headline or all: absent and null ones are left out.
+// The figures of the case, the headline or all; without absent and null ones.
 std::vector<Measured> measured(const result::Case& result_case, bool all);
 
 }  // namespace clusterbench::report

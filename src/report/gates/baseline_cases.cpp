@@ -56,7 +56,7 @@ const Case* BaselineCases::case_of(const Case& result_case) const {
   return found == by_key_.end() ? nullptr : found->second;
 }
 
-std::string BaselineCases::what_changed(const Case& result_case) const {
+std::string BaselineCases::changes_of(const Case& result_case) const {
   const Case* base_case = case_of(result_case);
   if (base_case == nullptr) return "";
   std::vector<std::string> changes;

@@ -1,6 +1,6 @@
 #pragma once
-// Which case of an earlier result a case is held against: the one of the same camera, viewport, grid, method and
-// structure, also where the level itself has changed since.
+// Finds the case of an earlier result that a case is compared with: the one of the same camera, viewport, grid, method
+// and structure, even if the level itself has changed since.
 
 #include <map>
 #include <string>
@@ -12,18 +12,18 @@ namespace clusterbench::report {
 
 class BaselineCases {
  public:
-  // Both must outlive it. `filter`: what the result's cases were selected by; others of the base are not missed.
-  // `name`: what messages call the base.
+  // Both must outlive it. `filter`: the filter of the result's cases; other cases of the base are not reported as gone.
+  // `name`: name of the base in messages.
   BaselineCases(const result::Result& base, const result::Result& result, const std::string& filter, std::string name);
 
-  // Null: the base has none.
+  // Null: not in the base.
   const result::Case* case_of(const result::Case& result_case) const;
-  // The base's cases that the result no longer has.
+  // The base's cases that the result does not have.
   const std::vector<const result::Case*>& gone_cases() const { return gone_cases_; }
   const std::string& name() const { return name_; }
-  // "the scene's file, its lights (300, now 250)"; "" where nothing has changed that results tell.
-  std::string what_changed(const result::Case& result_case) const;
-  // Why instructions of these two do not compare; "" where they do.
+  // "the scene's file, its lights (300, now 250)"; "" if results show no change.
+  std::string changes_of(const result::Case& result_case) const;
+  // Why the instructions of both are not comparable; "" if they are.
   std::string obstacle_to_instructions(const result::Case& result_case) const;
 
  private:
@@ -31,7 +31,7 @@ class BaselineCases {
 
   const result::Result &base_, &next_;
   std::string name_;
-  std::string obstacle_;  // to instructions of any two cases; "": none
+  std::string obstacle_;  // for the instructions of any two cases; "": none
   bool is_one_scene_ = false;
   std::map<std::string, const result::Case*> by_key_;
   std::vector<const result::Case*> gone_cases_;

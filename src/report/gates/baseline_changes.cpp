@@ -22,14 +22,13 @@ using result::Case;
 using result::FigureValue;
 using Lines = std::vector<std::string>;
 
-constexpr const char* k_instructions =
-    "instructions";  // told where both were counted by the same processor and program
+constexpr const char* k_instructions = "instructions";  // reported if the same processor and program counted both
 
-// The first are the same for all cases of a camera and viewport.
+// Equal for all cases of a camera and viewport.
 constexpr const char* k_of_view[] = {"lights", "lights_lit", "lights_seen", "lights_seen.mean", "lights_in_view"};
 constexpr const char* k_of_case[] = {"index_entries", "bytes", "longest", "pairs.mean", k_instructions};
 
-// With its viewport where the others have the same name, which does not show it.
+// With the viewport if others have the same name, which does not contain it.
 std::string names_of(const std::vector<const Case*>& cases, const std::vector<const Case*>& others) {
   Lines names;
   for (const Case* one : cases) {
@@ -52,7 +51,7 @@ class Changes {
   std::string text() const {
     const std::string begin = "changes since " + baseline_.name() + ":";
     const std::vector<const Case*>& gone = baseline_.gone_cases();
-    const bool is_all_there = not_in_base_.empty() && gone.empty() && not_told_.empty();
+    const bool is_all_there = not_in_base_.empty() && gone.empty() && unknown_.empty();
     if (views_.empty() && cases_.empty() && is_all_there)
       return begin + " none in " + number_of(unchanged_, "case") + " (lights, " +
              joined(Lines(std::begin(k_of_case), std::end(k_of_case))) + ")\n";
@@ -61,7 +60,7 @@ class Changes {
     if (unchanged_ > 0) lines.push_back("none in " + number_of(unchanged_, cases_.empty() ? "case" : "other case"));
     if (!not_in_base_.empty()) lines.push_back("not in " + baseline_.name() + ": " + names_of(not_in_base_, gone));
     if (!gone.empty()) lines.push_back("only in " + baseline_.name() + ": " + names_of(gone, not_in_base_));
-    if (!not_told_.empty()) lines.push_back(baseline_.name() + " does not tell " + joined(not_told_));
+    if (!unknown_.empty()) lines.push_back(baseline_.name() + " does not tell " + joined(unknown_));
     std::string out = begin + "\n";
     for (const std::string& line : lines) out += "  " + line + "\n";
     return out;
@@ -77,21 +76,21 @@ class Changes {
       cases_.push_back(shown(now.name) + ": " + of_case);
   }
 
-  // "indices of 8 -> 16 bits": with more lights; "" where they are as wide.
+  // "indices of 8 -> 16 bits", if the number of lights changed the width; "" otherwise.
   static std::string other_width(const Case& before, const Case& now) {
     const std::uint64_t was = before.buffers.index_bits, is = now.buffers.index_bits;
     return was == is ? "" : "indices of " + std::to_string(was) + " -> " + std::to_string(is) + " bits";
   }
 
   // "index_entries 40 -> 50 (+25 %; frame 1, cell [3,2,1]), bytes 232 -> 242 (+4.31 %)"; a location that several
-  // figures share once.
+  // figures share is printed once.
   std::string changed(const Case& before, const Case& now, std::span<const char* const> figures) {
     std::string out, last_location;
     for (const char* figure : figures) {
       const std::optional<FigureValue> was = figure_value(before, figure), is = figure_value(now, figure);
       if (figure == std::string_view(k_instructions) && (!was || !baseline_.obstacle_to_instructions(now).empty()))
         continue;
-      if (is && !was) add_once(figure, not_told_);
+      if (is && !was) add_once(figure, unknown_);
       if (!is || !was || is->value() == was->value()) continue;
       const double percent = percent_change({was->value()}, {is->value()});
       Lines remarks;
@@ -107,7 +106,7 @@ class Changes {
   }
 
   const BaselineCases& baseline_;
-  Lines views_, cases_, not_told_;
+  Lines views_, cases_, unknown_;
   std::vector<const Case*> not_in_base_;
   std::size_t unchanged_ = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// A level before and after a change: which figures of its cases have moved, from what to what.
+// A level before and after a change: the figures of its cases that differ, with both values.
 
 #include <string>
 
@@ -10,7 +10,7 @@ namespace clusterbench::report {
 class BaselineCases;
 
 // Lights of each camera, then entries, bytes and the longest list of each case: those that differ from the baseline's,
-// with frame and cell of the new ones where the result tells them. One line where nothing differs.
+// with the new frame and cell if known. One line if nothing differs.
 std::string baseline_changes_text(const result::Result& result, const BaselineCases& baseline);
 
 }  // namespace clusterbench::report

@@ -24,13 +24,13 @@ using result::SceneLights;
 
 constexpr const char* k_dark = "intensity 0, black, or range 0";
 
-// The lights of a scene as one camera sees them; the same for all grids and methods.
+// The lights of a scene as seen by one camera; equal for all grids and methods.
 struct LightsOfView {
   std::string scene, camera;
   double all = 0.0, lit = 0.0, in_view = 0.0, seen = 0.0;
 };
 
-// Null of cases that do not tell. Older ones do not tell which lights shine; there all are taken to.
+// Null for cases without these counts. Older ones do not record which lights shine; all are assumed to.
 std::optional<LightsOfView> lights_of_view(const Case& result_case) {
   const std::optional<double> in_view = number<&Case::lights_in_view, &result::LightsInView::max>(result_case);
   if (!in_view) return std::nullopt;
@@ -54,8 +54,8 @@ std::string dark_text(const LightsOfView& lights) {
          (dark == 1.0 && lights.lit > 0.0 ? " is dark" : " are dark");
 }
 
-// Why nothing that a budget could be about is to be seen; "" where something is. A level whose lights are all switched
-// off has as many as before, and nothing is lit.
+// Why the camera sees no light that a budget could apply to; "" if it sees one. A level with all lights switched off
+// has the same number of lights, but none is lit.
 std::string why_no_lights(const LightsOfView& lights) {
   const std::string in_camera = lights.scene + ", camera " + lights.camera + ": none of ";
   if (lights.all == 0.0) return lights.scene + ": has no point or spot lights";
@@ -84,7 +84,7 @@ bool is_view_measured(const Result& result, const std::string& skipped_name) {
   });
 }
 
-// "level/camera" of "level/camera/grid/method"; "" of what is no case, "level/samples visible".
+// "level/camera" of "level/camera/grid/method"; "" if the name is not a case, such as "level/samples visible".
 std::string view_of(const std::string& scene, const std::string& skipped_name) {
   if (!skipped_name.starts_with(scene + "/")) return "";
   const std::size_t slash = skipped_name.find('/', scene.size() + 1);
@@ -117,14 +117,14 @@ void add_not_measured(const Result& result, bool are_no_lights_allowed, LimitFin
   }
 }
 
-// Scenes, cameras and viewports of the base of which the result has no case, each once.
+// Scenes, cameras and viewports of the base without a case in the result, each once.
 void add_gone_views(const Result& result, const LightGate& gate, LimitFindings& findings) {
   const Pattern wanted(gate.filter, "--filter");
   std::vector<std::string> gone;
   for (const Case& base_case : gate.base->cases) {
     if (!is_selected(wanted, base_case)) continue;
     const Scene* then = scene_named(gate.base->scenes, base_case.scene);
-    const Scene* now = then == nullptr ? nullptr : scene_before(result, *gate.base, *then);  // that stands for it
+    const Scene* now = then == nullptr ? nullptr : scene_before(result, *gate.base, *then);  // its successor
     const auto is_of_camera = [&](const Case& result_case) {
       return result_case.scene == now->name && result_case.camera == base_case.camera;
     };
@@ -160,10 +160,10 @@ void add_changed_lights(const Result& result, const LightGate& gate, LimitFindin
                                   " is of an older version, which tells how many lights there were (" +
                                   lights_text(*before) + ", as now), but not which");
     if (change != LightChange::changed) continue;
-    const std::string text = name + ": its lights are not those of " + gate.base_name + ": " +
-                             (lights_text(*before) == lights_text(scene)
-                                  ? "still " + lights_text(scene) + ", some of them moved or changed"
-                                  : counts);
+    const std::string text =
+        name + ": its lights are not those of " + gate.base_name + ": " +
+        (lights_text(*before) == lights_text(scene) ? "still " + lights_text(scene) + ", some of them moved or changed"
+                                                    : counts);
     if (gate.allows_changed_lights)
       findings.warnings.push_back(text);
     else
@@ -175,7 +175,7 @@ PathSpan span_of(const CameraPath& path) {
   return {path.from_s, path.to_s};
 }
 
-// Figures of other frames do not compare with the baseline's, whatever the lights are.
+// Figures of other frames are not comparable with the baseline's, even with the same lights.
 void add_changed_paths(const Result& result, const LightGate& gate, LimitFindings& findings) {
   for (const Case& result_case : result.cases) {
     const Scene* scene = scene_named(result.scenes, result_case.scene);

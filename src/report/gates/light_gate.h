@@ -1,6 +1,6 @@
 #pragma once
-// A level that loses its lights must not look like one that became cheaper, nor a camera that no longer looks at them:
-// which lights and camera paths two results are of.
+// Detects a level that loses lights, or a camera that no longer sees them, which would look like a lower cost: compares
+// lights and camera paths of two results.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace clusterbench::report {
 
-// When a camera's path begins and ends.
+// Start and end of a camera's path.
 struct PathSpan {
   double from_s = 0.0, to_s = 0.0;
 };
@@ -21,14 +21,14 @@ std::string path_change_text(const std::string& scene, const std::string& camera
 struct LightGate {
   bool allows_no_lights = false, allows_changed_lights = false;
   const result::Result* base = nullptr;  // null: no baseline
-  std::string base_name = {};            // as messages call it
-  std::string filter = {};               // what the result's cases were selected by; others of the base are not missed
+  std::string base_name = {};            // its name in messages
+  std::string filter = {};  // the filter of the result's cases; other cases of the base are not reported as gone
 };
 
-// Scenes without lights or with dark ones alone, cameras that never have one in view that shines, and scenes with other
-// lights than the baseline's: broken, or a warning where that is allowed. Broken also what budgets cannot be held
-// against: scenes and cameras of which nothing could be measured, and those of the baseline that the result does not
-// have. Cameras with another path than the baseline's are a warning.
+// Reports scenes without lights or with dark ones only, cameras that never see a shining light, and scenes whose lights
+// differ from the baseline's: broken, or a warning if that is allowed. Also broken if budgets have no case to apply to:
+// scenes and cameras without any measured case, and those of the baseline that the result does not have. A camera path
+// that differs from the baseline's is a warning.
 LimitFindings light_findings(const result::Result& result, const LightGate& gate);
 
 }  // namespace clusterbench::report

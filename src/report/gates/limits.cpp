@@ -33,8 +33,8 @@ std::string is_text(const config::LimitRule& rule, const FigureValue& found) {
          (found.location.empty() ? "" : " (" + found.location + ")");
 }
 
-// What is said of cases, each sentence once: figures of a scene or of a view are those of many cases.
-class SaidOfCases {
+// Sentences on cases, each once: figures of a scene or of a view are equal for many cases.
+class SentencesOfCases {
  public:
   void add(const Case& result_case, const std::string& sentence) {
     auto said = std::ranges::find(said_, sentence, &Said::sentence);
@@ -57,7 +57,7 @@ class SaidOfCases {
   std::vector<Said> said_;
 };
 
-// One budget held against the cases that it names.
+// One budget, checked for the cases that it names.
 class RuleCheck {
  public:
   RuleCheck(const result::Result& result, const config::LimitRule& rule, const BaselineCases* baseline,
@@ -96,15 +96,15 @@ class RuleCheck {
       for (const std::string& figure : figures_of({result_case}))
         if (const std::optional<FigureValue> found = figure_value(*result_case, figure)) {
           has_none = false;
-          judge(*result_case, rule_.is_broken_by(found->value()), found->value(), is_text(rule_, *found));
+          add_verdict(*result_case, rule_.is_broken_by(found->value()), found->value(), is_text(rule_, *found));
         }
       if (has_none) without.push_back(result_case->name);
     }
     add_without(without);
   }
 
-  // Of lights needed at several sets each by itself: what one of them has lost the largest one would hide. Sets of now
-  // and before.
+  // With several sets, needed lights are checked set by set: the largest set would hide a loss in another. Includes the
+  // sets of now and before.
   std::vector<std::string> figures_of(const std::vector<const Case*>& cases) const {
     if (rule_.figure != "needed") return {rule_.figure};
     std::vector<std::string> figures;
@@ -115,7 +115,7 @@ class RuleCheck {
     return figures.size() > 1 ? figures : std::vector{rule_.figure};
   }
 
-  // Whoever names cases means them; a budget of all is held against those that can have the figure.
+  // A budget that names cases must apply to all of them; one for all cases applies to those that can have the figure.
   void add_without(const std::vector<std::string>& without) {
     const std::string hint = result::why_no_figure(rule_.figure);
     if (without.size() == cases_.size())
@@ -152,7 +152,7 @@ class RuleCheck {
         else if (now->samples != then->samples)
           add_other_samples(name, *now, *then);
         else
-          judge_change(*result_case, *now, *then);
+          add_verdict_on_change(*result_case, *now, *then);
       }
       if (has_none) without.push_back(name);
       if (lacks_one) in_one.push_back(name);
@@ -164,12 +164,12 @@ class RuleCheck {
     add_unmatched(not_in_base, without, obstacle);
   }
 
-  void judge_change(const Case& result_case, const FigureValue& now, const FigureValue& then) {
+  void add_verdict_on_change(const Case& result_case, const FigureValue& now, const FigureValue& then) {
     const double percent = percent_change(then.quotient, now.quotient);
     const std::string change =
         std::isfinite(percent) ? percent_text(percent, rule_.limit) + " against " : std::string("was ");
-    judge(result_case, is_broken_by_change(rule_, then.quotient, now.quotient), percent,
-          is_text(rule_, now) + ", " + change + config::budget_number(then.value()) + " in " + baseline_->name());
+    add_verdict(result_case, is_broken_by_change(rule_, then.quotient, now.quotient), percent,
+                is_text(rule_, now) + ", " + change + config::budget_number(then.value()) + " in " + baseline_->name());
   }
 
   void add_other_samples(const std::string& name, const FigureValue& now, const FigureValue& then) {
@@ -208,7 +208,7 @@ class RuleCheck {
 
   bool is_of_instructions() const { return result::figure_named(rule_.figure)->basis == result::Basis::instructions; }
 
-  void judge(const Case& result_case, bool is_broken, double value, const std::string& text) {
+  void add_verdict(const Case& result_case, bool is_broken, double value, const std::string& text) {
     ++findings_.checked;
     if (is_broken)
       broken_.add(result_case, text + ", and fails with " + rule_.text());
@@ -221,14 +221,14 @@ class RuleCheck {
   const BaselineCases* baseline_;
   LimitFindings& findings_;
   std::vector<const Case*> cases_;
-  SaidOfCases broken_, near_;
+  SentencesOfCases broken_, near_;
 };
 
-// What stands between a relative budget and its baseline beside the figure itself, each answer once.
+// Changes since the baseline, other than the figure itself, that affect a relative budget; each once.
 void add_changes_since(const result::Result& result, const BaselineCases& baseline, LimitFindings& findings) {
   std::map<std::string, std::vector<std::string>> names;
   for (const Case& result_case : result.cases)
-    if (const std::string changes = baseline.what_changed(result_case); !changes.empty())
+    if (const std::string changes = baseline.changes_of(result_case); !changes.empty())
       names[changes].push_back(result_case.name);
   for (const auto& [changes, changed_cases] : names)
     findings.warnings.push_back("changed since " + baseline.name() + " (" + number_of(changed_cases.size(), "case") +

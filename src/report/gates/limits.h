@@ -1,5 +1,5 @@
 #pragma once
-// A result held against its budgets: `limits.fail_if` of its configuration.
+// Checks a result against its budgets: `limits.fail_if` of its configuration.
 
 #include <optional>
 #include <span>
@@ -13,15 +13,15 @@ namespace clusterbench::report {
 
 class BaselineCases;
 
-// Lines with case, figure and, where they are known, frame and cell.
+// Lines with case, figure and, if known, frame and cell.
 struct LimitFindings {
-  std::vector<std::string> broken;     // also a budget that could not be checked: about what no case has
+  std::vector<std::string> broken;     // includes budgets that could not be checked because no case has the figure
   std::vector<std::string> near;       // less than 10 % away
-  std::vector<std::string> unchecked;  // budgets of all cases, about what some do not have
-  std::vector<std::string> warnings;   // what else has to be known before a budget that holds is believed
-  std::size_t checked = 0;             // how often a budget was held against a case
+  std::vector<std::string> unchecked;  // budgets for all cases, with a figure that some cases do not have
+  std::vector<std::string> warnings;   // reasons to doubt budgets that hold
+  std::size_t checked = 0;             // number of checks of a budget for a case
 };
-// `baseline`: what relative budgets are held against; null: there is none, and they fail.
+// `baseline`: the baseline of relative budgets; null: none, and they fail.
 LimitFindings limit_findings(const result::Result& result, std::span<const config::LimitRule> rules,
                              const BaselineCases* baseline = nullptr);
 

@@ -32,7 +32,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int k_history_version = 1;
 
-// A run has one.
+// A run has one counter.
 std::string counter_of(const result::Result& result) {
   for (const result::Case& result_case : result.cases)
     if (result_case.count) return result_case.count->source;
@@ -101,7 +101,7 @@ std::string text_in(const Json& object, const std::string& pointer, const std::s
   return checked(text, pointer + "/" + key, text.is_string(), "a text").get<std::string>();
 }
 
-// Lines of older versions lack some.
+// Lines of older versions may not have the key.
 std::string text_or_none(const Json& object, const std::string& pointer, const std::string& key) {
   return object.contains(key) ? text_in(object, pointer, key) : "";
 }
@@ -178,7 +178,7 @@ std::vector<HistoryEntry> parsed_file(const std::string& path, const std::string
   return history;
 }
 
-// A pipe or a device is no history: what is added later would have nothing to be added to.
+// Rejects a pipe or a device: later results could not be added to it.
 fs::path history_path(const std::string& path) {
   const os::OutputTarget target = os::output_target(path);
   if (target.is_stream) throw Error(path, "", "is no regular file; a history is one");
@@ -191,7 +191,7 @@ const Figure* exported_figure(const std::string& name) {
   return nullptr;
 }
 
-// Whose figures are one series: times of another machine, or instructions that another counter counted, are not.
+// Figures of one origin form a series: times need the same machine, instructions the same counter.
 std::string origin(const HistoryEntry& entry, const Figure& figure) {
   switch (figure.basis) {
     case Basis::time:
@@ -205,7 +205,7 @@ std::string origin(const HistoryEntry& entry, const Figure& figure) {
   return "";
 }
 
-// What counting leaves open: hardware counts interrupts, too; even valgrind's depend a little on where memory lies.
+// Noise of counts: hardware counters include interrupts; even valgrind's counts depend slightly on addresses.
 double counting_noise(const Series& series) {
   if (series.figure->basis != Basis::instructions) return 0.0;
   return series.machine.ends_with(", callgrind") ? 0.001 : 0.01;
@@ -237,8 +237,8 @@ bool has_one_of(const HistoryEntry& entry, const std::vector<SceneLights>& scene
                              [&](const SceneLights& scene) { return lights_of_scene(entry, scene.scene) != nullptr; });
 }
 
-// Scenes that a result of another commit had beside those of `entry`, and no result of this commit has: what is not
-// there cannot become worse. A job that adds a result for each level has one scene in each, and misses none.
+// Scenes that a result of another commit has beside those of `entry`, and no result of this commit has: a missing scene
+// cannot become worse. A job that adds one result per level has one scene in each, and misses none.
 std::vector<std::string> missing_scenes(std::span<const HistoryEntry> before, std::span<const HistoryEntry> all,
                                         const HistoryEntry& entry) {
   const auto is_earlier = [&](const HistoryEntry& other) {
@@ -257,7 +257,7 @@ std::vector<std::string> missing_scenes(std::span<const HistoryEntry> before, st
   return lines;
 }
 
-// What `entry` has changed against the last results of each of its scenes before it.
+// Changes of lights by `entry`, compared with the last results of each of its scenes before it.
 std::vector<std::string> changed_lights(std::span<const HistoryEntry> before, const HistoryEntry& entry) {
   std::vector<std::string> lines;
   for (const SceneLights& now : entry.scenes)
@@ -277,7 +277,7 @@ const CameraPath* path_in(const HistoryEntry& entry, const std::string& scene, c
   return found == entry.cases.end() ? nullptr : &found->path;
 }
 
-// What `entry` has changed against the last results of each of its cameras before it.
+// Changes of paths by `entry`, compared with the last results of each of its cameras before it.
 std::vector<std::string> changed_paths(std::span<const HistoryEntry> before, const HistoryEntry& entry) {
   std::vector<std::string> lines;
   for (const HistoryEntry::Case& now : entry.cases) {
@@ -293,8 +293,8 @@ std::vector<std::string> changed_paths(std::span<const HistoryEntry> before, con
   return lines;
 }
 
-// Whether what a change lies between has the same lights or camera path, as far as is known: of what is counted the two
-// results beside it, of times, whose changes are found by many results, all up to the neighbouring changes.
+// Whether the results around a change have the same lights or camera path, if known. For counts these are the two
+// results beside it; for times, whose changes are detected from many results, all up to the neighbouring changes.
 enum class Around { same, others, unknown };
 Around digests_around(const Series& series, const std::vector<std::string>& all, const measure::ChangePoint& change) {
   const bool is_counted = change.p == 0.0;
@@ -305,11 +305,11 @@ Around digests_around(const Series& series, const std::vector<std::string>& all,
   }
   const std::set<std::string> digests(all.begin() + static_cast<std::ptrdiff_t>(begin),
                                       all.begin() + static_cast<std::ptrdiff_t>(end));
-  if (digests.size() <= 1) return Around::same;  // or none is known: lines of an older version
+  if (digests.size() <= 1) return Around::same;  // or all are unknown: lines of an older version
   return digests.contains("") ? Around::unknown : Around::others;
 }
 
-// "all 140,258", "140,258 to 151,000"; of what is counted also how far values between these went.
+// "all 140,258", "140,258 to 151,000"; for counts also the range of the values in between.
 std::string values_text(const Series& series) {
   const std::vector<double>& values = series.values;
   const bool is_steady = std::ranges::all_of(values, [&](double value) { return value == values.front(); });
@@ -379,7 +379,7 @@ Addition add_to_history(const std::string& path, const result::Result& result, c
           return lights_of_scene(entry, scene.scene) != nullptr;
         }))
       addition.new_scenes.push_back(scene.scene);
-  for (const HistoryEntry& entry : history) {  // a line each
+  for (const HistoryEntry& entry : history) {  // one line each
     const std::size_t end = text.find('\n', begin) + 1;
     if (entry.commit == commit) {
       ++addition.earlier;
@@ -396,10 +396,10 @@ Addition add_to_history(const std::string& path, const result::Result& result, c
 std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const measure::ChangeRule& rule) {
   std::vector<Series> all;
   std::map<std::tuple<std::string, std::ptrdiff_t, const Figure*, std::string>, std::size_t> index_of;
-  std::map<std::string, std::vector<std::string>> settings_of;  // by name, in the order in which they came
+  std::map<std::string, std::vector<std::string>> settings_of;  // by name, in the order of appearance
   for (const HistoryEntry& entry : history)
     for (const HistoryEntry::Case& history_case : entry.cases) {
-      // Lines that do not tell the settings are taken to have those of their neighbours.
+      // Lines without settings are assumed to have those of their neighbours.
       std::vector<std::string>& known = settings_of[history_case.name];
       if (!known.empty() && known.back().empty())
         known.back() = history_case.settings;
@@ -410,7 +410,7 @@ std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const me
       const auto version = at - known.begin();
       for (const auto& [name, value] : history_case.figures) {
         const Figure* figure = exported_figure(name);
-        if (figure == nullptr || figure->basis == Basis::derived) continue;  // of an older version
+        if (figure == nullptr || figure->basis == Basis::derived) continue;  // in lines of an older version
         const std::string from = origin(entry, *figure);
         const auto [found, is_new] = index_of.try_emplace({history_case.name, version, figure, from}, all.size());
         if (is_new)

@@ -1,5 +1,5 @@
 #pragma once
-// The history as one page for a browser: a chart per series, drawn as those of reports are.
+// The history as one HTML page: a chart per series, drawn as in reports.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace clusterbench::report {
 
-// Charts for the series that vary; the others are counted. Throws Error if this build has no pages.
+// Charts for series that vary; the number of the others. Throws Error if this build has no pages.
 std::string history_page(const std::vector<Series>& series, std::size_t entries,
                          const std::vector<std::string>& light_changes = {});
 

@@ -20,7 +20,7 @@ void replace_all(std::string& text, std::string_view found, std::string_view rep
 
 }  // namespace
 
-// "<" stands in no JSON but in strings; U+2028 and U+2029 end lines in scripts.
+// JSON has "<" only in strings; U+2028 and U+2029 end lines in scripts.
 std::string script_json(const Json& value) {
   std::string text = value.dump();
   replace_all(text, "<", "\\u003c");

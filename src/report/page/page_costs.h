@@ -1,5 +1,5 @@
 #pragma once
-// What frames cost, for the page: by this conclusions choose.
+// The cost of frames for the page, by which conclusions choose.
 
 #include <nlohmann/json.hpp>
 
@@ -7,9 +7,9 @@
 
 namespace clusterbench::report {
 
-// [{"id", "ns", "gpu_ns"}] of the cases of a result: making their lists (where that was timed) and what the GPU does,
-// by the model of config.cost. None of cases that lose lights, whose picture is another one, of presets that were timed
-// though their engines make lists on the GPU, and without a model or samples.
+// [{"id", "ns", "gpu_ns"}] for the cases of a result: the time to make their lists (if timed) and the GPU's cost, by
+// the model of config.cost. Without cases that lose lights, whose picture differs, and presets that were timed although
+// their engines make lists on the GPU. Empty without a model or samples.
 nlohmann::ordered_json page_costs(const result::Result& result);
 
 }  // namespace clusterbench::report

@@ -37,7 +37,7 @@ std::set<std::string> case_ids_of(const std::vector<NamedResult>& results) {
   return ids;
 }
 
-// A page may be passed on: only pictures of the folder go into it.
+// A page may be published: it includes only pictures of the folder.
 std::string picture_in(const fs::path& folder, const fs::path& index, const std::string& file) {
   const fs::path path = fs::path(file).lexically_normal();
   if (path.is_absolute() || path.empty() || *path.begin() == "..")

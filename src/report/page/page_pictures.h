@@ -1,5 +1,5 @@
 #pragma once
-// Pictures that `clusterbench run --images` has made, for the page.
+// Pictures made by `clusterbench run --images`, for the page.
 
 #include <filesystem>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace clusterbench::report {
 
-// Those of the folder's index (pictures.json) that show cases of these results. Throws Error where there is no index,
-// or a picture of it cannot be read, or all together are too large for a page.
+// The pictures of the folder's index (pictures.json) that show cases of these results. Throws Error if there is no
+// index, if a picture cannot be read, or if all together are too large for a page.
 std::vector<PagePicture> page_pictures(const std::filesystem::path& folder, const std::vector<NamedResult>& results);
 
 }  // namespace clusterbench::report

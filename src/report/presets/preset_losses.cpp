@@ -11,7 +11,7 @@ namespace {
 
 using result::SampleSet;
 
-// Whether no light reaches a point in view beyond its cells, in any frame; of points beside the view nothing is known.
+// Whether no light reaches a point in view outside of its cells, in any frame; unknown for points outside of the view.
 bool is_unlit_beyond_cells(const result::Case& result_case) {
   const auto is_beside_view = [](const auto& set) { return set.first == "mirror" || set.first == "anywhere"; };
   const bool is_in_view = !result_case.cost || std::ranges::none_of(result_case.cost->sets, is_beside_view);

@@ -24,7 +24,7 @@ namespace {
 using result::Case;
 using result::number;
 
-// Cases that see the same.
+// Cases of one scene, camera and viewport.
 struct View {
   std::string scene, camera;
   result::Counts2 viewport;
@@ -36,8 +36,8 @@ View view_of(const Case& result_case) {
   return {result_case.scene, result_case.camera, result_case.viewport};
 }
 
-// One threshold for whatever lights are lost by: samples that lack more are not the same picture. Samples that need few
-// lights can show that some are lacking, and not that none is.
+// One threshold for all causes of lost lights: above it, samples do not show the same picture. Samples that need few
+// lights can prove a loss, but not the absence of one.
 PresetStanding standing_of(const RankedPreset& row) {
   if (!row.unseen.empty() || !row.losses.unlit || !row.frame) return PresetStanding::unknown;
   if (*row.losses.unlit > measure::k_most_unlit) return PresetStanding::lacks_lights;
@@ -52,7 +52,7 @@ bool is_better(const RankedPreset& a, const RankedPreset& b) {
   return a.gpu_ns() < b.gpu_ns();
 }
 
-// Behind those of its part that are known to be better.
+// Places within each part: one more than the number of rows that are better for certain.
 void give_places(std::vector<RankedPreset>& rows) {
   std::size_t part = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -114,7 +114,7 @@ result::PresetRanking ranking_of(const View& view, const std::vector<RankedPrese
   if (const auto& lights = any_case.lights_in_view)
     out.lights_in_view = result::RankedLights{lights->mean, static_cast<double>(lights->max)};
   std::vector<std::string>& alike = out.alike.emplace();
-  for (const RankedPreset* row : taken_presets(rows)) alike.push_back(row->result_case->id);
+  for (const RankedPreset* row : recommended_presets(rows)) alike.push_back(row->result_case->id);
   if (!alike.empty()) out.best = alike.front();
   out.text = preset_conclusion(rows);
   const RankedPreset* first = &rows.front();
@@ -125,7 +125,7 @@ result::PresetRanking ranking_of(const View& view, const std::vector<RankedPrese
   return out;
 }
 
-// Of older results: none had places.
+// Older results have no places.
 std::string place_text(const result::RankedPreset& line) {
   if (!line.place) return "";
   std::string place = line.place->has_value() ? std::to_string(**line.place) : "-";
@@ -133,14 +133,14 @@ std::string place_text(const result::RankedPreset& line) {
   return line.standing == name_of(PresetStanding::searched) ? "s" + place : "-";
 }
 
-// Of an engine that assigns on a GPU the time here is none of its own; older results have it.
+// If an engine assigns on a GPU, the time here is not its own; older results have one.
 std::string assign_text(const Case& result_case) {
   const config::Preset* preset = config::find_preset(result_case.preset.value_or(""));
   if (preset != nullptr && preset->assigns_on_gpu()) return "gpu";
   return text_of(number<&Case::timing, &result::Timing::assign_ns, &result::Time::median>(result_case), "%.1f", 1e-3);
 }
 
-// Null where there is none.
+// Null if unknown.
 const Case* case_of(const std::string& id, const std::vector<Case>& cases) {
   const auto found = std::ranges::find(cases, id, &Case::id);
   return found == cases.end() ? nullptr : &*found;

@@ -42,7 +42,7 @@ std::string milliseconds(double ns) {
   return text("%.3g ms", ns / 1e6);
 }
 
-// What a full storage of the preset has too little of.
+// The reason why entries do not fit into the preset's storage.
 std::string shortage(const RankedPreset& row) {
   const config::Preset* preset = preset_of(row);
   if (preset == nullptr) return "";
@@ -56,7 +56,7 @@ std::string lost_pairs_text(std::uint64_t lost, const PresetLosses& losses) {
   return number_of(lost, "pair") + " of " + std::to_string(losses.true_pairs);
 }
 
-// A method that itself leaves out what is too much for a cell does not tell that from what its test misses.
+// A method that itself limits lights per cell does not distinguish these losses from those of its test.
 std::string full_cells(const Case& result_case) {
   const auto most = number_at(result_case.assigner.params, "/most");
   const auto longest =
@@ -65,7 +65,7 @@ std::string full_cells(const Case& result_case) {
   return ", or cells are full (room for " + number_of(static_cast<std::uint64_t>(*most), "light") + " per cell)";
 }
 
-// Of tiles that react and whose lists do not fit even so: the engine has room for them with storage buffers alone.
+// For tiles that react but whose lists still do not fit: the engine has room for them only with storage buffers.
 std::string room_text(const RankedPreset& row) {
   const auto& react = row.result_case->react;
   if (!react || react->frames.over == 0 || react->to != "entries") return "";
@@ -75,7 +75,7 @@ std::string room_text(const RankedPreset& row) {
          (react->frames.over == 1 ? " does not fit, and lacks lights" : " do not fit, and lack lights");
 }
 
-// What to know of the preset before it is taken: "the fallback on the CPU, ..."; "" where nothing is known.
+// The preset's limitations, for users: "the fallback on the CPU, ..."; "" if none are known.
 std::string remark_of(const RankedPreset& row) {
   const config::Preset* preset = preset_of(row);
   std::vector<std::string> remarks;
@@ -85,13 +85,13 @@ std::string remark_of(const RankedPreset& row) {
   return joined(remarks, "; ");
 }
 
-// Nobody has looked into the engine for it: no reason to take one engine over another.
+// The engine's source was not checked for this preset: no reason to prefer one engine to another.
 bool is_from_memory(const RankedPreset& row) {
   const config::Preset* preset = preset_of(row);
   return preset != nullptr && preset->is_from_memory();
 }
 
-// What the note on its grid says of where slices end.
+// Whether the note on its grid, on the end of slices, contains the words.
 bool has_note(const RankedPreset& row, const char* words) {
   const auto& note = row.result_case->grid.note;
   return note && note->find(words) != std::string::npos;
@@ -102,8 +102,8 @@ bool has_slices_without_camera_far(const RankedPreset& row) {
   return slices && slices->boundaries.size() > 2 && has_note(row, run::k_no_far_plane);
 }
 
-// Of cameras without a far plane: where slices end that follow it in the engine, and how to give it. "" where costs do
-// not depend on that.
+// For cameras without a far plane: the end of slices that follow it in the engine, and how to set it. "" if costs do
+// not depend on it.
 std::string far_text(const std::vector<RankedPreset>& rows) {
   std::vector<std::string> by_engine, by_lights;
   for (const RankedPreset& row : rows) {
@@ -119,7 +119,7 @@ std::string far_text(const std::vector<RankedPreset>& rows) {
   return out + "; --set 'scenes.*.far=METRES' gives cameras that of your game";
 }
 
-// What is lost to a limit of lights; "" where nothing in view is.
+// Losses to a limit of lights; "" if no light in view is lost.
 std::string limit_loss(const RankedPreset& row) {
   std::string out;
   for (const result::Warning& warning : row.result_case->warnings)
@@ -128,7 +128,7 @@ std::string limit_loss(const RankedPreset& row) {
   return out + (out.empty() ? "" : "; ") + "the limit removes " + lost_pairs_text(row.losses.by_limit, row.losses);
 }
 
-// Lights and pairs that are not listed, for each cause; whether samples lack them is told beside.
+// Lights and pairs missing in the lists, by cause; visibility at samples is reported separately.
 std::vector<std::string> loss_texts(const RankedPreset& row) {
   const Case& result_case = *row.result_case;
   std::vector<std::string> ways;
@@ -159,12 +159,12 @@ std::string samples_words(const RankedPreset& row) {
   return "samples (" + result::words_of_sets(ranking_set_names(*row.result_case)) + ")";
 }
 
-// Of the samples by which presets are ranked.
+// Whether there are samples that rank presets.
 bool has_samples(const RankedPreset& row) {
   return sum_at_samples(*row.result_case, number<&SampleSet::samples>) > 0.0;
 }
 
-// Where samples do not tell whether what is lost is seen.
+// For cases whose samples cannot show whether a loss is visible.
 std::string undecided_loss(const RankedPreset& row) {
   if (!has_samples(row))
     return "no sample was taken, so what it loses is counted in pairs of a cell and a light, and not in what is seen";
@@ -182,7 +182,7 @@ std::string undecided_loss(const RankedPreset& row) {
   return row.losses.is_compared ? out : out + ", and its lists were not compared with the truth";
 }
 
-// What is lost, and whether it is seen.
+// The losses, and whether they are visible.
 std::string light_text(const RankedPreset& row) {
   const std::vector<std::string> ways = loss_texts(row);
   const std::string causes = ways.empty() ? "" : ": " + joined(ways, "; ");
@@ -194,7 +194,7 @@ std::string light_text(const RankedPreset& row) {
          (room.empty() ? "" : (ways.empty() ? " " : "; ") + room);
 }
 
-// Without what it costs beside others.
+// Lights per sample, reads and upload, without cost.
 std::string load_text(const RankedPreset& row) {
   const Case& result_case = *row.result_case;
   std::string out;
@@ -210,7 +210,7 @@ std::string load_text(const RankedPreset& row) {
   return out + (out.empty() || !upload ? "" : ", ") + (upload ? read_size_text(*upload) + " uploaded a frame" : "");
 }
 
-// How sure one can be that the engine does as much.
+// The confidence that the preset does the same as the engine.
 std::string evidence_text(const RankedPreset& row) {
   const config::Preset* preset = preset_of(row);
   if (preset == nullptr) return "of another version of this program";
@@ -231,7 +231,7 @@ std::vector<const RankedPreset*> of_standing(const std::vector<RankedPreset>& ro
   return out;
 }
 
-// Why costs that differ are no reason to choose.
+// Why a difference in cost is no reason to choose.
 std::string alike_text(const std::vector<const RankedPreset*>& alike) {
   const double least = alike.front()->gpu_ns(), most = alike.back()->gpu_ns();
   const std::string costs = " (" + milliseconds(least) + " to " + milliseconds(most) + " of the GPU a frame)";
@@ -249,7 +249,7 @@ std::string or_text(const std::vector<const RankedPreset*>& rows) {
   return out;
 }
 
-// The first of those that lack lights, and those that lack as many.
+// The first of those that miss lights, and those that miss the same share.
 std::vector<const RankedPreset*> lacking_least(const std::vector<const RankedPreset*>& lacking) {
   std::vector<const RankedPreset*> least;
   for (const RankedPreset* row : lacking)
@@ -257,7 +257,7 @@ std::vector<const RankedPreset*> lacking_least(const std::vector<const RankedPre
   return least;
 }
 
-// What is lost by a preset that may be taken all the same; "" where nothing is.
+// The losses of a preset that is nevertheless recommended; "" without losses.
 std::string own_loss_text(const RankedPreset& row) {
   std::vector<std::string> losses;
   if (row.losses.unlit.value_or(0.0) > 0.0)
@@ -268,10 +268,10 @@ std::string own_loss_text(const RankedPreset& row) {
   return losses.empty() ? "" : "; " + name(row) + ": " + joined(losses, "; ");
 }
 
-// Of presets with one standing, each the cheapest first. Those from memory alone are taken only where all are.
+// Presets of one standing, each list by increasing cost. Presets modelled from memory are recommended only if all are.
 struct PresetChoice {
-  std::vector<const RankedPreset*> taken;   // of which the model cannot tell the first one
-  std::vector<const RankedPreset*> others;  // that cost more
+  std::vector<const RankedPreset*> recommended;  // the cheapest, and those that the model cannot distinguish from it
+  std::vector<const RankedPreset*> others;       // more expensive ones
   std::vector<const RankedPreset*> guessed;
 };
 
@@ -282,12 +282,12 @@ PresetChoice choose(const std::vector<const RankedPreset*>& rows) {
   if (known.empty()) std::swap(known, choice.guessed);
   for (const RankedPreset* row : known) {
     const bool is_alike = row == known.front() || are_alike(known.front()->frame->cost, row->frame->cost);
-    (is_alike ? choice.taken : choice.others).push_back(row);
+    (is_alike ? choice.recommended : choice.others).push_back(row);
   }
   return choice;
 }
 
-// What to take and by how much. `of`: what there is of such presets, for "no other".
+// The recommendation with the cost difference. `of`: attribute of these presets, for "no other".
 std::string choice_text(const PresetChoice& choice, const std::string& of) {
   const auto& [alike, others, guessed] = choice;
   const RankedPreset& first = *alike.front();
@@ -311,7 +311,7 @@ std::string choice_text(const PresetChoice& choice, const std::string& of) {
   return out;
 }
 
-// How samples come to need enough lights: those of the whole view by more points, surfaces by more rays.
+// How to get samples that need enough lights: more points in the whole view, or more rays for surfaces.
 std::string remedy(const RankedPreset& row) {
   const std::vector<const SampleSet*> sets = ranking_samples(*row.result_case);
   if (sets.empty()) return "--set shading.samples=1024 takes samples";
@@ -328,7 +328,7 @@ std::string remedy(const RankedPreset& row) {
   return text("--set samples.opaque.divisor=%.0f", std::max(1.0, std::floor(edge / std::sqrt(more)))) + " takes more";
 }
 
-// Of samples that need few lights: what they leave open, and how to close it. "" where they need enough.
+// The uncertainty due to samples that need few lights, and the remedy. "" if they need enough.
 std::string doubt_text(const std::vector<RankedPreset>& rows) {
   const RankedPreset& first = rows.front();
   if (!first.unseen.empty()) {
@@ -377,9 +377,9 @@ std::string preset_reason(const RankedPreset& row, const RankedPreset& first) {
   return out + ": " + load_text(row) + " (" + evidence_text(row) + (remark.empty() ? "" : "; " + remark) + ")";
 }
 
-std::vector<const RankedPreset*> taken_presets(const std::vector<RankedPreset>& rows) {
+std::vector<const RankedPreset*> recommended_presets(const std::vector<RankedPreset>& rows) {
   const std::vector<const RankedPreset*> lists = of_standing(rows, PresetStanding::lists);
-  return lists.empty() ? lists : choose(lists).taken;
+  return lists.empty() ? lists : choose(lists).recommended;
 }
 
 std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
@@ -402,7 +402,7 @@ std::string preset_conclusion(const std::vector<RankedPreset>& rows) {
            percent(*lacking.front()->losses.unlit) + " of those that they need" + (doubt.empty() ? "" : "; " + doubt);
   else
     return "which preset suits is not known" + (doubt.empty() ? "" : ": " + doubt);
-  const RankedPreset& first = *choose(lists.empty() ? searched : lists).taken.front();
+  const RankedPreset& first = *choose(lists.empty() ? searched : lists).recommended.front();
   if (!lists.empty() && !searched.empty())
     out += "; apart, since no GPU has measured what samples search: " + names_text(searched) + ", from " +
            milliseconds(searched.front()->gpu_ns()) + " by the model";

@@ -12,32 +12,32 @@
 
 namespace clusterbench::report {
 
-// Whether the model cannot tell two costs apart: they are nearly the same, or which is less turns with the prices.
+// Whether the model cannot distinguish two costs: they are nearly equal, or their order depends on the prices.
 bool are_alike(const measure::FrameCost& less, const measure::FrameCost& more);
 
-// In which part of a ranking a case stands, best first.
+// The part of a ranking that a case belongs to, best first.
 enum class PresetStanding : std::uint8_t { lists, searched, lacks_lights, unknown };
 const char* name_of(PresetStanding standing);  // "lists", "searched", "lacks_lights", "unknown"
 
 struct RankedPreset {
   const result::Case* result_case = nullptr;
   PresetStanding standing = PresetStanding::unknown;
-  std::optional<WholeFrame> frame;  // what it costs the GPU; none without samples
+  std::optional<WholeFrame> frame;  // its GPU cost; none without samples
   PresetLosses losses;
   double gpu_ns() const { return frame ? frame->cost.gpu_ns() : 0.0; }
-  int place = 0;  // in its part, from 1; those that the model cannot tell apart share the first one's
-  const nlohmann::ordered_json* config = nullptr;  // that the case was measured by
-  std::string unseen{};                            // why nothing is seen by which it could be ranked; "": something is
+  int place = 0;  // in its part, from 1; rows that the model cannot distinguish share the first one's
+  const nlohmann::ordered_json* config = nullptr;  // of the run that measured the case
+  std::string unseen{};                            // why it sees no light that could rank it; "": it sees one
 };
 
-// The lists' rows that a conclusion takes, the cheapest first: those of the first place, but that what is known from
-// memory alone is taken only where all is.
-std::vector<const RankedPreset*> taken_presets(const std::vector<RankedPreset>& rows);
+// The list rows that a conclusion recommends, by increasing cost: those in first place. Presets modelled from memory
+// are recommended only if all are.
+std::vector<const RankedPreset*> recommended_presets(const std::vector<RankedPreset>& rows);
 
-// What speaks for and against a case. `first`: of its part.
+// Reasons for and against a case. `first`: of its part.
 std::string preset_reason(const RankedPreset& row, const RankedPreset& first);
 
-// What to take, against what, by how much, and how sure that is. All rows of one view, best first.
+// The recommendation: alternatives, cost difference, confidence. `rows`: all of one view, best first.
 std::string preset_conclusion(const std::vector<RankedPreset>& rows);
 
 }  // namespace clusterbench::report

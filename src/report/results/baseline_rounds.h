@@ -1,5 +1,5 @@
 #pragma once
-// What rounds beside another program (run --baseline-binary) add to a result.
+// Adds the rounds of another program (run --baseline-binary) to a result.
 
 #include <map>
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace clusterbench::report {
 
-// The result gets `baseline`, each measured case `timing.baseline`. `tool`: what the other program says of itself, as
-// in a result.
+// Adds `baseline` to the result, and `timing.baseline` to each measured case. `tool`: the other program's description
+// of itself, as in a result.
 void add_baseline(result::Result& result, const result::Tool& tool,
                   const std::map<std::string, run::PairedCase>& measured);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A result of some of its cases.
+// A result with a part of its cases.
 
 #include <string>
 
@@ -7,7 +7,8 @@
 
 namespace clusterbench::report {
 
-// As keep_cases() of case_filter.h, with the Pareto front, presets' ranks and conclusions of those that are left.
+// Like keep_cases() of case_filter.h; recomputes the Pareto front, presets' ranks and conclusions for the remaining
+// cases.
 void keep_cases_and_conclude(result::Result& result, const std::string& filter, const std::string& path);
 
 }  // namespace clusterbench::report

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What cases in one result were judged by.
+// Parts of a configuration that must be equal for all cases of a result.
 constexpr const char* k_in_common[] = {"allocation", "cost", "rank_by"};
 
 bool is_measured(const result::Result& result) {
@@ -40,15 +40,15 @@ void check_origin(const NamedPart& first, const NamedPart& next) {
   if (!are_same(without_state(first.result.machine), without_state(next.result.machine))) refuse("/machine");
 }
 
-// Appends to `all` what it has not yet; `key`, which is called `key_name`, tells two things apart, `where` names their
-// list.
+// Appends items to `all` that it does not contain yet. `key` identifies an item, `key_name` is its name in messages,
+// and `where` that of the list.
 template <class Item>
 class Union {
  public:
   Union(std::vector<Item>& all, const char* where, std::string Item::*key, const char* key_name)
       : all_(all), where_(where), key_(key), key_name_(key_name) {}
 
-  // `may_repeat`: the same thing again is passed over.
+  // `may_repeat`: an equal item is skipped.
   void add(const Item& item, const std::string& file, bool may_repeat) {
     const std::string& name = item.*key_;
     const auto [earlier, is_new] = seen_.try_emplace(name, Place{all_.size(), file});

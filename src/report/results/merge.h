@@ -1,5 +1,5 @@
 #pragma once
-// Several results as one: shards of a configuration, several configurations, counts of several machines.
+// Merges several results: shards of a configuration, several configurations, counts of several machines.
 
 #include <string>
 #include <vector>
@@ -13,10 +13,10 @@ struct NamedPart {
   result::Result result;
 };
 
-// All cases in order of the parts; scenes once; fronts anew. `tool` and `machine` are the first part's, the
+// All cases in order of the parts; scenes once; fronts are recomputed. `tool` and `machine` are the first part's, the
 // configuration is theirs if all have the same, else {"allocation", "merged": [all of them]}. Throws Error that names
 // both files for a case that two parts have, for two scenes of one name, for different allocation rules, and for times
-// or instructions of different programs or machines: what is counted exactly needs no machine.
+// or instructions of different programs or machines; exact counts do not depend on the machine.
 result::Result merged(const std::vector<NamedPart>& parts);
 
 }  // namespace clusterbench::report

@@ -24,7 +24,7 @@ using result::Case;
 using result::Occupancy;
 using result::Spread;
 
-// Pairs per frame against the same case in float32; null where there is none.
+// Pairs per frame relative to the same case in float32; null if there is none.
 void add_extra_pairs(std::vector<Case>& cases) {
   std::map<std::string, double> pairs;
   for (const Case& result_case : cases)

@@ -100,7 +100,7 @@ const stress::StressMethod& method_of(const stress::StressResult& result, const 
                        [&](const stress::StressMethod& method) { return method.label == label; });
 }
 
-// Columns of the matrix: a conservative assigner with all its choices is one, of others each choice is.
+// Columns of the matrix: all settings of a conservative assigner share one, each setting of the others has its own.
 std::string column_of(const stress::StressMethod& method) {
   return method.assigner->conservative ? method.assigner->name : method.label;
 }
@@ -269,7 +269,7 @@ std::vector<std::string> stress_failures(const stress::StressResult& result) {
       failures.push_back("H31 " + search.method + ": " + number_of(search.undecided, "light") +
                          " not listed, and undecided");
   if (result.random)
-    for (const stress::RandomFault& found : result.random->faults)  // what stays undecided is told, and nobody's fault
+    for (const stress::RandomFault& found : result.random->faults)  // undecided pairs are reported, but are no error
       if (found.fault.kind != stress::FaultKind::undecided) failures.push_back("random " + in_lines(found));
   return failures;
 }

@@ -30,7 +30,7 @@ const char* name_of(search::Ended ended) {
   return k_names[static_cast<int>(ended)];
 }
 
-// In the order in which the search numbers them.
+// In the search's order.
 std::vector<std::string> light_names(const scene::Scene& scene) {
   std::vector<std::string> names;
   for (const scene::Light& light : scene.lights)
@@ -152,7 +152,7 @@ std::string frames_text(const WorstCase& found, const WorstCaseFacts& facts) {
   return out;
 }
 
-// Whether what was searched for is less than a random frame has.
+// Whether the figure found is less than that of a random frame.
 bool is_random_one(const WorstCase& found) {
   return !found.stages.empty() && found.random.frames > 0 && found.random.max > found.stages.back().best;
 }

@@ -8,7 +8,7 @@
 
 namespace clusterbench::report {
 
-// What was searched, and where it is written.
+// The searched case, and the written files.
 struct WorstCaseFacts {
   const config::Config& config;
   const run::Plan& plan;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint64_t k_largest_count = std::numeric_limits<std::uint64_t>::max();
 
-// What does not fit into 64 bits is as much as does: a result that was changed by hand may say anything.
+// Saturates at 64 bits: a hand-edited result may contain any number.
 std::uint64_t times(std::uint64_t a, std::uint64_t b) {
   return b != 0 && a > k_largest_count / b ? k_largest_count : a * b;
 }
@@ -55,7 +55,7 @@ void allocate(SizedBuffer& buffer, std::uint64_t step, const AllocationRules& ru
       buffer.is_all() ? buffer.capacity : as_count(std::floor(static_cast<double>(buffer.capacity) * rules.warn_at));
 }
 
-// The value of so many frames.
+// A value, and the number of frames with it.
 struct Weighed {
   std::uint64_t value, frames;
 };
@@ -91,7 +91,7 @@ std::optional<FrameSpread> spread_of(const std::vector<PathNeed>& paths) {
   return spread;
 }
 
-// Into what the earlier cameras need.
+// Adds another camera's need to that of the earlier ones.
 void add(SizedBuffer& buffer, std::uint64_t& step, const CaseBuffer& next) {
   if (buffer.paths.empty() || next.high_water > buffer.high_water) {
     buffer.high_water = next.high_water;
@@ -108,7 +108,7 @@ void add(SizedBuffer& buffer, std::uint64_t& step, const CaseBuffer& next) {
   buffer.paths.push_back(next.path);
 }
 
-// Cameras of one frame, each with its cases in all viewports; a camera that shares no buffer is alone.
+// Cameras drawn in one frame, each with its cases in all viewports; a camera that shares no buffer is alone.
 using FrameCameras = std::vector<std::vector<const result::Case*>>;
 
 std::vector<FrameCameras> cameras_by_frame(const SizedStructure& structure) {
@@ -147,7 +147,7 @@ FrameGroup group_of(const FrameCameras& cameras, const CaseBuffer& needs) {
   return group;
 }
 
-// Of one viewport after the other the cameras together, and then the largest of them.
+// The cameras together, viewport by viewport, and then the largest viewport.
 std::vector<CaseBuffer> buffers_of_frame(const FrameCameras& cameras) {
   const std::size_t viewports = cameras.front().size();
   std::vector<std::vector<CaseBuffer>> by_buffer;
@@ -191,17 +191,17 @@ bool follows_surfaces(const result::Case& result_case) {
   return method != nullptr && (method->needs.depth || method->at_surfaces);
 }
 
-// Not where cells lie in the world and stay there: their lists hold the same lights whatever is in view.
+// False for cells at fixed places in the world: their lists hold the same lights for every view.
 bool follows_view(const result::Case& result_case) {
   return result_case.grid.kind != "world" || result_case.grid.follow;
 }
 
-// Where other frames can have more lights or cells than those that were counted, what is possible follows from these.
+// If other frames can have more lights or cells than the counted ones, these give the maximum.
 bool has_bound(const result::Case& result_case) {
   return !result_case.pre_cull && !result_case.react && !follows_surfaces(result_case);
 }
 
-// What searches with one camera found for a buffer.
+// The findings of the searches with one camera, for a buffer.
 struct CameraFind {
   std::string camera;
   std::uint64_t elements = 0, most = 0, step = 1;
@@ -210,7 +210,7 @@ struct CameraFind {
   std::uint64_t steps() const { return elements / step; }
 };
 
-// Cells of the searched case, in each of which the buffer has the same room; 1 of other buffers.
+// If the buffer has the same room in each cell: the number of cells of the searched case; else 1.
 std::uint64_t step_of(const FoundFrame& search, const std::string& buffer, const SizedStructure& structure) {
   for (const result::Case* result_case : structure.cases) {
     if (result_case->name != search.case_name) continue;
@@ -220,7 +220,7 @@ std::uint64_t step_of(const FoundFrame& search, const std::string& buffer, const
   return 1;
 }
 
-// The largest of each camera, in the order of the searches.
+// The largest finding of each camera, in the order of the searches.
 std::vector<CameraFind> finds_of(SizedBuffer& buffer, const SizedStructure& structure) {
   std::vector<CameraFind> finds;
   for (std::size_t search = 0; search < structure.searches.size(); ++search)
@@ -238,8 +238,8 @@ std::vector<CameraFind> finds_of(SizedBuffer& buffer, const SizedStructure& stru
   return finds;
 }
 
-// Of cameras in one frame each can be in its own worst place at the same time; one that was not searched, in one as bad
-// as the worst of the others. Where all cells have the same room, it is that of the longest list of all.
+// Cameras drawn in one frame can all be at their own worst places at the same time; one that was not searched counts as
+// the worst of the others. If all cells have the same room, it is that of the longest list of all.
 void add_finds(SizedBuffer& buffer, const std::vector<CameraFind>& finds, const std::vector<std::string>& cameras) {
   const auto is_of_group = [&](const CameraFind& find) {
     return std::ranges::find(cameras, find.camera) != cameras.end();
@@ -302,7 +302,7 @@ void size_buffers(SizedStructure& structure, const AllocationRules& rules) {
         std::ranges::any_of(structure.cases, [](const result::Case* one) { return follows_view(*one); });
     buffer.is_bounded = std::ranges::all_of(structure.cases, [](const result::Case* one) { return has_bound(*one); });
     buffer.spread = spread_of(buffer.paths);
-    // What is the same in all frames is as large as it is, whatever other frames hold.
+    // A need that is equal in all frames is exact for other frames, too.
     if (buffer.spread && buffer.spread->min == buffer.theoretical_max) buffer.is_bounded = true;
     buffer.growth = growth_of(buffer.paths);
     allocate(buffer, steps[i], rules);
@@ -321,8 +321,8 @@ std::vector<const result::Case*> matching_cases(const std::vector<result::Case>&
   return out;
 }
 
-// A case's name without its camera (and its viewport, where one allocation serves all), and of that the scene and the
-// grid. Names that are not made like that are taken as they are.
+// A case's name without its camera (and without its viewport, if one allocation serves all), and the scene and grid of
+// it. Names of another form stay unchanged.
 struct Names {
   std::string structure, group;
 };
@@ -338,7 +338,7 @@ std::array<int, 2> across_and_down(const result::Counts2& tiles) {
   return {static_cast<int>(tiles[0]), static_cast<int>(tiles[1])};
 }
 
-// As `run` tells it.
+// As `run` reports it.
 std::optional<GrownTiles> grown_in_result(const result::Case& result_case) {
   if (!result_case.react || result_case.react->to != "entries") return {};
   const result::Reaction& react = *result_case.react;
@@ -385,13 +385,13 @@ std::vector<std::string> cameras_in(const SizedStructure& structure, const std::
   return out;
 }
 
-// All but one of these cameras get their lights from that one's grid.
+// All cameras except the owner use the owner's grid.
 void share_grid(SizedStructure& structure, const std::vector<std::string>& cameras, const std::string& owner) {
   for (const std::string& camera : cameras)
     if (camera != owner) structure.guests.push_back(camera);
 }
 
-// The allocation is that of one camera's grid: a camera that no group names is drawn otherwise, and is none of it.
+// The allocation is for one camera's grid: a camera that no group names is drawn separately, and is left out.
 void leave_out_others(SizedStructure& structure, const std::vector<std::string>& groups) {
   std::set<std::string> named;
   for (const std::string& group : groups)
@@ -401,7 +401,7 @@ void leave_out_others(SizedStructure& structure, const std::vector<std::string>&
   std::erase_if(structure.cases, [&](const result::Case* one) { return !named.contains(one->camera); });
 }
 
-// How to name a camera whose name the list would be cut in.
+// How to name a camera whose name contains a comma.
 std::string comma_hint(const std::vector<std::string>& cameras) {
   for (const std::string& camera : cameras) {
     std::string pattern = camera;
@@ -412,7 +412,7 @@ std::string comma_hint(const std::vector<std::string>& cameras) {
   return "";
 }
 
-// Where two eyes are named that the scene does not have.
+// A hint for a group that names two eyes that the scene does not have.
 std::string eyes_hint(const std::string& group) {
   const std::vector<std::string> names = between_commas(group);
   const bool has_eye =
@@ -420,7 +420,7 @@ std::string eyes_hint(const std::string& group) {
   return has_eye ? "; `clusterbench scene views LEVEL --eyes 0.064 -o eyes.glb` adds left and right" : "";
 }
 
-// Each name between commas is a camera's of some scene.
+// Each name between commas must be a camera's of some scene.
 void check_view_names(const std::vector<SizedStructure>& structures, const std::string& group) {
   std::vector<std::string> known, unknown;
   for (const SizedStructure& structure : structures)
@@ -477,7 +477,7 @@ void set_taken(std::vector<SizedStructure>& structures, const result::Result& re
     }
 }
 
-// What its scene's lights are.
+// Sets the properties of its scene's lights.
 void set_lights(SizedStructure& structure, const result::Scene& scene) {
   const result::SceneLights& lights = scene.lights;
   structure.has_boxes = lights.box > 0;
@@ -560,7 +560,7 @@ std::vector<SizedStructure> sized_structures(const result::Result& result, const
   std::vector<SizedStructure> out;
   for (const result::Case* result_case : matching_cases(result.cases, filter)) {
     const Names names = names_of(*result_case, scope.over_viewports);
-    // The same camera again is another structure whose name is the same.
+    // The same camera again belongs to another structure with the same name.
     auto known = std::ranges::find_if(out, [&](const SizedStructure& sized) {
       return sized.name == names.structure && !has_camera(sized, *result_case);
     });

@@ -16,7 +16,7 @@ result::ChanceOfFrame chance_of(const measure::Chance& chance) {
   return {chance.estimate, {chance.ci95.low, chance.ci95.high}};
 }
 
-// What k_rare of the frames exceed; never more than there can be.
+// The capacity that k_rare of the frames exceed; at most the upper bound.
 measure::Tail::Capacity capacity_for_rare(const measure::Tail& tail, const SizedBuffer& buffer) {
   measure::Tail::Capacity rare = tail.capacity_for(k_rare);
   rare.estimate = std::min(rare.estimate, buffer.theoretical_max);
@@ -31,7 +31,7 @@ std::string chance_text(const measure::Chance& chance) {
   return "at most " + one_in_text(chance.ci95.high) + " frames (by the fit " + estimate + ")";
 }
 
-// Of cameras that stand still, as far as the buffer tells: that they say nothing of other views; "" of others.
+// For cameras that do not move, as seen from the buffer: a remark that other views are unknown; "" for others.
 std::string still_text(const SizedBuffer& buffer) {
   if (!buffer.depends_on_view || buffer.is_all() || buffer.paths.empty()) return "";
   std::uint64_t frames = 0;

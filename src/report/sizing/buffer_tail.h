@@ -11,18 +11,18 @@
 
 namespace clusterbench::report {
 
-// Over all cameras. None for a buffer that no frame can exceed, that every frame needs the same of, or without frames.
+// Over all cameras. None for a buffer that no frame can exceed, whose need is equal in all frames, or without frames.
 std::optional<measure::TailEstimate> tail_of(const SizedBuffer& buffer);
 
 // "indices: above 51398 in no frame, as far as the fit tells (at most 1 in 30000); 1 in 10^5 frames above 31000 (at
-// most 35000)", and what speaks against it; or "indices: no estimate: 7 of the 20 independent peaks it needs ...". ""
-// where there is no estimate.
+// most 35000)", and reasons to doubt it; or "indices: no estimate: 7 of the 20 independent peaks it needs ...". "" if
+// no estimate is necessary.
 std::string tail_text(const SizedBuffer& buffer);
 
 // None where there is no estimate; with a refusal alone where there can be none.
 std::optional<result::BeyondThePath> beyond_the_path(const SizedBuffer& buffer);
 
-// "1 in 30000", "1 in 10^7", "never" for 0. One digit, so that it does not look more certain than it is.
+// "1 in 30000", "1 in 10^7", "never" for 0. One digit, so that it does not look too precise.
 std::string one_in_text(double chance);
 
 }  // namespace clusterbench::report

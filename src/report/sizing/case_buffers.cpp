@@ -11,7 +11,7 @@
 namespace clusterbench::report {
 namespace {
 
-// A result that was changed by hand may say anything: what 64 bits do not hold is as much as they do.
+// Saturates at 64 bits: a hand-edited result may contain any number.
 std::uint64_t sum_of_counts(std::uint64_t a, std::uint64_t b) {
   return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max() : a + b;
 }
@@ -51,7 +51,7 @@ std::vector<CaseBuffer> buffers_of_earlier_version(const result::Case& result_ca
   return {indices, headers};
 }
 
-// How many entries the longest path has; 0 where others than those of one entry differ, or some are not known.
+// The number of entries of the paths with more than one; 0 if they differ, or some are unknown.
 std::size_t common_entries(const std::vector<CaseBuffer>& all) {
   std::size_t entries = 1;
   std::uint64_t per_entry = 0;
@@ -65,7 +65,7 @@ std::size_t common_entries(const std::vector<CaseBuffer>& all) {
   return entries;
 }
 
-// Of those whose frames differ, in words, why frames of one number cannot be added; "" where they can.
+// Why frames of the same index cannot be added, for cameras whose frames differ; "" if they can.
 std::string why_not_by_frame(const std::vector<CaseBuffer>& cameras) {
   std::vector<std::string> frames, spans;
   for (const CaseBuffer& one : cameras) {
@@ -86,7 +86,7 @@ std::uint64_t need_at(const CaseBuffer& one, std::size_t entry) {
   return one.path.is_same_in_all_frames() ? one.path.elements.front() : one.path.elements[entry];
 }
 
-// What these cameras need in one frame, of which each needs `needs`.
+// The need of these cameras in one frame, where camera i needs needs[i].
 std::uint64_t together(const std::vector<CaseBuffer>& cameras, const std::vector<std::uint64_t>& needs) {
   const bool has_room_per_cell = std::ranges::any_of(cameras, [](const CaseBuffer& one) { return one.step > 1; });
   std::uint64_t sum = 0, cells = 0, longest = 0;

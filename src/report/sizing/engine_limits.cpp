@@ -25,7 +25,7 @@ constexpr Constant k_constants[] = {
     {"stride", "its lists grow"},
 };
 
-// Lists of frames in which a limit took lights away are shorter than those that the lights need.
+// If a limit removed lights, the lists of those frames are shorter than the lights need.
 bool has_lists_behind_limit(const Case& result_case) {
   const auto takes_lights = [](const result::PreCullStep& step) {
     return step.label.starts_with("most(") &&
@@ -40,8 +40,8 @@ std::optional<double> most_of_any_type(const Case& result_case) {
   return static_cast<double>(std::max({most.point, most.spot, most.box}));
 }
 
-// With room for all: where a pool is full, what it would need. Where tiles have grown for want of room: in the tiles
-// that were asked for, before they did.
+// With room for all: if a pool is full, its need. If tiles grew because lists were full: in the requested tiles, before
+// they grew.
 std::optional<double> entries_in(const Case& result_case) {
   if (result_case.react)
     return number<&Case::react, &result::Reaction::fixed, &result::FitSide::index_entries>(result_case);
@@ -78,7 +78,7 @@ std::optional<double> seen_in_case(const Case& result_case, Needed needed) {
   return entries_in(result_case);
 }
 
-// The most that was seen of it, over all cameras; none where the result does not say.
+// The maximum over all cameras; none if the result does not record it.
 std::optional<std::uint64_t> most_seen(const SizedStructure& structure, Needed needed) {
   std::uint64_t most = 0;
   for (const Case* result_case : structure.cases) {
@@ -89,8 +89,8 @@ std::optional<std::uint64_t> most_seen(const SizedStructure& structure, Needed n
   return most;
 }
 
-// Of the level: no list and no view has more; of one type where a setting is of that. Lights that a search adds can be
-// of any.
+// Upper bound by the level: no list and no view has more; of one type if the setting is for one. Lights added by a
+// search can be of any type.
 std::optional<std::uint64_t> most_lights(const SizedStructure& structure, Needed needed) {
   std::uint64_t most = 0;
   for (const Case* result_case : structure.cases) {
@@ -104,7 +104,7 @@ std::optional<std::uint64_t> most_lights(const SizedStructure& structure, Needed
   return (is_of_type ? *structure.lights_of_type : most) + added;
 }
 
-// The most that a search for it found.
+// The largest finding of a search for it.
 std::optional<std::uint64_t> most_found(const SizedStructure& structure, Needed needed) {
   std::optional<std::uint64_t> most;
   for (const FoundFrame& found : structure.searches)
@@ -116,7 +116,7 @@ std::optional<std::uint64_t> most_found(const SizedStructure& structure, Needed 
 
 }  // namespace
 
-// From public code and documentation of the versions that the presets are of.
+// From public code and documentation of the versions that the presets model.
 const std::vector<EngineRow>& engine_rows() {
   static const std::vector<EngineRow> rows{
       {"godot",

@@ -34,7 +34,7 @@ const char* unit_of(Needed needed) {
   return "entries in all lists";
 }
 
-// The call or member with the grid as it is asked for: of tiles that have grown before they did.
+// The call or member with the requested grid: if tiles grew, as before.
 std::string filled_in(const char* call, const SizedStructure& structure) {
   const result::Grid& grid = structure.cases.front()->grid;
   result::Counts3 cells = grid.cells;
@@ -65,7 +65,7 @@ std::string tiles_text(const std::array<int, 2>& tiles) {
   return std::to_string(tiles[0]) + "x" + std::to_string(tiles[1]);
 }
 
-// What the setting is set to, and what the engine comes with.
+// The value to set, and the engine's default.
 std::string value_text(const SettingValue& value) {
   const LimitSetting& setting = *value.setting;
   if (setting.is_constant) return "at most " + std::to_string(setting.most) + ", compiled in";
@@ -92,7 +92,7 @@ std::string of_type_text(Needed needed) {
   return needed == Needed::lights_of_type ? ", of the type that has most" : "";
 }
 
-// "such a frame loses 44 lights": with room for so many fewer than are needed.
+// "such a frame loses 44 lights": if the room is smaller than the need by `over`.
 std::string lost_text(Needed needed, std::uint64_t over) {
   if (needed == Needed::longest_list) return "the longest list loses " + number_of(over, "light");
   if (needed == Needed::lights_in_scene) return "the scene loses " + number_of(over, "light");
@@ -102,7 +102,7 @@ std::string lost_text(Needed needed, std::uint64_t over) {
   return "such a frame loses " + number_of(over, "light") + (needed == Needed::lights_of_type ? " of that type" : "");
 }
 
-// Of all cameras' paths.
+// Over the paths of all cameras.
 GrownTiles together(const std::vector<GrownTiles>& all) {
   GrownTiles sum = all.front();
   for (const GrownTiles& one : std::span(all).subspan(1)) {
@@ -115,14 +115,14 @@ GrownTiles together(const std::vector<GrownTiles>& all) {
   return sum;
 }
 
-// What a limit is with which the engine's tiles grow, as far as that was looked at.
+// The effect of a limit that makes the engine's tiles grow, if it was measured.
 std::optional<GrownTiles> grown_tiles(const SettingValue& value, const SizedStructure& structure) {
   const bool makes_tiles_grow = value.setting->needed == Needed::entries && value.setting->default_value > 0;
   if (!makes_tiles_grow || structure.grown.empty()) return {};
   return together(structure.grown);
 }
 
-// What becomes of these frames with what the engine comes with; "" where that is enough, or is not known.
+// The effect of the engine's default on these frames; "" if it is sufficient, or unknown.
 std::string own_value_text(const SettingValue& value, const SizedStructure& structure) {
   const LimitSetting& setting = *value.setting;
   const std::string with = "    with its own " + std::to_string(setting.default_value) + ": ";
@@ -137,7 +137,7 @@ std::string own_value_text(const SettingValue& value, const SizedStructure& stru
            " (" + std::to_string(tiles->entries) + " entries at most in a frame)\n";
   }
   if (setting.default_value == 0 || setting.is_constant || setting.needed == Needed::entries) return "";
-  // Beyond what it takes at all, another line says the same.
+  // Beyond the engine's maximum another line reports the same.
   const bool is_told = value.is_too_much() && setting.default_value >= setting.most;
   if (value.needed() <= setting.default_value || is_told) return "";
   return with + lost_text(setting.needed, value.needed() - setting.default_value) + "\n";
@@ -186,21 +186,21 @@ std::string setting_lines(const SettingValue& value, const SizedStructure& struc
          lost_text(setting.needed, value.needed() - setting.most) + "\n";
 }
 
-// Whether the engine comes with less than is asked for.
+// Whether the engine's default is smaller than the value to set.
 bool is_to_be_set(const SettingValue& value) {
   return !value.setting->is_constant && value.seen && value.value > value.setting->default_value;
 }
 
-// Whether the engine has both at once: one setting serves them. Grids that differ in what can be set are alternatives.
+// Whether the engine has one setting for both. Grids that differ in adjustable settings are alternatives.
 bool have_one_setting(const EngineRequest& request, const SizedStructure& a, const SizedStructure& b) {
   const EngineRow& row = *row_of_engine(request.engine);
   return !request.has_changed_grid || grid_text(row, a, true) == grid_text(row, b, true);
 }
 
-// What to do with the settings: where frames need more than the engine takes, setting them does not help.
+// Advice on the settings: if frames need more than the engine's maximum, no setting helps.
 std::string advice_text(const EngineRequest& request, std::span<const SizedStructure* const> structures) {
   bool is_too_much = false, is_known = true;
-  bool is_settable = false;  // to something that the engine does not come with
+  bool is_settable = false;  // to a value other than the engine's default
   bool is_any_enough = false, is_any_to_be_set = request.has_changed_grid;
   for (const SizedStructure* structure : structures)
     for (const LimitSetting& setting : row_of_engine(request.engine)->limits) {
@@ -232,7 +232,7 @@ std::string advice_text(const EngineRequest& request, std::span<const SizedStruc
          (is_any_enough ? ", and leave those of which the engine's own is enough" : "") + "; " + k_again;
 }
 
-// Of all structures with which it shares its settings the one of which most is asked for.
+// The largest value of all structures that share the setting.
 SettingValue value_for_all(const EngineRequest& request, const LimitSetting& setting, const SizedStructure& structure,
                            std::span<const SizedStructure* const> structures) {
   SettingValue most = value_of(setting, structure, request.rules);
@@ -242,7 +242,7 @@ SettingValue value_for_all(const EngineRequest& request, const LimitSetting& set
   return most;
 }
 
-// "Of these 2, which have one setting: maxLightsPerCell 200, the largest"; "" of one alone.
+// "Of these 2, which have one setting: maxLightsPerCell 200, the largest"; "" for a single one.
 std::string shared_text(const EngineRequest& request, const SizedStructure& first,
                         std::span<const SizedStructure* const> structures) {
   std::vector<const SizedStructure*> sharing;

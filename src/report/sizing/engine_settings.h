@@ -1,5 +1,5 @@
 #pragma once
-// What `size --engine NAME` prints: an allocation in an engine's own settings, for engines whose limits can be set.
+// The text of `size --engine NAME`: an allocation in an engine's own settings, for engines with adjustable limits.
 
 #include <span>
 #include <string>
@@ -10,24 +10,24 @@
 
 namespace clusterbench::report {
 
-// Names that --engine takes: those of the presets that are measured for it.
+// Names for --engine: those of the presets that are measured for it.
 std::vector<std::string> engines_with_settings();
-// Throws Error (where = "--engine") for a name that is none of them, with those that there are and with what is known
-// of an engine whose limits are constants.
+// Throws Error (where = "--engine") for another name, with the valid names and, for an engine whose limits are
+// constants, the reason.
 void check_engine(const std::string& name);
 
-// What searches have to make large for its settings, each once, by its name in `worst-case --measure`.
+// The measures that searches should maximise for its settings, each once, names of `worst-case --measure`.
 std::vector<std::string> measures_of_engine(const std::string& name);
 
-// Whose settings are told, and by which rules.
+// The engine whose settings are printed, and the rules.
 struct EngineRequest {
   std::string engine;             // of engines_with_settings()
-  bool has_changed_grid = false;  // another grid than the engine's own: one that it can be set to
+  bool has_changed_grid = false;  // another grid than the engine's default, one that it can be set to
   AllocationRules rules;
 };
 
-// Of each structure the settings: their names as the engine has them, its version, the value to set, what it comes of,
-// and what the engine drops beyond it. Then, of several that the engine has one setting for, the value for all.
+// For each structure the settings: their names in the engine, its version, the value to set, its basis, and the losses
+// beyond it. Then, for structures that share one setting of the engine, the value for all.
 std::string engine_settings_text(const EngineRequest& request, std::span<const SizedStructure* const> structures);
 // Of one of them, for the document of `size`.
 result::EngineSettings engine_settings_of(const EngineRequest& request, const SizedStructure& structure,

@@ -40,8 +40,8 @@ result::WorstCase read_worst_case(const std::string& path) {
   return found;
 }
 
-// What is searched, whatever the scene is called and how many viewports there are beside it: grid, method, storage, how
-// lights are packed and culled, as a case's name has them.
+// Identifies the searched structure independent of the scene's name and the number of viewports: grid, method, storage,
+// packing and cull of lights, as in a case's name.
 std::string structure_of(run::CaseNames names) {
   names.name = run::current_name(names.name);
   return run::name_without_camera(names, false);
@@ -61,7 +61,7 @@ std::string sha256_of_scene(const result::Result& result, const result::Case& re
   return scene == result.scenes.end() ? "" : scene->sha256;
 }
 
-// Each once, in words: "[640,360] or [320,180]".
+// Each once: "[640,360] or [320,180]".
 std::string viewports_text(const std::vector<const result::Case*>& cases) {
   std::vector<std::string> all;
   for (const result::Case* one : cases)
@@ -99,8 +99,8 @@ std::vector<const result::Case*> matches_of(const std::string& path, const Searc
   return out;
 }
 
-// Of what the configuration asks of the scene a key; nothing where scenes differ in it and the result does not tell
-// which is whose.
+// A key of the configuration's request for the scene; none if scenes differ in it and the result does not record whose
+// it is.
 std::optional<Json> asked_of_scene(const result::Result& result, std::size_t scene, const char* key) {
   const Json* in_config = value_at(result.config, "/scenes");
   const Json scenes = in_config == nullptr ? Json::array() : *in_config;
@@ -126,7 +126,7 @@ bool is_same_angle(const Json& a, const Json& b) {
          std::abs(left->angle_rad - right->angle_rad) < 1e-9;
 }
 
-// Slices whose cells have a shape end with the one that holds the end that was asked for.
+// Slices whose cells have a fixed shape end with the one that contains the requested end.
 bool ends_at(const result::Slices& slices, double end_m) {
   const std::size_t count = slices.boundaries.size();
   if (count < 2) return false;
@@ -207,7 +207,7 @@ constexpr const char* k_not_compared =
     "an earlier version wrote it, without the field of view, the range rule and the end of the grid: whether they "
     "are those of the case here is not known; search again";
 
-// The frame that the figure was seen in is not that of the find.
+// The recorded worst frame of the figure is not the finding's frame.
 template <class Figure>
 void raise_figure(Figure& figure, std::uint64_t found, std::uint64_t& worst_frame) {
   if (!(static_cast<double>(found) > static_cast<double>(figure))) return;
@@ -224,7 +224,7 @@ void raise_measure(result::Case& result_case, const std::string& measure, std::u
     raise_figure(lights->max, found, lights->worst_frame);
 }
 
-// Of structures whose size follows from what they hold; "fixed" and "linked" have theirs whatever a frame needs.
+// Structures whose size depends on their contents; "fixed" and "linked" have a fixed size.
 bool has_bytes_of_needs(const result::Buffers& buffers) {
   double needs = 0.0;
   if (buffers.each)

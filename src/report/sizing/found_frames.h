@@ -1,5 +1,5 @@
 #pragma once
-// What `clusterbench worst-case -o FILE` found, for `size`.
+// The findings of `clusterbench worst-case -o FILE`, for `size`.
 
 #include <cstdint>
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace clusterbench::report {
 
-// Of the case with its scene, camera, viewport and structure (grid, method, storage), whatever that is called here.
-// Throws Error for a file that is none of `worst-case`, of a case that the result does not have, of another version of
-// its scene, or of other settings: viewport, field of view, range rule, end of the grid.
+// For the case with its scene, camera, viewport and structure (grid, method, storage), by contents, not by name. Throws
+// Error for a file that is not of `worst-case`, of a case that the result does not have, of another version of its
+// scene, or of other settings: viewport, field of view, range rule, end of the grid.
 FoundFrame read_found(const std::string& path, const result::Result& result);
 
-// The result with what searches found in place of what its frames have, where that is more: entries, longest list,
-// lights in view, and the bytes of all buffers, of the cases that were searched. Budgets then hold both.
+// The result with larger findings of searches in place of its own values: entries, longest list, lights in view, and
+// the bytes of all buffers of the searched cases. Budgets then apply to both.
 result::Result with_finds(result::Result result, const std::vector<FoundFrame>& found);
 
 // For the document of `size`.

@@ -7,8 +7,8 @@
 namespace clusterbench::report {
 namespace {
 
-// All code is GLSL first, with P_ for the structure's name, @name@ for what differs, and in_language() for both
-// languages.
+// All code is GLSL first, with P_ for the structure's name, @name@ for the parts that differ, and in_language() for
+// both languages.
 constexpr const char* k_packed = R"(struct P_list { uint first, lights, points, spots, boxes; };
 P_list P_list_of(int cell) {
   P_list list;
@@ -143,7 +143,7 @@ constexpr const char* k_of_cell = R"(uint P_index_at(int cell, uint n) {
 }
 )";
 
-// Of views in one buffer: a sample outside of its view's grid (-1) must not become a cell of another view.
+// For views in one buffer: a sample outside of its view's grid (-1) must not become a cell of another view.
 constexpr const char* k_of_view = R"(@number@ P_cells_of_view = @cells@;
 P_list P_list_of(int view, int cell) {
   return P_list_of(cell < 0 ? cell : view * P_cells_of_view + cell);
@@ -164,7 +164,7 @@ const SizedBuffer* buffer_named(const SizedStructure& structure, const std::stri
   return found == structure.buffers.end() ? nullptr : &*found;
 }
 
-// Entry number `entry` of a buffer of indices that are so wide.
+// Entry number `entry` of a buffer of indices of this width.
 std::string entry_code(const std::string& buffer, std::uint64_t bytes) {
   const std::string word = "P_" + buffer + "_word(entry";
   if (bytes == 1) return "(" + word + " >> 2u) >> ((entry & 3u) * 8u)) & 0xffu";
@@ -177,14 +177,14 @@ std::uint64_t cells_of_case(const result::Case& result_case) {
   return x * y * z;
 }
 
-// The most in any viewport.
+// The maximum over viewports.
 std::uint64_t cells_of_view(const SizedStructure& structure) {
   std::uint64_t most = 0;
   for (const result::Case* result_case : structure.cases) most = std::max(most, cells_of_case(*result_case));
   return most;
 }
 
-// Whether all views of a frame have as many cells as each other.
+// Whether all views of a frame have the same number of cells.
 bool has_views_alike(const SizedStructure& structure) {
   return std::ranges::all_of(structure.cases, [&](const result::Case* one) {
     return std::ranges::all_of(structure.cases, [&](const result::Case* other) {
@@ -193,14 +193,14 @@ bool has_views_alike(const SizedStructure& structure) {
   });
 }
 
-// Of all views that are in the buffer.
+// Sum over all views in the buffer.
 std::uint64_t cells_of(const SizedStructure& structure) {
   std::uint64_t views = 1;
   for (const std::vector<std::string>& view : structure.views) views = std::max<std::uint64_t>(views, view.size());
   return views * cells_of_view(structure);
 }
 
-// How a header of so many bytes tells points, spots and boxes, and its words; "" if it is none that is known.
+// The code that decodes points, spots and boxes from a header of this size, and its words; "" for an unknown size.
 struct HeaderCode {
   std::string counts;
   std::uint64_t words = 0;
@@ -208,12 +208,12 @@ struct HeaderCode {
 HeaderCode header_code(const SizedBuffer& headers, bool has_boxes) {
   const std::uint64_t words = headers.element_bytes / 4, of_counts = words - 1 - (has_boxes ? 1 : 0);
   if (headers.element_bytes % 4 != 0 || of_counts < 1) return {};
-  std::string counts = of_counts == 1 ? k_narrow_counts : k_wide_counts;  // with more than 2 the rest is not of lights
+  std::string counts = of_counts == 1 ? k_narrow_counts : k_wide_counts;  // beyond 2 the rest is not of lights
   if (has_boxes) counts += "  list.boxes = P_headers_word(at + " + std::to_string(of_counts == 1 ? 2 : 3) + "u);\n";
   return {counts, words};
 }
 
-// What reads a structure's lists, or why nothing here does.
+// The code that reads a structure's lists, or the reason why there is none.
 struct Reader {
   std::string code, refusal;
 };
@@ -241,7 +241,7 @@ Reader runs_reader(const SizedStructure& structure) {
   return {substituted(code, "@entry@", entry_code("runs", runs->element_bytes / 2)), ""};
 }
 
-// The most lights that lists can be of: of the level and those that a search has added, or those that a cull leaves.
+// Upper bound of the number of lights in lists: of the level and those added by a search, or those that a cull leaves.
 std::uint64_t lights_of(const SizedStructure& structure) {
   double most = 0.0;
   bool is_culled = false;
@@ -265,7 +265,7 @@ Reader fixed_reader(const SizedStructure& structure) {
   if (counts != nullptr) return {substituted(substituted(k_fixed, "@room@", room), "@entry@", entry), ""};
   const std::uint64_t end = lights_of(structure);
   if (end == 0) return {"", "without counts a list ends with the number of lights, and the result does not say it"};
-  // What a cull leaves is numbered anew in each frame.
+  // Lights that a cull leaves are renumbered in each frame.
   const bool is_culled = structure.cases.front()->pre_cull.has_value();
   std::string code = substituted(substituted(k_ended, "@room@", room), "@entry@", entry);
   code = substituted(code, "@marked@", is_culled ? "@variable@" : "@constant@");

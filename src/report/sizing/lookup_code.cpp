@@ -54,8 +54,8 @@ int P_cell_of(vec3 from_origin) {
 }
 )";
 
-// For a viewport that changes from frame to frame: tiles of pixels are more or fewer then, tiles by number larger or
-// smaller.
+// For a viewport that changes from frame to frame: then the number of tiles with a size in pixels changes, or the size
+// of a given number of tiles.
 constexpr const char* k_screen_start_of_viewport = R"(int P_cell_of(vec2 pixel, float along, vec2 viewport) {
   if (!(pixel.x >= 0.0 && pixel.x <= viewport.x && pixel.y >= 0.0 && pixel.y <= viewport.y)) return -1;
   if (along > P_slice_far) return -1;
@@ -83,7 +83,7 @@ std::string code_of_viewport(const result::Tiles& tiles, const std::string& slic
          count + ";\n}\n" + k_screen_start_of_viewport + slice + end;
 }
 
-// Cubical cells are as deep as they are wide on the screen, and so of one viewport.
+// Cubical cells are as deep as wide on the screen, and so depend on the viewport.
 bool are_slices_of_viewport(const result::Slices& slices) {
   return slices.scheme.starts_with("cubical");
 }

@@ -14,7 +14,7 @@ std::vector<double> numbers_of(const List& list) {
   return {list.begin(), list.end()};
 }
 
-// As float literals of C++, HLSL and GLSL alike.
+// A float literal that is valid in C++, HLSL and GLSL.
 std::string float_text(double value) {
   std::string digits = text("%.9g", value);
   if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
@@ -25,7 +25,7 @@ bool is_integer(const LookupConstant& constant) {
   return constant.type == LookupConstant::Type::integer;
 }
 
-// `suffix`: of single precision.
+// `suffix`: for single precision.
 std::string values_text(const LookupConstant& constant, const std::string& suffix = "") {
   std::string out;
   for (const double value : constant.values)
@@ -57,7 +57,7 @@ void add_slices(std::vector<LookupConstant>& out, const result::Slices& slices) 
   if (!slices.boundaries.empty()) out.push_back({"slice_far", Type::real, {slices.boundaries.back()}});
 }
 
-// Those that a grid does not keep over a path.
+// Marks constants that the grid changes along a path.
 void mark_changing(std::vector<LookupConstant>& constants, const result::Case& result_case) {
   const result::Grid& grid = result_case.grid;
   const auto mark = [&](std::string_view beginning) {
@@ -74,9 +74,9 @@ void mark_changing(std::vector<LookupConstant>& constants, const result::Case& r
 
 struct Language {
   const char *constant, *variable, *integer, *real;
-  const char* integers[2];  // of two, of three
+  const char* integers[2];  // of two, of three components
   const char* reals[2];
-  bool has_array_constructors;  // of arrays: float[2](1.0, 2.0), else {1.0, 2.0}
+  bool has_array_constructors;  // arrays as float[2](1.0, 2.0), else {1.0, 2.0}
 };
 constexpr Language k_hlsl{"static const ", "static ", "int", "float", {"int2", "int3"}, {"float2", "float3"}, false};
 constexpr Language k_glsl{"const ", "", "int", "float", {"ivec2", "ivec3"}, {"vec2", "vec3"}, true};

@@ -14,9 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t k_longest = 200;  // GLSL takes 1024 with what is added
+constexpr std::size_t k_longest = 200;  // GLSL allows 1024, with suffixes
 
-// Letters of the alphabet, digits, and single underscores in the place of all else.
+// Letters, digits, and single underscores for all other characters.
 std::string identifier(const std::string& name) {
   std::string id;
   for (const char c : name) {
@@ -29,12 +29,12 @@ std::string identifier(const std::string& name) {
   id.resize(std::min(id.size(), k_longest));
   while (!id.empty() && id.back() == '_') id.pop_back();
   if (id.empty()) return "case";
-  const bool is_reserved = id.starts_with("gl_");  // of GLSL
+  const bool is_reserved = id.starts_with("gl_");  // by GLSL
   return is_reserved || std::isdigit(static_cast<unsigned char>(id.front())) != 0 ? "case_" + id : id;
 }
 
-// What tells two lookups apart. A function that takes the viewport is the same for all, and what a program sets in each
-// frame is no difference.
+// Identifies a lookup. A function with a viewport parameter is equal for all viewports, and values that a program sets
+// in each frame do not count.
 Json lookup_key(const result::Case& result_case, LookupsOf lookups) {
   std::vector<LookupConstant> constants = lookup_constants(result_case);
   const std::string name = "lookup";
@@ -50,7 +50,7 @@ Json lookup_key(const result::Case& result_case, LookupsOf lookups) {
   return {lookup_note(result_case), lookup_json(constants)};
 }
 
-// Cases of cameras whose lookups are the same, the first camera's first.
+// Cases of cameras with the same lookup, the first camera's first.
 std::vector<NamedLookup> lookups_of(const SizedStructure& structure, LookupsOf lookups) {
   std::vector<NamedLookup> out;
   std::vector<Json> known;
@@ -85,7 +85,7 @@ void give_name(NamedStructure& named, const std::string& name) {
   }
 }
 
-// All that is declared of it in any language.
+// All names declared for it in any language.
 std::vector<std::string> declared_names(const NamedStructure& named) {
   std::vector<std::string> out;
   for (const std::string& buffer : named.buffers)

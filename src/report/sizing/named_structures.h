@@ -1,5 +1,5 @@
 #pragma once
-// Sized structures under names that C++, HLSL and GLSL can have.
+// Sized structures with names that are valid in C++, HLSL and GLSL.
 
 #include <cstdint>
 #include <string>
@@ -16,21 +16,21 @@ struct NamedLookup {
   std::vector<const result::Case*> cases;  // one per camera and viewport, with the same constants
 };
 
-// Constants are of a viewport; a shader's function has a form that takes any, and so is one for all.
+// Constants depend on a viewport; a shader's function has a form for any viewport, and so is shared by all.
 enum class LookupsOf : std::uint8_t { each_viewport, all_viewports };
 
 struct NamedStructure {
   SizedStructure structure;
   std::string name;                  // "street_frustum_64px"
   std::vector<std::string> buffers;  // in the structure's order: "street_frustum_64px_indices"
-  std::vector<NamedLookup> lookups;  // none of a structure of a method's own, which has lookups of its own
+  std::vector<NamedLookup> lookups;  // empty for a method's own structure, which has its own lookups
 };
 
-// Named by scene and grid, or (`in_full`) with method and storage, too. No two of all the names that snippets are made
-// of become the same: a number is added where they would.
+// Named by scene and grid, or (`in_full`) with method and storage as well. All names in the code are distinct: a number
+// is added if necessary.
 std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, bool in_full, LookupsOf lookups);
-// The one structure under a name of the user's. Throws Error (where = "--name") if there are others, or if C++, HLSL or
-// GLSL would not take the name.
+// The only structure, under a name by the user. Throws Error (where = "--name") if there are several, or if the name is
+// not valid in C++, HLSL or GLSL.
 std::vector<NamedStructure> named_structures(std::vector<SizedStructure> structures, const std::string& name,
                                              LookupsOf lookups);
 

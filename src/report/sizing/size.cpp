@@ -35,7 +35,7 @@ AllocationRules rules_of(const result::Result& result, const SizeRequest& reques
   return rules;
 }
 
-// Smaller is better. Structures of a method's own come after all lists: what samples pay for them differs.
+// Smaller is better. Methods' own structures come after all lists: the cost of their samples differs.
 auto rank(const SizedStructure& structure) {
   bool loses = false, is_own = false;
   for (const result::Case* result_case : structure.cases) {
@@ -45,7 +45,7 @@ auto rank(const SizedStructure& structure) {
   return std::pair(loses, is_own);
 }
 
-// Of a frame of each camera together.
+// Sum of a frame of each camera.
 double time_of(const SizedStructure& structure) {
   double sum = 0.0;
   for (const result::Case* one : structure.cases)
@@ -54,7 +54,7 @@ double time_of(const SizedStructure& structure) {
   return sum;
 }
 
-// Whether frames of some camera take longer than the other's: as far as is known, lest noise decides.
+// Whether frames of some camera are slower than the other's for certain, so that noise does not decide.
 bool is_slower(const result::Result& result, const SizedStructure& structure, const SizedStructure& fastest) {
   bool is_known = false;
   for (const result::Case* mine : structure.cases)
@@ -67,8 +67,8 @@ bool is_slower(const result::Result& result, const SizedStructure& structure, co
   return !is_known && time_of(structure) > time_of(fastest);
 }
 
-// Of structures of one grid that lose no light the fastest; of those that may be as fast, the one with the least
-// memory, and of those a method with SIMD.
+// Of structures of one grid that lose no light the fastest; of those that may be equally fast, the one with the least
+// memory, and then a method with SIMD.
 const SizedStructure& best_of(const result::Result& result, std::vector<const SizedStructure*> all) {
   const auto least_rank =
       rank(**std::ranges::min_element(all, {}, [](const auto* structure) { return rank(*structure); }));
@@ -83,8 +83,8 @@ const SizedStructure& best_of(const result::Result& result, std::vector<const Si
   });
 }
 
-// By what was seen alone, which finds do not change: what a search was for is what is printed. Of a group's structures
-// those that a search was for, whatever it found; else the one that the result's conclusion takes.
+// By the recorded frames only, without findings: searched structures are the printed ones. Of a group's structures
+// those that a search was for, with any finding; else the one that the result's conclusion recommends.
 std::vector<std::size_t> best_of_groups(const result::Result& result, const std::vector<SizedStructure>& seen,
                                         const std::vector<SizedStructure>& with_finds) {
   std::vector<std::string> order;
@@ -223,7 +223,7 @@ result::Size size_document(const std::vector<NamedStructure>& structures, std::s
   return out;
 }
 
-// By what one structure is chosen.
+// The criterion of the choice of a structure.
 std::string best_words(const result::Result& result) {
   const bool has_times =
       std::ranges::any_of(result.cases, [](const result::Case& one) { return one.timing.has_value(); });
@@ -245,13 +245,13 @@ std::string method_of(const SizedStructure& structure) {
   return first.assigner.label + "/" + first.storage;
 }
 
-// "frustum 16x9 x 24 exponential/exact-fast/packed": a name that --filter takes.
+// "frustum 16x9 x 24 exponential/exact-fast/packed": a name that --filter accepts.
 std::string name_in_scene(const SizedStructure& structure) {
   const std::string scene = structure.cases.front()->scene + "/";
   return structure.name.starts_with(scene) ? structure.name.substr(scene.size()) : structure.name;
 }
 
-// That the conclusion of the result takes it, and for which cameras, where it serves others, too.
+// States that the result's conclusion recommends it, and for which cameras if it serves others, too.
 std::string taken_text(const SizedStructure& structure) {
   const bool serves_others = std::ranges::any_of(structure.cases, [&](const result::Case* one) {
     return std::ranges::find(structure.taken_by, one->camera) == structure.taken_by.end();
@@ -262,7 +262,7 @@ std::string taken_text(const SizedStructure& structure) {
               : std::string());
 }
 
-// That the result's conclusion takes another method, and how the same is named here; "" where there is none.
+// States that the result's conclusion recommends another method, and its name here; "" if it does not.
 std::string other_method_text(const result::Result& result, const SizedStructure& chosen,
                               const std::vector<SizedStructure>& all) {
   const auto is_of_its_scene = [&](const SizedStructure& one) {
@@ -296,7 +296,7 @@ std::vector<SizedStructure> chosen_structures(const result::Result& result, cons
   return chosen;
 }
 
-// Of each camera that has a grid of its own, and of its viewports the one that needs most.
+// For each camera with its own grid, the viewport with the largest need.
 std::vector<const result::Case*> cases_to_search(const SizedStructure& structure) {
   const auto entries_of = [](const result::Case& one) { return one.buffers.index_entries.high_water; };
   std::vector<const result::Case*> all;
@@ -311,7 +311,7 @@ std::vector<const result::Case*> cases_to_search(const SizedStructure& structure
   return all;
 }
 
-// Those of the engine's preset.
+// Keeps those of the engine's preset.
 void keep_engine(std::vector<SizedStructure>& structures, const std::string& engine) {
   std::erase_if(structures, [&](const SizedStructure& structure) { return structure.cases.front()->preset != engine; });
   if (structures.empty())
@@ -319,7 +319,7 @@ void keep_engine(std::vector<SizedStructure>& structures, const std::string& eng
                 "no case is of the preset '" + engine + "'; measure it: clusterbench size LEVEL --engine " + engine);
 }
 
-// Those that are printed.
+// The structures to print.
 std::vector<SizedStructure> printed_structures(const result::Result& result, const SizeRequest& request,
                                                std::size_t& count) {
   std::vector<SizedStructure> chosen = chosen_structures(result, request, count);

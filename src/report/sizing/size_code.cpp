@@ -14,7 +14,7 @@
 namespace clusterbench::report {
 namespace {
 
-// A name from a scene file within one comment line: no line may end early or run on, not even by a trigraph.
+// A name from a scene file within one comment line: it must not end the line or continue it, not even by a trigraph.
 std::string comment_text(std::string name) {
   for (char& c : name)
     if (std::iscntrl(static_cast<unsigned char>(c)) != 0 || c == '\\') c = '_';
@@ -85,7 +85,7 @@ std::string cpp_buffer(const SizedBuffer& buffer, const std::string& name) {
          std::to_string(buffer.element_bytes) + "u};\n";
 }
 
-// Counts that 32 bits do not hold are in the comment alone.
+// Counts beyond 32 bits appear only in the comment.
 std::string shader_buffer(const SizedBuffer& buffer, const std::string& name, const char* type) {
   const auto line = [&](const char* what, std::uint64_t value) {
     if (value > std::numeric_limits<std::uint32_t>::max()) return std::string();
@@ -171,7 +171,7 @@ inline void check(const LightBuffer& buffer, std::uint64_t needed, std::uint64_t
 }  // namespace light_lists
 )";
 
-// Of a shader's file, which is included.
+// The include guard of a shader's file.
 std::string guard_text(SizeLanguage language, const std::vector<NamedStructure>& structures) {
   const std::string guard = (structures.empty() ? std::string("light_lists") : structures.front().name) + "_included";
   return (language == SizeLanguage::glsl ? "// For shaders of #version 430 or later, or 310 es.\n" : "") +

@@ -10,7 +10,7 @@ namespace clusterbench::report {
 
 enum class SizeLanguage : std::uint8_t { cpp, hlsl, glsl };
 
-// `remark`: a comment for the head, or "". Above each structure a comment says what was seen and where.
+// `remark`: a comment for the head, or "". A comment above each structure names the recorded maximum and its place.
 std::string size_code(SizeLanguage language, const std::vector<NamedStructure>& structures, const std::string& remark,
                       const AllocationRules& rules);
 

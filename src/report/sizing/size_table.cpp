@@ -10,7 +10,7 @@
 namespace clusterbench::report {
 namespace {
 
-// A column: its heading, and what it says of a buffer.
+// A column: its heading, and its text for a buffer.
 struct BufferColumn {
   const char* heading;
   std::string (*cell)(const SizedBuffer& buffer);
@@ -45,7 +45,8 @@ std::vector<Cells> table_rows(const SizedStructure& structure) {
   return rows;
 }
 
-// In every frame of every group, but for what is always full, as headers are: that follows from the grid alone.
+// True if the need is equal in all frames of every group; groups may differ in a buffer that is always full, such as
+// headers, whose number depends only on the grid.
 bool is_same_in_all_frames(const SizedBuffer& buffer) {
   const auto is_constant = [](const std::optional<FrameSpread>& spread) {
     return spread && spread->min == spread->max;
@@ -57,8 +58,8 @@ bool is_same_in_all_frames(const SizedBuffer& buffer) {
   });
 }
 
-// Cameras that share a buffer in one frame, and those that have it alone, each apart: a row of each, of the buffers
-// that differ between frames.
+// A row per buffer that differs between frames, for the cameras that share it in one frame, and for each camera that
+// uses it alone.
 std::vector<Cells> group_rows(const SizedStructure& structure) {
   std::vector<Cells> rows{
       {"", "cameras in one frame", "buffer", "frames", "min", "median", "p90", "p99", "high water"}};
@@ -81,7 +82,7 @@ std::string aligned_rows(const std::vector<Cells>& rows) {
   return out;
 }
 
-// Which frame made the marks: of all buffers that differ between frames the same, as a rule.
+// The frames with the marks: usually the same for all buffers that differ between frames.
 std::string worst_lines(const SizedStructure& structure) {
   std::vector<std::pair<std::string, std::vector<std::string>>> by_frame;
   for (const SizedBuffer& buffer : structure.buffers) {
@@ -96,7 +97,7 @@ std::string worst_lines(const SizedStructure& structure) {
   return out;
 }
 
-// Of all cameras; "" of a structure without lists.
+// Over all cameras; "" for a structure without lists.
 std::string longest_line(const SizedStructure& structure) {
   double longest = 0.0;
   for (const result::Case* one : structure.cases)
@@ -110,7 +111,7 @@ std::string marks_text(const SizedStructure& structure, const AllocationRules& r
   for (const SizedBuffer& buffer : structure.buffers) {
     for (const MarkLine& line : mark_lines(buffer, structure))
       out += "  " + line.label + ": " + shown(line.text) + "\n";
-    // Of what is the same in all frames, nothing was to be found.
+    // If the need is equal in all frames, a search can find no larger one.
     const bool is_constant = buffer.spread && buffer.spread->min == buffer.spread->max;
     if (buffer.found && !buffer.is_all() && !(is_constant && *buffer.found == buffer.high_water))
       out += "  capacity: " + shown(buffer.name) + ": " + std::to_string(buffer.capacity) + " = " +
@@ -126,7 +127,7 @@ std::string note_lines(const SizedStructure& structure) {
   return out;
 }
 
-// "2 cameras, 602 frames", and which of them are in one frame.
+// "2 cameras, 602 frames", and the cameras drawn in one frame.
 std::string counted_text(const SizedStructure& structure) {
   std::set<std::string> cameras;
   std::set<result::Counts2> viewports;

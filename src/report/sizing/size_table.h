@@ -1,5 +1,5 @@
 #pragma once
-// Allocations as a table for people.
+// Allocations as a table.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace clusterbench::report {
 
-// Of each structure a heading and a row per buffer; below all what the columns mean. `remark`: a last line, or "".
+// For each structure a heading and a row per buffer; below them the meaning of the columns. `remark`: a last line, or
+// "".
 std::string size_table(const std::vector<NamedStructure>& structures, const std::string& remark,
                        const AllocationRules& rules);
 

@@ -33,7 +33,7 @@ std::string growth_text(const SizedBuffer& buffer) {
               : growth.every == 4 ? "th "
                                   : "nd ") +
              std::to_string(growth.high_water);
-  // Of twice as many frames the most may be that much larger again.
+  // The growth that another doubling of frames may add.
   constexpr double k_still = 1.01;
   if (!buffer.growth.empty() &&
       static_cast<double>(buffer.high_water) > k_still * static_cast<double>(buffer.growth[2].high_water))
@@ -62,7 +62,7 @@ std::string found_text(const SizedBuffer& buffer, const SizedStructure& structur
   const std::string tried = tried_text(found);
   const std::size_t cameras = structure.searched_cameras();
   const std::string of_cameras = cameras > 1 ? ", of " + std::to_string(cameras) + " cameras searched" : "";
-  // What a frame needs that was sought for something else is no less true, but nothing of what others need.
+  // A frame found for another measure is valid, but it is not the maximum for this buffer.
   std::string out = std::to_string(*buffer.found) +
                     (found.measure == structure.sought_measure()
                          ? " in " + tried + of_cameras
@@ -82,7 +82,7 @@ std::string found_text(const SizedBuffer& buffer, const SizedStructure& structur
   return out;
 }
 
-// Lists of all sizes of the picture in one allocation, of tiles that are cut otherwise in each.
+// One allocation for lists of all viewports, with tiles that differ between them.
 bool has_viewports_of_pixel_tiles(const SizedStructure& structure) {
   std::set<result::Counts2> viewports;
   for (const Case* result_case : structure.cases) viewports.insert(result_case->viewport);
@@ -102,7 +102,7 @@ std::string possible_text(const SizedBuffer& buffer) {
          " bytes (every light in every cell): with these lights a buffer of this size needs no check";
 }
 
-// A search goes where lights are, lit or not.
+// A search moves towards lights, lit or dark.
 std::string dark_text(const FoundFrame& found) {
   const bool are_all = found.dark_in_view == found.lights_in_view;
   return ", where " + (are_all ? "all" : std::to_string(found.dark_in_view) + " of the") + " " +
@@ -156,7 +156,7 @@ std::string share_text(std::uint64_t part, std::uint64_t whole) {
 }
 
 std::vector<std::string> grid_notes(const SizedStructure& structure) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> notes;  // each with its cameras
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes;  // note, its cameras
   std::set<std::string> cameras;
   for (const Case* result_case : structure.cases) {
     const std::string& camera = result_case->camera;

@@ -1,5 +1,5 @@
 #pragma once
-// What slices that follow what frames need save and risk, as a table.
+// Savings and risks of slices that follow the needs of frames, as a table.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace clusterbench::report {
 
-// One line per case of a grid that follows; "" without any.
+// One line per case with a grid that follows; "" without any.
 std::string fit_table(const result::Result& result);
 
 }  // namespace clusterbench::report

@@ -20,7 +20,7 @@ std::string missed_text(const Lookup& way) {
                          : text("%.4f %%", 100.0 * static_cast<double>(way.missed) / static_cast<double>(way.needed));
 }
 
-// Assigners as lines, ways as columns.
+// Assigners are lines, ways are columns.
 std::string lookup_block(const std::string& block, const std::vector<NamedCase>& cases) {
   Cells headings{"", "assigner"}, padding{"", "(safe padding, ulps)"};
   for (const Lookup& way : *cases.front().result_case->lookup) {

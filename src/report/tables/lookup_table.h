@@ -1,5 +1,5 @@
 #pragma once
-// What the lookup misses, as a table for people.
+// Lights missed by the lookup, as a table.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace clusterbench::report {
 
-// Per scene and grid, one line per method, and storage or structure of its own where they miss otherwise; "" where no
-// case has it.
+// Per scene and grid, one line per method, and one per storage or own structure if their misses differ; "" if no case
+// has it.
 std::string lookup_table(const result::Result& result);
 
 }  // namespace clusterbench::report

@@ -17,7 +17,7 @@ using result::Timing;
 const Cells k_pre_cull_headings{"",           "assigner",     "lights",  "kept",     "distant",
                                 "pairs lost", "samples lost", "cull us", "frame us", "sets"};
 
-// Of visible surfaces if there are some, else of those anywhere in the view.
+// Of visible surfaces if there are any, else of points anywhere in the view.
 std::string lost_at_samples(const PreCull& pre_cull) {
   for (const char* set : {"opaque", "volume"})
     for (const auto& [name, at_samples] : pre_cull.lost_at_samples)
@@ -42,7 +42,7 @@ Cells pre_cull_row(const NamedCase& named) {
           std::to_string(pre_cull.bytes) + " B"};
 }
 
-// What tells two cases of a method apart.
+// The part in which two cases of a method can differ.
 Json parts_of(const Case& result_case) {
   Json parts;
   if (result_case.pre_cull) parts["pre_cull"] = result::to_json(*result_case.pre_cull);

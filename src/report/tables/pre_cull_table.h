@@ -1,5 +1,5 @@
 #pragma once
-// What pre-culls remove, take and lose, as a table for people.
+// Lights removed by pre-culls, with their cost and losses, as a table.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace clusterbench::report {
 
-// Per scene and grid: one line per assigner and pre-cull; "" where nothing is culled.
+// Per scene and grid: one line per assigner and pre-cull; "" without a cull.
 std::string pre_cull_table(const result::Result& result);
 
 }  // namespace clusterbench::report

@@ -30,7 +30,7 @@ Cells precision_row(const NamedCase& named) {
                   "%+.2f %%", 100.0)};
 }
 
-// What tells two cases of a method apart.
+// The part in which two cases of a method can differ.
 Json precision_of(const Case& result_case) {
   Json parts;
   if (result_case.precision) parts["precision"] = result::to_json(*result_case.precision);
@@ -39,7 +39,7 @@ Json precision_of(const Case& result_case) {
   return parts;
 }
 
-// Cases of a block, once per method, precision and what that loses. The precision has a column of its own.
+// Cases of a block, once per method, precision and loss. The precision has its own column.
 std::vector<NamedCase> precision_lines(const std::vector<Case>& cases, const result::Scene& scene,
                                        const std::string& block) {
   std::vector<NamedCase> lines = distinct_cases(cases, scene, block, precision_of);

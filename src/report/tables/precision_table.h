@@ -1,5 +1,5 @@
 #pragma once
-// What packing lights loses and what inflation costs, as a table for people.
+// Losses by packed lights and cost of their inflation, as a table.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace clusterbench::report {
 
-// Per scene and grid: what each packing loses, then one line per assigner and precision; "" where no light is packed.
+// Per scene and grid: the losses of each packing, then one line per assigner and precision; "" without packed lights.
 std::string precision_table(const result::Result& result);
 
 }  // namespace clusterbench::report

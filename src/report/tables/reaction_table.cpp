@@ -66,7 +66,7 @@ std::string no_text(const result::Fallback&) {
   return "";
 }
 
-// A block per grid with lines of its cases that have a part.
+// A block per grid, with lines of its cases that have a part.
 template <class Part>
 std::string table_beside(const result::Result& result, std::optional<Part> Case::*part, const std::string& title,
                          const Cells& headings, Cells (*to_row)(const Case&), std::string (*to_text)(const Part&)) {

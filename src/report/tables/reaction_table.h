@@ -1,5 +1,5 @@
 #pragma once
-// Tiles that react and storages whose room ends, as tables.
+// Tiles that react, and storages that can be full, as tables.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace clusterbench::report {
 
-// One line per case that reacts, or whose storage can run out of room; "" without any.
+// One line per case that reacts, or whose storage can be full; "" without any.
 std::string reaction_table(const result::Result& result);
 std::string fallback_table(const result::Result& result);
 

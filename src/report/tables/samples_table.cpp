@@ -20,7 +20,7 @@ double per_sample(const SampleSet& set, std::uint64_t lights) {
   return static_cast<double>(lights) / static_cast<double>(set.samples);
 }
 
-// Lights given per sample, and key is unlit or has no answer.
+// Lights returned per sample, with the unlit share; "no answer" if the structure has none.
 std::string given_text(const SampleSet& set) {
   if (set.samples == 0) return "none";
   if (set.unanswered == set.samples) return "no answer";
@@ -28,7 +28,7 @@ std::string given_text(const SampleSet& set) {
          (set.unlit > 0.0 ? text(", %.3g %% unlit", 100.0 * set.unlit) : "");
 }
 
-// Those that any of the cases has: methods that need depth have no points of the whole view.
+// The sets of any case: methods that need depth have no points of the whole view.
 std::vector<std::string> set_names(const std::vector<NamedCase>& cases) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < measure::k_sample_set_count; ++i) {
@@ -39,7 +39,7 @@ std::vector<std::string> set_names(const std::vector<NamedCase>& cases) {
   return names;
 }
 
-// Lights that reach a sample: the same for all cases that have the set.
+// Lights that reach a sample: equal for all cases that have the set.
 std::string needed_text(const std::string& name, const std::vector<NamedCase>& cases) {
   for (const NamedCase& named : cases)
     if (const SampleSet* set = samples_of_set(*named.result_case, name); set != nullptr && set->samples != 0)
@@ -47,7 +47,7 @@ std::string needed_text(const std::string& name, const std::vector<NamedCase>& c
   return "-";
 }
 
-// Methods as lines, sets as columns.
+// Methods are lines, sets are columns.
 std::string samples_block(const std::string& block, const std::vector<NamedCase>& cases) {
   const std::vector<std::string> names = set_names(cases);
   Cells headings{"", "assigner"}, needed{"", "(needed)"};

@@ -1,5 +1,5 @@
 #pragma once
-// What lists cost and lose at sets of samples, as a table for people.
+// Cost and losses of lists at sets of samples, as a table.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace clusterbench::report {
 
-// Per scene and grid, one line per method, and storage or structure of its own where they answer otherwise; "" where no
-// case has sets of samples.
+// Per scene and grid, one line per method, and one per storage or own structure if their answers differ; "" if no case
+// has sets of samples.
 std::string samples_table(const result::Result& result);
 
 }  // namespace clusterbench::report

@@ -1,5 +1,5 @@
 #pragma once
-// What lies in shadow, and what sharing shadow maps saves, as a table for people.
+// Pairs in shadow, and savings by shared shadow maps, as a table.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace clusterbench::report {
 
-// Per scene and grid: the maps that lights in view need, then one line per method and way to take out what lies in
-// shadow; "" where neither was asked for.
+// Per scene and grid: the maps that lights in view need, then one line per method and kind of shadow cull; "" if
+// neither was requested.
 std::string shadows_table(const result::Result& result);
 
 }  // namespace clusterbench::report

@@ -36,7 +36,7 @@ Cells truth_row(const Stability& steps) {
           ""};
 }
 
-// Cases of a block with steps, once per method: lists do not depend on their storage. The fewest changes first.
+// Cases of a block with steps, once per method, since lists do not depend on their storage. The fewest changes first.
 std::vector<const Case*> stability_lines(const std::vector<Case>& cases, const result::Scene& scene,
                                          const std::string& block) {
   std::vector<const Case*> lines;

@@ -1,5 +1,5 @@
 #pragma once
-// How stable lists are over time, as a table for people.
+// Stability of lists over time, as a table.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace clusterbench::report {
 
-// Per scene and grid, one line per assigner, the fewest changes first, and the truth's own; "" where no case has it.
+// Per scene and grid, one line per assigner, the fewest changes first, and the truth's own; "" if no case has it.
 std::string stability_table(const result::Result& result);
 
 }  // namespace clusterbench::report

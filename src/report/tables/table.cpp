@@ -44,7 +44,7 @@ struct Line {
   std::pair<bool, double> sort_key;
 };
 
-// What some cases have and others have not.
+// Optional columns: true if some case has the figure.
 struct Extras {
   bool storages = false, times = false, conversions = false, builds = false, instructions = false, samples = false,
        dropped = false, cold = false, launches = false, costs = false, searched = false;
@@ -64,30 +64,30 @@ std::string worst_text(const Case& result_case) {
                           : time_text(figure_of(result_case, "frame_us.max")) + " @" + std::to_string(worst->frame);
 }
 
-// The pairs of the frames that the time is of; without times those of all frames.
+// The pairs of the timed frames; without timing those of all frames.
 std::string pairs_text(const Case& result_case) {
   return short_count(figure_of(result_case, figure_of(result_case, "frame_us") ? "pairs_timed" : "pairs.mean"));
 }
 
-// Of the samples that the case is ranked by, as `unlit`.
-std::string lost_lux_text(const Case& result_case, result::SampleFigure what) {
-  const SampleSet* most = most_at_sets(result_case, what);
+// Of the samples that rank the case, like `unlit`.
+std::string lost_lux_text(const Case& result_case, result::SampleFigure figure) {
+  const SampleSet* most = most_at_sets(result_case, figure);
   if (most == nullptr) return "-";
-  return most->lost_lux == 0.0 ? "0" : text_of(what(*most), "%.3g");
+  return most->lost_lux == 0.0 ? "0" : text_of(figure(*most), "%.3g");
 }
 
-// Bytes of the structure that a sample reads to know its lights.
+// Bytes of the structure that a sample reads to find its lights.
 std::string read_bytes_text(const std::optional<double>& bytes) {
   return bytes ? text(*bytes < 100.0 ? "%.3g" : "%.0f", *bytes) : "-";
 }
 
-// Where nothing is timed what the GPU does.
+// Without timing the GPU cost.
 std::string cost_text(const Case& result_case) {
   const std::optional<double> frame_us = figure_of(result_case, "frame_cost_us");
   return time_text(frame_us ? frame_us : figure_of(result_case, "gpu_cost_us"));
 }
 
-// By cost those that leave lights out come last: theirs is not the cost of the same picture.
+// By cost, cases that miss lights come last: they do not pay for the same picture.
 std::pair<bool, double> sort_key(const Case& result_case, RankBy by) {
   if (by == RankBy::frame_cost)
     for (const char* figure : {"frame_cost_us", "gpu_cost_us"})
@@ -100,14 +100,14 @@ std::pair<bool, double> sort_key(const Case& result_case, RankBy by) {
 constexpr const char* k_frame_heading = "frame us";
 constexpr const char* k_cost_heading = "cost us";
 
-// A figure (result/figure_table.h) in a format, or a text of its own.
+// A figure (result/figure_table.h) in a format, or its own text.
 struct Column {
   const char* heading;
   const char* figure = nullptr;
   std::string (*format)(const std::optional<double>& value) = nullptr;
   std::string (*own_text)(const Case& result_case) = nullptr;
-  bool Extras::*needed = nullptr;  // left out where the table has none of it
-  bool is_at_samples = false;      // the heading says of which
+  bool Extras::*needed = nullptr;  // the column is left out if the table has no such figure
+  bool is_at_samples = false;      // the heading names the samples
 
   std::string text(const Case& result_case) const {
     return figure != nullptr ? format(figure_of(result_case, figure)) : own_text(result_case);
@@ -163,12 +163,12 @@ Cells headings(const Extras& extras, const Case& sampled) {
   return cells;
 }
 
-// The case of a block that has the most sets of samples: headings are of these.
+// The case of a block with the most sets of samples; it determines the headings.
 const Case& most_sampled(const std::vector<const Case*>& cases) {
   return **std::ranges::max_element(cases, {}, [](const Case* one) { return ranking_set_names(*one).size(); });
 }
 
-// Cases that samples search stand together, and so name their grids, where they use them.
+// Cases whose samples search the structure share one block, so their labels include the grid, if they use one.
 std::string table_label(const Case& result_case, const Extras& extras) {
   std::string label = method_name(result_case);
   if (extras.storages) label += " / " + storage_name(result_case);
@@ -178,7 +178,7 @@ std::string table_label(const Case& result_case, const Extras& extras) {
   return label;
 }
 
-// At samples only of the sets in the heading: of fewer ones a figure is another.
+// Figures of samples are printed only if the case has all sets of the heading: with fewer sets they are not comparable.
 Line line_of(const Case& result_case, bool is_on_front, const Extras& extras, RankBy by,
              const std::vector<std::string>& sets) {
   const bool is_of_sets = ranking_set_names(result_case) == sets;
@@ -220,7 +220,7 @@ Extras extras_of(const std::vector<Case>& cases) {
   return extras;
 }
 
-// What counted, on which instruction sets: "callgrind (AVX2)". "" where nothing did.
+// The counter with its instruction sets: "callgrind (AVX2)". "" without counts.
 std::string counters(const std::vector<Case>& cases) {
   std::set<std::string> names;
   for (const Case& result_case : cases)
@@ -233,7 +233,7 @@ std::string scene_heading(const result::Scene& scene) {
          number_of(scene.lights.spot, "spot") + ", " + number_of(scene.frames, "frame") + ")";
 }
 
-// Rows that are not known to take longer than those above them. True if there are any.
+// Marks rows that are not slower than the row above for certain. True if there are any.
 bool mark_alike(const result::Result& result, const Cells& heads, RankBy by, std::vector<Line>& lines) {
   const char* const heading = by == RankBy::frame_cost ? k_cost_heading : k_frame_heading;
   const auto column = std::find(heads.begin(), heads.end(), heading) - heads.begin();
@@ -249,7 +249,7 @@ bool mark_alike(const result::Result& result, const Cells& heads, RankBy by, std
   return has_some;
 }
 
-// Of which samples the figures are.
+// Explains the samples of the figures.
 std::string sets_text(const std::vector<Case>& cases) {
   std::vector<std::string> lines;
   for (const Case& result_case : cases) {
@@ -264,7 +264,7 @@ std::string sets_text(const std::vector<Case>& cases) {
   return lines.empty() ? "" : joined(lines, ". ") + ".\n";
 }
 
-// Of the marks and columns that the table has.
+// Explains the marks and columns of the table.
 std::string legend(const std::vector<Case>& cases, const Extras& extras, RankBy by, bool has_front, bool is_complete) {
   std::string out;
   if (has_front)
@@ -308,7 +308,8 @@ std::string legend(const std::vector<Case>& cases, const Extras& extras, RankBy 
   return out + "bytes: headers and indices, largest of all frames.\n";
 }
 
-// The blocks of a scene: of each grid the cases with lists, then of each view those that samples search.
+// The blocks of a scene: for each grid the cases with lists, then for each view those whose samples search the
+// structure.
 struct TableBlock {
   std::string heading;
   std::vector<const Case*> cases;
@@ -329,7 +330,7 @@ std::vector<TableBlock> table_blocks(const std::vector<Case>& cases, const resul
   return lists;
 }
 
-// With the reason where all have one, and with what takes boxes where that is what most methods lack.
+// With the reason if all have the same, and with the methods that support boxes if some skipped ones do not.
 std::string skipped_text(const std::vector<result::Skipped>& skipped) {
   if (skipped.empty()) return "";
   std::set<std::string> reasons;

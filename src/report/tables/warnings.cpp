@@ -24,27 +24,28 @@ std::string scene_warnings(const std::vector<Scene>& scenes) {
   return out;
 }
 
-// One line for all cases of which the same is to be known: lists of one grid lack what lies outside of it, whatever
-// made them. Lost pairs have a column, and that nothing was checked is what the run was told.
+// One line per message for all its cases: all lists of one grid miss the same lights outside of it. Without lost pairs,
+// which have a column, and unchecked cases, which the configuration requested.
 std::string case_warnings(const std::vector<Case>& cases) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> told;  // what, and of which cases
+  std::vector<std::pair<std::string, std::vector<std::string>>> messages;  // message, names of its cases
   for (const Case& result_case : cases)
     for (const result::Warning& warning : result_case.warnings) {
       if (warning.kind == "unchecked" || warning.kind == "lost_pairs") continue;
       const std::string message = shown(warning.text);
-      const auto same = std::find_if(told.begin(), told.end(), [&](const auto& had) { return had.first == message; });
-      (same == told.end() ? told.emplace_back(message, std::vector<std::string>{}) : *same)
+      const auto same =
+          std::find_if(messages.begin(), messages.end(), [&](const auto& had) { return had.first == message; });
+      (same == messages.end() ? messages.emplace_back(message, std::vector<std::string>{}) : *same)
           .second.push_back(shown(result_case.name));
     }
   std::string out;
-  for (const auto& [message, names] : told)
+  for (const auto& [message, names] : messages)
     out += "warning: " + names.front() +
            (names.size() > 1 ? " and " + number_of(names.size() - 1, "more case") : std::string()) + ": " + message +
            "\n";
   return out;
 }
 
-// Lists that leave lights out are short, and cost little.
+// Lists that miss lights are short, and therefore cheap.
 std::string cost_warning(const std::vector<Case>& cases) {
   const Case* first = nullptr;
   std::size_t count = 0;
@@ -68,18 +69,18 @@ std::string cost_warning(const std::vector<Case>& cases) {
          "=0 leaves that set out)\n";
 }
 
-// Of all lights that have an end, given or made.
+// The ranges of all lights with a finite range, given or computed.
 std::string ranges_text(const result::RangeRule& rule) {
   if (!rule.ranges) return "";
   return "; the scene's ranges: least " + text("%.3g m", rule.ranges->least) +
          text(", median %.3g m", rule.ranges->median) + text(", greatest %.3g m", rule.ranges->greatest);
 }
 
-// What is to be known of grids, once for all of whose cases it is so.
+// Notes on grids, each once with its grids.
 std::string grid_notes(const std::vector<Case>& cases) {
   std::map<std::string, std::set<std::string>> cameras_of;  // by scene
   for (const Case& result_case : cases) cameras_of[result_case.scene].insert(result_case.camera);
-  std::vector<std::pair<std::string, std::vector<std::string>>> notes;  // what, and of which grids
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes;  // note, its grids
   for (const Case& result_case : cases) {
     if (!result_case.grid.note) continue;
     const std::string note = shown(*result_case.grid.note),
@@ -104,7 +105,7 @@ std::string notes_text(const result::Result& result) {
   for (const Scene& scene : result.scenes) {
     const result::RangeRule& rule = scene.range_rule;
     const std::uint64_t made = rule.from_intensity + rule.clamped;
-    // Where the rule's longest range cuts most lights off the scene's own warning says so.
+    // If the longest allowed range cuts off most lights, the scene's own warning reports that.
     if (made == 0 || 2 * rule.clamped > made + rule.given) continue;
     out += "note: " + shown(scene.name) + ": " + number_of(made, "light") +
            (made == 1 ? " has no range; it ends where it falls to " : " have no range; they end where they fall to ") +

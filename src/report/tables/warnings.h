@@ -1,5 +1,5 @@
 #pragma once
-// What a result's reader has to know before believing it.
+// Notes and warnings for the reader of a result.
 
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace clusterbench::report {
 
-// Lines that begin with "note: ": where lights end that have no range. "" where all have one.
+// Lines that begin with "note: ": the computed end of lights without a range. "" if all have one.
 std::string notes_text(const result::Result& result);
 
-// Lines that begin with "warning: ": of scenes (cameras not measured ...), then of cases (dropped, undecided and unlit
-// lights). "" where there are none.
+// Lines that begin with "warning: ": on scenes (cameras not measured ...), then on cases (dropped, undecided and unlit
+// lights). "" without any.
 std::string warnings_text(const result::Result& result);
 
 }  // namespace clusterbench::report
