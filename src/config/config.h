@@ -182,17 +182,18 @@ struct Config {
   // With other precisions than float32, results show the losses of each precision.
   bool compares_precisions() const { return precisions != std::vector<PrecisionRequest>{{}}; }
 
-  nlohmann::json resolved;  // the configuration with all defaults, as the result carries it
-  GridChange preset_grid;   // members in place of those of the presets' grids
-  JsonText text;            // as it was read: where each value stands, for messages
+  nlohmann::json resolved;  // the configuration with all defaults, as in the result
+  GridChange preset_grid;   // members that replace those of presets' grids
+  JsonText text;            // as read, with positions for messages
 };
 
-// The configuration with a merge patch (RFC 7396) of its keys: read again, so that it is what its keys say. Throws Error.
+// Applies a merge patch (RFC 7396) to the configuration's keys and reads it again, so that all fields follow from its
+// keys. Throws Error.
 Config changed(const Config& config, const nlohmann::json& patch);
 
-// Reads and checks a configuration file, and then what the command line's flags make of it. `defaults`: members of a
-// configuration that stand for the schema's defaults where the file has none. `preset_grid`: of the grid of each preset
-// these members in place of its own. Throws Error with "line:column /json/pointer" as its location, or with the flag.
+// Reads and checks a configuration file, and applies the command line's flags. `defaults`: members of a configuration
+// that replace the schema's defaults for keys that the file does not have. `preset_grid`: members that replace those of
+// each preset's grid. Throws Error with "line:column /json/pointer" or the flag as its location.
 Config load_config(const std::filesystem::path& path, std::span<const FlagValue> flags = {},
                    const nlohmann::json& defaults = {}, const GridChange& preset_grid = {});
 // The same from text; `file` is for messages and for relative paths.

@@ -1,5 +1,5 @@
-// The schemas: of configurations the embedded text with the rows of assigners and storages, and the axes written out;
-// of all other documents that of their records.
+// The schemas: that of configurations is the embedded text, completed by the rows of assigners and storages, with axes
+// written out; the others are made from records.
 
 #include "config/documents.h"
 

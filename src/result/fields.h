@@ -8,9 +8,9 @@
 //     END_RECORD;
 //   };
 //
-// One that derives from another has the other's fields behind its own with `using Rest = Other;`.
-// From these lists come a record's JSON, its reader, and its JSON Schema (schema.h). A std::optional is absent where it
-// has no value, a Nullable is null, and so is a double that is not finite.
+// A record that derives from another lists the other's fields after its own with `using Rest = Other;`.
+// These lists give a record's JSON, its reader, and its JSON Schema (schema.h). A std::optional without a value is
+// absent, a Nullable without a value is null, and so is a double that is not finite.
 
 #include <array>
 #include <cstddef>
@@ -29,17 +29,17 @@ using Json = nlohmann::ordered_json;
 
 inline constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
 
-// What the comparison of two results makes of a field that differs.
+// The rule for a field that differs between two compared results.
 enum class Compares : std::uint8_t {
-  as_holder,  // what it makes of what holds the field; of a case itself: fixed
-  fixed,      // both must have the same
+  as_holder,  // the rule of the struct that holds it; for a field of a case: fixed
+  fixed,      // must be equal
   cost,       // less is better
-  follows,    // says the same as some cost in another way
-  unjudged,   // says nothing of the case by itself: how the truth was found, what limits make of the counts
+  follows,    // repeats some cost in another form
+  unjudged,   // no cost by itself: how the truth was decided, effects of limits on counts
   skipped     // not compared
 };
 
-// What a field is. "" for a unit, and for what it is over: that of what holds it.
+// The description of a field. "" for `unit` or `over`: inherited from the enclosing field.
 struct About {
   About(const char* what = "", const char* in_unit = "", const char* taken_over = "", Compares as = Compares::as_holder)
       : description(what), unit(in_unit), over(taken_over), compares(as) {}
@@ -62,8 +62,8 @@ struct About {
   About late() const { return with(&About::is_late, true); }
 
   const char *description, *unit, *over;
-  Compares compares;                                // of a struct: of all its fields that do not say it of themselves
-  std::optional<double> min{}, above_min{}, max{};  // of a number, or each of a list's
+  Compares compares;                                // for a struct: of all its fields without their own rule
+  std::optional<double> min{}, above_min{}, max{};  // of a number, or of each number of a list
   bool is_finite = false;
   bool is_fraction = false;
   std::vector<const char*> choices{};           // of a text
@@ -71,8 +71,8 @@ struct About {
   std::size_t least_items = 0, most_items = 0;  // of a list; 0: any number
   const char* of_each = "";                     // description of the values by name
   std::optional<int> constant{};                // of a whole number
-  const char* shape = "";                       // of any JSON: its schema; of a struct: what else its schema says
-  bool is_late = false;                         // always written; documents of earlier versions may lack it
+  const char* shape = "";                       // of any JSON: its schema; of a struct: further keywords of its schema
+  bool is_late = false;                         // always written; documents of earlier versions may not have it
 
  private:
   template <class T, class Value>

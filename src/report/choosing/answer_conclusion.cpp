@@ -40,11 +40,11 @@ bool is_cost(const Objective& objective) {
   return objective.figure.ends_with("_cost_us");
 }
 
-// Modelled costs within what the model can tell, times that differ by less than their interval or, without one, by less
-// than times usually do, and equal figures.
+// Whether the candidate counts as equal to the choice: costs within the precision of the model, times within their
+// interval or, without one, within the usual variation of times, and equal figures.
 bool is_like_choice(const Candidate& record, const Objective& objective) {
   const double by = record.by_choice;
-  if (!std::isfinite(by)) return finite_or(record.objective, 0.0) <= 0.0;  // no ratio beside a choice of nothing
+  if (!std::isfinite(by)) return finite_or(record.objective, 0.0) <= 0.0;  // no ratio to a choice of 0
   if (is_cost(objective) && by <= measure::k_alike_ratio) return true;
   if (const measure::Interval interval = known_interval(record.ci95); interval.is_known()) return interval.low <= 1.0;
   return by <= (objective.timed ? measure::k_alike_ratio : 1.0);
@@ -55,7 +55,7 @@ std::string beside_choice_text(const Candidate& record) {
          more_text(record.by_choice, known_interval(record.ci95), known_interval(record.by_prices));
 }
 
-// What the choice takes beside what it was chosen for: " (13.3 MB of buffers, 1072 us of GPU by the model)".
+// The other costs of the choice: " (13.3 MB of buffers, 1072 us of GPU by the model)".
 std::string price_text(const Candidate& choice, const Objective& objective) {
   std::vector<std::string> prices;
   const std::optional<double> bytes = candidate_figure(choice, "bytes"),
@@ -65,7 +65,7 @@ std::string price_text(const Candidate& choice, const Objective& objective) {
   return prices.empty() ? "" : " (" + joined(prices) + ")";
 }
 
-// Why a candidate that takes less is not known to be better than the choice.
+// Why a candidate with a smaller figure is not better for certain.
 std::string why_alike(const Candidate& record, const Objective& objective) {
   if (is_cost(objective) && record.by_choice * measure::k_alike_ratio >= 1.0)
     return "within the 5 % to which the model tells costs apart";
@@ -75,7 +75,7 @@ std::string why_alike(const Candidate& record, const Objective& objective) {
          less_or_more(interval.high) + ")";
 }
 
-// Why the choice is not the one with least: of those that are like it, it has the fewest bytes.
+// Why the choice does not have the smallest figure: among equal candidates it has the fewest bytes.
 std::string smallest_text(const Answer& answer, const Objective& objective) {
   const Candidate* least = nullptr;
   for (const Candidate& record : answer.runners_up) {
@@ -86,7 +86,7 @@ std::string smallest_text(const Answer& answer, const Objective& objective) {
   const std::optional<double> more_bytes = least != nullptr ? candidate_figure(*least, "bytes") : std::nullopt;
   if (!bytes || !more_bytes || *bytes >= *more_bytes) return "";
   const std::string name = shown(least->name), less = less_or_more(least->by_choice);
-  // The ratio of times that were measured side by side, which the two figures' own does not give.
+  // The ratio of times measured side by side, which is not the ratio of the two figures.
   const bool is_measured = known_interval(least->ci95).is_known();
   return "; " + name + " takes " + less +
          (is_measured ? " where both were measured side by side" : " (" + objective_text(*least, objective) + ")") +
@@ -112,7 +112,7 @@ std::string excluding_text(const Answer& answer) {
   return texts.empty() ? "" : ": " + joined(texts);
 }
 
-// That nothing is to be taken, and what could be.
+// Recommends none, and names possible candidates.
 std::string none_text(const Answer& answer, const Objective& objective) {
   const std::vector<Candidate>& searched = answer.searched;
   if (searched.empty()) return "take none: no candidate satisfies all constraints" + excluding_text(answer);

@@ -25,7 +25,7 @@ bool has_known_interval(const Candidate& record) {
 }
 
 // "frustum/exact-fast/packed": one line of the table of candidates.
-// `is_first`: nothing is better.
+// `is_first`: no other one is better.
 Cells candidate_row(const std::string& mark, const Candidate& record, const std::string& objective,
                     bool is_first = false) {
   std::string distance;
@@ -50,7 +50,7 @@ Cells candidate_row(const std::string& mark, const Candidate& record, const std:
           std::isfinite(record.overshade) ? text("%.2f", record.overshade) : "-"};
 }
 
-// Times are compared within rounds, so that their ratio is known better than either of them.
+// Times are compared within rounds, so their ratio is more precise than either of them.
 std::string worse_by_line(const Answer& answer) {
   for (const Candidate& record : answer.runners_up)
     if (has_known_interval(record))
@@ -66,7 +66,7 @@ std::string table_of(const std::vector<Cells>& rows) {
   return out;
 }
 
-// Where nothing satisfies them all: what would have to be given up of each constraint that was asked for.
+// If no candidate satisfies all constraints: how far each given constraint would have to be relaxed.
 std::string nearest_text(const Answer& answer) {
   std::string out = "no candidate satisfies all constraints\n";
   for (const result::ConstraintOfAnswer& row : answer.constraints)
@@ -101,7 +101,7 @@ Cells candidate_headings(const Answer& answer, const std::string& figure) {
           "longest",  "read" + of_sets, "overshade" + of_sets};
 }
 
-// What the headings mean.
+// The meaning of the headings.
 std::string sets_line(const Answer& answer) {
   const std::vector<std::string>& sets = answer.samples;
   if (sets.empty()) return "";
@@ -110,7 +110,7 @@ std::string sets_line(const Answer& answer) {
          (sets.size() > 1 ? ", by the weights of the key `cost`" : "") + "; read: bytes that one reads\n";
 }
 
-// Never beside the others: what their search costs on a GPU is a model's.
+// Separate from the others: only the model gives the cost of their search on a GPU.
 std::string searched_text(const Answer& answer, const std::string& figure) {
   if (answer.searched.empty()) return "";
   std::vector<Cells> rows{candidate_headings(answer, figure)};

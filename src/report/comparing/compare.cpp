@@ -63,7 +63,7 @@ std::vector<std::string> names_of(const std::vector<const Case*>& cases) {
   return names;
 }
 
-// The same name on both sides, and not the same case.
+// Cases with the same name on both sides that are not the same case.
 std::vector<RenamedCase> renamed(const Result& base, const std::vector<const Case*>& only_in_base, const Result& next,
                                  const std::vector<const Case*>& only_in_new) {
   std::vector<RenamedCase> out;
@@ -91,7 +91,7 @@ constexpr Part k_parts[] = {
     {"timing", has<&Case::timing>},       {"count", has<&Case::count>},
 };
 
-// Of the cases of both, how many have a part in one result alone.
+// For each part, the number of common cases that have it in only one result.
 std::vector<PartOfOne> parts_of_one(const std::vector<Match>& matches) {
   std::vector<PartOfOne> out;
   for (const Part& part : k_parts) {
@@ -239,7 +239,7 @@ class Times {
   std::vector<double> corrected_;
 };
 
-// Of a case, or of the summary.
+// `out`: a case, or the summary.
 template <class Record>
 void add_ratio(Record& out, const measure::Change& change) {
   const measure::Ratio ratio = measure::ratio_of(change);
@@ -282,7 +282,7 @@ result::ComparedInstructions compared_instructions(const result::Count& base, co
           .tolerance = count_tolerance(next)};
 }
 
-// What two programs that were measured side by side listed differently.
+// Adds the differences between the lists of two programs that were measured side by side.
 void add_list_difference(const Match& match, ComparedCase& out) {
   const auto* lists = result::part<&Case::timing, &Timing::baseline, &result::BaselineTimes::lists_differ>(match.next);
   if (lists == nullptr) return;
@@ -295,7 +295,7 @@ void add_list_difference(const Match& match, ComparedCase& out) {
 // Obstacles to a comparison of two results, other than their exact counts.
 struct Scope {
   result::NotComparable left_out;
-  std::vector<std::string> forced;  // obstacles in spite of which they are compared
+  std::vector<std::string> forced;  // obstacles that the user overrides
 };
 
 Scope scope_of(const Result& base, const Result& next, const std::vector<Match>& matches, bool is_paired,
@@ -330,7 +330,7 @@ struct Settings {
   bool gates_separate = false, is_margin_same = true, is_same_program = false;
 };
 
-// A program beside itself is the same, whatever the times of this hour say.
+// A program compared with itself is the same, independent of the measured times.
 void add_time(ComparedCase& out, const TimeChange& time, double corrected_p, const Settings& settings) {
   const measure::Verdict verdict = settings.is_same_program
                                        ? measure::Verdict::same
@@ -417,7 +417,8 @@ constexpr const char* k_separate_verdicts =
     "--gate-separate: two runs of one program can differ several-fold, and intervals know nothing of that; on a busy "
     "machine every second comparison of a program with itself failed";
 
-// The names that stand on one side alone. What the other has under the same name is told apart, with the difference.
+// The names that only one side has, without cases of the same name on both sides, which are reported separately with
+// the difference.
 std::vector<std::string> without_renamed(std::vector<std::string> names,
                                          const std::vector<RenamedCase>& renamed_cases) {
   std::erase_if(names, [&](const std::string& name) {
@@ -426,7 +427,7 @@ std::vector<std::string> without_renamed(std::vector<std::string> names,
   return names;
 }
 
-// `is_beside`: of one result, and what the other program had beside it.
+// `is_beside`: one result, compared with its baseline program.
 std::vector<std::string> warnings_of(const Result& base, const Result& next, const Comparison& comparison,
                                      bool is_beside, const std::vector<std::string>& forced, bool gates_separate) {
   std::vector<std::string> warnings;
@@ -475,7 +476,7 @@ Json facts_of(const Result& result) {
       {"machine", result::to_json(result.machine)}, {"tool", result::to_json(result.tool)}, {"config", result.config}};
 }
 
-// Something that would have failed the comparison had it become worse.
+// A missing part that could have failed the comparison.
 bool is_gated_part_missing(const Comparison& comparison) {
   return std::ranges::any_of(comparison.not_compared,
                              [](const PartOfOne& part) { return part.only_in == "base" && part.part != "timing"; });

@@ -22,17 +22,16 @@ struct CompareOptions {
   bool is_forced = false;       // compares times and instructions in spite of obstacles
 };
 
-// `threshold`: the smallest change of time that matters, 0.02 for 2
-// %. Times: of rounds side by side where the new result has them for this base ("data": "paired"), else of medians
-// ("separate").
+// `threshold`: the smallest relevant change of time, 0.02 for 2 %. Times: of rounds side by side if the new result has
+// them for this base ("data": "paired"), else of medians ("separate").
 result::Comparison compare_results(const result::Result& base, const result::Result& next, double threshold,
                                    const CompareOptions& options = {});
 
-// ok, gate_failed (a failure), nothing_comparable (no case in common); with `is_strict` inconclusive where a verdict
-// is, a case of the base is missing, or instructions could not be compared.
+// ok, gate_failed (a failure), nothing_comparable (no common case); with `is_strict` inconclusive if a verdict is, if a
+// case of the base is missing, or if instructions could not be compared.
 ExitCode outcome(const result::Comparison& comparison, bool is_strict);
 
-// For people: the table, and the same for a pull request.
+// As a table for terminals, and for a pull request.
 std::string comparison_text(const result::Comparison& comparison);
 std::string comparison_markdown(const result::Comparison& comparison);
 

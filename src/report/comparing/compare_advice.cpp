@@ -25,7 +25,7 @@ struct OpenVerdict {
   double launches = 0.0;
 };
 
-// Verdicts that are open, with an interval; `without`: how many have none.
+// Inconclusive verdicts with an interval; `without`: the number of those without.
 std::vector<OpenVerdict> open_verdicts(const Comparison& comparison, std::size_t& without) {
   std::vector<OpenVerdict> open;
   for (const ComparedCase& compared_case : comparison.cases) {

@@ -8,7 +8,7 @@
 
 namespace clusterbench::report {
 
-// Of what compare_results() gives, but for its advice; none where every verdict stands.
+// `comparison`: of compare_results(), without its advice. Empty if every verdict is conclusive.
 std::vector<std::string> advice_on(const result::Comparison& comparison);
 
 // Why two results have no common case, and the command for the user's probable intention. `base_name`: its file.

@@ -86,7 +86,7 @@ const char* mark_of(const ComparedCase& compared_case) {
   return is_worse(compared_case) ? "!" : is_open(compared_case) ? "?" : is_remarkable(compared_case) ? "+" : " ";
 }
 
-// Of the marks that the table has.
+// Explains the marks of the table.
 std::string legend(const std::vector<ComparedCase>& cases) {
   const auto has = [&](const std::string& mark) {
     return std::ranges::any_of(cases, [&](const ComparedCase& one) { return mark_of(one) == mark; });

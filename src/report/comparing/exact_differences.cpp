@@ -12,12 +12,12 @@ using result::Compares;
 using result::Difference;
 using result::Json;
 
-// Of what a list, values by name, or a nullable value hold.
+// The type of the elements of a list, of values by name, or of a nullable value.
 const result::Type& innermost(const result::Type& type) {
   return type.element != nullptr ? innermost(*type.element) : type;
 }
 
-// What the field says, or its struct, or what holds it.
+// The rule of the field, else of its struct, else of its holder.
 Compares compares_in(Compares holder, const result::Field& field) {
   for (const Compares said : {field.about.compares, innermost(*field.type).about.compares})
     if (said != Compares::as_holder) return said;
@@ -26,7 +26,7 @@ Compares compares_in(Compares holder, const result::Field& field) {
 
 const char* judged(Compares compares, const Json& base, const Json& next) {
   if (compares == Compares::unjudged || compares == Compares::follows) return "changed";
-  // A quotient that says nothing on one side; what it is made of is compared.
+  // A ratio that is undefined on one side; its counts are compared.
   if (compares == Compares::cost && (base.is_null() || next.is_null())) return "changed";
   if (compares == Compares::fixed || !base.is_number() || !next.is_number()) return "worse";
   return next.get<double>() < base.get<double>() ? "better" : "worse";
@@ -36,13 +36,13 @@ bool holds_objects(const Json& value) {
   return value.is_array() && !value.empty() && value.front().is_object();
 }
 
-// The high-water marks behind it are compared in any case.
+// The underlying high-water marks are always compared.
 bool follows_margin(const std::string& pointer) {
   return pointer.starts_with("/buffers/") &&
          (pointer.ends_with("/recommended") || pointer.starts_with("/buffers/used_share"));
 }
 
-// Goes down two values of a type side by side and collects each leaf that differs.
+// Compares two values of a type recursively and collects each leaf that differs.
 class Differences {
  public:
   explicit Differences(bool is_margin_same) : is_margin_same_(is_margin_same) {}
@@ -69,7 +69,7 @@ class Differences {
   bool any_follows() const { return any_follows_; }
 
  private:
-  // Any JSON holds any JSON.
+  // The elements of any JSON are any JSON.
   static const result::Type& element_of(const result::Type& type) {
     return type.element != nullptr ? *type.element : type;
   }

@@ -1,6 +1,6 @@
 #pragma once
-// What is counted rather than timed, of the same case in two results: every number, string and list that is not equal.
-// What that means of each field is said where it is listed (result::Compares).
+// Counted values of the same case in two results (no times): every number, string and list that differs. Each field
+// lists its meaning for the comparison (result::Compares).
 
 #include <optional>
 #include <string>
@@ -16,11 +16,10 @@ struct ExactDifferences {
   std::optional<std::string> place;  // of the deepest lost light, if the new result loses more
 };
 
-// better: something costs less, and nothing costs more; what only follows from that (a histogram, the worst frame) may
-// change with it. Any other difference is worse. What one result has and the other's version does not know is passed
-// over.
-// `is_margin_same`: allocation.margin of both; else what is recommended, and its used share, differ by that setting and
-// are passed over.
+// better: some cost is lower, and none is higher; values that only follow from it (a histogram, the worst frame) may
+// change with it. Any other difference is worse. Values that the other result's version does not record are skipped.
+// `is_margin_same`: whether allocation.margin is equal in both; if not, recommended sizes and their used share differ
+// because of it, and are skipped.
 ExactDifferences exact_differences(const result::Case& base, const result::Case& next, bool is_margin_same = true);
 
 // "frame 5, cell [1,0,2], light 8 ('torch')" of error.deepest; "" without one.

@@ -114,7 +114,7 @@ class PairIndex {
     for (const RatioPair& pair : block.pairs) pairs_[pair.slower * cases_ + pair.faster] = &pair;
   }
 
-  // Of a slower case and a faster one; nullptr where they have no ratio.
+  // The pair of a slower and a faster case; nullptr if they have no ratio.
   const RatioPair* find(std::size_t slower, std::size_t faster) const { return pairs_[slower * cases_ + faster]; }
 
  private:

@@ -14,7 +14,7 @@
 
 namespace clusterbench::report {
 
-// Frame time (or cost) of `numerator` / that of `denominator`, two cases of a grid; nullopt where other launches have
+// Frame time (or cost) of `numerator` / that of `denominator`, two cases of a grid; nullopt if different launches
 // measured them.
 std::optional<measure::Ratio> ratio_of_cases(const result::Result& result, const result::Case& numerator,
                                              const result::Case& denominator, RankBy by = RankBy::frame_time);
@@ -28,19 +28,19 @@ struct RatioRequest {
   bool across_grids = false;  // all grids of a scene, camera and viewport together
 };
 
-// Of each grid (or view) the timed cases, the fastest first, and the ratio of any two, the slower by the faster one:
-// docs/results.md. No blocks where nothing is timed.
+// For each grid (or view) the timed cases, the fastest first, and the ratio of any two, the slower divided by the
+// faster: docs/results.md. No blocks without times.
 result::Ratios ratios_of(const result::Result& result, const RatioRequest& request);
 
 // For each timed case with lists its place in a ranking over all grids of its scene, camera and viewport, for the page:
 // {"id", "fastest": {"id", "ratio", "ci95"} or null, "above": the same for the next faster one, "is_like_above"}.
 nlohmann::ordered_json ratio_rankings(const result::Result& result);
 
-// Of what ratios_of() gives: a ranking, with each case beside the fastest one and beside the one before it, or with
-// `all_pairs` each case beside each faster one.
+// `ratios`: of ratios_of(). A ranking that compares each case with the fastest one and the one before it, or with
+// `all_pairs` with each faster one.
 std::string ratio_table(const result::Ratios& ratios, bool all_pairs);
 std::string ratio_markdown(const result::Ratios& ratios, bool all_pairs);
-// All pairs, both ways around; an interval that is unknown is empty.
+// All pairs, in both directions; an unknown interval is empty.
 std::string ratio_csv(const result::Ratios& ratios);
 
 }  // namespace clusterbench::report

@@ -1,5 +1,5 @@
 #pragma once
-// What `light-map` found, as a document and as a table.
+// The findings of `light-map`, as a document and as a table.
 
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ struct LightMapScene {
   measure::LightMaps found;
 };
 
-// The same for the same input, but for `seconds`.
+// Equal for the same input, except for `seconds`.
 result::LightMaps light_maps_document(const std::vector<LightMapScene>& scenes,
                                       const measure::LightMapRequest& request);
 std::string light_maps_text(const std::vector<LightMapScene>& scenes, const measure::LightMapRequest& request);

@@ -1,5 +1,5 @@
 #pragma once
-// What `stress` found, as a document and as a table.
+// The findings of `stress`, as a document and as a table.
 
 #include <ostream>
 

@@ -52,8 +52,8 @@ result::WorstFrame frame_of(const search::FoundFrame& frame, const WorstCaseFact
   return out;
 }
 
-// Where slices end, or how far boxes reach, that do not follow something: made up from the recorded path, if the camera
-// or the configuration does not say it.
+// The end of slices, or the extent of boxes, that do not follow frames: computed from the recorded path if neither
+// camera nor configuration has it.
 result::Nullable<result::SearchedGridEnd> grid_end_of(const grid::GridSpec& spec) {
   if (spec.has_bounds && spec.follow == grid::Follow::nothing)
     return result::SearchedGridEnd{.bounds_m = box_of({spec.bounds_lo_m, spec.bounds_hi_m})};
@@ -63,13 +63,13 @@ result::Nullable<result::SearchedGridEnd> grid_end_of(const grid::GridSpec& spec
   return {};
 }
 
-// As a configuration has it: "90h"; null: the file's own.
+// In the format of a configuration: "90h"; null: the file's own.
 result::Nullable<std::string> fov_of(const std::optional<scene::FieldOfView>& fov) {
   if (!fov) return {};
   return text("%.12g", fov->angle_rad * 180.0 / std::numbers::pi) + (fov->is_horizontal ? "h" : "v");
 }
 
-// What else of the configuration a find is of, besides what the case's name tells.
+// Further settings of the configuration that a finding depends on, besides the case's name.
 result::SearchedSettings settings_of(const WorstCaseFacts& facts) {
   const config::SceneRequest& request = facts.config.scenes[facts.case_plan.scene];
   return {.fov = fov_of(request.camera.field_of_view),

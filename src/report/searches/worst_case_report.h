@@ -1,5 +1,5 @@
 #pragma once
-// What `worst-case` found, as a document and as text.
+// The findings of `worst-case`, as a document and as text.
 
 #include <string>
 

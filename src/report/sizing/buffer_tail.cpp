@@ -9,7 +9,7 @@
 namespace clusterbench::report {
 namespace {
 
-// What capacities are named for: at 60 frames per second once in half an hour.
+// The probability for reported capacities: at 60 frames per second once in half an hour.
 constexpr double k_rare = 1e-5;
 
 result::ChanceOfFrame chance_of(const measure::Chance& chance) {

@@ -1,5 +1,5 @@
 #pragma once
-// How likely a frame that was not recorded exceeds what a buffer has: words and figures of
+// The probability that a frame that was not recorded exceeds a buffer: words and figures of
 // measure/statistics/peaks_over_threshold.h.
 
 #include <optional>
@@ -19,7 +19,7 @@ std::optional<measure::TailEstimate> tail_of(const SizedBuffer& buffer);
 // no estimate is necessary.
 std::string tail_text(const SizedBuffer& buffer);
 
-// None where there is no estimate; with a refusal alone where there can be none.
+// None if no estimate is necessary; only a refusal if none is possible.
 std::optional<result::BeyondThePath> beyond_the_path(const SizedBuffer& buffer);
 
 // "1 in 30000", "1 in 10^7", "never" for 0. One digit, so that it does not look too precise.

@@ -70,8 +70,8 @@ std::string viewports_text(const std::vector<const result::Case*>& cases) {
   return joined(all, " or ");
 }
 
-// The cases of its structure, camera and viewport on its scene. Of a scene that the result has several times those that
-// are called like it come first.
+// The cases of its structure, camera and viewport on its scene. If the result has several scenes with these contents,
+// those of the same name come first.
 std::vector<const result::Case*> matches_of(const std::string& path, const SearchedCase& searched,
                                             const result::Result& result) {
   const std::string& sha256 = searched.sha256;
@@ -135,7 +135,7 @@ bool ends_at(const result::Slices& slices, double end_m) {
          (slices.scheme.starts_with("cubical") && end_m > slices.boundaries[count - 2] && end_m < last_m);
 }
 
-// "" if the grid ends where that of the search did, or follows something from frame to frame.
+// "" if the grid ends at the same place as that of the search, or follows frames.
 std::string other_end(const result::SearchedGridEnd& searched, const result::Grid& grid) {
   if (const std::optional<double>& end_m = searched.slices_m;
       end_m && grid.slices && !grid.slices->boundaries.empty()) {
@@ -189,7 +189,7 @@ void check_settings(const std::string& path, const SearchedCase& searched, const
     if (result.scenes[i].name == match.scene) check_settings(path, *searched.settings, result, i, match);
 }
 
-// The case that was searched: of several that are alike the first one of its settings.
+// The searched case: of several similar ones the first with its settings.
 const result::Case& searched_case(const std::string& path, const SearchedCase& searched, const result::Result& result) {
   const std::vector<const result::Case*> matches = matches_of(path, searched, result);
   for (const result::Case* match : matches) {

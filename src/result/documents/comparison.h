@@ -1,5 +1,5 @@
 #pragma once
-// A comparison: what `clusterbench compare BASE NEW --json FILE` writes.
+// A comparison: the output of `clusterbench compare BASE NEW --json FILE`.
 
 #include "result/result.h"
 

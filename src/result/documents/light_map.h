@@ -1,5 +1,5 @@
 #pragma once
-// Light maps: what `clusterbench light-map` writes.
+// Light maps: the output of `clusterbench light-map`.
 
 #include "result/figures.h"
 

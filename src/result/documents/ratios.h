@@ -1,5 +1,5 @@
 #pragma once
-// Ratios: what `clusterbench ratio RESULT --json FILE` writes.
+// Ratios: the output of `clusterbench ratio RESULT --json FILE`.
 
 #include "result/result.h"
 

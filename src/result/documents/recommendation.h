@@ -1,5 +1,5 @@
 #pragma once
-// A recommendation: what `clusterbench recommend -o FILE` writes.
+// A recommendation: the output of `clusterbench recommend -o FILE`.
 
 #include "result/result.h"
 

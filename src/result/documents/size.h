@@ -1,5 +1,5 @@
 #pragma once
-// Allocations: what `clusterbench size --format json` writes.
+// Allocations: the output of `clusterbench size --format json`.
 
 #include "result/figures.h"
 

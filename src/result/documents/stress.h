@@ -1,5 +1,5 @@
 #pragma once
-// Hard cases and random settings: what `clusterbench stress` writes.
+// Hard cases and random settings: the output of `clusterbench stress`.
 
 #include "result/fields.h"
 

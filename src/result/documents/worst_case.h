@@ -1,11 +1,11 @@
 #pragma once
-// The worst frames of a case: what `clusterbench worst-case` writes.
+// The worst frames of a case: the output of `clusterbench worst-case`.
 
 #include "result/figures.h"
 
 namespace clusterbench::result {
 
-// A figure of the measure: a whole number, but a mean for `evaluated`.
+// A figure of the measure: a whole number, except for `evaluated`, a mean.
 inline constexpr const char* k_figure_shape = R"({"type": "number"})";
 
 struct BoxInMetres {
