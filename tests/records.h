@@ -1,6 +1,7 @@
 #pragma once
 // Results that a test writes as JSON, with only the fields that it is about: the others are as in a new record.
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <vector>
@@ -9,6 +10,12 @@
 
 namespace clusterbench::test {
 
+inline bool is_whole(const result::Json& json, bool is_unsigned) {
+  if (!json.is_number() || json.is_number_unsigned()) return json.is_number();
+  const auto value = json.get<double>();
+  return value == std::floor(value) && (!is_unsigned || value >= 0.0);
+}
+
 // A field that no record has throws.
 inline void fill(const result::Type& type, const result::Json& json, void* value) {
   using result::Kind;
@@ -16,7 +23,7 @@ inline void fill(const result::Type& type, const result::Json& json, void* value
   if (holds_others && !json.is_structured()) throw std::invalid_argument("no object or list: " + json.dump());
   if (type.kind == Kind::nullable) {
     if (!json.is_null()) fill(*type.element, json, type.append(value, 0, ""));
-  } else if (type.kind == Kind::integer && (!json.is_number_integer() || (type.is_unsigned && json < 0))) {
+  } else if (type.kind == Kind::integer && !is_whole(json, type.is_unsigned)) {
     throw std::invalid_argument("no whole number of its kind: " + json.dump());
   } else if (type.kind == Kind::list) {
     if (type.fixed_size != 0 && json.size() != type.fixed_size)

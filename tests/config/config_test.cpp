@@ -163,8 +163,8 @@ const Broken k_broken[] = {
      "1:64 /grids/0/slices/far: found 5, allowed: a number above near, 10", false},
     {R"({"scenes": ["a.glb"], "grids": [{"slices": {"scheme": "list", "boundaries": [1, 3, 2]}}]})",
      "1:84 /grids/0/slices/boundaries/2: found 2 after 3, allowed: ascending numbers", false},
-    {R"({"scenes": ["a.glb"], "rank_by": {}})", "1:36 /rank_by: found an object, allowed: frame_time, frame_cost"},
-    {R"({"scenes": ["a.glb"], "rank_by": []})", "1:36 /rank_by: found a list of 0, allowed: frame_time, frame_cost"},
+    {R"({"scenes": ["a.glb"], "rank_by": {}})", "1:34 /rank_by: found an object, allowed: frame_time, frame_cost"},
+    {R"({"scenes": ["a.glb"], "rank_by": []})", "1:34 /rank_by: found a list of 0, allowed: frame_time, frame_cost"},
     {R"({"scenes": ["a.glb"], "samples": {"fog": {}}, "cost": {"weights": {"fog": 0}}, "rank_by": "frame_cost"})",
      "1:91 /rank_by: is frame_cost, and no set of samples with a weight is asked for; add \"samples\": {\"opaque\": "
      "{}}",

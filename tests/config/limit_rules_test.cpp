@@ -122,7 +122,7 @@ TEST(LimitRules, a_figure_at_samples_can_name_its_set_and_others_can_not) {
     }
     EXPECT_NE(
         message.find("of one set of samples as in 'opaque.unlit' (sets: volume, opaque, transparent, fog, mirror, "
-                     "anywhere; figures: unlit, lost_irradiance, overshade, needed)"),
+                     "anywhere; figures: unlit, overshade, needed, evaluated, read_bytes, lost_irradiance)"),
         std::string::npos)
         << text << ": " << message;
   }
