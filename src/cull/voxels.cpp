@@ -89,7 +89,8 @@ void Voxels::mark_way(const Vec3d& from, const Vec3d& along, double length_m) {
 bool Voxels::any_in(std::uint64_t begin, std::uint64_t end) const {
   while (begin < end) {
     const std::uint64_t in_word = begin % k_voxels_per_word, bits = std::min(k_voxels_per_word - in_word, end - begin);
-    const std::uint64_t mask = (bits == k_voxels_per_word ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1) << in_word;
+    const std::uint64_t mask = (bits == k_voxels_per_word ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1)
+                               << in_word;
     if ((words_[begin / k_voxels_per_word] & mask) != 0) return true;
     begin += bits;
   }

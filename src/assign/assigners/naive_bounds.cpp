@@ -132,7 +132,8 @@ class NaiveBounds final : public LightByLight<NaiveBounds> {
 
   void set_axis(int& first, int& last, float from, float to, int pixels, int count) const {
     const int up = (pixels + count - 1) / count;
-    const int tile = flaw_ == BoundsFlaw::padded_tiles ? up : std::max(1, static_cast<int>(1.0 / grid_scale(pixels, count)));
+    const int tile =
+        flaw_ == BoundsFlaw::padded_tiles ? up : std::max(1, static_cast<int>(1.0 / grid_scale(pixels, count)));
     const int tiles = std::min(count, pixels / tile + (flaw_ == BoundsFlaw::padded_tiles ? 1 : 0));
     if (tiles < 1) {  // less than one whole tile fits
       last = first - 1;

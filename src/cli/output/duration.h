@@ -1,5 +1,6 @@
 #pragma once
-// The estimated duration of a command, printed before it starts. ProgressLine (progress_line.h) shows the remaining time.
+// The estimated duration of a command, printed before it starts. ProgressLine (progress_line.h) shows the remaining
+// time.
 
 #include <string>
 #include <vector>

@@ -56,7 +56,8 @@ void check_names(const Scene& scene, const ViewsRequest& request) {
 }
 
 // Returns its index.
-std::size_t add_node(nlohmann::json& json, const std::string& name, const Vec3d& at, const Vec4d& rotation, std::size_t camera) {
+std::size_t add_node(nlohmann::json& json, const std::string& name, const Vec3d& at, const Vec4d& rotation,
+                     std::size_t camera) {
   json["nodes"].push_back({{"name", name},
                            {"translation", {at.x, at.y, at.z}},
                            {"rotation", {rotation.x, rotation.y, rotation.z, rotation.w}},
