@@ -107,8 +107,8 @@ double read_depth(const view::Projection& projection, DepthRead read, double dep
     stored = (far - clamped) / (far - near);
   else
     stored = std::isinf(far) ? near / clamped : near * (far - clamped) / ((far - near) * clamped);
-  constexpr double k_steps = (1 << 24) - 1;
-  stored = read == DepthRead::d24 ? std::round(stored * k_steps) / k_steps : static_cast<float>(stored);
+  constexpr double k_d24_steps = (1 << 24) - 1;
+  stored = read == DepthRead::d24 ? std::round(stored * k_d24_steps) / k_d24_steps : static_cast<float>(stored);
   if (projection.orthographic) return static_cast<float>(far - stored * (far - near));
   // As in a shader: single precision, constants rounded once. A stored 0 is the far end.
   if (std::isinf(far)) return static_cast<float>(near) / static_cast<float>(stored);
