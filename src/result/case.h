@@ -88,7 +88,7 @@ struct LightsBeyondGrid {
 struct SetCost {
   RECORD(SetCost);
   FIELD(double, samples, "That a frame shades: weight x samples, each of which stands for its block of pixels",
-        "samples");
+        "samples", "", Compares::fixed);
   FIELD(double, lights, "Looped over at one of them, mean", "lights");
   FIELD(double, divergence, "Of waves of config.cost.wave pixels; 1 where it is not known, and where lights are drawn",
         "ratio");
@@ -103,7 +103,7 @@ struct SetCost {
 };
 
 struct Cost {
-  static About about() { return About("", Compares::follows); }
+  static About about() { return About("", Compares::cost); }
   RECORD(Cost);
   FIELD(double, frame_ns,
         "assign_ns + gpu_ns; null where nothing is timed, and of presets whose engine makes its lists on a GPU, which "
@@ -130,7 +130,8 @@ struct Cost {
   FIELD(ByName<SetCost>, sets, "By name, those that are asked for, have a weight and are there");
   FIELD(bool, lit,
         "None of these sets lacks more than 0.001 of the lights that it needs. A case that does is on no front over "
-        "cost");
+        "cost",
+        "", "", Compares::follows);
   END_RECORD;
 };
 

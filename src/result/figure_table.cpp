@@ -231,11 +231,6 @@ constexpr Figure k_figures[] = {
      .recorded = number<&Case::lights_in_view, &LightsInView::mean>,
      .none = k_of_lights,
      .export_name = "lights_in_view_mean"},
-    {.name = "lights_beyond_grid",
-     .unit = "lights",
-     .meaning = "lights in view that may reach a point in view which no cell holds, in the frame with most",
-     .recorded = number<&Case::lights_beyond_grid, &LightsBeyondGrid::max>,
-     .none = " (grids without cells and results of older versions have none)"},
     {.name = "pairs.mean",
      .unit = "pairs",
      .meaning = "(cell, light) pairs of a frame, mean of all frames",
@@ -478,6 +473,11 @@ constexpr Figure k_figures[] = {
      .basis = instructions,
      .recorded = number<&Case::count, &Count::cycles_per_frame, &PerFrame::convert>,
      .none = k_of_counts},
+    {.name = "lights_beyond_grid",
+     .unit = "lights",
+     .meaning = "lights in view that may reach a point in view which no cell holds, in the frame with most",
+     .recorded = number<&Case::lights_beyond_grid, &LightsBeyondGrid::max>,
+     .none = " (grids without cells and results of older versions have none)"},
 };
 
 }  // namespace
