@@ -131,7 +131,7 @@ HistoryEntry::Case parsed_case(const Json& stored, const std::string& at) {
   return out;
 }
 
-SceneLights parsed_scene(const Json& stored, const std::string& at) {
+HistoryLights parsed_scene(const Json& stored, const std::string& at) {
   checked(stored, at, stored.is_object(), "an object");
   return {text_in(stored, at, "name"), text_or_none(stored, at, "light_digest"), text_in(stored, at, "lights")};
 }
@@ -216,25 +216,25 @@ std::vector<measure::ChangePoint> changes_of(const Series& series, const measure
   return measure::counted_changes(series.values, std::max(rule.min_change, counting_noise(series)));
 }
 
-const SceneLights* lights_of_scene(const HistoryEntry& entry, const std::string& scene) {
-  const auto found = std::ranges::find(entry.scenes, scene, &SceneLights::scene);
+const HistoryLights* lights_of_scene(const HistoryEntry& entry, const std::string& scene) {
+  const auto found = std::ranges::find(entry.scenes, scene, &HistoryLights::scene);
   return found == entry.scenes.end() ? nullptr : &*found;
 }
 
-bool are_other_lights(const SceneLights& before, const SceneLights& now) {
+bool are_other_lights(const HistoryLights& before, const HistoryLights& now) {
   return before.digest.empty() || now.digest.empty() ? before.counts != now.counts : before.digest != now.digest;
 }
 
 // "the lights of level have changed: 300 points, now 250 points"
-std::string changed_lights_text(const SceneLights& before, const SceneLights& now) {
+std::string changed_lights_text(const HistoryLights& before, const HistoryLights& now) {
   return "the lights of " + now.scene + " have changed: " +
          (before.counts == now.counts ? "still " + now.counts + ", some of them moved or changed"
                                       : before.counts + ", now " + now.counts);
 }
 
-bool has_one_of(const HistoryEntry& entry, const std::vector<SceneLights>& scenes) {
-  return std::ranges::any_of(scenes,
-                             [&](const SceneLights& scene) { return lights_of_scene(entry, scene.scene) != nullptr; });
+bool has_one_of(const HistoryEntry& entry, const std::vector<HistoryLights>& scenes) {
+  return std::ranges::any_of(
+      scenes, [&](const HistoryLights& scene) { return lights_of_scene(entry, scene.scene) != nullptr; });
 }
 
 // Scenes that a result of another commit has beside those of `entry`, and no result of this commit has: a missing scene
@@ -247,7 +247,7 @@ std::vector<std::string> missing_scenes(std::span<const HistoryEntry> before, st
   const auto last = std::ranges::find_if(before.rbegin(), before.rend(), is_earlier);
   if (last == before.rend()) return {};
   std::vector<std::string> lines;
-  for (const SceneLights& then : last->scenes) {
+  for (const HistoryLights& then : last->scenes) {
     const auto has_it = [&](const HistoryEntry& other) {
       return other.commit == entry.commit && lights_of_scene(other, then.scene) != nullptr;
     };
@@ -260,9 +260,9 @@ std::vector<std::string> missing_scenes(std::span<const HistoryEntry> before, st
 // Changes of lights by `entry`, compared with the last results of each of its scenes before it.
 std::vector<std::string> changed_lights(std::span<const HistoryEntry> before, const HistoryEntry& entry) {
   std::vector<std::string> lines;
-  for (const SceneLights& now : entry.scenes)
+  for (const HistoryLights& now : entry.scenes)
     for (auto earlier = before.rbegin(); earlier != before.rend(); ++earlier) {
-      const SceneLights* then = lights_of_scene(*earlier, now.scene);
+      const HistoryLights* then = lights_of_scene(*earlier, now.scene);
       if (then == nullptr) continue;
       if (are_other_lights(*then, now)) lines.push_back(changed_lights_text(*then, now));
       break;
@@ -270,7 +270,7 @@ std::vector<std::string> changed_lights(std::span<const HistoryEntry> before, co
   return lines;
 }
 
-const CameraPath* path_in(const HistoryEntry& entry, const std::string& scene, const std::string& camera) {
+const HistoryPath* path_in(const HistoryEntry& entry, const std::string& scene, const std::string& camera) {
   const auto found = std::ranges::find_if(entry.cases, [&](const HistoryEntry::Case& other) {
     return other.scene == scene && other.path.camera == camera && !other.path.digest.empty();
   });
@@ -282,7 +282,7 @@ std::vector<std::string> changed_paths(std::span<const HistoryEntry> before, con
   std::vector<std::string> lines;
   for (const HistoryEntry::Case& now : entry.cases) {
     if (now.path.digest.empty()) continue;
-    const CameraPath* then = nullptr;
+    const HistoryPath* then = nullptr;
     for (auto earlier = before.rbegin(); earlier != before.rend() && then == nullptr; ++earlier)
       then = path_in(*earlier, now.scene, now.path.camera);
     if (then == nullptr || then->digest == now.path.digest) continue;
@@ -374,7 +374,7 @@ Addition add_to_history(const std::string& path, const result::Result& result, c
   addition.path_changes = changed_paths(others, fresh);
   addition.light_changes = missing_scenes(others, history, fresh);
   std::ranges::copy(changed_lights(others, fresh), std::back_inserter(addition.light_changes));
-  for (const SceneLights& scene : fresh.scenes)
+  for (const HistoryLights& scene : fresh.scenes)
     if (!others.empty() && std::ranges::none_of(others, [&](const HistoryEntry& entry) {
           return lights_of_scene(entry, scene.scene) != nullptr;
         }))
@@ -425,7 +425,7 @@ std::vector<Series> series_of(const std::vector<HistoryEntry>& history, const me
                          {},
                          false,
                          {}});
-        const SceneLights* lights = lights_of_scene(entry, history_case.scene);
+        const HistoryLights* lights = lights_of_scene(entry, history_case.scene);
         all[found->second].lights.push_back(lights == nullptr ? "" : lights->digest);
         all[found->second].paths.push_back(history_case.path.digest);
         all[found->second].commits.push_back(entry.commit);

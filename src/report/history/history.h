@@ -11,14 +11,14 @@
 namespace clusterbench::report {
 
 // The lights of a result's scene: see scene_lights.h.
-struct SceneLights {
+struct HistoryLights {
   std::string scene;
   std::string digest;  // "" in results of older versions
   std::string counts;  // "248 points, 52 spots"
 };
 
 // The path of a case; all empty in older versions; `digest` is empty for a generated path.
-struct CameraPath {
+struct HistoryPath {
   std::string camera, digest;
   double from_s = 0.0, to_s = 0.0;
 };
@@ -36,10 +36,10 @@ struct HistoryEntry {
     std::string settings, name;                           // `settings` is "" in lines of older versions
     std::vector<std::pair<std::string, double>> figures;  // by the exported name
     std::string scene = {};                               // "" in lines of older versions
-    CameraPath path = {};
+    HistoryPath path = {};
   };
   std::vector<Case> cases;
-  std::vector<SceneLights> scenes = {};  // empty in lines of older versions
+  std::vector<HistoryLights> scenes = {};  // empty in lines of older versions
 };
 
 // "at 3f2a: the lights of level have changed: 248 points, 52 spots, now 200 points; figures from there on are of other
