@@ -72,11 +72,11 @@ std::optional<FigureValue> value_of_ranking_sets(const Figure& figure, const Cas
     return mean ? std::optional(of_all_sets(*mean)) : std::nullopt;
   }
   // With weights, overshade is the weighted value over all sets, as a frame shades them.
-  if (figure.name == "overshade")
-    if (const auto weighted = number<&Case::cost, &Cost::overshade>(result_case)) {
-      if (!result_case.cost->lit) return {};  // older results have the ratio even then
-      return of_all_sets(*weighted);
-    }
+  if (figure.name == "overshade" && part<&Case::cost, &Cost::overshade>(result_case) != nullptr) {
+    const std::optional<double> weighted = number<&Case::cost, &Cost::overshade>(result_case);
+    // Older results have the ratio although a set lacks lights.
+    return weighted && result_case.cost->lit ? std::optional(of_all_sets(*weighted)) : std::nullopt;
+  }
   return largest_of_sets(figure, result_case, sets);
 }
 

@@ -37,7 +37,7 @@ void add_export(Command& program, Action& action) {
       .add_option("--filter", flags->filter,
                   "Only cases whose name has this in it, or matches it as a regular expression")
       .may_be_empty();
-  command.add_flag("--all", flags->all, "Every figure, not only the headline");
+  command.add_flag("--all", flags->all, "All exported figures, not only the headline");
   command.footer("Formats:\n" + export_formats_text());
   command.when_named([flags, &action] { action = [flags] { return export_result(*flags); }; });
 }

@@ -93,6 +93,10 @@ Json uses_of(const result::Figure& figure) {
   Json uses{{"budget", true}, {"budget_of_one_sample_set", figure.is_at_samples()}, {"recommend", figure.is_choosable}};
   if (figure.is_exported())
     uses["export"] = {{"name", figure.exported_as()}, {"unit", figure.unit}, {"headline", figure.is_headline}};
+  // Budgets are of the sets that rank, exports of one.
+  if (figure.is_exported() && figure.is_at_samples())
+    uses["export"]["of"] =
+        figure.name == "needed" ? "all random points in the view together" : "random points in the view";
   uses["history"] = report::is_kept(figure);
   return uses;
 }
@@ -194,6 +198,7 @@ void print_figure(const Json& figure) {
   if (uses["recommend"]) std::cout << "; recommend";
   if (uses.contains("export"))
     std::cout << "; export " << word_of(uses["export"]["name"]) << " [" << word_of(uses["export"]["unit"]) << "]"
+              << (uses["export"].contains("of") ? " of " + word_of(uses["export"]["of"]) : "")
               << (uses["export"]["headline"] ? "" : " with --all");
   std::cout << (uses["history"] ? "; history" : "") << "\n";
 }

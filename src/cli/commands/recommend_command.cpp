@@ -65,6 +65,12 @@ std::vector<config::LimitRule> rules_of(const RecommendFlags& flags, const confi
     if (rule.side != config::LimitRule::Side::above || rule.is_relative || !rule.cases.empty())
       throw Error("", "limits.fail_if",
                   "'" + rule.text() + "': recommend takes budgets with > or >= and a number alone");
+  for (const config::LimitRule& rule : rules)
+    if (const result::Figure& figure = *result::figure_named(rule.figure);
+        !figure.is_choosable && figure.better != result::Better::neither)
+      throw Error("", "limits.fail_if",
+                  "'" + rule.text() + "': recommend does not choose by " + rule.figure +
+                      ", which `clusterbench run` holds; `clusterbench list figures` says what it chooses by");
   const std::vector<const result::Figure*> figures = report::objective_figures();
   for (std::size_t i = 0; i < figures.size(); ++i)
     if (flags.most[i] != k_no_limit) rules.push_back({std::string(figures[i]->name), false, flags.most[i]});

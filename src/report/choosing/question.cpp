@@ -8,6 +8,7 @@
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
 #include "report/cases/json_values.h"
+#include "result/at.h"
 #include "result/case_figure.h"
 #include "result/sample_sets.h"
 #include "run/findings/gate.h"
@@ -26,7 +27,16 @@ constexpr const char* k_unlit_in_view = "volume.unlit";
 // above 0.
 bool stays_broken(const config::LimitRule& rule) {
   const Figure& figure = *result::figure_named(rule.figure);
-  return figure.only_grows || (rule.limit == 0.0 && !figure.rests_on_times());
+  return figure.only_grows ||
+         (rule.limit == 0.0 && figure.better == result::Better::smaller && !figure.rests_on_times());
+}
+
+// Whether a figure of samples is not known because the camera sees no surface, or no light reaches what it sees: then
+// nothing is lost there.
+bool has_nothing_to_lose(const Case& result_case, const Figure& figure) {
+  return figure.is_at_samples() && (sum_at_samples(result_case, result::number<&result::SampleSet::samples>) == 0.0 ||
+                                    (figure.samples.is_of_needed && figure.name != "overshade" &&
+                                     sum_at_samples(result_case, result::number<&result::SampleSet::needed>) == 0.0));
 }
 
 // The largest figure that breaks a constraint; none if it holds. A given constraint on a figure that a case does not
@@ -35,6 +45,9 @@ std::optional<double> breaking_figure(const std::vector<Case>& cases, const Cons
   std::optional<double> largest;
   for (const Case& result_case : cases) {
     const std::optional<double> value = figure_of(result_case, constraint.rule.figure);
+    if (!value && !ranking_set_names(result_case).empty() &&
+        has_nothing_to_lose(result_case, *result::figure_named(constraint.rule.figure)))
+      continue;
     if (!value && constraint.is_given) return std::numeric_limits<double>::quiet_NaN();
     if (!constraint.is_given && constraint.rule.figure == k_unlit_in_view &&
         ranking_set_names(result_case) == std::vector<std::string>{"volume"})
@@ -129,7 +142,7 @@ search::Evaluate judge_of(const Question& question, const nlohmann::json& config
       if (!by) continue;
       verdict.broken.push_back(i);
       verdict.broken_by.push_back(*by);
-      verdict.is_final = verdict.is_final || stays_broken(rule);
+      verdict.is_final = verdict.is_final || (!std::isnan(*by) && stays_broken(rule));
     }
     const auto break_by_no_figure = [&](std::size_t constraint) {
       verdict.broken.push_back(constraint);
