@@ -592,10 +592,22 @@ TEST(Recommend, by_figures_of_samples_goes_by_the_cameras_that_see_surfaces) {
   const std::string flags =
       " --viewport 320x180 --grid frustum --tiles 16x9t --slices 4,8 --assigner exact-fast "
       "--no-timing -q --set samples.opaque.ground=lowest --set 'scenes.*.camera=*' --by ";
-  for (const char* figure : {"evaluated", "read_bytes"}) {
-    const Outcome done = tool("recommend " + folder.write("level.gltf", level.dump()).string() + flags + figure);
-    EXPECT_EQ(done.code, 0) << done.out << done.err;
+  const std::string recommend = "recommend " + folder.write("level.gltf", level.dump()).string() + flags;
+  for (const char* question : {"evaluated", "read_bytes", "evaluated --evaluated 1000", "bytes --read-bytes 1e6",
+                               "bytes --unlit 0", "bytes --lost-irradiance 0"}) {
+    const Outcome done = tool(recommend + question);
+    EXPECT_EQ(done.code, 0) << question << ": " << done.out << done.err;
   }
+  const Outcome too_few = tool(recommend + "bytes --evaluated 0.001");
+  EXPECT_EQ(too_few.code, 1) << too_few.out;
+}
+
+TEST(Recommend, refuses_budgets_of_figures_that_it_does_not_choose_by) {
+  const Folder folder;
+  const Outcome done = tool("recommend " + folder.write("space.json", space()).string() +
+                            " --no-timing --by bytes --fail-if 'tests_done > 5'");
+  EXPECT_EQ(done.code, 2);
+  EXPECT_NE(done.err.find("'tests_done > 5': recommend does not choose by tests_done"), std::string::npos) << done.err;
 }
 
 }  // namespace

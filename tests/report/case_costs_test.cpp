@@ -286,6 +286,19 @@ TEST(FrameCosts, of_several_sets_overshade_is_weighted_and_unlit_that_of_the_one
   EXPECT_EQ(result::figure_of(one, "overshade"), one.cost->overshade);
 }
 
+// That of the other set alone would be no overshade of both.
+TEST(FrameCosts, of_several_sets_there_is_no_overshade_where_one_lacks_lights) {
+  run::Result result = costly();
+  for (run::CaseResult& one : result.cases) {
+    measure::ShadingCounts fog{.samples = 100, .evaluated = 300, .needed = 2000, .missed = 900};
+    one.samples.push_back({measure::SampleSet::fog, fog, {}});
+  }
+  const result::Case one = test::case_of(of(result)["cases"][0]);
+  EXPECT_FALSE(one.cost->lit);
+  EXPECT_EQ(result::figure_of(one, "overshade"), std::nullopt);
+  EXPECT_TRUE(result::figure_of(one, "opaque.overshade"));
+}
+
 TEST(FrameCosts, without_sets_of_samples_the_legend_says_that_they_are_random_points_in_the_view) {
   const std::string table = render_table(record_of(result_by_hand(), {}), false);
   EXPECT_NE(table.find("unlit  overshade  bytes"), std::string::npos) << table;
