@@ -68,7 +68,7 @@ struct Figure {
   Share<Case> share = {};                                          // used for budgets if a case has the counts
   AtSamples samples = {};                                          // the same for each set
   Place<Case> worst = {};
-  std::string_view none = "";  // possible reason for a missing value, in parentheses
+  std::string_view none = {};  // possible reason for a missing value, in parentheses
 
   // `recommend`.
   bool is_choosable = false;      // depends on grid, method or structure
@@ -77,7 +77,7 @@ struct Figure {
   OverCameras over_cameras = OverCameras::mean;
 
   // Exports and histories; these names are stable.
-  std::string_view export_name = "";  // "": `name`
+  std::string_view export_name = {};  // "": `name`
   bool is_headline = false;           // exported by default
   bool is_kept = false;               // in histories, with the headline
 
