@@ -281,13 +281,13 @@ assign::SpotCells some_spot_cells(const Setting& setting, int slice) {
   return cells;
 }
 
-void look_at_spot_cells(State& state) {
+void filter_spot_cells(State& state) {
   constexpr int k_slice = 10;
   const Setting setting = open_world();
   const assign::RowPlanes planes(setting.grid.screen());
   assign::SpotCells cells = some_spot_cells(setting, k_slice);
   for (auto _ : state) {
-    assign::look_at_cells(setting.lights, planes, cells);
+    assign::filter_spot_cells(setting.lights, planes, cells);
     benchmark::ClobberMemory();
   }
   items(state, cells.count);
@@ -482,7 +482,7 @@ constexpr Kernel k_kernels[] = {
     {"find_box_rows", find_box_rows},
     {"find_shell_rows", find_shell_rows},
     {"find_spot_rows", find_spot_rows},
-    {"look_at_spot_cells", look_at_spot_cells},
+    {"filter_spot_cells", filter_spot_cells},
     {"find_touched_cells", find_touched_cells},
 };
 

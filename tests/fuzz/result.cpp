@@ -1,6 +1,7 @@
 // A result read back, and what everything that reads one asks it first.
 
 #include "fuzz/input.h"
+#include "report/cases/failures.h"
 #include "report/documents/result_file.h"
 #include "report/results/result_record.h"
 
