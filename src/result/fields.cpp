@@ -76,7 +76,16 @@ bool is_of_kind(const Type& type, const Json& json) {
   }
 }
 
+void plain_from_json(const Type& type, const Json& json, void* value, const std::string& where) {
+  try {
+    type.from_json(json, value);
+  } catch (const Error& error) {
+    throw Error("", where, error.message());
+  }
+}
+
 void value_from_json(const Type& type, const Json& json, void* value, const std::string& where) {
+  if (type.clear != nullptr) type.clear(value);
   if (type.kind == Kind::nullable) {
     if (!json.is_null()) value_from_json(*type.element, json, type.append(value, 0, ""), where);
     return;
@@ -91,7 +100,7 @@ void value_from_json(const Type& type, const Json& json, void* value, const std:
     for (const auto& [name, element] : json.items())
       value_from_json(*type.element, element, type.append(value, 0, name), where + "/" + name);
   } else {
-    type.from_json(json, value);
+    plain_from_json(type, json, value, where);
   }
 }
 

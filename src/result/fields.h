@@ -121,7 +121,8 @@ struct Type {
   const void* (*at)(const void* list, std::size_t index) = nullptr;
   const std::string& (*name_at)(const void* list, std::size_t index) = nullptr;
   void* (*append)(void* list, std::size_t index, const std::string& name) = nullptr;
-  // Of a plain value.
+  void (*clear)(void* list) = nullptr;  // null for a fixed length
+  // Of a plain value. from_json throws Error, without a location, for a value that it cannot read.
   Json (*to_json)(const void* value, bool is_fraction) = nullptr;
   void (*from_json)(const Json& json, void* value) = nullptr;  // of its kind
 };
@@ -141,12 +142,14 @@ T initial() {
 #define RECORD(Name) \
   using Self = Name; \
   static constexpr int k_first_line = __LINE__
-#define FIELD_AS(name, Type, member, ...)                                                \
-  Type member = ::clusterbench::result::initial<Type>();                                 \
-  template <class F>                                                                     \
-  static void list(F& field, std::integral_constant<int, __LINE__>) {                    \
-    field.template add<&Self::member>(name, ::clusterbench::result::About(__VA_ARGS__)); \
-  }                                                                                      \
+#define FIELD_AS(name, Type, member, ...)                \
+  Type member = ::clusterbench::result::initial<Type>(); \
+  LIST_FIELD(name, member, ::clusterbench::result::About(__VA_ARGS__))
+#define LIST_FIELD(name, member, about)                               \
+  template <class F>                                                  \
+  static void list(F& field, std::integral_constant<int, __LINE__>) { \
+    field.template add<&Self::member>(name, about);                   \
+  }                                                                   \
   static_assert(true)
 #define FIELD(Type, member, ...) FIELD_AS(#member, Type, member, __VA_ARGS__)
 #define END_RECORD static constexpr int k_last_line = __LINE__
@@ -224,6 +227,7 @@ Type nullable() {
   type.append = [](void* value, std::size_t, const std::string&) -> void* {
     return &static_cast<T*>(value)->emplace();
   };
+  type.clear = [](void* value) { static_cast<T*>(value)->reset(); };
   return type;
 }
 
@@ -242,6 +246,7 @@ Type by_name() {
     all.back().first = name;
     return &all.back().second;
   };
+  type.clear = [](void* list) { static_cast<T*>(list)->clear(); };
   return type;
 }
 
@@ -258,6 +263,7 @@ Type list() {
       all.emplace_back();
       return &all.back();
     };
+    type.clear = [](void* list) { static_cast<T*>(list)->clear(); };
   } else {
     type.fixed_size = T{}.size();
     type.append = [](void* list, std::size_t i, const std::string&) -> void* { return &(*static_cast<T*>(list))[i]; };
@@ -325,8 +331,9 @@ const Type& type_of() {
 
 // The JSON of a record of the given type, fields in their order.
 Json to_json(const Type& type, const void* record);
-// Fills a newly created record. Throws Error (where: the JSON pointer below `where`) for a value of another type than
-// its field's, and for a missing or unknown field. Does not check ranges of values; the schema does.
+// Fills a record; optional fields that the JSON lacks keep their value. Throws Error (where: the JSON pointer below
+// `where`) for a value of another type than its field's, and for a missing or unknown field. Does not check ranges of
+// values; the schema does.
 void from_json(const Type& type, const Json& json, void* record, const std::string& where);
 
 template <class Record>
