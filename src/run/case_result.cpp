@@ -87,8 +87,8 @@ CaseResult case_result(const config::Config& config, const Plan& whole, const Ca
   out.tests_done = method.tests_done;
   out.fallbacks = method.fallbacks;
   if (method.has_cells) out.occupancy = method.occupancy;
-  if (method.has_cells && config.check_accuracy && plan.cells_not_compared == 0) out.error = method.error;
-  if (config.check_accuracy) out.cells_not_compared = plan.cells_not_compared;
+  if (method.has_cells && config.accuracy.check && plan.cells_not_compared == 0) out.error = method.error;
+  if (config.accuracy.check) out.cells_not_compared = plan.cells_not_compared;
   if (out.error && out.error->deepest)
     out.deepest_miss_light = scene.lights[static_cast<std::size_t>(out.error->deepest->rig_index)].name;
   add_samples(config, whole.scenes[plan.scene], structure, out);

@@ -180,8 +180,8 @@ class Run {
 
   double details_cost_of(const GroupPlan& group) const {
     if (!config_.details) return 0.0;
-    const config::DetailsRequest& request = *config_.details;
-    const int frames = std::max({1, request.count, static_cast<int>(request.frames.size())});
+    const config::DetailsFrames& wanted = config_.details->frames;
+    const int frames = std::max({1, wanted.count, static_cast<int>(wanted.list.size())});
     return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(), frames, 0);
   }
 

@@ -131,7 +131,7 @@ class ViewSearch {
     std::vector<double> pairs(frames.size(), 0.0);
     if (view_.candidates.empty()) return pairs;
     config::Config counting = config_;
-    counting.check_accuracy = false;
+    counting.accuracy.check = false;
     counting.sample_sets.clear();
     counting.lookup.reset();
     const Candidate& probe = view_.candidates.front();

@@ -170,7 +170,7 @@ TEST(DetailsPass, without_lists_there_are_counts_and_no_pairs) {
 
 TEST(DetailsPass, needs_no_accuracy_check_for_its_truth) {
   Walk walk = crowd("{}");
-  walk.config.check_accuracy = false;
+  walk.config.accuracy.check = false;
   const CaseResult case_result = walk.run().cases.at(0);
   EXPECT_FALSE(case_result.error);
   EXPECT_GT(sum(case_result.details->frames.at(0).truth), 0u);

@@ -130,11 +130,11 @@ TEST(LightShadows, proven_maps_lose_no_lit_light_in_any_kind_of_grid) {
   std::uint64_t removed = 0;
   for (const CaseResult& of : result.cases)
     for (const ShadowCullResult& cull : of.shadow_culls) {
-      if (cull.request.map.bound != depth::TexelBound::proven) continue;
-      EXPECT_EQ(cull.counts.wrong, 0u) << of.name << " " << cull.request.map.resolution;
+      if (cull.request.texels != depth::TexelBound::proven) continue;
+      EXPECT_EQ(cull.counts.wrong, 0u) << of.name << " " << cull.request.resolution;
       EXPECT_GT(cull.counts.lit, 0u);
       removed += cull.counts.pairs - cull.counts.kept;
-      const bool is_fine = cull.request.map.resolution == 64;
+      const bool is_fine = cull.request.resolution == 64;
       EXPECT_TRUE(!is_fine || cull.counts.kept < cull.counts.pairs) << of.name;
     }
   EXPECT_GT(removed, 0u);

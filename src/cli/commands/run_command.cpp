@@ -124,7 +124,7 @@ void print_duration(const config::Config& config, const run::Plan& plan, std::sp
     if (config.timing.rounds > 5) shorter.emplace_back("--rounds 5");
   }
   shorter.insert(shorter.end(), {"--filter TEXT", "--set 'scenes.*.frames=10'"});
-  if (config.check_accuracy && !config.most_pairs) shorter.emplace_back("--set accuracy.most_pairs=1000000");
+  if (config.accuracy.check && !config.accuracy.most_pairs) shorter.emplace_back("--set accuracy.most_pairs=1000000");
   print_message(wait_text(number_of(case_count(plan), "case"), all_s, shorter));
 }
 

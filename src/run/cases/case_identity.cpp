@@ -82,7 +82,7 @@ Json identity(const config::Config& config, const SceneData& data, const CasePla
   }
   if (config.lookup) {
     all["lookup"] = {config.lookup->samples};
-    for (const measure::LookupWay& way : config.lookup->ways)
+    for (const measure::LookupWay& way : config.lookup->ways())
       all["lookup"].push_back({measure::name_of(way.logarithm), measure::name_of(way.depth)});
   }
   if (config.stability) {
@@ -90,7 +90,7 @@ Json identity(const config::Config& config, const SceneData& data, const CasePla
     all["stability"] = {stability.steps, stability.step_mm, stability.step_deg, stability.window};
   }
   for (const config::ShadowCullRequest& cull : config.shadow_culls)
-    all["shadow_cull"].push_back({cull.map.resolution, depth::name_of(cull.map.bound), cull.map.near_m, cull.bias_m});
+    all["shadow_cull"].push_back({cull.resolution, depth::name_of(cull.texels), cull.near_m, cull.bias_m});
   if (config.shared_frusta) {
     const config::SharedFrustaRequest& frusta = *config.shared_frusta;
     all["shadow_frusta"] = {frusta.apart_m, frusta.turned_deg, frusta.growth};

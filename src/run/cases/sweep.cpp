@@ -58,7 +58,7 @@ bool needs_triangles(const config::Config& config) {
 // Sets the numbers that depend on how many lights reach a point: fewer frames, and grids that are not compared cell by
 // cell.
 void weigh_frames(const config::Config& config, const config::SceneRequest& request, SceneData& data) {
-  if (request.camera.most_lights == 0.0 && !config.most_pairs) return;
+  if (request.camera.most_lights == 0.0 && !config.accuracy.most_pairs) return;
   for (const scene::CameraPath& path : data.paths)
     data.lights_at_points.push_back(lights_at_a_point(data.scene, path, config.viewports.front(), config.seed));
   if (request.camera.most_lights == 0.0) return;
@@ -388,8 +388,8 @@ class Expansion {
   }
 
   std::uint64_t cells_not_compared(const SceneData& data, std::size_t camera, std::uint64_t cells) const {
-    if (!config_.most_pairs) return 0;
-    return true_pairs_about(cells, data.lights_at_points[camera]) > *config_.most_pairs ? cells : 0;
+    if (!config_.accuracy.most_pairs) return 0;
+    return true_pairs_about(cells, data.lights_at_points[camera]) > *config_.accuracy.most_pairs ? cells : 0;
   }
 
   bool is_wanted(const Family& family, std::optional<std::size_t> storage) const {
@@ -480,7 +480,7 @@ std::string shadow_obstacle(const SceneData& data) {
 }
 
 bool compares_cells(const config::Config& config, const GroupPlan& group) {
-  return config.check_accuracy &&
+  return config.accuracy.check &&
          std::ranges::all_of(group.cases, [](const CasePlan& case_plan) { return case_plan.cells_not_compared == 0; });
 }
 

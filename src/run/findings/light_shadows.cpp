@@ -50,14 +50,14 @@ std::vector<const depth::ShadowMap*> LightShadows::maps(std::size_t request, con
     if (wanted[light] && !(kept.of_lights[light].map && kept.of_lights[light].seen.is_same(seen(light))))
       missing.push_back(light);
   check_memory("bytes of shadow maps",
-               kept_bytes() + missing.size() * depth::ShadowMap::most_bytes(config_.shadow_culls[request].map), 1,
+               kept_bytes() + missing.size() * depth::ShadowMap::most_bytes(config_.shadow_culls[request].map()), 1,
                "ask for a lower resolution (shadow_cull), or for fewer of them");
   parallel_ranges(missing.size(), config_.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Made& made = kept.of_lights[missing[i]];
       made.seen = seen(missing[i]);
       const double cast_start = wall_ns();
-      made.map = std::make_unique<depth::ShadowMap>(caster_, made.seen.light, config_.shadow_culls[request].map);
+      made.map = std::make_unique<depth::ShadowMap>(caster_, made.seen.light, config_.shadow_culls[request].map());
       made.cast_ns = wall_ns() - cast_start;
       const double reduce_start = wall_ns();
       made.map->reduce();
@@ -80,13 +80,13 @@ std::vector<std::vector<bool>> LightShadows::lit(std::span<const grid::Sample> s
   std::vector<std::vector<bool>> out;
   for (const config::ShadowCullRequest& request : config_.shadow_culls) {
     const auto same = std::ranges::find_if(config_.shadow_culls, [&](const config::ShadowCullRequest& other) {
-      return other.map.near_m == request.map.near_m && other.bias_m == request.bias_m;
+      return other.near_m == request.near_m && other.bias_m == request.bias_m;
     });
     const auto first = static_cast<std::size_t>(same - config_.shadow_culls.begin());
     if (first < out.size())
       out.push_back(out[first]);
     else
-      out.push_back(lit(request.map.near_m, request.bias_m, samples, needed));
+      out.push_back(lit(request.near_m, request.bias_m, samples, needed));
   }
   return out;
 }

@@ -292,7 +292,8 @@ PreparedFrame prepare(const config::Config& config, const GroupPlan& group, cons
   now.has_truth = needs_truth;
   if (needs_truth) now.truth = measure::find_truth(now.frame, grid, config.threads);
   const double far = sample_far(now.frame, path.far_m());
-  if (config.lookup) now.lookup.emplace(now.frame, grid, config.lookup->ways, far, config.lookup->samples, config.seed);
+  if (config.lookup)
+    now.lookup.emplace(now.frame, grid, config.lookup->ways(), far, config.lookup->samples, config.seed);
   now.samples = samples.of(now.frame);
   return now;
 }

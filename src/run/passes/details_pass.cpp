@@ -38,9 +38,10 @@ class Track {
  private:
   static std::vector<int> wanted(const config::DetailsRequest& request, const MethodMeasures& counted,
                                  int path_frames) {
-    if (request.choice == config::DetailsRequest::Choice::worst) return {counted.occupancy.worst_frame};
-    if (request.choice == config::DetailsRequest::Choice::evenly) return evenly_spaced(request.count, path_frames);
-    return request.frames;
+    if (request.frames.choice == config::DetailsFrames::Choice::worst) return {counted.occupancy.worst_frame};
+    if (request.frames.choice == config::DetailsFrames::Choice::evenly)
+      return evenly_spaced(request.frames.count, path_frames);
+    return request.frames.list;
   }
 
   Method method_;

@@ -28,16 +28,16 @@ result::ShadowCullSamples cull_samples_record(const measure::ShadowCullCounts& c
 template <class Record>
 Record way_record(const config::ShadowCullRequest& request) {
   Record out;
-  out.resolution = static_cast<std::uint64_t>(request.map.resolution);
-  out.texels = depth::name_of(request.map.bound);
+  out.resolution = static_cast<std::uint64_t>(request.resolution);
+  out.texels = depth::name_of(request.texels);
   out.bias_m = counted(request.bias_m);
-  out.near_m = counted(request.map.near_m);
+  out.near_m = counted(request.near_m);
   return out;
 }
 
 result::ShadowCull cull_record(const ShadowCullResult& cull) {
   auto out = way_record<result::ShadowCull>(cull.request);
-  out.conservative = cull.request.map.bound == depth::TexelBound::proven;
+  out.conservative = cull.request.texels == depth::TexelBound::proven;
   out.pairs = before_and_after(cull.counts.pairs, cull.counts.kept);
   if (cull.has_truth) out.true_pairs = before_and_after(cull.counts.true_pairs, cull.counts.true_kept);
   if (cull.has_samples) out.opaque = cull_samples_record(cull.counts);
