@@ -47,10 +47,25 @@ struct Keys {
     FieldCollector<Record>(type.fields).template add<member>(name, About().as_fraction());
     return *this;
   }
+  Keys& with_type(const Type& other) {  // for the last key, in place of its member's
+    type.fields.back().type = &other;
+    return *this;
+  }
 };
+
+const char* fit_name(scene::CameraFit fit) {
+  return fit == scene::CameraFit::vertical ? "vertical" : "contain";
+}
+
+const char* name_of_per(bool per_type) {
+  return per_type ? "type" : "frame";
+}
 
 }  // namespace
 
+KEY_TYPE(Vec3d) {
+  return vector_type<Vec3d>();
+}
 KEY_TYPE(Vec3i) {
   return vector_type<Vec3i>();
 }
@@ -68,6 +83,25 @@ KEY_TYPE(std::filesystem::path) {
   return type;
 }
 
+KEY_TYPE(scene::CameraFit) {
+  using enum scene::CameraFit;
+  return named_values<scene::CameraFit, fit_name, contain, vertical>();
+}
+KEY_TYPE(scene::RangeRule) {
+  using Rule = scene::RangeRule;
+  return Keys<Rule>().add<&Rule::cutoff_lux>("cutoff_lux").add<&Rule::max_range_m>("max_range").type;
+}
+KEY_TYPE(scene::RigSpec) {
+  using Rig = scene::RigSpec;
+  return Keys<Rig>()
+      .add<&Rig::lights>("lights")
+      .add<&Rig::spots>("spots")
+      .add<&Rig::range_m>("range")
+      .add<&Rig::size_m>("size")
+      .add<&Rig::seed>("seed")
+      .type;
+}
+
 KEY_TYPE(view::Packing) {
   using enum view::Packing;
   return named_values<view::Packing, view::packing_name, float32, half, unorm16>();
@@ -75,6 +109,32 @@ KEY_TYPE(view::Packing) {
 KEY_TYPE(depth::TexelBound) {
   using enum depth::TexelBound;
   return named_values<depth::TexelBound, depth::name_of, proven, sampled>();
+}
+
+KEY_TYPE(cull::DistanceStep) {
+  return Keys<cull::DistanceStep>().add<&cull::DistanceStep::distance_m>("distance_m").type;
+}
+KEY_TYPE(cull::VisibleSetStep) {
+  using Step = cull::VisibleSetStep;
+  return Keys<Step>()
+      .add<&Step::view_cell_m>("view_cell_m")
+      .add<&Step::voxel_m>("voxel_m")
+      .add<&Step::rays>("rays")
+      .type;
+}
+KEY_TYPE(cull::MostStep) {
+  using Step = cull::MostStep;
+  static const Type per = named_values<bool, name_of_per, false, true>();
+  return Keys<Step>()
+      .add<&Step::lights>("lights")
+      .add<&Step::keep>("keep")
+      .add<&Step::per_type>("per")
+      .with_type(per)
+      .type;
+}
+KEY_TYPE(cull::MostStep::Keep) {
+  using enum cull::MostStep::Keep;
+  return named_values<cull::MostStep::Keep, cull::name_of, first, nearest, shallowest>();
 }
 
 KEY_TYPE(measure::Logarithm) {

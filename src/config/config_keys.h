@@ -15,10 +15,13 @@
 #include <nlohmann/json.hpp>
 
 #include "config/limit_rules.h"
+#include "cull/pre_cull_spec.h"
 #include "depth/shadow_map.h"
 #include "measure/lists/buffers.h"
 #include "measure/samples/lookup_check.h"
 #include "result/fields.h"
+#include "scene/rig.h"
+#include "scene/scene.h"
 #include "view/packing.h"
 
 #define KEY_AS(name, Type, member, ...) \
@@ -43,10 +46,18 @@ Record read_keys(const nlohmann::json& object) {
 
 namespace clusterbench::result {
 
+KEY_TYPE(Vec3d);
 KEY_TYPE(Vec3i);
 KEY_TYPE(std::filesystem::path);  // null for an empty path
+KEY_TYPE(scene::CameraFit);
+KEY_TYPE(scene::RangeRule);
+KEY_TYPE(scene::RigSpec);
 KEY_TYPE(view::Packing);
 KEY_TYPE(depth::TexelBound);
+KEY_TYPE(cull::DistanceStep);
+KEY_TYPE(cull::VisibleSetStep);
+KEY_TYPE(cull::MostStep);
+KEY_TYPE(cull::MostStep::Keep);
 KEY_TYPE(measure::Logarithm);
 KEY_TYPE(measure::DepthRead);
 KEY_TYPE(measure::AllocationRule);

@@ -28,21 +28,7 @@ std::string expanded(std::string path, const std::string& file, const std::strin
   return path;
 }
 
-scene::PathRequest path_request(const Json& scene, const std::string& pointer, const JsonText& text) {
-  scene::PathRequest request;
-  if (scene.contains("fov")) {
-    const auto angle = scene["fov"].get<std::string>();
-    request.field_of_view = scene::field_of_view(angle);
-    if (!request.field_of_view)
-      throw Error(text.file, text.where(pointer + "/fov"),
-                  "'" + angle +
-                      "' is no field of view; takes degrees above 0 and below 180 with h (across the picture) or "
-                      "v (up and down), as in 90h or 60v");
-  }
-  if (scene.contains("far")) request.far_m = scene["far"].get<double>();
-  request.camera = scene["camera"].get<std::string>();
-  if (scene["camera_fit"] == "vertical") request.fit = scene::CameraFit::vertical;
-  const Json& frames = scene["frames"];
+void set_frames(const Json& frames, const std::string& pointer, const JsonText& text, scene::PathRequest& request) {
   if (frames.is_object() &&
       (frames.contains("rate") == frames.contains("most") || (frames.contains("lights") && !frames.contains("most"))))
     throw Error(text.file, text.where(pointer + "/frames"),
@@ -58,13 +44,29 @@ scene::PathRequest path_request(const Json& scene, const std::string& pointer, c
     request.choice = scene::FrameChoice::rate;
     request.rate_hz = frames["rate"].get<double>();
   }
+}
+
+scene::PathRequest path_request(const SceneKeys& scene, const std::string& pointer, const JsonText& text) {
+  scene::PathRequest request;
+  if (scene.fov) {
+    request.field_of_view = scene::field_of_view(*scene.fov);
+    if (!request.field_of_view)
+      throw Error(text.file, text.where(pointer + "/fov"),
+                  "'" + *scene.fov +
+                      "' is no field of view; takes degrees above 0 and below 180 with h (across the picture) or "
+                      "v (up and down), as in 90h or 60v");
+  }
+  request.far_m = scene.far;
+  request.camera = scene.camera;
+  request.fit = scene.camera_fit;
+  set_frames(scene.frames, pointer, text, request);
   return request;
 }
 
 // The name, or the index as text.
-std::string chosen(const Json& scene, const char* key) {
-  if (!scene.contains(key)) return "";
-  return scene[key].is_string() ? scene[key].get<std::string>() : std::to_string(scene[key].get<std::uint64_t>());
+std::string chosen(const std::optional<result::Json>& choice) {
+  if (!choice) return "";
+  return choice->is_string() ? choice->get<std::string>() : std::to_string(choice->get<std::uint64_t>());
 }
 
 // The folder of relative paths: that of the configuration, or the working directory if it comes through a pipe.
@@ -73,17 +75,9 @@ fs::path folder_of(const std::string& file) {
 }
 
 // Expands a rig's axes into their product. `rig` has its defaults filled in.
-std::vector<scene::RigSpec> rig_specs(const nlohmann::json& rig) {
+std::vector<scene::RigSpec> rig_specs(const Json& rig) {
   std::vector<scene::RigSpec> specs;
-  for (const nlohmann::json& sized : expand_all_axes(rig, {"size"})) {
-    scene::RigSpec spec;
-    spec.lights = sized["lights"].get<int>();
-    spec.spots = sized["spots"].get<double>();
-    spec.range_m = sized["range"].get<double>();
-    spec.size_m = {sized["size"][0].get<double>(), sized["size"][1].get<double>(), sized["size"][2].get<double>()};
-    spec.seed = sized["seed"].get<std::uint64_t>();
-    specs.push_back(spec);
-  }
+  for (const Json& sized : expand_all_axes(rig, {"size"})) specs.push_back(read_keys<scene::RigSpec>(sized));
   return specs;
 }
 
@@ -104,34 +98,32 @@ std::vector<Vec2d> jitter_of(const Json& jitter) {
 }
 
 void add_scenes(const Json& scene, const std::string& pointer, const JsonText& text, std::vector<SceneRequest>& out) {
-  const bool single = scene.contains("path"), has_rig = scene.contains("rig");
-  if (single + scene.contains("paths") + has_rig != 1)
+  const auto keys = read_keys<SceneKeys>(scene);
+  if (keys.path.has_value() + keys.paths.has_value() + keys.rig.has_value() != 1)
     throw Error(text.file, text.where(pointer), "a scene takes exactly one of path, paths, rig");
   SceneRequest request;
-  request.camera = path_request(scene, pointer, text);
-  request.range_rule = {scene["range_rule"]["cutoff_lux"].get<double>(),
-                        scene["range_rule"]["max_range"].get<double>()};
-  request.boxes = scene.value("boxes", false);
-  request.choice = {chosen(scene, "scene"), chosen(scene, "animation")};
+  request.camera = path_request(keys, pointer, text);
+  request.range_rule = keys.range_rule;
+  request.boxes = keys.boxes.value_or(false);
+  request.choice = {chosen(keys.chosen_scene), chosen(keys.chosen_animation)};
   for (const char* key : {"scene", "animation"})
-    if (has_rig && scene.contains(key))
+    if (keys.rig && scene.contains(key))
       throw Error(text.file, text.where(pointer + "/" + key), std::string("a rig has no ") + key + "; a file has some");
-  if (request.boxes && has_rig)
+  if (request.boxes && keys.rig)
     throw Error(text.file, text.where(pointer + "/boxes"), "a rig has no boxes; a scene from a file may have some");
-  if (has_rig) {
-    for (const scene::RigSpec& rig : rig_specs(scene["rig"])) {
+  if (keys.rig) {
+    for (const scene::RigSpec& rig : rig_specs(*keys.rig)) {
       request.rig = rig;
       out.push_back(request);
     }
     return;
   }
-  const Json paths = single ? Json::array({scene["path"]}) : scene["paths"];
+  const std::vector<std::string> paths = keys.paths ? *keys.paths : std::vector{*keys.path};
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    const std::string location = single ? pointer + "/path" : child_pointer(pointer + "/paths", i);
-    const auto given = paths[i].get<std::string>();
-    if (given.find("://") != std::string::npos)
-      throw Error(text.file, text.where(location), "'" + given + "' is a web address; a scene is a file here");
-    request.path = path_in(text, given, text.where(location));
+    const std::string location = keys.path ? pointer + "/path" : child_pointer(pointer + "/paths", i);
+    if (paths[i].find("://") != std::string::npos)
+      throw Error(text.file, text.where(location), "'" + paths[i] + "' is a web address; a scene is a file here");
+    request.path = path_in(text, paths[i], text.where(location));
     if (!text.file.empty()) {
       request.named_by = text.file;
       request.named_at = text.where(location);

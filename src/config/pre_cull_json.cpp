@@ -1,36 +1,25 @@
 #include "config/pre_cull_json.h"
 
+#include "config/config_keys.h"
+
 namespace clusterbench::config {
 namespace {
 
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
-cull::Step most_step(const Json& most) {
-  cull::MostStep step{most["lights"].get<int>(), cull::MostStep::Keep::first, most["per"] == "type"};
-  for (const cull::MostStep::Keep keep : cull::k_keeps)
-    if (most["keep"] == cull::name_of(keep)) step.keep = keep;
-  return step;
-}
-
 cull::Step step_of(const Json& step) {
   if (step.is_string()) return cull::FrustumStep{};
-  if (step.contains("distance_m")) return cull::DistanceStep{step["distance_m"].get<double>()};
-  if (step.contains("most")) return most_step(step["most"]);
-  const Json& set = step["visible_set"];
-  return cull::VisibleSetStep{set["view_cell_m"].get<double>(), set["voxel_m"].get<double>(), set["rays"].get<int>()};
+  if (step.contains("distance_m")) return read_keys<cull::DistanceStep>(step);
+  if (step.contains("most")) return read_keys<cull::MostStep>(step["most"]);
+  return read_keys<cull::VisibleSetStep>(step["visible_set"]);
 }
 
 struct StepRequest {
   OrderedJson operator()(const cull::FrustumStep&) const { return "frustum"; }
-  OrderedJson operator()(const cull::DistanceStep& step) const { return {{"distance_m", step.distance_m}}; }
-  OrderedJson operator()(const cull::VisibleSetStep& step) const {
-    return {{"visible_set", {{"view_cell_m", step.view_cell_m}, {"voxel_m", step.voxel_m}, {"rays", step.rays}}}};
-  }
-  OrderedJson operator()(const cull::MostStep& step) const {
-    return {{"most",
-             {{"lights", step.lights}, {"keep", cull::name_of(step.keep)}, {"per", step.per_type ? "type" : "frame"}}}};
-  }
+  OrderedJson operator()(const cull::DistanceStep& step) const { return result::to_json(step); }
+  OrderedJson operator()(const cull::VisibleSetStep& step) const { return {{"visible_set", result::to_json(step)}}; }
+  OrderedJson operator()(const cull::MostStep& step) const { return {{"most", result::to_json(step)}}; }
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "config/config.h"
+#include "config/config_scenes.h"
 #include "config/documents.h"
 #include "config/schema_reader.h"
 #include "config/schema_verdict.h"
@@ -34,12 +35,22 @@ Section section(const char* schema) {
 }
 
 const Section k_sections[] = {
-    section<AccuracyRequest>("/properties/accuracy"),      section<TimingRequest>("/properties/timing"),
-    section<LimitsRequest>("/properties/limits"),          section<measure::AllocationRule>("/properties/allocation"),
-    section<ShadingRequest>("/properties/shading"),        section<StabilityRequest>("/properties/stability/anyOf/1"),
-    section<LookupRequest>("/properties/lookup/anyOf/1"),  section<DetailsRequest>("/properties/details/anyOf/1"),
-    section<ShadowCullRequest>("/properties/shadow_cull"), section<SharedFrustaRequest>("/properties/shadow_frusta"),
+    section<AccuracyRequest>("/properties/accuracy"),
+    section<TimingRequest>("/properties/timing"),
+    section<LimitsRequest>("/properties/limits"),
+    section<measure::AllocationRule>("/properties/allocation"),
+    section<ShadingRequest>("/properties/shading"),
+    section<StabilityRequest>("/properties/stability/anyOf/1"),
+    section<LookupRequest>("/properties/lookup/anyOf/1"),
+    section<DetailsRequest>("/properties/details/anyOf/1"),
+    section<ShadowCullRequest>("/properties/shadow_cull"),
+    section<SharedFrustaRequest>("/properties/shadow_frusta"),
     section<PrecisionRequest>("/definitions/precision"),
+    section<SceneKeys>("/definitions/scene"),
+    section<scene::RangeRule>("/definitions/scene/properties/range_rule"),
+    section<scene::RigSpec>("/definitions/rig"),
+    section<cull::VisibleSetStep>("/definitions/pre_cull_step/properties/visible_set"),
+    section<cull::MostStep>("/definitions/pre_cull_step/properties/most"),
 };
 
 // With the definitions that it refers to.
@@ -144,7 +155,7 @@ TEST(ConfigKeys, are_read_into_their_members_with_every_example_and_word_of_the_
         ++values;
       }
   }
-  EXPECT_GT(values, 40);
+  EXPECT_GT(values, 80);
 }
 
 }  // namespace

@@ -248,9 +248,6 @@ TEST(Config, defaults_of_the_schema_agree_with_the_defaults_of_the_code) {
   ASSERT_EQ(config.sample_sets.size(), 1U);
   EXPECT_EQ(config.sample_sets[0].set, measure::SampleSet::volume);
   EXPECT_EQ(config.sample_sets[0].count, SampleSetRequest{}.count);
-  EXPECT_EQ(config.scenes[0].camera.fit, scene::CameraFit::contain);
-  EXPECT_EQ(config.scenes[0].range_rule.cutoff_lux, scene::RangeRule{}.cutoff_lux);
-  EXPECT_EQ(config.scenes[0].range_rule.max_range_m, scene::RangeRule{}.max_range_m);
   EXPECT_EQ(config.scenes[0].camera.count, scene::PathRequest{}.count);
   const grid::GridSpec defaults;
   EXPECT_EQ(config.grids[0].tiles.pixels, defaults.tiles.pixels);
