@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "measure/lists/lights_in_view_counts.h"
 #include "measure/lists/occupancy.h"
+#include "result/case_figure.h"
 
 namespace clusterbench::search {
 namespace {
@@ -47,18 +48,45 @@ double entries_with_room(const assign::LightStructure& structure) {
 
 }  // namespace
 
+std::string MeasureRow::unit() const {
+  return *own_unit != '\0' ? own_unit : std::string(result::figure_named(figure)->unit);
+}
+
+std::string MeasureRow::meaning() const {
+  const std::string text = *figure == '\0' ? own_meaning : std::string(result::figure_named(figure)->meaning);
+  return *note == '\0' ? text : text + "; " + note;
+}
+
 std::span<const MeasureRow> measure_rows() {
   static constexpr std::array<MeasureRow, 7> k_rows{{
-      {Measure::entries, "entries", "entries", "index entries of the lists, with room for all of them",
-       "buffers.index_entries.high_water"},
-      {Measure::longest, "longest", "lights", "the longest list", "occupancy.lights_per_cell.max"},
-      {Measure::p99, "p99", "lights", "the list that 99 % of the cells do not exceed", "occupancy.lights_per_cell.p99"},
-      {Measure::evaluated, "evaluated", "lights per sample",
-       "lights that a random point in the view is given, the mean", "shading.evaluated / shading.samples"},
-      {Measure::tests, "tests", "tests", "tests of a light against a cell or what holds cells", "tests_done"},
-      {Measure::lights, "lights", "lights", "lights in view, whatever the method", "lights_in_view.max"},
-      {Measure::lights_of_type, "lights-of-type", "lights", "lights in view of the type that has most of them",
-       "the largest of lights_in_view.max_by_type"},
+      {.measure = Measure::entries,
+       .name = "entries",
+       .figure = "index_entries",
+       .pointer = "buffers.index_entries.high_water",
+       .note = "with room for all of them"},
+      {.measure = Measure::longest, .name = "longest", .figure = "longest", .pointer = "occupancy.lights_per_cell.max"},
+      {.measure = Measure::p99,
+       .name = "p99",
+       .figure = "lights_per_cell.p99",
+       .pointer = "occupancy.lights_per_cell.p99"},
+      {.measure = Measure::evaluated,
+       .name = "evaluated",
+       .figure = "volume.evaluated",
+       .pointer = "shading.evaluated / shading.samples",
+       .note = "at random points in the view",
+       .own_unit = "lights per sample"},
+      {.measure = Measure::tests, .name = "tests", .figure = "tests_done", .pointer = "tests_done"},
+      {.measure = Measure::lights,
+       .name = "lights",
+       .figure = "lights_in_view",
+       .pointer = "lights_in_view.max",
+       .note = "whatever the method"},
+      {.measure = Measure::lights_of_type,
+       .name = "lights-of-type",
+       .figure = "",
+       .pointer = "the largest of lights_in_view.max_by_type",
+       .own_unit = "lights",
+       .own_meaning = "lights in view of the type that has most of them"},
   }};
   return k_rows;
 }

@@ -17,18 +17,25 @@
 namespace clusterbench::search {
 
 enum class Measure : std::uint8_t {
-  entries,        // index entries of the light structure (`buffers.index_entries.high_water`), with room for all
-  longest,        // lights in the longest list (`occupancy.lights_per_cell.max`)
-  p99,            // length of list that 99 % of the cells do not exceed (`occupancy.lights_per_cell.p99`)
-  evaluated,      // lights per sample of the view, the loop of a pixel (`shading.evaluated` / `shading.samples`)
-  tests,          // tests of the method against lights (`tests_done`)
-  lights,         // in view, independent of the method (`lights_in_view.max`): engines limit it
-  lights_of_type  // the same for the type with most lights (`lights_in_view.max_by_type`)
+  entries,        // with room for all, also where a storage is full
+  longest,        // list
+  p99,            // length of list that 99 % of the cells do not exceed
+  evaluated,      // per random point in the view: the loop of a pixel
+  tests,          // of the method
+  lights,         // in view, independent of the method: engines limit it
+  lights_of_type  // the same for the type with most lights
 };
 struct MeasureRow {
   Measure measure;
-  const char *name, *unit, *summary;
-  const char* figure;  // of a case in a result of `run`
+  const char* name;
+  const char* figure;            // in the table of figures (result/case_figure.h); "": no row has it
+  const char* pointer;           // to the number in a case of a result, for documents
+  const char* note = "";         // follows the figure's meaning
+  const char* own_unit = "";     // "": the figure's
+  const char* own_meaning = "";  // without a figure
+
+  std::string unit() const;     // "lights"
+  std::string meaning() const;  // "lights in the fullest cell of any frame ...": of a path of one frame
 };
 std::span<const MeasureRow> measure_rows();
 const MeasureRow& row_of(Measure measure);

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "result/case_figure.h"
+#include "run/records/records.h"
 #include "run/runner.h"
 #include "scene/writers/write_gltf.h"
 #include "search/replay_config.h"
@@ -148,28 +150,12 @@ TEST(WorstCase, lights_that_may_move_come_to_the_camera) {
     EXPECT_LE(glm::length(position - Vec3d(0.0, 0.0, -40.0)), 30.0 + 1e-4) << light;
 }
 
-// A result of `run` on what the search writes, as JSON figures by measure.
-double figure_of(const run::CaseResult& result, Measure measure) {
-  switch (measure) {
-    case Measure::entries:
-      return static_cast<double>(result.buffers.index_entries.high_water);
-    case Measure::longest:
-      return result.occupancy->lights_per_cell.max;
-    case Measure::p99:
-      return result.occupancy->lights_per_cell.p99;
-    case Measure::evaluated:
-      return static_cast<double>(result.shading->evaluated) / static_cast<double>(result.shading->samples);
-    case Measure::tests:
-      break;
-    case Measure::lights:
-      return static_cast<double>(result.lights_in_view.most);
-    case Measure::lights_of_type:
-      return static_cast<double>(std::ranges::max(result.lights_in_view.most_of_type));
-  }
-  return static_cast<double>(result.tests_done);
+std::string json_pointer_of(std::string dotted) {
+  std::ranges::replace(dotted, '.', '/');
+  return "/" + dotted;
 }
 
-double replayed(const SearchFolder& folder, const Searched& of, const WorstCase& found, Measure measure) {
+result::Case replayed_case(const SearchFolder& folder, const Searched& of, const WorstCase& found) {
   folder.write("worst.gltf", scene::to_gltf(found.path_scene, "test"));
   const config::Config config =
       config::load_config(folder.write("worst.json", replay_config(of.config, of.case_plan(), "worst.gltf").dump()));
@@ -180,7 +166,24 @@ double replayed(const SearchFolder& folder, const Searched& of, const WorstCase&
   EXPECT_EQ(result.cases.front().frames, static_cast<int>(found.frames.size()));
   EXPECT_TRUE(result.cases.front().failures.empty());
   EXPECT_EQ(result.cases.front().error->undecided, 0u);
-  return figure_of(result.cases.front(), measure);
+  return run::record_of(result.cases.front());
+}
+
+// The number that documents of `worst-case` name: "tests_done", or "shading.evaluated / shading.samples".
+double number_at(const Json& json, const std::string& pointer) {
+  if (const std::size_t slash = pointer.find(" / "); slash != std::string::npos)
+    return number_at(json, pointer.substr(0, slash)) / number_at(json, pointer.substr(slash + 3));
+  if (const std::string start = "the largest of "; pointer.starts_with(start)) {
+    double most = 0.0;
+    for (const auto& [_, value] : json.at(Json::json_pointer(json_pointer_of(pointer.substr(start.size())))).items())
+      most = std::max(most, value.get<double>());
+    return most;
+  }
+  return json.at(Json::json_pointer(json_pointer_of(pointer))).get<double>();
+}
+
+double replayed(const SearchFolder& folder, const Searched& of, const WorstCase& found, Measure measure) {
+  return result::figure_of(replayed_case(folder, of, found), row_of(measure).figure).value();
 }
 
 TEST(WorstCase, run_gives_the_same_value_for_the_written_path_in_every_measure) {
@@ -191,9 +194,26 @@ TEST(WorstCase, run_gives_the_same_value_for_the_written_path_in_every_measure) 
     request.measure = row.measure;
     request.extra_ranges_m = {1.0};
     const WorstCase found = one.search(request);
-    EXPECT_EQ(replayed(folder, one, found, row.measure), found.frames.front().value) << row.name;
-    EXPECT_GT(found.frames.front().value, 0.0) << row.name;
+    const double value = found.frames.front().value;
+    EXPECT_GT(value, 0.0) << row.name;
+    const result::Case measured = replayed_case(folder, one, found);
+    EXPECT_EQ(number_at(result::to_json(measured), row.pointer), value) << row.name;
+    if (row.measure == Measure::lights_of_type) continue;
+    EXPECT_EQ(result::figure_of(measured, row.figure), value) << row.name << ": " << row.figure;
   }
+}
+
+TEST(Measures, have_the_words_of_the_figures_that_they_name_and_the_units_of_earlier_documents) {
+  std::string units;
+  for (const MeasureRow& row : measure_rows()) {
+    units += row.unit() + ", ";
+    if (row.measure == Measure::lights_of_type) continue;
+    const result::Figure* figure = result::figure_named(row.figure);
+    ASSERT_NE(figure, nullptr) << row.name;
+    EXPECT_TRUE(row.meaning().starts_with(figure->meaning)) << row.meaning();
+  }
+  EXPECT_EQ(units, "entries, lights, lights, lights per sample, tests, lights, lights, ");
+  EXPECT_EQ(row_of(Measure::lights_of_type).meaning(), "lights in view of the type that has most of them");
 }
 
 TEST(WorstCase, run_gives_the_same_value_in_grids_that_follow_from_lights_and_cameras) {

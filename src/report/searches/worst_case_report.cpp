@@ -168,7 +168,7 @@ result::WorstCase worst_case_document(const WorstCase& found, const WorstCaseFac
                         .kind = "worst-case",
                         .searched = searched_of(facts),
                         .other_cases = case_count(facts.plan) - 1,
-                        .measure = {row.name, row.unit, row.figure},
+                        .measure = {row.name, row.unit(), row.pointer},
                         .seed = facts.request.seed,
                         .evaluations = count(found.evaluations),
                         .evaluations_allowed = count(facts.request.evaluations),
@@ -195,13 +195,13 @@ result::WorstCase worst_case_document(const WorstCase& found, const WorstCaseFac
 std::string worst_case_text(const WorstCase& found, const WorstCaseFacts& facts) {
   const search::MeasureRow& row = search::row_of(facts.request.measure);
   std::string out = facts.case_plan.name + "\n";
-  out += line("measure", std::string(row.name) + ": " + row.summary);
+  out += line("measure", std::string(row.name) + " (of one frame): " + row.meaning());
   if (const std::size_t others = case_count(facts.plan) - 1; others > 0)
     out += line("others", number_of(others, "case") + " not searched; --filter chooses");
   if (const std::string flags = search::space_flags(facts.request); !flags.empty()) out += line("space", flags);
   if (found.frames.empty()) return out + line("worst", "nothing was tried");
   const double worst = std::ranges::max(found.frames, {}, &search::FoundFrame::value).value;
-  out += line("worst", figure_text(worst) + " " + row.unit + ", found in " +
+  out += line("worst", figure_text(worst) + " " + row.unit() + ", found in " +
                            number_of(static_cast<std::uint64_t>(found.evaluations), "evaluation") +
                            (is_random_one(found) ? " and the random frames" : "") + " (seed " +
                            std::to_string(facts.request.seed) + ")");
