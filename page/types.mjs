@@ -1,14 +1,15 @@
-// Writes the types of a result into src/schema_types.ts from its JSON Schema, as `clusterbench schema result` prints it (the
-// program that CLUSTERBENCH names, or the release build's): node types.mjs [--check]. With --check it only says whether
-// they are up to date.
+// Writes the types of a result and of the page's data into src/schema_types.ts from their JSON Schemas, as
+// `clusterbench schema result` and page_schema print them (the programs that CLUSTERBENCH and PAGE_SCHEMA name, or the
+// release build's): node types.mjs [--check]. With --check it only says whether they are up to date.
 
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
-const program = process.env.CLUSTERBENCH ?? here("../build/release/clusterbench");
-const schema = JSON.parse(execFileSync(program, ["schema", "result"], { encoding: "utf8" }));
+const printed = (program, ...words) => JSON.parse(execFileSync(program, words, { encoding: "utf8" }));
+const schema = printed(process.env.CLUSTERBENCH ?? here("../build/release/clusterbench"), "schema", "result");
+const page = printed(process.env.PAGE_SCHEMA ?? here("../build/release/tests/page_schema"));
 const into = here("src/schema_types.ts");
 
 const nameOf = (definition) => definition.replace(/(^|_)(\w)/g, (_match, _before, letter) => letter.toUpperCase());
@@ -49,7 +50,9 @@ function typeOf(part, indent = "") {
   return simple[part.type];
 }
 
-const types = Object.entries({ ...schema.definitions, result: schema }).map(
+const { result: _described, ...ofPage } = page.definitions;
+const parts = { ...schema.definitions, result: schema, ...ofPage, page_data: page };
+const types = Object.entries(parts).map(
   ([name, part]) =>
     `${part.description ? `// ${part.description}\n` : ""}export type ${nameOf(name)} = ${typeOf(part)};\n`,
 );

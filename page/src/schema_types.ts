@@ -812,3 +812,67 @@ export type Result = {
     is_same_program?: boolean; // true: it is this program's own file, byte for byte; else absent
   }; // The other program of run --baseline-binary
 };
+
+// A result
+export type PageResult = {
+  file: string; // Its name for readers
+  result: Result; // Itself
+  cases: PageCase[]; // One for each case of the result, in its order
+  doubts: string[]; // Reasons to doubt its times
+  ratios: Ranked[]; // Of timed cases
+  costs: FrameCost[]; // Of cases that lose nothing, where the configuration has a model
+};
+
+// Numbers of a case
+export type PageCase = {
+  figures: Record<string, number>; // By their names in the table, without those that the case has not
+  sets: string[]; // Sets of samples that rank the case: figures of samples are of them
+};
+
+// A timed case with lists, among all of its scene, camera and viewport
+export type Ranked = {
+  id: string; // Of the case
+  fastest: {
+    id: string; // Of the other case
+    ratio: number | null; // Median [ratio]
+    ci95: [number | null, number | null]; // 95 % interval; null: unknown
+  } | null; // Beside the fastest; null: it is the fastest, or they have no ratio
+  above: {
+    id: string; // Of the other case
+    ratio: number | null; // Median [ratio]
+    ci95: [number | null, number | null]; // 95 % interval; null: unknown
+  } | null; // Beside the next faster one
+  is_like_above: boolean; // It may be as fast as the next faster one, as far as their ratio is known
+};
+
+// Cost of a case that loses nothing, by which conclusions choose
+export type FrameCost = {
+  id: string; // Of the case
+  ns: number; // Making its lists (where timed), upload, reading and shading by config.cost [ns]
+  gpu_ns: number; // The modelled part [ns]
+};
+
+// A row of the table of figures (`clusterbench list figures`)
+export type FigureWords = {
+  name: "frame_us" | "frame_us.max" | "assign_us" | "convert_us" | "frame_cost_us" | "instructions" | "assign_instructions" | "speedup" | "pair_rate" | "bytes" | "excess" | "missed" | "unlit" | "dropped" | "overshade" | "lights" | "lights_lit" | "lights_seen" | "lights_in_view" | "tests_done" | "fallbacks" | "lights_seen.mean" | "lights_in_view.mean" | "pairs.mean" | "pairs" | "lights_per_cell.mean" | "lights_per_cell.p99" | "longest" | "occupied_fraction" | "index_entries" | "entries_recommended" | "bytes_recommended" | "upload_bytes.mean" | "gpu_cost_us" | "traffic_bytes" | "upload_bytes" | "scratch_bytes" | "true_pairs" | "reported_pairs" | "false_positives" | "miss_ratio" | "deepest_miss" | "undecided" | "needed" | "evaluated" | "read_bytes" | "samples_missed" | "samples_missed_outside" | "lost_irradiance" | "changed_pairs" | "flickers" | "extra_pairs" | "build_us" | "pairs_timed" | "builds_per_frame" | "time_per_pair" | "write_floor" | "floor_ratio" | "build_instructions" | "convert_instructions" | "assign_cycles" | "convert_cycles" | "lights_beyond_grid"; // In the table
+  unit: string; // Of its values here
+  meaning: string; // As the table has it
+};
+
+// Pixels of some cases, made by `run --images`
+export type Picture = {
+  kind: string; // As in --image-kinds
+  frame: number | null; // null: along the path
+  cases: string[]; // Ids of the cases
+  text: string; // For readers who do not see it
+  url: string; // Contains the picture (data:)
+};
+
+// The data of a page that `clusterbench report` writes.
+export type PageData = {
+  command: string; // Makes the page again
+  results: PageResult[]; // In the order of the command
+  figures: FigureWords[]; // All rows of the table of figures
+  sample_sets: Record<string, string>; // Words for the sets of samples
+  pictures: Picture[]; // Of --images
+};

@@ -1,6 +1,6 @@
 #pragma once
-// Every figure of a case, one row each: budgets, exports, tables, `recommend`, `history`, `compare` and `list figures`
-// use it. A new figure is one row in figure_table.cpp.
+// Every figure of a case, one row each: budgets, exports, tables, the page, `recommend`, `worst-case`, `history`,
+// `compare` and `list figures` use it. A new figure is one row in figure_table.cpp.
 
 #include <cstdint>
 #include <optional>

@@ -302,6 +302,7 @@ inline constexpr const char* k_config_shape = R"({
 })";
 
 struct Result {
+  static constexpr const char* k_definition = "result";
   RECORD(Result);
   FIELD(int, schema_version, About("Grows whenever a name or a meaning changes", "version", "the file").always(2));
   FIELD(std::string, name, "The configuration's name");

@@ -22,10 +22,10 @@ TEST(PageCosts, are_those_of_making_lists_and_of_what_the_model_adds) {
   Json untimed = costly_case("b", true), lossy = costly_case("c", false);
   untimed.erase("timing");
   const Json result{{"config", Json::object()}, {"cases", Json::array({costly_case("a", true), untimed, lossy})}};
-  const Json costs = page_costs(test::result_of(result));
+  const std::vector<result::FrameCost> costs = page_costs(test::result_of(result));
   ASSERT_EQ(costs.size(), 2U) << "none of what loses lights";
-  EXPECT_EQ(costs[0], (Json{{"id", "a"}, {"ns", 10000.0}, {"gpu_ns", 7000.0}}));
-  EXPECT_EQ(costs[1], (Json{{"id", "b"}, {"ns", 7000.0}, {"gpu_ns", 7000.0}}));
+  EXPECT_EQ(result::to_json(costs[0]), (Json{{"id", "a"}, {"ns", 10000.0}, {"gpu_ns", 7000.0}}));
+  EXPECT_EQ(result::to_json(costs[1]), (Json{{"id", "b"}, {"ns", 7000.0}, {"gpu_ns", 7000.0}}));
 }
 
 TEST(PageCosts, are_not_those_of_engines_that_make_their_lists_on_the_gpu_and_were_timed_here) {

@@ -137,14 +137,14 @@ TEST(Ratios, of_two_grids_are_those_of_the_same_launches) {
 }
 
 TEST(Ratios, the_page_gets_each_case_beside_the_fastest_and_the_one_above_it) {
-  const Json rankings = ratio_rankings(three_methods());
+  const std::vector<result::Ranked> rankings = ratio_rankings(three_methods());
   ASSERT_EQ(rankings.size(), 3u);
-  EXPECT_TRUE(rankings[0]["fastest"].is_null());
-  EXPECT_EQ(rankings[0]["is_like_above"], false);
-  EXPECT_EQ(rankings[1]["fastest"]["id"], "method-a");
-  EXPECT_NEAR(rankings[1]["fastest"]["ratio"].get<double>(), 1.1, 0.005);
-  EXPECT_EQ(rankings[2]["above"]["id"], "method-b");
-  EXPECT_EQ(rankings[2]["is_like_above"], true);
+  EXPECT_FALSE(rankings[0].fastest);
+  EXPECT_FALSE(rankings[0].is_like_above);
+  EXPECT_EQ(rankings[1].fastest->id, "method-a");
+  EXPECT_NEAR(rankings[1].fastest->ratio, 1.1, 0.005);
+  EXPECT_EQ(rankings[2].above->id, "method-b");
+  EXPECT_TRUE(rankings[2].is_like_above);
 }
 
 TEST(Ratios, of_too_few_launches_or_rounds_have_no_interval_anywhere) {

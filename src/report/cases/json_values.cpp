@@ -24,8 +24,4 @@ Json number_or_null(double value) {
   return result::number_json(result::counted(value), false);
 }
 
-Json six_digits(double value) {
-  return number_or_null(result::measured(value));
-}
-
 }  // namespace clusterbench::report

@@ -16,7 +16,5 @@ std::optional<double> number_at(const nlohmann::ordered_json& from, const std::s
 
 // JSON has no infinity and no NaN.
 nlohmann::ordered_json number_or_null(double value);
-// Six digits for measurements: far more than the precision of any clock.
-nlohmann::ordered_json six_digits(double value);
 
 }  // namespace clusterbench::report

@@ -8,14 +8,12 @@
 #include "core/text.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
-#include "report/cases/json_values.h"
 #include "result/at.h"
 #include "result/rounding.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using result::Case;
 using result::RatioBlock;
 using result::RatioCase;
@@ -72,11 +70,12 @@ std::vector<Block> timed_blocks(const Result& result, const RatioRequest& reques
 }
 
 // A case compared with another one, for the page; null without a ratio.
-Json beside(const Timed& timed, const Timed& other, const std::optional<measure::Ratio>& ratio) {
+result::Nullable<result::Beside> beside(const Timed& timed, const Timed& other,
+                                        const std::optional<measure::Ratio>& ratio) {
   if (!ratio || timed.result_case == other.result_case) return {};
-  return {{"id", other.result_case->id},
-          {"ratio", six_digits(ratio->ratio)},
-          {"ci95", {six_digits(ratio->ci95.low), six_digits(ratio->ci95.high)}}};
+  return result::Beside{other.result_case->id,
+                        result::measured(ratio->ratio),
+                        {result::measured(ratio->ci95.low), result::measured(ratio->ci95.high)}};
 }
 
 std::vector<RatioPair> pairs_of(const Block& block, std::uint64_t seed) {
@@ -216,10 +215,10 @@ Ratios ratios_of(const Result& result, const RatioRequest& request) {
   return out;
 }
 
-Json ratio_rankings(const Result& result) {
+std::vector<result::Ranked> ratio_rankings(const Result& result) {
   RatioRequest request;
   request.across_grids = true;
-  Json out = Json::array();
+  std::vector<result::Ranked> out;
   std::vector<Block> blocks = timed_blocks(result, request);
   for (Block& block : blocks)
     std::erase_if(block.cases, [](const Timed& timed) { return samples_search(*timed.result_case); });
@@ -228,10 +227,8 @@ Json ratio_rankings(const Result& result) {
       const Timed &timed = block.cases[i], &fastest = block.cases.front(), &above = block.cases[i == 0 ? 0 : i - 1];
       const auto to_fastest = run::ratio_between(timed.contender, fastest.contender, seed_of(result)),
                  to_above = run::ratio_between(timed.contender, above.contender, seed_of(result));
-      out.push_back({{"id", timed.result_case->id},
-                     {"fastest", beside(timed, fastest, to_fastest)},
-                     {"above", beside(timed, above, to_above)},
-                     {"is_like_above", i > 0 && to_above && !measure::takes_longer(to_above)}});
+      out.push_back({timed.result_case->id, beside(timed, fastest, to_fastest), beside(timed, above, to_above),
+                     i > 0 && to_above && !measure::takes_longer(to_above)});
     }
   return out;
 }

@@ -3,13 +3,13 @@
 // any two of them have a ratio, round by round, that is far more stable than their times. Cases of different grids have
 // one launch by launch (measure/statistics/side_by_side.h).
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "measure/statistics/time_statistics.h"
 #include "report/cases/contender.h"
+#include "result/documents/page.h"
 #include "result/documents/ratios.h"
 
 namespace clusterbench::report {
@@ -32,9 +32,8 @@ struct RatioRequest {
 // faster: docs/results.md. No blocks without times.
 result::Ratios ratios_of(const result::Result& result, const RatioRequest& request);
 
-// For each timed case with lists its place in a ranking over all grids of its scene, camera and viewport, for the page:
-// {"id", "fastest": {"id", "ratio", "ci95"} or null, "above": the same for the next faster one, "is_like_above"}.
-nlohmann::ordered_json ratio_rankings(const result::Result& result);
+// For each timed case with lists its place in a ranking over all grids of its scene, camera and viewport, for the page.
+std::vector<result::Ranked> ratio_rankings(const result::Result& result);
 
 // `ratios`: of ratios_of(). A ranking that compares each case with the fastest one and the one before it, or with
 // `all_pairs` with each faster one.

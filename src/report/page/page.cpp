@@ -6,7 +6,9 @@
 #include "report/cases/timing_warnings.h"
 #include "report/comparing/ratios.h"
 #include "report/page/page_costs.h"
+#include "report/page/page_figures.h"
 #include "report/page/page_template.h"
+#include "result/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {
@@ -37,20 +39,17 @@ std::string filled_page(std::string_view page_template, const Json& data, const 
 
 std::string page(const std::vector<NamedResult>& results, const std::string& command,
                  const std::vector<PagePicture>& pictures) {
-  Json data{{"command", command}, {"results", Json::array()}, {"pictures", Json::array()}};
+  result::PageData data{.command = command, .figures = figure_words(), .pictures = pictures};
   for (const NamedResult& named : results)
-    data["results"].push_back({{"file", named.file},
-                               {"result", result::to_json(named.result)},
-                               {"doubts", timing_doubts(named.result.cases)},
-                               {"ratios", ratio_rankings(named.result)},
-                               {"costs", page_costs(named.result)}});
-  for (const PagePicture& picture : pictures)
-    data["pictures"].push_back({{"kind", picture.kind},
-                                {"frame", picture.frame ? Json(*picture.frame) : nullptr},
-                                {"cases", picture.case_ids},
-                                {"text", picture.text},
-                                {"url", picture.url}});
-  return filled_page(page_template(), data, "report");
+    data.results.push_back({.file = named.file,
+                            .recorded = named.result,
+                            .cases = page_cases(named.result),
+                            .doubts = timing_doubts(named.result.cases),
+                            .ratios = ratio_rankings(named.result),
+                            .costs = page_costs(named.result)});
+  for (const std::string& set : result::sample_set_names())
+    data.sample_sets.emplace_back(set, result::words_of_set(set));
+  return filled_page(page_template(), result::to_json(data), "report");
 }
 
 }  // namespace clusterbench::report

@@ -2,12 +2,11 @@
 // Results as a page: one HTML file that works offline and loads no other file.
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "result/result.h"
+#include "result/documents/page.h"
 
 namespace clusterbench::report {
 
@@ -16,14 +15,7 @@ struct NamedResult {
   result::Result result;
 };
 
-// A picture of cases, as a part of the page.
-struct PagePicture {
-  std::string kind;
-  std::optional<int> frame;
-  std::vector<std::string> case_ids;
-  std::string text;  // alternative text
-  std::string url;   // data URL that contains the picture
-};
+using result::PagePicture;
 
 // Throws Error if this build has no page. `command`: the command that makes the page again, shown on it.
 std::string page(const std::vector<NamedResult>& results, const std::string& command,

@@ -4,21 +4,20 @@
 
 #include "report/cases/case_costs.h"
 #include "report/cases/contender.h"
-#include "report/cases/json_values.h"
 #include "result/at.h"
+#include "result/rounding.h"
 
 namespace clusterbench::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using result::Case;
 using result::Time;
 using result::Timing;
 
 }  // namespace
 
-Json page_costs(const result::Result& result) {
-  Json costs = Json::array();
+std::vector<result::FrameCost> page_costs(const result::Result& result) {
+  std::vector<result::FrameCost> costs;
   for (const Case& result_case : result.cases) {
     if (!loses_nothing_seen(result_case)) continue;
     const std::optional<WholeFrame> frame = whole_frame(result_case, result.config);
@@ -27,8 +26,7 @@ Json page_costs(const result::Result& result) {
     const auto assign_ns = result::number<&Case::timing, &Timing::frame_ns, &Time::median>(result_case);
     if (is_timed && !assign_ns) continue;
     const double gpu_ns = frame->cost.gpu_ns();
-    costs.push_back(
-        {{"id", result_case.id}, {"ns", six_digits(assign_ns.value_or(0.0) + gpu_ns)}, {"gpu_ns", six_digits(gpu_ns)}});
+    costs.push_back({result_case.id, result::measured(assign_ns.value_or(0.0) + gpu_ns), result::measured(gpu_ns)});
   }
   return costs;
 }

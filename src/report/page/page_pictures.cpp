@@ -50,7 +50,7 @@ std::string picture_in(const fs::path& folder, const fs::path& index, const std:
 PagePicture picture_of(const Json& entry) {
   PagePicture picture;
   picture.kind = entry.at("kind").get<std::string>();
-  if (!entry.at("frame").is_null()) picture.frame = entry.at("frame").get<int>();
+  if (!entry.at("frame").is_null()) picture.frame.emplace(entry.at("frame").get<int>());
   picture.case_ids = entry.at("cases").get<std::vector<std::string>>();
   picture.text = entry.at("text").get<std::string>();
   return picture;

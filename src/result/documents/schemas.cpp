@@ -1,5 +1,6 @@
 #include "result/documents/comparison.h"
 #include "result/documents/light_map.h"
+#include "result/documents/page.h"
 #include "result/documents/ratios.h"
 #include "result/documents/recommendation.h"
 #include "result/documents/size.h"
@@ -12,6 +13,7 @@ namespace clusterbench::result {
 // Here once: each instance lists the fields of all records below it.
 template const Type& type_of<Comparison>();
 template const Type& type_of<LightMaps>();
+template const Type& type_of<PageData>();
 template const Type& type_of<Ratios>();
 template const Type& type_of<Recommendation>();
 template const Type& type_of<Size>();
@@ -28,6 +30,17 @@ Json light_map_schema() {
   return schema_of<LightMaps>("clusterbench light maps",
                               "What `clusterbench light-map` writes: the lights that reach each texel of static "
                               "meshes, and what they take as bit fields and in sparser forms.");
+}
+
+// Names are literals, so each ends with 0.
+std::vector<const char*> figure_names() {
+  std::vector<const char*> names;
+  for (const Figure& figure : figures()) names.push_back(figure.name.data());
+  return names;
+}
+
+Json page_schema() {
+  return schema_of<PageData>("clusterbench page", "The data of a page that `clusterbench report` writes.");
 }
 
 Json ratios_schema() {
