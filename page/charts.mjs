@@ -1,15 +1,16 @@
 // Draws a picture of the documents with the page's own charts: node charts.mjs speed-error RESULT OUT.svg, or
 // node charts.mjs scaling CURVES.json OUT.svg, where CURVES is a list of {label, file, sizes by the id of a case}.
+// Figures are those of pages that the program that CLUSTERBENCH names, or the release build's, makes of the results.
 
 import { readFileSync, writeFileSync } from "node:fs";
-import { dirname } from "node:path";
+import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
-import { launch } from "./test/browser.mjs";
+import { launch, pageData } from "./test/browser.mjs";
 
 const [what, from, to] = process.argv.slice(2);
-const read = (path) => JSON.parse(readFileSync(path, "utf8"));
 const root = dirname(fileURLToPath(import.meta.url));
+const tool = process.env.CLUSTERBENCH ?? join(root, "../build/release/clusterbench");
 
 async function bundled(entry) {
   const made = await build({
@@ -23,8 +24,10 @@ async function bundled(entry) {
   return made.outputFiles[0].text;
 }
 
-const given = read(from);
-const data = what === "scaling" ? given.map(({ file, ...curve }) => ({ ...curve, result: read(file) })) : given;
+const data =
+  what === "scaling"
+    ? JSON.parse(readFileSync(from, "utf8")).map(({ file, ...curve }) => ({ ...curve, data: pageData(tool, file) }))
+    : pageData(tool, from);
 const browser = await launch();
 const page = await browser.newPage({ colorScheme: "light" });
 page.on("pageerror", (error) => {

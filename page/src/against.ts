@@ -1,5 +1,6 @@
 // One result against another: the cases that both have, by their ids.
 
+import { columnsOf, figure } from "./case_figures.ts";
 import { choice, type Option } from "./controls.ts";
 import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
@@ -27,8 +28,8 @@ function bothOf(cases: Case[], first: Run, second: Run): Both[] {
       return {
         first: other,
         second: aCase,
-        time: by(aCase.frameNs, other.frameNs),
-        bytes: by(aCase.bytes, other.bytes),
+        time: by(aCase.frameUs, other.frameUs),
+        bytes: by(figure(aCase, "bytes"), figure(other, "bytes")),
       };
     });
 }
@@ -70,7 +71,7 @@ function ratios(view: View, rows: Both[], first: Run, second: Run): Element {
           x: "time",
           y: (row: Both) => row.second.assigner,
           title: (row: Both) =>
-            `${row.second.raw.name}\n${first.label}: ${format.microseconds(row.first.frameNs)} µs\n${second.label}: ${format.microseconds(row.second.frameNs)} µs\n${change(row.time)}`,
+            `${row.second.raw.name}\n${first.label}: ${format.microseconds(row.first.frameUs)} µs\n${second.label}: ${format.microseconds(row.second.frameUs)} µs\n${change(row.time)}`,
         }),
       ),
     ],
@@ -99,6 +100,8 @@ export const againstSection: Section = (view, redraw) => {
       ),
     );
   const isTimed = rows.some((row) => row.time !== null);
+  const ofFirst = columnsOf(view.model.words, (row: Both) => row.first),
+    ofSecond = columnsOf(view.model.words, (row: Both) => row.second);
   return h(
     "section",
     { id: "against" },
@@ -119,26 +122,10 @@ export const againstSection: Section = (view, redraw) => {
             value: (row) => row.time,
             show: (row) => change(row.time),
           },
-          {
-            label: `excess, ${first.label}`,
-            value: (row) => row.first.excess,
-            show: (row) => format.percent(row.first.excess),
-          },
-          {
-            label: `excess, ${second.label}`,
-            value: (row) => row.second.excess,
-            show: (row) => format.percent(row.second.excess),
-          },
-          {
-            label: `frame µs, ${first.label}`,
-            value: (row) => row.first.frameNs,
-            show: (row) => format.microseconds(row.first.frameNs),
-          },
-          {
-            label: `frame µs, ${second.label}`,
-            value: (row) => row.second.frameNs,
-            show: (row) => format.microseconds(row.second.frameNs),
-          },
+          ofFirst("excess", `excess, ${first.label}`, { format: format.percent }),
+          ofSecond("excess", `excess, ${second.label}`, { format: format.percent }),
+          ofFirst("frame_us", `frame µs, ${first.label}`),
+          ofSecond("frame_us", `frame µs, ${second.label}`),
           {
             label: "bytes",
             about: "Change of the high-water mark",

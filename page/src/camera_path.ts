@@ -1,5 +1,6 @@
 // Pairs, longest lists and bytes along the camera path, with what is to be allocated.
 
+import { columnsOf, figure } from "./case_figures.ts";
 import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
@@ -23,7 +24,7 @@ const alongs: Along[] = [
     title: "bytes",
     values: (aCase) => aCase.raw.buffers.along_path?.bytes,
     show: format.short,
-    allocation: (aCase) => aCase.recommended,
+    allocation: (aCase) => figure(aCase, "bytes_recommended")!,
   },
 ];
 
@@ -94,6 +95,7 @@ export function cameraPath(view: View, cases: Case[]): HTMLElement {
       "These cases have no lists frame by frame: an earlier version measured them (run it again), or their methods leave structures without cells.",
     );
   const framesPerEntry = shown[0]!.raw.occupancy!.along_path!.frames_per_entry;
+  const column = columnsOf(view.model.words, ({ aCase }: { aCase: Case }) => aCase);
   const drawn = alongs.map((along) => ({ along, all: seriesOf(view, shown, along.values) }));
   return figureView({
     id: "camera-path",
@@ -117,11 +119,7 @@ export function cameraPath(view: View, cases: Case[]): HTMLElement {
         { label: "pairs", value: (row) => row.pairs, show: (row) => format.count(row.pairs) },
         { label: "longest list", value: (row) => row.longest },
         { label: "bytes", value: (row) => row.bytes, show: (row) => format.count(row.bytes) },
-        {
-          label: "allocate",
-          value: (row) => row.aCase.recommended,
-          show: (row) => format.count(row.aCase.recommended),
-        },
+        column("bytes_recommended", "allocate", { format: format.count }),
       ],
       rows: shown.flatMap((aCase) => {
         const { pairs, longest_list } = aCase.raw.occupancy!.along_path!;

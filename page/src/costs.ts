@@ -1,9 +1,11 @@
 // Where a frame's time goes: copying the finished lists once, the rest of the assignment, converting to the storage.
 
+import { columnsOf, figure } from "./case_figures.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
 import type { Case } from "./model.ts";
 import { chart, chartHeight, chartWidth, namesAside, Plot } from "./plots.ts";
+import type { Column } from "./table.ts";
 import type { View } from "./view.ts";
 
 interface Part {
@@ -31,10 +33,16 @@ function partsOf(aCase: Case, name: string): Part[] {
 
 export function costs(view: View, cases: Case[]): HTMLElement | null {
   const timed = cases
-    .filter((aCase) => aCase.raw.timing && aCase.frameNs !== null)
-    .sort((a, b) => a.frameNs! - b.frameNs!);
+    .filter((aCase) => aCase.raw.timing && aCase.frameUs !== null)
+    .sort((a, b) => a.frameUs! - b.frameUs!);
   if (timed.length === 0) return null;
   const methods = timed.map((aCase) => aCase.assigner);
+  const column = columnsOf(view.model.words, (aCase: Case) => aCase);
+  const floorUs = (aCase: Case) => format.inUs(figure(aCase, "write_floor"));
+  const perFrame = (name: "tests_done" | "fallbacks", label: string, write: format.Format): Column<Case> => {
+    const value = (aCase: Case) => figure(aCase, name)! / aCase.raw.frames;
+    return { ...column(name, label, { note: "here per frame" }), value, show: (aCase) => write(value(aCase)) };
+  };
   const whose = view.hasRuns ? ` · ${timed[0]!.run.label}` : ""; // a setting is of one result
   return figureView({
     id: "costs",
@@ -58,13 +66,13 @@ export function costs(view: View, cases: Case[]): HTMLElement | null {
             insetLeft: 0.5,
             insetRight: 0.5,
             title: ({ method, part, ns, share }: Part) =>
-              `${method}\n${part}: ${format.microseconds(ns)} µs, ${format.percent(share)}`,
+              `${method}\n${part}: ${format.microseconds(format.inUs(ns))} µs, ${format.percent(share)}`,
           },
         ),
         Plot.text(timed, {
           x: 1,
           y: "assigner",
-          text: (aCase: Case) => `${format.microseconds(aCase.frameNs)} µs`,
+          text: (aCase: Case) => `${format.microseconds(aCase.frameUs)} µs`,
           textAnchor: "start",
           dx: 6,
           fill: "var(--ink)",
@@ -76,48 +84,20 @@ export function costs(view: View, cases: Case[]): HTMLElement | null {
       caption: "Costs",
       columns: [
         { label: "method", value: (aCase) => view.named(aCase) },
+        column("frame_us", "frame µs"),
+        column("build_us", "build µs", {
+          note: "once per projection; within the assignment where the grid changes from frame to frame",
+        }),
+        column("assign_us", "assign µs"),
+        column("convert_us", "convert µs", { note: "none where a method leaves its own structure" }),
         {
-          label: "frame µs",
-          about: "Assignment and conversion",
-          value: (aCase) => aCase.frameNs,
-          show: (aCase) => format.microseconds(aCase.frameNs),
+          ...column("write_floor", "write floor µs"),
+          value: floorUs,
+          show: (aCase) => format.microseconds(floorUs(aCase)),
         },
-        {
-          label: "build µs",
-          about: "Once per projection; within the assignment where the grid changes from frame to frame",
-          value: (aCase) => aCase.raw.timing!.build_ns.median,
-          show: (aCase) => format.microseconds(aCase.raw.timing!.build_ns.median),
-        },
-        { label: "assign µs", value: (aCase) => aCase.assignNs, show: (aCase) => format.microseconds(aCase.assignNs) },
-        {
-          label: "convert µs",
-          about: "None where a method leaves its own structure",
-          value: (aCase) => aCase.raw.timing!.convert_ns?.median ?? null,
-          show: (aCase) => format.microseconds(aCase.raw.timing!.convert_ns?.median ?? null),
-        },
-        {
-          label: "write floor µs",
-          value: (aCase) => aCase.raw.timing!.write_floor_ns,
-          show: (aCase) => format.microseconds(aCase.raw.timing!.write_floor_ns),
-        },
-        {
-          label: "tests per frame",
-          about: "Cells, rows, lights or planes that the method looks at one by one",
-          value: (aCase) => aCase.raw.tests_done / aCase.raw.frames,
-          show: (aCase) => format.count(aCase.raw.tests_done / aCase.raw.frames),
-        },
-        {
-          label: "fallbacks per frame",
-          about: "Pairs decided at greater cost than single precision",
-          value: (aCase) => aCase.raw.fallbacks / aCase.raw.frames,
-          show: (aCase) => format.decimal(aCase.raw.fallbacks / aCase.raw.frames),
-        },
-        {
-          label: "scratch",
-          about: "The method's own memory",
-          value: (aCase) => aCase.raw.buffers.scratch_bytes,
-          show: (aCase) => format.short(aCase.raw.buffers.scratch_bytes),
-        },
+        perFrame("tests_done", "tests per frame", format.count),
+        perFrame("fallbacks", "fallbacks per frame", format.decimal),
+        column("scratch_bytes", "scratch"),
       ],
       rows: timed,
     }),

@@ -1,23 +1,20 @@
 // The drawings of the documents, from the same charts as the page's: charts.mjs calls them and keeps the SVG.
 
+import { figure } from "./case_figures.ts";
 import { h } from "./dom.ts";
 import * as format from "./format.ts";
 import { type Case, type Model, modelOf } from "./model.ts";
 import { icon, paletteOf } from "./palette.ts";
 import { chart, Plot } from "./plots.ts";
-import type { Result } from "./result.ts";
+import type { PageData } from "./result.ts";
 import { extent, logExtent, measures, panel, points, timeExtent } from "./speed_error.ts";
 import { View } from "./view.ts";
 
 const gap = 36;
 const titleHeight = 22;
 
-const viewOf = (result: Result): View => {
-  const model = modelOf({
-    command: "",
-    results: [{ file: "result.json", result, doubts: [], ratios: [], costs: [] }],
-    pictures: [],
-  });
+const viewOf = (data: PageData): View => {
+  const model = modelOf(data);
   return new View(model, paletteOf(model));
 };
 
@@ -80,8 +77,8 @@ const legendOf = (view: View, model: Model) =>
   new Map(model.cases.map((aCase) => [aCase.assigner, icon(view.palette(aCase)) as Element]));
 
 // Of the cases that have cells, a panel per scene.
-function speedError(result: Result): string {
-  const view = viewOf(result),
+function speedError(data: PageData): string {
+  const view = viewOf(data),
     measure = measures["excess"]!;
   const all = points(view.model.cases, measure);
   const x = timeExtent(all);
@@ -103,21 +100,21 @@ function speedError(result: Result): string {
 
 interface Curve {
   label: string;
-  result: Result;
+  data: PageData; // of a page of one result
   sizes: Record<string, number>; // by the id of a case
 }
 
+const assignUs = (aCase: Case) => figure(aCase, "assign_us");
+
 function scaling(curves: Curve[]): string {
-  const views = curves.map(({ result }) => viewOf(result));
-  const times = views.flatMap((view) =>
-    view.model.cases.flatMap((aCase) => (aCase.assignNs === null ? [] : [aCase.assignNs / 1e3])),
-  );
+  const views = curves.map(({ data }) => viewOf(data));
+  const times = views.flatMap((view) => view.model.cases.map(assignUs).filter((us) => us !== null));
   const y = logExtent(times);
   const panels = curves.map(({ label, sizes }, at) => {
     const view = views[at]!;
     const rows = view.model.cases
-      .filter((aCase) => aCase.assignNs !== null && aCase.raw.id in sizes)
-      .map((aCase) => ({ aCase, size: sizes[aCase.raw.id]!, us: aCase.assignNs! / 1e3 }));
+      .filter((aCase) => assignUs(aCase) !== null && aCase.raw.id in sizes)
+      .map((aCase) => ({ aCase, size: sizes[aCase.raw.id]!, us: assignUs(aCase)! }));
     const look = ({ aCase }: { aCase: Case }) => view.palette(aCase);
     return {
       title: label,

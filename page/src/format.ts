@@ -5,7 +5,7 @@ import type { Maybe } from "./result.ts";
 const none = "–";
 const grouped = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 
-type Format = (value: Maybe) => string;
+export type Format = (value: Maybe) => string;
 const ifKnown =
   (format: (value: number) => string): Format =>
   (value) =>
@@ -21,10 +21,12 @@ export function fixed(value: number, digits: number): string {
   return (value - Math.sign(value) * 0.5 * 10 ** -digits).toFixed(digits);
 }
 
+export const inUs = (ns: Maybe): Maybe => (ns === null ? null : ns / 1e3);
+
 export const count: Format = ifKnown((value) => grouped.format(value));
 export const whole: Format = ifKnown((value) => fixed(value, 0));
 export const decimal: Format = ifKnown((value) => fixed(value, 2));
-export const microseconds: Format = ifKnown((ns) => fixed(ns / 1e3, ns < 1e4 ? 2 : ns < 1e6 ? 1 : 0)); // of nanoseconds
+export const microseconds: Format = ifKnown((us) => fixed(us, us < 10 ? 2 : us < 1000 ? 1 : 0));
 export const percent: Format = ifKnown((ratio) => `${fixed(100 * ratio, 1)} %`);
 export const share: Format = ifKnown((ratio) =>
   ratio === 0 ? "0 %" : ratio < 1e-4 ? "<0.01 %" : `${fixed(100 * ratio, ratio < 0.01 ? 2 : 1)} %`,

@@ -1,5 +1,6 @@
 // Tiling × slicing, a map per method: which cut is cheap, which is tight.
 
+import { figure, pairsOf } from "./case_figures.ts";
 import { choice } from "./controls.ts";
 import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
@@ -18,13 +19,13 @@ interface Measure {
 }
 
 const measures: Record<string, Measure> = {
-  time: { label: "frame µs", of: (aCase) => aCase.frameNs, show: format.microseconds },
-  instructions: { label: "instructions", of: (aCase) => aCase.instructions, show: format.short },
-  overshade: { label: "overshade", of: (aCase) => aCase.overshade, show: format.factor },
-  excess: { label: "excess", of: (aCase) => aCase.excess, show: format.percent, isShare: true },
-  bytes: { label: "bytes", of: (aCase) => aCase.bytes, show: format.short },
-  longest: { label: "longest list", of: (aCase) => aCase.longest, show: format.count },
-  pairs: { label: "pairs", of: (aCase) => aCase.pairs, show: format.short },
+  time: { label: "frame µs", of: (aCase) => aCase.frameUs, show: format.microseconds },
+  instructions: { label: "instructions", of: (aCase) => figure(aCase, "assign_instructions"), show: format.short },
+  overshade: { label: "overshade", of: (aCase) => figure(aCase, "overshade"), show: format.factor },
+  excess: { label: "excess", of: (aCase) => figure(aCase, "excess"), show: format.percent, isShare: true },
+  bytes: { label: "bytes", of: (aCase) => figure(aCase, "bytes"), show: format.short },
+  longest: { label: "longest list", of: (aCase) => figure(aCase, "longest"), show: format.count },
+  pairs: { label: "pairs", of: pairsOf, show: format.short },
 };
 
 interface Cell {

@@ -1,8 +1,9 @@
 // The page's own view of its results: every case of every result in one list, with the figures that tables and charts
 // share.
 
-import type { CaseResult, FrameCost, Maybe, PageData, Picture, Ranked, Result } from "./result.ts";
-import { overshadeAtSets, unlitAtSets } from "./sample_sets.ts";
+import { type Figures, figure, type Words } from "./case_figures.ts";
+import { inUs } from "./format.ts";
+import type { CaseResult, FrameCost, Maybe, PageCase, PageData, Picture, Ranked, Result } from "./result.ts";
 
 export interface Run {
   file: string;
@@ -26,34 +27,18 @@ export interface Case {
   isOnFront: boolean;
   isEligible: boolean; // for the front, and to be what others are compared with
   isSearched: boolean; // at each sample, which no GPU has measured: ranked apart
-  readBytes: Maybe; // of the structure, that a sample reads to know its lights
   isUnlit: boolean; // leaves more lights unlit than rounding does
   rank: Maybe; // by frame time, or cost, among all cases that see the same, whatever is filtered out
-  frameNs: Maybe; // assignment and conversion
+  figures: Figures; // by their names in the program's table, those that the case has
+  sets: string[]; // of samples, that figures of samples are of
+  frameUs: Maybe; // assignment and conversion
   costNs: Maybe; // of a frame with its shading; without times what the GPU does. None where lights are lost
   gpuNs: Maybe; // of it what is modelled
   standing: Standing | null; // what conclusions say of it
-  interval: [Maybe, Maybe]; // of frameNs
+  interval: [Maybe, Maybe]; // of frameUs
   ranked: Ranked | null; // beside the fastest and the next faster one
-  worstNs: Maybe; // of the slowest timed frame
-  assignNs: Maybe;
-  convertNs: Maybe;
-  nsPerPair: Maybe;
-  floorRatio: Maybe;
-  instructions: Maybe;
-  pairs: Maybe; // of the timed frames; without times of all
-  mostPairs: Maybe;
-  excess: Maybe;
-  missed: Maybe;
-  dropped: number;
   lostLux: Maybe; // on visible surfaces if they are asked for, else in the whole view; mean
   worstLux: Maybe; // of the sample that loses most
-  unlit: Maybe; // at the samples that it is ranked by, as overshade
-  overshade: Maybe;
-  p99: Maybe;
-  longest: Maybe;
-  bytes: number;
-  recommended: number;
 }
 
 export interface Model {
@@ -64,6 +49,8 @@ export interface Model {
   grids: string[];
   assigners: string[];
   families: string[];
+  words: Words;
+  sampleSets: Record<string, string>; // words for each
   pictures: Picture[];
 }
 
@@ -106,13 +93,14 @@ interface Known {
 const isWithoutGrid = (raw: CaseResult) =>
   raw.storage === "own" && raw.occupancy === undefined && raw.cells_not_compared === undefined;
 
-function toCase(raw: CaseResult, run: Run, known: Known): Case {
+function toCase(raw: CaseResult, { figures, sets }: PageCase, run: Run, known: Known): Case {
   const { front, standings, costs } = known;
   const ranked = known.ranked.get(raw.id) ?? null;
   const kept = raw.storage === "own" ? (/\/own lists(\/|$)/.test(raw.name) ? "own lists" : "no lists") : raw.storage;
   const packed = raw.precision && raw.precision.packing !== "float32" ? `${kept}, ${raw.precision.label}` : kept;
   const storage = raw.pre_cull ? `${packed}, after ${raw.pre_cull.label}` : packed;
   const seen = raw.samples?.opaque ?? raw.shading;
+  const [low, high] = raw.timing?.frame_ns.ci95 ?? [null, null];
   const grid = isWithoutGrid(raw) ? "no grid" : raw.grid.name;
   return {
     raw,
@@ -127,34 +115,18 @@ function toCase(raw: CaseResult, run: Run, known: Known): Case {
     isOnFront: front.has(raw.id),
     isEligible: raw.eligible && !raw.samples_search,
     isSearched: raw.samples_search === true,
-    readBytes: seen?.read_bytes === undefined || !seen.samples ? null : seen.read_bytes / seen.samples,
     isUnlit: raw.warnings.some(({ kind }) => kind === "unlit"),
     rank: null,
-    frameNs: raw.timing?.frame_ns.median ?? null,
+    figures,
+    sets,
+    frameUs: figure({ figures }, "frame_us"),
     costNs: costs.get(raw.id)?.ns ?? null,
     gpuNs: costs.get(raw.id)?.gpu_ns ?? null,
     standing: standings.get(raw.id) ?? null,
-    interval: raw.timing?.frame_ns.ci95 ?? [null, null],
+    interval: [inUs(low), inUs(high)],
     ranked,
-    worstNs: raw.timing?.worst_frame?.ns ?? null,
-    assignNs: raw.timing?.assign_ns.median ?? null,
-    convertNs: raw.timing?.convert_ns?.median ?? null,
-    nsPerPair: raw.timing?.ns_per_pair ?? null,
-    floorRatio: raw.timing?.floor_ratio ?? null,
-    instructions: raw.count?.instructions_per_frame.assign ?? null,
-    pairs: raw.timing?.pairs?.mean ?? raw.occupancy?.pairs.mean ?? null,
-    mostPairs: raw.timing?.pairs?.max ?? raw.occupancy?.pairs.max ?? null,
-    excess: raw.error?.excess_ratio ?? null,
-    missed: raw.error?.false_negatives ?? null,
-    dropped: raw.buffers.overflow.dropped_pairs,
     lostLux: seen?.lost_lux ?? null,
     worstLux: seen?.darkest?.lost_lux ?? (seen ? 0 : null),
-    unlit: unlitAtSets(raw),
-    overshade: overshadeAtSets(raw),
-    p99: raw.occupancy?.lights_per_cell.p99 ?? null,
-    longest: raw.occupancy?.lights_per_cell.max ?? null,
-    bytes: raw.buffers.bytes.high_water,
-    recommended: raw.buffers.bytes.recommended,
   };
 }
 
@@ -165,7 +137,7 @@ export const seenBy = (aCase: Case) =>
 export const isRankedByCost = (aCase: Case) => aCase.run.result.config.rank_by === "frame_cost";
 
 function rankAll(cases: Case[]): void {
-  const ranked = (aCase: Case) => (aCase.isSearched ? null : isRankedByCost(aCase) ? aCase.costNs : aCase.frameNs);
+  const ranked = (aCase: Case) => (aCase.isSearched ? null : isRankedByCost(aCase) ? aCase.costNs : aCase.frameUs);
   for (const seen of Map.groupBy(
     cases.filter((aCase) => ranked(aCase) !== null),
     seenBy,
@@ -181,14 +153,14 @@ export function modelOf(data: PageData): Model {
   const names = labels(data.results.map(({ file }) => file));
   const runs = data.results.map(({ file, result, doubts }, at) => ({ file, label: names[at]!, result, doubts }));
   const cases = runs.flatMap((run, at) => {
-    const { ratios, costs } = data.results[at]!;
+    const { cases: numbers, ratios, costs } = data.results[at]!;
     const known: Known = {
       front: new Set(run.result.pareto_front.flatMap(({ ids }) => ids)),
       standings: standingsOf(run.result),
       ranked: new Map(ratios.map((ratio) => [ratio.id, ratio])),
       costs: new Map(costs.map((cost) => [cost.id, cost])),
     };
-    return run.result.cases.map((raw) => toCase(raw, run, known));
+    return run.result.cases.map((raw, index) => toCase(raw, numbers[index]!, run, known));
   });
   rankAll(cases);
   return {
@@ -199,6 +171,8 @@ export function modelOf(data: PageData): Model {
     grids: unique(cases.map((aCase) => aCase.grid)),
     assigners: unique(cases.map((aCase) => aCase.assigner)),
     families: unique(cases.map((aCase) => aCase.family)),
+    words: new Map(data.figures.map((row) => [row.name, row])),
+    sampleSets: data.sample_sets,
     pictures: data.pictures,
   };
 }

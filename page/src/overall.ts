@@ -1,8 +1,9 @@
 // The ranking over all scenes: each method on each grid. All means are geometric over the scenes, each scene counted once:
 // none outweighs the others by its size, and a ratio of two means is the mean of the ratios.
 
+import { figure } from "./case_figures.ts";
 import { type Case, seenBy } from "./model.ts";
-import type { Maybe } from "./result.ts";
+import type { FigureName, Maybe } from "./result.ts";
 
 export interface Mean {
   value: Maybe;
@@ -46,7 +47,7 @@ function leastOf(cases: Case[], figure: (aCase: Case) => Maybe): Map<string, num
   return best;
 }
 
-const bestTimes = (cases: Case[]) => leastOf(cases, (aCase) => aCase.frameNs);
+const bestTimes = (cases: Case[]) => leastOf(cases, (aCase) => aCase.frameUs);
 
 const rankedCost = (aCase: Case) => (aCase.isSearched ? null : aCase.costNs);
 
@@ -69,17 +70,21 @@ export function meanOf(cases: Case[], figure: (aCase: Case) => Maybe): Mean {
 }
 
 function excessOf(cases: Case[]): Mean {
-  const { value, scenes } = meanOf(cases, (aCase) => (aCase.excess === null ? null : 1 + aCase.excess));
+  const { value, scenes } = meanOf(cases, (aCase) => {
+    const excess = figure(aCase, "excess");
+    return excess === null ? null : 1 + excess;
+  });
   return { value: value === null ? null : value - 1, scenes };
 }
 
 function standing(cases: Case[], { times, costs }: Least): Standing {
-  const timeByBest = (aCase: Case) => aCase.frameNs && aCase.frameNs / times.get(seenBy(aCase))!;
+  const timeByBest = (aCase: Case) => aCase.frameUs && aCase.frameUs / times.get(seenBy(aCase))!;
   const costByBest = (aCase: Case) => {
     const cost = rankedCost(aCase);
     return cost && cost / costs.get(seenBy(aCase))!;
   };
-  const missed = known(cases.map((aCase) => aCase.missed));
+  const valuesOf = (name: FigureName) => known(cases.map((aCase) => figure(aCase, name)));
+  const missed = valuesOf("missed");
   const first = cases[0]!;
   return {
     assigner: first.assigner,
@@ -96,13 +101,13 @@ function standing(cases: Case[], { times, costs }: Least): Standing {
     worstTimeByBest: most(cases.map(timeByBest)),
     excess: excessOf(cases),
     missed: missed.length ? sum(missed) : null,
-    dropped: sum(cases.map((aCase) => aCase.dropped)),
-    unlit: most(cases.map((aCase) => aCase.unlit)),
+    dropped: sum(valuesOf("dropped")),
+    unlit: most(valuesOf("unlit")),
     isUnlit: cases.some((aCase) => aCase.isUnlit),
-    overshade: meanOf(cases, (aCase) => aCase.overshade),
-    longest: meanOf(cases, (aCase) => aCase.longest || null),
-    bytes: meanOf(cases, (aCase) => aCase.bytes || null),
-    mostBytes: Math.max(...cases.map((aCase) => aCase.bytes)),
+    overshade: meanOf(cases, (aCase) => figure(aCase, "overshade")),
+    longest: meanOf(cases, (aCase) => figure(aCase, "longest") || null),
+    bytes: meanOf(cases, (aCase) => figure(aCase, "bytes") || null),
+    mostBytes: Math.max(...valuesOf("bytes")),
     fronts: cases.filter((aCase) => aCase.isOnFront).length,
   };
 }

@@ -1,5 +1,6 @@
 // What packed lights lose, and what a shader's own lookup loses.
 
+import { columnsOf } from "./case_figures.ts";
 import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
@@ -12,32 +13,30 @@ import type { Section, View } from "./view.ts";
 type Packed = { aCase: Case; precision: Precision };
 type Looked = { aCase: Case; lookup: Lookup };
 
-const packedColumns: Column<Packed>[] = [
-  { label: "method", value: ({ aCase }) => aCase.assigner },
-  { label: "storage", value: ({ aCase }) => aCase.raw.storage },
-  { label: "scene", value: ({ aCase }) => aCase.scene },
-  { label: "grid", value: ({ aCase }) => aCase.grid },
-  { label: "lights", value: ({ precision }) => precision.label },
-  { label: "missed", value: ({ aCase }) => aCase.missed, show: ({ aCase }) => format.count(aCase.missed) },
-  {
-    label: "deepest",
-    about: "Largest share of its range by which a missed light reaches in",
-    value: ({ aCase }) => aCase.raw.error?.deepest_miss ?? null,
-    show: ({ aCase }) => format.percent(aCase.raw.error?.deepest_miss ?? null),
-  },
-  {
-    label: "extra pairs",
-    about: "Against float32",
-    value: ({ precision }) => precision.extra_pairs?.ratio ?? null,
-    show: ({ precision }) => format.percent(precision.extra_pairs?.ratio ?? null),
-  },
-  {
-    label: "place off by",
-    about: "At most",
-    value: ({ precision }) => precision.position_error_m.max,
-    show: ({ precision }) => format.metres(precision.position_error_m.max),
-  },
-];
+function packedColumns(view: View): Column<Packed>[] {
+  const column = columnsOf(view.model.words, ({ aCase }: Packed) => aCase);
+  return [
+    { label: "method", value: ({ aCase }) => aCase.assigner },
+    { label: "storage", value: ({ aCase }) => aCase.raw.storage },
+    { label: "scene", value: ({ aCase }) => aCase.scene },
+    { label: "grid", value: ({ aCase }) => aCase.grid },
+    { label: "lights", value: ({ precision }) => precision.label },
+    column("missed", "missed", { format: format.count }),
+    column("deepest_miss", "deepest", { format: format.percent }),
+    {
+      label: "extra pairs",
+      about: "Against float32",
+      value: ({ precision }) => precision.extra_pairs?.ratio ?? null,
+      show: ({ precision }) => format.percent(precision.extra_pairs?.ratio ?? null),
+    },
+    {
+      label: "place off by",
+      about: "At most",
+      value: ({ precision }) => precision.position_error_m.max,
+      show: ({ precision }) => format.metres(precision.position_error_m.max),
+    },
+  ];
+}
 
 const lookedColumns: Column<Looked>[] = [
   { label: "method", value: ({ aCase }) => aCase.assigner },
@@ -73,7 +72,7 @@ function packedFigure(view: View): HTMLElement | null {
     id: "packed-lights",
     title: "Packed lights",
     lead: "The same methods on lights that were packed before the assigner saw them, against the same truth.",
-    table: () => ({ caption: "Packed lights", columns: ofRuns(view, packedColumns), rows }),
+    table: () => ({ caption: "Packed lights", columns: ofRuns(view, packedColumns(view)), rows }),
     cases: rows.map(({ aCase }) => aCase),
   });
 }

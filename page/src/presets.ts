@@ -1,5 +1,6 @@
 // Which engine's scheme suits this level, and why.
 
+import { columnsOf, figure } from "./case_figures.ts";
 import { type Child, h, withCode } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
@@ -32,88 +33,75 @@ function unlitOf({ line }: Row): number | null {
   return line.standing === "unknown" ? null : (line.unlit ?? null);
 }
 
-const columns: Column<Row>[] = [
-  {
-    label: "preset",
-    value: ({ line }) => line.preset,
-    show: ({ line, isBest, facts }) => h("span", { title: facts?.summary }, isBest ? `▶ ${line.preset}` : line.preset),
-  },
-  {
-    label: "place",
-    about:
-      "The same where the model cannot tell costs apart. s: samples search the structure, ranked apart. –: samples lack lights, or are too few to say that none is lacking",
-    value: ({ place }) => place,
-    show: ({ line, place }) => placeText(line, place),
-  },
-  {
-    label: "GPU µs",
-    about: "Upload, reading and shading of a frame by the configuration's model (cost)",
-    value: ({ line }) => line.gpu_ns,
-    show: ({ line }) => format.microseconds(line.gpu_ns),
-  },
-  {
-    label: "upload µs",
-    isScreenOnly: true,
-    about: "Of the lists, where the engine makes them on the CPU",
-    value: ({ line }) => line.upload_ns ?? null,
-    show: ({ line }) => format.microseconds(line.upload_ns ?? null),
-  },
-  {
-    label: "read µs",
-    isScreenOnly: true,
-    about: "What samples read to know their lights",
-    value: ({ line }) => line.read_ns ?? null,
-    show: ({ line }) => format.microseconds(line.read_ns ?? null),
-  },
-  {
-    label: "lights / sample",
-    about: "That a shader loops over, on average",
-    value: ({ line }) => line.lights_per_sample,
-    show: ({ line }) => format.decimal(line.lights_per_sample),
-  },
-  {
-    label: "longest",
-    isScreenOnly: true,
-    about: "List, in any cell and frame",
-    value: ({ aCase }) => aCase.longest,
-    show: ({ aCase }) => format.whole(aCase.longest),
-  },
-  {
-    label: "bytes",
-    about: "High-water mark of headers and entries",
-    value: ({ aCase }) => aCase.bytes,
-    show: ({ aCase }) => format.short(aCase.bytes),
-  },
-  {
-    label: "dropped",
-    isScreenOnly: true,
-    about: "Pairs that its storage has no room for, seen or not",
-    value: ({ aCase }) => aCase.dropped,
-    show: ({ aCase }) => format.short(aCase.dropped),
-  },
-  {
-    label: "missed in view",
-    isScreenOnly: true,
-    about:
-      "True pairs that its method or a limit of lights leaves out, without those of lights beside the view, which the table of all figures counts too",
-    value: ({ line }) => line.missed_in_view ?? null,
-    show: ({ line }) => format.whole(line.missed_in_view ?? null),
-  },
-  {
-    label: "unlit",
-    about: "Share of the lights that samples need and are not given: it decides",
-    value: (row) => unlitOf(row),
-    show: (row) => format.share(unlitOf(row)),
-  },
-  {
-    label: "assign µs",
-    isScreenOnly: true,
-    about: "On one core of this machine, of engines that assign on the CPU: of others a time here would not be theirs",
-    value: ({ aCase, facts }) => (facts?.assigns_on === "gpu" ? null : aCase.assignNs),
-    show: ({ aCase, facts }) => (facts?.assigns_on === "gpu" ? "GPU" : format.microseconds(aCase.assignNs)),
-  },
-  { label: "why", value: ({ line }) => line.why, show: ({ line }) => h("span", {}, line.why) },
-];
+function columnsIn(view: View): Column<Row>[] {
+  const column = columnsOf(view.model.words, ({ aCase }: Row) => aCase);
+  return [
+    {
+      label: "preset",
+      value: ({ line }) => line.preset,
+      show: ({ line, isBest, facts }) =>
+        h("span", { title: facts?.summary }, isBest ? `▶ ${line.preset}` : line.preset),
+    },
+    {
+      label: "place",
+      about:
+        "The same where the model cannot tell costs apart. s: samples search the structure, ranked apart. –: samples lack lights, or are too few to say that none is lacking",
+      value: ({ place }) => place,
+      show: ({ line, place }) => placeText(line, place),
+    },
+    {
+      label: "GPU µs",
+      about: "Upload, reading and shading of a frame by the configuration's model (cost)",
+      value: ({ line }) => format.inUs(line.gpu_ns),
+      show: ({ line }) => format.microseconds(format.inUs(line.gpu_ns)),
+    },
+    {
+      label: "upload µs",
+      isScreenOnly: true,
+      about: "Of the lists, where the engine makes them on the CPU",
+      value: ({ line }) => format.inUs(line.upload_ns ?? null),
+      show: ({ line }) => format.microseconds(format.inUs(line.upload_ns ?? null)),
+    },
+    {
+      label: "read µs",
+      isScreenOnly: true,
+      about: "What samples read to know their lights",
+      value: ({ line }) => format.inUs(line.read_ns ?? null),
+      show: ({ line }) => format.microseconds(format.inUs(line.read_ns ?? null)),
+    },
+    {
+      label: "lights / sample",
+      about: "That a shader loops over, on average",
+      value: ({ line }) => line.lights_per_sample,
+      show: ({ line }) => format.decimal(line.lights_per_sample),
+    },
+    column("longest", "longest", { isScreenOnly: true }),
+    column("bytes", "bytes"),
+    column("dropped", "dropped", { isScreenOnly: true, note: "seen or not" }),
+    {
+      label: "missed in view",
+      isScreenOnly: true,
+      about:
+        "True pairs that its method or a limit of lights leaves out, without those of lights beside the view, which the table of all figures counts too",
+      value: ({ line }) => line.missed_in_view ?? null,
+      show: ({ line }) => format.whole(line.missed_in_view ?? null),
+    },
+    {
+      label: "unlit",
+      about: "Share of the lights that samples need and are not given: it decides",
+      value: (row) => unlitOf(row),
+      show: (row) => format.share(unlitOf(row)),
+    },
+    column("assign_us", "assign µs", {
+      isScreenOnly: true,
+      note: "on one core of this machine, of engines that assign on the CPU: of others a time here would not be theirs",
+      value: ({ aCase, facts }) => (facts?.assigns_on === "gpu" ? null : figure(aCase, "assign_us")),
+      show: ({ aCase, facts }) =>
+        facts?.assigns_on === "gpu" ? "GPU" : format.microseconds(figure(aCase, "assign_us")),
+    }),
+    { label: "why", value: ({ line }) => line.why, show: ({ line }) => h("span", {}, line.why) },
+  ];
+}
 
 const evidenceTexts: Record<string, string> = {
   ran: "ran: compared with the lists of the engine's code",
@@ -144,7 +132,8 @@ function rowsOf(ranking: Ranking, cases: Case[], facts: Facts[]): Row[] {
   });
 }
 
-const shownColumns = (rows: Row[]) => columns.filter(({ value }) => rows.some((row) => value(row) !== null));
+const shownColumns = (view: View, rows: Row[]) =>
+  columnsIn(view).filter(({ value }) => rows.some((row) => value(row) !== null));
 
 // The conclusion first, where the page does not begin with it; then how lines come to their places.
 function leadOf(ranking: Ranking, isAlone: boolean): Child {
@@ -168,7 +157,7 @@ function rankingFigures(view: View): HTMLElement[] {
         id: `presets-${at}-${index}`,
         title,
         lead: leadOf(ranking, view.model.runs.length === 1 && run.result.preset_rankings?.length === 1),
-        table: () => ({ caption: `Presets: ${title}`, columns: ofRuns(view, shownColumns(rows)), rows }),
+        table: () => ({ caption: `Presets: ${title}`, columns: ofRuns(view, shownColumns(view, rows)), rows }),
         cases: rows.map(({ aCase }) => aCase),
       });
     });

@@ -1,11 +1,13 @@
 // The ranking: of one scene every case, over all scenes every method on every grid.
 
+import { aboutOf, columnsOf, figure, meaningOf, pairsOf, type Words } from "./case_figures.ts";
 import { breakable, h } from "./dom.ts";
 import * as format from "./format.ts";
 import { copyButton, csv, downloadButton } from "./handover.ts";
 import { type Case, isRankedByCost } from "./model.ts";
 import { type Mean, type Standing, standings } from "./overall.ts";
 import { icon } from "./palette.ts";
+import type { FigureName } from "./result.ts";
 import { countsThatLackMost, headingOfSets, wordsOfSets } from "./sample_sets.ts";
 import { type Column, type Table, tableView } from "./table.ts";
 import type { Section, View } from "./view.ts";
@@ -48,13 +50,13 @@ function worst({ raw }: Case): string {
 const lost = (text: string, isBad: boolean, title = "") =>
   h("span", { class: isBad && "bad", title: title || null }, text);
 
-function unlit({ raw, unlit, isUnlit }: Case): HTMLElement {
-  const { missed_in_cells, missed_outside } = countsThatLackMost(raw) ?? {};
+function unlit(row: Case): HTMLElement {
+  const { missed_in_cells, missed_outside } = countsThatLackMost(row) ?? {};
   const title =
     missed_outside === undefined
       ? ""
       : `${format.count(missed_in_cells ?? null)} in cells, ${format.count(missed_outside)} outside of the grid`;
-  return lost(format.share(unlit), isUnlit, title);
+  return lost(format.share(figure(row, "unlit")), row.isUnlit, title);
 }
 
 const front = (isOnFront: boolean) =>
@@ -63,82 +65,34 @@ const differ = <Row>(rows: Row[], value: (row: Row) => unknown) => new Set(rows.
 const kept = <Row>(columns: (Column<Row> | false)[]) =>
   columns.filter((column): column is Column<Row> => column !== false);
 
+const has = (rows: Case[], name: FigureName) => rows.some((row) => figure(row, name) !== null);
+
 // Method, time and error first: a narrow screen shows no more.
 function caseColumns(view: View, rows: Case[]): Column<Case>[] {
   const measured = (value: (row: Case) => unknown) => rows.some((row) => value(row) !== null);
   const hasGrids = differ(rows, (row) => row.grid);
+  const column = columnsOf(view.model.words, (row: Case) => row);
   return kept<Case>([
     { label: "method", value: (row) => row.assigner, show: (row) => method(view, row, hasGrids) },
     measured((row) => row.costNs) && {
       label: "cost µs",
       about:
         "What a frame costs, by which the conclusion chooses: making the lists, where that was timed, and upload, reading and shading by the model of the configuration's key cost. None where lights are lost. In brackets and last: samples search the structure, and no GPU has measured such a search",
-      value: (row) => (row.isSearched ? null : row.costNs),
+      value: (row) => (row.isSearched ? null : format.inUs(row.costNs)),
       show: (row) => h("span", { title: costParts(row) }, cost(row)),
     },
-    measured((row) => row.frameNs) && {
-      label: "frame µs",
-      about:
-        "Median time of what a frame takes: assignment and conversion to the storage, with builds where the grid changes from frame to frame. ~: may be as fast as the next faster one of its scene, as far as their ratio is known",
-      value: (row) => row.frameNs,
-      show: (row) =>
-        h(
-          "span",
-          { title: interval(row) },
-          `${row.ranked?.is_like_above ? "~" : ""}${format.microseconds(row.frameNs)}`,
-        ),
-    },
-    {
-      label: "excess",
-      about: "False positives / true pairs (cell, light)",
-      value: (row) => row.excess,
-      show: (row) => format.percent(row.excess),
-    },
-    {
-      label: "missed",
-      about: "False negatives: lights that reach a cell and are not in its list",
-      value: (row) => row.missed,
-      show: (row) => lost(format.whole(row.missed), !!row.missed),
-    },
-    rows.some((row) => row.dropped > 0) && {
-      label: "dropped",
-      about: "Pairs that the storage had no room for, over all frames",
-      value: (row) => row.dropped,
-      show: (row) => lost(format.short(row.dropped), row.dropped > 0),
-    },
-    rows.some((row) => row.dropped > 0) && {
-      label: "lost lx",
-      isScreenOnly: true,
-      about: "Irradiance that samples lack, mean; of the one that lacks most at the pointer",
-      value: (row) => row.lostLux,
-      show: (row) => lost(format.decimal(row.lostLux), !!row.lostLux, `at most ${format.decimal(row.worstLux)} lx`),
-    },
-    measured((row) => row.unlit) && {
-      label: `unlit${headingOfSets(rows.map(({ raw }) => raw))}`,
-      about: `Share of the lights that samples (${wordsOfSets(rows.map(({ raw }) => raw))}) need and are not given: their cell lacks them, the storage dropped them, or they are outside of the grid`,
-      value: (row) => row.unlit,
-      show: (row) => unlit(row),
-    },
-    measured((row) => row.overshade) && {
-      label: `overshade${headingOfSets(rows.map(({ raw }) => raw))}`,
-      about: `Lights given / lights needed, at samples (${wordsOfSets(rows.map(({ raw }) => raw))}); none where lights are unlit or few are needed`,
-      value: (row) => row.overshade,
-      show: (row) => format.factor(row.overshade),
-    },
-    rows.some((row) => row.isSearched) && {
-      label: "read",
-      isScreenOnly: true,
-      about:
-        "Bytes of the light structure that a sample reads to know its lights. Structures that samples search (a hierarchy, masks of bits) have no rank and are on no front: no GPU has measured the search",
-      value: (row) => row.readBytes,
-      show: (row) => format.short(row.readBytes),
-    },
-    {
-      label: "bytes",
-      about: "High-water mark of headers and indices",
-      value: (row) => row.bytes,
-      show: (row) => format.short(row.bytes),
-    },
+    has(rows, "frame_us") &&
+      column("frame_us", "frame µs", {
+        note: "builds are in it where the grid changes from frame to frame. ~: may be as fast as the next faster one of its scene, as far as their ratio is known",
+        show: (row) =>
+          h(
+            "span",
+            { title: interval(row) },
+            `${row.ranked?.is_like_above ? "~" : ""}${format.microseconds(row.frameUs)}`,
+          ),
+      }),
+    ...errorColumns(view, rows),
+    column("bytes", "bytes"),
     {
       label: "front",
       about:
@@ -159,6 +113,59 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
       value: (row) => row.ranked?.fastest?.ratio ?? null,
       show: (row) => h("span", { title: ratio(row) }, format.factor(row.ranked?.fastest?.ratio ?? null)),
     },
+    ...namesOf(view, rows, hasGrids),
+    has(rows, "frame_us") && {
+      label: "±",
+      about: "Half of the 95 % interval, by the median; both sides where one is above 20 %",
+      value: halfInterval,
+      show: (row) => (row.frameUs && halfInterval(row) === null ? "unknown" : halfOrBoth(row)),
+    },
+    ...detailColumns(view, rows),
+  ]);
+}
+
+// Errors of the lists, and how samples see them.
+function errorColumns(view: View, rows: Case[]): (Column<Case> | false)[] {
+  const column = columnsOf(view.model.words, (row: Case) => row);
+  const drops = rows.some((row) => isLost(row, "dropped"));
+  const heading = headingOfSets(rows),
+    samples = `samples: ${wordsOfSets(rows, view.model.sampleSets)}`;
+  return [
+    column("excess", "excess", { format: format.percent, note: pairNote }),
+    column("missed", "missed", {
+      show: (row) => lost(format.whole(figure(row, "missed")), isLost(row, "missed")),
+    }),
+    drops &&
+      column("dropped", "dropped", {
+        show: (row) => lost(format.short(figure(row, "dropped")), isLost(row, "dropped")),
+      }),
+    drops && {
+      label: "lost lx",
+      isScreenOnly: true,
+      about: "Irradiance that samples lack, mean; of the one that lacks most at the pointer",
+      value: (row) => row.lostLux,
+      show: (row) => lost(format.decimal(row.lostLux), !!row.lostLux, `at most ${format.decimal(row.worstLux)} lx`),
+    },
+    has(rows, "unlit") &&
+      column("unlit", `unlit${heading}`, {
+        note: `their cell lacks them, the storage dropped them, or they are outside of the grid; ${samples}`,
+        show: unlit,
+      }),
+    has(rows, "overshade") &&
+      column("overshade", `overshade${heading}`, {
+        note: `none where lights are unlit or few are needed; ${samples}`,
+      }),
+    rows.some((row) => row.isSearched) &&
+      column("read_bytes", "read", {
+        isScreenOnly: true,
+        note: "structures that samples search (a hierarchy, masks of bits) have no rank and are on no front: no GPU has measured the search",
+      }),
+  ];
+}
+
+// A result, scene, camera, viewport, grid or storage, unless all cases share it.
+function namesOf(view: View, rows: Case[], hasGrids: boolean): (Column<Case> | false)[] {
+  return [
     view.hasRuns && { label: "result", value: (row) => row.run.label },
     differ(rows, (row) => row.scene) && { label: "scene", value: (row) => row.scene },
     differ(rows, (row) => row.raw.camera) && { label: "camera", value: (row) => row.raw.camera },
@@ -168,113 +175,72 @@ function caseColumns(view: View, rows: Case[]): Column<Case>[] {
     },
     { label: "grid", value: (row) => row.grid, isUnderFirst: hasGrids },
     differ(rows, (row) => row.storage) && { label: "storage", value: (row) => row.storage },
-    measured((row) => row.frameNs) && {
-      label: "±",
-      about: "Half of the 95 % interval, by the median; both sides where one is above 20 %",
-      value: halfInterval,
-      show: (row) => (row.frameNs && halfInterval(row) === null ? "unknown" : halfOrBoth(row)),
-    },
-    measured((row) => row.worstNs) && {
-      label: "worst µs",
-      isScreenOnly: true,
-      about: "The slowest of the timed frames; its number at the pointer",
-      value: (row) => row.worstNs,
-      show: (row) => h("span", { title: worst(row) }, format.microseconds(row.worstNs)),
-    },
-    measured((row) => row.assignNs) && {
-      label: "assign µs",
-      isScreenOnly: true,
+  ];
+}
+
+// Most of them are shown on request.
+function detailColumns(view: View, rows: Case[]): (Column<Case> | false)[] {
+  const column = columnsOf(view.model.words, (row: Case) => row);
+  const ofTime = "part of the frame's time";
+  return [
+    has(rows, "frame_us.max") &&
+      column("frame_us.max", "worst µs", {
+        isScreenOnly: true,
+        note: "its number at the pointer",
+        show: (row) => h("span", { title: worst(row) }, format.microseconds(figure(row, "frame_us.max"))),
+      }),
+    has(rows, "assign_us") && column("assign_us", "assign µs", { isScreenOnly: true, isDetail: true, note: ofTime }),
+    has(rows, "convert_us") && column("convert_us", "convert µs", { isScreenOnly: true, isDetail: true, note: ofTime }),
+    has(rows, "assign_instructions") && column("assign_instructions", "instr", { isScreenOnly: true }),
+    has(rows, "time_per_pair") && column("time_per_pair", "ns/pair", { isScreenOnly: true, isDetail: true }),
+    has(rows, "floor_ratio") && column("floor_ratio", "× copy", { isDetail: true }),
+    column("pairs_timed", "pairs", {
       isDetail: true,
-      about: "Of the frame's time: assignment, lists included",
-      value: (row) => row.assignNs,
-      show: (row) => format.microseconds(row.assignNs),
-    },
-    measured((row) => row.convertNs) && {
-      label: "convert µs",
-      isScreenOnly: true,
-      isDetail: true,
-      about: "Of the frame's time: from lists to the storage's layout",
-      value: (row) => row.convertNs,
-      show: (row) => format.microseconds(row.convertNs),
-    },
-    measured((row) => row.instructions) && {
-      label: "instr",
-      isScreenOnly: true,
-      about: "Instructions of one frame's assignment",
-      value: (row) => row.instructions,
-      show: (row) => format.short(row.instructions),
-    },
-    measured((row) => row.nsPerPair) && {
-      label: "ns/pair",
-      isScreenOnly: true,
-      isDetail: true,
-      about: "Frame time by pairs",
-      value: (row) => row.nsPerPair,
-      show: (row) => format.decimal(row.nsPerPair),
-    },
-    measured((row) => row.floorRatio) && {
-      label: "× copy",
-      isDetail: true,
-      about: "Assignment time by the time to copy the finished lists once",
-      value: (row) => row.floorRatio,
-      show: (row) => format.decimal(row.floorRatio),
-    },
-    {
-      label: "pairs",
-      isDetail: true,
-      about: "(cell, light) pairs per frame, mean of the frames that are timed; comparable on one grid only",
-      value: (row) => row.pairs,
-      show: (row) => format.short(row.pairs),
-    },
+      note: "without times of all frames; comparable on one grid only",
+      value: pairsOf,
+      show: (row) => format.short(pairsOf(row)),
+    }),
     {
       label: "most pairs",
       isDetail: true,
       about: "Of one of these frames",
-      value: (row) => row.mostPairs,
-      show: (row) => format.short(row.mostPairs),
+      value: mostPairs,
+      show: (row) => format.short(mostPairs(row)),
     },
-    {
-      label: "p99",
-      isDetail: true,
-      about: "Lights per cell that 99 % of the cells do not exceed",
-      value: (row) => row.p99,
-      show: (row) => format.whole(row.p99),
-    },
-    {
-      label: "longest",
-      about: "Longest list of the path",
-      value: (row) => row.longest,
-      show: (row) => format.whole(row.longest),
-    },
-    {
-      label: "allocate",
-      about: "What to allocate: high-water mark with margin",
-      value: (row) => row.recommended,
-      show: (row) => format.short(row.recommended),
-    },
-  ]);
+    column("lights_per_cell.p99", "p99", { isDetail: true }),
+    column("longest", "longest"),
+    column("bytes_recommended", "allocate"),
+  ];
 }
 
-const cost = ({ costNs, isSearched }: Case) =>
-  isSearched && costNs !== null ? `(${format.microseconds(costNs)})` : format.microseconds(costNs);
+const pairNote = "a pair is a cell and a light";
+const isLost = (row: Case, name: "missed" | "dropped") => (figure(row, name) ?? 0) > 0;
+const mostPairs = (row: Case) => row.raw.timing?.pairs?.max ?? figure(row, "pairs");
+
+function cost({ costNs, isSearched }: Case): string {
+  const text = format.microseconds(format.inUs(costNs));
+  return isSearched && costNs !== null ? `(${text})` : text;
+}
 
 function costParts({ costNs, gpuNs }: Case): string {
   if (costNs === null || gpuNs === null) return "";
-  const modelled = `${format.microseconds(gpuNs)} µs of upload, reading and shading`;
-  return costNs > gpuNs ? `${format.microseconds(costNs - gpuNs)} µs to make the lists, ${modelled}` : modelled;
+  const modelled = `${format.microseconds(format.inUs(gpuNs))} µs of upload, reading and shading`;
+  return costNs > gpuNs
+    ? `${format.microseconds(format.inUs(costNs - gpuNs))} µs to make the lists, ${modelled}`
+    : modelled;
 }
 
 function halfInterval(row: Case): number | null {
   const [low, high] = row.interval;
-  return low === null || high === null || !row.frameNs ? null : (high - low) / 2 / row.frameNs;
+  return low === null || high === null || !row.frameUs ? null : (high - low) / 2 / row.frameUs;
 }
 
 // As the terminal's table has it.
 function halfOrBoth(row: Case): string {
   const [low, high] = row.interval;
-  if (low === null || high === null || !row.frameNs) return format.percent(null);
-  const below = 1 - low / row.frameNs,
-    above = high / row.frameNs - 1;
+  if (low === null || high === null || !row.frameUs) return format.percent(null);
+  const below = 1 - low / row.frameUs,
+    above = high / row.frameUs - 1;
   return Math.max(below, above) < 0.2
     ? format.percent((below + above) / 2)
     : `-${(100 * below).toFixed(0)}/+${(100 * above).toFixed(0)} %`;
@@ -292,6 +258,8 @@ function mean({ value, scenes }: Mean, row: Standing, show: (value: number | nul
 
 function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
   const timed = rows.some((row) => row.timeByBest.value !== null);
+  const about = (name: FigureName, over: string) => aboutOf(view.model.words, name, over);
+  const geometric = "geometric mean over the scenes";
   const hasGrids = differ(rows, (row) => row.grid);
   return kept<Standing>([
     { label: "method", value: (row) => row.assigner, show: (row) => method(view, row, hasGrids) },
@@ -310,38 +278,37 @@ function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
     },
     {
       label: "excess",
-      about: "False positives by true pairs: geometric mean over the scenes (of reported by true pairs)",
+      about: about("excess", `${geometric} (of listed by true pairs)`),
       value: (row) => row.excess.value,
       show: (row) => mean(row.excess, row, format.percent),
     },
     {
       label: "missed",
-      about: "False negatives, sum over all scenes",
+      about: about("missed", "sum over all scenes"),
       value: (row) => row.missed,
       show: (row) => lost(format.whole(row.missed), !!row.missed),
     },
     rows.some((row) => row.dropped > 0) && {
       label: "dropped",
-      about: "Pairs that storages had no room for, sum over all scenes",
+      about: about("dropped", "sum over all scenes"),
       value: (row) => row.dropped,
       show: (row) => lost(format.short(row.dropped), row.dropped > 0),
     },
     rows.some((row) => row.unlit !== null) && {
       label: "unlit",
-      about: "Largest share of needed lights that the samples of a scene lack",
+      about: about("unlit", "largest of all scenes"),
       value: (row) => row.unlit,
       show: (row) => lost(format.share(row.unlit), row.isUnlit),
     },
     {
       label: "overshade",
-      about:
-        "Lights evaluated by lights needed: geometric mean over the scenes, with their number where it does not compare in all",
+      about: about("overshade", `${geometric}, with their number where it does not compare in all`),
       value: (row) => row.overshade.value,
       show: (row) => mean(row.overshade, row, format.factor),
     },
     {
       label: "bytes",
-      about: "High-water mark: geometric mean over the scenes",
+      about: about("bytes", geometric),
       value: (row) => row.bytes.value,
       show: (row) => mean(row.bytes, row, format.short),
     },
@@ -375,14 +342,14 @@ function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
     {
       label: "longest",
       isScreenOnly: true,
-      about: "Longest list: geometric mean over the scenes",
+      about: about("longest", geometric),
       value: (row) => row.longest.value,
       show: (row) => mean(row.longest, row, format.whole),
     },
     {
       label: "most bytes",
       isScreenOnly: true,
-      about: "Largest high-water mark of any scene",
+      about: about("bytes", "largest of all scenes"),
       value: (row) => row.mostBytes,
       show: (row) => format.short(row.mostBytes),
     },
@@ -397,27 +364,28 @@ function sortedBy<Row extends { isUnlit: boolean }>(columns: Column<Row>[]): Tab
   return { column: indices.find((index) => index >= 0) ?? 0, descending: false, last: (row) => row.isUnlit };
 }
 
-// What of the heads is not understood without being told.
-function wordsOf(isTimed: boolean): Record<string, string> {
+// Heads that need an explanation.
+function headsOf(words: Words, isTimed: boolean): Record<string, string> {
   const model = "upload, reading and shading by the model of the configuration's key cost";
   const cost = isTimed ? `making the lists, and ${model}` : `${model}; making the lists was not timed`;
   return {
     "cost µs": cost,
     "cost / best": cost,
-    excess: "false positives / true pairs (cell, light)",
-    missed: "lights that reach a cell and are not in its list",
-    unlit: "share of the lights that samples need and do not get",
-    overshade: "lights in the lists of samples / lights that reach the samples; 1 is ideal",
+    excess: `${meaningOf(words, "excess")} (${pairNote})`,
+    missed: meaningOf(words, "missed"),
+    unlit: meaningOf(words, "unlit"),
+    overshade: `${meaningOf(words, "overshade")} (1 is ideal)`,
   };
 }
 
 const frontOf = (view: View) =>
   view.model.cases.every(isRankedByCost)
     ? "cost and bytes"
-    : `${view.model.cases.some(({ frameNs }) => frameNs !== null) ? "time, " : ""}bytes and overshade`;
+    : `${view.model.cases.some(({ frameUs }) => frameUs !== null) ? "time, " : ""}bytes and overshade`;
 
 function legend<Row>(view: View, columns: Column<Row>[], rows: Row[]): string {
-  const words = wordsOf(columns.some(({ label }) => label === "frame µs" || label === "time / best"));
+  const isTimed = columns.some(({ label }) => label === "frame µs" || label === "time / best");
+  const words = headsOf(view.model.words, isTimed);
   const explained = columns.flatMap(({ label }) => {
     const [, word] = /^(.*?)(?: \(.*\))?$/.exec(label)!;
     return words[word!] ? [`${word}: ${words[word!]}`] : [];

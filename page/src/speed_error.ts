@@ -1,5 +1,6 @@
 // Speed against error, a panel per scene, with intervals and the front of what nothing else beats in both.
 
+import { capitalised, figure, meaningOf } from "./case_figures.ts";
 import { choice, type Option } from "./controls.ts";
 import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
@@ -7,49 +8,42 @@ import * as format from "./format.ts";
 import type { Case } from "./model.ts";
 import { placed, placements } from "./names.ts";
 import { chart, chartWidth, multiples, Plot } from "./plots.ts";
-import type { Maybe } from "./result.ts";
+import type { FigureName, Maybe } from "./result.ts";
 import type { Section, View } from "./view.ts";
 
 interface Measure {
   label: string;
+  name: FigureName | null; // in the program's table
   of: (aCase: Case) => Maybe;
   show: (value: Maybe) => string;
-  about: string;
+  note?: string;
 }
 
+const ofFigure = (name: FigureName, show: Measure["show"], note?: string): Measure => ({
+  label: name,
+  name,
+  of: (aCase) => figure(aCase, name),
+  show,
+  note,
+});
+
 export const measures: Record<string, Measure> = {
-  overshade: {
-    label: "overshade",
-    of: (aCase) => aCase.overshade,
-    show: format.factor,
-    about: "lights given / lights needed, at the samples that rank; compares across grids",
-  },
-  excess: {
-    label: "excess",
-    of: (aCase) => aCase.excess,
-    show: format.percent,
-    about: "false positives by true pairs; compares within one grid",
-  },
+  overshade: ofFigure("overshade", format.factor, "of the samples that rank; compares across grids"),
+  excess: ofFigure("excess", format.percent, "compares within one grid"),
   cost: {
     label: "frame cost µs",
-    of: (aCase) => aCase.costNs && aCase.costNs / 1e3,
-    show: (value) => format.microseconds(value && 1e3 * value),
-    about: "frame time, upload and shading, by the configuration's cost model; compares across grids",
+    name: null,
+    of: ({ costNs }) => costNs && costNs / 1e3,
+    show: format.microseconds,
+    note: "frame time, upload and shading, by the configuration's cost model; compares across grids",
   },
-  bytes: {
-    label: "bytes",
-    of: (aCase) => aCase.bytes,
-    show: format.short,
-    about: "high-water mark of headers and indices",
-  },
-  unlit: {
-    label: "unlit",
-    of: (aCase) => aCase.unlit,
-    show: format.share,
-    about: "share of the lights that the samples that rank need and are not given",
-  },
-  missed: { label: "missed", of: (aCase) => aCase.missed, show: format.count, about: "lights lost" },
+  bytes: ofFigure("bytes", format.short),
+  unlit: ofFigure("unlit", format.share),
+  missed: ofFigure("missed", format.count),
 };
+
+const wordsOf = (view: View, { name, note }: Measure): string =>
+  [name && meaningOf(view.model.words, name), note].filter(Boolean).join("; ");
 
 interface Point {
   aCase: Case;
@@ -62,7 +56,7 @@ const mostPanels = 12;
 export function points(cases: Case[], measure: Measure): Point[] {
   return cases.flatMap((aCase) => {
     const error = measure.of(aCase);
-    return aCase.frameNs === null || error === null ? [] : [{ aCase, us: aCase.frameNs / 1e3, error }];
+    return aCase.frameUs === null || error === null ? [] : [{ aCase, us: aCase.frameUs, error }];
   });
 }
 
@@ -84,14 +78,11 @@ function tip(view: View, { aCase, us, error }: Point, measure: Measure): string 
     low === null || high === null
       ? " (interval unknown)"
       : ` (${format.microseconds(low)} to ${format.microseconds(high)})`;
-  return `${view.named(aCase)}\n${aCase.grid}\n${format.microseconds(1e3 * us)} µs${range}\n${measure.label} ${measure.show(error)}`;
+  return `${view.named(aCase)}\n${aCase.grid}\n${format.microseconds(us)} µs${range}\n${measure.label} ${measure.show(error)}`;
 }
 
 // Of the interval, in µs.
-const ends = ({ aCase, us }: Point): [number, number] => [
-  (aCase.interval[0] ?? us * 1e3) / 1e3,
-  (aCase.interval[1] ?? us * 1e3) / 1e3,
-];
+const ends = ({ aCase, us }: Point): [number, number] => [aCase.interval[0] ?? us, aCase.interval[1] ?? us];
 
 interface Scales {
   x: [number, number];
@@ -285,7 +276,7 @@ export const speedErrorSection: Section = (view, redraw) => {
     figureView({
       id: "speed-error",
       title: `Frame time against ${measure.label}`,
-      lead: `Down and left is better. ${measure.label[0]!.toUpperCase()}${measure.label.slice(1)}: ${measure.about}. A ring: on the Pareto front, as * in the ranking. The grey line joins the ringed marks that no other ringed mark beats in both. Bars are 95 % intervals of the median time of ringed marks, hidden where the mark is wider; those of others show at the pointer. Each panel has its own vertical axis, logarithmic where some marks are far from the others.${more}`,
+      lead: `Down and left is better. ${capitalised(measure.label)}: ${wordsOf(view, measure)}. A ring: on the Pareto front, as * in the ranking. The grey line joins the ringed marks that no other ringed mark beats in both. Bars are 95 % intervals of the median time of ringed marks, hidden where the mark is wider; those of others show at the pointer. Each panel has its own vertical axis, logarithmic where some marks are far from the others.${more}`,
       controls: [control],
       chart: multiples(panels),
       methods: keys,
@@ -296,17 +287,17 @@ export const speedErrorSection: Section = (view, redraw) => {
           ...(view.hasRuns ? [{ label: "result", value: ({ aCase }: Point) => aCase.run.label }] : []),
           { label: "scene", value: ({ aCase }) => aCase.scene },
           { label: "grid", value: ({ aCase }) => aCase.grid },
-          { label: "frame µs", value: ({ us }) => us, show: ({ us }) => format.microseconds(1e3 * us) },
+          { label: "frame µs", value: ({ us }) => us, show: ({ us }) => format.microseconds(us) },
           {
             label: "low",
             about: "Of the 95 % interval",
-            value: ({ aCase }) => aCase.interval[0] && aCase.interval[0] / 1e3,
+            value: ({ aCase }) => aCase.interval[0],
             show: ({ aCase }) => format.microseconds(aCase.interval[0]),
           },
           {
             label: "high",
             about: "Of the 95 % interval",
-            value: ({ aCase }) => aCase.interval[1] && aCase.interval[1] / 1e3,
+            value: ({ aCase }) => aCase.interval[1],
             show: ({ aCase }) => format.microseconds(aCase.interval[1]),
           },
           { label: measure.label, value: ({ error }) => error, show: ({ error }) => measure.show(error) },

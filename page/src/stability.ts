@@ -1,5 +1,6 @@
 // How lists change along finely sampled steps of the camera, beside how the truth does.
 
+import { columnsOf } from "./case_figures.ts";
 import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
@@ -7,50 +8,43 @@ import type { Case } from "./model.ts";
 import type { Stability } from "./result.ts";
 import { ofRuns } from "./runs.ts";
 import type { Column } from "./table.ts";
-import type { Section } from "./view.ts";
+import type { Section, View } from "./view.ts";
 
 type Row = { aCase: Case; stability: Stability };
 
-const columns: Column<Row>[] = [
-  { label: "method", value: ({ aCase }) => aCase.assigner },
-  { label: "scene", value: ({ aCase }) => aCase.scene },
-  { label: "grid", value: ({ aCase }) => aCase.grid },
-  { label: "steps", value: ({ stability }) => stability.steps },
-  {
-    label: "changes per step",
-    about: "Pairs added or removed from one step to the next, mean",
-    value: ({ stability }) => stability.changed.method.mean,
-    show: ({ stability }) => format.decimal(stability.changed.method.mean),
-  },
-  {
-    label: "truth's",
-    about: "Changes of the true lists per step",
-    value: ({ stability }) => stability.changed.truth.mean,
-    show: ({ stability }) => format.decimal(stability.changed.truth.mean),
-  },
-  {
-    label: "excess churn",
-    about: "Changes beyond the truth's, by the truth's",
-    value: ({ stability }) => stability.excess_churn.ratio,
-    show: ({ stability }) => format.percent(stability.excess_churn.ratio),
-  },
-  {
-    label: "flickers",
-    about: "Changes that undo the same pair's change shortly before",
-    value: ({ stability }) => stability.flickers.method,
-    show: ({ stability }) => format.count(stability.flickers.method),
-  },
-  {
-    label: "truth's flickers",
-    value: ({ stability }) => stability.flickers.truth,
-    show: ({ stability }) => format.count(stability.flickers.truth),
-  },
-  {
-    label: "most in a step",
-    value: ({ stability }) => stability.changed.method.max,
-    show: ({ stability }) => format.count(stability.changed.method.max),
-  },
-];
+function columnsIn(view: View): Column<Row>[] {
+  const column = columnsOf(view.model.words, ({ aCase }: Row) => aCase);
+  return [
+    { label: "method", value: ({ aCase }) => aCase.assigner },
+    { label: "scene", value: ({ aCase }) => aCase.scene },
+    { label: "grid", value: ({ aCase }) => aCase.grid },
+    { label: "steps", value: ({ stability }) => stability.steps },
+    column("changed_pairs", "changes per step", { format: format.decimal }),
+    {
+      label: "truth's",
+      about: "Changes of the true lists per step",
+      value: ({ stability }) => stability.changed.truth.mean,
+      show: ({ stability }) => format.decimal(stability.changed.truth.mean),
+    },
+    {
+      label: "excess churn",
+      about: "Changes beyond the truth's, by the truth's",
+      value: ({ stability }) => stability.excess_churn.ratio,
+      show: ({ stability }) => format.percent(stability.excess_churn.ratio),
+    },
+    column("flickers", "flickers", { format: format.count }),
+    {
+      label: "truth's flickers",
+      value: ({ stability }) => stability.flickers.truth,
+      show: ({ stability }) => format.count(stability.flickers.truth),
+    },
+    {
+      label: "most in a step",
+      value: ({ stability }) => stability.changed.method.max,
+      show: ({ stability }) => format.count(stability.changed.method.max),
+    },
+  ];
+}
 
 export const stabilitySection: Section = (view) => {
   const rows = view
@@ -68,7 +62,7 @@ export const stabilitySection: Section = (view) => {
       lead: `${paths.slice(0, 6).join(". ")}.`,
       table: () => ({
         caption: "Stability",
-        columns: ofRuns(view, columns),
+        columns: ofRuns(view, columnsIn(view)),
         rows,
         sort: { column: view.hasRuns ? 7 : 6, descending: false },
       }),

@@ -1,6 +1,7 @@
 // What the reader should know before believing a figure. Sentences about cases are in the past tense, which one case
 // and several share.
 
+import { figure } from "./case_figures.ts";
 import { h } from "./dom.ts";
 import { plural } from "./format.ts";
 import type { Case, Model, Run } from "./model.ts";
@@ -45,8 +46,9 @@ const doubts: Record<WarningKind, string> = {
 };
 
 // Who has lost lights: the method, or what keeps lights from it.
-function blamed({ raw }: Case): "method" | "limit" | "cull" {
-  const missed = raw.error?.false_negatives ?? 0;
+function blamed(aCase: Case): "method" | "limit" | "cull" {
+  const { raw } = aCase;
+  const missed = figure(aCase, "missed") ?? 0;
   const kept = raw.pre_cull?.lost_pairs ?? 0;
   if (!raw.pre_cull || missed > kept) return "method";
   return raw.pre_cull.over_limit?.lost_pairs ? "limit" : "cull";

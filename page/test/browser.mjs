@@ -1,7 +1,7 @@
 // A headless Chromium and pages made by the built tool, for tests and screenshots.
 
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -67,4 +67,11 @@ export function folder() {
 export function makePage(tool, results, into, ...more) {
   execFileSync(tool, ["report", ...results, "-o", into, ...more], { stdio: ["ignore", "ignore", "pipe"] });
   return pathToFileURL(into).href;
+}
+
+// The data of the page that the tool makes of a result.
+export function pageData(tool, result) {
+  const into = join(folder(), "page.html");
+  makePage(tool, [result], into);
+  return JSON.parse(/ id="results">(.*?)<\/script>/s.exec(readFileSync(into, "utf8"))[1]);
 }

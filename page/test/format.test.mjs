@@ -38,8 +38,8 @@ it("other numbers are rounded to the nearest by what the double holds", () => {
 });
 
 it("times have the digits of the terminal's table", () => {
-  assert.equal(microseconds(127250), "127.2");
-  assert.equal(microseconds(9995), "9.99");
+  assert.equal(microseconds(127.25), "127.2");
+  assert.equal(microseconds(9.995), "9.99");
   assert.equal(microseconds(null), "–");
 });
 

@@ -1,11 +1,12 @@
 // The page in a browser, as `clusterbench report` writes it: node --test test/, with CLUSTERBENCH naming the built tool.
 
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, afterEach, before, describe, it } from "node:test";
-import { chromiumPath, folder, launch, makePage, open as openPage } from "./browser.mjs";
+import { chromiumPath, folder, launch, makePage, open as openPage, pageData } from "./browser.mjs";
 import {
   committedResult,
   historyPage,
@@ -517,6 +518,68 @@ describe("figures", () => {
           `${column} of ${row.assigner}`,
         );
     }
+  });
+});
+
+describe("columns of figures", () => {
+  const figures = () => JSON.parse(execFileSync(tool, ["list", "figures", "--json"], { encoding: "utf8" }));
+  const named = {
+    "frame µs": "frame_us",
+    excess: "excess",
+    missed: "missed",
+    unlit: "unlit",
+    overshade: "overshade",
+    bytes: "bytes",
+    "worst µs": "frame_us.max",
+    "assign µs": "assign_us",
+    "ns/pair": "time_per_pair",
+    longest: "longest",
+    allocate: "bytes_recommended",
+  };
+
+  it("have the meanings of the program's table", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "street" }).check();
+    await page.check("#ranking-all");
+    const meanings = new Map(figures().map(({ name, meaning }) => [name, meaning]));
+    const heads = await page
+      .locator("#ranking thead th")
+      .evaluateAll((all) => all.map((head) => [head.innerText.replace(/( \(.*\))?( [↑↓])?$/, ""), head.title]));
+    const titles = new Map(heads);
+    for (const [label, name] of Object.entries(named)) {
+      const title = titles.get(label);
+      assert.ok(title?.toLowerCase().startsWith(meanings.get(name).toLowerCase()), `${label}: ${title}`);
+    }
+    const note = await page.locator("#ranking > .note").innerText();
+    assert.ok(note.includes(`missed: ${meanings.get("missed")}`), note);
+  });
+
+  it("have the numbers of the table in the units of their heads, also where they are downloaded", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "street" }).check();
+    await page.check("#ranking-all");
+    const waiting = page.waitForEvent("download");
+    await page.locator("#ranking").getByRole("button", { name: "Download CSV" }).click();
+    const [heads, ...lines] = readFileSync(await (await waiting).path(), "utf8")
+      .trim()
+      .split("\n")
+      .map((line) => line.split(","));
+    const { results } = pageData(tool, committedResult);
+    const cases = results[0].result.cases
+      .map(({ scene }, at) => ({ scene, figures: results[0].cases[at].figures }))
+      .filter(({ scene }) => scene === "street");
+    assert.equal(lines.length, cases.length);
+    for (const [label, name] of Object.entries(named)) {
+      const at = heads.findIndex((head) => head.replace(/ \(.*\)$/, "") === label);
+      const written = lines.map((line) => (line[at] === "" ? null : Number(line[at])));
+      const known = cases.map((one) => one.figures[name] ?? null);
+      assert.deepEqual(written, known, label);
+    }
+    const shown = numbers(await column(page, "assign µs")).sort((a, b) => a - b);
+    const written = lines.map((line) => Number(line[heads.indexOf("assign µs")])).sort((a, b) => a - b);
+    shown.forEach((value, row) => {
+      assert.ok(Math.abs(value - written[row]) <= 0.05 * written[row], `${value} is shown of ${written[row]}`);
+    });
   });
 });
 
