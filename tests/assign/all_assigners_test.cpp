@@ -24,7 +24,7 @@ TEST(EveryAssigner, keeps_the_contract_in_every_view_with_every_choice) {
 
 TEST(EveryAssigner, loses_no_light_at_boundaries_with_many_seeds) {
   for (const AssignerDescriptor* row : assigner_descriptors())
-    for (int i = 0; i < test::tries(6); ++i)
+    for (int i = 0; i < test::tries(3); ++i)
       for (const Setting& setting : settings_for(*row, 10 * (100 + static_cast<std::uint64_t>(i)))) {
         const std::vector<std::string> faults = contract_faults(*row, Params(row->params), setting);
         EXPECT_TRUE(faults.empty()) << row->name << " on " << setting.name << ": " << joined(faults, "; ");

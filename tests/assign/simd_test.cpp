@@ -293,6 +293,7 @@ TEST(ExactFast, decides_no_more_than_exact_does_on_grids_beyond_single_precision
 // at.
 TEST(ExactFast, does_no_more_than_exact_for_spots_of_which_little_is_proven) {
   const double far = 32.0, half = 16.0;
+  constexpr int k_rows = test::tries(512);
   const view::Projection views[] = {{true, -half, half, -half, half, 0.0, far},
                                     testing::perspective(1.5, 1.0, 0.1, far)};
   struct Kind {
@@ -303,9 +304,9 @@ TEST(ExactFast, does_no_more_than_exact_for_spots_of_which_little_is_proven) {
        {Kind{1.0, M_PI / 4}, Kind{1.0, 1e-7}, Kind{2e9, 0.01}, Kind{1e12, 0.01}, Kind{1e-9, 0.5}})
     for (const view::Projection& view : views) {
       Setting setting;
-      setting.frame = testing::frame_of(view, {64, 1024}, {});
+      setting.frame = testing::frame_of(view, {64, 2 * k_rows}, {});
       grid::GridSpec spec =
-          testing::settings::screen_spec(grid::Kind::frustum, {16, 512}, grid::Scheme::linear, 32, 1.0);
+          testing::settings::screen_spec(grid::Kind::frustum, {16, k_rows}, grid::Scheme::linear, 32, 1.0);
       spec.slices.far_m = far + 1.0;
       setting.grid = testing::grid_of(spec, setting.frame);
       for (int i = 0; i < 12; ++i) {

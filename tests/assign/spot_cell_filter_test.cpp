@@ -320,7 +320,7 @@ TEST(SpotRows, know_only_what_is_true_on_every_target) {
 
 // Cells are no larger than what single precision tells of such spots.
 TEST(SpotRows, know_only_what_is_true_of_spots_much_longer_than_cells) {
-  for (const double longer : {1e3, 1e4, 1e5, 1e6}) expect_only_what_is_true(longer, false);
+  for (const double longer : test::some(std::vector{1e3, 1e4, 1e5, 1e6}, 3)) expect_only_what_is_true(longer, false);
 }
 
 // Spots in all slices of a grid.
@@ -406,7 +406,7 @@ TEST(SpotRows, are_the_same_on_every_target_where_little_is_proven) {
     const auto one_of = [&](const auto& list) {
       return list[static_cast<std::size_t>(random.unit() * static_cast<double>(std::size(list)))];
     };
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < test::tries(200); ++i) {
       const Vec3d at{0.5 * (i % 9 - 4), 0.5 * (i % 17 - 8), -one_of(depths)};
       const Vec3d axes[] = {{0, 0, -1}, {0, 1, 0}, {-1, 0, 0}, {0, 0, 1}, {0, -1, 0}, random.direction()};
       const double ranges[] = {0.5, 1.0, 2.0, 4.0, random.log_between(1e-6, 1e8)};
