@@ -78,6 +78,16 @@ bool sees_no_light(const config::Config& config, const run::Plan& plan, const ru
   return in_view.seen() == 0;
 }
 
+// After all frames of the view: a constraint whose figure is unknown is not satisfied.
+Verdict verdict_on_all_frames(Verdict verdict) {
+  for (const std::size_t constraint : verdict.unknown) {
+    const auto place = std::ranges::lower_bound(verdict.broken, constraint);
+    verdict.broken_by.insert(verdict.broken_by.begin() + (place - verdict.broken.begin()), k_unknown);
+    verdict.broken.insert(place, constraint);
+  }
+  return verdict;
+}
+
 class ViewSearch {
  public:
   ViewSearch(const config::Config& config, run::Plan& plan, View& view, const Request& request,
@@ -210,6 +220,11 @@ class ViewSearch {
     return grids;
   }
 
+  Verdict verdict_of(std::span<const run::CaseResult> cases, std::size_t frames) const {
+    const Verdict verdict = request_.evaluate(cases);
+    return frames == view_.frames ? verdict_on_all_frames(verdict) : verdict;
+  }
+
   // Records the results of candidates on the first frames of the order.
   void record(std::span<const std::size_t> candidates, std::size_t frames) {
     std::size_t done = 0;
@@ -221,7 +236,7 @@ class ViewSearch {
           measured(some, std::span(order_).first(frames), request_.is_timed);
       if (watch_.stop) return;
       for (std::size_t i = 0; i < some.size(); ++i)
-        found_.records[some[i]] = {frames, request_.evaluate(cases[i]), k_unknown};
+        found_.records[some[i]] = {frames, verdict_of(cases[i], frames), k_unknown};
       done += some.size();
     }
     for (const bool is_apart : {false, true}) compare_with_best(frames, is_apart);
@@ -307,7 +322,7 @@ class ViewSearch {
     std::vector<Finalist> finalists = request_.is_timed ? timed_finalists(candidates) : counted_finalists(candidates);
     if (watch_.stop) return;
     for (Finalist& finalist : finalists) {
-      found_.records[finalist.candidate] = {view_.frames, request_.evaluate(finalist.cases), k_unknown};
+      found_.records[finalist.candidate] = {view_.frames, verdict_of(finalist.cases, view_.frames), k_unknown};
       found_.finalists.push_back(std::move(finalist));
     }
   }

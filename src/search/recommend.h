@@ -47,6 +47,8 @@ struct Verdict {
   std::vector<std::size_t> broken;  // constraints, ascending
   bool is_final = false;            // one of them stays broken with any further frames
   std::vector<double> broken_by{};  // the figure that breaks each of `broken`; NaN: the cases do not have it
+  // Constraints on figures that these frames do not have, ascending; broken if no frame of the view has them.
+  std::vector<std::size_t> unknown{};
 };
 using Evaluate = std::function<Verdict(std::span<const run::CaseResult> cases)>;
 

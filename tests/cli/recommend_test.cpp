@@ -602,6 +602,73 @@ TEST(Recommend, by_figures_of_samples_goes_by_the_cameras_that_see_surfaces) {
   EXPECT_EQ(too_few.code, 1) << too_few.out;
 }
 
+// No camera sees the floor: a mean over its samples is unknown, and nothing can be lost there.
+TEST(Recommend, a_limit_on_a_figure_of_samples_that_no_camera_has_is_not_satisfied_and_one_on_a_loss_is) {
+  const Folder folder;
+  const std::string level = folder.write("level.gltf", small_level(5, 0, -5)).string(),
+                    out = (folder / "answer.json").string(),
+                    recommend = "recommend " + level +
+                                " -q --no-timing --viewport 320x180 --grid frustum --tiles 64 --slices 4,8 --assigner "
+                                "aabb-fast,exact-fast --set samples.opaque.ground=1e6 --by bytes -o " +
+                                out + " ";
+  const std::pair<std::string, std::string> unknown[] = {{"--evaluated 1000", "evaluated"},
+                                                         {"--read-bytes 1e6", "read_bytes"},
+                                                         {"--overshade 1000", "overshade"},
+                                                         {"--fail-if 'opaque.evaluated > 1000'", "opaque.evaluated"}};
+  for (const auto& [limit, figure] : unknown) {
+    const Outcome done = tool(recommend + limit);
+    EXPECT_EQ(done.code, 1) << limit << done.out << done.err;
+    EXPECT_TRUE(done.out.ends_with("conclusion: level, 320x180: nothing to recommend: " + figure +
+                                   " is not known, since no pixel sees the floor at y = 1e+06 m "
+                                   "(samples.opaque.ground).\n"))
+        << done.out;
+    EXPECT_EQ(tool("validate " + out).code, 0) << tool("validate " + out).err;
+    const Json answer = Json::parse(file_text(out))["answers"][0];
+    EXPECT_TRUE(answer["choice"].is_null());
+    EXPECT_EQ(answer["constraints"][0]["excluded"], answer["candidates"]) << limit;
+  }
+  for (const std::string limit : {"", "--unlit 0", "--lost-irradiance 0", "--fail-if 'opaque.unlit > 0'"}) {
+    const Outcome done = tool(recommend + limit);
+    EXPECT_EQ(done.code, 0) << limit << done.out << done.err;
+  }
+  const Outcome without_set = tool(recommend + "--fail-if 'fog.unlit > 0'");
+  EXPECT_EQ(without_set.code, 1);
+  EXPECT_TRUE(
+      without_set.out.ends_with("nothing to recommend: fog.unlit is not known, since there are no samples of "
+                                "fog froxels (key samples.fog).\n"))
+      << without_set.out;
+}
+
+TEST(Recommend, says_that_there_are_no_samples_for_a_limit_on_their_figures) {
+  const Folder folder;
+  const std::string level = folder.write("level.gltf", small_level(5, 0, -5)).string();
+  for (const std::string figure : {"evaluated", "unlit"}) {
+    const Outcome done = tool("recommend " + level +
+                              " -q --no-timing --viewport 320x180 --grid frustum --tiles 64 --slices 4 --assigner "
+                              "exact-fast --set shading.samples=0 --by bytes --" +
+                              figure + " 10");
+    EXPECT_EQ(done.code, 1) << done.out << done.err;
+    EXPECT_TRUE(done.out.ends_with("nothing to recommend: " + figure +
+                                   " is not known, since there are no samples (keys samples and shading.samples).\n"))
+        << done.out;
+  }
+}
+
+TEST(Recommend, says_how_many_of_the_rejected_could_satisfy_a_mean_on_further_frames) {
+  const Recommended found = recommended(space(), "--no-timing --by read_bytes --evaluated 0.001 --bytes 1e9");
+  EXPECT_EQ(found.outcome.code, 1);
+  const Json &mean = found.answer["constraints"][1], &mark = found.answer["constraints"][0];
+  ASSERT_EQ(mean["constraint"], "evaluated <= 0.001") << found.answer["constraints"];
+  EXPECT_EQ(mean["excluded"], 52);
+  EXPECT_EQ(mark["provisional"], 0);
+  const auto provisional = mean["provisional"].get<int>();
+  EXPECT_GT(provisional, 0);
+  EXPECT_EQ(provisional, 52 - found.answer["finalists"].get<int>());
+  EXPECT_TRUE(found.outcome.out.ends_with("evaluated <= 0.001 rejects all 52 candidates (" +
+                                          std::to_string(provisional) + " of them measured on some frames only).\n"))
+      << found.outcome.out;
+}
+
 TEST(Recommend, refuses_budgets_of_figures_that_it_does_not_choose_by) {
   const Folder folder;
   const Outcome done = tool("recommend " + folder.write("space.json", space()).string() +

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -154,6 +155,28 @@ TEST(SearchView, looks_again_at_what_was_dropped_while_it_could_still_be_better)
   EXPECT_GT(found.challengers, 0u);
   EXPECT_EQ(best_of(found), 10.0);
   EXPECT_EQ(searched(walk, {.evaluate = evaluate, .keep_one_in = 24, .least = 1}).challengers, 0u);
+}
+
+TEST(SearchView, a_constraint_on_an_unknown_figure_is_broken_only_if_no_frame_has_the_figure) {
+  Walk walk = small_walk(20);
+  for (const int known_from : {2, 100}) {
+    const Evaluate evaluate = [known_from](std::span<const run::CaseResult> cases) {
+      Verdict verdict{entries(cases), 0.0, {1}, false, {7.0}};
+      if (cases[0].frames < known_from) verdict.unknown = {0, 2};
+      return verdict;
+    };
+    const Found found = searched(walk, {.evaluate = evaluate, .keep_one_in = 24, .least = 2});
+    ASSERT_FALSE(found.finalists.empty());
+    for (std::size_t i = 0; i < found.records.size(); ++i) {
+      const Verdict& verdict = found.records[i].verdict;
+      const bool is_unknown = found.records[i].frames == 20 && known_from == 100;
+      EXPECT_EQ(verdict.broken, is_unknown ? (std::vector<std::size_t>{0, 1, 2}) : std::vector<std::size_t>{1});
+      ASSERT_EQ(verdict.broken_by.size(), verdict.broken.size());
+      EXPECT_EQ(verdict.broken_by[is_unknown ? 1 : 0], 7.0);
+      if (!is_unknown) continue;
+      EXPECT_TRUE(std::isnan(verdict.broken_by[0]) && std::isnan(verdict.broken_by[2]));
+    }
+  }
 }
 
 TEST(SearchView, measures_nothing_again_that_is_out) {

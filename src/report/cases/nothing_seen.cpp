@@ -8,6 +8,7 @@
 #include "report/cases/columns.h"
 #include "report/cases/sample_sets.h"
 #include "result/at.h"
+#include "result/case_figure.h"
 
 namespace clusterbench::report {
 namespace {
@@ -38,6 +39,16 @@ void add_case(const Case& result_case, RankedBy by, SeenAtSamples& seen) {
     const SampleSet& counts = *samples_of_set(result_case, set);
     if (result_case.cost || set != "volume" || counts.samples > 0) add_set(counts, seen);
   }
+}
+
+// Over the samples of a figure: "opaque.unlit" is of one set, "unlit" of those that rank.
+SeenAtSamples seen_at_samples_of(const std::string& figure, const std::vector<const Case*>& cases) {
+  const std::string set = result::figure_at_samples(figure).set;
+  SeenAtSamples seen;
+  for (const Case* one : cases)
+    for (const std::string& name : set.empty() ? ranking_set_names(*one) : std::vector<std::string>{set})
+      if (const SampleSet* counts = samples_of_set(*one, name); counts != nullptr) add_set(*counts, seen);
+  return seen;
 }
 
 std::string of_samples(const SeenAtSamples& seen) {
@@ -71,6 +82,22 @@ std::string why_nothing_is_seen(const std::vector<const Case*>& cases, RankedBy 
     if (of_case.samples >= seen.samples) seen = of_case;
   }
   return of_samples(seen);
+}
+
+std::string why_no_samples(const std::vector<const Case*>& cases, const std::string& figure) {
+  const SeenAtSamples seen = seen_at_samples_of(figure, cases);
+  if (cases.empty() || !result::is_at_samples(figure) || seen.samples > 0.0) return "";
+  const std::string set = result::figure_at_samples(figure).set;
+  if (seen.sets == 0) return why_no_sets(cases, figure);
+  return set.empty() || set == "opaque" ? of_samples(seen) : "there are no samples of " + result::words_of_set(set);
+}
+
+std::string why_no_sets(const std::vector<const Case*>& cases, const std::string& figure) {
+  if (cases.empty() || !result::is_at_samples(figure) || seen_at_samples_of(figure, cases).sets > 0) return "";
+  const std::string set = result::figure_at_samples(figure).set;
+  if (set.empty()) return "there are no samples (keys samples and shading.samples)";
+  return "there are no samples of " + result::words_of_set(set) + " (key " +
+         (set == "volume" ? "shading.samples" : "samples." + set) + ")";
 }
 
 std::vector<std::string> views_of_dark_lights(const result::Result& result) {

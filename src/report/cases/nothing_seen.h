@@ -22,6 +22,11 @@ std::uint64_t dark_lights(const result::Scene& scene);
 // every case would be equally good, or better the more it leaves out. "" if a light is seen.
 std::string why_nothing_is_seen(const std::vector<const result::Case*>& cases, RankedBy by);
 
+// Why a figure of samples is not known in any case. "" if a case has samples of it, and for other figures.
+std::string why_no_samples(const std::vector<const result::Case*>& cases, const std::string& figure);
+// The same, only if no case has a set for the samples.
+std::string why_no_sets(const std::vector<const result::Case*>& cases, const std::string& figure);
+
 // The ids of the cases of a result that have no such basis.
 std::set<std::string> ids_of_nothing_seen(const std::vector<result::Case>& cases);
 

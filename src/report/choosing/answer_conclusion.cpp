@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "core/text.h"
@@ -94,21 +93,26 @@ std::string smallest_text(const Answer& answer, const Objective& objective) {
          bytes_text(*bytes);
 }
 
+// "bytes <= 1000 rejects all 32 candidates".
+std::string rejecting_text(const result::ConstraintOfAnswer& row, std::uint64_t candidates) {
+  const bool is_all = row.excluded == candidates;
+  const std::string rejected =
+      is_all && candidates == 1 ? "the only candidate" : (is_all ? "all " : "") + number_of(row.excluded, "candidate");
+  const std::string on_some =
+      row.provisional == 0 ? "" : " (" + std::to_string(row.provisional) + " of them measured on some frames only)";
+  return shown(row.constraint) + " rejects " + rejected + on_some;
+}
+
 // ": bytes <= 1000 rejects all 32 candidates, unlit = 0 rejects 4", those that reject most.
 std::string excluding_text(const Answer& answer) {
   constexpr std::size_t k_most = 3;
-  std::vector<std::pair<std::uint64_t, std::string>> excluding;
+  std::vector<const result::ConstraintOfAnswer*> excluding;
   for (const result::ConstraintOfAnswer& row : answer.constraints)
-    if (row.excluded > 0) excluding.emplace_back(row.excluded, shown(row.constraint));
-  std::ranges::stable_sort(excluding, std::greater<>(), &std::pair<std::uint64_t, std::string>::first);
+    if (row.excluded > 0) excluding.push_back(&row);
+  std::ranges::stable_sort(excluding, std::greater<>(), &result::ConstraintOfAnswer::excluded);
+  excluding.resize(std::min(excluding.size(), k_most));
   std::vector<std::string> texts;
-  for (const auto& [excluded, constraint] : excluding) {
-    if (texts.size() == k_most) break;
-    const bool is_all = excluded == answer.candidates;
-    texts.push_back(
-        constraint + " rejects " +
-        (is_all && excluded == 1 ? "the only candidate" : (is_all ? "all " : "") + number_of(excluded, "candidate")));
-  }
+  for (const result::ConstraintOfAnswer* row : excluding) texts.push_back(rejecting_text(*row, answer.candidates));
   return texts.empty() ? "" : ": " + joined(texts);
 }
 

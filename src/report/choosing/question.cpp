@@ -31,12 +31,40 @@ bool stays_broken(const config::LimitRule& rule) {
          (rule.limit == 0.0 && figure.better == result::Better::smaller && !figure.rests_on_times());
 }
 
-// Whether a figure of samples is not known because the camera sees no surface, or no light reaches what it sees: then
-// nothing is lost there.
-bool has_nothing_to_lose(const Case& result_case, const Figure& figure) {
-  return figure.is_at_samples() && (sum_at_samples(result_case, result::number<&result::SampleSet::samples>) == 0.0 ||
-                                    (figure.samples.is_of_needed && figure.name != "overshade" &&
-                                     sum_at_samples(result_case, result::number<&result::SampleSet::needed>) == 0.0));
+bool has_such_samples(const Case& result_case, const std::string& figure) {
+  const std::string set = result::figure_at_samples(figure).set;
+  return set.empty() ? !ranking_set_names(result_case).empty() : samples_of_set(result_case, set) != nullptr;
+}
+
+// A count over the samples of a figure: "opaque.unlit" is of one set, "unlit" of those that rank.
+double sum_at_samples_of(const std::string& figure, const Case& result_case, result::SampleFigure count) {
+  const std::string set = result::figure_at_samples(figure).set;
+  if (set.empty()) return sum_at_samples(result_case, count);
+  const result::SampleSet* counts = samples_of_set(result_case, set);
+  return counts == nullptr ? 0.0 : count(*counts).value_or(0.0);
+}
+
+bool sees_samples(const std::vector<Case>& cases, const std::string& figure) {
+  return std::ranges::any_of(cases, [&](const Case& result_case) {
+    return sum_at_samples_of(figure, result_case, result::number<&result::SampleSet::samples>) > 0.0;
+  });
+}
+
+// Whether no camera has a sample of the figure, and it is no loss: only further frames can have such samples.
+bool is_unknown(const std::vector<Case>& cases, const std::string& name) {
+  const Figure& figure = *result::figure_named(name);
+  return figure.is_at_samples() && !is_loss(figure) && !sees_samples(cases, name) &&
+         std::ranges::all_of(cases, [&](const Case& result_case) { return has_such_samples(result_case, name); });
+}
+
+// Whether a camera cannot break a limit on a figure of samples although it has no value: it sees no surface, or no
+// light reaches what it sees. Then it loses no light, and has no part in the means of the other cameras.
+bool holds_without_value(const Case& result_case, const std::string& name) {
+  const Figure& figure = *result::figure_named(name);
+  if (!figure.is_at_samples() || !has_such_samples(result_case, name)) return false;
+  const auto sum = [&](result::SampleFigure count) { return sum_at_samples_of(name, result_case, count); };
+  return sum(result::number<&result::SampleSet::samples>) == 0.0 ||
+         (is_loss(figure) && sum(result::number<&result::SampleSet::needed>) == 0.0);
 }
 
 // The largest figure that breaks a constraint; none if it holds. A given constraint on a figure that a case does not
@@ -45,9 +73,7 @@ std::optional<double> breaking_figure(const std::vector<Case>& cases, const Cons
   std::optional<double> largest;
   for (const Case& result_case : cases) {
     const std::optional<double> value = figure_of(result_case, constraint.rule.figure);
-    if (!value && !ranking_set_names(result_case).empty() &&
-        has_nothing_to_lose(result_case, *result::figure_named(constraint.rule.figure)))
-      continue;
+    if (!value && holds_without_value(result_case, constraint.rule.figure)) continue;
     if (!value && constraint.is_given) return std::numeric_limits<double>::quiet_NaN();
     if (!constraint.is_given && constraint.rule.figure == k_unlit_in_view &&
         ranking_set_names(result_case) == std::vector<std::string>{"volume"})
@@ -118,11 +144,22 @@ std::vector<std::string> constraint_texts(const Question& question) {
   return texts;
 }
 
+bool may_hold_on_more_frames(const Question& question, std::size_t constraint, double by) {
+  const std::size_t count = question.constraints.size();
+  if (constraint >= count) return constraint == count || constraint == count + 3;  // the others are of the method
+  const config::LimitRule& rule = question.constraints[constraint].rule;
+  return std::isnan(by) ? result::is_at_samples(rule.figure) : !stays_broken(rule);
+}
+
 std::vector<Case> records_of(std::span<const run::CaseResult> cases, const nlohmann::ordered_json& config) {
   std::vector<Case> out;
   for (const run::CaseResult& case_result : cases) out.push_back(run::record_of(case_result));
   add_costs(out, config);
   return out;
+}
+
+bool is_loss(const Figure& figure) {
+  return figure.samples.is_of_needed && figure.name != "overshade";
 }
 
 bool rests_on_samples(const Figure& objective) {
@@ -138,6 +175,7 @@ search::Evaluate judge_of(const Question& question, const nlohmann::json& config
     verdict.bytes = result::figure_over(cases, "bytes").value_or(0.0);
     for (std::size_t i = 0; i < question.constraints.size(); ++i) {
       const config::LimitRule& rule = question.constraints[i].rule;
+      if (question.constraints[i].is_given && is_unknown(cases, rule.figure)) verdict.unknown.push_back(i);
       const std::optional<double> by = breaking_figure(cases, question.constraints[i]);
       if (!by) continue;
       verdict.broken.push_back(i);

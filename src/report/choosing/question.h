@@ -42,6 +42,14 @@ std::vector<result::Case> records_of(std::span<const run::CaseResult> cases, con
 // The constraints in words: the question's, then the four that always hold, in the order of a verdict.
 std::vector<std::string> constraint_texts(const Question& question);
 
+// A loss of lights at samples: there is none where no sample needs a light. Other figures of samples are unknown where
+// there are no samples.
+bool is_loss(const result::Figure& figure);
+
+// Whether a candidate that breaks a constraint (an index of `constraint_texts`) by this figure (NaN: it has none) on
+// some frames can satisfy it on more frames.
+bool may_hold_on_more_frames(const Question& question, std::size_t constraint, double by);
+
 // Whether the objective needs samples: a modelled cost, or a figure of samples.
 bool rests_on_samples(const result::Figure& objective);
 

@@ -215,6 +215,17 @@ std::vector<std::string> doubts_of(const std::vector<Ranked>& all) {
   return timing_doubts(cases, "leave times out (--no-timing)");
 }
 
+// "evaluated is not known, since no pixel sees a surface": a given limit that nothing can satisfy. "" if there is none.
+std::string why_a_limit_is_unknown(const std::vector<const Case*>& cases, const Question& question) {
+  for (const auto& [rule, is_given] : question.constraints) {
+    if (!is_given) continue;
+    const std::string why = is_loss(*result::figure_named(rule.figure)) ? why_no_sets(cases, rule.figure)
+                                                                        : why_no_samples(cases, rule.figure);
+    if (!why.empty()) return rule.figure + " is not known, since " + why;
+  }
+  return "";
+}
+
 // Over all cameras: a light that one of them sees is a basis for a choice. A scene of dark lights alone is reported
 // before candidates are rejected because of it.
 std::string why_nothing_is_seen(const search::Found& found, const config::Config& config, const scene::Scene& scene,
@@ -228,7 +239,9 @@ std::string why_nothing_is_seen(const search::Found& found, const config::Config
     std::ranges::move(records_of(finalist.cases, config.resolved), std::back_inserter(all));
   std::vector<const Case*> cases;
   for (const Case& one : all) cases.push_back(&one);
-  return why_nothing_is_seen(cases, rests_on_samples(*question.objective) ? RankedBy::samples : RankedBy::no_samples);
+  const RankedBy by = rests_on_samples(*question.objective) ? RankedBy::samples : RankedBy::no_samples;
+  const std::string why = why_nothing_is_seen(cases, by);
+  return why.empty() ? why_a_limit_is_unknown(cases, question) : why;
 }
 
 // The best behind the choice. Of those that differ in cells only, which their method then does not use, the first.
@@ -248,12 +261,14 @@ std::vector<result::Candidate> runners_up_of(const config::Config& config, const
 // The candidates that one constraint excludes.
 struct Excluded {
   std::size_t count = 0, alone = 0;    // alone: by this constraint only
+  std::size_t provisional = 0;         // further frames could satisfy it
   std::optional<std::size_t> best;     // by the objective, compared with the best on the same frames
   std::optional<std::size_t> nearest;  // closest to satisfying it
   double nearest_figure = 0.0;
 };
 
-Excluded excluded_by(std::size_t constraint, const search::View& view, const search::Found& found) {
+Excluded excluded_by(std::size_t constraint, const search::View& view, const search::Found& found,
+                     const Question& question) {
   // Candidates not measured on the frames of the best accepted one come last. Those whose samples search a structure
   // are never compared with lists.
   const auto by_best = [&](std::size_t index) {
@@ -269,6 +284,8 @@ Excluded excluded_by(std::size_t constraint, const search::View& view, const sea
     excluded.alone += verdict.broken.size() == 1 ? 1 : 0;
     if (!excluded.best || by_best(i) < by_best(*excluded.best)) excluded.best = i;
     const double figure = verdict.broken_by[static_cast<std::size_t>(at - verdict.broken.begin())];
+    if (found.records[i].frames < view.frames && may_hold_on_more_frames(question, constraint, figure))
+      ++excluded.provisional;
     if (std::isnan(figure) || (excluded.nearest && excluded.nearest_figure <= figure)) continue;
     excluded.nearest = i;
     excluded.nearest_figure = figure;
@@ -281,10 +298,13 @@ std::vector<result::ConstraintOfAnswer> constraints_of_answer(const search::View
   const std::vector<std::string> texts = constraint_texts(question);
   std::vector<result::ConstraintOfAnswer> out;
   for (std::size_t constraint = 0; constraint < texts.size(); ++constraint) {
-    const Excluded excluded = excluded_by(constraint, view, found);
+    const Excluded excluded = excluded_by(constraint, view, found, question);
     const bool is_given = constraint < question.constraints.size() && question.constraints[constraint].is_given;
-    result::ConstraintOfAnswer row{
-        .constraint = texts[constraint], .given = is_given, .excluded = excluded.count, .alone = excluded.alone};
+    result::ConstraintOfAnswer row{.constraint = texts[constraint],
+                                   .given = is_given,
+                                   .excluded = excluded.count,
+                                   .alone = excluded.alone,
+                                   .provisional = excluded.provisional};
     if (excluded.nearest)
       row.nearest =
           result::NearestRejected{view.candidates[*excluded.nearest].name, result::counted(excluded.nearest_figure),

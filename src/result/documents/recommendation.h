@@ -80,6 +80,11 @@ struct ConstraintOfAnswer {
   FIELD(bool, given, "false: it holds anyway");
   FIELD(std::uint64_t, excluded, "Candidates that were seen to break it", "candidates");
   FIELD(std::uint64_t, alone, "Of them, those that were seen to break no other one", "candidates");
+  FIELD(std::uint64_t, provisional,
+        About("Of excluded, those that were measured on some frames only, and that further frames could make satisfy "
+              "it: a mean can fall. Absent in older answers",
+              "candidates")
+            .late());
   FIELD(Nullable<NearestRejected>, nearest,
         "That of them with the least of the figure; null: there are none, or they have no such figure");
   FIELD(Nullable<BestRejected>, best, "The best of them; null: there are none");
@@ -155,8 +160,9 @@ struct Answer {
               "or there is no choice. Absent in older answers")
             .late());
   FIELD(Nullable<std::string>, nothing_seen,
-        About("Why there is nothing to choose by, and so no choice: the scene has no lights, none is in view, or no "
-              "sample that the objective rests on sees one or the floor. Absent in older answers")
+        About("Why there is nothing to choose by, and so no choice: the scene has no lights, none is in view, no "
+              "sample that the objective rests on sees one or the floor, or a figure with a given limit is not known "
+              "since there are no samples. Absent in older answers")
             .late());
   FIELD(std::vector<std::string>, timing_doubts,
         About("What speaks against the times of what was measured on all frames, as wide intervals or other programs "
