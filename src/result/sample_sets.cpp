@@ -119,6 +119,7 @@ std::optional<double> mean_at_samples(const Case& result_case, SampleFigure coun
   double sum = 0.0, shaded = 0.0;
   for (const RankingSet& set : ranking_sets(result_case)) {
     if (!count(*set.counts)) return std::nullopt;
+    if (set.counts->samples == 0) continue;
     sum += set.shaded * mean_per_sample(*set.counts, count);
     shaded += set.shaded;
   }
