@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pictures/map_figures.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 
 namespace clusterbench::pictures {
 

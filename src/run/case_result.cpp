@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "run/cases/obstacles.h"
 #include "run/findings/gate.h"
 #include "run/grid_facts.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // The counts of a case as its result: everything except times, instructions, stability and details.
 
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 #include "run/findings/run_result.h"
 #include "run/passes/accuracy_pass.h"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 #include "run/passes/timing_pass.h"
 #include "run/runner.h"
 

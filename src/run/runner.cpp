@@ -87,9 +87,9 @@ class Run {
         counts_(counts),
         launcher_(launcher),
         costs_(costs) {
+    progress_.cases_total = plan.case_count();
     for (const GroupPlan& group : plan.groups) {
       const GroupPlan left = unfinished_part(group);
-      progress_.cases_total += group.cases.size();
       progress_.cases_done += group.cases.size() - left.cases.size();
       if (left.cases.empty()) continue;
       progress_.cost_total +=

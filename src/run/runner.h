@@ -5,7 +5,7 @@
 #include <functional>
 #include <span>
 
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 #include "run/findings/run_result.h"
 #include "run/passes/count_pass.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "run/cases/sweep.h"
+#include "run/cases/scene_data.h"
 #include "run/findings/run_result.h"
 
 namespace clusterbench::run {

@@ -12,7 +12,7 @@
 #include "run/cases/frame_lights.h"
 #include "run/cases/path_culls.h"
 #include "run/cases/path_frames.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 
 namespace clusterbench::search {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 
 namespace clusterbench::search {
 

@@ -6,7 +6,7 @@
 
 #include "config/config.h"
 #include "measure/samples/shading.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 
 namespace clusterbench::search {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "config/config.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 #include "search/frame_measure.h"
 #include "search/path_scene.h"
 #include "search/search_space.h"

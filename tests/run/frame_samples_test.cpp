@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "effort.h"
 #include "places.h"
+#include "run/cases/case_names.h"
 #include "run/findings/gate.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/runner.h"

@@ -12,7 +12,7 @@
 
 #include "config/presets.h"
 #include "places.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 #include "run/findings/gate.h"
 #include "run/runner.h"
 

@@ -5,7 +5,8 @@
 #include <map>
 
 #include "core/text.h"
-#include "run/cases/sweep.h"
+#include "run/cases/case_names.h"
+#include "run/cases/plan.h"
 #include "run/runner.h"
 
 namespace clusterbench::run {

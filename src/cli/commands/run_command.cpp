@@ -36,7 +36,7 @@
 #include "report/tables/table.h"
 #include "report/tables/warnings.h"
 #include "result/result.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 #include "run/estimate.h"
 #include "run/records/records.h"
 #include "run/runner.h"

@@ -14,7 +14,7 @@
 #include "core/json_document.h"
 #include "core/text.h"
 #include "result/result.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -36,10 +36,8 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
 ExitCode validate_config(const std::string& path) {
   const config::Config config = config::load_config(path);
   const run::Plan plan = run::make_plan(config, "");
-  std::size_t cases = 0;
-  for (const run::GroupPlan& group : plan.groups) cases += group.cases.size();
   std::cout << path << ": a valid configuration with " << number_of(plan.scenes.size(), "scene") << ", "
-            << number_of(cases, "case") << ", " << plan.skipped.size() << " skipped\n";
+            << number_of(plan.case_count(), "case") << ", " << plan.skipped.size() << " skipped\n";
   return ExitCode::ok;
 }
 

@@ -7,7 +7,7 @@
 
 #include "cli/command_line/command.h"
 #include "config/config.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 
 namespace clusterbench::cli {
 

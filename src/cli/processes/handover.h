@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 
 namespace clusterbench::cli {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "os/process.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 #include "run/timing/paired_rounds.h"
 
 namespace clusterbench::cli {

@@ -9,7 +9,7 @@
 #include "config/config.h"
 #include "report/sizing/allocation.h"
 #include "result/result.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 #include "run/runner.h"
 
 namespace clusterbench::cli {

@@ -5,7 +5,7 @@
 #include "core/pattern.h"
 #include "core/text.h"
 #include "report/cases/columns.h"
-#include "run/cases/sweep.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 

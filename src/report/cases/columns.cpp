@@ -9,7 +9,7 @@
 #include "core/text.h"
 #include "measure/statistics/time_change.h"
 #include "result/at.h"
-#include "run/cases/sweep.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 namespace {

@@ -7,7 +7,7 @@
 #include "report/cases/columns.h"
 #include "result/at.h"
 #include "result/case_figure.h"
-#include "run/cases/sweep.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 namespace {

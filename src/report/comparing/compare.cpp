@@ -17,7 +17,7 @@
 #include "report/comparing/exact_differences.h"
 #include "result/at.h"
 #include "result/rounding.h"
-#include "run/cases/sweep.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 namespace {

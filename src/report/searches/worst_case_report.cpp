@@ -110,12 +110,6 @@ result::SearchSpace space_of(const WorstCase& found, const WorstCaseFacts& facts
   return out;
 }
 
-std::size_t case_count(const run::Plan& plan) {
-  std::size_t count = 0;
-  for (const run::GroupPlan& group : plan.groups) count += group.cases.size();
-  return count;
-}
-
 std::string figure_text(double value) {
   return text("%.10g", value);
 }
@@ -167,7 +161,7 @@ result::WorstCase worst_case_document(const WorstCase& found, const WorstCaseFac
   result::WorstCase out{.schema_version = 1,
                         .kind = "worst-case",
                         .searched = searched_of(facts),
-                        .other_cases = case_count(facts.plan) - 1,
+                        .other_cases = facts.plan.case_count() - 1,
                         .measure = {row.name, row.unit(), row.pointer},
                         .seed = facts.request.seed,
                         .evaluations = count(found.evaluations),
@@ -196,7 +190,7 @@ std::string worst_case_text(const WorstCase& found, const WorstCaseFacts& facts)
   const search::MeasureRow& row = search::row_of(facts.request.measure);
   std::string out = facts.case_plan.name + "\n";
   out += line("measure", std::string(row.name) + " (of one frame): " + row.meaning());
-  if (const std::size_t others = case_count(facts.plan) - 1; others > 0)
+  if (const std::size_t others = facts.plan.case_count() - 1; others > 0)
     out += line("others", number_of(others, "case") + " not searched; --filter chooses");
   if (const std::string flags = search::space_flags(facts.request); !flags.empty()) out += line("space", flags);
   if (found.frames.empty()) return out + line("worst", "nothing was tried");

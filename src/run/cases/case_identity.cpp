@@ -6,6 +6,7 @@
 #include "assign/contract/storage.h"
 #include "config/grid_json.h"
 #include "core/text.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::run {
 namespace {

@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "run/cases/sweep.h"
+#include "run/cases/case_plan.h"
+#include "run/cases/scene_data.h"
 
 namespace clusterbench::run {
 

@@ -1,10 +1,11 @@
 #include "run/cases/case_names.h"
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
+#include "assign/contract/assigner.h"
 #include "core/text.h"
-#include "run/cases/sweep.h"
 
 namespace clusterbench::run {
 namespace {
@@ -95,6 +96,23 @@ std::vector<CaseNames> names_over_time(const CaseNames& names) {
 }
 
 }  // namespace
+
+const char* own_structure_name(const std::string& assigner) {
+  const assign::AssignerDescriptor* known = assign::find_assigner(assigner);
+  return known != nullptr && known->own_lists ? k_own_lists : k_no_lists;
+}
+
+std::string name_part(std::string text) {
+  for (char& c : text)
+    if (c == '/' || std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '_';
+  return printable(text);
+}
+
+std::string unique_name(const std::string& name, std::set<std::string>& used) {
+  std::string candidate = name;
+  for (int number = 2; !used.insert(candidate).second; ++number) candidate = name + "-" + std::to_string(number);
+  return candidate;
+}
 
 std::string current_name(std::string name) {
   for (const auto& [former, current] : k_choices) replace_first(name, begin_of_method(name), former, current);

@@ -2,12 +2,25 @@
 // The names that commands print for a case. Each of them, copied as a whole, selects the case in --filter and before a
 // budget's colon.
 
+#include <set>
 #include <string>
 #include <vector>
 
 #include "core/pattern.h"
 
 namespace clusterbench::run {
+
+// The name in place of a storage's if an assigner has a structure of its own.
+inline constexpr const char* k_own_structure = "own";
+// Its forms in names of cases.
+inline constexpr const char *k_no_lists = "no lists", *k_own_lists = "own lists";
+// Display name of an assigner's own structure: "own lists" (of tiles, for example) or "no lists".
+const char* own_structure_name(const std::string& assigner);
+
+// A part of a case's name, without the slashes that separate parts and without control characters of a terminal.
+std::string name_part(std::string text);
+// The name, or the name with the smallest unused suffix "-2", "-3" ...; adds it to `used`.
+std::string unique_name(const std::string& name, std::set<std::string>& used);
 
 struct CaseNames {
   std::string name;  // "street/walk/1920x1080 frustum 64px/exact-fast/packed"

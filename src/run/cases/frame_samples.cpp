@@ -1,5 +1,7 @@
 #include "run/cases/frame_samples.h"
 
+#include "run/cases/obstacles.h"
+
 namespace clusterbench::run {
 
 FrameSamples::FrameSamples(const config::Config& config, const SceneData& data, const PathFrames& path)

@@ -8,7 +8,7 @@
 #include "depth/depth_image.h"
 #include "measure/samples/shading.h"
 #include "run/cases/path_frames.h"
-#include "run/cases/sweep.h"
+#include "run/cases/scene_data.h"
 
 namespace clusterbench::run {
 

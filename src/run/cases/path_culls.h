@@ -10,8 +10,8 @@
 #include "assign/contract/storage.h"
 #include "config/config.h"
 #include "cull/pre_cull.h"
+#include "run/cases/case_plan.h"
 #include "run/cases/path_frames.h"
-#include "run/cases/sweep.h"
 
 namespace clusterbench::run {
 

@@ -13,8 +13,8 @@
 #include "measure/samples/samples.h"
 #include "run/cases/frame_depths.h"
 #include "run/cases/light_reach.h"
+#include "run/cases/plan.h"
 #include "run/cases/scene_visible_sets.h"
-#include "run/cases/sweep.h"
 #include "scene/camera_path.h"
 #include "view/frame.h"
 

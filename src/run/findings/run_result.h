@@ -25,7 +25,7 @@
 #include "measure/statistics/time_statistics.h"
 #include "measure/truth/list_errors.h"
 #include "os/processor.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 #include "run/counters/instruction_counter.h"
 #include "run/findings/fit_meter.h"
 #include "run/findings/packed_details.h"

@@ -5,8 +5,9 @@
 #include <functional>
 #include <memory>
 
+#include "run/cases/case_plan.h"
 #include "run/cases/path_frames.h"
-#include "run/cases/sweep.h"
+#include "run/cases/scene_data.h"
 #include "run/findings/fit_meter.h"
 #include "run/findings/pre_cull_meter.h"
 #include "run/findings/run_result.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <map>
 
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 #include "run/counters/instruction_counter.h"
 #include "run/findings/run_result.h"
 

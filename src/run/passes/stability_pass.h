@@ -5,8 +5,8 @@
 #include <functional>
 #include <optional>
 
+#include "run/cases/case_plan.h"
 #include "run/cases/path_frames.h"
-#include "run/cases/sweep.h"
 #include "run/findings/run_result.h"
 
 namespace clusterbench::run {

@@ -18,8 +18,8 @@
 #include <limits>
 #include <span>
 
+#include "run/cases/case_plan.h"
 #include "run/cases/path_frames.h"
-#include "run/cases/sweep.h"
 #include "run/findings/run_result.h"
 #include "run/timing/timing_samples.h"
 

@@ -1,7 +1,8 @@
 #include <cmath>
 
 #include "assign/contract/assigner.h"
-#include "run/cases/sweep.h"
+#include "run/cases/case_names.h"
+#include "run/cases/case_plan.h"
 #include "run/findings/gate.h"
 #include "run/records/parts.h"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "measure/statistics/time_change.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 
 namespace clusterbench::run {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 #include "run/timing/paired_rounds.h"
 
 namespace clusterbench::run {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "assign/contract/storage.h"
+#include "run/cases/case_plan.h"
 #include "run/cases/frame_lights.h"
 #include "run/cases/path_culls.h"
 #include "run/cases/path_frames.h"
-#include "run/cases/sweep.h"
 
 namespace clusterbench::run {
 

@@ -1,4 +1,4 @@
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -20,7 +20,7 @@ constexpr const char* k_perspective =
 constexpr const char* k_orthographic =
     R"({"type": "orthographic", "orthographic": {"xmag": 10, "ymag": 10, "znear": 0, "zfar": 100}})";
 
-class Sweep : public ::testing::Test {
+class MakePlan : public ::testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_ / "other"); }
   void TearDown() override { fs::remove_all(folder_); }
@@ -44,13 +44,13 @@ class Sweep : public ::testing::Test {
     return out;
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / ("clusterbench_sweep_" + std::to_string(getpid()));
+  const fs::path folder_ = fs::temp_directory_path() / ("clusterbench_plan_" + std::to_string(getpid()));
 };
 
 constexpr const char* k_two_grids =
     R"(, "grids": [{"slices": {"count": [8, 16]}}, {"kind": "world"}], "assigners": ["brute-force", "aabb", "world-grid"])";
 
-TEST_F(Sweep, a_structure_that_has_nothing_of_its_grid_is_measured_once) {
+TEST_F(MakePlan, a_structure_that_has_nothing_of_its_grid_is_measured_once) {
   write_scene("hall.gltf");
   const std::string grids =
       R"(, "grids": [{"kind": "frustum", "tiles": {"pixels": [[64, 64], [32, 32]]}}, {"kind": "world"}],
@@ -71,14 +71,14 @@ TEST_F(Sweep, a_structure_that_has_nothing_of_its_grid_is_measured_once) {
   EXPECT_NE(skipped, all.skipped.end());
 }
 
-TEST_F(Sweep, every_combination_that_can_be_is_a_case) {
+TEST_F(MakePlan, every_combination_that_can_be_is_a_case) {
   write_scene("a.gltf");
   const Plan two = plan(R"(["a.gltf"])", std::string(k_two_grids) + R"(, "viewports": [[640, 480], [320, 240]])");
   EXPECT_EQ(two.groups.size(), 2U * 3U);
   EXPECT_EQ(cases(two).size() + two.skipped.size(), 2U * 3U * 3U);
 }
 
-TEST_F(Sweep, an_assigner_that_does_not_take_the_grid_is_skipped_with_its_reason) {
+TEST_F(MakePlan, an_assigner_that_does_not_take_the_grid_is_skipped_with_its_reason) {
   write_scene("a.gltf");
   const Plan plan =
       this->plan(R"(["a.gltf"])", R"(, "grids": [{}, {"kind": "world"}], "assigners": ["brute-force", "aabb"])");
@@ -89,7 +89,7 @@ TEST_F(Sweep, an_assigner_that_does_not_take_the_grid_is_skipped_with_its_reason
   EXPECT_TRUE(found);
 }
 
-TEST_F(Sweep, boxes_are_assigned_where_they_are_asked_for_and_methods_that_take_none_are_skipped) {
+TEST_F(MakePlan, boxes_are_assigned_where_they_are_asked_for_and_methods_that_take_none_are_skipped) {
   std::ofstream(folder_ / "b.gltf") << R"({"asset": {"version": "2.0"}, "cameras": [)" << k_perspective
                                     << R"(], "nodes": [{"name": "eye", "camera": 0},
              {"name": "decal", "extras": {"clusterbench_box": {"half_extents": [1, 1, 0]}}}],
@@ -117,7 +117,7 @@ TEST_F(Sweep, boxes_are_assigned_where_they_are_asked_for_and_methods_that_take_
   EXPECT_EQ(cases(packed).size(), 1u);
 }
 
-TEST_F(Sweep, a_grid_that_the_camera_cannot_have_is_skipped_with_its_reason) {
+TEST_F(MakePlan, a_grid_that_the_camera_cannot_have_is_skipped_with_its_reason) {
   write_scene("a.gltf", k_orthographic);
   const Plan plan =
       this->plan(R"(["a.gltf"])", R"(, "grids": [{"slices": {"scheme": ["linear", "exponential", "cubical-first"]}}],
@@ -127,7 +127,7 @@ TEST_F(Sweep, a_grid_that_the_camera_cannot_have_is_skipped_with_its_reason) {
   EXPECT_EQ(cases(plan).size(), 2U);
 }
 
-TEST_F(Sweep, names_and_ids_are_unique_and_ids_are_short_hashes) {
+TEST_F(MakePlan, names_and_ids_are_unique_and_ids_are_short_hashes) {
   write_scene("a.gltf");
   write_scene("other/a.gltf");
   const Plan plan = this->plan(R"(["a.gltf", "other/a.gltf", {"path": "a.gltf", "frames": 7}])", k_two_grids);
@@ -141,7 +141,7 @@ TEST_F(Sweep, names_and_ids_are_unique_and_ids_are_short_hashes) {
   }
 }
 
-TEST_F(Sweep, an_id_depends_on_what_is_counted_and_not_on_how_it_is_timed_or_ordered) {
+TEST_F(MakePlan, an_id_depends_on_what_is_counted_and_not_on_how_it_is_timed_or_ordered) {
   write_scene("a.gltf");
   const std::string text = R"(, "grids": [{}], "assigners": ["brute-force"])";
   const std::string id = cases(plan(R"(["a.gltf"])", text)).at(0).id;
@@ -178,7 +178,7 @@ TEST_F(Sweep, an_id_depends_on_what_is_counted_and_not_on_how_it_is_timed_or_ord
   EXPECT_EQ(cases(plan(R"([{"path": "a.gltf", "camera_fit": "contain"}])", text)).at(0).id, id);
 }
 
-TEST_F(Sweep, a_name_tells_the_precision_where_it_is_not_float32) {
+TEST_F(MakePlan, a_name_tells_the_precision_where_it_is_not_float32) {
   write_scene("a.gltf");
   const std::string text = R"(, "grids": [{}], "assigners": ["aabb"], "storages": ["packed", "fixed"])";
   const std::vector<CasePlan> plain = cases(plan(R"(["a.gltf"])", text));
@@ -191,7 +191,7 @@ TEST_F(Sweep, a_name_tells_the_precision_where_it_is_not_float32) {
   EXPECT_EQ(all[5].name, plain[1].name + "/unorm16+inflate");
 }
 
-TEST_F(Sweep, an_exact_assigner_is_skipped_on_packed_lights_with_its_reason) {
+TEST_F(MakePlan, an_exact_assigner_is_skipped_on_packed_lights_with_its_reason) {
   write_scene("a.gltf");
   const Plan plan = this->plan(R"(["a.gltf"])", R"(, "grids": [{}], "assigners": ["exact", "aabb"],
                                                    "precision": ["float32", {"packing": "half", "inflate": true}])");
@@ -201,7 +201,7 @@ TEST_F(Sweep, an_exact_assigner_is_skipped_on_packed_lights_with_its_reason) {
   EXPECT_NE(plan.skipped[0].reason.find("the scene's own numbers"), std::string::npos) << plan.skipped[0].reason;
 }
 
-TEST_F(Sweep, a_rig_is_a_scene_without_a_file) {
+TEST_F(MakePlan, a_rig_is_a_scene_without_a_file) {
   const Plan rigs = plan(R"([{"rig": {"lights": [1, 20], "spots": 0.5}}])", R"(, "assigners": ["exact"])");
   ASSERT_EQ(rigs.scenes.size(), 2U);
   EXPECT_EQ(rigs.scenes[1].scene.lights.size(), 20U);
@@ -211,7 +211,7 @@ TEST_F(Sweep, a_rig_is_a_scene_without_a_file) {
   EXPECT_EQ(cases(rigs).front().name.substr(0, 20), "rig-1-r2-s0.5/look/f");
 }
 
-TEST_F(Sweep, a_method_that_tests_all_pairs_is_skipped_beyond_the_limit_with_its_reason) {
+TEST_F(MakePlan, a_method_that_tests_all_pairs_is_skipped_beyond_the_limit_with_its_reason) {
   const Plan limited = plan(R"([{"rig": {"lights": [10, 100]}}])",
                             R"(, "grids": [{"tiles": {"count": [10, 10]}, "slices": {"count": 10}}],
                                "assigners": ["brute-force", "bounds"], "limits": {"all_pairs": 10000})");
@@ -221,7 +221,7 @@ TEST_F(Sweep, a_method_that_tests_all_pairs_is_skipped_beyond_the_limit_with_its
             "brute-force would test 100 lights against 1000 cells, 100000 pairs; limits.all_pairs allows 10000");
 }
 
-TEST_F(Sweep, a_storage_too_narrow_or_too_large_is_skipped_with_its_reason) {
+TEST_F(MakePlan, a_storage_too_narrow_or_too_large_is_skipped_with_its_reason) {
   const Plan narrow = plan(R"([{"rig": {"lights": [256, 257, 65536, 65537]}}])",
                            R"(, "grids": [{}], "assigners": ["bounds"],
                                "storages": [{"name": "packed", "index_bits": ["auto", "8", "16", "32"]}])");
@@ -236,7 +236,7 @@ TEST_F(Sweep, a_storage_too_narrow_or_too_large_is_skipped_with_its_reason) {
             "fixed(cap=2000) would reserve 7034 MiB for 921600 cells and 70000 lights; at most 4096 MiB");
 }
 
-TEST_F(Sweep, the_limit_on_memory_is_the_configurations_and_holds_for_lists) {
+TEST_F(MakePlan, the_limit_on_memory_is_the_configurations_and_holds_for_lists) {
   const Plan little = plan(R"([{"rig": {"lights": 70000}}])",
                            R"(, "grids": [{"tiles": {"count": [160, 90]}, "slices": {"count": 64}}],
                                "assigners": ["bounds"], "storages": ["packed", {"name": "fixed", "cap": 2000}],
@@ -247,7 +247,7 @@ TEST_F(Sweep, the_limit_on_memory_is_the_configurations_and_holds_for_lists) {
   EXPECT_EQ(memory_limit(), k_default_memory_limit);
 }
 
-TEST_F(Sweep, a_filter_selects_by_name_and_says_when_it_selects_nothing) {
+TEST_F(MakePlan, a_filter_selects_by_name_and_says_when_it_selects_nothing) {
   write_scene("a.gltf");
   for (const CasePlan& case_plan : cases(plan(R"(["a.gltf"])", k_two_grids, "/aabb/")))
     EXPECT_NE(case_plan.name.find("/aabb/"), std::string::npos);

@@ -1,0 +1,142 @@
+#include "run/cases/scene_data.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "run/cases/case_names.h"
+#include "run/cases/frame_work.h"
+#include "scene/domain_check.h"
+
+namespace clusterbench::run {
+namespace {
+
+bool needs_triangles(const config::Config& config) {
+  return std::ranges::any_of(config.sample_sets, &config::SampleSetRequest::needs_triangles) ||
+         !config.shadow_culls.empty() ||
+         std::ranges::any_of(
+             config.assigners,
+             [](const config::MethodRequest& method) { return assign::find_assigner(method.name)->needs.depth; }) ||
+         std::ranges::any_of(config.grids, follows_surfaces) ||
+         std::ranges::any_of(config.pre_culls, &cull::PreCullSpec::needs_triangles);
+}
+
+scene::Scene scene_of_file(const config::SceneRequest& request) {
+  std::error_code unknown;
+  if (!request.named_by.empty() && !std::filesystem::exists(request.path, unknown) && !unknown)
+    throw Error(request.named_by, request.named_at, "names '" + request.path.string() + "', and there is no such file");
+  return scene::load_gltf(request.path, request.choice);
+}
+
+// Loads the scene, resolves its lights' ranges, and makes lights of its boxes on request.
+scene::Scene resolved_scene(const config::SceneRequest& request) {
+  scene::Scene scene = request.rig ? scene::make_rig(*request.rig) : scene_of_file(request);
+  scene::resolve_ranges(scene, request.range_rule);
+  if (request.boxes)
+    scene::assign_boxes(scene);
+  else if (!scene.boxes.empty())
+    scene.warnings.push_back("its oriented boxes (" + std::to_string(scene.boxes.size()) +
+                             ") are counted and not assigned; --set 'scenes.*.boxes=true' assigns them");
+  return scene;
+}
+
+// Sets the numbers that depend on how many lights reach a point: fewer frames, and grids that are not compared cell by
+// cell.
+void weigh_frames(const config::Config& config, const config::SceneRequest& request, SceneData& data) {
+  if (request.camera.most_lights == 0.0 && !config.accuracy.most_pairs) return;
+  for (const scene::CameraPath& path : data.paths)
+    data.lights_at_points.push_back(lights_at_a_point(data.scene, path, config.viewports.front(), config.seed));
+  if (request.camera.most_lights == 0.0) return;
+  scene::PathRequest fewer = request.camera;
+  fewer.count = frames_within(fewer.count, fewer.most_lights, data.paths, data.lights_at_points);
+  if (fewer.count == request.camera.count) return;
+  data.requested_frames = request.camera.count;
+  data.equal_steps = fewer.count;
+  data.paths = scene::camera_paths(data.scene, fewer);
+}
+
+void check_and_name_paths(SceneData& data) {
+  std::set<std::string> cameras;
+  for (scene::CameraPath& path : data.paths) {
+    scene::check_domain(data.scene, path);
+    path.camera = unique_name(name_part(path.camera), cameras);
+  }
+}
+
+double lowest_height(const SceneData& data) {
+  constexpr double k_eye_height_m = 1.7;
+  double lowest_m = std::numeric_limits<double>::infinity();
+  for (const scene::CameraPath& path : data.paths)
+    for (const scene::Shot& shot : path.shots) {
+      lowest_m = std::min(lowest_m, shot.pose.eye.y - k_eye_height_m);
+      for (const scene::WorldLight& light : scene::world_lights(data.scene, shot.time_s))
+        if (light.range_m > 0.0) lowest_m = std::min(lowest_m, light.position.y);
+    }
+  return lowest_m;
+}
+
+// Finds the floor for a set of samples, and adds a note with its height.
+void lay_ground(const config::Config& config, SceneData& data) {
+  for (const config::SampleSetRequest& request : config.sample_sets) {
+    if (!request.ground || data.has_triangles()) continue;
+    if (request.ground->is_lowest) data.lowest_m = lowest_height(data);
+    char height[32];
+    std::snprintf(height, sizeof height, "%.4g", *ground_height(request, data));
+    data.scene.warnings.push_back("no triangles: its opaque samples lie on a floor at y = " + std::string(height) +
+                                  " m (samples.opaque.ground), and none above the horizon");
+  }
+}
+
+// `names`: those of earlier scenes; adds this one's.
+SceneData scene_data(const config::Config& config, const config::SceneRequest& request, std::set<std::string>& names) {
+  SceneData data;
+  data.scene = resolved_scene(request);
+  data.scene.name = unique_name(name_part(data.scene.name), names);
+  data.paths = scene::camera_paths(data.scene, request.camera);
+  weigh_frames(config, request, data);
+  check_and_name_paths(data);
+  if (needs_triangles(config) && !request.rig) {
+    data.geometry = scene::load_geometry(data.scene);
+    const std::vector<std::string>& warnings = data.geometry->warnings;
+    data.scene.warnings.insert(data.scene.warnings.end(), warnings.begin(), warnings.end());
+  }
+  lay_ground(config, data);
+  return data;
+}
+
+}  // namespace
+
+bool SceneData::has_lights(scene::LightType type) const {
+  return std::ranges::find(scene.lights, type, &scene::Light::type) != scene.lights.end();
+}
+
+std::string SceneData::contents_sha256() const {
+  return geometry ? sha256_hex(scene.sha256 + geometry->sha256) : scene.sha256;
+}
+
+std::vector<SceneData> load_scenes(const config::Config& config) {
+  std::vector<SceneData> scenes;
+  std::set<std::string> names;
+  for (const config::SceneRequest& request : config.scenes) scenes.push_back(scene_data(config, request, names));
+  for (SceneData& data : scenes)  // their final address
+    if (data.has_triangles()) {
+      data.depths = std::make_shared<FrameDepths>(data.scene, *data.geometry);
+      data.visible_sets = std::make_shared<SceneVisibleSets>(data.scene, *data.geometry);
+    }
+  return scenes;
+}
+
+bool follows_surfaces(const grid::GridSpec& grid) {
+  return grid.has_tiles() && grid.slices.fit && grid.slices.fit->needs_surfaces();
+}
+
+std::optional<double> ground_height(const config::SampleSetRequest& request, const SceneData& data) {
+  if (!request.ground || data.has_triangles()) return {};
+  return request.ground->is_lowest ? data.lowest_m : request.ground->height_m;
+}
+
+}  // namespace clusterbench::run
