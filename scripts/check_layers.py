@@ -25,7 +25,7 @@ FOLDERS = {
     "run": [["cases"], ["timing"], ["counters"], ["findings"], ["passes", "records"]],
     "report": [["cases"], ["comparing", "documents", "presets", "searches"], ["gates", "sizing", "tables", "exports", "page"],
                ["choosing", "history"], ["results"]],
-    "cli": [["command_line", "output", "processes"], ["completion", "options"], ["sizing"], ["commands"]],
+    "cli": [["command_line", "output", "processes"], ["completion", "options"], ["running", "sizing"], ["commands"]],
 }
 
 # Library header -> the only layers that include it.

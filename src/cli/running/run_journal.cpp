@@ -1,0 +1,90 @@
+#include "cli/running/run_journal.h"
+
+#include "cli/output/output.h"
+#include "os/stop_signals.h"
+#include "run/records/records.h"
+
+namespace clusterbench::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The configuration without the keys that do not change results.
+Json measured_config(const config::Config& config) {
+  Json out = config.resolved;
+  out.erase("threads");
+  for (const char* gate : {"fail_if", "baseline", "allow_no_lights", "allow_changed_lights"}) out["limits"].erase(gate);
+  return out;
+}
+
+// The facts that must be the same in an interrupted run and the run that continues it.
+Json journal_header(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
+  const run::ToolFacts tool = run::tool_facts();
+  Json scenes = Json::array();
+  for (const run::SceneData& data : plan.scenes) scenes.push_back(data.contents_sha256());
+  Json header{{"version", tool.version}, {"git_sha", tool.git_sha}, {"flags", tool.flags},
+              {"scenes", scenes},        {"filter", flags.filter},  {"config", measured_config(config)}};
+  if (!flags.count.empty()) header["count"] = flags.count;
+  return header;
+}
+
+// Whether the output is a file. Throws Error if --resume needs one.
+bool has_journal(const RunFlags& flags) {
+  if (!is_stream(flags.output)) return true;
+  if (flags.resume) throw Error("", "--resume", "needs the result file of the interrupted run: add -o FILE");
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> finished_ids(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
+  if (!has_journal(flags) || !flags.resume) return {};
+  return report::finished_ids(flags.output, journal_header(flags, config, plan));
+}
+
+RunJournal::RunJournal(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
+  constexpr std::uint64_t k_bytes_per_case = 24 << 10;
+  if (!has_journal(flags)) return;
+  const std::uint64_t per_case = k_bytes_per_case + (config.details ? config.details->max_bytes : 0);
+  journal_ = std::make_unique<report::Journal>(flags.output, journal_header(flags, config, plan), flags.resume,
+                                               per_case * plan.case_count());
+  if (flags.resume && journal_->is_empty())
+    print_message("--resume begins anew: nothing that an interrupted run has measured is in " +
+                  journal_->partial_path().string());
+  if (!journal_->set_aside().empty())
+    print_message(journal_->partial_path().string() + ", left by a run that did not end, is now " +
+                  journal_->set_aside().string() + " (--resume goes on with such a file)");
+}
+
+std::vector<result::Case> RunJournal::earlier_cases() const {
+  return journal_ ? journal_->earlier_cases() : std::vector<result::Case>{};
+}
+
+std::vector<std::string> RunJournal::earlier_ids() const {
+  return journal_ ? journal_->earlier_ids() : std::vector<std::string>{};
+}
+
+std::string RunJournal::saved_cases_text() const {
+  if (!journal_ || journal_->is_empty()) return "";
+  return "; what was measured is in " + journal_->partial_path().string() + ", --resume goes on";
+}
+
+Error RunJournal::with_saved_cases(const Error& error) const {
+  return Error(error.file(), error.where(), error.message() + saved_cases_text(), error.code());
+}
+
+ExitCode RunJournal::interrupted() const {
+  if (!journal_)
+    print_message(
+        "interrupted; nothing is kept without a file: -o FILE keeps each case as it is finished, and then --resume "
+        "goes on");
+  else if (journal_->is_empty())
+    print_message(
+        "interrupted before a case was finished, so nothing is kept: the same command begins anew; once some are, "
+        "--resume goes on");
+  else
+    print_message("interrupted" + saved_cases_text());
+  return os::stopped_exit_code();
+}
+
+}  // namespace clusterbench::cli

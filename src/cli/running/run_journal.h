@@ -1,0 +1,45 @@
+#pragma once
+// The cases that a run has finished, on disk (report/documents/journal.h), while others are still measured. --resume
+// continues with them.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/running/run_flags.h"
+#include "config/config.h"
+#include "core/error.h"
+#include "report/documents/journal.h"
+#include "run/cases/plan.h"
+
+namespace clusterbench::cli {
+
+// With --resume, the ids of the cases that an interrupted run of the same plan has finished; else none. Writes no file.
+// Throws Error if the output is no file, and for a journal of another run.
+std::vector<std::string> finished_ids(const RunFlags& flags, const config::Config& config, const run::Plan& plan);
+
+// Of this run. There is no file if the output is a device or a pipe, which get the result at the end.
+class RunJournal {
+ public:
+  // Starts the file, or with --resume continues it, and prints which file of an earlier run it continues or moves
+  // aside. Throws Error like report::Journal, and for --resume without a file.
+  RunJournal(const RunFlags& flags, const config::Config& config, const run::Plan& plan);
+
+  report::Journal* file() const { return journal_.get(); }  // nullptr: there is none
+
+  // The cases of an interrupted run that this run continues.
+  std::vector<result::Case> earlier_cases() const;
+  std::vector<std::string> earlier_ids() const;
+
+  // The same error; its message also names the file with the finished cases.
+  Error with_saved_cases(const Error& error) const;
+  // Prints that the run was interrupted and how to continue it. Returns the exit code.
+  ExitCode interrupted() const;
+
+ private:
+  std::string saved_cases_text() const;
+
+  std::unique_ptr<report::Journal> journal_;
+};
+
+}  // namespace clusterbench::cli
