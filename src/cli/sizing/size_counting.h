@@ -7,7 +7,7 @@
 
 #include "cli/options/run_inputs.h"
 #include "config/config.h"
-#include "report/sizing/allocation.h"
+#include "report/sizing/sized_structure.h"
 #include "result/result.h"
 #include "run/cases/plan.h"
 #include "run/runner.h"

@@ -61,8 +61,7 @@ void keep_cases(result::Result& result, const std::string& filter, const std::st
     if (is_selected(pattern, result_case)) kept.push_back(result_case);
   if (kept.empty())
     throw Error(path, "--filter",
-                "'" + filter + "' matches none of " + number_of(result.cases.size(), "case") + pattern_hint(filter) +
-                    (result.cases.empty() ? "" : "; one of them is '" + result.cases.front().name + "'"));
+                run::no_match_text(filter, result.cases.size(), result.cases.empty() ? "" : result.cases.front().name));
   result.cases = std::move(kept);
 }
 

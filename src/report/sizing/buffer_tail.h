@@ -6,7 +6,7 @@
 #include <string>
 
 #include "measure/statistics/peaks_over_threshold.h"
-#include "report/sizing/allocation.h"
+#include "report/sizing/sized_structure.h"
 #include "result/documents/size.h"
 
 namespace clusterbench::report {

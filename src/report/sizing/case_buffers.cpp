@@ -1,24 +1,15 @@
 #include "report/sizing/case_buffers.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "core/text.h"
 #include "report/cases/columns.h"
+#include "report/sizing/counts.h"
 
 namespace clusterbench::report {
 namespace {
-
-// Saturates at 64 bits: a hand-edited result may contain any number.
-std::uint64_t sum_of_counts(std::uint64_t a, std::uint64_t b) {
-  return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max() : a + b;
-}
-std::uint64_t product_of_counts(std::uint64_t a, std::uint64_t b) {
-  return b != 0 && a > std::numeric_limits<std::uint64_t>::max() / b ? std::numeric_limits<std::uint64_t>::max()
-                                                                     : a * b;
-}
 
 PathNeed path_need(const result::Case& result_case, const result::Buffer& buffer) {
   PathNeed path{result_case.camera, 1, {}};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "report/sizing/allocation.h"
 #include "result/at.h"
 
 namespace clusterbench::report {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "report/sizing/allocation.h"
+#include "report/sizing/sized_structure.h"
 #include "result/case.h"
 
 namespace clusterbench::report {

@@ -114,6 +114,11 @@ std::string unique_name(const std::string& name, std::set<std::string>& used) {
   return candidate;
 }
 
+std::string no_match_text(const std::string& filter, std::size_t cases, const std::string& example) {
+  return "'" + filter + "' matches none of " + number_of(cases, "case") + pattern_hint(filter) +
+         (example.empty() ? "" : "; one of them is '" + example + "'");
+}
+
 std::string current_name(std::string name) {
   for (const auto& [former, current] : k_choices) replace_first(name, begin_of_method(name), former, current);
   const auto own = [](const std::string& method) { return std::string(own_structure_name(method)); };

@@ -22,6 +22,9 @@ std::string name_part(std::string text);
 // The name, or the name with the smallest unused suffix "-2", "-3" ...; adds it to `used`.
 std::string unique_name(const std::string& name, std::set<std::string>& used);
 
+// The message that a filter selects none of `cases` cases; `example`: one of their names, "" if there are none.
+std::string no_match_text(const std::string& filter, std::size_t cases, const std::string& example);
+
 struct CaseNames {
   std::string name;  // "street/walk/1920x1080 frustum 64px/exact-fast/packed"
   std::string id;    // its hash

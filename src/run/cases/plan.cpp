@@ -286,8 +286,8 @@ Plan make_plan(const config::Config& config, const std::string& filter) {
   if (!plan.groups.empty()) return plan;
   if (expansion.all_cases() > 0)
     throw Error("", "--filter",
-                "'" + filter + "' matches none of " + number_of(expansion.all_cases(), "case") + pattern_hint(filter) +
-                    "; one of them is '" + expansion.example() + "'" + impossible_text(expansion.impossible(), filter));
+                no_match_text(filter, expansion.all_cases(), expansion.example()) +
+                    impossible_text(expansion.impossible(), filter));
   throw Error(config.file.string(), "",
               "no case is left: " + number_of(plan.skipped.size(), "combination") + " cannot be measured" +
                   (plan.skipped.empty() ? "" : "; the first, " + plan.skipped[0].name + ": " + plan.skipped[0].reason));
