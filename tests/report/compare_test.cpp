@@ -2,79 +2,25 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "config/documents.h"
-#include "config/schema_verdict.h"
 #include "records.h"
 #include "report/comparing/compare_advice.h"
-#include "report/result_by_hand.h"
-#include "report/results/result_record.h"
+#include "report/comparison_by_hand.h"
 
 namespace clusterbench::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using testing::compared;
+using testing::comparison_markdown;
+using testing::comparison_text;
+using testing::holds;
+using testing::json_of;
+using testing::k_gate_separate;
+using testing::outcome;
+using testing::paired;
 using testing::result_by_hand;
-
-Json json_of(const run::Result& result) {
-  return result::to_json(record_of(testing::judged(result), {}));
-}
-
-// 31 samples with a median's interval of +-0.2 % around `ns`.
-void set_time(run::CaseResult& case_result, double ns) {
-  case_result.timing->frame_ns = {ns, 1.0, ns, ns, {0.998 * ns, 1.002 * ns}, std::vector<double>(31, ns)};
-}
-
-run::Result with_times(double slow_ns, double fast_ns) {
-  run::Result result = result_by_hand();
-  set_time(result.cases[0], slow_ns);
-  set_time(result.cases[1], fast_ns);
-  return result;
-}
-
-// Every comparison of these tests is held against its schema.
-Json compared(const Json& base, const Json& next, double threshold, const CompareOptions& options = {}) {
-  Json comparison = result::to_json(compare_results(test::result_of(base), test::result_of(next), threshold, options));
-  const Json violations = config::schema_violations(config::row_of(config::Document::comparison).schema(),
-                                                    nlohmann::json::parse(comparison.dump()));
-  EXPECT_TRUE(violations.empty()) << violations.dump(1) << comparison.dump(1);
-  return comparison;
-}
-
-// What is read back of a comparison says the same.
-result::Comparison read(const Json& comparison) {
-  return result::from_json<result::Comparison>(comparison);
-}
-ExitCode outcome(const Json& comparison, bool is_strict) {
-  return report::outcome(read(comparison), is_strict);
-}
-std::string comparison_text(const Json& comparison) {
-  return report::comparison_text(read(comparison));
-}
-std::string comparison_markdown(const Json& comparison) {
-  return report::comparison_markdown(read(comparison));
-}
-
-std::string verdict_of(const Json& comparison, std::size_t place) {
-  return comparison["cases"][place].value("verdict", "none");
-}
-
-constexpr CompareOptions k_gate_separate{.gates_separate = true};
-
-bool holds(const Json& lines, const std::string& part) {
-  return lines.dump().find(part) != std::string::npos;
-}
-
-// Three launches of two rounds each, in which the new program takes `percent` more, give or take 0.1 %.
-Json paired(double percent) {
-  Json launches = Json::array();
-  for (const double noise : {-0.1, 0.0, 0.1}) {
-    const double next_ns = 1000.0 * (1.0 + (percent + noise) / 100.0);
-    launches.push_back({{"base_ns", {1000.0, 2000.0}}, {"new_ns", {next_ns, 2.0 * next_ns}}});
-  }
-  return {{"launches", launches}, {"base_ns", 1500.0}, {"new_ns", 1500.0}, {"ratio", 1.0}, {"ci95", {1.0, 1.0}}};
-}
+using testing::verdict_of;
+using testing::with_times;
 
 TEST(Compare, a_result_is_the_same_as_itself) {
   const Json result = json_of(result_by_hand());
@@ -398,192 +344,6 @@ TEST(Compare, instructions_gate_where_no_paired_time_does) {
   const Json other = compared(json_of(base), json_of(next), 0.02);
   EXPECT_FALSE(other["cases"][0].contains("instructions"));
   EXPECT_EQ(outcome(other, true), ExitCode::inconclusive);
-}
-
-Obstacles obstacles_between(const Json& base, const Json& next) {
-  return obstacles(test::result_of(base), test::result_of(next));
-}
-
-TEST(Compare, fields_that_differ_are_named) {
-  const Json base = json_of(result_by_hand());
-  EXPECT_TRUE(obstacles_between(base, base).to_times.empty());
-  Json next = base;
-  next["machine"]["cpu"] = "another";
-  next["machine"]["os"] = "another kernel";
-  next["tool"]["flags"] = "-O0";
-  next["tool"]["git_sha"] = "def";  // what is compared, no obstacle
-  const Obstacles fields = obstacles_between(base, next);
-  EXPECT_EQ(fields.to_instructions, (std::vector<std::string>{R"(/machine/cpu is "a processor" and "another")",
-                                                              R"(/tool/flags is "-O3" and "-O0")"}));
-  EXPECT_EQ(fields.to_times.size(), 3u);
-  EXPECT_TRUE(holds(compared(base, next, 0.02, {.is_forced = true})["warnings"], "all the same: /machine/cpu"));
-}
-
-TEST(Compare, processors_of_one_name_are_told_apart_and_what_an_older_result_does_not_know_is_passed_over) {
-  const Json base = json_of(result_by_hand());
-  for (const char* key : {"family", "model", "stepping"}) {
-    Json next = base;
-    next["machine"][key] = "99";
-    EXPECT_EQ(obstacles_between(base, next).to_instructions.size(), 1u) << key;
-    next["machine"].erase(key);
-    EXPECT_TRUE(obstacles_between(base, next).to_times.empty()) << key;
-  }
-  Json next = base;
-  next["machine"]["caches"]["l2"] = 5;
-  EXPECT_EQ(obstacles_between(base, next).to_instructions.size(), 1u);
-}
-
-TEST(Compare, of_another_machine_counts_are_compared_and_times_and_instructions_are_not) {
-  run::Result base = result_by_hand(), next = with_times(1, 1);
-  testing::add_count(base.cases[0]);
-  testing::add_count(next.cases[0]);
-  next.cases[0].count->assign.instructions *= 2;
-  next.machine.cpu = "another";
-  Json result = json_of(next);
-  const Json comparison = compared(json_of(base), result, 0.02);
-  EXPECT_FALSE(comparison["cases"][0].contains("hint"));
-  EXPECT_FALSE(comparison["cases"][0].contains("instructions"));
-  EXPECT_TRUE(holds(comparison["warnings"], "times are not compared"));
-  EXPECT_TRUE(holds(comparison["warnings"], "instructions are not compared"));
-  EXPECT_EQ(outcome(comparison, false), ExitCode::ok);
-  EXPECT_EQ(outcome(comparison, true), ExitCode::inconclusive) << "a gate that could not be";
-  EXPECT_EQ(outcome(compared(json_of(base), result, 0.02, {.is_forced = true}), false), ExitCode::gate_failed);
-  result["cases"][1]["error"]["reported_pairs"] = 61;
-  EXPECT_EQ(outcome(compared(json_of(base), result, 0.02), false), ExitCode::gate_failed);
-}
-
-TEST(Compare, another_kernel_or_memory_parts_times_and_nothing_else) {
-  run::Result base = result_by_hand();
-  testing::add_count(base.cases[0]);
-  run::Result next = base;
-  next.machine.os = "Linux, the next one";
-  next.machine.ram_bytes = 5;
-  const Json comparison = compared(json_of(base), json_of(next), 0.02);
-  EXPECT_TRUE(comparison["left_out"].contains("times"));
-  EXPECT_FALSE(comparison["left_out"].contains("instructions"));
-  EXPECT_EQ(comparison["cases"][0]["instructions"]["verdict"], "same");
-  EXPECT_EQ(outcome(comparison, true), ExitCode::ok);
-}
-
-TEST(Compare, cold_times_are_not_compared_with_warm_ones) {
-  const run::Result base = result_by_hand();
-  run::Result next = base;
-  for (run::CaseResult& case_result : next.cases) case_result.timing->is_cold = true;
-  const Json comparison = compared(json_of(base), json_of(next), 0.02);
-  ASSERT_TRUE(comparison["left_out"].contains("times"));
-  EXPECT_TRUE(holds(comparison["left_out"]["times"], "/cases/*/timing/caches"));
-  EXPECT_FALSE(compared(json_of(next), json_of(next), 0.02)["left_out"].contains("times"));
-}
-
-Json measured_beside(const Json& base, double percent) {
-  Json next = json_of(with_times(9000, 3000));
-  next["tool"]["git_sha"] = "def";
-  next["baseline"]["tool"] = base["tool"];
-  for (Json& entry : next["cases"]) entry["timing"]["baseline"] = paired(percent);
-  return next;
-}
-
-TEST(Compare, paired_rounds_decide_where_there_are_any) {
-  const Json base = json_of(with_times(1, 1)), next = measured_beside(base, 3.0);
-  for (const Json& left : {base, next}) {
-    const Json comparison = compared(left, next, 0.02);
-    EXPECT_EQ(comparison["data"], "paired");
-    EXPECT_EQ(comparison["base"]["tool"]["git_sha"], "abc");
-    EXPECT_EQ(verdict_of(comparison, 0), "slower");
-    EXPECT_NEAR(comparison["cases"][0]["ratio"].get<double>(), 1.03, 1e-4);
-    EXPECT_FALSE(holds(comparison["warnings"], "separate runs"));
-  }
-  EXPECT_EQ(verdict_of(compared(base, measured_beside(base, 0.0), 0.02), 1), "same");
-}
-
-// What disturbs a launch as a whole, here by 20 % up and down, cancels in its mean.
-TEST(Compare, the_mean_of_methods_is_over_the_launches_that_all_have) {
-  const Json base = json_of(with_times(1, 1));
-  Json next = measured_beside(base, 3.0);
-  double up = 1.2;
-  for (Json& launch : next["cases"][0]["timing"]["baseline"]["launches"]) {
-    for (Json& ns : launch["new_ns"]) ns = ns.get<double>() * up;
-    up = 1.0 / up;
-  }
-  up = 1.0 / 1.2;
-  Json& others = next["cases"][1]["timing"]["baseline"]["launches"];
-  for (Json& launch : others) {
-    for (Json& ns : launch["new_ns"]) ns = ns.get<double>() * up;
-    up = 1.0 / up;
-  }
-  others.push_back({{"base_ns", {1.0, 1.0}}, {"new_ns", {5.0, 5.0}}});
-  const Json summary = compared(base, next, 0.02)["summary"];
-  EXPECT_NEAR(summary["ratio"].get<double>(), 1.03, 1e-4);
-  EXPECT_LT(summary["ci95"][1].get<double>(), 1.04);
-}
-
-TEST(Compare, paired_rounds_with_another_program_say_nothing) {
-  Json base = json_of(with_times(9000, 3000));
-  const Json next = measured_beside(base, 3.0);
-  base["tool"]["git_sha"] = "yet another";
-  EXPECT_EQ(compared(base, next, 0.02)["data"], "separate");
-}
-
-TEST(Compare, lists_that_differ_side_by_side_fail_unless_they_are_shorter_and_complete) {
-  const Json base = json_of(result_by_hand());
-  Json next = measured_beside(base, 0.0);
-  Json& lists = next["cases"][0]["timing"]["baseline"]["lists_differ"];
-  lists = {{"frames", 2}, {"frame", 1},       {"cell", {3, 2, 1}}, {"light", 7},
-           {"in", "new"}, {"base_pairs", 60}, {"new_pairs", 61}};
-  EXPECT_EQ(outcome(compared(base, next, 0.02), false), ExitCode::gate_failed);
-  const std::string text = comparison_text(compared(base, next, 0.02));
-  EXPECT_NE(text.find("frame 1, cell [3,2,1], light 7: only in the new lists; 60 -> 61 pairs"), std::string::npos)
-      << text;
-  lists["new_pairs"] = 59;
-  EXPECT_EQ(outcome(compared(base, next, 0.02), false), ExitCode::ok);
-}
-
-TEST(Compare, beside_another_program_only_what_both_did_is_compared) {
-  const Json base = json_of(result_by_hand());
-  Json next = measured_beside(base, 0.0);
-  next["cases"][1]["timing"].erase("baseline");
-  const Json comparison = compared(next, next, 0.02);
-  EXPECT_EQ(comparison["cases"].size(), 1u);
-  EXPECT_TRUE(holds(comparison["only_in_new"], "/aabb/"));
-  EXPECT_TRUE(holds(comparison["warnings"], "the other program does not have them, not compared: hall/walk"));
-  EXPECT_TRUE(holds(comparison["warnings"], "bytes, samples and whatever else is counted were not"));
-  EXPECT_NE(comparison_text(comparison).find("1 case of the new not compared"), std::string::npos);
-  EXPECT_FALSE(holds(compared(base, next, 0.02)["warnings"], "the other program")) << "its own result is at hand";
-}
-
-TEST(Compare, a_program_beside_itself_has_no_difference_and_says_how_small_a_one_shows) {
-  const Json base = json_of(result_by_hand());
-  Json next = measured_beside(base, 3.0);  // which would be slower
-  EXPECT_EQ(outcome(compared(next, next, 0.02), false), ExitCode::gate_failed);
-  next["baseline"]["is_same_program"] = true;
-  const Json comparison = compared(next, next, 0.02);
-  EXPECT_EQ(verdict_of(comparison, 0), "same");
-  EXPECT_EQ(outcome(comparison, true), ExitCode::ok);
-  const std::string text = comparison_text(comparison);
-  EXPECT_NE(
-      text.find("\nno difference: both are the same program, byte for byte, and beside itself its times differ by "
-                "at most 3.3 % (95 % intervals)"),
-      std::string::npos)
-      << text;
-}
-
-TEST(Compare, what_is_inconclusive_says_what_to_do) {
-  const Json base = json_of(result_by_hand());
-  Json next = measured_beside(base, 1.0);
-  double noise = 0.9;
-  for (Json& launch : next["cases"][0]["timing"]["baseline"]["launches"]) {
-    for (Json& ns : launch["new_ns"]) ns = ns.get<double>() * noise;
-    noise += 0.1;
-  }
-  const Json comparison = compared(next, next, 0.02);
-  ASSERT_EQ(verdict_of(comparison, 0), "inconclusive");
-  EXPECT_EQ(comparison["advice"].size(), 1u);
-  const std::string text = comparison_text(comparison);
-  for (const char* part :
-       {"1 case is inconclusive: its interval reaches ", "and the threshold is 2 %", "--threshold ", "run --count"})
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-  EXPECT_NE(comparison_markdown(comparison).find("**What to do**"), std::string::npos);
-  EXPECT_FALSE(compared(base, base, 0.02).contains("advice"));
 }
 
 std::string advice_on_no_case(const Json& base, const Json& next) {

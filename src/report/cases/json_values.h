@@ -1,10 +1,12 @@
 #pragma once
-// Optional values at a JSON pointer of a configuration, or of a document that is not a result. For fields of results
-// see result/at.h.
+// Records as JSON, and optional values at a JSON pointer of a configuration, or of a document that is not a result. For
+// fields of results see result/at.h.
 
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+
+#include "result/fields.h"
 
 namespace clusterbench::report {
 
@@ -16,5 +18,11 @@ std::optional<double> number_at(const nlohmann::ordered_json& from, const std::s
 
 // JSON has no infinity and no NaN.
 nlohmann::ordered_json number_or_null(double value);
+
+// Equal in all recorded values.
+template <class Record>
+bool are_same(const Record& one, const Record& other) {
+  return &one == &other || result::to_json(one) == result::to_json(other);
+}
 
 }  // namespace clusterbench::report

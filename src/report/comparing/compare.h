@@ -10,13 +10,6 @@
 
 namespace clusterbench::report {
 
-// "/machine/cpu is 'A' and 'B'" for each differing field that figures depend on. Counts of lists, buffers and errors
-// depend on none.
-struct Obstacles {
-  std::vector<std::string> to_times, to_instructions;
-};
-Obstacles obstacles(const result::Result& base, const result::Result& next);
-
 struct CompareOptions {
   bool gates_separate = false;  // times of separate runs get verdicts, not hints
   bool is_forced = false;       // compares times and instructions in spite of obstacles

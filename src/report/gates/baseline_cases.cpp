@@ -6,7 +6,7 @@
 #include "core/text.h"
 #include "report/cases/case_filter.h"
 #include "report/comparing/case_settings.h"
-#include "report/comparing/compare.h"
+#include "report/comparing/comparability.h"
 
 namespace clusterbench::report {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "report/cases/contender.h"
+#include "report/cases/json_values.h"
 #include "report/choosing/conclusion.h"
 #include "report/documents/machine_name.h"
 #include "report/results/result_record.h"
@@ -20,11 +21,6 @@ constexpr const char* k_in_common[] = {"allocation", "cost", "rank_by"};
 bool is_measured(const result::Result& result) {
   return std::ranges::any_of(result.cases,
                              [](const result::Case& result_case) { return result_case.timing || result_case.count; });
-}
-
-template <class Record>
-bool are_same(const Record& one, const Record& other) {
-  return result::to_json(one) == result::to_json(other);
 }
 
 void check_origin(const NamedPart& first, const NamedPart& next) {

@@ -1,0 +1,84 @@
+#include "report/comparing/compare_warnings.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/text.h"
+#include "report/cases/columns.h"
+#include "report/cases/json_values.h"
+
+namespace clusterbench::report {
+namespace {
+
+using result::Comparison;
+using result::Json;
+using result::PartOfOne;
+using result::RenamedCase;
+using result::Result;
+
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t k_most = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(k_most, names.size()); ++i) text += (i == 0 ? "" : ", ") + shown(names[i]);
+  return names.size() > k_most ? text + " and " + std::to_string(names.size() - k_most) + " more" : text;
+}
+
+constexpr const char* k_separate_hints =
+    "two runs of one program can differ several-fold; hints only, which fail nothing: to gate on time use `run "
+    "--baseline-binary`, on a noisy machine `run --count`";
+constexpr const char* k_separate_verdicts =
+    "--gate-separate: two runs of one program can differ several-fold, and intervals know nothing of that; on a busy "
+    "machine every second comparison of a program with itself failed";
+
+// The names that only one side has, without cases of the same name on both sides, which are reported separately with
+// the difference.
+std::vector<std::string> without_renamed(std::vector<std::string> names, const std::vector<RenamedCase>& renamed) {
+  std::erase_if(names, [&](const std::string& name) {
+    return std::ranges::find(renamed, name, &RenamedCase::name) != renamed.end();
+  });
+  return names;
+}
+
+}  // namespace
+
+Json margin_of(const Result& result) {
+  const Json* margin = value_at(result.config, "/allocation/margin");
+  return margin == nullptr ? Json() : *margin;
+}
+
+std::vector<std::string> warnings_of(const Result& base, const Result& next, const Comparison& comparison,
+                                     bool is_beside, const std::vector<std::string>& forced, bool gates_separate) {
+  std::vector<std::string> warnings;
+  for (const std::string& obstacle : forced) warnings.push_back("compared all the same: " + obstacle);
+  const auto& [instructions, times] = comparison.left_out;
+  if (instructions) warnings.push_back("instructions are not compared: " + joined(*instructions, "; "));
+  if (times) warnings.push_back("times are not compared: " + joined(*times, "; "));
+  if (comparison.data == "separate" && comparison.summary.methods_timed != 0)
+    warnings.emplace_back(gates_separate ? k_separate_verdicts : k_separate_hints);
+  if (margin_of(base) != margin_of(next) && !comparison.cases.empty())
+    warnings.push_back("allocation.margin is " + margin_of(base).dump() + " and " + margin_of(next).dump() +
+                       ", another setting: what is recommended follows it and is not compared");
+  const std::vector<std::string> only_in_base = without_renamed(comparison.only_in_base, comparison.renamed),
+                                 only_in_new = without_renamed(comparison.only_in_new, comparison.renamed);
+  if (!only_in_base.empty()) warnings.push_back("only in the base, not compared: " + listed(only_in_base));
+  if (!only_in_new.empty())
+    warnings.push_back(std::string(is_beside ? "the other program does not have them, not compared: "
+                                             : "only in the new result, not compared: ") +
+                       listed(only_in_new));
+  std::map<std::string, std::vector<std::string>> by_reason;
+  for (const RenamedCase& renamed_case : comparison.renamed)
+    by_reason[joined(renamed_case.differs_in)].push_back(renamed_case.name);
+  for (const auto& [reason, names] : by_reason)
+    warnings.push_back("of one name, but not the same, so not compared: they differ in " + reason + ": " +
+                       listed(names));
+  for (const PartOfOne& part : comparison.not_compared)
+    warnings.push_back(part.part + " is not compared in " + number_of(part.cases, "case") + ": only the " +
+                       (part.only_in == "base" ? "base" : "new result") + " has it");
+  if (is_beside)
+    warnings.emplace_back(
+        "times and lists of both programs were compared; bytes, samples and whatever else is counted were not: that "
+        "takes a result of the other program");
+  return warnings;
+}
+
+}  // namespace clusterbench::report
