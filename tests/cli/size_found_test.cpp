@@ -4,12 +4,18 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/lights_in_view.h"
 #include "cli/tool.h"
 
 namespace clusterbench {
 namespace {
 
+using Json = nlohmann::json;
+using test::file_text;
 using test::Folder;
+using test::lights_in_view_and_behind;
+using test::Outcome;
+using test::tool;
 
 const std::string k_searched_case =
     " -q --grid frustum --tiles 16x9t --slices 8 --assigner exact-fast --set storages=packed "
@@ -146,6 +152,22 @@ TEST_F(SizeFound, what_an_earlier_version_did_not_write_is_told) {
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.err.find("old.json: an earlier version wrote it, without the field of view"), std::string::npos)
       << done.err;
+}
+
+TEST_F(SizeFound, refuses_what_an_earlier_build_found_without_the_width_of_its_elements) {
+  const Folder folder;
+  const std::string scene = folder.write("s.gltf", lights_in_view_and_behind(20, 0)).string(),
+                    found = (folder / "found.json").string(),
+                    flags = " -q --viewport 640x360 --grid frustum --tiles 16x9t --slices 8 --assigner exact-fast ";
+  ASSERT_EQ(tool("worst-case" + flags + "--evaluations 20 -o " + found + " " + scene).code, 0);
+  ASSERT_EQ(tool("size" + flags + "--found " + found + " " + scene).code, 0);
+  Json old = Json::parse(file_text(found));
+  for (Json& buffer : old["buffers"]) buffer.erase("element_bytes");
+  const Outcome done = tool("size" + flags + "--found " + folder.write("old.json", old.dump()).string() + " " + scene);
+  EXPECT_EQ(done.code, 2);
+  EXPECT_EQ(done.out, "");
+  EXPECT_NE(done.err.find("old.json: /buffers/0/element_bytes: is missing"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("search again"), std::string::npos) << done.err;
 }
 
 }  // namespace

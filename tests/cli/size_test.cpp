@@ -1,12 +1,13 @@
 // `clusterbench size` as a user calls it.
 
 #include <gtest/gtest.h>
-#include <cmath>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/lights_in_view.h"
+#include "cli/small_config.h"
+#include "cli/three_cameras.h"
 #include "cli/tool.h"
 
 namespace clusterbench {
@@ -17,24 +18,9 @@ using test::file_text;
 using test::Folder;
 using test::lights_in_view_and_behind;
 using test::Outcome;
+using test::small_config;
+using test::three_cameras;
 using test::tool;
-
-// Three cameras that stand still: one in a row of lights, one before it, one that looks away.
-std::string three_cameras(const std::string& lights = R"({"type": "point", "range": 6})") {
-  std::string nodes, roots;
-  const char* cameras[][2] = {{"inside", "[0, 0, -20]"}, {"before", "[0, 0, 10]"}, {"away", "[0, 0, -500]"}};
-  for (int i = 0; i < 40; ++i)
-    nodes += R"({"translation": [)" + std::to_string(i % 5 - 2) + ", 0, " + std::to_string(-i) +
-             R"(], "extensions": {"KHR_lights_punctual": {"light": 0}}},)";
-  for (const auto& [name, at] : cameras)
-    nodes += std::string(R"({"camera": 0, "name": ")") + name + R"(", "translation": )" + at + "},";
-  for (int i = 0; i < 43; ++i) roots += (i == 0 ? "" : ",") + std::to_string(i);
-  nodes.pop_back();
-  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [)" + roots + R"(]}], "nodes": [)" + nodes +
-         R"(], "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "zfar": 100}}],
-         "extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": [)" +
-         lights + "]}}}";
-}
 
 const std::string k_flags =
     " --grid frustum --tiles 120 --slices 8 --assigner exact-fast,z-binning"
@@ -172,70 +158,6 @@ TEST(SizeCommand, frames_of_a_configuration_are_kept_and_others_are_sampled_fine
   EXPECT_GT(frames(R"("level.glb")"), 100);
 }
 
-TEST(SizeCommand, worst_case_is_searched_first_and_the_capacity_has_room_for_what_it_finds) {
-  const Folder folder;
-  const std::string scene = folder.write("level.gltf", three_cameras()).string();
-  const std::string flags = " --grid frustum --tiles 120 --slices 8 --assigner exact-fast --set storages=packed,fixed ";
-  for (const std::string margin : {"1", "2"}) {
-    const Outcome done = tool("size -q --all --worst-case --evaluations 300 --margin " + margin + " --format json" +
-                              flags + "--set scenes.0.camera=before " + scene);
-    ASSERT_EQ(done.code, 0) << done.err;
-    const Json sized = Json::parse(done.out);
-    for (const Json& structure : sized["structures"]) {
-      const Json& buffer = structure["buffers"][0];
-      EXPECT_EQ(structure["search"]["evaluations"], 300);
-      EXPECT_GT(buffer["found"], buffer["high_water"]) << "the camera stands before the lights";
-      EXPECT_GE(buffer["capacity"], buffer["found"]);
-    }
-  }
-  const std::string found = (folder / "found.json").string(), result = (folder / "result.json").string();
-  const std::string one = " --grid frustum --tiles 120 --slices 8 --assigner exact-fast --set scenes.*.camera=before ";
-  ASSERT_EQ(tool("worst-case -q --evaluations 300 --random 0 -o " + found + one + scene).code, 0);
-  ASSERT_EQ(tool("run -q --no-timing -o " + result + one + scene).code, 0);
-  const Outcome by_file = tool("size --found " + found + " " + result);
-  EXPECT_NE(by_file.out.find("found by the search x 2"), std::string::npos) << by_file.out << by_file.err;
-  EXPECT_EQ(tool("size --worst-case " + result).code, 2) << "a result holds no scene";
-}
-
-// Of methods with the same lists only one is searched, and its find makes it the larger one.
-TEST(SizeCommand, what_was_searched_is_what_is_printed) {
-  const Folder folder;
-  const std::string scene = folder.write("level.gltf", three_cameras()).string(),
-                    methods =
-                        " --grid frustum --tiles 120 --slices 8 --assigner exact,exact-fast,brute-force "
-                        "--set scenes.*.camera=before ";
-  for (const char* format : {"table", "hlsl"}) {
-    const Outcome done =
-        tool(std::string("size -q --worst-case --evaluations 300 --format ") + format + methods + scene);
-    ASSERT_EQ(done.code, 0) << done.err;
-    EXPECT_EQ(done.out.find("not searched"), std::string::npos) << done.out;
-    EXPECT_NE(done.out.find("in 300 frames tried (seed 1)"), std::string::npos) << done.out;
-  }
-}
-
-TEST(SizeCommand, budgets_hold_what_a_search_found) {
-  const Folder folder;
-  const std::string scene = folder.write("level.gltf", three_cameras()).string(),
-                    flags =
-                        " --grid frustum --tiles 120 --slices 8 --assigner exact-fast --set scenes.*.camera=before "
-                        "--worst-case --evaluations 300 ";
-  const Json buffer = Json::parse(tool("size -q --format json" + flags + scene).out)["structures"][0]["buffers"][0];
-  const auto seen = buffer["high_water"].get<int>(), found = buffer["found"].get<int>();
-  ASSERT_GT(found, seen);
-  const auto gated = [&](const std::string& figure, int limit) {
-    return tool("size -q --fail-if '" + figure + " > " + std::to_string(limit) + "'" + flags + scene);
-  };
-  EXPECT_EQ(gated("index_entries", found).code, 0);
-  const Outcome broken = gated("index_entries", found - 1);
-  EXPECT_EQ(broken.code, 1) << broken.err;
-  EXPECT_NE(broken.err.find("index_entries is " + std::to_string(found) + ", "), std::string::npos) << broken.err;
-  EXPECT_NE(broken.err.find("; found by a search"), std::string::npos) << broken.err;
-  EXPECT_NE(broken.err.find("budgets also hold what a search for entries found, in 1 of 1 case"), std::string::npos)
-      << broken.err;
-  const Outcome recorded = gated("index_entries", seen - 1);
-  EXPECT_EQ(recorded.code, 1);
-}
-
 TEST(SizeCommand, views_that_stand_still_are_told_apart_all_the_same) {
   const Folder folder;
   const std::string scene = folder.write("level.gltf", three_cameras()).string();
@@ -290,214 +212,6 @@ TEST(SizeCommand, of_65536_lights_result_gate_and_size_have_headers_of_one_size)
   EXPECT_EQ(buffers["bytes"]["high_water"], index_bytes + 12 * 64);
   const Json sized = Json::parse(tool("size --format json --margin 1 --round none " + result).out)["structures"][0];
   EXPECT_EQ(sized["bytes"], buffers["bytes"]["high_water"]);
-}
-
-TEST(SizeCommand, speaks_in_an_engines_own_settings) {
-  const std::string street = test::source_file("scenes/street.glb");
-  const Outcome godot = tool("size -q --engine godot --set scenes.*.frames=10 " + street);
-  ASSERT_EQ(godot.code, 0) << godot.err;
-  EXPECT_NE(godot.out.find("rendering/limits/cluster_builder/max_clustered_elements: "), std::string::npos)
-      << godot.out;
-  EXPECT_NE(godot.out.find("lights of one type in view in 10 frames"), std::string::npos) << godot.out;
-  const Outcome cells = tool("size -q --engine playcanvas --format json --set scenes.*.frames=10 " + street);
-  const Json settings = Json::parse(cells.out)["structures"][0]["settings"];
-  EXPECT_EQ(settings["grid"], "scene.lighting.cells = new pc.Vec3(10, 3, 10)");
-  EXPECT_EQ(settings["limits"][0]["name"], "scene.lighting.maxLightsPerCell");
-  const Outcome none = tool("size -q --engine filament " + street), unknown = tool("size -q --engine godto " + street);
-  EXPECT_EQ(none.code, 2);
-  EXPECT_NE(none.err.find("CONFIG_MAX_LIGHT_COUNT"), std::string::npos) << none.err;
-  EXPECT_NE(unknown.err.find("did you mean 'godot'"), std::string::npos) << unknown.err;
-}
-
-Json limits_of(const std::string& engine, const std::string& scene) {
-  const Outcome done = tool("size -q --format json --viewport 640x360 --engine " + engine + " " + scene);
-  EXPECT_EQ(done.code, 0) << done.err;
-  return Json::parse(done.out)["structures"][0]["settings"]["limits"];
-}
-
-TEST(SizeCommand, judges_an_engines_settings_by_lists_and_lights_without_the_engines_own_limit) {
-  const Folder folder;
-  const std::string scene = folder.write("many.gltf", lights_in_view_and_behind(300, 0)).string();
-  const Json limits = limits_of("playcanvas", scene);
-  EXPECT_EQ(limits[0]["seen"], 300);
-  EXPECT_EQ(limits[0]["is_too_much"], true);
-  EXPECT_EQ(limits[1]["seen"], 300);
-  EXPECT_EQ(limits[1]["lost"], 45);
-  EXPECT_EQ(limits[1]["value"], Json());
-  const Outcome told = tool("size -q --viewport 640x360 --engine playcanvas " + scene);
-  EXPECT_NE(told.out.find("such a frame loses 45 lights"), std::string::npos) << told.out;
-  EXPECT_EQ(told.out.find("is enough"), std::string::npos) << told.out;
-  EXPECT_EQ(told.out.find("Set these values"), std::string::npos) << told.out;
-  const Outcome urp = tool("size -q --viewport 640x360 --engine unity-urp " + scene);
-  EXPECT_EQ(urp.out.find("is enough"), std::string::npos) << urp.out;
-  EXPECT_NE(urp.out.find("such a frame loses 44 lights"), std::string::npos) << urp.out;
-}
-
-TEST(SizeCommand, a_result_behind_an_engines_limit_does_not_say_how_long_its_lists_would_be) {
-  const Folder folder;
-  const std::string scene = folder.write("many.gltf", lights_in_view_and_behind(300, 0)).string(),
-                    result = (folder / "result.json").string();
-  ASSERT_EQ(tool("run -q --no-timing --preset playcanvas --viewport 640x360 -o " + result + " " + scene).code, 0);
-  const Outcome told = tool("size --engine playcanvas " + result);
-  EXPECT_NE(told.out.find("maxLightsPerCell: unknown"), std::string::npos) << told.out;
-  EXPECT_NE(told.out.find("such a frame loses 45 lights"), std::string::npos) << told.out;
-}
-
-TEST(SizeCommand, an_engines_limit_of_the_scene_or_of_a_type_is_held_against_those) {
-  const Folder folder;
-  const std::string far = folder.write("far.gltf", lights_in_view_and_behind(10, 1200)).string();
-  const Json limits = limits_of("three-js", far);
-  EXPECT_EQ(limits[0]["name"], "maxLights");
-  EXPECT_EQ(limits[0]["seen"], 1210);
-  EXPECT_EQ(limits[0]["value"], 1210);
-  Json mixed = Json::parse(lights_in_view_and_behind(120, 0));
-  Json& lights = mixed["extensions"]["KHR_lights_punctual"]["lights"];
-  for (std::size_t i = 0; i < 50; ++i) lights[i]["type"] = "spot";
-  const Json of_type = limits_of("godot", folder.write("mixed.gltf", mixed.dump()).string());
-  EXPECT_EQ(of_type[0]["seen"], 70);
-  EXPECT_EQ(of_type[0]["value"], 96) << "the 70 points, up to a multiple of 32; 120 are of both types";
-}
-
-TEST(SizeCommand, an_engines_room_for_a_mean_of_entries_is_all_entries_by_the_cells) {
-  const std::string flags = " --viewport 640x360 --set scenes.*.frames=10 " + test::source_file("scenes/street.glb");
-  const Json structure =
-      Json::parse(tool("size -q --format json --margin 1 --engine unreal" + flags).out)["structures"][0];
-  const double entries = structure["buffers"][0]["high_water"].get<double>();
-  const Json& limit = structure["settings"]["limits"][0];
-  EXPECT_EQ(structure["settings"]["grid"], "r.Forward.LightGridPixelSize 64, r.Forward.LightGridSizeZ 32");
-  EXPECT_EQ(limit["name"], "r.Forward.MaxCulledLightsPerCell");
-  EXPECT_EQ(limit["seen"].get<double>(), std::ceil(entries / (10 * 6 * 32)));
-  EXPECT_EQ(limit["value"], limit["seen"]);
-  const Outcome told = tool("size -q --engine unreal" + flags);
-  EXPECT_NE(told.out.find("(the engine's own 32 is enough: leave it)"), std::string::npos) << told.out;
-  EXPECT_NE(told.out.find("Nothing to set"), std::string::npos) << told.out;
-}
-
-TEST(SizeCommand, limits_of_an_engine_that_nothing_sets_are_not_called_values) {
-  const Folder folder;
-  const std::string scene = folder.write("many.gltf", lights_in_view_and_behind(300, 0)).string();
-  const Outcome urp = tool("size -q --viewport 640x360 --engine unity-urp " + scene);
-  EXPECT_EQ(urp.out.find("these values"), std::string::npos) << urp.out;
-  EXPECT_NE(urp.out.find("has no setting with which it does not"), std::string::npos) << urp.out;
-}
-
-TEST(SizeCommand, views_of_an_engine_are_refused_since_its_limits_hold_for_each) {
-  const Outcome done = tool("size -q --engine bevy --views a,b " + test::source_file("scenes/street.glb"));
-  EXPECT_EQ(done.code, 2);
-  EXPECT_NE(done.err.find("--views: adds what cameras need of one buffer"), std::string::npos) << done.err;
-}
-
-// Forty lights that fill the view, in more cells together than Bevy has indices for: it then draws in fewer tiles.
-TEST(SizeCommand, an_engines_room_for_indices_is_that_of_tiles_that_have_not_grown_for_want_of_it) {
-  const Folder folder;
-  const std::string scene = test::source_file("scenes/lattice.glb"), result = (folder / "result.json").string(),
-                    frames = " --set scenes.*.frames=6 ";
-  const Outcome run = tool("run -q --no-timing --preset bevy --set accuracy.check=false -o " + result + frames + scene);
-  ASSERT_EQ(run.code, 0) << run.err;
-  const Json react = Json::parse(file_text(result))["cases"][0]["react"];
-  ASSERT_GT(react["fixed"]["index_entries"], react["reacting"]["index_entries"]) << "what the test is about";
-  const auto sized = [](const std::string& arguments) {
-    const Outcome done = tool("size -q --engine bevy --format json --margin 1 --round none " + arguments);
-    EXPECT_EQ(done.code, 0) << done.err;
-    return Json::parse(done.out)["structures"][0];
-  };
-  const Json of_level = sized(frames + scene), of_result = sized(result);
-  EXPECT_EQ(of_level["settings"], of_result["settings"]);
-  const Json limit = of_level["settings"]["limits"][0];
-  EXPECT_EQ(limit["seen"], react["fixed"]["index_entries"]);
-  EXPECT_EQ(limit["value"], limit["seen"]);
-  EXPECT_EQ(of_level["buffers"][0]["capacity"], limit["seen"]) << "the buffers are those of the same tiles";
-  EXPECT_EQ(of_level["settings"]["grid"], "ClusterConfig::XYZ { dimensions: UVec3::new(17, 9, 24), .. }");
-  const Outcome jam = tool("size -q --engine bevy" + frames + test::source_file("scenes/jam.glb"));
-  EXPECT_NE(jam.out.find("its default makes these 17 x 9 x 24 clusters"), std::string::npos) << jam.out;
-  EXPECT_NE(jam.out.find("from 17x9 to 2x1 at most"), std::string::npos) << jam.out;
-  const Json with_own = limit["with_own_value"];
-  EXPECT_EQ(with_own["value"], 16384);
-  EXPECT_EQ(with_own["frames"], 6);
-  EXPECT_EQ(with_own["frames_with_grown_tiles"], react["frames"]["reacted"]);
-  EXPECT_EQ(with_own["frames_over"], react["frames"]["over"]);
-  EXPECT_EQ(with_own["fewest_tiles"], react["tiles"]["fewest"]);
-  const Outcome told = tool("size -q --engine bevy " + frames + scene);
-  const std::string own = "with its own 16384: tiles grow in " + react["frames"]["reacted"].dump() + " of 6 frames";
-  EXPECT_NE(told.out.find(own), std::string::npos) << told.out;
-}
-
-// Three cameras of which none sees all forty lights.
-TEST(SizeCommand, searches_for_what_an_engines_settings_have_to_have_room_for) {
-  const Folder folder;
-  const std::string scene = folder.write("level.gltf", three_cameras()).string(),
-                    camera = "--viewport 640x360 --set scenes.0.camera=before " + scene;
-  const auto limits = [&](const std::string& engine) {
-    const Outcome done =
-        tool("size -q --worst-case --evaluations 300 --margin 1 --format json --engine " + engine + " " + camera);
-    EXPECT_EQ(done.code, 0) << done.err;
-    return Json::parse(done.out)["structures"][0]["settings"]["limits"];
-  };
-  const Json cells = limits("playcanvas"), types = limits("godot"), bevy = limits("bevy");
-  EXPECT_EQ(cells[0]["search"]["measure"], "longest");
-  EXPECT_EQ(cells[1]["search"]["measure"], "lights");
-  EXPECT_EQ(types[0]["search"]["measure"], "lights-of-type");
-  EXPECT_EQ(bevy[0]["search"]["measure"], "entries");
-  for (const Json& limit : {cells[0], cells[1], types[0], bevy[0]}) {
-    EXPECT_EQ(limit["search"]["evaluations"], 300);
-    EXPECT_GE(limit["found"], limit["seen"]) << limit;
-    EXPECT_TRUE(limit["value"].is_null() || limit["value"] >= limit["found"]) << limit;
-  }
-  EXPECT_EQ(cells[1]["found"], 40) << "one place sees all lights";
-  const std::string found = (folder / "found.json").string();
-  ASSERT_EQ(tool("worst-case -q --evaluations 300 --random 0 --measure lights --preset playcanvas --filter playcanvas "
-                 "-o " +
-                 found + " " + camera)
-                .code,
-            0);
-  EXPECT_EQ(Json::parse(file_text(found))["frames"][0]["value"], cells[1]["found"]);
-  const Outcome told = tool("size --worst-case --evaluations 300 --engine playcanvas " + camera);
-  EXPECT_NE(told.out.find("the most found by a search: 40 lights in view in 300 frames tried"), std::string::npos)
-      << told.out;
-  EXPECT_NE(told.err.find(", then searches 300 frames for worse ones, 2 times, "), std::string::npos) << told.err;
-  EXPECT_NE(told.err.find("--evaluations N"), std::string::npos) << told.err;
-}
-
-TEST(SizeCommand, shares_the_seconds_of_a_search_among_all) {
-  const std::string street = test::source_file("scenes/street.glb");
-  const Outcome done = tool(
-      "size -q --worst-case --seconds 0.001 --engine playcanvas --format json --viewport 640x360 "
-      "--set scenes.*.frames=3 " +
-      street);
-  ASSERT_EQ(done.code, 0) << done.err;
-  const Json sized = Json::parse(done.out);
-  for (const Json& limit : sized["structures"][0]["settings"]["limits"]) {
-    const Json& search = limit.at("search");
-    if (search.contains("refusal"))  // on a machine where not one frame takes so little
-      EXPECT_EQ(search["refusal"], "its seconds were over before its first frame; allow more (--seconds)") << limit;
-    else
-      EXPECT_LT(search.at("evaluations"), 5000) << limit;
-  }
-}
-
-TEST(SizeCommand, says_of_a_preset_that_reached_its_own_limit_that_its_buffers_are_of_what_is_left) {
-  const Folder folder;
-  const std::string scene = folder.write("many.gltf", lights_in_view_and_behind(300, 0)).string(),
-                    flags = "size -q --viewport 640x360 --preset filament --format ";
-  const Json notes = Json::parse(tool(flags + "json " + scene).out)["structures"][0]["limit_notes"];
-  ASSERT_EQ(notes.size(), 1u);
-  const auto note = notes[0].get<std::string>();
-  EXPECT_NE(note.find("took up to 44 lights from a frame"), std::string::npos) << note;
-  for (const std::string format : {"table", "glsl", "cpp"})
-    EXPECT_NE(tool(flags + format + " " + scene).out.find("LIMIT: " + note), std::string::npos) << format;
-  const Json below =
-      Json::parse(tool(flags + "json " + folder.write("few.gltf", lights_in_view_and_behind(200, 0)).string()).out);
-  EXPECT_FALSE(below["structures"][0].contains("limit_notes"));
-}
-
-TEST(SizeCommand, says_what_frames_lose_with_the_value_that_the_engine_comes_with) {
-  const Folder folder;
-  const std::string scene = folder.write("many.gltf", lights_in_view_and_behind(100, 0)).string();
-  const Json limits = limits_of("three-js", scene);
-  EXPECT_EQ(limits[0]["with_own_value"], Json({{"value", 1024}, {"lost", 0}}));
-  EXPECT_EQ(limits[1]["with_own_value"], Json({{"value", 64}, {"lost", 36}}));
-  const Outcome told = tool("size -q --viewport 640x360 --engine three-js " + scene);
-  EXPECT_NE(told.out.find("with its own 64: the longest list loses 36 lights"), std::string::npos) << told.out;
 }
 
 TEST(SizeCommand, says_of_frames_without_a_light_in_view_that_they_size_nothing) {
@@ -614,22 +328,6 @@ TEST(SizeCommand, indices_are_as_wide_as_the_lights_that_the_capacity_holds_for_
   EXPECT_EQ(code.out.find("& 0xffu"), std::string::npos) << code.out;
 }
 
-TEST(SizeCommand, refuses_what_an_earlier_build_found_without_the_width_of_its_elements) {
-  const Folder folder;
-  const std::string scene = folder.write("s.gltf", lights_in_view_and_behind(20, 0)).string(),
-                    found = (folder / "found.json").string(),
-                    flags = " -q --viewport 640x360 --grid frustum --tiles 16x9t --slices 8 --assigner exact-fast ";
-  ASSERT_EQ(tool("worst-case" + flags + "--evaluations 20 -o " + found + " " + scene).code, 0);
-  ASSERT_EQ(tool("size" + flags + "--found " + found + " " + scene).code, 0);
-  Json old = Json::parse(file_text(found));
-  for (Json& buffer : old["buffers"]) buffer.erase("element_bytes");
-  const Outcome done = tool("size" + flags + "--found " + folder.write("old.json", old.dump()).string() + " " + scene);
-  EXPECT_EQ(done.code, 2);
-  EXPECT_EQ(done.out, "");
-  EXPECT_NE(done.err.find("old.json: /buffers/0/element_bytes: is missing"), std::string::npos) << done.err;
-  EXPECT_NE(done.err.find("search again"), std::string::npos) << done.err;
-}
-
 TEST(SizeCommand, a_capacity_that_is_all_that_there_can_be_is_not_called_a_multiple) {
   const Folder folder;
   const std::string scene = folder.write("s.gltf", lights_in_view_and_behind(1, 0)).string();
@@ -658,6 +356,16 @@ TEST(SizeCommand, takes_paths_as_long_as_systems_have_them) {
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.out.find("inline constexpr LightBuffer " + std::string(200, 's') + "_indices{"), std::string::npos)
       << done.out;
+}
+
+TEST(SizeCommand, prints_constants_for_a_result) {
+  const Folder folder;
+  const std::string config = folder.write("small.json", small_config()).string();
+  const std::string out = (folder / "result.json").string();
+  ASSERT_EQ(tool("run --no-timing -q " + config + " -o " + out).code, 0);
+  const Outcome done = tool("size --format cpp " + out);
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("constexpr"), std::string::npos) << done.out;
 }
 
 }  // namespace

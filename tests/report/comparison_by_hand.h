@@ -34,7 +34,7 @@ inline run::Result with_times(double slow_ns, double fast_ns) {
   return result;
 }
 
-// Every comparison of these tests is held against its schema.
+// Every comparison is checked against its schema.
 inline Json compared(const Json& base, const Json& next, double threshold, const CompareOptions& options = {}) {
   Json comparison = result::to_json(compare_results(test::result_of(base), test::result_of(next), threshold, options));
   const Json violations = config::schema_violations(config::row_of(config::Document::comparison).schema(),
@@ -43,7 +43,7 @@ inline Json compared(const Json& base, const Json& next, double threshold, const
   return comparison;
 }
 
-// What is read back of a comparison says the same.
+// A comparison is written and read back before its text and exit code are made.
 inline result::Comparison read(const Json& comparison) {
   return result::from_json<result::Comparison>(comparison);
 }
