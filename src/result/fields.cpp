@@ -37,12 +37,13 @@ Json list_to_json(const Type& type, const void* list, bool is_fraction) {
   return out;
 }
 
-const char* wanted(const Type& type) {
+std::string wanted(const Type& type, const Json& found) {
   switch (type.kind) {
     case Kind::boolean:
       return "true or false";
     case Kind::integer:
-      return type.is_unsigned ? "a whole number of at least 0" : "a whole number";
+      if (type.is_unsigned) return "a whole number of at least 0";
+      return found.is_number_integer() ? "a whole number of at most " + std::to_string(type.largest) : "a whole number";
     case Kind::number:
       return "a number or null";
     case Kind::text:
@@ -54,14 +55,18 @@ const char* wanted(const Type& type) {
   }
 }
 
+// JSON made from an int is not marked as unsigned; above 2^63 - 1 it always is.
+bool is_in_range(const Type& type, const Json& integer) {
+  if (!integer.is_number_unsigned() && integer.get<std::int64_t>() < 0) return !type.is_unsigned;
+  return integer.get<std::uint64_t>() <= type.largest;
+}
+
 bool is_of_kind(const Type& type, const Json& json) {
   switch (type.kind) {
     case Kind::boolean:
       return json.is_boolean();
     case Kind::integer:
-      // JSON made from an int is not marked as unsigned.
-      return json.is_number_integer() &&
-             (!type.is_unsigned || json.is_number_unsigned() || json.get<std::int64_t>() >= 0);
+      return json.is_number_integer() && is_in_range(type, json);
     case Kind::number:
       return json.is_number() || json.is_null();
     case Kind::text:
@@ -90,7 +95,7 @@ void value_from_json(const Type& type, const Json& json, void* value, const std:
     if (!json.is_null()) value_from_json(*type.element, json, type.append(value, 0, ""), where);
     return;
   }
-  if (!is_of_kind(type, json)) throw Error("", where, std::string("must be ") + wanted(type));
+  if (!is_of_kind(type, json)) throw Error("", where, "must be " + wanted(type, json));
   if (type.kind == Kind::object) {
     from_json(type, json, value, where);
   } else if (type.kind == Kind::list) {

@@ -73,6 +73,12 @@ TEST(Compare, lists_that_differ_side_by_side_fail_unless_they_are_shorter_and_co
       << text;
   lists["new_pairs"] = 59;
   EXPECT_EQ(outcome(compared(base, next, 0.02), false), ExitCode::ok);
+  lists["new_pairs"] = 61;
+  Json third = base;
+  third["tool"]["git_sha"] = "yet another";
+  const Json beside_third = compared(third, next, 0.02);
+  EXPECT_EQ(outcome(beside_third, false), ExitCode::ok) << "they are not the lists of this base";
+  EXPECT_FALSE(beside_third["cases"][0].contains("lists"));
 }
 
 TEST(Compare, beside_another_program_only_what_both_did_is_compared) {

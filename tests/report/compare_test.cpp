@@ -228,6 +228,34 @@ TEST(Compare, a_measure_that_only_one_result_has_is_told) {
   EXPECT_EQ(outcome(compared(next, base, 0.02), true), ExitCode::ok) << "nothing to have become worse than";
 }
 
+TEST(Compare, parts_of_every_kind_that_only_one_result_has_are_named) {
+  const Json base = json_of(result_by_hand());
+  Json next = base;
+  next["cases"][0].erase("lights_in_view");
+  next["cases"][1].erase("error");
+  Json detailed = base;
+  detailed["cases"][0]["details"] = Json::parse(R"({"frames": [], "left_out": 0})");
+  EXPECT_EQ(compared(base, next, 0.02)["not_compared"], Json::parse(R"([
+      {"part": "lights_in_view", "only_in": "base", "cases": 1}, {"part": "error", "only_in": "base", "cases": 1}])"));
+}
+
+// Prices are no part of a case's id; costs at other prices are no change of what is counted.
+TEST(Compare, of_results_with_other_prices_costs_are_not_compared) {
+  Json base = json_of(result_by_hand());
+  base["config"]["cost"] = {{"ns_per_light", 1.0}, {"wave", 32}};
+  base["cases"][0]["cost"] = Json::parse(R"({"frame_ns": 9.0, "assign_ns": 1.0, "gpu_ns": 8.0, "upload_ns": 1.0,
+      "traffic_ns": 1.0, "shade_ns": 6.0, "sets": {}, "lit": true})");
+  Json next = base;
+  next["config"]["cost"]["ns_per_light"] = 2.0;
+  for (const char* key : {"frame_ns", "gpu_ns", "shade_ns"}) next["cases"][0]["cost"][key] = 14.0;
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["counts"], "same");
+  EXPECT_TRUE(
+      holds(compared(base, next, 0.02)["warnings"],
+            "cost.ns_per_light is 1.0 and 2.0, another setting: modelled costs follow it and are not compared"));
+  next["config"] = base["config"];
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["counts"], "worse");
+}
+
 TEST(Compare, of_waves_the_lengths_of_lists_are_judged_and_not_what_is_divided_by_them) {
   run::Result result = result_by_hand();
   measure::Coherence coherence;

@@ -171,8 +171,8 @@ class EveryLeaf : public ::testing::Test {
   const Json base_ = FullRecord().of(result::type_of<result::Case>(), About());
   const result::Case base_case_ = result::from_json<result::Case>(base_);
 
-  ExactDifferences compared(const Json& next, bool is_margin_same = true) const {
-    return exact_differences(base_case_, result::from_json<result::Case>(next), is_margin_same);
+  ExactDifferences compared(const Json& next, const SameSettings& same = {}) const {
+    return exact_differences(base_case_, result::from_json<result::Case>(next), same);
   }
 
   // Of this leaf, or none if its rule skips it.
@@ -228,17 +228,27 @@ TEST_F(EveryLeaf, that_one_result_does_not_have_is_passed_over) {
   EXPECT_GT(removed, 50);
 }
 
-// With another allocation.margin recommended sizes differ, and nothing else does.
-TEST_F(EveryLeaf, of_recommended_sizes_follows_the_margin_and_no_other_does) {
-  std::set<std::string> passed_over;
-  for (const Leaf& leaf : leaves_of_a_case()) {
-    Json next = base_;
-    Json& value = next[Json::json_pointer(leaf.pointer)];
-    value = larger(value);
-    if (leaf.rule != Compares::skipped && compared(next, false).differences.empty()) passed_over.insert(leaf.pointer);
-  }
-  EXPECT_EQ(passed_over, (std::set<std::string>{"/buffers/bytes/recommended", "/buffers/index_entries/recommended",
-                                                "/buffers/used_share/max", "/buffers/used_share/mean"}));
+// With another allocation.margin recommended sizes differ, with other prices modelled costs, and nothing else does.
+TEST_F(EveryLeaf, follows_no_setting_but_recommended_sizes_the_margin_and_costs_the_prices) {
+  const auto passed_over = [&](const SameSettings& same) {
+    std::set<std::string> pointers;
+    for (const Leaf& leaf : leaves_of_a_case()) {
+      Json next = base_;
+      Json& value = next[Json::json_pointer(leaf.pointer)];
+      value = larger(value);
+      if (leaf.rule != Compares::skipped && compared(next, same).differences.empty()) pointers.insert(leaf.pointer);
+    }
+    return pointers;
+  };
+  EXPECT_EQ(passed_over({}), std::set<std::string>());
+  EXPECT_EQ(passed_over({.margin = false}),
+            (std::set<std::string>{"/buffers/bytes/recommended", "/buffers/index_entries/recommended",
+                                   "/buffers/used_share/max", "/buffers/used_share/mean"}));
+  std::set<std::string> of_costs;
+  for (const Leaf& leaf : leaves_of_a_case())
+    if (leaf.pointer.starts_with("/cost/") && leaf.rule != Compares::skipped) of_costs.insert(leaf.pointer);
+  EXPECT_GT(of_costs.size(), 5u);
+  EXPECT_EQ(passed_over({.cost = false}), of_costs);
 }
 
 // Of each list, the whole one is named where its length differs.

@@ -12,7 +12,7 @@
 #include "places.h"
 #include "report/results/result_record.h"
 #include "result/case_figure.h"
-#include "run/cases/sweep.h"
+#include "run/cases/plan.h"
 #include "run/runner.h"
 
 namespace clusterbench::report::recount {

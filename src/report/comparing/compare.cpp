@@ -113,7 +113,7 @@ Comparison compare_results(const Result& base, const Result& next, double thresh
                  .left_out = omitted.parts};
   const bool is_same_program = is_paired && next.baseline->is_same_program.value_or(false);
   if (is_same_program) out.is_same_program = true;
-  const CompareSettings settings{threshold, options.gates_separate, margin_of(base) == margin_of(next),
+  const CompareSettings settings{threshold, options.gates_separate, same_settings(base, next), is_paired,
                                  is_same_program};
   for (const Match& match : matches) out.cases.push_back(compare_case(match, times, omitted.parts, settings));
   out.summary = summary_of(out.cases, times);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "report/comparing/exact_differences.h"
 #include "result/at.h"
 #include "result/rounding.h"
 
@@ -80,11 +79,11 @@ ComparedCase compare_case(const Match& match, const TimeChanges& times, const re
                           const CompareSettings& settings) {
   ComparedCase out{.id = match.next.id, .name = match.next.name};
   if (const auto index = times.index_of(match)) add_time(out, times.at(*index), times.corrected_p(*index), settings);
-  ExactDifferences exact = exact_differences(match.base, match.next, settings.is_margin_same);
+  ExactDifferences exact = exact_differences(match.base, match.next, settings.same);
   out.counts = exact.counts;
   out.differences = std::move(exact.differences);
   out.place = exact.place;
-  add_list_difference(match, out);
+  if (settings.is_paired) add_list_difference(match, out);
   if (!left_out.instructions && are_counts_comparable(match))
     out.instructions = compared_instructions(*match.base.count, *match.next.count, settings.threshold);
   return out;

@@ -45,7 +45,7 @@ bool follows_margin(const std::string& pointer) {
 // Compares two values of a type recursively and collects each leaf that differs.
 class Differences {
  public:
-  explicit Differences(bool is_margin_same) : is_margin_same_(is_margin_same) {}
+  explicit Differences(const SameSettings& same) : same_(same) {}
 
   void add(const std::string& pointer, const result::Type& type, Compares compares, const Json& base,
            const Json& next) {
@@ -58,7 +58,7 @@ class Differences {
     } else if (holds_objects(base) && holds_objects(next) && base.size() == next.size()) {
       for (std::size_t i = 0; i < base.size(); ++i)
         add(pointer + "/" + std::to_string(i), element_of(type), compares, base[i], next[i]);
-    } else if (is_margin_same_ || !follows_margin(pointer)) {
+    } else if (!follows_other_settings(pointer)) {
       any_follows_ |= compares == Compares::follows;
       found_.push_back({.what = pointer, .base = base, .next = next, .is = judged(compares, base, next)});
     }
@@ -74,6 +74,10 @@ class Differences {
     return type.element != nullptr ? *type.element : type;
   }
 
+  bool follows_other_settings(const std::string& pointer) const {
+    return (!same_.margin && follows_margin(pointer)) || (!same_.cost && pointer.starts_with("/cost/"));
+  }
+
   void add_member(const std::string& pointer, const std::string& key, const result::Type& type, Compares compares,
                   const Json& base, const Json& next) {
     const auto field = std::ranges::find(type.fields, key, &result::Field::name);
@@ -83,7 +87,7 @@ class Differences {
       add(pointer, element_of(type), compares, base, next);
   }
 
-  bool is_margin_same_;
+  SameSettings same_;
   std::vector<Difference> found_;
   bool any_follows_ = false;
 };
@@ -97,8 +101,8 @@ std::string deepest_loss_text(const result::Case& result_case) {
          std::to_string(deepest->light) + " ('" + shown(deepest->light_name) + "')";
 }
 
-ExactDifferences exact_differences(const result::Case& base, const result::Case& next, bool is_margin_same) {
-  Differences differences(is_margin_same);
+ExactDifferences exact_differences(const result::Case& base, const result::Case& next, const SameSettings& same) {
+  Differences differences(same);
   differences.add("", result::type_of<result::Case>(), Compares::fixed, result::to_json(base), result::to_json(next));
   const bool is_better = differences.any("better");
   const bool is_worse = differences.any("worse") || (!is_better && differences.any_follows());

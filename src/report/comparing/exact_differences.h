@@ -16,11 +16,15 @@ struct ExactDifferences {
   std::optional<std::string> place;  // of the deepest lost light, if the new result loses more
 };
 
+// Settings that no case's id depends on; where results differ in one, the figures that follow from it are skipped.
+struct SameSettings {
+  bool margin = true;  // allocation.margin: the recommended sizes and their used share
+  bool cost = true;    // cost: the modelled cost of a frame
+};
+
 // better: some cost is lower, and none is higher; values that only follow from it (a histogram, the worst frame) may
 // change with it. Any other difference is worse. Values that the other result's version does not record are skipped.
-// `is_margin_same`: whether allocation.margin is equal in both; if not, recommended sizes and their used share differ
-// because of it, and are skipped.
-ExactDifferences exact_differences(const result::Case& base, const result::Case& next, bool is_margin_same = true);
+ExactDifferences exact_differences(const result::Case& base, const result::Case& next, const SameSettings& same = {});
 
 // "frame 5, cell [1,0,2], light 8 ('torch')" of error.deepest; "" without one.
 std::string deepest_loss_text(const result::Case& result_case);

@@ -13,22 +13,11 @@ using result::PartOfOne;
 using result::RenamedCase;
 using result::Result;
 
-// A part that cases may not have.
-struct Part {
-  const char* name;
-  bool (*is_in)(const Case& result_case);
-};
-template <auto Member>
-bool has(const Case& result_case) {
-  return (result_case.*Member).has_value();
+// Parts are fields with fields or elements of their own; single values that a case may not have are of older versions.
+bool is_part(const result::Field& field) {
+  using enum result::Kind;
+  return field.is_optional && (field.type->kind == object || field.type->kind == list || field.type->kind == by_name);
 }
-constexpr Part k_parts[] = {
-    {"occupancy", has<&Case::occupancy>}, {"error", has<&Case::error>},       {"shading", has<&Case::shading>},
-    {"samples", has<&Case::samples>},     {"lookup", has<&Case::lookup>},     {"stability", has<&Case::stability>},
-    {"precision", has<&Case::precision>}, {"pre_cull", has<&Case::pre_cull>}, {"fit", has<&Case::fit>},
-    {"react", has<&Case::react>},         {"fallback", has<&Case::fallback>}, {"shadows", has<&Case::shadows>},
-    {"timing", has<&Case::timing>},       {"count", has<&Case::count>},
-};
 
 }  // namespace
 
@@ -61,14 +50,16 @@ std::vector<RenamedCase> renamed_cases(const Result& base, const std::vector<con
 
 std::vector<PartOfOne> parts_of_one(const std::vector<Match>& matches) {
   std::vector<PartOfOne> out;
-  for (const Part& part : k_parts) {
+  for (const result::Field& field : result::type_of<Case>().fields) {
+    if (!is_part(field)) continue;
     std::size_t base = 0, next = 0;
     for (const Match& match : matches) {
-      base += part.is_in(match.base) && !part.is_in(match.next) ? 1 : 0;
-      next += part.is_in(match.next) && !part.is_in(match.base) ? 1 : 0;
+      const bool is_in_base = field.get(&match.base) != nullptr, is_in_next = field.get(&match.next) != nullptr;
+      base += is_in_base && !is_in_next ? 1 : 0;
+      next += is_in_next && !is_in_base ? 1 : 0;
     }
-    if (base > 0) out.push_back({part.name, "base", base});
-    if (next > 0) out.push_back({part.name, "new", next});
+    if (base > 0) out.push_back({field.name, "base", base});
+    if (next > 0) out.push_back({field.name, "new", next});
   }
   return out;
 }
