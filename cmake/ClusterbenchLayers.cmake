@@ -28,11 +28,15 @@ if(CLUSTERBENCH_SANITIZE)
   endif()
 endif()
 
-# clusterbench_unite(TARGET): its files are compiled eight at a time. Each of them brings headers whose code takes longer
+# clusterbench_unite(TARGET [COUNT]): its files are compiled COUNT at a time, or eight. Each of them brings headers whose code takes longer
 # to build than its own. Not for layers whose time is measured: what is inlined there must not depend on the neighbours.
 function(clusterbench_unite TARGET)
   if(CLUSTERBENCH_UNITY)
-    set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set(COUNT 8)
+    if(ARGC GREATER 1)
+      set(COUNT ${ARGV1})
+    endif()
+    set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${COUNT})
   endif()
 endfunction()
 
@@ -84,7 +88,9 @@ macro(clusterbench_layer NAME)
     target_compile_options(cb_${NAME} PRIVATE $<$<CONFIG:Release>:-Og>)
   endif()
   # Under sanitizers nothing is timed. The files of geom have the same names for the same shapes in other arithmetic.
-  if(${NAME} IN_LIST CLUSTERBENCH_UNITED_LAYERS OR (CLUSTERBENCH_SANITIZE AND NOT ${NAME} STREQUAL geom))
+  if(${NAME} IN_LIST CLUSTERBENCH_COLD_LAYERS)
+    clusterbench_unite(cb_${NAME} 16) # small files, whose templates of JSON and records are the same
+  elseif(${NAME} IN_LIST CLUSTERBENCH_UNITED_LAYERS OR (CLUSTERBENCH_SANITIZE AND NOT ${NAME} STREQUAL geom))
     clusterbench_unite(cb_${NAME})
   elseif(${NAME} IN_LIST CLUSTERBENCH_PRECOMPILED_LAYERS)
     target_precompile_headers(cb_${NAME} REUSE_FROM clusterbench_precompiled)

@@ -10,8 +10,6 @@
 namespace clusterbench::pictures {
 namespace {
 
-constexpr const char* k_remedy = "ask for a larger --image-divisor";
-
 // As in a shader's lookup: see measure::add_samples.
 bool sorted_lights_at(const assign::LightStructure& structure, const grid::Sample& sample,
                       std::vector<std::uint32_t>& given) {
@@ -95,7 +93,7 @@ std::uint32_t usual_most(const PixelMaps& maps, const std::function<std::uint32_
 PixelMaps pixel_maps(const Surface& surface, const NeededAt& needed, std::uint32_t first_spot,
                      const assign::LightStructure& structure, int threads) {
   const std::size_t pixels = surface.image.nearest.size();
-  check_memory("pixels of a picture", pixels, 4 * sizeof(std::uint32_t), k_remedy);
+  check_memory("pixels of a picture", pixels, 4 * sizeof(std::uint32_t), k_smaller_picture);
   PixelMaps maps;
   maps.state.resize(pixels, PixelMaps::State::no_surface);
   for (std::vector<std::uint32_t>* map : {&maps.points, &maps.spots, &maps.false_positives, &maps.missed})
@@ -127,7 +125,7 @@ ListMap list_map(const Surface& surface, const assign::LightStructure& structure
         if (is_new) {
           pixels.push_back(0);
           entries += given.size();
-          check_memory("lights of distinct lists", entries, sizeof(std::uint32_t), k_remedy);
+          check_memory("lights of distinct lists", entries, sizeof(std::uint32_t), k_smaller_picture);
         }
       }
     }

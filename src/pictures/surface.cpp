@@ -11,8 +11,6 @@
 namespace clusterbench::pictures {
 namespace {
 
-constexpr const char* k_remedy = "ask for a larger --image-divisor";
-
 // The step to the neighbour that is more likely on the same surface: the nearer one in depth. Points of pixels without
 // a surface are NaN.
 Vec3d step_to_neighbour(const std::vector<Vec3d>& points, std::size_t at, std::size_t before, std::size_t after) {
@@ -43,7 +41,7 @@ Surface visible_surface(const view::Frame& frame, depth::DepthImage image) {
 }
 
 Surface plane(const view::Frame& frame, const depth::PixelGrid& pixels, double depth_m) {
-  check_memory("pixels of a picture", pixels.count(), sizeof(float), k_remedy);
+  check_memory("pixels of a picture", pixels.count(), sizeof(float), k_smaller_picture);
   Surface out = visible_surface(frame, {pixels, std::vector<float>(pixels.count(), static_cast<float>(depth_m))});
   out.plane_m = depth_m;
   return out;
@@ -76,7 +74,7 @@ std::vector<float> relief(const view::Frame& frame, const Surface& surface) {
   constexpr float k_light_of_plane = 0.6f;
   const depth::DepthImage& image = surface.image;
   if (surface.plane_m) return std::vector<float>(image.nearest.size(), k_light_of_plane);
-  check_memory("points of a picture", image.nearest.size(), sizeof(Vec3d), k_remedy);
+  check_memory("points of a picture", image.nearest.size(), sizeof(Vec3d), k_smaller_picture);
   const std::vector<Vec3d> points = points_of(frame, image);
   const auto width = static_cast<std::size_t>(image.pixels.size.x), all = image.nearest.size();
   constexpr double k_lamp = 0.65, k_sky = 0.35;
@@ -109,7 +107,7 @@ NeededAt::NeededAt(const view::Frame& frame, const Surface& surface, int threads
             measure::lights_reaching(frame, samples.subspan(i * k_part, std::min(k_part, samples.size() - i * k_part)));
     });
     for (std::size_t i = first; i < first + count; ++i) total_ += parts_[i].lights.size();
-    check_memory("lights that pixels need", total_, sizeof(std::uint32_t), k_remedy);
+    check_memory("lights that pixels need", total_, sizeof(std::uint32_t), k_smaller_picture);
   }
 }
 

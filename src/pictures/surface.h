@@ -11,6 +11,9 @@
 
 namespace clusterbench::pictures {
 
+// The remedy where a picture takes too much memory.
+inline constexpr const char* k_smaller_picture = "ask for a larger --image-divisor";
+
 struct Surface {
   depth::DepthImage image;
   std::vector<grid::Sample> samples;  // of the pixels with a surface, in their order

@@ -110,7 +110,7 @@ result::SearchSpace space_of(const WorstCase& found, const WorstCaseFacts& facts
   return out;
 }
 
-std::string figure_text(double value) {
+std::string measured_text(double value) {
   return text("%.10g", value);
 }
 
@@ -134,7 +134,7 @@ std::string frames_text(const WorstCase& found, const WorstCaseFacts& facts) {
   for (std::size_t i = 0; i < found.frames.size(); ++i) {
     const search::FoundFrame& frame = found.frames[i];
     const search::FrameChoice& at = frame.choice;
-    std::string rest = figure_text(frame.value) + " at " + vector_text(at.eye) + " m, looks along " +
+    std::string rest = measured_text(frame.value) + " at " + vector_text(at.eye) + " m, looks along " +
                        vector_text(search::direction_of(at.rotation));
     if (found.moments > 1) rest += ", lights of moment " + std::to_string(at.moment);
     if (!at.moved.empty()) rest += ", " + number_of(at.moved.size(), "light") + " moved";
@@ -195,20 +195,20 @@ std::string worst_case_text(const WorstCase& found, const WorstCaseFacts& facts)
   if (const std::string flags = search::space_flags(facts.request); !flags.empty()) out += line("space", flags);
   if (found.frames.empty()) return out + line("worst", "nothing was tried");
   const double worst = std::ranges::max(found.frames, {}, &search::FoundFrame::value).value;
-  out += line("worst", figure_text(worst) + " " + row.unit() + ", found in " +
+  out += line("worst", measured_text(worst) + " " + row.unit() + ", found in " +
                            number_of(static_cast<std::uint64_t>(found.evaluations), "evaluation") +
                            (is_random_one(found) ? " and the random frames" : "") + " (seed " +
                            std::to_string(facts.request.seed) + ")");
   if (found.random.frames > 0)
-    out += line("random", figure_text(found.random.max) + " at most in " +
+    out += line("random", measured_text(found.random.max) + " at most in " +
                               number_of(static_cast<std::uint64_t>(found.random.frames), "random frame") +
                               ratio_text(worst, found.random.max));
-  out += line("recorded", figure_text(found.recorded.max) + " at most in " +
+  out += line("recorded", measured_text(found.recorded.max) + " at most in " +
                               number_of(static_cast<std::uint64_t>(found.recorded.frames), "frame") +
                               " of the path (frame " + std::to_string(found.recorded.frame) + ")" +
                               ratio_text(worst, found.recorded.max));
   if (found.theoretical_max)
-    out += line("theoretical", figure_text(*found.theoretical_max) +
+    out += line("theoretical", measured_text(*found.theoretical_max) +
                                    text("; the worst frame is %.3g %% of it",
                                         *found.theoretical_max > 0.0 ? 100.0 * worst / *found.theoretical_max : 0.0));
   out += frames_text(found, facts);
