@@ -61,8 +61,9 @@ endif()
 
 set(CLUSTERBENCH_ABOVE "")
 
-# Layers none of whose code is timed (of run: but for run/timing), and that leave the long work to others. -Og builds them
-# in half the time of -O3, no slower than -O0; reading and writing a result takes half as long again (0.7 MB: 0.1 s).
+# Layers that leave the long work to others and whose code is not timed, but for the files of run that CMakeLists.txt names.
+# With -Og they build in half the time that -O3 takes, and as fast as with -O0; reading and writing a result takes half as
+# long again as with -O1 (0.7 MB: 0.1 s).
 set(CLUSTERBENCH_UNTIMED_LAYERS os result config run pictures stress search report cli)
 
 # Layers that spend no time of their own. Sanitized code takes long to build where it is optimised, and longest where it

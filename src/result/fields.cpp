@@ -43,7 +43,9 @@ std::string wanted(const Type& type, const Json& found) {
       return "true or false";
     case Kind::integer:
       if (type.is_unsigned) return "a whole number of at least 0";
-      return found.is_number_integer() ? "a whole number of at most " + std::to_string(type.largest) : "a whole number";
+      return found.is_number_integer()
+                 ? "a whole number from " + std::to_string(type.least) + " to " + std::to_string(type.largest)
+                 : "a whole number";
     case Kind::number:
       return "a number or null";
     case Kind::text:
@@ -57,7 +59,8 @@ std::string wanted(const Type& type, const Json& found) {
 
 // JSON made from an int is not marked as unsigned; above 2^63 - 1 it always is.
 bool is_in_range(const Type& type, const Json& integer) {
-  if (!integer.is_number_unsigned() && integer.get<std::int64_t>() < 0) return !type.is_unsigned;
+  if (!integer.is_number_unsigned() && integer.get<std::int64_t>() < 0)
+    return integer.get<std::int64_t>() >= type.least;
   return integer.get<std::uint64_t>() <= type.largest;
 }
 

@@ -113,6 +113,7 @@ struct Type {
   About about{};                // for a struct with its own description
   const char* definition = "";  // name of its definition in the schema, which is written once; "": in place
   bool is_unsigned = false;     // an integer
+  std::int64_t least = 0;       // an integer
   std::uint64_t largest = 0;    // an integer
   std::vector<Field> fields{};  // of an object
   // Of a list, values by name, or a nullable one (a list of one element or none).
@@ -295,6 +296,7 @@ Type make_type() {
   } else if constexpr (std::is_integral_v<T>) {
     Type type = detail::plain<T>(Kind::integer);
     type.is_unsigned = std::is_unsigned_v<T>;
+    type.least = static_cast<std::int64_t>(std::numeric_limits<T>::min());
     type.largest = static_cast<std::uint64_t>(std::numeric_limits<T>::max());
     return type;
   } else if constexpr (std::is_same_v<T, double>) {

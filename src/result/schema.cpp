@@ -95,6 +95,7 @@ class SchemaWriter {
     Json out{{"type", "integer"}};
     if (type.is_unsigned) out["minimum"] = 0;
     add_bounds(out, about);
+    if (!type.is_unsigned && !about.min && !about.above_min) out["minimum"] = type.least;
     if (!type.is_unsigned && !about.max) out["maximum"] = type.largest;
     return out;
   }

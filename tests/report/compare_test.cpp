@@ -233,27 +233,60 @@ TEST(Compare, parts_of_every_kind_that_only_one_result_has_are_named) {
   Json next = base;
   next["cases"][0].erase("lights_in_view");
   next["cases"][1].erase("error");
-  Json detailed = base;
-  detailed["cases"][0]["details"] = Json::parse(R"({"frames": [], "left_out": 0})");
   EXPECT_EQ(compared(base, next, 0.02)["not_compared"], Json::parse(R"([
       {"part": "lights_in_view", "only_in": "base", "cases": 1}, {"part": "error", "only_in": "base", "cases": 1}])"));
+  EXPECT_EQ(compared(next, base, 0.02)["not_compared"][1]["only_in"], "new");
+  Json sampled = base;
+  sampled["cases"][0]["samples"]["fog"] = sampled["cases"][0]["shading"];
+  Json more = sampled;
+  more["cases"][0]["samples"]["opaque"] = sampled["cases"][0]["shading"];
+  EXPECT_EQ(compared(sampled, more, 0.02)["not_compared"],
+            Json::parse(R"([{"part": "samples.opaque", "only_in": "new", "cases": 1}])"));
 }
 
 // Prices are no part of a case's id; costs at other prices are no change of what is counted.
-TEST(Compare, of_results_with_other_prices_costs_are_not_compared) {
-  Json base = json_of(result_by_hand());
-  base["config"]["cost"] = {{"ns_per_light", 1.0}, {"wave", 32}};
-  base["cases"][0]["cost"] = Json::parse(R"({"frame_ns": 9.0, "assign_ns": 1.0, "gpu_ns": 8.0, "upload_ns": 1.0,
-      "traffic_ns": 1.0, "shade_ns": 6.0, "sets": {}, "lit": true})");
-  Json next = base;
-  next["config"]["cost"]["ns_per_light"] = 2.0;
-  for (const char* key : {"frame_ns", "gpu_ns", "shade_ns"}) next["cases"][0]["cost"][key] = 14.0;
-  EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["counts"], "same");
+class ComparePrices : public ::testing::Test {
+ protected:
+  ComparePrices() {
+    base_["config"]["cost"] = {{"ns_per_light", 1.0}, {"wave", "8x8"}, {"weights", {{"opaque", 1.0}}}};
+    base_["cases"][0]["cost"] = Json::parse(R"({"frame_ns": 9.0, "assign_ns": 1.0, "gpu_ns": 8.0, "upload_ns": 1.0,
+        "traffic_ns": 1.0, "shade_ns": 6.0, "lit": true,
+        "sets": {"opaque": {"samples": 10.0, "lights": 2.0, "divergence": 1.5, "ns": 6.0}}})");
+    next_ = base_;
+    for (const char* key : {"gpu_ns", "shade_ns"}) next_["cases"][0]["cost"][key] = 14.0;
+    next_["cases"][0]["cost"]["sets"]["opaque"]["ns"] = 14.0;
+  }
+  std::string counts() const { return compared(base_, next_, 0.02)["cases"][0]["counts"]; }
+  Json& opaque() { return next_["cases"][0]["cost"]["sets"]["opaque"]; }
+
+  Json base_ = json_of(result_by_hand()), next_;
+};
+
+TEST_F(ComparePrices, that_differ_leave_out_the_times_of_costs_alone) {
+  EXPECT_EQ(counts(), "worse") << "at the same prices";
+  next_["config"]["cost"]["ns_per_light"] = 2.0;
+  EXPECT_EQ(counts(), "same");
   EXPECT_TRUE(
-      holds(compared(base, next, 0.02)["warnings"],
+      holds(compared(base_, next_, 0.02)["warnings"],
             "cost.ns_per_light is 1.0 and 2.0, another setting: modelled costs follow it and are not compared"));
-  next["config"] = base["config"];
-  EXPECT_EQ(compared(base, next, 0.02)["cases"][0]["counts"], "worse");
+  opaque()["divergence"] = 1.6;
+  EXPECT_EQ(counts(), "worse");
+  next_["config"]["cost"]["wave"] = "4x8";
+  EXPECT_EQ(counts(), "same") << "waves of other pixels diverge otherwise";
+  opaque()["lights"] = 3.0;
+  EXPECT_EQ(counts(), "worse");
+  next_["config"]["cost"]["weights"]["volume"] = 1.0;
+  EXPECT_EQ(counts(), "same") << "of other sets of samples";
+  EXPECT_TRUE(holds(compared(base_, next_, 0.02)["warnings"], "cost.weights.volume is null and 1.0"));
+}
+
+TEST_F(ComparePrices, that_an_older_result_lacks_were_0) {
+  next_["config"]["cost"]["ns_per_read"] = 0.0;
+  EXPECT_EQ(counts(), "worse");
+  next_["config"]["cost"]["ns_per_read"] = 0.005;
+  EXPECT_EQ(counts(), "same");
+  std::swap(base_, next_);
+  EXPECT_EQ(counts(), "same");
 }
 
 TEST(Compare, of_waves_the_lengths_of_lists_are_judged_and_not_what_is_divided_by_them) {

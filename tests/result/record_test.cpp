@@ -96,7 +96,7 @@ TEST(Record, names_the_place_of_what_it_cannot_read) {
   EXPECT_EQ(refusal("/kinds", 1), "/case/kinds is not known");
   EXPECT_EQ(refusal("/sets/sun", 1.5), "/case/sets/sun must be a whole number");
   EXPECT_EQ(refusal("/sets/sun", 9223372036854775808u),
-            "/case/sets/sun must be a whole number of at most 9223372036854775807");
+            "/case/sets/sun must be a whole number from -9223372036854775808 to 9223372036854775807");
   Json less = Json::parse(k_outer);
   less["inner"][0].erase("true");
   EXPECT_THROW(from_json<Outer>(less), Error);

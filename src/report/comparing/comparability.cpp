@@ -32,7 +32,58 @@ Json facts_of(const Result& result) {
       {"machine", result::to_json(result.machine)}, {"tool", result::to_json(result.tool)}, {"config", result.config}};
 }
 
+Json setting_of(const Result& result, const char* pointer) {
+  const Json* value = value_at(result.config, pointer);
+  return value == nullptr ? Json() : *value;
+}
+
+// Adds "cost.wave is "8x8" and "4x8"" for each value that differs. Prices that an older result lacks were 0.
+void add_differing(const std::string& name, const Json& before, const Json& now, std::vector<std::string>& out) {
+  const auto is_equal = [](const Json& one, const Json& other) {
+    return one == other || (one.is_null() && other == 0.0) || (other.is_null() && one == 0.0);
+  };
+  if (before.is_object() && now.is_object()) {
+    Json keys = before;
+    keys.update(now);
+    for (const auto& [key, unused] : keys.items())
+      add_differing(name + "." + key, before.value(key, Json()), now.value(key, Json()), out);
+  } else if (!is_equal(before, now)) {
+    out.push_back(name + " is " + before.dump() + " and " + now.dump());
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> differing_margin(const Result& base, const Result& next) {
+  std::vector<std::string> out;
+  add_differing("allocation.margin", setting_of(base, "/allocation/margin"), setting_of(next, "/allocation/margin"),
+                out);
+  return out;
+}
+
+std::vector<std::string> differing_prices(const Result& base, const Result& next) {
+  const auto has_costs = [](const Result& result) {
+    return std::ranges::any_of(result.cases, [](const Case& result_case) { return result_case.cost.has_value(); });
+  };
+  const auto prices_of = [](const Result& result) {
+    const Json prices = setting_of(result, "/cost");
+    return prices.is_object() ? prices : Json::object();
+  };
+  std::vector<std::string> out;
+  if (has_costs(base) && has_costs(next)) add_differing("cost", prices_of(base), prices_of(next), out);
+  return out;
+}
+
+SameSettings same_settings(const Result& base, const Result& next) {
+  const std::vector<std::string> prices = differing_prices(base, next);
+  const auto differ = [&](const char* start) {
+    return std::ranges::any_of(prices, [&](const std::string& price) { return price.starts_with(start); });
+  };
+  return {.margin = differing_margin(base, next).empty(),
+          .prices = prices.empty(),
+          .waves = !differ("cost.wave "),
+          .weights = !differ("cost.weights")};
+}
 
 Obstacles obstacles(const Result& base, const Result& next) {
   const Json base_facts = facts_of(base), next_facts = facts_of(next);

@@ -41,32 +41,6 @@ std::vector<std::string> without_renamed(std::vector<std::string> names, const s
 
 }  // namespace
 
-namespace {
-
-Json setting_of(const Result& result, const char* pointer) {
-  const Json* value = value_at(result.config, pointer);
-  return value == nullptr ? Json() : *value;
-}
-Json margin_of(const Result& result) {
-  return setting_of(result, "/allocation/margin");
-}
-
-// "ns_per_light is 1.0 and 2.0, wave is 32 and 64".
-std::string differing_prices(const Result& base, const Result& next) {
-  const Json before = setting_of(base, "/cost"), now = setting_of(next, "/cost");
-  std::vector<std::string> texts;
-  for (const auto& [key, value] : now.items())
-    if (before.contains(key) && before[key] != value)
-      texts.push_back("cost." + key + " is " + before[key].dump() + " and " + value.dump());
-  return joined(texts);
-}
-
-}  // namespace
-
-SameSettings same_settings(const Result& base, const Result& next) {
-  return {.margin = margin_of(base) == margin_of(next), .cost = differing_prices(base, next).empty()};
-}
-
 std::vector<std::string> warnings_of(const Result& base, const Result& next, const Comparison& comparison,
                                      bool is_beside, const std::vector<std::string>& forced, bool gates_separate) {
   std::vector<std::string> warnings;
@@ -76,11 +50,13 @@ std::vector<std::string> warnings_of(const Result& base, const Result& next, con
   if (times) warnings.push_back("times are not compared: " + joined(*times, "; "));
   if (comparison.data == "separate" && comparison.summary.methods_timed != 0)
     warnings.emplace_back(gates_separate ? k_separate_verdicts : k_separate_hints);
-  if (margin_of(base) != margin_of(next) && !comparison.cases.empty())
-    warnings.push_back("allocation.margin is " + margin_of(base).dump() + " and " + margin_of(next).dump() +
-                       ", another setting: what is recommended follows it and is not compared");
-  if (const std::string prices = differing_prices(base, next); !prices.empty() && !comparison.cases.empty())
-    warnings.push_back(prices + ", another setting: modelled costs follow it and are not compared");
+  if (!comparison.cases.empty()) {
+    const std::vector<std::string> margin = differing_margin(base, next), prices = differing_prices(base, next);
+    if (!margin.empty())
+      warnings.push_back(joined(margin) + ", another setting: what is recommended follows it and is not compared");
+    if (!prices.empty())
+      warnings.push_back(joined(prices) + ", another setting: modelled costs follow it and are not compared");
+  }
   const std::vector<std::string> only_in_base = without_renamed(comparison.only_in_base, comparison.renamed),
                                  only_in_new = without_renamed(comparison.only_in_new, comparison.renamed);
   if (!only_in_base.empty()) warnings.push_back("only in the base, not compared: " + listed(only_in_base));

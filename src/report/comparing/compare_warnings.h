@@ -4,13 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "report/comparing/exact_differences.h"
 #include "result/documents/comparison.h"
 #include "result/result.h"
 
 namespace clusterbench::report {
-
-SameSettings same_settings(const result::Result& base, const result::Result& next);
 
 // `comparison`: complete except for warnings and advice. `forced`: obstacles that the user overrides. `is_beside`: one
 // result, compared with its baseline program. `gates_separate`: times of separate runs have verdicts.

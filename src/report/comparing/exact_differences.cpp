@@ -75,7 +75,10 @@ class Differences {
   }
 
   bool follows_other_settings(const std::string& pointer) const {
-    return (!same_.margin && follows_margin(pointer)) || (!same_.cost && pointer.starts_with("/cost/"));
+    if (!same_.margin && follows_margin(pointer)) return true;
+    if (same_.prices || !pointer.starts_with("/cost/")) return false;
+    return !same_.weights || pointer.ends_with("_ns") || pointer.ends_with("/ns") ||
+           (!same_.waves && pointer.ends_with("/divergence"));
   }
 
   void add_member(const std::string& pointer, const std::string& key, const result::Type& type, Compares compares,

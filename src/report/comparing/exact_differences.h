@@ -18,8 +18,10 @@ struct ExactDifferences {
 
 // Settings that no case's id depends on; where results differ in one, the figures that follow from it are skipped.
 struct SameSettings {
-  bool margin = true;  // allocation.margin: the recommended sizes and their used share
-  bool cost = true;    // cost: the modelled cost of a frame
+  bool margin = true;   // allocation.margin: the recommended sizes and their used share
+  bool prices = true;   // any of cost: the modelled times of a frame
+  bool waves = true;    // cost.wave: the divergence as well
+  bool weights = true;  // cost.weights: all that is recorded of the cost, which is of other sets of samples
 };
 
 // better: some cost is lower, and none is higher; values that only follow from it (a histogram, the worst frame) may

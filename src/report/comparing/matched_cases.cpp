@@ -13,11 +13,61 @@ using result::PartOfOne;
 using result::RenamedCase;
 using result::Result;
 
-// Parts are fields with fields or elements of their own; single values that a case may not have are of older versions.
-bool is_part(const result::Field& field) {
-  using enum result::Kind;
-  return field.is_optional && (field.type->kind == object || field.type->kind == list || field.type->kind == by_name);
-}
+// How many matches have a part on one side only, by the part's name, in the order of a case's fields.
+class PartsOfOne {
+ public:
+  void add(const result::Type& type, const void* base, const void* next) { add_fields(type, base, next, ""); }
+
+  std::vector<PartOfOne> found() const {
+    std::vector<PartOfOne> out;
+    for (const auto& [name, count] : counts_) {
+      if (count.base > 0) out.push_back({name, "base", count.base});
+      if (count.next > 0) out.push_back({name, "new", count.next});
+    }
+    return out;
+  }
+
+ private:
+  struct Count {
+    std::size_t base = 0, next = 0;
+  };
+
+  // Single values that a case may not have come with a part, or are those of other versions.
+  static bool is_part(const result::Type& type) {
+    using enum result::Kind;
+    return type.kind == object || type.kind == list || type.kind == by_name;
+  }
+
+  Count& count_of(const std::string& name) {
+    const auto found = std::ranges::find(counts_, name, &std::pair<std::string, Count>::first);
+    return found != counts_.end() ? found->second : counts_.emplace_back(name, Count{}).second;
+  }
+
+  void add_part(const result::Type& type, const void* base, const void* next, const std::string& name) {
+    if (base == nullptr && next == nullptr) return;
+    if (base == nullptr || next == nullptr)
+      ++(base == nullptr ? count_of(name).next : count_of(name).base);
+    else if (type.kind == result::Kind::object)
+      add_fields(type, base, next, name + ".");
+    else if (type.kind == result::Kind::by_name)
+      add_named(type, base, next, name + ".");
+  }
+
+  void add_fields(const result::Type& type, const void* base, const void* next, const std::string& prefix) {
+    for (const result::Field& field : type.fields)
+      if (is_part(*field.type)) add_part(*field.type, field.get(base), field.get(next), prefix + field.name);
+  }
+
+  void add_named(const result::Type& type, const void* base, const void* next, const std::string& prefix) {
+    if (!is_part(*type.element)) return;
+    std::map<std::string, std::pair<const void*, const void*>> elements;
+    for (std::size_t i = 0; i < type.size(base); ++i) elements[type.name_at(base, i)].first = type.at(base, i);
+    for (std::size_t i = 0; i < type.size(next); ++i) elements[type.name_at(next, i)].second = type.at(next, i);
+    for (const auto& [name, both] : elements) add_part(*type.element, both.first, both.second, prefix + name);
+  }
+
+  std::vector<std::pair<std::string, Count>> counts_;
+};
 
 }  // namespace
 
@@ -49,19 +99,9 @@ std::vector<RenamedCase> renamed_cases(const Result& base, const std::vector<con
 }
 
 std::vector<PartOfOne> parts_of_one(const std::vector<Match>& matches) {
-  std::vector<PartOfOne> out;
-  for (const result::Field& field : result::type_of<Case>().fields) {
-    if (!is_part(field)) continue;
-    std::size_t base = 0, next = 0;
-    for (const Match& match : matches) {
-      const bool is_in_base = field.get(&match.base) != nullptr, is_in_next = field.get(&match.next) != nullptr;
-      base += is_in_base && !is_in_next ? 1 : 0;
-      next += is_in_next && !is_in_base ? 1 : 0;
-    }
-    if (base > 0) out.push_back({field.name, "base", base});
-    if (next > 0) out.push_back({field.name, "new", next});
-  }
-  return out;
+  PartsOfOne parts;
+  for (const Match& match : matches) parts.add(result::type_of<Case>(), &match.base, &match.next);
+  return parts.found();
 }
 
 }  // namespace clusterbench::report
