@@ -69,8 +69,10 @@ void add_compare(Command& program, Action& action) {
   command.add_flag(
       "--gate-separate", flags->gates_separate,
       "Verdicts on times of separate runs, too: for a machine that does nothing else, false alarms elsewhere");
-  command.add_flag("--strict", flags->is_strict,
-                   "Exit with 4 where a verdict is inconclusive, a case is missing or instructions cannot be compared");
+  command.add_flag(
+      "--strict", flags->is_strict,
+      "Exit with 4 where a verdict is inconclusive, a case or a part of one is missing, or instructions cannot be "
+      "compared");
   command.add_flag("--force", flags->is_forced, "Compare times and instructions of different machines or flags, too");
   command.when_named([flags, &action] { action = [flags] { return compare(*flags); }; });
 }
