@@ -868,7 +868,7 @@ MUTATIONS = [
              "params.number(spec.name) < spec.conservative_from", "params.number(spec.name) < 0.0",
              "assign.Registry.what_takes_the_conservative_promise_away_and_what_shares_work_is_data",
              "a method without padding fails runs that it cannot pass"),
-    Mutation("unavailable-method-runs", "run/cases/obstacles.cpp",
+    Mutation("unavailable-method-runs", "run/cases/impossible_cases.cpp",
              "return reason.empty() ? \"\" : name + \" cannot run here: \" + reason;", "return \"\";",
              "run.LightStructures.a_method_that_cannot_run_here_is_skipped_with_its_reason",
              "a method is measured on a machine that it cannot run on"),

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "run/cases/obstacles.h"
+#include "run/cases/impossible_cases.h"
 #include "run/findings/gate.h"
 #include "run/grid_facts.h"
 

@@ -19,7 +19,7 @@
 #include "report/choosing/recommend_report.h"
 #include "report/choosing/recommended_config.h"
 #include "result/case_figure.h"
-#include "run/cases/obstacles.h"
+#include "run/cases/impossible_cases.h"
 #include "run/cases/plan.h"
 #include "search/recommend.h"
 #include "search/recommend_space.h"

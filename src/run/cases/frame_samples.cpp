@@ -1,6 +1,6 @@
 #include "run/cases/frame_samples.h"
 
-#include "run/cases/obstacles.h"
+#include "run/cases/impossible_cases.h"
 
 namespace clusterbench::run {
 

@@ -13,7 +13,7 @@
 #include "run/cases/case_identity.h"
 #include "run/cases/case_names.h"
 #include "run/cases/frame_work.h"
-#include "run/cases/obstacles.h"
+#include "run/cases/impossible_cases.h"
 
 namespace clusterbench::run {
 namespace {

@@ -9,7 +9,7 @@
 #include "assign/contract/storage.h"
 #include "run/cases/frame_lights.h"
 #include "run/cases/frame_samples.h"
-#include "run/cases/obstacles.h"
+#include "run/cases/impossible_cases.h"
 #include "run/cases/path_culls.h"
 #include "run/findings/light_shadows.h"
 

@@ -1,4 +1,4 @@
-#include "run/cases/obstacles.h"
+#include "run/cases/impossible_cases.h"
 
 #include <algorithm>
 #include <cmath>

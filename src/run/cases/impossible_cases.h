@@ -1,6 +1,6 @@
 #pragma once
-// Why a combination of a configuration's axes cannot be measured in a scene. Each function returns the reason in words,
-// "" if there is none.
+// The reasons why a combination of a configuration's axes cannot be measured in a scene. Each function whose name ends
+// in _obstacle returns the reason in words, or "" if nothing prevents the measurement.
 
 #include <cstdint>
 #include <string>
@@ -11,30 +11,35 @@
 
 namespace clusterbench::run {
 
-// The first frame of a path in a grid. It decides for the whole path.
+// Facts about the first frame of a path in a grid. They decide for all frames of the path.
 struct FirstFrame {
   std::uint32_t cells = 0;
   view::LightRanges lights;
-  std::string obstacle;  // why this path has no such grid; then the other members are not set
+  std::string obstacle;  // the reason why the grid cannot be made for this path; the other members are then not set
 };
 FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const scene::CameraPath& path,
                        Vec2i viewport);
 
-// Of a method in a grid of this kind.
+// The reason why a method cannot run on a grid of this kind with the scene's lights, with its triangles, with an
+// orthographic camera if `orthographic` is set, or on this machine.
 std::string method_obstacle(const config::MethodRequest& request, grid::Kind kind, const SceneData& data,
                             bool orthographic);
-// Of a method that would test more pairs of light and cell than limits.all_pairs allows.
+// The reason why a method is skipped that would test more pairs of light and cell than limits.all_pairs allows.
 std::string limit_obstacle(const assign::AssignerDescriptor& assigner, const config::LimitsRequest& limits,
                            const FirstFrame& first);
-// Of a method with lights in this precision.
+// The reason why a method cannot run with lights in this precision.
 std::string precision_obstacle(const assign::AssignerDescriptor& assigner, const config::PrecisionRequest& precision,
                                const SceneData& data);
+// The reason why a pre-cull cannot run on the scene's lights or without triangles.
 std::string pre_cull_obstacle(const cull::PreCullSpec& pre_cull, const SceneData& data);
-// Of a storage that cannot hold lists of this many cells and lights within memory_limit().
+// The reason why a storage is skipped: for the first frame's cells and lights it would reserve more than
+// memory_limit() bytes, or its parameters do not fit them.
 std::string storage_obstacle(const config::MethodRequest& request, const FirstFrame& first);
 
+// The reason why a set of samples cannot be made in the scene: it needs triangles
+// (or a ground), or lights that have an end.
 std::string set_obstacle(const config::SampleSetRequest& request, const SceneData& data);
-// Of shadow maps of the scene's lights.
+// The reason why the scene's lights have no shadow maps.
 std::string shadow_obstacle(const SceneData& data);
 
 }  // namespace clusterbench::run
