@@ -123,7 +123,9 @@ struct Type {
   const void* (*at)(const void* list, std::size_t index) = nullptr;
   const std::string& (*name_at)(const void* list, std::size_t index) = nullptr;
   void* (*append)(void* list, std::size_t index, const std::string& name) = nullptr;
-  void (*clear)(void* list) = nullptr;  // null for a fixed length
+  // Of values by name, a nullable one, or a list of any length. Null for all other types: a list of a fixed length, and
+  // every type with a form of its own.
+  void (*clear)(void* list) = nullptr;
   // Of a plain value. from_json throws Error, without a location, for a value that it cannot read.
   Json (*to_json)(const void* value, bool is_fraction) = nullptr;
   void (*from_json)(const Json& json, void* value) = nullptr;  // of its kind
@@ -335,9 +337,9 @@ const Type& type_of() {
 
 // The JSON of a record of the given type, fields in their order.
 Json to_json(const Type& type, const void* record);
-// Fills a record; optional fields that the JSON lacks keep their value. Throws Error (where: the JSON pointer below
-// `where`) for a value of another type than its field's, and for a missing or unknown field. Does not check ranges of
-// values; the schema does.
+// Fills a record; optional and late fields that the JSON lacks keep their value. Throws Error (where: the JSON pointer
+// below `where`) for a value of another type than its field's, and for a missing or unknown field. Does not check
+// ranges of values; the schema does.
 void from_json(const Type& type, const Json& json, void* record, const std::string& where);
 
 template <class Record>

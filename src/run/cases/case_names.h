@@ -1,6 +1,7 @@
 #pragma once
-// The names that commands print for a case. Each of them, copied as a whole, selects the case in --filter and before a
-// budget's colon.
+// Names of cases: their parts, the current form of names of earlier versions, and the selection of a case by a text.
+// Each name that commands print for a case, copied as a whole, selects the case in --filter and before a budget's
+// colon.
 
 #include <set>
 #include <string>

@@ -33,7 +33,7 @@ struct CasePlan {
   std::string settings = {};
   std::string preset = {};  // "" for the configuration's own clusterings
   std::size_t pre_cull = 0;
-  // The number of cells of its grid if it is too large for a comparison with the truth (Config::most_pairs): then
+  // The number of cells of its grid if it is too large for a comparison with the truth (accuracy.most_pairs): then
   // samples decide. 0: the cells are compared. The same for all cases of a group.
   std::uint64_t cells_not_compared = 0;
 
