@@ -1,6 +1,7 @@
 #pragma once
 // Every figure of a case, one row each: budgets, exports, tables, the page, `recommend`, `worst-case`, `history`,
-// `compare` and `list figures` use it. A new figure is one row in figure_table.cpp.
+// `compare` and `list figures` use it. A new figure is one row in figure_table.cpp and a formula in a test
+// (CONTRIBUTING.md, "Adding a figure").
 
 #include <cstdint>
 #include <optional>
@@ -79,7 +80,7 @@ struct Figure {
   // Exports and histories; these names are stable.
   std::string_view export_name = {};  // "": `name`
   bool is_headline = false;           // exported by default
-  bool is_kept = false;               // in histories, with the headline
+  bool is_kept = false;               // in histories, with the headline; derived times are in none
 
   std::string_view exported_as() const { return export_name.empty() ? name : export_name; }
   std::string_view named_unit() const { return is_in_us ? "us" : unit; }
@@ -88,7 +89,7 @@ struct Figure {
   bool rests_on_times() const { return basis == Basis::time || basis == Basis::derived; }
 };
 
-// Headline figures first, then the order of a result.
+// Headline figures first, then the others. Columns of exports have this order, so a new figure is the last of its part.
 std::span<const Figure> figures();
 const Figure* find_figure(std::string_view name);  // null for an unknown name
 
