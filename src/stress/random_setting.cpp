@@ -394,8 +394,8 @@ double Draw::about_one(double least, double most) {
 
 double Draw::nudged(double value, int most_ulps) {
   const int ulps = whole(-most_ulps, most_ulps);
-  constexpr double k_infinity = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < std::abs(ulps); ++i) value = std::nextafter(value, ulps < 0 ? -k_infinity : k_infinity);
+  constexpr double k_no_end = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < std::abs(ulps); ++i) value = std::nextafter(value, ulps < 0 ? -k_no_end : k_no_end);
   return value;
 }
 
