@@ -52,41 +52,45 @@ std::string MeasureRow::unit() const {
   return *own_unit != '\0' ? own_unit : std::string(result::figure_named(figure)->unit);
 }
 
-std::string MeasureRow::meaning() const {
-  const std::string text = *figure == '\0' ? own_meaning : std::string(result::figure_named(figure)->meaning);
-  return *note == '\0' ? text : text + "; " + note;
-}
-
 std::span<const MeasureRow> measure_rows() {
   static constexpr std::array<MeasureRow, 7> k_rows{{
       {.measure = Measure::entries,
        .name = "entries",
        .figure = "index_entries",
        .pointer = "buffers.index_entries.high_water",
-       .note = "with room for all of them"},
-      {.measure = Measure::longest, .name = "longest", .figure = "longest", .pointer = "occupancy.lights_per_cell.max"},
+       .meaning = "index entries of the lists, with room for all of them"},
+      {.measure = Measure::longest,
+       .name = "longest",
+       .figure = "longest",
+       .pointer = "occupancy.lights_per_cell.max",
+       .meaning = "lights in the longest list"},
       {.measure = Measure::p99,
        .name = "p99",
        .figure = "lights_per_cell.p99",
-       .pointer = "occupancy.lights_per_cell.p99"},
+       .pointer = "occupancy.lights_per_cell.p99",
+       .meaning = "list length that 99 % of the cells do not exceed"},
       {.measure = Measure::evaluated,
        .name = "evaluated",
        .figure = "volume.evaluated",
        .pointer = "shading.evaluated / shading.samples",
-       .note = "at random points in the view",
+       .meaning = "lights that a random point in the view is given, mean",
        .own_unit = "lights per sample"},
-      {.measure = Measure::tests, .name = "tests", .figure = "tests_done", .pointer = "tests_done"},
+      {.measure = Measure::tests,
+       .name = "tests",
+       .figure = "tests_done",
+       .pointer = "tests_done",
+       .meaning = "tests of a light against a cell, a row of cells or a plane"},
       {.measure = Measure::lights,
        .name = "lights",
        .figure = "lights_in_view",
        .pointer = "lights_in_view.max",
-       .note = "whatever the method"},
+       .meaning = "lights in view, whatever the method"},
       {.measure = Measure::lights_of_type,
        .name = "lights-of-type",
        .figure = "",
        .pointer = "the largest of lights_in_view.max_by_type",
-       .own_unit = "lights",
-       .own_meaning = "lights in view of the type that has most of them"},
+       .meaning = "lights in view of the type that has most of them",
+       .own_unit = "lights"},
   }};
   return k_rows;
 }

@@ -28,14 +28,12 @@ enum class Measure : std::uint8_t {
 struct MeasureRow {
   Measure measure;
   const char* name;
-  const char* figure;            // in the table of figures (result/case_figure.h); "": no row has it
-  const char* pointer;           // to the number in a case of a result, for documents
-  const char* note = "";         // follows the figure's meaning
-  const char* own_unit = "";     // "": the figure's
-  const char* own_meaning = "";  // without a figure
+  const char* figure;         // in the table of figures (result/case_figure.h); "": no row has it
+  const char* pointer;        // to the number in a case of a result, for documents
+  const char* meaning;        // of one frame; the table's words are for all frames of a path
+  const char* own_unit = "";  // "": the figure's
 
-  std::string unit() const;     // "lights"
-  std::string meaning() const;  // "lights in the fullest cell of any frame ...": of a path of one frame
+  std::string unit() const;  // "lights"
 };
 std::span<const MeasureRow> measure_rows();
 const MeasureRow& row_of(Measure measure);

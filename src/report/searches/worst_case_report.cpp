@@ -189,7 +189,7 @@ result::WorstCase worst_case_document(const WorstCase& found, const WorstCaseFac
 std::string worst_case_text(const WorstCase& found, const WorstCaseFacts& facts) {
   const search::MeasureRow& row = search::row_of(facts.request.measure);
   std::string out = facts.case_plan.name + "\n";
-  out += line("measure", std::string(row.name) + " (of one frame): " + row.meaning());
+  out += line("measure", std::string(row.name) + ": " + row.meaning);
   if (const std::size_t others = facts.plan.case_count() - 1; others > 0)
     out += line("others", number_of(others, "case") + " not searched; --filter chooses");
   if (const std::string flags = search::space_flags(facts.request); !flags.empty()) out += line("space", flags);
