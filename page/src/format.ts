@@ -35,6 +35,13 @@ export const factor: Format = decimal;
 export const short: Format = ifKnown((value) =>
   value < 1e4 ? fixed(value, 0) : value < 1e6 ? `${fixed(value / 1e3, 1)}k` : `${fixed(value / 1e6, 2)}M`,
 );
+
+// Bytes that a sample reads, a mean: below 100 with three digits, without zeros at the end.
+export const readBytes: Format = ifKnown((value) => {
+  if (value >= 100 || value <= 0) return fixed(value, 0);
+  return String(Number(fixed(value, 2 - Math.floor(Math.log10(value)))));
+});
+
 export const metres: Format = ifKnown((value) => `${Number(value.toPrecision(3))} m`);
 
 // Of a machine, as its makers count.

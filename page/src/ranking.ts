@@ -158,6 +158,7 @@ function errorColumns(view: View, rows: Case[]): (Column<Case> | false)[] {
     rows.some((row) => row.isSearched) &&
       column("read_bytes", "read", {
         isScreenOnly: true,
+        format: format.readBytes,
         note: "structures that samples search (a hierarchy, masks of bits) have no rank and are on no front: no GPU has measured the search",
       }),
   ];

@@ -6,7 +6,7 @@ import { buildSync } from "esbuild";
 
 const source = new URL("../src/format.ts", import.meta.url).pathname;
 const code = buildSync({ entryPoints: [source], bundle: true, format: "esm", write: false }).outputFiles[0].text;
-const { fixed, microseconds, plural } = await import(`data:text/javascript,${encodeURIComponent(code)}`);
+const { fixed, microseconds, plural, readBytes } = await import(`data:text/javascript,${encodeURIComponent(code)}`);
 
 it("numbers half-way between two have the digits that printf gives them", () => {
   const expected = [
@@ -41,6 +41,24 @@ it("times have the digits of the terminal's table", () => {
   assert.equal(microseconds(127.25), "127.2");
   assert.equal(microseconds(9.995), "9.99");
   assert.equal(microseconds(null), "–");
+});
+
+it("bytes that a sample reads have the digits of the terminal's table", () => {
+  const expected = [
+    [8.58, "8.58"],
+    [9.2789, "9.28"],
+    [9.5, "9.5"],
+    [9.996, "10"],
+    [8.125, "8.12"], // half-way
+    [54.96, "55"],
+    [99.94, "99.9"],
+    [99.96, "100"],
+    [1246.7, "1247"],
+    [0.1234, "0.123"],
+    [0, "0"],
+    [null, "–"],
+  ];
+  for (const [value, text] of expected) assert.equal(readBytes(value), text, `${value}`);
 });
 
 it("one is not many", () => {
