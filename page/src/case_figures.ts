@@ -11,7 +11,7 @@ export type Words = ReadonlyMap<FigureName, FigureWords>;
 
 export const figure = ({ figures }: Pick<Case, "figures">, name: FigureName): Maybe => figures[name] ?? null;
 
-// Of the timed frames; without times of all.
+// Of the timed frames, or of all frames if no frame is timed.
 export const pairsOf = (aCase: Case): Maybe => figure(aCase, "pairs_timed") ?? figure(aCase, "pairs.mean");
 
 // How the page writes a number of a unit, where a column has no format of its own.

@@ -17,6 +17,18 @@ interface Part {
 
 const parts = ["write floor", "rest of the assignment", "conversion"];
 
+// The program's own words are for the sum over all frames.
+const perFrameWords = {
+  tests_done: {
+    label: "tests per frame",
+    about: "Tests of a light against a cell, a row of cells or a plane, mean of all frames",
+  },
+  fallbacks: {
+    label: "fallbacks per frame",
+    about: "Pairs that single precision could not decide, mean of all frames",
+  },
+};
+
 // The write floor is measured with warm caches: so are the parts that stand beside it, where a result has them.
 function partsOf(aCase: Case, name: string): Part[] {
   const { write_floor_ns, warm } = aCase.raw.timing!;
@@ -39,9 +51,10 @@ export function costs(view: View, cases: Case[]): HTMLElement | null {
   const methods = timed.map((aCase) => aCase.assigner);
   const column = columnsOf(view.model.words, (aCase: Case) => aCase);
   const floorUs = (aCase: Case) => format.inUs(figure(aCase, "write_floor"));
-  const perFrame = (name: "tests_done" | "fallbacks", label: string, write: format.Format): Column<Case> => {
+  const perFrame = (name: keyof typeof perFrameWords, write: format.Format): Column<Case> => {
     const value = (aCase: Case) => figure(aCase, name)! / aCase.raw.frames;
-    return { ...column(name, label, { note: "here per frame" }), value, show: (aCase) => write(value(aCase)) };
+    const { label, about } = perFrameWords[name];
+    return column(name, label, { about, value, show: (aCase) => write(value(aCase)) });
   };
   const whose = view.hasRuns ? ` · ${timed[0]!.run.label}` : ""; // a setting is of one result
   return figureView({
@@ -95,8 +108,8 @@ export function costs(view: View, cases: Case[]): HTMLElement | null {
           value: floorUs,
           show: (aCase) => format.microseconds(floorUs(aCase)),
         },
-        perFrame("tests_done", "tests per frame", format.count),
-        perFrame("fallbacks", "fallbacks per frame", format.decimal),
+        perFrame("tests_done", format.count),
+        perFrame("fallbacks", format.decimal),
         column("scratch_bytes", "scratch"),
       ],
       rows: timed,

@@ -197,7 +197,8 @@ function detailColumns(view: View, rows: Case[]): (Column<Case> | false)[] {
     has(rows, "floor_ratio") && column("floor_ratio", "× copy", { isDetail: true }),
     column("pairs_timed", "pairs", {
       isDetail: true,
-      note: "without times of all frames; comparable on one grid only",
+      about:
+        "(cell, light) pairs of a frame, mean: of the timed frames, or of all frames if no frame is timed. Comparable on one grid only",
       value: pairsOf,
       show: (row) => format.short(pairsOf(row)),
     }),
@@ -279,7 +280,7 @@ function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
     },
     {
       label: "excess",
-      about: about("excess", `${geometric} (of listed by true pairs)`),
+      about: about("excess", `${geometric} (of listed / true pairs)`),
       value: (row) => row.excess.value,
       show: (row) => mean(row.excess, row, format.percent),
     },

@@ -554,6 +554,35 @@ describe("columns of figures", () => {
     assert.ok(note.includes(`missed: ${meanings.get("missed")}`), note);
   });
 
+  it("have words of their own where they are per frame, or of timed frames", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "street" }).check();
+    await page.check("#ranking-all");
+    await page.locator("#costs-data > summary").click();
+    const titleOf = (table, label) =>
+      page.locator(`${table} thead th`, { hasText: label }).first().getAttribute("title");
+    for (const label of ["tests per frame", "fallbacks per frame"]) {
+      const title = await titleOf("#costs", label);
+      assert.match(title, /mean of all frames$/);
+      assert.doesNotMatch(title, /over all frames/);
+    }
+    assert.match(await titleOf("#ranking", /^pairs/), /of the timed frames, or of all frames if no frame is timed/);
+  });
+
+  it("have the digits of the terminal in bytes that a sample reads", async () => {
+    const page = await open(pages.quick);
+    await page.getByRole("radio", { name: "street" }).check();
+    const small = (await column(page, "read")).filter((text) => Number(text) < 100);
+    assert.ok(small.length > 0);
+    const { results } = pageData(tool, committedResult);
+    const known = results[0].cases.map(({ figures }) => figures.read_bytes);
+    for (const text of small)
+      assert.ok(
+        known.some((bytes) => Number(text) === Number(bytes?.toPrecision(3))),
+        text,
+      );
+  });
+
   it("have the numbers of the table in the units of their heads, also where they are downloaded", async () => {
     const page = await open(pages.quick);
     await page.getByRole("radio", { name: "street" }).check();
