@@ -122,6 +122,75 @@ TEST(BaselineLimits, of_a_figure_that_the_baseline_is_too_old_for_fail_and_say_s
              "hall/walk/frustum 64px/aabb/packed"}));
 }
 
+Result with_costs(double ns_per_light, double opaque_weight = 1.0) {
+  Result result = baseline_record();
+  result.config["cost"] = {{"ns_per_light", ns_per_light}, {"weights", {{"volume", 1.0}, {"opaque", opaque_weight}}}};
+  result.config["allocation"] = {{"margin", 2.0}};
+  for (Case& result_case : result.cases) {
+    result_case.cost.emplace().gpu_ns = 1e9 * ns_per_light;
+    result_case.cost->sets = {{"opaque", {}}};
+  }
+  return result;
+}
+
+TEST(BaselineLimits, of_modelled_costs_are_not_checked_at_other_prices) {
+  const Result base = with_costs(0.25);
+  EXPECT_EQ(against(base, with_costs(0.5), "gpu_cost_us > +3 %").broken,
+            (Lines{"'gpu_cost_us > +3 %' could not be checked: cost.ns_per_light is 0.5 here and 0.25 in base.json; "
+                   "measure the baseline again"}));
+  EXPECT_EQ(against(with_costs(0.5), base, "gpu_cost_us > +3 %").broken.size(), 1u) << "cheaper by its prices alone";
+  EXPECT_EQ(against(base, with_costs(0.25, 2.0), "gpu_cost_us > +3 %").broken,
+            (Lines{"'gpu_cost_us > +3 %' could not be checked: cost.weights.opaque is 2.0 here and 1.0 in base.json; "
+                   "measure the baseline again"}));
+  Result older = base;
+  older.config["cost"].erase("ns_per_light");
+  EXPECT_EQ(against(older, base, "gpu_cost_us > +3 %").broken,
+            (Lines{"'gpu_cost_us > +3 %' could not be checked: cost.ns_per_light is 0.25 here and not set in "
+                   "base.json; measure the baseline again"}));
+  EXPECT_EQ(against(base, with_costs(0.5), "longest > +3 %").broken, Lines{}) << "no figure of prices";
+  EXPECT_EQ(against(base, base, "gpu_cost_us > +3 %").broken, Lines{});
+  EXPECT_EQ(against(base, base, "gpu_cost_us > +3 %").checked, 2u);
+}
+
+TEST(BaselineLimits, of_modelled_costs_are_not_checked_at_other_samples) {
+  Result base = with_costs(0.25), next = base;
+  next.cases[1].cost->sets.emplace_back("fog", result::SetCost{});
+  EXPECT_EQ(
+      against(base, next, "gpu_cost_us > +3 %").broken,
+      (Lines{"'gpu_cost_us > +3 %' could not be checked for hall/walk/frustum 64px/aabb/packed: gpu_cost_us is at "
+             "samples of opaque, fog here and of opaque in base.json; measure the baseline again"}));
+}
+
+TEST(BaselineLimits, of_recommended_sizes_are_not_checked_at_another_margin) {
+  const Result base = with_costs(0.25);
+  Result next = base;
+  next.config["allocation"]["margin"] = 1.5;
+  for (const std::string figure : {"bytes_recommended", "entries_recommended"})
+    EXPECT_EQ(against(base, next, figure + " > +3 %").broken,
+              (Lines{"'" + figure +
+                     " > +3 %' could not be checked: allocation.margin is 1.5 here and 2.0 in "
+                     "base.json; measure the baseline again"}));
+  EXPECT_EQ(against(base, next, "bytes > +3 %").broken, Lines{});
+  EXPECT_EQ(against(base, base, "bytes_recommended > +3 %").checked, 2u);
+}
+
+// A mean over several sets of samples is by their weights, also where the rest of the price is the same.
+TEST(BaselineLimits, of_means_over_several_sets_are_not_checked_at_other_weights) {
+  const auto two_sets = [](double weight) {
+    Result result = with_costs(0.25, weight);
+    for (Case& result_case : result.cases) {
+      result_case.samples.emplace().opaque =
+          result::SampleSet{.samples = 10, .evaluated = 30, .needed = 20, .missed = 0};
+      result_case.cost->sets = {{"volume", {.samples = 1.0}}, {"opaque", {.samples = weight}}};
+    }
+    return result;
+  };
+  EXPECT_EQ(against(two_sets(1.0), two_sets(2.0), "evaluated > +3 %").broken,
+            (Lines{"'evaluated > +3 %' could not be checked: cost.weights.opaque is 2.0 here and 1.0 in base.json; "
+                   "measure the baseline again"}));
+  EXPECT_EQ(against(two_sets(1.0), two_sets(2.0), "opaque.evaluated > +3 %").checked, 2u);
+}
+
 TEST(LightGate, fails_where_the_lights_are_not_those_of_the_baseline) {
   const Result base = baseline_record(), next = changed_level(7);
   const LightGate gate{.base = &base, .base_name = "base.json"};

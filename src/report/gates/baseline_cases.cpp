@@ -5,6 +5,7 @@
 #include "core/pattern.h"
 #include "core/text.h"
 #include "report/cases/case_filter.h"
+#include "report/cases/followed_settings.h"
 #include "report/comparing/case_settings.h"
 #include "report/comparing/comparability.h"
 
@@ -17,6 +18,30 @@ using result::Result;
 std::string first_obstacle(const Result& base, const Result& next) {
   const Obstacles found = obstacles(base, next);
   return found.to_instructions.empty() ? "" : found.to_instructions.front();
+}
+
+constexpr const char* k_weights = "cost.weights";
+
+// Members of an object that differ, each as a setting of its own, as one weight among those of all sets; the setting
+// itself if it is no object.
+std::vector<OtherSetting> each_member(const OtherSetting& setting) {
+  if (!setting.before.is_object() || !setting.now.is_object()) return {setting};
+  std::vector<OtherSetting> out;
+  for (const auto& [key, value] : setting.now.items()) {
+    const auto earlier = setting.before.value(key, nlohmann::ordered_json());
+    if (earlier != value) out.push_back({setting.key + "." + key, earlier, value});
+  }
+  return out;
+}
+
+std::string here_and_in(const std::vector<OtherSetting>& settings, const std::string& base_name) {
+  const auto words = [](const nlohmann::ordered_json& value) { return value.is_null() ? "not set" : value.dump(); };
+  std::vector<std::string> texts;
+  for (const OtherSetting& setting : settings)
+    for (const OtherSetting& member : each_member(setting))
+      texts.push_back(member.key + " is " + words(member.now) + " here and " + words(member.before) + " in " +
+                      base_name);
+  return joined(texts);
 }
 
 }  // namespace
@@ -76,6 +101,21 @@ std::string BaselineCases::obstacle_to_instructions(const Case& result_case) con
   const result::Count &before = *base_case->count, &now = *result_case.count;
   const std::string source = difference("/count/source", before.source, now.source);
   return source.empty() ? difference("/count/simd_target", before.simd_target, now.simd_target) : source;
+}
+
+std::string BaselineCases::other_prices() const {
+  return here_and_in(report::other_prices(base_, next_), name_);
+}
+
+std::string BaselineCases::other_weights() const {
+  std::vector<OtherSetting> prices = report::other_prices(base_, next_);
+  std::erase_if(prices, [](const OtherSetting& price) { return price.key != k_weights; });
+  return here_and_in(prices, name_);
+}
+
+std::string BaselineCases::other_margin() const {
+  const std::optional<OtherSetting> margin = report::other_margin(base_, next_);
+  return margin ? here_and_in({*margin}, name_) : "";
 }
 
 }  // namespace clusterbench::report

@@ -25,6 +25,10 @@ class BaselineCases {
   std::string changes_of(const result::Case& result_case) const;
   // Why the instructions of both are not comparable; "" if they are.
   std::string obstacle_to_instructions(const result::Case& result_case) const;
+  // Settings that figures follow and that differ: "cost.wave is "8x8" here and "8x4" in base.json"; "" if none does.
+  std::string other_prices() const;
+  std::string other_weights() const;  // of cost.weights alone
+  std::string other_margin() const;
 
  private:
   std::string key_of(const result::Case& result_case) const;

@@ -132,7 +132,7 @@ class RuleCheck {
       return;
     }
     std::vector<std::string> not_in_base, without, in_one;
-    std::string obstacle;
+    std::string obstacle, other_setting;
     for (const Case* result_case : cases_) {
       const std::string& name = result_case->name;
       const Case* before = baseline_->case_of(*result_case);
@@ -149,8 +149,10 @@ class RuleCheck {
           lacks_one = lacks_one || now || then;
         else if (!why.empty())
           obstacle = why;
-        else if (now->samples != then->samples)
-          add_other_samples(name, *now, *then);
+        else if (const std::string setting = setting_that_differs(*now); !setting.empty())
+          other_setting = setting;
+        else if (samples_of(*result_case, *now) != samples_of(*before, *then))
+          add_other_samples(name, samples_of(*result_case, *now), samples_of(*before, *then));
         else
           add_verdict_on_change(*result_case, *now, *then);
       }
@@ -161,7 +163,28 @@ class RuleCheck {
       findings_.broken.push_back(quoted_ + " could not be checked for " + number_of(in_one.size(), "case") +
                                  ", since only one of this result and " + baseline_->name() + " has " + rule_.figure +
                                  result::why_no_figure(rule_.figure) + ": " + listed_names(in_one));
+    if (!other_setting.empty())
+      findings_.broken.push_back(quoted_ + " could not be checked: " + other_setting + "; measure the baseline again");
     add_unmatched(not_in_base, without, obstacle);
+  }
+
+  // A setting that the figure follows and that is another one in the baseline; "" if there is none. Means over several
+  // sets of samples follow the sets' weights.
+  std::string setting_that_differs(const FigureValue& now) const {
+    const result::Figure& figure = *result::figure_named(rule_.figure);
+    if (figure.is_modelled_cost) return baseline_->other_prices();
+    if (figure.name.ends_with("_recommended")) return baseline_->other_margin();
+    const bool has_sets = now.samples.find(',') != std::string::npos;
+    const bool is_mean = figure.samples.over == result::OverSets::mean || figure.name == "overshade";
+    return has_sets && is_mean ? baseline_->other_weights() : "";
+  }
+
+  // The names of the sets of samples that a figure is of; a modelled cost is of those with a weight.
+  std::string samples_of(const Case& result_case, const FigureValue& value) const {
+    if (!result::figure_named(rule_.figure)->is_modelled_cost || !result_case.cost) return value.samples;
+    std::vector<std::string> names;
+    for (const auto& [name, set] : result_case.cost->sets) names.push_back(name);
+    return joined(names);
   }
 
   void add_verdict_on_change(const Case& result_case, const FigureValue& now, const FigureValue& then) {
@@ -172,10 +195,11 @@ class RuleCheck {
                 is_text(rule_, now) + ", " + change + config::budget_number(then.value()) + " in " + baseline_->name());
   }
 
-  void add_other_samples(const std::string& name, const FigureValue& now, const FigureValue& then) {
+  void add_other_samples(const std::string& name, const std::string& now, const std::string& then) {
+    const std::string hint = result::is_at_samples(rule_.figure) ? "; name one set, as in 'volume." + rule_.figure + "'"
+                                                                 : "; measure the baseline again";
     findings_.broken.push_back(quoted_ + " could not be checked for " + name + ": " + rule_.figure +
-                               " is at samples of " + now.samples + " here and of " + then.samples + " in " +
-                               baseline_->name() + "; name one set, as in 'volume." + rule_.figure + "'");
+                               " is at samples of " + now + " here and of " + then + " in " + baseline_->name() + hint);
   }
 
   void add_unmatched(const std::vector<std::string>& not_in_base, const std::vector<std::string>& without,
