@@ -45,7 +45,7 @@ struct Verdict {
   double objective = 0.0;           // smaller is better; NaN: the cases do not have it
   double bytes = 0.0;               // decides between equals
   std::vector<std::size_t> broken;  // constraints, ascending
-  bool is_final = false;            // one of them stays broken with any further frames
+  bool is_final = false;            // the candidate stays rejected with any further frames
   std::vector<double> broken_by{};  // the figure that breaks each of `broken`; NaN: the cases do not have it
   // Constraints on figures that these frames do not have, ascending; broken if no frame of the view has them.
   std::vector<std::size_t> unknown{};

@@ -98,9 +98,7 @@ std::string rejecting_text(const result::ConstraintOfAnswer& row, std::uint64_t 
   const bool is_all = row.excluded == candidates;
   const std::string rejected =
       is_all && candidates == 1 ? "the only candidate" : (is_all ? "all " : "") + number_of(row.excluded, "candidate");
-  const std::string on_some =
-      row.provisional == 0 ? "" : " (" + std::to_string(row.provisional) + " of them measured on some frames only)";
-  return shown(row.constraint) + " rejects " + rejected + on_some;
+  return shown(row.constraint) + " rejects " + rejected;
 }
 
 // ": bytes <= 1000 rejects all 32 candidates, unlit = 0 rejects 4", those that reject most.
@@ -116,10 +114,20 @@ std::string excluding_text(const Answer& answer) {
   return texts.empty() ? "" : ": " + joined(texts);
 }
 
+// Why the search is no proof that no candidate satisfies all constraints; "" if it is one.
+std::string provisional_text(const Answer& answer) {
+  if (answer.provisional == 0) return "";
+  const bool is_one = answer.provisional == 1;
+  return ". " + number_of(answer.provisional, "candidate") + (is_one ? " was" : " were") +
+         " measured on some frames only and could satisfy all constraints on all frames; " +
+         (is_one ? "it was not" : "none of them was") + " among the best that were kept";
+}
+
 // Recommends none, and names possible candidates.
 std::string none_text(const Answer& answer, const Objective& objective) {
   const std::vector<Candidate>& searched = answer.searched;
-  if (searched.empty()) return "take none: no candidate satisfies all constraints" + excluding_text(answer);
+  if (searched.empty())
+    return "take none: no candidate satisfies all constraints" + excluding_text(answer) + provisional_text(answer);
   return "take none: no candidate with lists satisfies all constraints; " + shown(searched[0].name) +
          ", which samples search, does (" + objective_text(searched[0], objective) +
          "), and no GPU has measured such a search";

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "measure/samples/shading.h"
 #include "report/cases/case_costs.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
@@ -90,6 +91,19 @@ bool fails(const std::vector<Case>& cases, bool is_cost) {
   });
 }
 
+// Whether it fails for a reason that stays with more frames: counts of pairs only grow, and a method without samples in
+// the view has none in any frame. Lights lost at samples can be held against a share, which can fall.
+bool stays_failed(const std::vector<Case>& cases, bool is_cost) {
+  const std::string_view at_samples = run::name_of(run::Failure::Kind::lost_at_samples);
+  const auto stays = [&](const result::Failure& failure) { return failure.kind != at_samples; };
+  const auto is_unlit = [](const result::SampleSet* set) { return set->unlit > measure::k_most_unlit; };
+  return std::ranges::any_of(cases, [&](const Case& result_case) {
+    const bool lacks_a_set = is_cost && result_case.cost && !result_case.cost->lit &&
+                             std::ranges::none_of(ranking_samples(result_case), is_unlit);
+    return lacks_a_set || std::ranges::any_of(result_case.failures, stays);
+  });
+}
+
 std::string rule_text_of(const config::LimitRule& rule) {
   if (rule.limit == 0.0 && !rule.is_inclusive) return rule.figure + " = 0";
   return rule.figure + (rule.is_inclusive ? " < " : " <= ") + amount_text(rule.limit);
@@ -105,6 +119,16 @@ bool takes_sound_methods_only(const Question& question) {
 // Methods that draw lights have no lists whose size, time or reads could be compared: only costs of pixels rank them.
 bool takes_what_draws(const Question& question) {
   return rests_on_samples(*question.objective) && question.objective->name != "read_bytes";
+}
+
+// Whether a constraint (an index of constraint_texts()) that is broken by a figure (NaN: it has none) on some frames
+// can hold on more frames.
+bool may_hold(const Question& question, std::size_t constraint, double by) {
+  const std::size_t count = question.constraints.size();
+  if (constraint == count + 3) return rests_on_samples(*question.objective);
+  if (constraint >= count) return constraint == count;  // the others are of the method
+  const config::LimitRule& rule = question.constraints[constraint].rule;
+  return std::isnan(by) ? result::is_at_samples(rule.figure) : !stays_broken(rule);
 }
 
 }  // namespace
@@ -144,11 +168,11 @@ std::vector<std::string> constraint_texts(const Question& question) {
   return texts;
 }
 
-bool may_hold_on_more_frames(const Question& question, std::size_t constraint, double by) {
-  const std::size_t count = question.constraints.size();
-  if (constraint >= count) return constraint == count || constraint == count + 3;  // the others are of the method
-  const config::LimitRule& rule = question.constraints[constraint].rule;
-  return std::isnan(by) ? result::is_at_samples(rule.figure) : !stays_broken(rule);
+bool may_hold_on_more_frames(const Question& question, const search::Verdict& verdict) {
+  if (verdict.is_final) return false;
+  for (std::size_t i = 0; i < verdict.broken.size(); ++i)
+    if (!may_hold(question, verdict.broken[i], verdict.broken_by[i])) return false;
+  return true;
 }
 
 std::vector<Case> records_of(std::span<const run::CaseResult> cases, const nlohmann::ordered_json& config) {
@@ -188,6 +212,7 @@ search::Evaluate judge_of(const Question& question, const nlohmann::json& config
     };
     if (verdict.broken.empty() && fails(cases, question.objective->is_modelled_cost))
       break_by_no_figure(question.constraints.size());
+    verdict.is_final = verdict.is_final || stays_failed(cases, question.objective->is_modelled_cost);
     if (takes_sound_methods_only(question) && !std::ranges::all_of(results, run::is_sound)) {
       break_by_no_figure(question.constraints.size() + 1);
       verdict.is_final = true;

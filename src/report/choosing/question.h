@@ -46,9 +46,9 @@ std::vector<std::string> constraint_texts(const Question& question);
 // there are no samples.
 bool is_loss(const result::Figure& figure);
 
-// Whether a candidate that breaks a constraint (an index of `constraint_texts`) by this figure (NaN: it has none) on
-// some frames can satisfy it on more frames.
-bool may_hold_on_more_frames(const Question& question, std::size_t constraint, double by);
+// Whether a candidate that was measured on some frames can satisfy all constraints on more frames: each one that it
+// breaks can still hold.
+bool may_hold_on_more_frames(const Question& question, const search::Verdict& verdict);
 
 // Whether the objective needs samples: a modelled cost, or a figure of samples.
 bool rests_on_samples(const result::Figure& objective);

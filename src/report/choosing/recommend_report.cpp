@@ -261,14 +261,12 @@ std::vector<result::Candidate> runners_up_of(const config::Config& config, const
 // The candidates that one constraint excludes.
 struct Excluded {
   std::size_t count = 0, alone = 0;    // alone: by this constraint only
-  std::size_t provisional = 0;         // further frames could satisfy it
   std::optional<std::size_t> best;     // by the objective, compared with the best on the same frames
   std::optional<std::size_t> nearest;  // closest to satisfying it
   double nearest_figure = 0.0;
 };
 
-Excluded excluded_by(std::size_t constraint, const search::View& view, const search::Found& found,
-                     const Question& question) {
+Excluded excluded_by(std::size_t constraint, const search::View& view, const search::Found& found) {
   // Candidates not measured on the frames of the best accepted one come last. Those whose samples search a structure
   // are never compared with lists.
   const auto by_best = [&](std::size_t index) {
@@ -284,8 +282,6 @@ Excluded excluded_by(std::size_t constraint, const search::View& view, const sea
     excluded.alone += verdict.broken.size() == 1 ? 1 : 0;
     if (!excluded.best || by_best(i) < by_best(*excluded.best)) excluded.best = i;
     const double figure = verdict.broken_by[static_cast<std::size_t>(at - verdict.broken.begin())];
-    if (found.records[i].frames < view.frames && may_hold_on_more_frames(question, constraint, figure))
-      ++excluded.provisional;
     if (std::isnan(figure) || (excluded.nearest && excluded.nearest_figure <= figure)) continue;
     excluded.nearest = i;
     excluded.nearest_figure = figure;
@@ -298,13 +294,10 @@ std::vector<result::ConstraintOfAnswer> constraints_of_answer(const search::View
   const std::vector<std::string> texts = constraint_texts(question);
   std::vector<result::ConstraintOfAnswer> out;
   for (std::size_t constraint = 0; constraint < texts.size(); ++constraint) {
-    const Excluded excluded = excluded_by(constraint, view, found, question);
+    const Excluded excluded = excluded_by(constraint, view, found);
     const bool is_given = constraint < question.constraints.size() && question.constraints[constraint].is_given;
-    result::ConstraintOfAnswer row{.constraint = texts[constraint],
-                                   .given = is_given,
-                                   .excluded = excluded.count,
-                                   .alone = excluded.alone,
-                                   .provisional = excluded.provisional};
+    result::ConstraintOfAnswer row{
+        .constraint = texts[constraint], .given = is_given, .excluded = excluded.count, .alone = excluded.alone};
     if (excluded.nearest)
       row.nearest =
           result::NearestRejected{view.candidates[*excluded.nearest].name, result::counted(excluded.nearest_figure),
@@ -319,6 +312,13 @@ std::vector<result::ConstraintOfAnswer> constraints_of_answer(const search::View
     out.push_back(row);
   }
   return out;
+}
+
+// Candidates that were measured on some frames only and can satisfy all constraints on more.
+std::size_t provisional(const search::View& view, const search::Found& found, const Question& question) {
+  return static_cast<std::size_t>(std::ranges::count_if(found.records, [&](const search::Record& record) {
+    return record.frames < view.frames && may_hold_on_more_frames(question, record.verdict);
+  }));
 }
 
 result::SearchWork work_of(const search::Work& work) {
@@ -389,6 +389,7 @@ result::Answer answer_of(const config::Config& config, const run::Plan& plan, co
   const bool has_choice = unseen.empty() && !all.empty() && all.front().is_feasible();
   result::Answer out = asked_of(config, data, view, found, question);
   if (!unseen.empty()) out.nothing_seen = unseen;
+  if (unseen.empty() && !has_choice) out.provisional = provisional(view, found, question);
   out.timing_doubts = doubts_of(all);
   if (has_choice) add_choice(out, config, view, all, question);
   const Ranked* best = has_choice ? &all[0] : nullptr;

@@ -80,11 +80,6 @@ struct ConstraintOfAnswer {
   FIELD(bool, given, "false: it holds anyway");
   FIELD(std::uint64_t, excluded, "Candidates that were seen to break it", "candidates");
   FIELD(std::uint64_t, alone, "Of them, those that were seen to break no other one", "candidates");
-  FIELD(std::uint64_t, provisional,
-        About("Of excluded, those that were measured on some frames only, and that further frames could make satisfy "
-              "it: a mean can fall. Absent in older answers",
-              "candidates")
-            .late());
   FIELD(Nullable<NearestRejected>, nearest,
         "That of them with the least of the figure; null: there are none, or they have no such figure");
   FIELD(Nullable<BestRejected>, best, "The best of them; null: there are none");
@@ -186,6 +181,12 @@ struct Answer {
         "Of the candidates that were measured on all frames and are so good, the one with the fewest cells. null: that "
         "is the choice");
   FIELD(std::vector<ConstraintOfAnswer>, constraints, "Those that were given, then those that hold anyway");
+  FIELD(std::uint64_t, provisional,
+        About("Without a choice: candidates that were measured on some frames only, and that further frames could "
+              "make satisfy all constraints, since each one that they break can still hold: a mean can fall. None of "
+              "them was among the best, which were measured on all frames. 0 with a choice; absent in older answers",
+              "candidates")
+            .late());
   FIELD(std::vector<SearchRung>, rungs, "The steps of successive halving");
   FIELD(std::uint64_t, finalists, "Candidates that were measured on all frames at the end", "candidates");
   FIELD(std::uint64_t, challengers,
