@@ -57,6 +57,25 @@ TEST(SizeCommand, of_a_scene_says_what_a_run_of_all_its_cameras_says) {
   }
 }
 
+// The floor is found for samples alone, with a warning.
+TEST(SizeCommand, takes_samples_only_where_they_can_decide_among_structures) {
+  const Folder folder;
+  const std::string size = "size --format json --grid frustum --tiles 120 --slices 8 " +
+                           folder.write("level.gltf", three_cameras()).string();
+  const std::string samples = " --set samples.opaque.ground=lowest", floor = "its opaque samples lie on a floor";
+  const auto takes_samples = [&](const std::string& structures) {
+    const Outcome with = tool(size + structures + samples), without = tool(size + structures);
+    EXPECT_EQ(with.code, 0) << with.err;
+    EXPECT_EQ(with.out, without.out) << structures;
+    return with.err.find(floor) != std::string::npos;
+  };
+  EXPECT_FALSE(takes_samples(" --assigner z-binning")) << "one structure";
+  EXPECT_FALSE(takes_samples(" --assigner exact-fast,aabb-fast --set storages=packed,bitfield"))
+      << "no list lacks a light";
+  EXPECT_TRUE(takes_samples(" --assigner exact-fast,z-binning --set storages=packed"))
+      << "only samples can show that a structure without cells loses lights";
+}
+
 TEST(SizeCommand, counts_the_same_lists_as_details_show) {
   const Folder folder;
   const std::string scene = folder.write("level.gltf", three_cameras()).string();

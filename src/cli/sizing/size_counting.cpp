@@ -4,7 +4,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
 
+#include "assign/contract/assigner.h"
 #include "cli/output/duration.h"
 #include "cli/output/output.h"
 #include "cli/output/progress_line.h"
@@ -86,8 +91,39 @@ config::Config counting_only(const config::Config& config) {
                                   {"shadow_frusta", nullptr}});
 }
 
-// Samples show whether a structure loses lights. Paths with many frames use as many samples in total as 30 frames
-// would.
+// Whether a method lists all lights of each cell, whatever its parameters and its lights: its lists and those of other
+// such methods then lack the same lights at samples, those outside of the grid.
+bool lists_all_lights(const config::Config& config, const run::CasePlan& case_plan) {
+  const config::MethodRequest& request = config.assigners[case_plan.assigner];
+  const assign::AssignerDescriptor& assigner = *assign::find_assigner(request.name);
+  return case_plan.storage && !assigner.at_surfaces &&
+         (assigner.exact || assign::is_conservative(assigner, request.params)) &&
+         config.pre_culls[case_plan.pre_cull].steps.empty() && !config.precisions[case_plan.precision].is_lossy();
+}
+
+// Samples show whether a structure loses lights, which decides only among several structures of one grid.
+bool needs_samples(const config::Config& config, const run::Plan& plan) {
+  using Structure = std::tuple<std::size_t, std::optional<std::size_t>, std::size_t, std::size_t, std::string>;
+  std::map<std::pair<std::size_t, std::size_t>, std::set<Structure>> structures;  // by scene and grid
+  bool may_lose = false;
+  for (const run::GroupPlan& group : plan.groups)
+    for (const run::CasePlan& one : group.cases) {
+      structures[{group.scene, group.grid}].emplace(one.assigner, one.storage, one.precision, one.pre_cull, one.preset);
+      may_lose = may_lose || !lists_all_lights(config, one);
+    }
+  return may_lose && std::ranges::any_of(structures, [](const auto& of_grid) { return of_grid.second.size() > 1; });
+}
+
+// The plan, with sets of samples only if sizes need them: rays for samples of surfaces can take most of the time.
+run::Plan plan_of_counts(config::Config& config, const std::string& filter) {
+  std::vector<config::SampleSetRequest> samples = std::exchange(config.sample_sets, {});
+  run::Plan plan = run::make_plan(config, filter);
+  if (samples.empty() || !needs_samples(config, plan)) return plan;
+  config.sample_sets = std::move(samples);
+  return run::make_plan(config, filter);
+}
+
+// Paths with many frames use as many samples in total as 30 frames would.
 void share_samples(config::Config& config, const run::Plan& plan) {
   constexpr int k_fewest = 32;
   std::size_t frames = 1;
@@ -233,7 +269,8 @@ std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string
     out.limited = out.config;
     out.config = without_engine_limits(std::move(out.config));
   }
-  out.plan = run::make_plan(out.config, filter);
+  out.plan = plan_of_counts(out.config, filter);
+  if (out.limited) out.limited->sample_sets = out.config.sample_sets;
   if (samples) share_samples(out.config, out.plan);
   return out;
 }

@@ -32,11 +32,12 @@ struct SizeCounts {
   std::vector<report::GrownTiles> grown;  // with an engine's own room for lists
 };
 
-// Plans all cameras of scenes that name none, without truth and times. If no frames are requested, a path is sampled 30
-// times a second, at the rate of its keys if that is higher, and at a lower rate if that would be too much work; the
-// choice depends on counts, not on times. nullopt if stopped. `all_methods`: if the input names no methods, also use
-// those with longer lists than others on the same grid. `engine`: "", or the engine whose settings are requested: then
-// the counts are the engine's needs without its limits, since the settings are sized from them.
+// Plans all cameras of scenes that name none, without truth and times; with samples only where they can decide which of
+// several structures of a grid loses no light. If no frames are requested, a path is sampled 30 times a second, at the
+// rate of its keys if that is higher, and at a lower rate if that would be too much work; the choice depends on counts,
+// not on times. nullopt if stopped. `all_methods`: if the input names no methods, also use those with longer lists than
+// others on the same grid. `engine`: "", or the engine whose settings are requested: then the counts are the engine's
+// needs without its limits, since the settings are sized from them.
 std::optional<SizePlan> plan_for_size(const RunInputs& inputs, const std::string& filter, bool all_methods,
                                       const std::string& engine);
 
