@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "report/sizing/named_structures.h"
+#include "report/sizing/sized_buffers.h"
 
 namespace clusterbench::report {
 
