@@ -5,27 +5,44 @@
 namespace clusterbench::report {
 namespace {
 
-nlohmann::ordered_json value_or_null(const result::Result& result, const char* pointer) {
-  const nlohmann::ordered_json* value = value_at(result.config, pointer);
-  return value == nullptr ? nlohmann::ordered_json() : *value;
+using Json = nlohmann::ordered_json;
+
+bool is_none_or_0(const Json& value) {
+  return value.is_null() || value == 0;
+}
+
+// Members of objects are settings of their own.
+void add_if_other(const OtherSetting& setting, std::vector<OtherSetting>& out) {
+  const auto& [name, before, now] = setting;
+  if (before.is_object() && now.is_object()) {
+    Json keys = before;
+    keys.update(now);
+    for (const auto& member : keys.items())
+      add_if_other({name + "." + member.key(), before.value(member.key(), Json()), now.value(member.key(), Json())},
+                   out);
+  } else if (before != now && !(is_none_or_0(before) && is_none_or_0(now))) {
+    out.push_back(setting);
+  }
+}
+
+Json value_or(const result::Result& result, const char* pointer, Json otherwise) {
+  const Json* value = value_at(result.config, pointer);
+  return value == nullptr ? std::move(otherwise) : *value;
 }
 
 }  // namespace
 
 std::vector<OtherSetting> other_prices(const result::Result& base, const result::Result& next) {
-  const nlohmann::ordered_json before = value_or_null(base, "/cost"), now = value_or_null(next, "/cost");
   std::vector<OtherSetting> out;
-  for (const auto& [key, value] : now.items()) {
-    const nlohmann::ordered_json earlier = before.contains(key) ? before[key] : nlohmann::ordered_json();
-    if (earlier != value) out.push_back({"cost." + key, earlier, value});
-  }
+  add_if_other({"cost", value_or(base, "/cost", Json::object()), value_or(next, "/cost", Json::object())}, out);
   return out;
 }
 
-std::optional<OtherSetting> other_margin(const result::Result& base, const result::Result& next) {
-  OtherSetting margin{"allocation.margin", value_or_null(base, "/allocation/margin"),
-                      value_or_null(next, "/allocation/margin")};
-  return margin.before == margin.now ? std::nullopt : std::optional(std::move(margin));
+std::vector<OtherSetting> other_margin(const result::Result& base, const result::Result& next) {
+  std::vector<OtherSetting> out;
+  const char* pointer = "/allocation/margin";
+  add_if_other({"allocation.margin", value_or(base, pointer, {}), value_or(next, pointer, {})}, out);
+  return out;
 }
 
 }  // namespace clusterbench::report

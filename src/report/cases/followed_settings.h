@@ -3,7 +3,6 @@
 // part of a case's id, so two results of the same cases can have other ones.
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +11,12 @@
 namespace clusterbench::report {
 
 struct OtherSetting {
-  std::string key;                     // "cost.ns_per_light"
-  nlohmann::ordered_json before, now;  // null: older than the setting
+  std::string key;                     // "cost.ns_per_light", "cost.weights.opaque"
+  nlohmann::ordered_json before, now;  // null: not set, or the result is older than the setting
 };
-// Prices that differ, by the members of `cost`; with all weights as one value.
+// Prices that differ. Those that an older result lacks were 0.
 std::vector<OtherSetting> other_prices(const result::Result& base, const result::Result& next);
-// None: the same margin.
-std::optional<OtherSetting> other_margin(const result::Result& base, const result::Result& next);
+// Empty: the same margin.
+std::vector<OtherSetting> other_margin(const result::Result& base, const result::Result& next);
 
 }  // namespace clusterbench::report

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "report/cases/followed_settings.h"
 #include "report/cases/json_values.h"
 #include "report/comparing/time_changes.h"
 
@@ -32,46 +33,25 @@ Json facts_of(const Result& result) {
       {"machine", result::to_json(result.machine)}, {"tool", result::to_json(result.tool)}, {"config", result.config}};
 }
 
-Json setting_of(const Result& result, const char* pointer) {
-  const Json* value = value_at(result.config, pointer);
-  return value == nullptr ? Json() : *value;
+std::vector<std::string> texts_of(const std::vector<OtherSetting>& settings) {
+  std::vector<std::string> out;
+  for (const auto& [key, before, now] : settings) out.push_back(key + " is " + before.dump() + " and " + now.dump());
+  return out;
 }
 
-// Adds "cost.wave is "8x8" and "4x8"" for each value that differs. Prices that an older result lacks were 0.
-void add_differing(const std::string& name, const Json& before, const Json& now, std::vector<std::string>& out) {
-  const auto is_equal = [](const Json& one, const Json& other) {
-    return one == other || (one.is_null() && other == 0.0) || (other.is_null() && one == 0.0);
-  };
-  if (before.is_object() && now.is_object()) {
-    Json keys = before;
-    keys.update(now);
-    for (const auto& [key, unused] : keys.items())
-      add_differing(name + "." + key, before.value(key, Json()), now.value(key, Json()), out);
-  } else if (!is_equal(before, now)) {
-    out.push_back(name + " is " + before.dump() + " and " + now.dump());
-  }
+bool has_costs(const Result& result) {
+  return std::ranges::any_of(result.cases, [](const Case& result_case) { return result_case.cost.has_value(); });
 }
 
 }  // namespace
 
 std::vector<std::string> differing_margin(const Result& base, const Result& next) {
-  std::vector<std::string> out;
-  add_differing("allocation.margin", setting_of(base, "/allocation/margin"), setting_of(next, "/allocation/margin"),
-                out);
-  return out;
+  return texts_of(other_margin(base, next));
 }
 
 std::vector<std::string> differing_prices(const Result& base, const Result& next) {
-  const auto has_costs = [](const Result& result) {
-    return std::ranges::any_of(result.cases, [](const Case& result_case) { return result_case.cost.has_value(); });
-  };
-  const auto prices_of = [](const Result& result) {
-    const Json prices = setting_of(result, "/cost");
-    return prices.is_object() ? prices : Json::object();
-  };
-  std::vector<std::string> out;
-  if (has_costs(base) && has_costs(next)) add_differing("cost", prices_of(base), prices_of(next), out);
-  return out;
+  if (!has_costs(base) || !has_costs(next)) return {};
+  return texts_of(other_prices(base, next));
 }
 
 SameSettings same_settings(const Result& base, const Result& next) {

@@ -20,27 +20,11 @@ std::string first_obstacle(const Result& base, const Result& next) {
   return found.to_instructions.empty() ? "" : found.to_instructions.front();
 }
 
-constexpr const char* k_weights = "cost.weights";
-
-// Members of an object that differ, each as a setting of its own, as one weight among those of all sets; the setting
-// itself if it is no object.
-std::vector<OtherSetting> each_member(const OtherSetting& setting) {
-  if (!setting.before.is_object() || !setting.now.is_object()) return {setting};
-  std::vector<OtherSetting> out;
-  for (const auto& [key, value] : setting.now.items()) {
-    const auto earlier = setting.before.value(key, nlohmann::ordered_json());
-    if (earlier != value) out.push_back({setting.key + "." + key, earlier, value});
-  }
-  return out;
-}
-
 std::string here_and_in(const std::vector<OtherSetting>& settings, const std::string& base_name) {
   const auto words = [](const nlohmann::ordered_json& value) { return value.is_null() ? "not set" : value.dump(); };
   std::vector<std::string> texts;
-  for (const OtherSetting& setting : settings)
-    for (const OtherSetting& member : each_member(setting))
-      texts.push_back(member.key + " is " + words(member.now) + " here and " + words(member.before) + " in " +
-                      base_name);
+  for (const auto& [key, before, now] : settings)
+    texts.push_back(key + " is " + words(now) + " here and " + words(before) + " in " + base_name);
   return joined(texts);
 }
 
@@ -109,13 +93,12 @@ std::string BaselineCases::other_prices() const {
 
 std::string BaselineCases::other_weights() const {
   std::vector<OtherSetting> prices = report::other_prices(base_, next_);
-  std::erase_if(prices, [](const OtherSetting& price) { return price.key != k_weights; });
+  std::erase_if(prices, [](const OtherSetting& price) { return !price.key.starts_with("cost.weights."); });
   return here_and_in(prices, name_);
 }
 
 std::string BaselineCases::other_margin() const {
-  const std::optional<OtherSetting> margin = report::other_margin(base_, next_);
-  return margin ? here_and_in({*margin}, name_) : "";
+  return here_and_in(report::other_margin(base_, next_), name_);
 }
 
 }  // namespace clusterbench::report
