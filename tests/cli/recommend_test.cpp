@@ -649,7 +649,8 @@ TEST(Recommend, says_that_there_are_no_samples_for_a_limit_on_their_figures) {
                               figure + " 10");
     EXPECT_EQ(done.code, 1) << done.out << done.err;
     EXPECT_TRUE(done.out.ends_with("nothing to recommend: " + figure +
-                                   " is not known, since there are no samples (keys samples and shading.samples).\n"))
+                                   " is not known, since there are no samples (keys samples and shading.samples; "
+                                   "surfaces need triangles, or a floor: samples.opaque.ground=lowest).\n"))
         << done.out;
   }
 }

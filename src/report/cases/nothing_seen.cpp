@@ -17,7 +17,7 @@ using result::Case;
 using result::LightsInView;
 using result::SampleSet;
 
-// Dark lights are in lists and at samples like others, but losing them loses no light.
+constexpr const char* k_ground_key = "samples.opaque.ground=lowest";
 
 // Sums over the samples that rank cases.
 struct SeenAtSamples {
@@ -95,9 +95,19 @@ std::string why_no_samples(const std::vector<const Case*>& cases, const std::str
 std::string why_no_sets(const std::vector<const Case*>& cases, const std::string& figure) {
   if (cases.empty() || !result::is_at_samples(figure) || seen_at_samples_of(figure, cases).sets > 0) return "";
   const std::string set = result::figure_at_samples(figure).set;
-  if (set.empty()) return "there are no samples (keys samples and shading.samples)";
-  return "there are no samples of " + result::words_of_set(set) + " (key " +
-         (set == "volume" ? "shading.samples" : "samples." + set) + ")";
+  const auto no_samples = [](const std::string& whose, const std::string& remedy) {
+    return "there are no samples" + whose + " (" + remedy + ")";
+  };
+  if (set.empty())
+    return no_samples(
+        "", "keys samples and shading.samples; surfaces need triangles, or a floor: " + std::string(k_ground_key));
+  const std::string of_set = " of " + result::words_of_set(set);
+  if (set == "volume") return no_samples(of_set, "key shading.samples");
+  if (set == "opaque")
+    return no_samples(of_set,
+                      "key samples.opaque; a scene without triangles needs a floor: " + std::string(k_ground_key));
+  return no_samples(of_set,
+                    "key samples." + set + (set == "transparent" ? "; the scene needs triangles that blend" : ""));
 }
 
 std::vector<std::string> views_of_dark_lights(const result::Result& result) {
