@@ -15,7 +15,7 @@ endfunction()
 # clusterbench_embed_schemas(TARGET NAMES...): adds src/config/schemas/NAME.schema.json to the target as NAME_schema_text().
 function(clusterbench_embed_schemas TARGET)
   # Longer than the 65,536 characters that the standard asks of compilers.
-  set(SOURCE "#include \"config/schema_text.h\"\n\n#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n\nnamespace clusterbench::config {\n")
+  set(SOURCE "#include \"config/schema/schema_text.h\"\n\n#pragma GCC diagnostic ignored \"-Woverlength-strings\"\n\nnamespace clusterbench::config {\n")
   foreach(NAME ${ARGN})
     set(FILE ${CMAKE_CURRENT_SOURCE_DIR}/src/config/schemas/${NAME}.schema.json)
     set(TEXT "{}")
@@ -41,7 +41,7 @@ function(clusterbench_embed_presets TARGET)
       message(FATAL_ERROR "configs/presets/${FILE} is not in the list of presets in CMakeLists.txt")
     endif()
   endforeach()
-  set(SOURCE "#include \"config/preset_text.h\"\n\nnamespace clusterbench::config {\n
+  set(SOURCE "#include \"config/presets/preset_text.h\"\n\nnamespace clusterbench::config {\n
 std::span<const PresetText> preset_texts() {\n  static constexpr PresetText k_texts[] = {\n")
   foreach(NAME ${ARGN})
     if(NOT EXISTS ${FOLDER}/${NAME}.json)

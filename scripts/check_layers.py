@@ -22,6 +22,7 @@ FOLDERS = {
     "assign": [["contract", "simd"], ["lists"], ["grid_cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
                ["box_grid", "depth_bins", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],
     "measure": [["truth", "statistics"], ["lists", "samples"], ["shadows", "light_maps"]],
+    "config": [["schema"], ["presets"]],
     "run": [["cases"], ["timing"], ["counters"], ["findings"], ["passes", "records"]],
     "report": [["cases"], ["comparing", "documents", "presets", "searches"], ["gates", "sizing", "tables", "exports", "page"],
                ["choosing", "history"], ["results"]],

@@ -5,11 +5,11 @@
 
 #include "assign/contract/storage.h"
 #include "config/config_grids.h"
-#include "config/documents.h"
 #include "config/grid_json.h"
 #include "config/pre_cull_json.h"
-#include "config/presets.h"
-#include "config/schema_reader.h"
+#include "config/presets/presets.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_reader.h"
 #include "core/error.h"
 
 namespace clusterbench::config {

@@ -4,9 +4,9 @@
 #include <array>
 #include <regex>
 
-#include "config/assigner_names.h"
-#include "config/documents.h"
-#include "config/presets.h"
+#include "config/presets/assigner_names.h"
+#include "config/presets/presets.h"
+#include "config/schema/documents.h"
 #include "core/error.h"
 #include "core/json_document.h"
 

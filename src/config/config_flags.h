@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "config/json_text.h"
+#include "config/schema/json_text.h"
 
 namespace clusterbench::config {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "config/assigner_names.h"
-#include "config/documents.h"
-#include "config/presets.h"
-#include "config/schema_reader.h"
+#include "config/presets/assigner_names.h"
+#include "config/presets/presets.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_reader.h"
 #include "core/error.h"
 #include "core/text.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "config/json_text.h"
+#include "config/schema/json_text.h"
 #include "grid/grid.h"
 
 namespace clusterbench::config {

@@ -9,7 +9,7 @@
 
 #include "config/config.h"
 #include "config/config_keys.h"
-#include "config/json_text.h"
+#include "config/schema/json_text.h"
 
 namespace clusterbench::config {
 

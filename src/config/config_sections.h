@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "config/config_keys.h"
-#include "config/json_text.h"
+#include "config/schema/json_text.h"
 #include "core/memory.h"
 #include "measure/samples/samples.h"
 

@@ -1,12 +1,12 @@
 #pragma once
-// Defaults that depend on what else a configuration says: of scenes on the command line, and of presets.
+// Defaults that depend on other keys of a configuration: of scenes on the command line, and of presets.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 
 #include "config/config_flags.h"
-#include "config/json_text.h"
+#include "config/schema/json_text.h"
 
 namespace clusterbench::config {
 

@@ -10,9 +10,9 @@
 
 #include "config/config.h"
 #include "config/config_scenes.h"
-#include "config/documents.h"
-#include "config/schema_reader.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_reader.h"
+#include "config/schema/schema_verdict.h"
 
 namespace clusterbench::config {
 namespace {

@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "assign/contract/storage.h"
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "places.h"

@@ -1,4 +1,4 @@
-#include "config/preset_file.h"
+#include "config/presets/preset_file.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "config/config.h"
 #include "config/grid_json.h"
-#include "config/preset_text.h"
-#include "config/preset_tiles.h"
+#include "config/presets/preset_text.h"
+#include "config/presets/preset_tiles.h"
 #include "core/error.h"
 #include "places.h"
 

@@ -1,4 +1,4 @@
-#include "config/presets.h"
+#include "config/presets/presets.h"
 
 #include <gtest/gtest.h>
 

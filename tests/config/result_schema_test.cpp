@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "config/documents.h"
+#include "config/schema/documents.h"
 
 namespace clusterbench::config {
 namespace {

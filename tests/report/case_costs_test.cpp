@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "records.h"
 #include "report/comparing/ratios.h"
 #include "report/exports/metrics.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "records.h"
 #include "report/comparing/compare.h"
 #include "report/result_by_hand.h"

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "records.h"
 #include "report/choosing/answer_conclusion.h"
 #include "report/result_by_hand.h"

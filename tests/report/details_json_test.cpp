@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "config/config.h"
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "report/results/result_record.h"
 #include "run/records/records.h"
 #include "run/walk.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "config/presets.h"
+#include "config/presets/presets.h"
 
 namespace clusterbench::report {
 namespace {

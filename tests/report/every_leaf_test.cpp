@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "effort.h"

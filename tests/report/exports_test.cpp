@@ -11,7 +11,7 @@
 #include <regex>
 #include <sstream>
 
-#include "config/schema_verdict.h"
+#include "config/schema/schema_verdict.h"
 #include "core/error.h"
 #include "records.h"
 #include "report/result_by_hand.h"

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "config/documents.h"
+#include "config/schema/documents.h"
 #include "places.h"
 #include "records.h"
 #include "report/exports/metrics.h"

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "core/error.h"
 #include "report/result_by_hand.h"
 #include "report/results/result_record.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "report/cases/timing_warnings.h"
 #include "report/result_by_hand.h"
 #include "report/results/result_record.h"

@@ -5,8 +5,8 @@
 
 #include <limits>
 
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "report/result_by_hand.h"
 #include "run/records/records.h"
 

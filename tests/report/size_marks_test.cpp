@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "records.h"

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <set>
 
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "core/error.h"
 #include "records.h"
 #include "report/result_by_hand.h"

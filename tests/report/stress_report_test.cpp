@@ -5,8 +5,8 @@
 #include <set>
 
 #include "config/config.h"
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "effort.h"
 #include "geom/filter/light_filter.h"
 #include "geom/light_meets_cell.h"

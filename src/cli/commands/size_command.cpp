@@ -16,7 +16,7 @@
 #include "cli/sizing/engine_grid.h"
 #include "cli/sizing/size_counting.h"
 #include "cli/sizing/size_search.h"
-#include "config/documents.h"
+#include "config/schema/documents.h"
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/json_document.h"

@@ -7,8 +7,8 @@
 
 namespace clusterbench::cli {
 
-// Prints the id and name of each case that is left to measure, what is skipped and why, the estimated duration, and the
-// warnings of the scenes. Writes no file. Throws Error as finished_ids() does.
+// Prints the id and name of each case that is left to measure, skipped cases with the reason, the estimated duration,
+// and the warnings of the scenes. Writes no file. Throws Error as finished_ids() does.
 void print_plan(const RunFlags& flags, const config::Config& config, run::Plan plan);
 
 }  // namespace clusterbench::cli

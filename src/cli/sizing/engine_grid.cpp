@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "config/presets.h"
+#include "config/presets/presets.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "report/sizing/engine_limits.h"

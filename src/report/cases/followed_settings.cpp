@@ -25,23 +25,23 @@ void add_if_other(const OtherSetting& setting, std::vector<OtherSetting>& out) {
   }
 }
 
-Json value_or(const result::Result& result, const char* pointer, Json otherwise) {
+Json setting_of(const result::Result& result, const char* pointer, const Json& otherwise) {
   const Json* value = value_at(result.config, pointer);
-  return value == nullptr ? std::move(otherwise) : *value;
+  return value == nullptr ? otherwise : *value;
 }
 
 }  // namespace
 
 std::vector<OtherSetting> other_prices(const result::Result& base, const result::Result& next) {
   std::vector<OtherSetting> out;
-  add_if_other({"cost", value_or(base, "/cost", Json::object()), value_or(next, "/cost", Json::object())}, out);
+  add_if_other({"cost", setting_of(base, "/cost", Json::object()), setting_of(next, "/cost", Json::object())}, out);
   return out;
 }
 
 std::vector<OtherSetting> other_margin(const result::Result& base, const result::Result& next) {
   std::vector<OtherSetting> out;
   const char* pointer = "/allocation/margin";
-  add_if_other({"allocation.margin", value_or(base, pointer, {}), value_or(next, pointer, {})}, out);
+  add_if_other({"allocation.margin", setting_of(base, pointer, {}), setting_of(next, pointer, {})}, out);
   return out;
 }
 

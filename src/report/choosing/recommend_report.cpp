@@ -159,7 +159,7 @@ bool is_repeated(const result::Candidate& record, const result::Candidate& other
          });
 }
 
-// What a configuration needs of a candidate.
+// The settings of a candidate that a configuration needs.
 result::Candidate configured_parts(const config::Config& config, const search::View& view,
                                    const search::Candidate& candidate) {
   const run::CasePlan& plan = *candidate.cases.front();

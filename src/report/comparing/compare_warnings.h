@@ -1,5 +1,5 @@
 #pragma once
-// Warnings of a comparison: what was not compared, and how certain times are.
+// Warnings of a comparison: parts that were not compared, and how certain times are.
 
 #include <string>
 #include <vector>

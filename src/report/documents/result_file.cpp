@@ -1,7 +1,7 @@
 #include "report/documents/result_file.h"
 
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/json_document.h"

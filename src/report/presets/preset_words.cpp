@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/presets.h"
+#include "config/presets/presets.h"
 #include "core/text.h"
 #include "measure/samples/shading.h"
 #include "report/cases/columns.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/presets.h"
+#include "config/presets/presets.h"
 #include "core/text.h"
 #include "result/at.h"
 

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <span>
 
-#include "config/presets.h"
+#include "config/presets/presets.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "report/cases/columns.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "config/documents.h"
-#include "config/schema_verdict.h"
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/json_document.h"

@@ -226,7 +226,7 @@ class Expansion {
     if (is_selected(filter_, names_of(case_plan))) group.cases.push_back(std::move(case_plan));
   }
 
-  // Cases that the filter rejects are not listed as skipped either. `known`: with the name of what is skipped.
+  // Cases that the filter rejects are not listed as skipped either. `known`: with the name of the skipped cases.
   void skip(const CasePlan& known, const std::string& reason, bool is_other_kind = false) {
     impossible_.push_back({known.name, reason, is_other_kind, known.preset});
     if (filter_.is_in(known.name)) plan_.skipped.push_back(impossible_.back());

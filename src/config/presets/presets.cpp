@@ -1,13 +1,13 @@
-#include "config/presets.h"
+#include "config/presets/presets.h"
 
 #include <fnmatch.h>
 
 #include <algorithm>
 
-#include "config/assigner_names.h"
-#include "config/preset_file.h"
-#include "config/preset_text.h"
-#include "config/preset_tiles.h"
+#include "config/presets/assigner_names.h"
+#include "config/presets/preset_file.h"
+#include "config/presets/preset_text.h"
+#include "config/presets/preset_tiles.h"
 #include "core/error.h"
 #include "core/text.h"
 

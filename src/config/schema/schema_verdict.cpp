@@ -1,4 +1,4 @@
-#include "config/schema_verdict.h"
+#include "config/schema/schema_verdict.h"
 
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>

@@ -1,4 +1,4 @@
-#include "config/schema_reader.h"
+#include "config/schema/schema_reader.h"
 
 #include <algorithm>
 #include <regex>

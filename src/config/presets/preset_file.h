@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "config/presets.h"
+#include "config/presets/presets.h"
 
 namespace clusterbench::config {
 

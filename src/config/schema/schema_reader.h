@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/json_text.h"
+#include "config/schema/json_text.h"
 
 namespace clusterbench::config {
 

@@ -1,4 +1,4 @@
-#include "config/assigner_names.h"
+#include "config/presets/assigner_names.h"
 
 #include <fnmatch.h>
 

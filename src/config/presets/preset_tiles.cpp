@@ -1,4 +1,4 @@
-#include "config/preset_tiles.h"
+#include "config/presets/preset_tiles.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "config/preset_file.h"
+#include "config/presets/preset_file.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "config/json_text.h"
-#include "config/preset_tiles.h"
+#include "config/presets/preset_tiles.h"
+#include "config/schema/json_text.h"
 #include "core/error.h"
 #include "core/text.h"
 

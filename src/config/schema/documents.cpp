@@ -1,14 +1,14 @@
 // The schemas: that of configurations is the embedded text, completed by the rows of assigners and storages, with axes
 // written out; the others are made from records.
 
-#include "config/documents.h"
+#include "config/schema/documents.h"
 
 #include <algorithm>
 #include <array>
 
 #include "assign/contract/assigner.h"
 #include "assign/contract/storage.h"
-#include "config/schema_text.h"
+#include "config/schema/schema_text.h"
 #include "core/error.h"
 #include "result/documents/comparison.h"
 #include "result/documents/light_map.h"

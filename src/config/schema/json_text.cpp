@@ -1,4 +1,4 @@
-#include "config/json_text.h"
+#include "config/schema/json_text.h"
 
 #include <algorithm>
 #include <set>
