@@ -23,7 +23,7 @@ struct SceneKeys {
   KEY(std::optional<std::string>, path, {});
   KEY(std::optional<std::vector<std::string>>, paths, {});
   KEY(std::optional<result::Json>, rig, {});  // of a scene::RigSpec, each value or a list of them
-  KEY(std::string, camera, "");
+  KEY(std::string, camera, {});
   KEY(result::Json, frames, 60);
   KEY(scene::CameraFit, camera_fit, scene::CameraFit::contain);
   KEY(std::optional<std::string>, fov, {});
