@@ -244,6 +244,19 @@ TEST(Compare, parts_of_every_kind_that_only_one_result_has_are_named) {
             Json::parse(R"([{"part": "samples.opaque", "only_in": "new", "cases": 1}])"));
 }
 
+// Where there is nothing to record is no missing part: a loss that is gone fails no --strict.
+TEST(Compare, records_that_follow_from_counts_are_no_parts) {
+  run::Result lossy = result_by_hand();
+  testing::lose_a_light(lossy.cases[0]);
+  Json base = json_of(lossy);
+  ASSERT_TRUE(base["cases"][0]["error"].contains("deepest"));
+  base["cases"][1]["timing"]["baseline"] = paired(0.0);
+  const Json comparison = compared(base, json_of(result_by_hand()), 0.02);
+  EXPECT_EQ(comparison["cases"][0]["counts"], "better");
+  EXPECT_EQ(comparison["not_compared"], Json::array());
+  EXPECT_EQ(outcome(comparison, true), ExitCode::ok);
+}
+
 // Prices are no part of a case's id; costs at other prices are no change of what is counted.
 class ComparePrices : public ::testing::Test {
  protected:

@@ -43,6 +43,11 @@ bool has_costs(const Result& result) {
   return std::ranges::any_of(result.cases, [](const Case& result_case) { return result_case.cost.has_value(); });
 }
 
+// Only where they matter.
+std::vector<OtherSetting> other_prices_of_costs(const Result& base, const Result& next) {
+  return has_costs(base) && has_costs(next) ? other_prices(base, next) : std::vector<OtherSetting>();
+}
+
 }  // namespace
 
 std::vector<std::string> differing_margin(const Result& base, const Result& next) {
@@ -50,19 +55,17 @@ std::vector<std::string> differing_margin(const Result& base, const Result& next
 }
 
 std::vector<std::string> differing_prices(const Result& base, const Result& next) {
-  if (!has_costs(base) || !has_costs(next)) return {};
-  return texts_of(other_prices(base, next));
+  return texts_of(other_prices_of_costs(base, next));
 }
 
 SameSettings same_settings(const Result& base, const Result& next) {
-  const std::vector<std::string> prices = differing_prices(base, next);
-  const auto differ = [&](const char* start) {
-    return std::ranges::any_of(prices, [&](const std::string& price) { return price.starts_with(start); });
-  };
-  return {.margin = differing_margin(base, next).empty(),
-          .prices = prices.empty(),
-          .waves = !differ("cost.wave "),
-          .weights = !differ("cost.weights")};
+  SameSettings same{.margin = other_margin(base, next).empty()};
+  for (const OtherSetting& price : other_prices_of_costs(base, next)) {
+    same.prices = false;
+    if (price.key == "cost.wave") same.waves = false;
+    if (price.key.starts_with("cost.weights")) same.weights = false;
+  }
+  return same;
 }
 
 Obstacles obstacles(const Result& base, const Result& next) {

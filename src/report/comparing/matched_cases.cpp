@@ -16,7 +16,7 @@ using result::Result;
 // How many matches have a part on one side only, by the part's name, in the order of a case's fields.
 class PartsOfOne {
  public:
-  void add(const result::Type& type, const void* base, const void* next) { add_fields(type, base, next, ""); }
+  void add(const Match& match) { add_fields(result::type_of<Case>(), &match.base, &match.next, ""); }
 
   std::vector<PartOfOne> found() const {
     std::vector<PartOfOne> out;
@@ -43,27 +43,17 @@ class PartsOfOne {
     return found != counts_.end() ? found->second : counts_.emplace_back(name, Count{}).second;
   }
 
-  void add_part(const result::Type& type, const void* base, const void* next, const std::string& name) {
-    if (base == nullptr && next == nullptr) return;
-    if (base == nullptr || next == nullptr)
-      ++(base == nullptr ? count_of(name).next : count_of(name).base);
-    else if (type.kind == result::Kind::object)
-      add_fields(type, base, next, name + ".");
-    else if (type.kind == result::Kind::by_name)
-      add_named(type, base, next, name + ".");
-  }
-
+  // Of the records below, only sets of samples are parts of their own: others, such as the deepest miss, are absent
+  // where there is nothing to record.
   void add_fields(const result::Type& type, const void* base, const void* next, const std::string& prefix) {
-    for (const result::Field& field : type.fields)
-      if (is_part(*field.type)) add_part(*field.type, field.get(base), field.get(next), prefix + field.name);
-  }
-
-  void add_named(const result::Type& type, const void* base, const void* next, const std::string& prefix) {
-    if (!is_part(*type.element)) return;
-    std::map<std::string, std::pair<const void*, const void*>> elements;
-    for (std::size_t i = 0; i < type.size(base); ++i) elements[type.name_at(base, i)].first = type.at(base, i);
-    for (std::size_t i = 0; i < type.size(next); ++i) elements[type.name_at(next, i)].second = type.at(next, i);
-    for (const auto& [name, both] : elements) add_part(*type.element, both.first, both.second, prefix + name);
+    for (const result::Field& field : type.fields) {
+      if (!field.is_optional || !is_part(*field.type)) continue;
+      const void *in_base = field.get(base), *in_next = field.get(next);
+      if ((in_base == nullptr) != (in_next == nullptr))
+        ++(in_base == nullptr ? count_of(prefix + field.name).next : count_of(prefix + field.name).base);
+      else if (in_base != nullptr && field.type == &result::type_of<result::SampleSets>())
+        add_fields(*field.type, in_base, in_next, field.name + ".");
+    }
   }
 
   std::vector<std::pair<std::string, Count>> counts_;
@@ -100,7 +90,7 @@ std::vector<RenamedCase> renamed_cases(const Result& base, const std::vector<con
 
 std::vector<PartOfOne> parts_of_one(const std::vector<Match>& matches) {
   PartsOfOne parts;
-  for (const Match& match : matches) parts.add(result::type_of<Case>(), &match.base, &match.next);
+  for (const Match& match : matches) parts.add(match);
   return parts.found();
 }
 
