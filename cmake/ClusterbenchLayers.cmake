@@ -28,8 +28,8 @@ if(CLUSTERBENCH_SANITIZE)
   endif()
 endif()
 
-# clusterbench_unite(TARGET [COUNT]): its files are compiled COUNT at a time, or eight. Each of them brings headers whose code takes longer
-# to build than its own. Not for layers whose time is measured: what is inlined there must not depend on the neighbours.
+# clusterbench_unite(TARGET [COUNT]): its files are compiled COUNT at a time, or eight. Each of them brings headers whose
+# code takes longer to build than its own. Not for layers whose time is measured: what is inlined there must not depend on the neighbours.
 function(clusterbench_unite TARGET)
   if(CLUSTERBENCH_UNITY)
     set(COUNT 8)
