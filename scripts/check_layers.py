@@ -10,7 +10,7 @@ import re
 import sys
 
 # A file includes only its own layer and those before it.
-LAYERS = ["core", "os", "result", "geom", "scene", "view", "depth", "grid", "cull", "assign", "measure", "config", "run", "pictures", "stress",
+LAYERS = ["core", "os", "result", "geom", "scene", "view", "depth", "grid", "cull", "assign", "gpu", "measure", "config", "run", "pictures", "stress",
           "search", "report", "cli"]
 
 # The same for the folders of a layer. Those that stand side by side do not include each other. ".": the files beside the
@@ -21,6 +21,7 @@ FOLDERS = {
     "scene": [["."], ["gltf_document"], ["gltf_scene", "writers"], ["generators"]],
     "assign": [["contract", "simd"], ["lists"], ["grid_cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
                ["box_grid", "depth_bins", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],
+    "gpu": [["device"], ["vulkan"], ["methods"]],
     "measure": [["truth", "statistics"], ["lists", "samples"], ["shadows", "light_maps"]],
     "config": [["schema"], ["presets"]],
     "run": [["cases"], ["timing"], ["counters"], ["findings"], ["passes", "records"]],
@@ -43,6 +44,8 @@ HOMES = {
     "embree": ["depth"],
     "hwy/": ["assign"],
     "png.h": ["pictures"],
+    "volk.h": ["gpu"],
+    "vulkan/": ["gpu"],
     "valijson/": ["config"],
     "nlopt": ["search"],
     "valgrind/": ["run"],

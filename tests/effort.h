@@ -22,11 +22,15 @@ constexpr int tries(int count) {
 // All of them; under sanitizers every eighth (or `nth`, from a first one on), which is enough to meet each kind of
 // setting once.
 template <class T>
-std::vector<T> some(std::vector<T> all, std::size_t nth = 8, std::size_t first = 0) {
-  if constexpr (!k_sanitized) return all;
+std::vector<T> every_nth(std::vector<T> all, std::size_t nth, std::size_t first) {
   std::vector<T> kept;
   for (std::size_t i = first; i < all.size(); i += nth) kept.push_back(std::move(all[i]));
   return kept;
+}
+template <class T>
+std::vector<T> some(std::vector<T> all, std::size_t nth = 8, std::size_t first = 0) {
+  if constexpr (!k_sanitized) return all;
+  return every_nth(std::move(all), nth, first);
 }
 
 }  // namespace clusterbench::test

@@ -167,6 +167,8 @@ struct AssignerDescriptor {
   bool naive = false;
   // Runs only if a configuration names it: a variant of an engine that default runs can omit.
   bool by_name = false;
+  // Runs on a device, whose clock times it: the time of the process that waits for it ranks nothing.
+  bool on_device = false;
   std::vector<ParamSpec> params;
   // The forms of its result, one or both; null: not available in this form.
   std::unique_ptr<ListAssigner> (*make)(const Params& params) = nullptr;

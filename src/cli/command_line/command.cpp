@@ -11,6 +11,7 @@
 
 #include "cli/command_line/commands.h"
 #include "core/text.h"
+#include "gpu/methods/methods.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -251,6 +252,7 @@ bool names_unknown_command(const CLI::App& program) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  gpu::register_methods();
   CLI::App app{"Measures clustered light assignment: exact error, list sizes, time.", "clusterbench"};
   app.require_subcommand(0, 1);
   Command program(&app);

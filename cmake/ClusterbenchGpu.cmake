@@ -1,0 +1,75 @@
+# clusterbench_gpu(TARGET): what the layer gpu needs of Vulkan: its headers, volk, and the shaders of src/gpu/shaders as SPIR-V,
+# each once as it is and once asking for rounding to nearest. Where something is missing the layer says so at run time.
+find_path(VULKAN_INCLUDE vulkan/vulkan_core.h)
+find_path(VOLK_INCLUDE volk.h)
+find_program(GLSLANG glslangValidator)
+
+function(clusterbench_gpu TARGET)
+  set(FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/src/gpu)
+  get_target_property(SOURCES ${TARGET} SOURCES)
+  set(MISSING "")
+  if(NOT VULKAN_INCLUDE)
+    list(APPEND MISSING "the headers of Vulkan (Debian: libvulkan-dev)")
+  endif()
+  if(NOT VOLK_INCLUDE)
+    list(APPEND MISSING "volk (Debian: libvulkan-volk-dev)")
+  endif()
+  if(NOT GLSLANG)
+    list(APPEND MISSING "glslangValidator (Debian: glslang-tools)")
+  endif()
+  if(MISSING)
+    list(JOIN MISSING ", " MISSING)
+    message(STATUS "Methods on the GPU will not run: this machine lacks ${MISSING}")
+    list(FILTER SOURCES EXCLUDE REGEX "/gpu/vulkan/")
+    set_target_properties(${TARGET} PROPERTIES SOURCES "${SOURCES}")
+    target_compile_definitions(${TARGET} PRIVATE
+      "CLUSTERBENCH_GPU_OBSTACLE=\"this clusterbench was built without ${MISSING}\"")
+    return()
+  endif()
+  list(FILTER SOURCES EXCLUDE REGEX "/no_vulkan\\.cpp$")
+  set_target_properties(${TARGET} PROPERTIES SOURCES "${SOURCES}")
+  target_include_directories(${TARGET} SYSTEM PRIVATE ${VULKAN_INCLUDE} ${VOLK_INCLUDE})
+  target_link_libraries(${TARGET} PRIVATE ${CMAKE_DL_LIBS})
+  # volk is one file of C, which declares what Vulkan may ever have.
+  set_source_files_properties(${FOLDER}/vulkan/instance.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+
+  set(OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/spirv)
+  file(MAKE_DIRECTORY ${OUTPUT})
+  file(GLOB SHADERS CONFIGURE_DEPENDS ${FOLDER}/shaders/*.comp)
+  file(GLOB INCLUDED CONFIGURE_DEPENDS ${FOLDER}/shaders/*.glsl)
+  set(CODE "")
+  set(CASES "")
+  foreach(SHADER ${SHADERS})
+    get_filename_component(NAME ${SHADER} NAME_WE)
+    foreach(VARIANT plain to_nearest)
+      set(DEFINE "")
+      set(ASKS false)
+      if(VARIANT STREQUAL to_nearest)
+        set(DEFINE -DROUNDS_TO_NEAREST)
+        set(ASKS true)
+      endif()
+      set(FILE ${OUTPUT}/${NAME}_${VARIANT}.h)
+      add_custom_command(OUTPUT ${FILE} DEPENDS ${SHADER} ${INCLUDED} VERBATIM COMMENT "SPIR-V of ${NAME} (${VARIANT})"
+        COMMAND ${GLSLANG} -V --quiet --target-env vulkan1.3 ${DEFINE} --vn ${NAME}_${VARIANT} -o ${FILE} ${SHADER})
+      target_sources(${TARGET} PRIVATE ${FILE})
+      string(APPEND CODE "#include \"spirv/${NAME}_${VARIANT}.h\"\n")
+      string(APPEND CASES "  if (shader == \"${NAME}\" && rounds_to_nearest == ${ASKS}) return ${NAME}_${VARIANT};\n")
+    endforeach()
+  endforeach()
+  target_include_directories(${TARGET} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+  clusterbench_embed_source(${TARGET} shader_code.cpp "#include \"gpu/vulkan/shader_code.h\"
+
+#include \"core/error.h\"
+
+namespace {
+${CODE}}  // namespace
+
+namespace clusterbench::gpu {
+
+std::span<const std::uint32_t> shader_code(std::string_view shader, bool rounds_to_nearest) {
+${CASES}  throw Error(\"\", \"device\", \"there is no shader \" + std::string(shader), ExitCode::internal);
+}
+
+}  // namespace clusterbench::gpu
+")
+endfunction()

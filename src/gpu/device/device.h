@@ -1,0 +1,102 @@
+#pragma once
+// The device of this process, its buffers, and commands that run shaders on them. What Vulkan needs is behind
+// Device::Impl (gpu/vulkan).
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "gpu/device/device_facts.h"
+
+namespace clusterbench::gpu {
+
+// A compute pipeline: a shader with the size of its groups and its mode (both specialization constants).
+using Kernel = std::uint32_t;
+
+class Device {
+ public:
+  // Throws Error with the reason if there is none.
+  explicit Device(const std::string& wanted);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const DeviceFacts& facts() const;
+  // Compiles src/gpu/shaders/SHADER.comp at the first request.
+  Kernel kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode = 0);
+
+  struct Impl;
+  Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+// Which device device() opens, as chosen_device() takes it. Closes the one that is open.
+void use_device(const std::string& wanted);
+// The device of this process: opened at the first call, closed at its end. All methods of a run share it. Throws Error
+// with the reason if there is none.
+Device& device();
+// The reason why device() throws; "" if it does not.
+std::string device_obstacle();
+
+// The buffers that kernels see, by binding. Memory is kept, and grows.
+class Buffers {
+ public:
+  static constexpr std::uint32_t k_bindings = 12;
+
+  explicit Buffers(Device& device);
+  ~Buffers();
+  Buffers(const Buffers&) = delete;
+  Buffers& operator=(const Buffers&) = delete;
+
+  // At least this many bytes; if it has to grow, the contents are lost. Not while commands are recorded. Throws Error
+  // (with `name` and the numbers) above the device's limit or where it has no memory left.
+  void reserve(std::uint32_t binding, std::uint64_t bytes, const char* name);
+  std::uint64_t bytes(std::uint32_t binding) const;
+  std::uint64_t all_bytes() const;
+
+  struct Impl;
+  Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+// Arguments of a dispatch: what its shader declares as push constants.
+struct Arguments {
+  std::array<std::uint32_t, 32> words{};
+};
+
+// Commands that are recorded, then run once. Steps within a dispatch run in any order; what a later step reads of an
+// earlier one needs a barrier() between them.
+class Commands {
+ public:
+  Commands(Device& device, Buffers& buffers);
+
+  // Data for a buffer: copied now, arrives as a step.
+  void upload(std::uint32_t binding, const void* data, std::uint64_t bytes);
+  void fill(std::uint32_t binding, std::uint32_t word, std::uint64_t bytes);
+  // Groups are spread over two dimensions beyond 65,535: shaders number them by group_index().
+  void dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t groups);
+  void barrier();
+  // The time of all steps until now, by the device's clock. Up to 8 in one recording.
+  void mark();
+  // The first bytes of a buffer, for downloaded() after run().
+  void download(std::uint32_t binding, std::uint64_t bytes);
+
+  // Throws Error if the device fails.
+  void run();
+  // Between two marks; 0 without a clock.
+  double ns_between(std::uint32_t first, std::uint32_t last) const;
+  // The n-th download of the last run, valid until the next one.
+  std::span<const std::uint32_t> downloaded(std::uint32_t n) const;
+
+ private:
+  Device::Impl& device_;
+  Buffers::Impl& buffers_;
+};
+
+}  // namespace clusterbench::gpu

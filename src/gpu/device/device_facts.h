@@ -1,0 +1,54 @@
+#pragma once
+// A device on which shaders run: a GPU, or a driver that computes on the processor. As `clusterbench list devices`
+// shows it.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace clusterbench::gpu {
+
+enum class DeviceType : std::uint8_t { discrete, integrated, virtual_gpu, software, other };
+
+std::string type_name(DeviceType type);
+
+struct DeviceFacts {
+  std::string name, driver;
+  std::string vulkan;  // version of the interface: "1.3.204"
+  std::string uuid;    // 32 hexadecimal digits
+  DeviceType type = DeviceType::other;
+  std::string obstacle;  // the reason why it cannot be used; "" if it can
+
+  // Limits.
+  std::uint64_t max_buffer_bytes = 0;  // of what a shader sees of one buffer
+  std::uint32_t max_group_size = 0;    // invocations
+  std::uint32_t shared_bytes = 0;      // of a group
+  std::uint32_t subgroup_size = 0;
+
+  // The clock: 0 bits where it has none.
+  std::uint32_t timestamp_bits = 0;
+  double timestamp_period_ns = 0.0;
+
+  // Arithmetic: whether shaders can ask for rounding to nearest in single precision. Otherwise a sum or a product may
+  // be the next number on either side.
+  bool rounds_to_nearest = false;
+  bool has_full_subgroups = false;
+
+  // Its times are those of a processor.
+  bool is_software() const { return type == DeviceType::software; }
+};
+
+struct DeviceList {
+  std::vector<DeviceFacts> devices;  // in the driver's order: their index selects them
+  std::string obstacle;              // the reason why there are none
+};
+
+// All devices of this machine. Slow: it loads every driver.
+DeviceList list_devices();
+
+// The index of the device that these words name: an index, (the start of) a UUID, or a part of a name, in any case of
+// letters. "": the best usable one: discrete before integrated before virtual before software. Throws Error (where =
+// "device") with the devices that there are.
+std::size_t chosen_device(const DeviceList& list, const std::string& wanted);
+
+}  // namespace clusterbench::gpu

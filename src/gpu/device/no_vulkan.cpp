@@ -1,0 +1,60 @@
+// Of a build without Vulkan's headers, volk or glslang: there is no device. CLUSTERBENCH_GPU_OBSTACLE is the reason.
+
+#include "core/error.h"
+#include "gpu/device/device.h"
+
+namespace clusterbench::gpu {
+namespace {
+
+[[noreturn]] void refuse() {
+  throw Error("", "device", CLUSTERBENCH_GPU_OBSTACLE);
+}
+
+}  // namespace
+
+struct Device::Impl {};
+struct Buffers::Impl {};
+
+DeviceList list_devices() {
+  return {{}, CLUSTERBENCH_GPU_OBSTACLE};
+}
+
+Device::Device(const std::string&) {
+  refuse();
+}
+Device::~Device() = default;
+const DeviceFacts& Device::facts() const {
+  refuse();
+}
+Kernel Device::kernel(const std::string&, std::uint32_t, std::uint32_t) {
+  refuse();
+}
+
+// None of these can be reached: there is no Device.
+Buffers::Buffers(Device&) {
+  refuse();
+}
+Buffers::~Buffers() = default;
+void Buffers::reserve(std::uint32_t, std::uint64_t, const char*) {}
+std::uint64_t Buffers::bytes(std::uint32_t) const {
+  return 0;
+}
+std::uint64_t Buffers::all_bytes() const {
+  return 0;
+}
+Commands::Commands(Device& device, Buffers& buffers) : device_(device.impl()), buffers_(buffers.impl()) {}
+void Commands::upload(std::uint32_t, const void*, std::uint64_t) {}
+void Commands::fill(std::uint32_t, std::uint32_t, std::uint64_t) {}
+void Commands::dispatch(Kernel, const Arguments&, std::uint64_t) {}
+void Commands::barrier() {}
+void Commands::mark() {}
+void Commands::download(std::uint32_t, std::uint64_t) {}
+void Commands::run() {}
+double Commands::ns_between(std::uint32_t, std::uint32_t) const {
+  return 0.0;
+}
+std::span<const std::uint32_t> Commands::downloaded(std::uint32_t) const {
+  return {};
+}
+
+}  // namespace clusterbench::gpu

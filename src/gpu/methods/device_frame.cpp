@@ -1,0 +1,112 @@
+#include "gpu/methods/device_frame.h"
+
+#include <algorithm>
+
+#include "assign/bounds/cell_extents.h"
+#include "core/arrays.h"
+
+namespace clusterbench::gpu {
+namespace {
+
+// A radius and a range whose squares are finite, and beyond all distances of the domain: for lights without an end.
+constexpr float k_endless = 1e19f;
+
+// Roundoffs of ball_touches_box() (common.glsl), as of assign::CellAabbs, which does the same steps. A device that does
+// not round to nearest may be off by two roundoffs a step.
+constexpr float k_ball_roundoffs = 4.0f, k_cone_slack = 0x1p-19f;
+
+float steps_of(const DeviceFacts& facts) {
+  return facts.rounds_to_nearest ? 1.0f : 2.0f;
+}
+
+template <class T>
+void upload_all(Commands& commands, Binding binding, const std::vector<T>& data) {
+  commands.upload(binding, data.data(), data.size() * sizeof(T));
+}
+
+}  // namespace
+
+std::vector<assign::ParamSpec> device_params() {
+  return assign::light_params();
+}
+
+std::string no_device(const assign::Params&) {
+  return device_obstacle();
+}
+
+DeviceFrame::DeviceFrame(const assign::Params& params)
+    : device_(&gpu::device()), buffers_(*device_), test_(params, k_ball_roundoffs * steps_of(device_->facts())) {}
+
+void DeviceFrame::build(const grid::Grid& grid, const assign::LightKinds& kinds) {
+  const assign::CellExtents extents = assign::cell_extents(grid);
+  std::vector<assign::Interval> all = extents.x.extents;
+  arguments_ = {};
+  arguments_.first_row = static_cast<std::uint32_t>(all.size());
+  all.insert(all.end(), extents.y.extents.begin(), extents.y.extents.end());
+  arguments_.first_slice = static_cast<std::uint32_t>(all.size());
+  all.insert(all.end(), extents.z.extents.begin(), extents.z.extents.end());
+  const Vec3i cells = grid.cells();
+  arguments_.cells = grid.cell_count();
+  arguments_.columns = static_cast<std::uint32_t>(cells.x);
+  arguments_.rows = static_cast<std::uint32_t>(cells.y);
+  arguments_.slices = static_cast<std::uint32_t>(cells.z);
+  arguments_.column_pitch = static_cast<std::uint32_t>(extents.x.pitch);
+  arguments_.row_pitch = static_cast<std::uint32_t>(extents.y.pitch);
+  arguments_.cone_slack = k_cone_slack * steps_of(device_->facts());
+  test_.start_grid(grid, kinds);
+
+  std::vector<Vec4> around_cells;
+  for (const geom::Ball& ball : test_.cell_balls())
+    around_cells.push_back({ball.center.x, ball.center.y, ball.center.z, std::min(ball.radius, k_endless)});
+  buffers_.reserve(Binding::bounds, bytes_of(all), "bounds of cells");
+  buffers_.reserve(Binding::cell_balls, bytes_of(around_cells), "balls around cells");
+  Commands commands(*device_, buffers_);
+  upload_all(commands, Binding::bounds, all);
+  upload_all(commands, Binding::cell_balls, around_cells);
+  commands.run();
+}
+
+void DeviceFrame::prepare(const view::LightArrays& lights) {
+  test_.start_frame(lights);
+  pack_balls(lights);
+  pack_cones(lights);
+  arguments_.lights = lights.points.count + lights.spots.count;
+  arguments_.points = lights.points.count;
+  arguments_.words = (arguments_.lights + 31) / 32;
+  arguments_.tests_cones = cones_.empty() ? 0 : 1;
+  buffers_.reserve(Binding::balls, bytes_of(balls_), "balls of lights");
+  buffers_.reserve(Binding::cones, bytes_of(cones_), "cones of spots");
+}
+
+void DeviceFrame::upload(Commands& commands) const {
+  upload_all(commands, Binding::balls, balls_);
+  upload_all(commands, Binding::cones, cones_);
+  commands.barrier();
+}
+
+void DeviceFrame::pack_balls(const view::LightArrays& lights) {
+  balls_.clear();
+  for (std::uint32_t light = 0; light < lights.boxes.first; ++light) {
+    const geom::Ball ball = test_.ball(lights, light, k_ball_roundoffs * steps_of(device_->facts()));
+    const bool is_empty = lights.is_empty(light);
+    balls_.push_back(
+        {ball.center.x, ball.center.y, ball.center.z, is_empty ? -1.0f : std::min(ball.radius, k_endless)});
+  }
+}
+
+void DeviceFrame::pack_cones(const view::LightArrays& lights) {
+  cones_.clear();
+  if (!test_.tests_cones()) return;
+  for (std::uint32_t light = lights.spots.first; light < lights.spots.end(); ++light) {
+    const geom::SphericalCone cone = test_.cone(lights, light);
+    cones_.push_back({{cone.apex.x, cone.apex.y, cone.apex.z, std::min(cone.range, k_endless)},
+                      {cone.axis.x, cone.axis.y, cone.axis.z, cone.cos_angle},
+                      {cone.sin_angle, 0.0f, 0.0f, 0.0f}});
+  }
+}
+
+std::size_t DeviceFrame::host_bytes() const {
+  return bytes_of(balls_, cones_) + test_.capacity_bytes();
+}
+
+}  // namespace clusterbench::gpu

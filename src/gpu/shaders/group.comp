@@ -1,0 +1,62 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "common.glsl"
+
+// One group per block of 4 x 4 x 4 cells, an invocation for each. 64 lights at a time are tested against the box around
+// the block, an invocation for each light; those that touch it stay, and each invocation tests them against its cell. The
+// box holds the cells' boxes and rounding is monotonic, so no light that touches a cell is left out: the lists are those
+// of all lights against all cells.
+shared vec3 block_lo[64], block_hi[64];
+shared uint kept_bits[2];
+shared uint kept[64];
+shared vec4 kept_balls[64];
+
+void main() {
+  uvec3 blocks = uvec3((frame.columns + 3) / 4, (frame.rows + 3) / 4, (frame.slices + 3) / 4);
+  uint block = group_index(), lane = gl_LocalInvocationIndex;
+  if (block >= blocks.x * blocks.y * blocks.z) return;  // the whole group
+  uvec3 first = 4 * uvec3(block % blocks.x, block / blocks.x % blocks.y, block / (blocks.x * blocks.y));
+  uvec3 at = first + uvec3(lane % 4, lane / 4 % 4, lane / 16);
+  bool is_cell = at.x < frame.columns && at.y < frame.rows && at.z < frame.slices;
+  Cell cell = cell_at(min(at, uvec3(frame.columns, frame.rows, frame.slices) - 1));  // beyond the grid: the last one again
+  block_lo[lane] = cell.lo;
+  block_hi[lane] = cell.hi;
+  for (uint half_size = 32; half_size > 0; half_size /= 2) {
+    barrier();
+    if (lane < half_size) {
+      block_lo[lane] = min(block_lo[lane], block_lo[lane + half_size]);
+      block_hi[lane] = max(block_hi[lane], block_hi[lane + half_size]);
+    }
+  }
+  uint count = 0;
+  uint begin = MODE == k_fill && is_cell ? list_begin(cell.index) : 0;
+  for (uint batch = 0; batch < frame.lights; batch += 64) {
+    if (lane < 2) kept_bits[lane] = 0;
+    barrier();
+    vec4 ball = vec4(0.0, 0.0, 0.0, -1.0);
+    if (batch + lane < frame.lights) ball = balls[batch + lane];
+    bool stays = ball_touches_box(ball, block_lo[0], block_hi[0]);
+    if (stays) atomicOr(kept_bits[lane / 32], 1u << (lane % 32));
+    barrier();
+    uint low = kept_bits[0], high = kept_bits[1];
+    uint before = (1u << (lane % 32)) - 1;
+    uint place = lane < 32 ? bitCount(low & before) : bitCount(low) + bitCount(high & before);
+    if (stays) {
+      kept[place] = batch + lane;
+      kept_balls[place] = ball;
+    }
+    barrier();
+    uint kept_count = bitCount(low) + bitCount(high);
+    for (uint i = 0; i < kept_count && is_cell; ++i) {
+      if (!touches(kept[i], kept_balls[i], cell)) continue;
+      if (MODE == k_fill && begin + count < frame.capacity) lists[begin + count] = kept[i];
+      ++count;
+    }
+    barrier();
+  }
+  if (!is_cell) return;
+  if (MODE == k_count)
+    counts[cell.index] = count;
+  else
+    begins[cell.index] = begin;
+}

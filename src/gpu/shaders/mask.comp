@@ -1,0 +1,32 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#include "common.glsl"
+
+// One group per cell and 64 lights, an invocation for each light; a ballot makes the cell's bits. Invocations are numbered
+// by subgroup, since nothing else says which of them a ballot's bit belongs to.
+shared uint bits[2];
+
+void main() {
+  uint pairs_of_words = (frame.words + 1) / 2;
+  uint group = group_index(), index = group / pairs_of_words, word = 2 * (group % pairs_of_words);
+  if (index >= frame.cells) return;  // the whole group
+  if (gl_LocalInvocationIndex < 2) bits[gl_LocalInvocationIndex] = 0;
+  barrier();
+  uint first = gl_SubgroupID * gl_SubgroupSize, lane = first + gl_SubgroupInvocationID;
+  uint light = 32 * word + lane;
+  bool hit = light < frame.lights && touches(light, balls[light], cell_of(index));
+  uvec4 ballot = subgroupBallot(hit);
+  if (subgroupElect()) {
+    if (gl_SubgroupSize <= 32) {
+      atomicOr(bits[first / 32], ballot.x << (first % 32));
+    } else {
+      bits[0] = ballot.x;
+      bits[1] = ballot.y;
+    }
+  }
+  barrier();
+  if (gl_LocalInvocationIndex < 2 && word + gl_LocalInvocationIndex < frame.words)
+    masks[index * frame.words + word + gl_LocalInvocationIndex] = bits[gl_LocalInvocationIndex];
+}

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <cstring>
+
+#include "core/error.h"
+#include "gpu/vulkan/device_impl.h"
+
+namespace clusterbench::gpu {
+namespace {
+
+constexpr std::uint64_t k_longest_run_ns = 600'000'000'000;
+constexpr std::uint64_t k_groups_in_a_row = 32768;  // devices take at least 65,535
+
+}  // namespace
+
+Commands::Commands(Device& device, Buffers& buffers) : device_(device.impl()), buffers_(buffers.impl()) {
+  buffers_.uploaded = 0;
+  buffers_.downloads.clear();
+  buffers_.mark_count = 0;
+  VkCommandBufferBeginInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+  info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  check(vkResetCommandPool(device_.device, device_.pool, 0), "vkResetCommandPool");
+  check(vkBeginCommandBuffer(device_.commands, &info), "vkBeginCommandBuffer");
+  vkCmdResetQueryPool(device_.commands, device_.marks, 0, Device::Impl::k_marks);
+  vkCmdBindDescriptorSets(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_.layout, 0, 1, &buffers_.set, 0,
+                          nullptr);
+}
+
+void Commands::upload(std::uint32_t binding, const void* data, std::uint64_t bytes) {
+  if (bytes == 0) return;
+  Memory& staging = buffers_.to_device;
+  if (buffers_.uploaded + bytes > staging.bytes) {
+    if (buffers_.uploaded > 0)
+      buffers_.outgrown.push_back(staging);
+    else
+      device_.free(staging);
+    staging = {};
+    buffers_.uploaded = 0;
+    staging = device_.allocate(std::max(2 * bytes, std::uint64_t{1} << 16), Place::host_writes);
+  }
+  std::memcpy(static_cast<std::byte*>(staging.mapped) + buffers_.uploaded, data, bytes);
+  const VkBufferCopy copy{buffers_.uploaded, 0, bytes};
+  vkCmdCopyBuffer(device_.commands, staging.buffer, buffers_.at.at(binding).buffer, 1, &copy);
+  buffers_.uploaded += (bytes + 15) / 16 * 16;
+}
+
+void Commands::fill(std::uint32_t binding, std::uint32_t word, std::uint64_t bytes) {
+  if (bytes > 0) vkCmdFillBuffer(device_.commands, buffers_.at.at(binding).buffer, 0, bytes, word);
+}
+
+void Commands::dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t groups) {
+  if (groups == 0) return;
+  const std::uint64_t in_a_row = std::min(groups, k_groups_in_a_row);
+  vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_.pipelines.at(kernel));
+  vkCmdPushConstants(device_.commands, device_.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof arguments.words,
+                     arguments.words.data());
+  vkCmdDispatch(device_.commands, static_cast<std::uint32_t>(in_a_row),
+                static_cast<std::uint32_t>((groups + in_a_row - 1) / in_a_row), 1);
+}
+
+void Commands::barrier() {
+  VkMemoryBarrier2 memory{};
+  memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+  memory.srcStageMask = memory.dstStageMask =
+      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+  memory.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+  memory.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  VkDependencyInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  info.memoryBarrierCount = 1;
+  info.pMemoryBarriers = &memory;
+  vkCmdPipelineBarrier2(device_.commands, &info);
+}
+
+void Commands::mark() {
+  if (device_.facts.timestamp_bits > 0)
+    vkCmdWriteTimestamp2(device_.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, device_.marks, buffers_.mark_count);
+  ++buffers_.mark_count;
+}
+
+void Commands::download(std::uint32_t binding, std::uint64_t bytes) {
+  const std::uint64_t offset =
+      buffers_.downloads.empty() ? 0 : buffers_.downloads.back().offset + buffers_.downloads.back().bytes;
+  buffers_.downloads.push_back({binding, bytes, offset});
+}
+
+void Commands::run() {
+  if (!buffers_.downloads.empty()) {
+    const std::uint64_t bytes = buffers_.downloads.back().offset + buffers_.downloads.back().bytes;
+    if (bytes > buffers_.to_host.bytes) {
+      device_.free(buffers_.to_host);
+      buffers_.to_host = device_.allocate(bytes + bytes / 4, Place::host_reads);
+    }
+    barrier();
+    for (const Buffers::Impl::Download& one : buffers_.downloads) {
+      if (one.bytes == 0) continue;
+      const VkBufferCopy copy{0, one.offset, one.bytes};
+      vkCmdCopyBuffer(device_.commands, buffers_.at.at(one.binding).buffer, buffers_.to_host.buffer, 1, &copy);
+    }
+    VkMemoryBarrier2 memory{};
+    memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    memory.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    memory.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    memory.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+    memory.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &memory;
+    vkCmdPipelineBarrier2(device_.commands, &info);
+  }
+  mark();
+  check(vkEndCommandBuffer(device_.commands), "vkEndCommandBuffer");
+  VkCommandBufferSubmitInfo command{};
+  command.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
+  command.commandBuffer = device_.commands;
+  VkSubmitInfo2 submit{};
+  submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+  submit.commandBufferInfoCount = 1;
+  submit.pCommandBufferInfos = &command;
+  check(vkQueueSubmit2(device_.queue, 1, &submit, device_.fence), "vkQueueSubmit2");
+  check(vkWaitForFences(device_.device, 1, &device_.fence, VK_TRUE, k_longest_run_ns), "vkWaitForFences");
+  check(vkResetFences(device_.device, 1, &device_.fence), "vkResetFences");
+  for (Memory& memory : buffers_.outgrown) device_.free(memory);
+  buffers_.outgrown.clear();
+  if (device_.facts.timestamp_bits > 0)
+    check(vkGetQueryPoolResults(device_.device, device_.marks, 0, buffers_.mark_count,
+                                buffers_.mark_count * sizeof(std::uint64_t), buffers_.ticks.data(),
+                                sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+          "vkGetQueryPoolResults");
+  if (objections().count > 0)
+    throw Error("", "device", "the validation layer objects: " + objections().first, ExitCode::internal);
+}
+
+double Commands::ns_between(std::uint32_t first, std::uint32_t last) const {
+  const std::uint32_t bits = device_.facts.timestamp_bits;
+  if (bits == 0) return 0.0;
+  const std::uint64_t mask = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+  return static_cast<double>((buffers_.ticks[last] - buffers_.ticks[first]) & mask) * device_.facts.timestamp_period_ns;
+}
+
+std::span<const std::uint32_t> Commands::downloaded(std::uint32_t n) const {
+  const Buffers::Impl::Download& one = buffers_.downloads.at(n);
+  const auto* bytes = static_cast<const std::byte*>(buffers_.to_host.mapped) + one.offset;
+  return {reinterpret_cast<const std::uint32_t*>(bytes), one.bytes / sizeof(std::uint32_t)};
+}
+
+}  // namespace clusterbench::gpu

@@ -1,0 +1,194 @@
+#include "gpu/vulkan/device_impl.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "gpu/vulkan/shader_code.h"
+
+namespace clusterbench::gpu {
+
+Device::Device(const std::string& wanted) : impl_(std::make_unique<Impl>(wanted)) {}
+Device::~Device() = default;
+
+const DeviceFacts& Device::facts() const {
+  return impl_->facts;
+}
+
+Kernel Device::kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode) {
+  return impl_->kernel(shader, group_size, mode);
+}
+
+Device::Impl::Impl(const std::string& wanted) {
+  const std::size_t index = chosen_device(list_devices(), wanted);
+  physical = physical_devices().at(index);
+  PhysicalDevice found = facts_of(physical);
+  facts = std::move(found.facts);
+  create_device(found.queue_family);
+  create_layout();
+}
+
+Device::Impl::~Impl() {
+  if (device == VK_NULL_HANDLE) return;
+  vkDeviceWaitIdle(device);
+  for (VkPipeline pipeline : pipelines) vkDestroyPipeline(device, pipeline, nullptr);
+  vkDestroyPipelineLayout(device, layout, nullptr);
+  vkDestroyDescriptorSetLayout(device, bindings, nullptr);
+  vkDestroyQueryPool(device, marks, nullptr);
+  vkDestroyFence(device, fence, nullptr);
+  vkDestroyCommandPool(device, pool, nullptr);
+  vkDestroyDevice(device, nullptr);
+}
+
+void Device::Impl::create_device(std::uint32_t queue_family) {
+  VkPhysicalDeviceVulkan13Features features13{};
+  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  features13.synchronization2 = VK_TRUE;
+  features13.maintenance4 = VK_TRUE;
+  features13.subgroupSizeControl = features13.computeFullSubgroups = facts.has_full_subgroups ? VK_TRUE : VK_FALSE;
+  VkPhysicalDeviceFeatures2 features{};
+  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  features.pNext = &features13;
+  const float priority = 1.0f;
+  VkDeviceQueueCreateInfo queue_info{};
+  queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+  queue_info.queueFamilyIndex = queue_family;
+  queue_info.queueCount = 1;
+  queue_info.pQueuePriorities = &priority;
+  VkDeviceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.pNext = &features;
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue_info;
+  check(vkCreateDevice(physical, &info, nullptr, &device), "vkCreateDevice");
+  volkLoadDevice(device);
+  vkGetDeviceQueue(device, queue_family, 0, &queue);
+  vkGetPhysicalDeviceMemoryProperties(physical, &memory_properties);
+
+  VkCommandPoolCreateInfo pool_info{};
+  pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+  pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+  pool_info.queueFamilyIndex = queue_family;
+  check(vkCreateCommandPool(device, &pool_info, nullptr, &pool), "vkCreateCommandPool");
+  VkCommandBufferAllocateInfo commands_info{};
+  commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+  commands_info.commandPool = pool;
+  commands_info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  commands_info.commandBufferCount = 1;
+  check(vkAllocateCommandBuffers(device, &commands_info, &commands), "vkAllocateCommandBuffers");
+  VkFenceCreateInfo fence_info{};
+  fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+  check(vkCreateFence(device, &fence_info, nullptr, &fence), "vkCreateFence");
+  VkQueryPoolCreateInfo marks_info{};
+  marks_info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+  marks_info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+  marks_info.queryCount = k_marks;
+  check(vkCreateQueryPool(device, &marks_info, nullptr, &marks), "vkCreateQueryPool");
+}
+
+// One layout for all kernels: storage buffers at all bindings, and the arguments.
+void Device::Impl::create_layout() {
+  std::array<VkDescriptorSetLayoutBinding, Buffers::k_bindings> each{};
+  for (std::uint32_t i = 0; i < each.size(); ++i)
+    each[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+  VkDescriptorSetLayoutCreateInfo bindings_info{};
+  bindings_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  bindings_info.bindingCount = static_cast<std::uint32_t>(each.size());
+  bindings_info.pBindings = each.data();
+  check(vkCreateDescriptorSetLayout(device, &bindings_info, nullptr, &bindings), "vkCreateDescriptorSetLayout");
+  const VkPushConstantRange arguments{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Arguments)};
+  VkPipelineLayoutCreateInfo layout_info{};
+  layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  layout_info.setLayoutCount = 1;
+  layout_info.pSetLayouts = &bindings;
+  layout_info.pushConstantRangeCount = 1;
+  layout_info.pPushConstantRanges = &arguments;
+  check(vkCreatePipelineLayout(device, &layout_info, nullptr, &layout), "vkCreatePipelineLayout");
+}
+
+Kernel Device::Impl::kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode) {
+  const auto [found, is_new] = kernels.try_emplace({shader, group_size, mode}, static_cast<Kernel>(pipelines.size()));
+  if (is_new) pipelines.push_back(create_pipeline(shader, group_size, mode));
+  return found->second;
+}
+
+VkPipeline Device::Impl::create_pipeline(const std::string& shader, std::uint32_t group_size,
+                                         std::uint32_t mode) const {
+  if (group_size > facts.max_group_size)
+    throw Error("", "device",
+                facts.name + " runs at most " + std::to_string(facts.max_group_size) + " invocations in a group; " +
+                    shader + " needs " + std::to_string(group_size));
+  const std::span<const std::uint32_t> code = shader_code(shader, facts.rounds_to_nearest);
+  VkShaderModuleCreateInfo module_info{};
+  module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  module_info.codeSize = code.size_bytes();
+  module_info.pCode = code.data();
+  VkShaderModule module = VK_NULL_HANDLE;
+  check(vkCreateShaderModule(device, &module_info, nullptr, &module), "vkCreateShaderModule");
+  const std::array<std::uint32_t, 2> values{group_size, mode};
+  const std::array<VkSpecializationMapEntry, 2> entries{{{0, 0, 4}, {1, 4, 4}}};
+  const VkSpecializationInfo constants{static_cast<std::uint32_t>(entries.size()), entries.data(), sizeof values,
+                                       values.data()};
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  if (facts.has_full_subgroups && group_size % facts.subgroup_size == 0)
+    info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = module;
+  info.stage.pName = "main";
+  info.stage.pSpecializationInfo = &constants;
+  info.layout = layout;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  const VkResult result = vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
+  vkDestroyShaderModule(device, module, nullptr);
+  check(result, "vkCreateComputePipelines");
+  return pipeline;
+}
+
+std::uint32_t Device::Impl::memory_type(std::uint32_t allowed, Place place) const {
+  constexpr VkMemoryPropertyFlags k_local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                  k_visible =
+                                      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  const VkMemoryPropertyFlags needed = place == Place::device ? k_local : k_visible;
+  const VkMemoryPropertyFlags liked =
+      place == Place::host_reads ? VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT} : 0;
+  for (const VkMemoryPropertyFlags flags : {needed | liked, needed})
+    for (std::uint32_t i = 0; i < memory_properties.memoryTypeCount; ++i)
+      if ((allowed >> i & 1) != 0 && (memory_properties.memoryTypes[i].propertyFlags & flags) == flags) return i;
+  throw Error("", "device", facts.name + " has no memory that buffers can use");
+}
+
+Memory Device::Impl::allocate(std::uint64_t bytes, Place place) const {
+  Memory made{VK_NULL_HANDLE, VK_NULL_HANDLE, std::max<std::uint64_t>(bytes, 256), nullptr};
+  VkBufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  info.size = made.bytes;
+  info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  if (place == Place::device) info.usage |= VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+  try {
+    check(vkCreateBuffer(device, &info, nullptr, &made.buffer), "vkCreateBuffer");
+    VkMemoryRequirements needs{};
+    vkGetBufferMemoryRequirements(device, made.buffer, &needs);
+    VkMemoryAllocateInfo memory_info{};
+    memory_info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+    memory_info.allocationSize = needs.size;
+    memory_info.memoryTypeIndex = memory_type(needs.memoryTypeBits, place);
+    check(vkAllocateMemory(device, &memory_info, nullptr, &made.memory), "vkAllocateMemory");
+    check(vkBindBufferMemory(device, made.buffer, made.memory, 0), "vkBindBufferMemory");
+    if (place != Place::device)
+      check(vkMapMemory(device, made.memory, 0, VK_WHOLE_SIZE, 0, &made.mapped), "vkMapMemory");
+  } catch (...) {
+    free(made);
+    throw;
+  }
+  return made;
+}
+
+void Device::Impl::free(Memory& memory) const {
+  if (memory.buffer != VK_NULL_HANDLE) vkDestroyBuffer(device, memory.buffer, nullptr);
+  if (memory.memory != VK_NULL_HANDLE) vkFreeMemory(device, memory.memory, nullptr);
+  memory = {};
+}
+
+}  // namespace clusterbench::gpu

@@ -1,0 +1,84 @@
+#pragma once
+// The logical device: memory, pipelines, and the one command buffer that all commands are recorded into.
+
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "gpu/device/device.h"
+#include "gpu/vulkan/vulkan.h"
+
+namespace clusterbench::gpu {
+
+struct Memory {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  std::uint64_t bytes = 0;
+  void* mapped = nullptr;  // of memory that the host sees
+};
+
+// Where a buffer lies.
+enum class Place : std::uint8_t { device, host_writes, host_reads };
+
+struct Device::Impl {
+  explicit Impl(const std::string& wanted);
+  ~Impl();
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  Memory allocate(std::uint64_t bytes, Place place) const;
+  void free(Memory& memory) const;
+  Kernel kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode);
+
+  static constexpr std::uint32_t k_marks = 10;
+
+  DeviceFacts facts;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkPhysicalDeviceMemoryProperties memory_properties{};
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  VkCommandPool pool = VK_NULL_HANDLE;
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  VkFence fence = VK_NULL_HANDLE;
+  VkQueryPool marks = VK_NULL_HANDLE;
+  VkDescriptorSetLayout bindings = VK_NULL_HANDLE;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  std::vector<VkPipeline> pipelines;  // by Kernel
+  std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, Kernel> kernels;
+
+ private:
+  void create_device(std::uint32_t queue_family);
+  void create_layout();
+  VkPipeline create_pipeline(const std::string& shader, std::uint32_t group_size, std::uint32_t mode) const;
+  std::uint32_t memory_type(std::uint32_t allowed, Place place) const;
+};
+
+struct Buffers::Impl {
+  explicit Impl(Device::Impl& of);
+  ~Impl();
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void bind(std::uint32_t binding) const;
+
+  Device::Impl& device;
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  VkDescriptorSet set = VK_NULL_HANDLE;
+  std::array<Memory, k_bindings> at{};
+
+  // Between host and device. Uploads of one recording stand one after the other; a buffer that became too small in the
+  // middle of a recording lives until its end.
+  Memory to_device, to_host;
+  std::uint64_t uploaded = 0;
+  std::vector<Memory> outgrown;
+  struct Download {
+    std::uint32_t binding = 0;
+    std::uint64_t bytes = 0, offset = 0;
+  };
+  std::vector<Download> downloads;
+  std::uint32_t mark_count = 0;
+  std::array<std::uint64_t, Device::Impl::k_marks> ticks{};
+};
+
+}  // namespace clusterbench::gpu

@@ -1,0 +1,120 @@
+#include <array>
+#include <vector>
+
+#include "core/error.h"
+#include "gpu/device/device.h"
+#include "gpu/vulkan/vulkan.h"
+
+namespace clusterbench::gpu {
+namespace {
+
+DeviceType type_of(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return DeviceType::discrete;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return DeviceType::integrated;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return DeviceType::virtual_gpu;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return DeviceType::software;
+    default:
+      return DeviceType::other;
+  }
+}
+
+std::string version_text(std::uint32_t version) {
+  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+         std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+std::string hex(const std::uint8_t (&bytes)[VK_UUID_SIZE]) {
+  static constexpr char k_digits[] = "0123456789abcdef";
+  std::string text;
+  for (const std::uint8_t byte : bytes) {
+    text += k_digits[byte >> 4];
+    text += k_digits[byte & 15];
+  }
+  return text;
+}
+
+// The number of the first family of queues that compute; none: the number of families.
+std::uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& families) {
+  std::uint32_t family = 0;
+  while (family < families.size() && (families[family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) ++family;
+  return family;
+}
+
+std::string limit_obstacle(const VkPhysicalDeviceLimits& limits) {
+  if (limits.maxPerStageDescriptorStorageBuffers < Buffers::k_bindings)
+    return "lets a shader see " + std::to_string(limits.maxPerStageDescriptorStorageBuffers) + " buffers; " +
+           std::to_string(Buffers::k_bindings) + " are needed";
+  return "";
+}
+
+}  // namespace
+
+PhysicalDevice facts_of(VkPhysicalDevice device) {
+  VkPhysicalDeviceVulkan12Properties properties12{};
+  properties12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES;
+  VkPhysicalDeviceVulkan11Properties properties11{};
+  properties11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES;
+  properties11.pNext = &properties12;
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties.pNext = &properties11;
+
+  PhysicalDevice found;
+  DeviceFacts& facts = found.facts;
+  vkGetPhysicalDeviceProperties(device, &properties.properties);  // what it supports decides what else may be asked
+  facts.name = properties.properties.deviceName;
+  facts.type = type_of(properties.properties.deviceType);
+  facts.vulkan = version_text(properties.properties.apiVersion);
+  if (properties.properties.apiVersion < VK_API_VERSION_1_3) {
+    facts.obstacle = "has Vulkan " + facts.vulkan + "; 1.3 is needed";
+    return found;
+  }
+  vkGetPhysicalDeviceProperties2(device, &properties);
+  VkPhysicalDeviceVulkan13Features features13{};
+  features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+  VkPhysicalDeviceFeatures2 features{};
+  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  features.pNext = &features13;
+  vkGetPhysicalDeviceFeatures2(device, &features);
+  std::uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+
+  facts.driver = std::string(properties12.driverName) + " " + properties12.driverInfo;
+  facts.uuid = hex(properties11.deviceUUID);
+  const VkPhysicalDeviceLimits& limits = properties.properties.limits;
+  facts.max_buffer_bytes = limits.maxStorageBufferRange;
+  facts.max_group_size = limits.maxComputeWorkGroupInvocations;
+  facts.shared_bytes = limits.maxComputeSharedMemorySize;
+  facts.subgroup_size = properties11.subgroupSize;
+  facts.timestamp_period_ns = static_cast<double>(limits.timestampPeriod);
+  facts.rounds_to_nearest =
+      properties12.shaderRoundingModeRTEFloat32 != 0 && properties12.shaderSignedZeroInfNanPreserveFloat32 != 0;
+  facts.has_full_subgroups = features13.subgroupSizeControl != 0 && features13.computeFullSubgroups != 0;
+  found.queue_family = compute_family(families);
+  if (found.queue_family < count) facts.timestamp_bits = families[found.queue_family].timestampValidBits;
+  facts.obstacle = found.queue_family == count ? "has no queue that computes" : limit_obstacle(limits);
+  return found;
+}
+
+DeviceList list_devices() {
+  DeviceList list;
+  list.obstacle = instance().obstacle;
+  if (!list.obstacle.empty()) return list;
+  try {
+    for (VkPhysicalDevice device : physical_devices()) list.devices.push_back(facts_of(device).facts);
+  } catch (const Error& error) {
+    list.obstacle = error.message();
+  }
+  if (list.devices.empty() && list.obstacle.empty())
+    list.obstacle = "Vulkan has no driver for any device of this machine (Debian: mesa-vulkan-drivers)";
+  return list;
+}
+
+}  // namespace clusterbench::gpu
