@@ -116,6 +116,25 @@ std::vector<SearchResult> run_searches(const std::vector<StressMethod>& methods,
   return results;
 }
 
+// Those on a device run only where the pattern is of names: a pattern that fits no text at all. Throws Error with the
+// reason if they are all that is wanted, and cannot run here.
+std::vector<StressMethod> wanted_methods(const Pattern& pattern) {
+  std::vector<StressMethod> methods;
+  const bool is_of_names = !pattern.is_in("");
+  std::string obstacle;
+  for (const StressMethod& method : stress_methods()) {
+    if (!pattern.is_in(method.label) || (method.assigner->on_device && !is_of_names)) continue;
+    const std::string reason =
+        method.assigner->on_device ? assign::unavailability(*method.assigner, method.params) : "";
+    if (reason.empty())
+      methods.push_back(method);
+    else
+      obstacle = method.assigner->name + ": " + reason;
+  }
+  if (methods.empty() && !obstacle.empty()) throw Error("", "--methods", obstacle);
+  return methods;
+}
+
 std::string label_of(const assign::AssignerDescriptor& assigner, const assign::Params& params) {
   return config::MethodRequest{assigner.name, params}.label();
 }
@@ -141,8 +160,7 @@ std::vector<StressMethod> stress_methods() {
 
 StressResult run_stress(const StressRequest& request, const StressListener& listener, const std::atomic<bool>& stop) {
   StressResult result;
-  for (const StressMethod& method : stress_methods())
-    if (request.methods.is_in(method.label)) result.methods.push_back(method);
+  result.methods = wanted_methods(request.methods);
   for (const HardCase& hard : hard_cases())
     if (request.cases.is_all_of(hard.id)) result.cases.push_back(hard);
   const bool searches = request.tries > 0 && request.cases.is_all_of("H31");

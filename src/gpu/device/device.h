@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 
@@ -36,8 +37,8 @@ class Device {
 
 // Which device device() opens, as chosen_device() takes it. Closes the one that is open.
 void use_device(const std::string& wanted);
-// The device of this process: opened at the first call, closed at its end. All methods of a run share it. Throws Error
-// with the reason if there is none.
+// The device of this process: opened at the first call, closed at its end. All methods and threads of a run share it.
+// Throws Error with the reason if there is none.
 Device& device();
 // The reason why device() throws; "" if it does not.
 std::string device_obstacle();
@@ -71,7 +72,8 @@ struct Arguments {
 };
 
 // Commands that are recorded, then run once. Steps within a dispatch run in any order; what a later step reads of an
-// earlier one needs a barrier() between them.
+// earlier one needs a barrier() between them. Threads take turns: from the constructor to the end of run() the device
+// belongs to this recording.
 class Commands {
  public:
   Commands(Device& device, Buffers& buffers);
@@ -97,6 +99,7 @@ class Commands {
  private:
   Device::Impl& device_;
   Buffers::Impl& buffers_;
+  std::unique_lock<std::recursive_mutex> turn_;
 };
 
 }  // namespace clusterbench::gpu

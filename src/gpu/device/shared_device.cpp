@@ -17,21 +17,29 @@ Shared& shared() {
   return only;
 }
 
+std::recursive_mutex& sharing() {
+  static std::recursive_mutex only;
+  return only;
+}
+
 }  // namespace
 
 void use_device(const std::string& wanted) {
+  const std::lock_guard lock(sharing());
   Shared& now = shared();
   if (now.wanted == wanted) return;
   now = Shared{wanted, nullptr, ""};
 }
 
 Device& device() {
+  const std::lock_guard lock(sharing());
   Shared& now = shared();
   if (!now.device) now.device = std::make_unique<Device>(now.wanted);
   return *now.device;
 }
 
 std::string device_obstacle() {
+  const std::lock_guard lock(sharing());
   Shared& now = shared();
   if (now.device || !now.obstacle.empty()) return now.obstacle;
   try {

@@ -16,6 +16,7 @@ const DeviceFacts& Device::facts() const {
 }
 
 Kernel Device::kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode) {
+  const std::lock_guard turn(impl_->turn);
   return impl_->kernel(shader, group_size, mode);
 }
 

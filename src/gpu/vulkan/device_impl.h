@@ -33,6 +33,7 @@ struct Device::Impl {
 
   static constexpr std::uint32_t k_marks = 10;
 
+  std::recursive_mutex turn;  // of who records or adds a kernel
   DeviceFacts facts;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkPhysicalDeviceMemoryProperties memory_properties{};

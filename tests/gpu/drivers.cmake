@@ -1,0 +1,80 @@
+# The tests of the layer gpu. Those that need no device are called gpu.SUITE.NAME; those on a device (suites Device*) run once in
+# each of these modes, as gpu.MODE.SUITE.NAME:
+#   lavapipe, swiftshader       on the two software drivers
+#   lavapipe_sync               the validation layer looks for missing barriers between commands
+#   lavapipe_bounds             it looks for reads and writes beyond buffers
+# A missing driver, layer or Vulkan itself skips them with the reason; .ci/run takes that for a failure.
+file(GLOB LAVAPIPE /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.json)
+file(GLOB SWIFTSHADER /usr/lib/chromium/vk_swiftshader_icd.json /usr/lib*/chromium-browser/vk_swiftshader_icd.json
+     /opt/google/chrome/vk_swiftshader_icd.json)
+
+# Suites of MODE whose tests fit FILTER, in an environment; DRIVER is a file of the driver, or none.
+function(clusterbench_add_device_tests MODE DRIVER PACKAGE FILTER)
+  if(NOT DRIVER)
+    add_test(NAME gpu.${MODE} COMMAND ${CMAKE_COMMAND} -E echo "skipped: this machine lacks its driver (Debian: ${PACKAGE})")
+    set_tests_properties(gpu.${MODE} PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
+    return()
+  endif()
+  list(GET DRIVER 0 DRIVER)
+  # Two threads find races between groups; more take turns with the other tests.
+  set(ENVIRONMENT VK_DRIVER_FILES=${DRIVER} VK_ICD_FILENAMES=${DRIVER} LP_NUM_THREADS=2 ${ARGN})
+  if(CLUSTERBENCH_SANITIZE)
+    foreach(INDEX RANGE 1 2)
+      math(EXPR SHARD "${INDEX} - 1")
+      add_test(NAME gpu.${MODE}_part_${INDEX} COMMAND test_gpu --gtest_filter=${FILTER})
+      set_tests_properties(gpu.${MODE}_part_${INDEX} PROPERTIES TIMEOUT 1200
+        ENVIRONMENT "${ENVIRONMENT};GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${SHARD}")
+    endforeach()
+    return()
+  endif()
+  gtest_discover_tests(test_gpu NO_PRETTY_VALUES TEST_PREFIX gpu.${MODE}. TEST_FILTER ${FILTER} TEST_LIST GPU_TESTS_${MODE}
+    DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  # Properties that are lists get lost on their way through gtest_discover_tests().
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/gpu_${MODE}.cmake "foreach(TEST IN LISTS GPU_TESTS_${MODE})
+  set_tests_properties(\${TEST} PROPERTIES ENVIRONMENT \"${ENVIRONMENT}\")
+endforeach()
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/gpu_${MODE}.cmake)
+endfunction()
+
+# Without a device, and without any driver.
+set(NO_DRIVER VK_DRIVER_FILES=no-such-driver.json VK_ICD_FILENAMES=no-such-driver.json)
+if(CLUSTERBENCH_SANITIZE)
+  add_test(NAME gpu.part_1 COMMAND test_gpu --gtest_filter=-Device*:NoDriver*)
+else()
+  gtest_discover_tests(test_gpu NO_PRETTY_VALUES TEST_PREFIX gpu. TEST_FILTER -Device*:NoDriver* DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT 600)
+endif()
+add_test(NAME gpu.no_driver COMMAND test_gpu --gtest_filter=NoDriver*)
+set_tests_properties(gpu.no_driver PROPERTIES ENVIRONMENT "${NO_DRIVER}" TIMEOUT 600 SKIP_REGULAR_EXPRESSION "skipped: ")
+
+# lavapipe leaks at its end; SwiftShader's threads change stacks, which the thread sanitizer does not follow.
+if(NOT CLUSTERBENCH_SANITIZE)
+  clusterbench_add_device_tests(lavapipe "${LAVAPIPE}" mesa-vulkan-drivers Device*)
+  clusterbench_add_device_tests(lavapipe_sync "${LAVAPIPE}" mesa-vulkan-drivers
+    "DeviceCommands.*:DeviceMethods.keep*:DeviceSizes.of_lists*" CLUSTERBENCH_VULKAN_VALIDATION=sync)
+  clusterbench_add_device_tests(lavapipe_bounds "${LAVAPIPE}" mesa-vulkan-drivers
+    "DeviceCommands.*:DeviceSizes.of_any*:DeviceSizes.of_lists*:DeviceSizes.of_more*" CLUSTERBENCH_VULKAN_VALIDATION=gpu)
+endif()
+if(NOT CLUSTERBENCH_SANITIZE STREQUAL "thread")
+  clusterbench_add_device_tests(swiftshader "${SWIFTSHADER}" chromium "Device*-*million*") # it takes 20 s for that
+endif()
+
+# The SPIR-V that the build embeds.
+if(NOT CLUSTERBENCH_SANITIZE)
+  add_test(NAME gpu.shaders
+           COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/gpu/test_shaders.py ${PROJECT_BINARY_DIR}/spirv)
+  set_tests_properties(gpu.shaders PROPERTIES SKIP_RETURN_CODE 77)
+endif()
+
+# What scripts/shader_mutations.py runs.
+if(NOT CLUSTERBENCH_SANITIZE)
+  get_target_property(GPU_TEST_SOURCES test_gpu SOURCES)
+  add_executable(test_gpu_swapped EXCLUDE_FROM_ALL gpu/swapped/swapped_shaders.cpp ${GPU_TEST_SOURCES})
+  target_compile_options(test_gpu_swapped PRIVATE $<$<CONFIG:Release>:-Og>)
+  clusterbench_unite(test_gpu_swapped)
+  set_source_files_properties(gpu/swapped/swapped_shaders.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  target_link_libraries(test_gpu_swapped PRIVATE cb_gpu test_places GTest::gtest GTest::gtest_main)
+  target_link_options(test_gpu_swapped PRIVATE
+    -Wl,--wrap=_ZN12clusterbench3gpu11shader_codeESt17basic_string_viewIcSt11char_traitsIcEEb)
+endif()
