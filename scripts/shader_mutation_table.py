@@ -27,7 +27,7 @@ MUTATIONS = [
     Mutation("bounds-of-first-slice-for-all", "shaders/common.glsl", "bounds[at.z * frame.column_pitch + at.x]", "bounds[at.x]"),
     Mutation("second-row-of-groups-dropped", "shaders/common.glsl", "gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;", "gl_WorkGroupID.x;"),
     Mutation("list-begins-in-block", "shaders/common.glsl", "sums[cell / k_block] + offsets[cell]", "offsets[cell]"),
-    Mutation("box-without-precise", "shaders/common.glsl", "precise float squared = x * x + y * y + z * z;\n  precise", "float squared = x * x + y * y + z * z;\n  precise"),
+    Mutation("box-without-precise", "shaders/common.glsl", "precise float squared = x * x + y * y + z * z;\n  precise float reach", "float squared = x * x + y * y + z * z;\n  precise float reach"),
     Mutation("cone-without-precise", "shaders/common.glsl", "precise float left", "float left"),
     Mutation("cone-without-slack", "shaders/common.glsl", "ball.w + frame.cone_slack *", "ball.w + 0.0 *"),
     Mutation("cone-touching-is-outside", "shaders/common.glsl", "left <= right;", "left < right;"),

@@ -37,8 +37,8 @@ class Device {
 
 // Which device device() opens, as chosen_device() takes it. Closes the one that is open.
 void use_device(const std::string& wanted);
-// The device of this process: opened at the first call, closed at its end. All methods and threads of a run share it.
-// Throws Error with the reason if there is none.
+// The device of this process: opened at the first call, and never closed but by use_device(). All methods and threads
+// of a run share it. Throws Error with the reason if there is none.
 Device& device();
 // The reason why device() throws; "" if it does not.
 std::string device_obstacle();
