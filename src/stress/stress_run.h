@@ -25,7 +25,7 @@ struct StressMethod {
 
   assign::AssignerRun start() const { return {*assigner, params, answer}; }
 };
-// Every assigner that has cells with its defaults and with every other choice.
+// Every assigner on the processor that has cells, with its defaults and with every other choice.
 std::vector<StressMethod> stress_methods();
 // The label of the method whose lists a fast one's must equal; empty if it is no SIMD variant.
 std::string reference_of(const std::string& label);
