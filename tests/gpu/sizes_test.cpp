@@ -104,6 +104,33 @@ TEST_F(DeviceSizes, of_lists_that_outgrow_their_buffer_are_right_and_so_are_thos
   }
 }
 
+// As many pairs as the device's largest buffer holds just so, then more, which are refused, then few.
+TEST_F(DeviceSizes, of_millions_of_pairs_fill_the_largest_buffer_and_no_more) {
+  const std::uint64_t limit = device().facts().max_buffer_bytes;
+  const auto fitting = static_cast<std::uint32_t>(limit / 4 / 500'000);
+  if (fitting > 200) GTEST_SKIP() << "skipped: the limit of " << limit << " bytes is out of reach";
+  const auto everywhere = [](std::uint32_t count) {
+    return setting_of({100, 100, 50}, {count, assign::testing::point_light({0, 0, -5}, 1e3)});
+  };
+  const Setting full = everywhere(fitting), above = everywhere(fitting + 1), few = everywhere(1);
+  const AssignerDescriptor& row = *assign::find_assigner("gpu-lights");
+  assign::AssignerRun run(row, Params(row.params), assign::Answer::lists);
+  run.build(full.grid, {.spots = false, .boxes = false});
+  const auto pairs_of = [&](const Setting& setting) {
+    run.assign(setting.input(view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame))));
+    return run.filled_lists()->pair_count();
+  };
+  EXPECT_EQ(pairs_of(full), fitting * 500'000u);
+  try {
+    pairs_of(above);
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    const std::string bytes = std::to_string((fitting + 1) * std::uint64_t{2'000'000});
+    EXPECT_TRUE(error.message().starts_with("lists need a buffer of " + bytes + " bytes; ")) << error.message();
+  }
+  EXPECT_EQ(pairs_of(few), 500'000u);
+}
+
 // Refused with the number, and the next frame is right again.
 TEST_F(DeviceSizes, whose_buffers_are_above_the_devices_limit_are_refused_with_the_number) {
   const std::uint64_t limit = device().facts().max_buffer_bytes;
