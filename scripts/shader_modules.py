@@ -27,9 +27,10 @@ def tool(*command):
     return subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
-def compiled(shader, variant, target, glslang="glslangValidator"):
+def compiled(shader, variant, target, options=()):
     """Compiles SHADER.comp of any folder, as the build does. Returns its complaint; "" if it compiled."""
-    done = tool(glslang, "-V", "--quiet", "--target-env", "vulkan1.3", *VARIANTS[variant], "-o", target, shader)
+    done = tool("glslangValidator", "-V", "--quiet", "--target-env", "vulkan1.3", *VARIANTS[variant], *options, "-o", target,
+                shader)
     return "" if done.returncode == 0 else done.stdout.strip()
 
 
@@ -85,10 +86,3 @@ def faults_of(module, shader, variant):
     faults = validity_faults(module) + rounding_faults(text, variant)
     return faults if shader in DECIDE_NOTHING else faults + arithmetic_faults(text)
 
-
-def faults_of_source(shader, variant, glslang="glslangValidator"):
-    """Of a shader in any folder; what does not compile is a fault, too."""
-    with tempfile.TemporaryDirectory() as folder:
-        module = pathlib.Path(folder) / "module.spv"
-        complaint = compiled(shader, variant, module, glslang)
-        return [complaint] if complaint else faults_of(module, shader.stem, variant)

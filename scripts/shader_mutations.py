@@ -22,9 +22,9 @@ import shader_modules
 from shader_mutation_table import MUTATIONS
 
 ROOT, TREE, BUILD = plain.ROOT, plain.TREE, plain.BUILD
-SWAPPED = TREE / "swapped"
+SWAPPED = TREE / "swapped"  # with a folder for each set of words that shaders are compiled with
 VERDICTS = ROOT / "build" / "shader_mutations.json"
-PROGRAM = "test_gpu_swapped"
+PROGRAM = "test_gpu"
 MODULES = "shaders"  # the mode that only reads the SPIR-V
 TIMEOUT_S = 240
 FOUND = ("found", "crash", "hang")
@@ -60,9 +60,15 @@ def modes_of_ctest():
 
 def outcome(mode):
     """found, crash, hang, or "" where all tests of a mode pass; and the test."""
+    environment = dict(mode["environment"])
+    if "CLUSTERBENCH_SWAPPED_SHADERS" in environment:
+        if (SWAPPED / "reversed").exists():
+            environment["CLUSTERBENCH_SWAPPED_SHADERS"] = str(SWAPPED / "reversed")
+    else:
+        environment["CLUSTERBENCH_SWAPPED_SHADERS"] = str(SWAPPED / "usual")
     command = [str(BUILD / "tests" / PROGRAM), "--gtest_filter=" + ":".join(mode["tests"]), "--gtest_fail_fast"]
     try:
-        done = subprocess.run(command, env={**os.environ, **mode["environment"], "CLUSTERBENCH_SWAPPED_SHADERS": str(SWAPPED)},
+        done = subprocess.run(command, env={**os.environ, **environment},
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", timeout=TIMEOUT_S)
     except subprocess.TimeoutExpired as late:
         text = (late.stdout or b"").decode(errors="replace")
@@ -78,18 +84,22 @@ def outcome(mode):
 
 
 def swapped_shaders(mutation):
-    """Compiles what the change reaches into the folder; returns what the check of modules says."""
-    shutil.rmtree(SWAPPED, ignore_errors=True)
-    SWAPPED.mkdir(parents=True)
-    reached = sorted((TREE / "src/gpu/shaders").glob("*.comp")) if mutation.file.endswith(".glsl") else [TREE / "src/gpu" / mutation.file]
+    """Compiles what the change reaches into the folders; returns what the check of modules says."""
+    folder = TREE / "src" / "gpu" / "shaders"
+    reached = sorted(folder.glob("*.comp"))
+    if mutation.file.endswith(".comp"):
+        reached = [TREE / "src" / "gpu" / mutation.file]
     faults = []
-    for shader in reached:
-        for variant in shader_modules.VARIANTS:
-            module = SWAPPED / f"{shader.stem}_{variant}.spv"
-            complaint = shader_modules.compiled(shader, variant, module)
-            if complaint:
-                raise plain.Broken(complaint)
-            faults += shader_modules.faults_of(module, shader.stem, variant)
+    for words, options in (("usual", []), ("reversed", ["-DREVERSED_LANES"])):
+        (SWAPPED / words).mkdir(parents=True)
+        for shader in sorted(folder.glob("*.comp")) if words == "reversed" else reached:  # nothing else is in its place there
+            for variant in shader_modules.VARIANTS:
+                module = SWAPPED / words / f"{shader.stem}_{variant}.spv"
+                complaint = shader_modules.compiled(shader, variant, module, options)
+                if complaint:
+                    raise plain.Broken(complaint)
+                if words == "usual":
+                    faults += shader_modules.faults_of(module, shader.stem, variant)
     return faults
 
 
@@ -119,7 +129,7 @@ def prepare(modes_wanted, jobs):
                             "-DCLUSTERBENCH_BENCHMARKS=OFF", "-DCLUSTERBENCH_WERROR=OFF"])
     if configured.returncode != 0:
         raise plain.Broken("cannot be configured:\n" + configured.stdout)
-    plain.build(["test_gpu", PROGRAM], jobs)
+    plain.build([PROGRAM], jobs)
     shutil.rmtree(SWAPPED, ignore_errors=True)
     modes = {name: mode for name, mode in modes_of_ctest().items()
              if any(fnmatch.fnmatchcase(name, wanted) for wanted in modes_wanted)}

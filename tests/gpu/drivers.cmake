@@ -1,12 +1,40 @@
 # The tests of the layer gpu. Those that need no device are called gpu.SUITE.NAME; those on a device (suites Device*) run once in
 # each of these modes, as gpu.MODE.SUITE.NAME:
 #   lavapipe, swiftshader       on the two software drivers
+#   lavapipe_reversed           with the invocations of each group numbered from the other end (lane_index() of common.glsl)
 #   lavapipe_sync               the validation layer looks for missing barriers between commands
 #   lavapipe_bounds             it looks for reads and writes beyond buffers
 # A missing driver, layer or Vulkan itself skips them with the reason; .ci/run takes that for a failure.
 file(GLOB LAVAPIPE /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.json)
 file(GLOB SWIFTSHADER /usr/lib/chromium/vk_swiftshader_icd.json /usr/lib*/chromium-browser/vk_swiftshader_icd.json
      /opt/google/chrome/vk_swiftshader_icd.json)
+
+# The test program takes shaders of a folder in place of the embedded ones where it is told so: those with other numbers of
+# invocations, and changed ones of scripts/shader_mutations.py.
+if(NOT CLUSTERBENCH_SANITIZE AND GLSLANG AND VULKAN_INCLUDE AND VOLK_INCLUDE)
+  target_sources(test_gpu PRIVATE gpu/swapped/swapped_shaders.cpp)
+  set_source_files_properties(gpu/swapped/swapped_shaders.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  target_link_options(test_gpu PRIVATE
+    -Wl,--wrap=_ZN12clusterbench3gpu11shader_codeESt17basic_string_viewIcSt11char_traitsIcEEb)
+  set(REVERSED ${CMAKE_CURRENT_BINARY_DIR}/reversed_shaders)
+  file(MAKE_DIRECTORY ${REVERSED})
+  file(GLOB SHADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/gpu/shaders/*.comp)
+  set(MODULES "")
+  foreach(SHADER ${SHADERS})
+    get_filename_component(NAME ${SHADER} NAME_WE)
+    set(plain "")
+    set(to_nearest -DROUNDS_TO_NEAREST)
+    foreach(VARIANT plain to_nearest)
+      add_custom_command(OUTPUT ${REVERSED}/${NAME}_${VARIANT}.spv VERBATIM
+        DEPENDS ${SHADER} ${PROJECT_SOURCE_DIR}/src/gpu/shaders/common.glsl
+        COMMAND ${GLSLANG} -V --quiet --target-env vulkan1.3 -DREVERSED_LANES ${${VARIANT}}
+                -o ${REVERSED}/${NAME}_${VARIANT}.spv ${SHADER})
+      list(APPEND MODULES ${REVERSED}/${NAME}_${VARIANT}.spv)
+    endforeach()
+  endforeach()
+  add_custom_target(reversed_shaders DEPENDS ${MODULES})
+  add_dependencies(test_gpu reversed_shaders)
+endif()
 
 # Suites of MODE whose tests fit FILTER, in an environment; DRIVER is a file of the driver, or none.
 function(clusterbench_add_device_tests MODE DRIVER PACKAGE FILTER)
@@ -51,6 +79,8 @@ set_tests_properties(gpu.no_driver PROPERTIES ENVIRONMENT "${NO_DRIVER}" TIMEOUT
 # lavapipe leaks at its end; SwiftShader's threads change stacks, which the thread sanitizer does not follow.
 if(NOT CLUSTERBENCH_SANITIZE)
   clusterbench_add_device_tests(lavapipe "${LAVAPIPE}" mesa-vulkan-drivers Device*)
+  clusterbench_add_device_tests(lavapipe_reversed "${LAVAPIPE}" mesa-vulkan-drivers
+    "DeviceCommands.s*:DeviceMethods.have*:DeviceSizes.of_any*" CLUSTERBENCH_SWAPPED_SHADERS=${REVERSED})
   clusterbench_add_device_tests(lavapipe_sync "${LAVAPIPE}" mesa-vulkan-drivers
     "DeviceCommands.*:DeviceMethods.keep*:DeviceSizes.of_lists*" CLUSTERBENCH_VULKAN_VALIDATION=sync)
   clusterbench_add_device_tests(lavapipe_bounds "${LAVAPIPE}" mesa-vulkan-drivers
@@ -65,16 +95,4 @@ if(NOT CLUSTERBENCH_SANITIZE)
   add_test(NAME gpu.shaders
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/gpu/test_shaders.py ${PROJECT_BINARY_DIR}/spirv)
   set_tests_properties(gpu.shaders PROPERTIES SKIP_RETURN_CODE 77)
-endif()
-
-# What scripts/shader_mutations.py runs.
-if(NOT CLUSTERBENCH_SANITIZE)
-  get_target_property(GPU_TEST_SOURCES test_gpu SOURCES)
-  add_executable(test_gpu_swapped EXCLUDE_FROM_ALL gpu/swapped/swapped_shaders.cpp ${GPU_TEST_SOURCES})
-  target_compile_options(test_gpu_swapped PRIVATE $<$<CONFIG:Release>:-Og>)
-  clusterbench_unite(test_gpu_swapped)
-  set_source_files_properties(gpu/swapped/swapped_shaders.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  target_link_libraries(test_gpu_swapped PRIVATE cb_gpu test_places GTest::gtest GTest::gtest_main)
-  target_link_options(test_gpu_swapped PRIVATE
-    -Wl,--wrap=_ZN12clusterbench3gpu11shader_codeESt17basic_string_viewIcSt11char_traitsIcEEb)
 endif()

@@ -1,6 +1,6 @@
-// test_gpu_swapped: the tests of the layer gpu with other shaders, for scripts/shader_mutations.py. Where
-// CLUSTERBENCH_SWAPPED_SHADERS names a folder with NAME_VARIANT.spv, that is the module in place of the embedded one.
-// The linker puts this function before shader_code() (--wrap); nothing of the product knows.
+// Other shaders for the tests of the layer gpu. Where CLUSTERBENCH_SWAPPED_SHADERS names a folder with
+// NAME_VARIANT.spv, that is the module in place of the embedded one. The linker puts this function before shader_code()
+// (--wrap); nothing of the product knows.
 
 #include <cstdlib>
 #include <fstream>
