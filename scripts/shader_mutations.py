@@ -26,7 +26,7 @@ SWAPPED = TREE / "swapped"  # with a folder for each set of words that shaders a
 VERDICTS = ROOT / "build" / "shader_mutations.json"
 PROGRAM = "test_gpu"
 MODULES = "shaders"  # the mode that only reads the SPIR-V
-TIMEOUT_S = 240
+TIMEOUT_S = 60
 FOUND = ("found", "crash", "hang")
 
 

@@ -90,6 +90,20 @@ if(NOT CLUSTERBENCH_SANITIZE STREQUAL "thread")
   clusterbench_add_device_tests(swiftshader "${SWIFTSHADER}" chromium "Device*-*million*") # it takes 20 s for that
 endif()
 
+# Against the exact truth: some of the hard cases, and random settings. By hand, all: clusterbench stress --methods ^gpu-
+if(NOT CLUSTERBENCH_SANITIZE)
+  foreach(MODE lavapipe swiftshader)
+    string(TOUPPER ${MODE} DRIVER)
+    if(${DRIVER} AND TARGET reversed_shaders)
+      list(GET ${DRIVER} 0 DRIVER)
+      add_test(NAME gpu.${MODE}_stress COMMAND clusterbench stress --methods ^gpu-[a-z]+$ --cases H5|H7|H9|H19|H32 --random 60 -q
+               -o ${PROJECT_BINARY_DIR}/stress_${MODE}.json)
+      set_tests_properties(gpu.${MODE}_stress PROPERTIES ENVIRONMENT "VK_DRIVER_FILES=${DRIVER};VK_ICD_FILENAMES=${DRIVER}"
+        TIMEOUT 600)
+    endif()
+  endforeach()
+endif()
+
 # The SPIR-V that the build embeds.
 if(NOT CLUSTERBENCH_SANITIZE)
   add_test(NAME gpu.shaders

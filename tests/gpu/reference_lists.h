@@ -2,6 +2,8 @@
 // The lists that methods on a device must give: the tests of src/gpu/shaders/common.glsl, with the same steps in the
 // same order, on the processor.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <string>
 
@@ -102,7 +104,9 @@ inline assign::Lists lists_of(const assign::AssignerDescriptor& method, const as
   assign::AssignerRun run(method, params, assign::Answer::lists);
   run.build(setting.grid, assign::kinds_of(lights));
   run.assign(setting.input(lights));
-  return run.cell_lists();
+  const std::string fault = assign::lists_fault(*run.filled_lists(), setting.grid.cell_count(), lights);
+  EXPECT_EQ(fault, "") << method.name << " on " << setting.name;
+  return fault.empty() ? run.cell_lists() : assign::Lists{};
 }
 
 // The first cell whose lists differ, as a sentence; "" if none does.
