@@ -74,6 +74,18 @@ def arithmetic_faults(text):
     return faults
 
 
+def memory_faults(text):
+    """Bits that several invocations set in one word of shared memory or of a buffer need an atomic operation. Software drivers
+    run the invocations of a group one after another, and hide that."""
+    shared = set(re.findall(r"(%\w+) = OpVariable %\w+ (?:Workgroup|StorageBuffer)", text))
+    for pointer, base in re.findall(r"(%\w+) = OpAccessChain %\w+ (%\w+)", text):
+        if base in shared:
+            shared.add(pointer)
+    ors = set(re.findall(r"(%\w+) = OpBitwiseOr ", text))
+    return [f"OpStore {pointer}: bits are set without atomicOr()" for pointer, value in re.findall(r"OpStore (%\w+) (%\w+)", text)
+            if pointer in shared and value in ors]
+
+
 def rounding_faults(text, variant):
     modes = {mode for mode in ("RoundingModeRTE", "SignedZeroInfNanPreserve")
              if re.search(rf"OpExecutionMode %\w+ {mode} 32", text) and f"OpCapability {mode}" in text}
@@ -83,6 +95,6 @@ def rounding_faults(text, variant):
 
 def faults_of(module, shader, variant):
     text = disassembled(module)
-    faults = validity_faults(module) + rounding_faults(text, variant)
+    faults = validity_faults(module) + rounding_faults(text, variant) + memory_faults(text)
     return faults if shader in DECIDE_NOTHING else faults + arithmetic_faults(text)
 

@@ -159,14 +159,14 @@ def check(chosen, modes_wanted, jobs):
             uncaught.append(mutation.name)
             continue
         by = [f"{name}: {how} {test}" for name, (how, test) in found.items() if how]
-        verdict = "; ".join(by) or (f"harmless: {mutation.harmless}" if mutation.harmless else "SURVIVED")
+        verdict = "; ".join(by) or (f"unseen: {mutation.unseen}" if mutation.unseen else "SURVIVED")
         print(f"{mutation.name:<36} {time.monotonic() - start:5.1f} s  {verdict}", flush=True)
-        if not by and not mutation.harmless:
+        if not by and not mutation.unseen:
             uncaught.append(mutation.name)
         verdicts = stored_verdicts()
         verdicts.setdefault(mutation.name, {}).update(found)
         VERDICTS.write_text(json.dumps(verdicts, indent=1))
-    print(f"{len(chosen) - len(uncaught)} of {len(chosen)} caught or harmless" +
+    print(f"{len(chosen) - len(uncaught)} of {len(chosen)} found, or known to be unseen" +
           (f"; not {', '.join(uncaught)}" if uncaught else ""))
     return uncaught
 
@@ -185,7 +185,7 @@ def table():
         cells = [found.get(mode, ["", ""])[0] for mode in modes]
         for mode, cell in zip(modes, cells):
             counts[mode] += cell in FOUND
-        note = f" (harmless: {mutation.harmless})" if mutation.harmless else ""
+        note = f" (unseen: {mutation.unseen})" if mutation.unseen else ""
         lines.append(f"| {mutation.name}{note} | " + " | ".join(cells) + " |")
     lines.append(f"| **of {len(lines) - 2}** | " + " | ".join(f"**{counts[mode]}**" for mode in modes) + " |")
     return "\n".join(lines) + "\n"

@@ -87,5 +87,33 @@ TEST_F(DeviceMethods, have_the_lists_of_the_same_steps_on_the_processor) {
   }
 }
 
+// Whole numbers, so that nothing is rounded, and no padding: lights that end just where a slice, column or row begins.
+TEST_F(DeviceMethods, list_what_touches_a_cell_exactly) {
+  Setting setting;
+  setting.name = "boxes of 1 m";
+  setting.frame = assign::testing::frame_of({true, -8, 8, -8, 8, 0, 16}, {64, 64}, {});
+  grid::GridSpec spec;
+  spec.tiles = {{0, 0}, {16, 16}};
+  spec.slices = {.scheme = grid::Scheme::linear, .count = 16, .near_m = 0, .far_m = 16, .boundaries_m = {}};
+  setting.grid = assign::testing::grid_of(spec, setting.frame);
+  for (const double range : {0.5, 1.5, 2.5})
+    for (const double depth : {2.5, 5.5, 14.5})
+      setting.frame.lights.push_back(assign::testing::point_light({depth - 8, 8 - depth, -depth}, range));
+  setting.frame.count_types();
+  for (const AssignerDescriptor* row : testing::list_methods()) {
+    const Params params(row->params, {{"inflation", 0.0}});
+    const Lists lists = testing::lists_of(*row, params, setting);
+    EXPECT_EQ(testing::first_difference(lists, testing::reference_lists(params, setting)), "") << row->name;
+    // 2.5 m around the middle of the cell at column, row and slice 5: its faces are those of the third cell on.
+    const auto lists_light_at = [&](int x, int y, int z) {
+      return assign::testing::lists_light(lists, (z * 16 + y) * 16 + x, 7);
+    };
+    EXPECT_TRUE(lists_light_at(5, 5, 2) && lists_light_at(5, 5, 8)) << row->name;
+    EXPECT_TRUE(lists_light_at(2, 5, 5) && lists_light_at(8, 5, 5)) << row->name;
+    EXPECT_TRUE(lists_light_at(5, 2, 5) && lists_light_at(5, 8, 5)) << row->name;
+    EXPECT_FALSE(lists_light_at(5, 5, 1) || lists_light_at(9, 5, 5) || lists_light_at(5, 1, 5)) << row->name;
+  }
+}
+
 }  // namespace
 }  // namespace clusterbench::gpu

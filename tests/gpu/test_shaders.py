@@ -103,6 +103,17 @@ class Changed(unittest.TestCase):
             faults = shader_modules.faults_of(self.compile("cells"), "cells", "to_nearest")
             self.assertTrue(any(name in fault for fault in faults), f"{new} gave {faults}")
 
+    def test_bits_that_are_set_without_an_atomic_operation_are_found(self):
+        for shader, old, new in (("mask", "atomicOr(bits[first / 32], ballot.x << (first % 32));", "bits[first / 32] |= ballot.x << (first % 32);"),
+                                 ("group", "atomicOr(kept_bits[lane / 32], 1u << (lane % 32));", "kept_bits[lane / 32] |= 1u << (lane % 32);"),
+                                 ("lights", "atomicOr(masks[cell.index * frame.words + light / 32], 1u << (light % 32));",
+                                  "masks[cell.index * frame.words + light / 32] |= 1u << (light % 32);")):
+            file = self.shaders / f"{shader}.comp"
+            self.assertIn(old, file.read_text())
+            file.write_text(file.read_text().replace(old, new))
+            faults = shader_modules.faults_of(self.compile(shader), shader, "to_nearest")
+            self.assertTrue(any("atomicOr" in fault for fault in faults), f"{shader}: {faults}")
+
     def test_rounding_that_is_not_asked_for_is_found(self):
         common = self.shaders / "common.glsl"
         text = common.read_text()

@@ -26,6 +26,5 @@ void main() {
     barrier();
     if (lane == k_block - 1) carry = saturated_sum(start, partial[lane]);  // read after the next turn's barriers
   }
-  barrier();
-  if (lane == 0) begins[frame.cells] = carry;
+  if (lane == k_block - 1) begins[frame.cells] = carry;  // its own
 }
