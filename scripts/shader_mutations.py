@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Checks that the tests of the layer gpu find wrong shaders: scripts/shader_mutations.py [--only NAME...] [--modes MODE...] [--list]
-[--table] [--jobs N].
+[--table] [--write] [--jobs N].
 
 Makes each wrong change of scripts/shader_mutation_table.py in a copy of the tree (build/mutations) and runs the tests of every
-mode of ctest (tests/gpu/drivers.cmake) until one fails. A shader is only compiled again and swapped (test_gpu_swapped). A change
+mode of ctest (tests/gpu/drivers.cmake) until one fails. A shader is only compiled again and swapped. A change
 that no mode finds has survived: exit code 1. Names may be patterns (--only 'group-*'). --table prints what the last runs found
-as Markdown.
+as Markdown, --write puts it into tests/gpu/README.md.
 """
 import argparse
 import fnmatch
@@ -24,6 +24,7 @@ from shader_mutation_table import MUTATIONS
 ROOT, TREE, BUILD = plain.ROOT, plain.TREE, plain.BUILD
 SWAPPED = TREE / "swapped"  # with a folder for each set of words that shaders are compiled with
 VERDICTS = ROOT / "build" / "shader_mutations.json"
+DOCUMENT = ROOT / "tests" / "gpu" / "README.md"
 PROGRAM = "test_gpu"
 MODULES = "shaders"  # the mode that only reads the SPIR-V
 TIMEOUT_S = 60
@@ -191,12 +192,21 @@ def table():
     return "\n".join(lines) + "\n"
 
 
+BEGIN, END = "<!-- shader mutations -->", "<!-- /shader mutations -->"
+
+
+def with_table(text):
+    head, rest = text.split(BEGIN)
+    return f"{head}{BEGIN}\n{table()}{END}{rest.split(END)[1]}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", nargs="+", metavar="NAME", default=["*"], help="only these changes")
     parser.add_argument("--modes", nargs="+", metavar="MODE", default=["*"], help="only these modes, as lavapipe")
     parser.add_argument("--list", action="store_true", help="names of all changes")
     parser.add_argument("--table", action="store_true", help="what the last runs found, in Markdown")
+    parser.add_argument("--write", action="store_true", help="put that into tests/gpu/README.md")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="compilers at once")
     asked = parser.parse_args()
     chosen = [m for m in MUTATIONS if any(fnmatch.fnmatchcase(m.name, name) for name in asked.only)]
@@ -204,6 +214,8 @@ def main():
         parser.error(f"no change is called {' or '.join(asked.only)}; --list names all")
     if asked.list:
         print("\n".join(m.name for m in chosen))
+    elif asked.write:
+        DOCUMENT.write_text(with_table(DOCUMENT.read_text()))
     elif asked.table:
         print(table(), end="")
     else:

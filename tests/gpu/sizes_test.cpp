@@ -85,6 +85,16 @@ TEST_F(DeviceSizes, of_a_million_cells_are_right) {
   for (const char* name : {"gpu-group", "gpu-lights"}) expect_reference_lists(*assign::find_assigner(name), setting);
 }
 
+// By hand (--gtest_also_run_disabled_tests): ten seconds on lavapipe, a minute on SwiftShader.
+TEST_F(DeviceSizes, DISABLED_of_10000_lights_and_36864_cells_are_right) {
+  const Setting setting = setting_of({64, 24, 24}, lights_in_view(10'000, 9, 8));
+  const Params params(list_methods().front()->params);
+  const Lists expected = reference_lists(params, setting);
+  for (const AssignerDescriptor* row : list_methods())
+    EXPECT_EQ(first_difference(lists_of(*row, params, setting), expected), "") << row->name;
+  RecordProperty("pairs", static_cast<int>(expected.pair_count()));
+}
+
 // The first buffer of lists holds 65,536 entries. A frame after it, and one before, leave no trace.
 TEST_F(DeviceSizes, of_lists_that_outgrow_their_buffer_are_right_and_so_are_those_of_the_next_frames) {
   std::vector<scene::WorldLight> everywhere(90, assign::testing::point_light({0, 0, -5}, 1e3));
