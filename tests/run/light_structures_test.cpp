@@ -81,7 +81,9 @@ class OnDevice final : public GivesAll<true> {
   const assign::DeviceSpans* device_spans() const override { return &spans_; }
 
  private:
-  assign::DeviceSpans spans_{100.0, 2000.0, 30.0};
+  double device_floor_ns() override { return 500.0; }
+
+  assign::DeviceSpans spans_{100.0, 2000.0, 30.0, 3, 64};
 };
 
 // aabb's lists, each type's lights from the last to the first.
@@ -193,14 +195,19 @@ TEST(LightStructures, a_device_tells_its_spans_by_its_own_clock) {
   descriptor.make_own = [](const assign::Params&) -> std::unique_ptr<assign::StructureAssigner> {
     return std::make_unique<OnDevice>();
   };
+  descriptor.on_device = true;
   const assign::AssignerRegistration registration(descriptor);
   const Ran all = ran(R"("assigners": ["all-lights", "aabb"])");
-  const std::optional<DeviceTimes>& device = all.of("all-lights", "own").timing->device;
+  EXPECT_FALSE(all.of("all-lights", "own").timing) << "the time of a process that waits";
+  const std::optional<DeviceTimes>& device = all.of("all-lights", "own").device;
   ASSERT_TRUE(device);
   EXPECT_EQ(device->upload_ns.samples, (std::vector<double>{100.0, 100.0})) << "two rounds, per frame";
   EXPECT_EQ(device->run_ns.median, 2000.0);
   EXPECT_EQ(device->readback_ns.median, 30.0);
-  EXPECT_FALSE(all.of("aabb", "packed").timing->device);
+  EXPECT_EQ(device->dispatches, 3.0);
+  EXPECT_EQ(device->floor_ratio, 4.0);
+  EXPECT_FALSE(all.of("aabb", "packed").device);
+  EXPECT_TRUE(all.of("aabb", "packed").timing);
 }
 
 TEST(LightStructures, lists_in_any_order_measure_as_ascending_ones) {

@@ -84,6 +84,8 @@ class Commands {
   void barrier();
   // The time of all steps until now, by the device's clock. Up to 8 in one recording.
   void mark();
+  // Steps until now that take turns on the device: dispatches and fills.
+  std::uint32_t steps() const { return steps_; }
   // The first bytes of a buffer, for downloaded() after run().
   void download(std::uint32_t binding, std::uint64_t bytes);
 
@@ -97,6 +99,7 @@ class Commands {
  private:
   Device::Impl& device_;
   Buffers::Impl& buffers_;
+  std::uint32_t steps_ = 0;
 };
 
 }  // namespace clusterbench::gpu

@@ -1,6 +1,7 @@
 #pragma once
 // The steps that methods with packed lists share: upload, counts of each cell, their sums, lists, and back to the host.
 
+#include "gpu/methods/device_floor.h"
 #include "gpu/methods/device_frame.h"
 
 namespace clusterbench::gpu {
@@ -12,6 +13,7 @@ class DeviceLists : public assign::ListAssigner {
 
   std::uint64_t tests_done() const final { return tests_; }
   const assign::DeviceSpans* device_spans() const final { return &spans_; }
+  double device_floor_ns() final { return floor_.measured_ns(buffers(), spans_.dispatches, spans_.result_bytes); }
   std::size_t scratch_bytes() const final { return frame_.host_bytes() + frame_.buffers().all_bytes(); }
 
  protected:
@@ -36,6 +38,7 @@ class DeviceLists : public assign::ListAssigner {
   void read_lists(std::uint32_t entries, assign::Lists& out);
 
   DeviceFrame frame_;
+  DeviceFloor floor_;
   Kernel sum_blocks_, sum_sums_;
   std::uint32_t capacity_ = 0;  // of all lists
   std::uint64_t tests_ = 0;
