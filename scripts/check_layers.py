@@ -25,7 +25,7 @@ FOLDERS = {
     "config": [["schema"], ["presets"]],
     "run": [["cases"], ["timing"], ["counters"], ["findings"], ["passes", "records"]],
     "report": [["cases"], ["comparing", "documents", "presets", "searches"], ["gates", "sizing", "tables", "exports", "page"],
-               ["choosing", "history"], ["results"]],
+               ["shaders"], ["choosing", "history", "size_report"], ["results"]],
     "cli": [["command_line", "output", "processes"], ["completion", "options"], ["running", "sizing"], ["commands"]],
 }
 

@@ -7,7 +7,7 @@
 #include "config/presets/presets.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "report/sizing/engine_limits.h"
+#include "report/size_report/engine_limits.h"
 
 namespace clusterbench::cli {
 namespace {

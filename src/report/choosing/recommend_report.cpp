@@ -19,7 +19,7 @@
 #include "report/cases/sample_sets.h"
 #include "report/cases/timing_warnings.h"
 #include "report/choosing/answer_conclusion.h"
-#include "report/sizing/list_code.h"
+#include "report/shaders/list_code.h"
 #include "result/at.h"
 #include "result/case_figure.h"
 #include "result/rounding.h"

@@ -1,4 +1,4 @@
-#include "report/sizing/engine_limits.h"
+#include "report/size_report/engine_limits.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "report/sizing/engine_settings.h"
+#include "report/size_report/engine_settings.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "report/cases/columns.h"
-#include "report/sizing/engine_limits.h"
+#include "report/size_report/engine_limits.h"
 #include "report/sizing/found_frames.h"
 #include "report/sizing/size_words.h"
 
