@@ -12,7 +12,7 @@
 #include "config/presets/presets.h"
 #include "cull/pre_cull_spec.h"
 #include "report/history/history.h"
-#include "result/figure_table.h"
+#include "result/figures/figure_table.h"
 #include "scene/generators/generate.h"
 
 namespace clusterbench::cli {

@@ -18,7 +18,7 @@
 #include "os/stop_signals.h"
 #include "report/choosing/recommend_report.h"
 #include "report/choosing/recommended_config.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 #include "run/cases/impossible_cases.h"
 #include "run/cases/plan.h"
 #include "search/recommend.h"

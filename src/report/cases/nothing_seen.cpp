@@ -8,7 +8,7 @@
 #include "report/cases/columns.h"
 #include "report/cases/sample_sets.h"
 #include "result/at.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 namespace clusterbench::report {
 namespace {

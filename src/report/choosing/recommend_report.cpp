@@ -21,7 +21,7 @@
 #include "report/choosing/answer_conclusion.h"
 #include "report/shaders/list_code.h"
 #include "result/at.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 #include "result/rounding.h"
 #include "run/findings/gate.h"
 #include "run/records/records.h"

@@ -14,7 +14,7 @@
 #include "report/cases/sample_sets.h"
 #include "report/gates/baseline_cases.h"
 #include "result/at.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 namespace clusterbench::report {
 namespace {
