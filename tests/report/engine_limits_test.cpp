@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 
 namespace clusterbench::report {
 namespace {

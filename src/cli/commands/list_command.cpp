@@ -9,7 +9,7 @@
 #include "assign/contract/assigner.h"
 #include "assign/contract/storage.h"
 #include "cli/command_line/commands.h"
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "cull/pre_cull_spec.h"
 #include "report/history/history.h"
 #include "result/figures/figure_table.h"

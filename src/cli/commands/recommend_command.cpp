@@ -13,7 +13,7 @@
 #include "cli/output/progress_line.h"
 #include "cli/processes/launches.h"
 #include "config/config.h"
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
 #include "report/choosing/recommend_report.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "report/size_report/engine_limits.h"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/text.h"
 #include "measure/samples/shading.h"
 #include "report/cases/case_costs.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/text.h"
 #include "measure/samples/shading.h"
 #include "report/cases/columns.h"

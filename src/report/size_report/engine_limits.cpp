@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/text.h"
 #include "result/at.h"
 

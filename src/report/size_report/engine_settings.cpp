@@ -5,7 +5,7 @@
 #include <cctype>
 #include <span>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "report/cases/columns.h"
