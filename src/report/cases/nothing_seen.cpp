@@ -5,8 +5,8 @@
 #include <optional>
 #include <tuple>
 
+#include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
-#include "report/cases/sample_sets.h"
 #include "result/at.h"
 #include "result/figures/case_figure.h"
 
