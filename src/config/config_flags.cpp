@@ -5,7 +5,7 @@
 #include <regex>
 
 #include "config/presets/assigner_names.h"
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "config/schema/documents.h"
 #include "core/error.h"
 #include "core/json_document.h"

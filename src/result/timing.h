@@ -1,7 +1,7 @@
 #pragma once
 // Times and instructions.
 
-#include "result/figures.h"
+#include "result/shared_parts.h"
 
 namespace clusterbench::result {
 

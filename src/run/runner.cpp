@@ -4,7 +4,7 @@
 #include <random>
 #include <set>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "gpu/device/device.h"

@@ -11,7 +11,7 @@
 
 #include "places.h"
 #include "report/results/result_record.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 #include "run/cases/plan.h"
 #include "run/runner.h"
 

@@ -9,10 +9,10 @@
 #include "assign/contract/assigner.h"
 #include "assign/contract/storage.h"
 #include "cli/command_line/commands.h"
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "cull/pre_cull_spec.h"
 #include "report/history/history.h"
-#include "result/figure_table.h"
+#include "result/figures/figure_table.h"
 #include "scene/generators/generate.h"
 
 namespace clusterbench::cli {

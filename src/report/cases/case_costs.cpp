@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "depth/depth_image.h"
 #include "measure/samples/shading.h"
 #include "measure/statistics/frame_cost.h"

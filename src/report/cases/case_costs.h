@@ -8,7 +8,7 @@
 
 #include "measure/samples/shading.h"
 #include "measure/statistics/frame_cost.h"
-#include "report/cases/sample_sets.h"
+#include "report/cases/case_samples.h"
 #include "result/case.h"
 
 namespace clusterbench::report {

@@ -6,7 +6,7 @@
 #include "assign/contract/assigner.h"
 #include "report/cases/columns.h"
 #include "result/at.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 #include "run/cases/case_names.h"
 
 namespace clusterbench::report {

@@ -6,8 +6,8 @@
 #include "core/text.h"
 #include "measure/statistics/frame_cost.h"
 #include "report/cases/case_costs.h"
+#include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
-#include "report/cases/sample_sets.h"
 
 namespace clusterbench::report {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <set>
 
+#include "report/cases/case_samples.h"
 #include "report/cases/json_values.h"
-#include "report/cases/sample_sets.h"
 #include "result/at.h"
 
 namespace clusterbench::report {

@@ -8,8 +8,8 @@
 #include "assign/contract/assigner.h"
 #include "core/text.h"
 #include "report/cases/case_costs.h"
+#include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
-#include "report/cases/sample_sets.h"
 #include "report/cases/timing_warnings.h"
 #include "report/comparing/ratios.h"
 #include "report/presets/preset_ranking.h"
@@ -23,7 +23,7 @@
 #include "report/tables/stability_table.h"
 #include "report/tables/warnings.h"
 #include "result/at.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 namespace clusterbench::report {
 namespace {
@@ -100,7 +100,7 @@ std::pair<bool, double> sort_key(const Case& result_case, RankBy by) {
 constexpr const char* k_frame_heading = "frame us";
 constexpr const char* k_cost_heading = "cost us";
 
-// A figure (result/figure_table.h) in a format, or its own text.
+// A figure (result/figures/figure_table.h) in a format, or its own text.
 struct Column {
   const char* heading;
   const char* figure = nullptr;

@@ -231,7 +231,7 @@ struct CaseResult {
   // conservative: packed lights must be inflated for it, and a pre-cull must be conservative, too
   bool conservative = true, exact = false;
   std::string storage_label;
-  std::string preset;                    // config/presets/presets.h; "" for the configuration's own clusterings
+  std::string preset;                    // config/presets/preset_library.h; "" for the configuration's own clusterings
   int lights = 0;                        // lights of the scene that methods get: points, spots, and boxes if requested
   measure::LightsInView lights_in_view;  // the same for all cases of a camera and viewport
   std::optional<measure::LightsBeyondGrid> lights_beyond_grid;  // with the grid's cells

@@ -1,4 +1,4 @@
-#include "report/sizing/list_code.h"
+#include "report/shaders/list_code.h"
 
 #include <algorithm>
 

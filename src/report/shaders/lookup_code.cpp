@@ -1,4 +1,4 @@
-#include "report/sizing/lookup_code.h"
+#include "report/shaders/lookup_code.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "report/cases/sample_sets.h"
+#include "report/cases/case_samples.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,9 +1,9 @@
-#include "report/sizing/engine_limits.h"
+#include "report/size_report/engine_limits.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/text.h"
 #include "result/at.h"
 

@@ -1,13 +1,13 @@
-#include "report/sizing/named_structures.h"
+#include "report/shaders/named_structures.h"
 
 #include <algorithm>
 #include <cctype>
 #include <set>
 
 #include "core/error.h"
-#include "report/sizing/list_code.h"
-#include "report/sizing/lookup_code.h"
-#include "report/sizing/lookup_constants.h"
+#include "report/shaders/list_code.h"
+#include "report/shaders/lookup_code.h"
+#include "report/shaders/lookup_constants.h"
 
 namespace clusterbench::report {
 namespace {

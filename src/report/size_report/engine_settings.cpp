@@ -1,15 +1,15 @@
-#include "report/sizing/engine_settings.h"
+#include "report/size_report/engine_settings.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <span>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "report/cases/columns.h"
-#include "report/sizing/engine_limits.h"
+#include "report/size_report/engine_limits.h"
 #include "report/sizing/found_frames.h"
 #include "report/sizing/size_words.h"
 

@@ -1,10 +1,12 @@
 #pragma once
 // Allocations as code: a C++ header with a run-time check, or constants and lookups of a shader.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "report/sizing/named_structures.h"
+#include "report/shaders/named_structures.h"
+#include "report/sizing/sized_buffers.h"
 
 namespace clusterbench::report {
 

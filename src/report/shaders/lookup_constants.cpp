@@ -1,4 +1,4 @@
-#include "report/sizing/lookup_constants.h"
+#include "report/shaders/lookup_constants.h"
 
 #include "report/cases/columns.h"
 #include "result/rounding.h"

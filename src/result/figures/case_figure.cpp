@@ -1,4 +1,4 @@
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 #include <algorithm>
 #include <vector>

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "result/figure_table.h"
+#include "result/figures/figure_table.h"
 
 namespace clusterbench::result {
 

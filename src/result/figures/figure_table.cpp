@@ -1,4 +1,4 @@
-#include "result/figure_table.h"
+#include "result/figures/figure_table.h"
 
 #include <algorithm>
 

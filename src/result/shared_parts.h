@@ -1,5 +1,5 @@
 #pragma once
-// Parts that figures of several kinds share.
+// Parts that records of several kinds share.
 
 #include "result/fields.h"
 

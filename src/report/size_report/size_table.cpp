@@ -1,4 +1,4 @@
-#include "report/sizing/size_table.h"
+#include "report/size_report/size_table.h"
 
 #include <algorithm>
 #include <set>

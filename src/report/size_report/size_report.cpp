@@ -1,4 +1,4 @@
-#include "report/sizing/size.h"
+#include "report/size_report/size_report.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,14 +11,14 @@
 #include "report/cases/contender.h"
 #include "report/cases/json_values.h"
 #include "report/comparing/ratios.h"
+#include "report/shaders/list_code.h"
+#include "report/shaders/lookup_constants.h"
+#include "report/shaders/named_structures.h"
+#include "report/shaders/size_code.h"
+#include "report/size_report/engine_settings.h"
+#include "report/size_report/size_table.h"
 #include "report/sizing/buffer_tail.h"
-#include "report/sizing/engine_settings.h"
 #include "report/sizing/found_frames.h"
-#include "report/sizing/list_code.h"
-#include "report/sizing/lookup_constants.h"
-#include "report/sizing/named_structures.h"
-#include "report/sizing/size_code.h"
-#include "report/sizing/size_table.h"
 #include "report/sizing/size_words.h"
 #include "result/at.h"
 
