@@ -27,7 +27,7 @@ FOLDERS = {
     "config": [["schema"], ["presets"]],
     "run": [["cases"], ["timing"], ["counters"], ["findings"], ["passes", "records"]],
     "report": [["cases"], ["comparing", "documents", "presets", "searches"], ["gates", "sizing", "tables", "exports", "page"],
-               ["shaders"], ["choosing", "history", "size_report"], ["results"]],
+               ["shader_code"], ["choosing", "history", "size_report"], ["results"]],
     "cli": [["command_line", "output", "processes"], ["completion", "options"], ["running", "sizing"], ["commands"]],
 }
 

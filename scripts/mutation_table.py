@@ -961,7 +961,7 @@ MUTATIONS = [
              "is_left_to_exact_ = std::isinf(planes_.least_reach);", "is_left_to_exact_ = false;",
              "assign.ExactFast.decides_no_more_than_exact_does_on_grids_beyond_single_precision",
              "a frame whose slices begin a nanometre from the eye takes minutes"),
-    Mutation("shader-clamps-beside-the-picture", "report/shaders/lookup_code.cpp",
+    Mutation("shader-clamps-beside-the-picture", "report/shader_code/lookup_code.cpp",
              "  if (!(pixel.x >= 0.0 && pixel.x <= P_viewport.x && pixel.y >= 0.0 && pixel.y <= P_viewport.y)) return -1;\n",
              "",
              "report.SizeLookups.find_the_cells_that_the_tool_finds",

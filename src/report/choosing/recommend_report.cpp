@@ -19,7 +19,7 @@
 #include "report/cases/nothing_seen.h"
 #include "report/cases/timing_warnings.h"
 #include "report/choosing/answer_conclusion.h"
-#include "report/shaders/list_code.h"
+#include "report/shader_code/list_code.h"
 #include "result/at.h"
 #include "result/figures/case_figure.h"
 #include "result/rounding.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "report/shaders/named_structures.h"
+#include "report/shader_code/named_structures.h"
 #include "result/case.h"
 
 namespace clusterbench::report {

@@ -1,10 +1,11 @@
 #pragma once
-// The function with which a shader finds the cell of a sample, for the constants of report/shaders/lookup_constants.h.
+// The function with which a shader finds the cell of a sample, for the constants of
+// report/shader_code/lookup_constants.h.
 
 #include <string>
 #include <vector>
 
-#include "report/shaders/lookup_constants.h"
+#include "report/shader_code/lookup_constants.h"
 #include "result/case.h"
 
 namespace clusterbench::report {

@@ -1,4 +1,4 @@
-#include "report/shaders/lookup_code.h"
+#include "report/shader_code/lookup_code.h"
 
 #include <algorithm>
 

@@ -1,13 +1,13 @@
-#include "report/shaders/named_structures.h"
+#include "report/shader_code/named_structures.h"
 
 #include <algorithm>
 #include <cctype>
 #include <set>
 
 #include "core/error.h"
-#include "report/shaders/list_code.h"
-#include "report/shaders/lookup_code.h"
-#include "report/shaders/lookup_constants.h"
+#include "report/shader_code/list_code.h"
+#include "report/shader_code/lookup_code.h"
+#include "report/shader_code/lookup_constants.h"
 
 namespace clusterbench::report {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/shaders/lookup_constants.h"
+#include "report/shader_code/lookup_constants.h"
 
 #include "report/cases/columns.h"
 #include "result/rounding.h"

@@ -1,4 +1,4 @@
-#include "report/shaders/list_code.h"
+#include "report/shader_code/list_code.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "report/shaders/size_code.h"
+#include "report/shader_code/size_code.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,9 +6,9 @@
 
 #include "core/text.h"
 #include "report/cases/columns.h"
-#include "report/shaders/list_code.h"
-#include "report/shaders/lookup_code.h"
-#include "report/shaders/lookup_constants.h"
+#include "report/shader_code/list_code.h"
+#include "report/shader_code/lookup_code.h"
+#include "report/shader_code/lookup_constants.h"
 #include "report/sizing/size_words.h"
 
 namespace clusterbench::report {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "report/shaders/named_structures.h"
+#include "report/shader_code/named_structures.h"
 #include "report/sizing/sized_buffers.h"
 
 namespace clusterbench::report {
