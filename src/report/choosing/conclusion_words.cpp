@@ -11,6 +11,11 @@
 
 namespace clusterbench::report {
 
+std::string case_title(const result::Case& result_case) {
+  const std::string& name = result_case.name;
+  return shown(name.substr(name.find('/', name.find('/') + 1) + 1));
+}
+
 std::string ns_text(double ns) {
   const double us = 1e-3 * ns;
   return text(us < 10.0 ? "%.2f us" : us < 1000.0 ? "%.3g us" : "%.0f us", us);

@@ -11,6 +11,7 @@ using enum Better;
 using enum Basis;
 
 constexpr std::string_view k_of_times = " (--no-timing or timing.measure: false leaves times out)";
+constexpr std::string_view k_of_devices = " (only methods that run on a device have it, where times are measured)";
 constexpr std::string_view k_of_cells = " (structures without cells have none)";
 constexpr std::string_view k_of_truth =
     " (accuracy.check: false leaves errors out; structures without cells have none)";
@@ -488,6 +489,39 @@ constexpr Figure k_figures[] = {
      .meaning = "lights in view that may reach a point in view which no cell holds, in the frame with most",
      .recorded = number<&Case::lights_beyond_grid, &LightsBeyondGrid::max>,
      .none = " (grids without cells and results of older versions have none)"},
+    {.name = "device_us",
+     .unit = "ns",
+     .meaning = "median time of a device's work for a frame by its own clock, in microseconds: from lights to lists",
+     .basis = time,
+     .recorded = number<&Case::device, &DeviceTimes::run_ns, &Time::median>,
+     .interval = part<&Case::device, &DeviceTimes::run_ns, &Time::ci95>,
+     .is_in_us = true,
+     .none = k_of_devices,
+     .export_name = "device_time"},
+    {.name = "device_upload_us",
+     .unit = "ns",
+     .meaning = "median time to bring a frame's lights to the device by its own clock, in microseconds",
+     .basis = time,
+     .recorded = number<&Case::device, &DeviceTimes::upload_ns, &Time::median>,
+     .interval = part<&Case::device, &DeviceTimes::upload_ns, &Time::ci95>,
+     .is_in_us = true,
+     .none = k_of_devices,
+     .export_name = "device_upload_time"},
+    {.name = "device_readback_us",
+     .unit = "ns",
+     .meaning = "median time to bring a frame's lists back from the device by its own clock, in microseconds",
+     .basis = time,
+     .recorded = number<&Case::device, &DeviceTimes::readback_ns, &Time::median>,
+     .interval = part<&Case::device, &DeviceTimes::readback_ns, &Time::ci95>,
+     .is_in_us = true,
+     .none = k_of_devices,
+     .export_name = "device_readback_time"},
+    {.name = "device_floor",
+     .unit = "ratio",
+     .meaning = "time of a device's work / time of as many steps that only write as much",
+     .basis = time,
+     .recorded = number<&Case::device, &DeviceTimes::floor_ratio>,
+     .none = k_of_devices},
 };
 
 }  // namespace
