@@ -293,7 +293,8 @@ double divergence(const Recount& of, const std::string& name) {
 
 Value gpu_ns(const Recount& of) {
   if (of.json("/cost") == nullptr) return {};
-  double ns = *of.at("/buffers/upload_bytes/mean") / of.config("/cost/upload_gb_per_s") +
+  const bool is_uploaded = !of.one["assigner"].value("on_device", false);
+  double ns = (is_uploaded ? *of.at("/buffers/upload_bytes/mean") : 0.0) / of.config("/cost/upload_gb_per_s") +
               of.at("/buffers/traffic_bytes/mean").value_or(0.0) / of.config("/cost/memory_gb_per_s");
   for (const auto& [name, weight] : of.result["config"]["cost"]["weights"].items()) {
     if (weight == 0.0 || of.json(name == "volume" ? "/shading" : "/samples/" + name) == nullptr) continue;
