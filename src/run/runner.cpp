@@ -216,11 +216,37 @@ class Run {
       time_waiting(out);
     if (stop_) return;
     try {
-      count_group(std::move(group), out);
+      count_group(group, out);
+    } catch (const gpu::DeviceError& error) {
+      gpu::close_device();
+      run_apart(group, error.message(), out);
     } catch (const Error& error) {
       throw Error(error.file(), name_of_group_ + (error.where().empty() ? "" : ": " + error.where()), error.message(),
                   error.code());
     }
+  }
+
+  // After a failure of the device: the group without its cases, then each method on the device alone. One that fails
+  // alone is skipped.
+  void run_apart(const GroupPlan& group, const std::string& reason, Result& out) {
+    std::vector<GroupPlan> parts(1, group);
+    std::erase_if(parts.front().cases,
+                  [&](const CasePlan& case_plan) { return method_of(config_, case_plan).on_device; });
+    for (const Method& method : methods_of(group)) {
+      GroupPlan part = group;
+      std::erase_if(part.cases, [&](const CasePlan& case_plan) {
+        return case_plan.method() != method || !method_of(config_, case_plan).on_device;
+      });
+      parts.push_back(std::move(part));
+    }
+    std::erase_if(parts, [](const GroupPlan& part) { return part.cases.empty(); });
+    if (parts.size() > 1) {
+      for (const GroupPlan& part : parts) run_group(part, out);
+      return;
+    }
+    for (const CasePlan& case_plan : group.cases)
+      out.skipped.push_back({case_plan.name, reason, false, case_plan.preset});
+    progress_.cases_done += group.cases.size();
   }
 
   double waiting_cost() const {

@@ -8,9 +8,16 @@
 #include <span>
 #include <string>
 
+#include "core/error.h"
 #include "gpu/device/device_facts.h"
 
 namespace clusterbench::gpu {
+
+// The device failed, or cannot hold what a method needs. It ends the cases that run on it, and not the run.
+class DeviceError : public Error {
+ public:
+  explicit DeviceError(std::string message) : Error("", "device", std::move(message)) {}
+};
 
 // A compute pipeline: a shader with the size of its groups and its mode (both specialization constants).
 using Kernel = std::uint32_t;
@@ -36,6 +43,8 @@ class Device {
 
 // Which device device() opens, as chosen_device() takes it. Closes the one that is open.
 void use_device(const std::string& wanted);
+// After a failure: the next device() opens it anew. Nothing that was made with the old one may be left.
+void close_device();
 // The device of this process: opened at the first call, closed at its end. All methods of a run share it. Throws Error
 // with the reason if there is none.
 Device& device();
@@ -52,8 +61,8 @@ class Buffers {
   Buffers(const Buffers&) = delete;
   Buffers& operator=(const Buffers&) = delete;
 
-  // At least this many bytes; if it has to grow, the contents are lost. Not while commands are recorded. Throws Error
-  // (with `name` and the numbers) above the device's limit or where it has no memory left.
+  // At least this many bytes; if it has to grow, the contents are lost. Not while commands are recorded. Throws
+  // DeviceError (with `name` and the numbers) above the device's limit or where it has no memory left.
   void reserve(std::uint32_t binding, std::uint64_t bytes, const char* name);
   std::uint64_t bytes(std::uint32_t binding) const;
   std::uint64_t all_bytes() const;
@@ -89,7 +98,7 @@ class Commands {
   // The first bytes of a buffer, for downloaded() after run().
   void download(std::uint32_t binding, std::uint64_t bytes);
 
-  // Throws Error if the device fails.
+  // Throws DeviceError if the device fails.
   void run();
   // Between two marks; 0 without a clock.
   double ns_between(std::uint32_t first, std::uint32_t last) const;

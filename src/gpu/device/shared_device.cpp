@@ -25,6 +25,10 @@ void use_device(const std::string& wanted) {
   now = Shared{wanted, nullptr, ""};
 }
 
+void close_device() {
+  shared().device.reset();
+}
+
 Device& device() {
   Shared& now = shared();
   if (!now.device) now.device = std::make_unique<Device>(now.wanted);

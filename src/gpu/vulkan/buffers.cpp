@@ -14,9 +14,8 @@ void Buffers::reserve(std::uint32_t binding, std::uint64_t bytes, const char* na
   if (bytes <= memory.bytes) return;
   const DeviceFacts& facts = impl_->device.facts;
   if (bytes > facts.max_buffer_bytes)
-    throw Error("", "device",
-                std::string(name) + " need a buffer of " + std::to_string(bytes) + " bytes; " + facts.name +
-                    " allows " + std::to_string(facts.max_buffer_bytes) + "; use fewer lights or cells");
+    throw DeviceError(std::string(name) + " need a buffer of " + std::to_string(bytes) + " bytes; " + facts.name +
+                      " allows " + std::to_string(facts.max_buffer_bytes) + "; use fewer lights or cells");
   check_memory(name, bytes, 1);
   impl_->device.free(memory);
   memory = impl_->device.allocate(bytes, Place::device);
