@@ -129,7 +129,7 @@ std::vector<StressMethod> stress_methods() {
     for (const assign::Answer answer : assign::answers_with_cells(assigner, params))
       methods.push_back({label_of(assigner, params), &assigner, params, conservative, answer});
   };
-  for (const assign::AssignerDescriptor* assigner : assign::assigner_descriptors()) {
+  for (const assign::AssignerDescriptor* assigner : assign::available_assigners()) {
     add(*assigner, assign::Params(assigner->params));
     for (const assign::ParamSpec& spec : assigner->params)
       for (const std::string& choice : spec.choices)

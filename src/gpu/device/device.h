@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 
@@ -79,8 +80,8 @@ struct Arguments {
   std::array<std::uint32_t, 32> words{};
 };
 
-// Commands that are recorded, then run once. Steps within a dispatch run in any order; what a later step reads of an
-// earlier one needs a barrier() between them.
+// Commands that are recorded, then run once. Threads take turns: one records and runs at a time. Steps within a
+// dispatch run in any order; what a later step reads of an earlier one needs a barrier() between them.
 class Commands {
  public:
   Commands(Device& device, Buffers& buffers);
@@ -108,6 +109,7 @@ class Commands {
  private:
   Device::Impl& device_;
   Buffers::Impl& buffers_;
+  std::unique_lock<std::mutex> turn_;
   std::uint32_t steps_ = 0;
 };
 

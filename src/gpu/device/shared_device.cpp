@@ -7,6 +7,7 @@ namespace clusterbench::gpu {
 namespace {
 
 struct Shared {
+  std::mutex busy;  // while one of the functions below uses the others
   std::string wanted;
   std::unique_ptr<Device> device;
   std::string obstacle;
@@ -17,29 +18,39 @@ Shared& shared() {
   return only;
 }
 
+Device& opened(Shared& now) {
+  if (!now.device) now.device = std::make_unique<Device>(now.wanted);
+  return *now.device;
+}
+
 }  // namespace
 
 void use_device(const std::string& wanted) {
   Shared& now = shared();
+  const std::lock_guard turn(now.busy);
   if (now.wanted == wanted) return;
-  now = Shared{wanted, nullptr, ""};
+  now.wanted = wanted;
+  now.device.reset();
+  now.obstacle.clear();
 }
 
 void close_device() {
+  const std::lock_guard turn(shared().busy);
   shared().device.reset();
 }
 
 Device& device() {
   Shared& now = shared();
-  if (!now.device) now.device = std::make_unique<Device>(now.wanted);
-  return *now.device;
+  const std::lock_guard turn(now.busy);
+  return opened(now);
 }
 
 std::string device_obstacle() {
   Shared& now = shared();
+  const std::lock_guard turn(now.busy);
   if (now.device || !now.obstacle.empty()) return now.obstacle;
   try {
-    device();
+    opened(now);
   } catch (const Error& error) {
     now.obstacle = error.message();
   }

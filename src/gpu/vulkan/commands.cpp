@@ -12,7 +12,8 @@ constexpr std::uint64_t k_groups_in_a_row = 32768;  // devices take at least 65,
 
 }  // namespace
 
-Commands::Commands(Device& device, Buffers& buffers) : device_(device.impl()), buffers_(buffers.impl()) {
+Commands::Commands(Device& device, Buffers& buffers)
+    : device_(device.impl()), buffers_(buffers.impl()), turn_(device_.busy) {
   buffers_.uploaded = 0;
   buffers_.downloads.clear();
   buffers_.mark_count = 0;
@@ -132,6 +133,7 @@ void Commands::run() {
           "vkGetQueryPoolResults");
   if (objections().count > 0)
     throw Error("", "device", "the validation layer objects: " + objections().first, ExitCode::internal);
+  turn_.unlock();
 }
 
 double Commands::ns_between(std::uint32_t first, std::uint32_t last) const {

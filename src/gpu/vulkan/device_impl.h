@@ -33,6 +33,8 @@ struct Device::Impl {
 
   static constexpr std::uint32_t k_marks = 10;
 
+  std::mutex busy;  // while commands are recorded and run, and while a kernel is made
+
   DeviceFacts facts;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkPhysicalDeviceMemoryProperties memory_properties{};
