@@ -46,7 +46,7 @@ class Device {
 void use_device(const std::string& wanted);
 // After a failure: the next device() opens it anew. Nothing that was made with the old one may be left.
 void close_device();
-// The device of this process: opened at the first call, closed at its end. All methods of a run share it. Throws Error
+// The device of this process: opened at the first call. All methods of a run share it. Throws Error
 // with the reason if there is none.
 Device& device();
 // The reason why device() throws; "" if it does not.

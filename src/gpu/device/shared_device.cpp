@@ -13,8 +13,9 @@ struct Shared {
   std::string obstacle;
 };
 
+// Never destroyed: at the end of the process the threads of some drivers have ended before its statics are destroyed.
 Shared& shared() {
-  static Shared only;
+  static Shared& only = *new Shared;
   return only;
 }
 
