@@ -2,14 +2,17 @@
 
 #include <algorithm>
 
+#include "assign/bounds/cell_bounds.h"
 #include "assign/bounds/cell_extents.h"
 #include "core/arrays.h"
+#include "core/error.h"
 
 namespace clusterbench::gpu {
 namespace {
 
 // A radius and a range whose squares are finite, and beyond all distances of the domain: for lights without an end.
 constexpr float k_endless = 1e19f;
+constexpr std::uint32_t k_group = 64;
 
 // Roundoffs of ball_touches_box() (common.glsl), as of assign::CellAabbs, which does the same steps. A device that does
 // not round to nearest may be off by two roundoffs a step.
@@ -27,7 +30,16 @@ void upload_all(Commands& commands, Binding binding, const std::vector<T>& data)
 }  // namespace
 
 std::vector<assign::ParamSpec> device_params() {
-  return assign::light_params();
+  std::vector<assign::ParamSpec> params = assign::light_params();
+  params.push_back(
+      {.name = "cells",
+       .summary =
+           "where the bounds of cells are made when the projection changes. host: and uploaded; device: of the grid's "
+           "boundaries, the same boxes and nearly as small spheres around cells (Operation Black Mesa)",
+       .default_value = std::string("host"),
+       .unit = "",
+       .choices = {"host", "device"}});
+  return params;
 }
 
 std::string no_device(const assign::Params&) {
@@ -35,25 +47,37 @@ std::string no_device(const assign::Params&) {
 }
 
 DeviceFrame::DeviceFrame(const assign::Params& params)
-    : device_(&gpu::device()), buffers_(*device_), test_(params, k_ball_roundoffs * steps_of(device_->facts())) {}
+    : device_(&gpu::device()),
+      buffers_(*device_),
+      test_(params, k_ball_roundoffs * steps_of(device_->facts())),
+      is_built_on_device_(params.values().contains("cells") && params.text("cells") == "device") {}
 
 void DeviceFrame::build(const grid::Grid& grid, const assign::LightKinds& kinds) {
-  const assign::CellExtents extents = assign::cell_extents(grid);
-  std::vector<assign::Interval> all = extents.x.extents;
-  arguments_ = {};
-  arguments_.first_row = static_cast<std::uint32_t>(all.size());
-  all.insert(all.end(), extents.y.extents.begin(), extents.y.extents.end());
-  arguments_.first_slice = static_cast<std::uint32_t>(all.size());
-  all.insert(all.end(), extents.z.extents.begin(), extents.z.extents.end());
   const Vec3i cells = grid.cells();
+  arguments_ = {};
   arguments_.cells = grid.cell_count();
   arguments_.columns = static_cast<std::uint32_t>(cells.x);
   arguments_.rows = static_cast<std::uint32_t>(cells.y);
   arguments_.slices = static_cast<std::uint32_t>(cells.z);
-  arguments_.column_pitch = static_cast<std::uint32_t>(extents.x.pitch);
-  arguments_.row_pitch = static_cast<std::uint32_t>(extents.y.pitch);
+  arguments_.column_pitch = arguments_.columns;
+  arguments_.row_pitch = arguments_.rows;
+  arguments_.first_row = arguments_.columns * arguments_.slices;
+  arguments_.first_slice = arguments_.first_row + arguments_.rows * arguments_.slices;
   arguments_.cone_slack = k_cone_slack * steps_of(device_->facts());
+  arguments_.is_orthographic = grid.screen().tiles.orthographic ? 1 : 0;
+  if (is_built_on_device_)
+    build_on_device(grid, kinds);
+  else
+    build_on_host(grid, kinds);
+}
+
+void DeviceFrame::build_on_host(const grid::Grid& grid, const assign::LightKinds& kinds) {
+  const assign::CellExtents extents = assign::cell_extents(grid);
+  std::vector<assign::Interval> all = extents.x.extents;
+  all.insert(all.end(), extents.y.extents.begin(), extents.y.extents.end());
+  all.insert(all.end(), extents.z.extents.begin(), extents.z.extents.end());
   test_.start_grid(grid, kinds);
+  has_cell_balls_ = !test_.cell_balls().empty();
 
   std::vector<Vec4> around_cells;
   for (const geom::Ball& ball : test_.cell_balls())
@@ -66,8 +90,27 @@ void DeviceFrame::build(const grid::Grid& grid, const assign::LightKinds& kinds)
   commands.run();
 }
 
+void DeviceFrame::build_on_device(const grid::Grid& grid, const assign::LightKinds& kinds) {
+  const grid::ScreenGrid& screen = grid.screen();
+  std::vector<float> boundaries = screen.tiles.x;
+  boundaries.insert(boundaries.end(), screen.tiles.y.begin(), screen.tiles.y.end());
+  boundaries.insert(boundaries.end(), screen.slices.boundaries.begin(), screen.slices.boundaries.end());
+  has_cell_balls_ = kinds.spots && test_.tests_cones();
+  const std::uint64_t intervals = arguments_.first_slice + arguments_.slices, cells = arguments_.cells;
+  buffers_.reserve(Binding::depths, bytes_of(boundaries), "boundaries of cells");
+  buffers_.reserve(Binding::bounds, intervals * sizeof(assign::Interval), "bounds of cells");
+  if (has_cell_balls_) buffers_.reserve(Binding::cell_balls, cells * sizeof(Vec4), "balls around cells");
+  const Kernel bounds = device_->kernel("bounds", k_group, has_cell_balls_ ? 1 : 0);
+  Commands commands(*device_, buffers_);
+  upload_all(commands, Binding::depths, boundaries);
+  commands.barrier();
+  commands.dispatch(bounds, arguments_, (cells + k_group - 1) / k_group);
+  commands.run();
+}
+
 void DeviceFrame::prepare(const view::LightArrays& lights) {
-  test_.start_frame(lights);
+  if (!lights.spots.empty() && test_.tests_cones() && !has_cell_balls_)
+    throw Error("", "lights", "have spots, which the build was not told of", ExitCode::internal);
   pack_balls(lights);
   pack_cones(lights);
   arguments_.lights = lights.points.count + lights.spots.count;
@@ -86,9 +129,12 @@ void DeviceFrame::upload(Commands& commands) const {
 
 void DeviceFrame::pack_balls(const view::LightArrays& lights) {
   balls_.clear();
+  lights_in_view_ = 0;
   for (std::uint32_t light = 0; light < lights.boxes.first; ++light) {
     const geom::Ball ball = test_.ball(lights, light, k_ball_roundoffs * steps_of(device_->facts()));
-    const bool is_empty = lights.is_empty(light);
+    const bool is_empty =
+        lights.is_empty(light) || (view_ && view_->misses(test_.ball(lights, light, assign::k_cell_box_roundoffs)));
+    lights_in_view_ += is_empty ? 0 : 1;
     balls_.push_back(
         {ball.center.x, ball.center.y, ball.center.z, is_empty ? -1.0f : std::min(ball.radius, k_endless)});
   }
