@@ -1,5 +1,8 @@
 // Bounds of cells that are made on the device of the grid's boundaries.
 
+#include <algorithm>
+#include <bit>
+
 #include <gtest/gtest.h>
 
 #include "assign/contract/assigner_run.h"
@@ -7,6 +10,7 @@
 #include "effort.h"
 #include "geom/light_meets_cell.h"
 #include "gpu/device/device.h"
+#include "gpu/methods/device_frame.h"
 #include "gpu/methods/methods.h"
 
 namespace clusterbench::gpu {
@@ -44,8 +48,27 @@ std::vector<Setting> settings_of_cells(std::uint64_t seed) {
   return all;
 }
 
+// Of all columns, rows and slices, as they lie on the device.
+std::vector<std::uint32_t> bounds_with_cells_of(const std::string& place, const Setting& setting) {
+  const AssignerDescriptor& method = *assign::find_assigner("gpu-cells");
+  DeviceFrame frame(Params(method.params, {{"cells", place}}));
+  frame.build(setting.grid, {});
+  const FrameArguments& arguments = frame.arguments();
+  Commands commands(frame.device(), frame.buffers());
+  commands.download(Binding::bounds, 8ull * (arguments.first_slice + arguments.slices));
+  commands.run();
+  return {commands.downloaded(0).begin(), commands.downloaded(0).end()};
+}
+
+bool are_equal_as_floats(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  return std::ranges::equal(
+      a, b, [](std::uint32_t x, std::uint32_t y) { return std::bit_cast<float>(x) == std::bit_cast<float>(y); });
+}
+
 TEST_F(DeviceCells, have_the_boxes_of_the_host_on_every_device) {
   for (const Setting& setting : settings_of_cells(15)) {
+    EXPECT_TRUE(are_equal_as_floats(bounds_with_cells_of("device", setting), bounds_with_cells_of("host", setting)))
+        << setting.name;
     const Lists expected = lists_with_cells_of("host", "sphere", setting);
     EXPECT_GT(expected.pair_count(), 0u) << setting.name;
     EXPECT_TRUE(lists_with_cells_of("device", "sphere", setting) == expected) << setting.name;

@@ -1,6 +1,7 @@
 // Methods on a device whose answer is a light structure of their own: lists with room for N lights, and lists per tile
 // between the depths of its pixels.
 
+#include <bit>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -13,12 +14,14 @@
 #include "assign/occupied/depth_parts.h"
 #include "assign/settings.h"
 #include "assign/storages/fixed.h"
+#include "core/arrays.h"
 #include "effort.h"
 #include "geom/light_meets_cell.h"
 #include "geom/numbers/round_to_float.h"
 #include "geom/single_precision/bounding_volumes.h"
 #include "geom/single_precision/touch_tests.h"
 #include "gpu/device/device.h"
+#include "gpu/methods/frame_arguments.h"
 #include "gpu/methods/methods.h"
 
 namespace clusterbench::gpu {
@@ -120,6 +123,26 @@ TEST_F(OwnLists, of_fixed_length_have_the_spots_of_gpu_cells) {
     }
 }
 
+TEST_F(OwnLists, of_fixed_length_forget_what_the_frame_before_dropped) {
+  const AssignerDescriptor& row = *assign::find_assigner("gpu-cells-fixed");
+  Setting setting = assign::testing::settings_for(row, 9).front();
+  keep_points_of(setting);
+  AssignerRun run = run_of(row.name, {{"cap", 1.0}}, Answer::structure, setting);
+  EXPECT_GT(run.structure()->use().dropped_lights.size(), 1u);
+  setting.frame.lights.resize(1);
+  setting.frame.count_types();
+  const view::LightArrays one = lights_of(setting);
+  run.assign(setting.input(one));
+  EXPECT_TRUE(run.structure()->use().dropped_lights.empty());
+  EXPECT_EQ(run.structure()->use().dropped_pairs, 0u);
+  setting.frame.lights.clear();
+  setting.frame.count_types();
+  const view::LightArrays none = lights_of(setting);
+  run.assign(setting.input(none));
+  EXPECT_EQ(run.structure()->use().index_entries, 0u);
+  EXPECT_EQ(run.structure()->buffers().front().elements, 0u);
+}
+
 TEST_F(OwnLists, of_fixed_length_stay_on_the_device_as_words) {
   const AssignerDescriptor& row = *assign::find_assigner("gpu-cells-fixed");
   const Setting setting = assign::testing::settings_for(row, 9).front();
@@ -208,6 +231,28 @@ struct SeenTiles {
   }
 };
 
+// The ball around a tile, in the steps of around.glsl.
+geom::Ball ball_in_steps(const geom::FrustumCell& part) {
+  const geom::Box box = geom::box_around(part);
+  const Vec3f center = 0.5f * box.lo + 0.5f * box.hi;
+  float squared = 0.0f;
+  for (const float depth : {part.depth0, part.depth1}) {
+    const double scale = part.orthographic ? 1.0 : static_cast<double>(depth);
+    const auto reach = [&](float lo, float hi, float middle) {
+      return std::max(geom::rounded_up(hi * scale) - middle, middle - geom::rounded_down(lo * scale));
+    };
+    const float x = reach(part.x0, part.x1, center.x), y = reach(part.y0, part.y1, center.y), z = depth + center.z;
+    squared = std::max(squared, x * x + y * y + z * z);
+  }
+  squared *= 1.0f + 0x1p-19f;
+  if (!(squared < 1e38f)) return {center, 1e19f};
+  squared = std::max(squared, 1e-34f);
+  float root = std::sqrt(squared);
+  while (root * root >= squared) root = std::nextafter(root, 0.0f);
+  while (root * root < squared) root = std::nextafter(root, INFINITY);
+  return {center, root};
+}
+
 // The steps of the shaders, in the processor's single precision.
 class TileTwin {
  public:
@@ -269,29 +314,8 @@ class TileTwin {
            beyond(tiles_.y[row + 1], ball.center.y) < -ball.radius;
   }
 
-  geom::Ball ball_around(const geom::FrustumCell& part) const {
-    const geom::Box box = geom::box_around(part);
-    const Vec3f center = 0.5f * box.lo + 0.5f * box.hi;
-    float squared = 0.0f;
-    for (const float depth : {part.depth0, part.depth1}) {
-      const double scale = part.orthographic ? 1.0 : static_cast<double>(depth);
-      const auto reach = [&](float lo, float hi, float middle) {
-        return std::max(geom::rounded_up(hi * scale) - middle, middle - geom::rounded_down(lo * scale));
-      };
-      const float x = reach(part.x0, part.x1, center.x), y = reach(part.y0, part.y1, center.y), z = depth + center.z;
-      squared = std::max(squared, x * x + y * y + z * z);
-    }
-    squared *= 1.0f + 0x1p-19f;
-    if (!(squared < 1e38f)) return {center, 1e19f};
-    squared = std::max(squared, 1e-34f);
-    float root = std::sqrt(squared);
-    while (root * root >= squared) root = std::nextafter(root, 0.0f);
-    while (root * root < squared) root = std::nextafter(root, INFINITY);
-    return {center, root};
-  }
-
   bool cone_touches(std::uint32_t light, std::uint32_t tile) const {
-    const geom::Ball ball = ball_around(part_of(tile));
+    const geom::Ball ball = ball_in_steps(part_of(tile));
     if (ball.radius > 1e18f) return true;
     geom::SphericalCone cone = test_.cone(lights_, light);
     cone.range = std::min(cone.range, 1e19f);
@@ -334,6 +358,90 @@ TEST_F(OwnLists, of_tiles_are_those_of_the_same_steps_on_the_processor) {
         pairs += found.pair_count();
       }
   EXPECT_GT(pairs, 1000u);
+}
+
+// One row of tiles of two pixels each, of all sizes of the domain.
+struct PairsOfPixels {
+  static constexpr std::uint32_t k_tiles = 20000;
+
+  std::vector<float> x, y, depths;
+  bool orthographic;
+
+  PairsOfPixels(bool is_orthographic, std::uint64_t seed) : orthographic(is_orthographic) {
+    assign::testing::Random random(seed);
+    const auto side = [&] {
+      const double size = random.log_between(1e-6, orthographic ? 1e12 : 1e5);
+      return static_cast<float>(random.unit() < 0.5 ? -size : size);
+    };
+    for (std::uint32_t i = 0; i <= k_tiles; ++i) x.push_back(i % 100 == 0 ? 0.0f : side());
+    std::ranges::sort(x);
+    y = {side(), side()};
+    std::ranges::sort(y, std::greater<>());
+    for (std::uint32_t i = 0; i < k_tiles; ++i) {
+      const double near = random.log_between(1e-14, 1e14);
+      depths.push_back(static_cast<float>(near));
+      depths.push_back(static_cast<float>(near * (random.unit() < 0.1 ? 1.0 : 1.0 + random.log_between(1e-7, 1e3))));
+      if (random.unit() < 0.5) std::swap(depths[2 * i], depths[2 * i + 1]);
+    }
+  }
+
+  geom::FrustumCell part(std::uint32_t tile) const {
+    const float a = depths[2 * tile], b = depths[2 * tile + 1];
+    return {x[tile], x[tile + 1], y[1], y[0], std::min(a, b), std::nextafter(std::max(a, b), INFINITY), orthographic};
+  }
+
+  // As tile.glsl lays them out.
+  std::vector<std::uint32_t> on_device() const {
+    std::vector<std::uint32_t> sides;
+    const auto add = [&](float boundary, std::uint32_t pixel) {
+      sides.insert(sides.end(), {std::bit_cast<std::uint32_t>(boundary), 0, 0, pixel});
+    };
+    for (std::uint32_t i = 0; i <= k_tiles; ++i) add(x[i], 2 * i);
+    add(y[0], 0);
+    add(y[1], 1);
+    FrameArguments arguments;
+    arguments.cells = arguments.columns = k_tiles;
+    arguments.rows = arguments.slices = 1;
+    arguments.picture_width = 2 * k_tiles;
+    arguments.is_orthographic = orthographic ? 1 : 0;
+    Buffers buffers(device());
+    buffers.reserve(Binding::depths, bytes_of(depths), "depths");
+    buffers.reserve(Binding::tile_sides, bytes_of(sides), "sides");
+    buffers.reserve(Binding::tiles, 64 * k_tiles, "tiles");
+    Commands commands(device(), buffers);
+    commands.upload(Binding::depths, depths.data(), bytes_of(depths));
+    commands.upload(Binding::tile_sides, sides.data(), bytes_of(sides));
+    commands.barrier();
+    commands.dispatch(device().kernel("tile_depths", 64, 1), arguments, k_tiles);
+    commands.download(Binding::tiles, 64 * k_tiles);
+    commands.run();
+    const auto words = commands.downloaded(0);
+    return {words.begin(), words.end()};
+  }
+};
+
+TEST_F(OwnLists, of_tiles_know_their_tiles_as_the_processor_does) {
+  for (const bool orthographic : {false, true}) {
+    const PairsOfPixels given(orthographic, 17);
+    const std::vector<std::uint32_t> words = given.on_device();
+    const auto value = [&](std::size_t word) { return std::bit_cast<float>(words[word]); };
+    for (std::uint32_t tile = 0; tile < PairsOfPixels::k_tiles; ++tile) {
+      const geom::FrustumCell part = given.part(tile);
+      ASSERT_EQ(value(4 * tile), part.depth0) << tile;
+      ASSERT_EQ(value(4 * tile + 1), part.depth1) << tile;
+      const geom::Box box = geom::box_around(part);
+      const std::size_t at = 4 * PairsOfPixels::k_tiles + 12 * tile;
+      ASSERT_EQ(Vec3f(value(at), value(at + 1), value(at + 2)), box.lo) << tile;
+      ASSERT_EQ(Vec3f(value(at + 4), value(at + 5), value(at + 6)), box.hi) << tile;
+      if (!device().facts().rounds_to_nearest) continue;
+      ASSERT_EQ(value(4 * tile + 3), 32.0f / (part.depth1 - part.depth0)) << tile;
+      const assign::DepthParts parts(part.depth0, part.depth1);
+      ASSERT_EQ(words[4 * tile + 2], parts.bit_of(given.depths[2 * tile]) | parts.bit_of(given.depths[2 * tile + 1]));
+      const geom::Ball ball = ball_in_steps(part);
+      ASSERT_EQ(Vec3f(value(at + 8), value(at + 9), value(at + 10)), ball.center) << tile;
+      ASSERT_EQ(value(at + 11), ball.radius) << tile;
+    }
+  }
 }
 
 TEST_F(OwnLists, of_tiles_lose_no_light_that_meets_a_visible_part) {
