@@ -19,6 +19,7 @@
 #include "geom/light_meets_cell.h"
 #include "geom/numbers/round_to_float.h"
 #include "geom/single_precision/bounding_volumes.h"
+#include "geom/single_precision/box_tests.h"
 #include "geom/single_precision/touch_tests.h"
 #include "gpu/device/device.h"
 #include "gpu/methods/frame_arguments.h"
@@ -56,6 +57,13 @@ AssignerRun run_of(const std::string& name, const Values& values, Answer answer,
   run.build(setting.grid, assign::kinds_of(lights));
   run.assign(setting.input(lights));
   return run;
+}
+
+Setting without_boxes(Setting setting) {
+  std::erase_if(setting.frame.lights,
+                [](const scene::WorldLight& light) { return light.type == scene::LightType::box; });
+  setting.frame.count_types();
+  return setting;
 }
 
 void keep_points_of(Setting& setting) {
@@ -129,10 +137,9 @@ TEST_F(OwnLists, of_fixed_length_forget_what_the_frame_before_dropped) {
   keep_points_of(setting);
   AssignerRun run = run_of(row.name, {{"cap", 1.0}}, Answer::structure, setting);
   EXPECT_GT(run.structure()->use().dropped_lights.size(), 1u);
-  setting.frame.lights.resize(1);
-  setting.frame.count_types();
-  const view::LightArrays one = lights_of(setting);
-  run.assign(setting.input(one));
+  for (scene::WorldLight& light : setting.frame.lights) light.range_m = 0.0;
+  const view::LightArrays empty = lights_of(setting);
+  run.assign(setting.input(empty));
   EXPECT_TRUE(run.structure()->use().dropped_lights.empty());
   EXPECT_EQ(run.structure()->use().dropped_pairs, 0u);
   setting.frame.lights.clear();
@@ -179,10 +186,11 @@ bool has_masks() {
 
 TEST_F(OwnLists, of_tiles_are_those_of_tiled_where_spots_are_balls) {
   std::uint64_t pairs = 0;
-  for (const Setting& setting : settings_of_tiles(9))
+  for (const Setting& given : settings_of_tiles(9))
     for (const bool is_masked : {false, true})
       for (const std::string spot : {"sphere", "range"}) {
         if (is_masked && !has_masks()) continue;
+        const Setting setting = without_boxes(given);
         const std::string where = setting.name + ", " + spot + (is_masked ? ", masked" : "");
         const AssignerRun run =
             run_of("gpu-tiled", {{"test", std::string("aabb")}, {"depth_mask", is_masked}, {"spot", spot}},
@@ -271,7 +279,7 @@ class TileTwin {
     Lists out;
     out.begin.push_back(0);
     for (std::uint32_t tile = 0; tile < seen_.lo.size(); ++tile) {
-      for (std::uint32_t light = 0; light < lights_.boxes.first; ++light)
+      for (std::uint32_t light = 0; light < lights_.size(); ++light)
         if (seen_.lo[tile] <= seen_.hi[tile] && !lights_.is_empty(light) &&
             !view.misses(test_.ball(lights_, light, 1.0f)) && meets(light, tile))
           out.lights.push_back(light);
@@ -291,15 +299,28 @@ class TileTwin {
   bool meets(std::uint32_t light, std::uint32_t tile) const {
     geom::Ball ball = test_.ball(lights_, light, 4.0f * steps());
     ball.radius = std::min(ball.radius, 1e19f);
-    const float near = -ball.center.z - ball.radius, far = -ball.center.z + ball.radius;
+    geom::Box box{ball.center - ball.radius, ball.center + ball.radius};
+    if (lights_.is_box(light)) {
+      const geom::PaddedBox padded =
+          geom::padded(lights_.box(light), test_.padding(5.0f) * (0x1p-24f * lights_.reach[light]));
+      box = {padded.box.center - padded.extent, padded.box.center + padded.extent};
+    }
+    const float near = -box.hi.z, far = -box.lo.z;
     if (near > seen_.hi[tile] || far < seen_.lo[tile]) return false;
     if (params_.flag("depth_mask") &&
         (assign::DepthParts(seen_.lo[tile], seen_.hi[tile]).bits_between(near, far) & seen_.masks[tile]) == 0)
       return false;
     if (params_.text("test") != "aabb" && is_beside(ball, tile)) return false;
-    if (params_.text("test") != "planes" && !geom::ball_touches_box(ball, geom::box_around(part_of(tile))))
+    const geom::Box bounds = geom::box_around(part_of(tile));
+    if (params_.text("test") != "planes" &&
+        !(lights_.is_box(light) ? boxes_touch(box, bounds) : geom::ball_touches_box(ball, bounds)))
       return false;
     return !lights_.is_spot(light) || !test_.tests_cones() || cone_touches(light, tile);
+  }
+
+  static bool boxes_touch(const geom::Box& a, const geom::Box& b) {
+    return a.lo.x <= b.hi.x && a.lo.y <= b.hi.y && a.lo.z <= b.hi.z && b.lo.x <= a.hi.x && b.lo.y <= a.hi.y &&
+           b.lo.z <= a.hi.z;
   }
 
   bool is_beside(const geom::Ball& ball, std::uint32_t tile) const {

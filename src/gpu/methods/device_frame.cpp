@@ -6,6 +6,7 @@
 #include "assign/bounds/cell_extents.h"
 #include "core/arrays.h"
 #include "core/error.h"
+#include "geom/single_precision/box_tests.h"
 
 namespace clusterbench::gpu {
 namespace {
@@ -113,24 +114,28 @@ void DeviceFrame::prepare(const view::LightArrays& lights) {
     throw Error("", "lights", "have spots, which the build was not told of", ExitCode::internal);
   pack_balls(lights);
   pack_cones(lights);
-  arguments_.lights = lights.points.count + lights.spots.count;
+  pack_boxes(lights);
+  arguments_.lights = count_of(lights);
+  arguments_.first_box = lights.boxes.first;
   arguments_.points = lights.points.count;
   arguments_.words = (arguments_.lights + 31) / 32;
   arguments_.tests_cones = cones_.empty() ? 0 : 1;
   buffers_.reserve(Binding::balls, bytes_of(balls_), "balls of lights");
   buffers_.reserve(Binding::cones, bytes_of(cones_), "cones of spots");
+  buffers_.reserve(Binding::box_bounds, bytes_of(boxes_), "bounds of boxes");
 }
 
 void DeviceFrame::upload(Commands& commands) const {
   upload_all(commands, Binding::balls, balls_);
   upload_all(commands, Binding::cones, cones_);
+  upload_all(commands, Binding::box_bounds, boxes_);
   commands.barrier();
 }
 
 void DeviceFrame::pack_balls(const view::LightArrays& lights) {
   balls_.clear();
   lights_in_view_ = 0;
-  for (std::uint32_t light = 0; light < lights.boxes.first; ++light) {
+  for (std::uint32_t light = 0; light < count_of(lights); ++light) {
     const geom::Ball ball = test_.ball(lights, light, k_ball_roundoffs * steps_of(device_->facts()));
     const bool is_empty =
         lights.is_empty(light) || (view_ && view_->misses(test_.ball(lights, light, assign::k_cell_box_roundoffs)));
@@ -151,8 +156,20 @@ void DeviceFrame::pack_cones(const view::LightArrays& lights) {
   }
 }
 
+// As box-bounds: the device only compares the bounds, so all roundoffs are the host's.
+void DeviceFrame::pack_boxes(const view::LightArrays& lights) {
+  boxes_.clear();
+  const float roundoffs = test_.padding(geom::k_bounds_roundoffs - view::k_given_roundoffs);
+  for (std::uint32_t light = lights.boxes.first; light < count_of(lights); ++light) {
+    const geom::PaddedBox box = geom::padded(lights.box(light), roundoffs * (0x1p-24f * lights.reach[light]));
+    const Vec3f lo = box.box.center - box.extent, hi = box.box.center + box.extent;
+    boxes_.push_back({lo.x, lo.y, lo.z, 0.0f});
+    boxes_.push_back({hi.x, hi.y, hi.z, 0.0f});
+  }
+}
+
 std::size_t DeviceFrame::host_bytes() const {
-  return bytes_of(balls_, cones_) + test_.capacity_bytes();
+  return bytes_of(balls_, cones_, boxes_) + test_.capacity_bytes();
 }
 
 }  // namespace clusterbench::gpu

@@ -20,6 +20,12 @@ class DeviceFrame {
   void build(const grid::Grid& grid, const assign::LightKinds& kinds);
   // From now on prepare() packs lights beside this grid's view as empty ones, as engines do that cull on the host.
   void cull(const grid::ScreenGrid& grid) { view_ = assign::ViewCull(grid); }
+  // From now on prepare() also packs boxes, by the axis-aligned boxes around them.
+  void take_boxes() { takes_boxes_ = true; }
+  // The number of lights that prepare() packs.
+  std::uint32_t count_of(const view::LightArrays& lights) const {
+    return takes_boxes_ ? lights.size() : lights.boxes.first;
+  }
   // Packs a frame's lights, and makes room for them. Before commands are recorded, as all that makes room.
   void prepare(const view::LightArrays& lights);
   // Records the upload of the lights of the last prepare(), and the barrier behind it.
@@ -45,6 +51,7 @@ class DeviceFrame {
   void build_on_device(const grid::Grid& grid, const assign::LightKinds& kinds);
   void pack_balls(const view::LightArrays& lights);
   void pack_cones(const view::LightArrays& lights);
+  void pack_boxes(const view::LightArrays& lights);
 
   Device* device_;
   Buffers buffers_;
@@ -52,9 +59,11 @@ class DeviceFrame {
   bool is_built_on_device_, has_cell_balls_ = false;
   std::optional<assign::ViewCull> view_;
   std::uint32_t lights_in_view_ = 0;
+  bool takes_boxes_ = false;
   FrameArguments arguments_;
   std::vector<Vec4> balls_;
   std::vector<Cone> cones_;
+  std::vector<Vec4> boxes_;  // the least and the greatest corner of each
 };
 
 // The parameters of methods that take a grid's cells: those of light tests, and `cells`, where their bounds are made.

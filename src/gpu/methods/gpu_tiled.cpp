@@ -24,7 +24,9 @@ class TileLists final : public MaskLists {
   TileLists(const assign::Params& params, std::uint32_t mode)
       : MaskLists(params),
         depths_(device().kernel("tile_depths", k_pixel_group, (mode & TileMode::depth_mask) != 0 ? 1 : 0)),
-        lights_(device().kernel("tile_lights", k_light_group, mode)) {}
+        lights_(device().kernel("tile_lights", k_light_group, mode)) {
+    frame().take_boxes();
+  }
 
   // After build(), which gets `tiles_only`: the tiles of this grid with one slice.
   void start(const grid::ScreenGrid& grid, const grid::ScreenGrid& tiles_only) {
@@ -141,7 +143,7 @@ class Tiled final : public assign::AssignerOf<assign::OccupiedLists> {
   void fill(const assign::FrameInput& input, assign::OccupiedLists& out) override {
     tile_lists_.upload(assign::checked(input.depth, grid_->screen().tiles));
     tile_lists_.assign(input, lists_);
-    const bool has_lights = input.lights.boxes.first > 0;
+    const bool has_lights = input.lights.size() > 0;
     if (!has_lights) tile_lists_.find_tiles();
     spans_ = *tile_lists_.device_spans();
     spans_.readback_ns += tile_lists_.read_tiles(frame_cells_);
@@ -207,6 +209,7 @@ assign::AssignerDescriptor gpu_tiled_descriptor() {
           "Andersson 2009, Parallel Graphics in Frostbite; Harada 2012, A 2.5D Culling for Forward+; planes and boxes: "
           "Wicked Engine",
       .kinds = {grid::Kind::frustum},
+      .boxes = true,
       .needs = {.depth = true},
       .at_surfaces = true,
       .own_lists = true,

@@ -27,6 +27,7 @@ layout(push_constant) uniform FrameArguments {
   uint capacity;                   // of a cell (k_fixed), of all lists (k_fill)
   float cone_slack;
   uint picture_width, is_orthographic;
+  uint first_box;                  // boxes follow points and spots
 } frame;
 
 #ifndef CELLS_ACCESS
