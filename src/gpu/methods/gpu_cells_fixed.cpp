@@ -1,6 +1,7 @@
 // On the device: one invocation per cell, over all lights, in one pass: each cell has room for the same number of
 // lights, and those that find none are dropped and counted.
 #include "assign/storages/fixed.h"
+#include "gpu/methods/device_floor.h"
 #include "gpu/methods/device_frame.h"
 #include "gpu/methods/device_lists.h"
 
@@ -12,6 +13,7 @@ class CellsFixed final : public assign::StructureAssigner {
   explicit CellsFixed(const assign::Params& params)
       : form_{.cap = static_cast<std::uint32_t>(params.number("cap")), .index_bits = 32, .is_uploaded = false},
         frame_(params),
+        floor_(frame_.device()),
         fill_(frame_.device().kernel("cells", k_group, Mode::fixed)) {}
 
   std::unique_ptr<assign::LightStructure> make_structure() const override {
@@ -35,6 +37,9 @@ class CellsFixed final : public assign::StructureAssigner {
 
   std::uint64_t tests_done() const override { return tests_; }
   const assign::DeviceSpans* device_spans() const override { return &spans_; }
+  double device_floor_ns() override {
+    return floor_.measured_ns(frame_.buffers(), spans_.dispatches, spans_.result_bytes);
+  }
   std::size_t scratch_bytes() const override { return frame_.host_bytes() + frame_.buffers().all_bytes(); }
 
  private:
@@ -61,13 +66,18 @@ class CellsFixed final : public assign::StructureAssigner {
     commands.download(Binding::lists, entries() * k_word);
     commands.download(Binding::dropped, dropped_bytes);
     commands.run();
-    spans_ = {commands.ns_between(0, 1), commands.ns_between(1, 2), commands.ns_between(2, 3)};
+    spans_.upload_ns = commands.ns_between(0, 1);
+    spans_.run_ns = commands.ns_between(1, 2);
+    spans_.readback_ns = commands.ns_between(2, 3);
+    spans_.dispatches = commands.steps();
     tests_ = std::uint64_t{arguments.cells} * arguments.lights;
     out.take(commands.downloaded(0), commands.downloaded(1), commands.downloaded(2));
+    spans_.result_bytes = (out.use().index_entries + arguments.cells) * k_word;
   }
 
   assign::FixedLists::Form form_;
   DeviceFrame frame_;
+  DeviceFloor floor_;
   Kernel fill_;
   const grid::Grid* grid_ = nullptr;
   std::uint64_t tests_ = 0;

@@ -135,6 +135,7 @@ class Tiled final : public assign::AssignerOf<assign::OccupiedLists> {
   }
   std::uint64_t tests_done() const override { return tests_; }
   const assign::DeviceSpans* device_spans() const override { return &spans_; }
+  double device_floor_ns() override { return tile_lists_.device_floor_ns(); }
   std::size_t scratch_bytes() const override {
     return tile_lists_.scratch_bytes() + frame_cells_.capacity_bytes() + bytes_of(lists_.begin, lists_.lights);
   }
