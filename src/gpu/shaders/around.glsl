@@ -38,21 +38,18 @@ float outward_product(float a, float b, bool up) {
   return uintBitsToFloat(sign | uint(exponent) << 23 | mantissa & 0x7fffffu);
 }
 
-// The least float whose rounded square is not below the square: the device's root may be off by some roundoffs, and is
-// moved to it.
+// The least float whose rounded square is not below the square, by bisection of the floats in their order.
 float root_above(float square) {
-  float root = sqrt(square);
-  for (uint i = 0; i < 64 && root > 0.0; ++i) {
-    precise float of_root = root * root;
-    if (of_root < square) break;
-    root = uintBitsToFloat(floatBitsToUint(root) - 1);
+  uint below = 0, above = k_infinity;
+  while (above - below > 1) {
+    uint middle = (below + above) / 2;
+    precise float squared = uintBitsToFloat(middle) * uintBitsToFloat(middle);
+    if (squared < square)
+      below = middle;
+    else
+      above = middle;
   }
-  for (uint i = 0; i < 64; ++i) {
-    precise float of_root = root * root;
-    if (of_root >= square) break;
-    root = uintBitsToFloat(floatBitsToUint(root) + 1);
-  }
-  return root;
+  return uintBitsToFloat(above);
 }
 
 // The square of the distance from a point to the farthest corner of the cell's face at this depth.
