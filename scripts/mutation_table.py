@@ -637,7 +637,7 @@ MUTATIONS = [
              "assign.ZBinning.a_sample_reads_its_bin_the_words_of_its_range_and_a_number_for_each_light",
              "z-binning seems to read no words but those with lights"),
     Mutation("end-mark-is-free", "assign/storages/fixed.cpp",
-             "lights < cap_ ? 1 : 0", "lights > cap_ ? 1 : 0",
+             "lights < form_.cap ? 1 : 0", "lights > form_.cap ? 1 : 0",
              "assign.EveryStorage.reads_what_its_layout_makes_a_shader_fetch",
              "lists that end with a mark seem to cost an index less per sample"),
     Mutation("empty-cells-have-headers", "assign/storages/packed.cpp",

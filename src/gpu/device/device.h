@@ -55,7 +55,7 @@ std::string device_obstacle();
 // The buffers that kernels see, by binding. Memory is kept, and grows.
 class Buffers {
  public:
-  static constexpr std::uint32_t k_bindings = 12;
+  static constexpr std::uint32_t k_bindings = 15;
 
   explicit Buffers(Device& device);
   ~Buffers();

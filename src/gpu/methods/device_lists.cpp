@@ -34,7 +34,7 @@ void DeviceLists::assign(const assign::FrameInput& input, assign::Lists& out) {
   tests_ = 0;
   out.lights.clear();
   const std::uint32_t cells = frame_.arguments().cells;
-  if (input.lights.boxes.first == 0) {
+  if (frame_.count_of(input.lights) == 0) {
     out.begin.assign(cells + 1, 0);
     return;
   }

@@ -27,6 +27,7 @@ class DeviceLists : public assign::ListAssigner {
   // Tests of lights against cells, or what they are tested against first: one row of a shader's work.
   virtual std::uint64_t tests_of(const FrameArguments& arguments) const = 0;
 
+  DeviceFrame& frame() { return frame_; }
   Buffers& buffers() { return frame_.buffers(); }
   Kernel kernel(const char* shader, std::uint32_t group_size, Mode mode = Mode::count) {
     return frame_.device().kernel(shader, group_size, mode);
