@@ -794,7 +794,7 @@ MUTATIONS = [
              "report.FrameCosts.a_ray_stands_for_its_block_of_pixels_and_sets_without_a_weight_for_nothing",
              "with a divisor of 8 shading costs a 64th, and methods are ranked by their assignment"),
     Mutation("cost-of-uploads-that-are-none", "report/cases/case_costs.cpp",
-             "return preset != nullptr && preset->assigns_on_gpu();", "return false;",
+             "(preset != nullptr && preset->assigns_on_gpu());", "false;",
              "report.FrameCosts.lists_of_a_gpu_are_not_uploaded_and_have_no_time_of_this_machine",
              "engines that make their lists on a GPU pay for an upload that they do not do"),
     Mutation("conclusion-against-the-front-alone", "report/choosing/conclusion.cpp",

@@ -149,6 +149,7 @@ Json devices() {
 
 std::string word_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value.get<double>());
   return text;
