@@ -83,6 +83,15 @@ class Fixed final : public Storage {
     return Reads::of(has_counts_ ? 1 : 0, sizeof(std::uint32_t)) + Reads::of(lights + end_mark, indices_.bits() / 8);
   }
 
+  std::optional<ShaderBuffers> shader_buffers() const override {
+    ShaderBuffers shader{.walk = Walk::fixed, .index_bytes = indices_.bits() / 8, .per_cell = cap_};
+    shader.add("indices", indices_.bytes(std::size_t{cell_count_} * cap_));
+    if (has_counts_)
+      shader.add("counts", std::span<const std::uint32_t>(counts_));
+    else
+      shader.end_mark = lights_;
+    return shader;
+  }
   std::uint32_t cell_count() const override { return cell_count_; }
 
   std::uint32_t index_bits() const override { return indices_.bits(); }
