@@ -22,7 +22,7 @@ FOLDERS = {
     "scene": [["."], ["gltf_document"], ["gltf_scene", "writers"], ["generators"]],
     "assign": [["contract", "simd"], ["lists"], ["grid_cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
                ["box_grid", "depth_bins", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],
-    "gpu": [["device"], ["vulkan"], ["methods"]],
+    "gpu": [["device"], ["vulkan"], ["methods", "reading"]],
     "measure": [["truth", "statistics"], ["lists", "samples"], ["shadows", "light_maps"]],
     "config": [["schema"], ["presets"]],
     "run": [["cases"], ["timing"], ["counters"], ["findings"], ["passes", "records"]],

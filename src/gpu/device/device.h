@@ -66,6 +66,9 @@ class Buffers {
   // DeviceError (with `name` and the numbers) above the device's limit or where it has no memory left.
   void reserve(std::uint32_t binding, std::uint64_t bytes, const char* name);
   std::uint64_t bytes(std::uint32_t binding) const;
+  // Kernels see another set's buffer at this binding, until that set makes more room there or is gone. Not while
+  // commands are recorded.
+  void borrow(std::uint32_t binding, const Buffers& from);
   std::uint64_t all_bytes() const;
 
   struct Impl;
@@ -89,10 +92,12 @@ class Commands {
   // Data for a buffer: copied now, arrives as a step.
   void upload(std::uint32_t binding, const void* data, std::uint64_t bytes);
   void fill(std::uint32_t binding, std::uint32_t word, std::uint64_t bytes);
+  // The dispatches that follow see these buffers in place of the constructor's.
+  void use(Buffers& buffers);
   // Groups are spread over two dimensions beyond 65,535: shaders number them by group_index().
   void dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t groups);
   void barrier();
-  // The time of all steps until now, by the device's clock. Up to 8 in one recording.
+  // The time of all steps until now, by the device's clock. Up to 64 in one recording.
   void mark();
   // Steps until now that take turns on the device: dispatches and fills.
   std::uint32_t steps() const { return steps_; }

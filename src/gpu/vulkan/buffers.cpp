@@ -26,6 +26,10 @@ std::uint64_t Buffers::bytes(std::uint32_t binding) const {
   return impl_->at.at(binding).bytes;
 }
 
+void Buffers::borrow(std::uint32_t binding, const Buffers& from) {
+  impl_->bind(binding, from.impl_->at.at(binding).buffer);
+}
+
 std::uint64_t Buffers::all_bytes() const {
   std::uint64_t sum = impl_->to_device.bytes + impl_->to_host.bytes;
   for (const Memory& memory : impl_->at) sum += memory.bytes;
@@ -60,8 +64,8 @@ Buffers::Impl::~Impl() {
   vkDestroyDescriptorPool(device.device, pool, nullptr);
 }
 
-void Buffers::Impl::bind(std::uint32_t binding) const {
-  const VkDescriptorBufferInfo info{at[binding].buffer, 0, VK_WHOLE_SIZE};
+void Buffers::Impl::bind(std::uint32_t binding, VkBuffer buffer) const {
+  const VkDescriptorBufferInfo info{buffer, 0, VK_WHOLE_SIZE};
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
   write.dstSet = set;

@@ -50,6 +50,11 @@ void Commands::fill(std::uint32_t binding, std::uint32_t word, std::uint64_t byt
   if (bytes > 0) vkCmdFillBuffer(device_.commands, buffers_.at.at(binding).buffer, 0, bytes, word);
 }
 
+void Commands::use(Buffers& buffers) {
+  vkCmdBindDescriptorSets(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_.layout, 0, 1, &buffers.impl().set,
+                          0, nullptr);
+}
+
 void Commands::dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t groups) {
   if (groups == 0) return;
   ++steps_;

@@ -108,9 +108,10 @@ void Device::Impl::create_layout() {
 
 Kernel Device::Impl::kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode) {
   const std::lock_guard turn(busy);
-  const auto [found, is_new] = kernels.try_emplace({shader, group_size, mode}, static_cast<Kernel>(pipelines.size()));
-  if (is_new) pipelines.push_back(create_pipeline(shader, group_size, mode));
-  return found->second;
+  const std::tuple key{shader, group_size, mode};
+  if (const auto found = kernels.find(key); found != kernels.end()) return found->second;
+  pipelines.push_back(create_pipeline(shader, group_size, mode));
+  return kernels[key] = static_cast<Kernel>(pipelines.size() - 1);
 }
 
 VkPipeline Device::Impl::create_pipeline(const std::string& shader, std::uint32_t group_size,
