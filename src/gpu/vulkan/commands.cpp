@@ -59,7 +59,7 @@ void Commands::dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t
   if (groups == 0) return;
   ++steps_;
   const std::uint64_t in_a_row = std::min(groups, k_groups_in_a_row);
-  vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_.pipelines.at(kernel));
+  vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_.pipeline_of(kernel));
   vkCmdPushConstants(device_.commands, device_.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof arguments.words,
                      arguments.words.data());
   vkCmdDispatch(device_.commands, static_cast<std::uint32_t>(in_a_row),

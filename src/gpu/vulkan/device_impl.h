@@ -30,10 +30,12 @@ struct Device::Impl {
   Memory allocate(std::uint64_t bytes, Place place) const;
   void free(Memory& memory) const;
   Kernel kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode);
+  VkPipeline pipeline_of(Kernel kernel) const;
 
   static constexpr std::uint32_t k_marks = 66;
 
-  std::mutex busy;  // while commands are recorded and run, and while a kernel is made
+  std::mutex busy;                   // while commands are recorded and run
+  mutable std::mutex making_kernel;  // while one is made or looked up
 
   DeviceFacts facts;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
