@@ -122,7 +122,7 @@ TEST_F(ReadingWalks, upload_the_bytes_that_a_frame_uploads) {
   for (const testing::StorageChoice& choice : testing::storage_choices())
     expect_bytes_of_a_frame(testing::stored(row, choice, setting));
   for (const AssignerDescriptor* method : assign::assigner_descriptors()) {
-    if (method->make_own == nullptr || method->draws_lights || has_own_lookup(*method)) continue;
+    if (method->make_own == nullptr || method->draws_lights || method->on_device || has_own_lookup(*method)) continue;
     const Setting own = assign::testing::settings_for(*method, 11).front();
     expect_bytes_of_a_frame(testing::own_structure(*method, own));
   }
