@@ -72,4 +72,6 @@ ${CASES}  throw Error(\"\", \"device\", \"there is no shader \" + std::string(sh
 
 }  // namespace clusterbench::gpu
 ")
+  # A test program of its own links other shaders in its place.
+  set_source_files_properties(${CMAKE_CURRENT_BINARY_DIR}/embedded/shader_code.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()

@@ -5,6 +5,13 @@
 
 namespace clusterbench::stress {
 
+std::vector<const assign::AssignerDescriptor*> checked_methods() {
+  std::vector<const assign::AssignerDescriptor*> methods;
+  for (const assign::AssignerDescriptor* row : assign::assigner_descriptors())
+    if (!row->on_device) methods.push_back(row);
+  return methods;
+}
+
 std::span<const HardCase> hard_cases() {
   static const std::vector<HardCase> all = [] {
     std::vector<HardCase> cases;

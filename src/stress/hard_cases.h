@@ -29,6 +29,9 @@ struct HardCase {
 
 std::span<const HardCase> hard_cases();
 
+// The methods that such checks look at: all that run on the processor. A device may be slow, or not there.
+std::vector<const assign::AssignerDescriptor*> checked_methods();
+
 // By theme, each in its own file.
 std::vector<HardCase> depth_cases();       // H1 to H9
 std::vector<HardCase> projection_cases();  // H10 to H18

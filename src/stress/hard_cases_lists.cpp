@@ -149,7 +149,7 @@ bool has_same_sets(const assign::AssignerDescriptor& assigner, const assign::Par
 std::vector<ToolCheck> order_does_not_matter(std::uint64_t seed) {
   std::vector<ToolCheck> checks;
   const Trial trials[] = {mixed_lights(seed, false), mixed_lights(seed, true)};
-  for (const assign::AssignerDescriptor* row : assign::available_assigners()) {
+  for (const assign::AssignerDescriptor* row : checked_methods()) {
     if (!row->takes(grid::Kind::frustum)) continue;
     const assign::Params params(row->params);
     for (const assign::Answer answer : assign::answers_with_cells(*row, params))
@@ -166,7 +166,7 @@ std::vector<ToolCheck> depth_masks(std::uint64_t seed) {
   const view::Frame frame = frame_of(trial);
   const grid::Grid grid = grid_of(trial, frame);
   const view::LightArrays lights = view::lights_in(frame, frame.view_space);
-  for (const assign::AssignerDescriptor* row : assign::available_assigners()) {
+  for (const assign::AssignerDescriptor* row : checked_methods()) {
     if (!row->at_surfaces) continue;
     assign::AssignerRun run(*row, assign::Params(row->params), assign::Answer::structure);
     if (!run.has_cells()) continue;

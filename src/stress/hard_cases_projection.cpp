@@ -163,7 +163,7 @@ assign::Lists lists_after(const assign::AssignerDescriptor& row, assign::Assigne
 // Half the resolution and back: no state of the other size may remain.
 std::vector<ToolCheck> resized(std::uint64_t seed) {
   std::vector<ToolCheck> checks;
-  for (const assign::AssignerDescriptor* row : assign::available_assigners()) {
+  for (const assign::AssignerDescriptor* row : checked_methods()) {
     Rig rig;
     scatter(rig, 1.0, 0.6, 150, seed);
     grid::GridSpec spec = grids_of_every_kind()[0];

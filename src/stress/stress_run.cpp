@@ -120,29 +120,49 @@ std::string label_of(const assign::AssignerDescriptor& assigner, const assign::P
   return config::MethodRequest{assigner.name, params}.label();
 }
 
-}  // namespace
-
-std::vector<StressMethod> stress_methods() {
-  std::vector<StressMethod> methods;
-  const auto add = [&](const assign::AssignerDescriptor& assigner, const assign::Params& params) {
+// With its defaults and with every other choice, in each form that has cells.
+void add_choices(const assign::AssignerDescriptor& assigner, std::vector<StressMethod>& methods) {
+  const auto add = [&](const assign::Params& params) {
     const bool conservative = assign::is_conservative(assigner, params);
     for (const assign::Answer answer : assign::answers_with_cells(assigner, params))
       methods.push_back({label_of(assigner, params), &assigner, params, conservative, answer});
   };
-  for (const assign::AssignerDescriptor* assigner : assign::available_assigners()) {
-    add(*assigner, assign::Params(assigner->params));
-    for (const assign::ParamSpec& spec : assigner->params)
-      for (const std::string& choice : spec.choices)
-        if (assign::ParamValue(choice) != spec.default_value)
-          add(*assigner, assign::Params(assigner->params, {{spec.name, choice}}));
+  add(assign::Params(assigner.params));
+  for (const assign::ParamSpec& spec : assigner.params)
+    for (const std::string& choice : spec.choices)
+      if (assign::ParamValue(choice) != spec.default_value) add(assign::Params(assigner.params, {{spec.name, choice}}));
+}
+
+// Those that run on a device and can do so here. Throws Error with the reason if a pattern of names is of none but
+// methods that cannot.
+std::vector<StressMethod> wanted_methods(const Pattern& pattern) {
+  std::vector<StressMethod> methods = stress_methods();
+  const bool is_of_names = !pattern.is_in("");
+  std::string obstacle;
+  for (const assign::AssignerDescriptor* assigner : assign::assigner_descriptors()) {
+    if (!assigner->on_device || !is_of_names) continue;
+    const std::string reason = assign::unavailability(*assigner, assign::Params(assigner->params));
+    if (reason.empty())
+      add_choices(*assigner, methods);
+    else if (pattern.is_in(assigner->name))
+      obstacle = assigner->name + ": " + reason;
   }
+  std::erase_if(methods, [&](const StressMethod& method) { return !pattern.is_in(method.label); });
+  if (methods.empty() && !obstacle.empty()) throw Error("", "--methods", obstacle);
+  return methods;
+}
+
+}  // namespace
+
+std::vector<StressMethod> stress_methods() {
+  std::vector<StressMethod> methods;
+  for (const assign::AssignerDescriptor* assigner : checked_methods()) add_choices(*assigner, methods);
   return methods;
 }
 
 StressResult run_stress(const StressRequest& request, const StressListener& listener, const std::atomic<bool>& stop) {
   StressResult result;
-  for (const StressMethod& method : stress_methods())
-    if (request.methods.is_in(method.label)) result.methods.push_back(method);
+  result.methods = wanted_methods(request.methods);
   for (const HardCase& hard : hard_cases())
     if (request.cases.is_all_of(hard.id)) result.cases.push_back(hard);
   const bool searches = request.tries > 0 && request.cases.is_all_of("H31");

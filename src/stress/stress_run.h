@@ -25,7 +25,7 @@ struct StressMethod {
 
   assign::AssignerRun start() const { return {*assigner, params, answer}; }
 };
-// Every assigner that has cells with its defaults and with every other choice.
+// Every assigner on the processor that has cells, with its defaults and with every other choice.
 std::vector<StressMethod> stress_methods();
 // The label of the method whose lists a fast one's must equal; empty if it is no SIMD variant.
 std::string reference_of(const std::string& label);
@@ -36,7 +36,7 @@ struct StressRequest {
   std::uint64_t tries = 20'000;  // of the search, per method; 0 = no search
   double seconds = 0.0;          // of the search, per method, and of random settings; 0 = no limit
   std::uint64_t random = 0;      // random settings to check, with the seeds from `seed` on
-  Pattern cases, methods;
+  Pattern cases, methods;        // methods that run on a device: only where names are asked for
   int threads = 1;
 };
 

@@ -38,7 +38,7 @@ using assign::StructureUse;
 using assign::testing::Setting;
 using Values = std::map<std::string, ParamValue>;
 
-class OwnLists : public ::testing::Test {
+class DeviceOwnLists : public ::testing::Test {
  protected:
   void SetUp() override {
     register_methods();
@@ -103,7 +103,7 @@ void expect_same(const assign::LightStructure& found, const assign::LightStructu
   EXPECT_EQ(found.limit().index_entries, expected.limit().index_entries) << where;
 }
 
-TEST_F(OwnLists, of_fixed_length_are_those_of_brute_force_in_the_storage_fixed) {
+TEST_F(DeviceOwnLists, of_fixed_length_are_those_of_brute_force_in_the_storage_fixed) {
   const AssignerDescriptor& row = *assign::find_assigner("gpu-cells-fixed");
   std::uint64_t dropped = 0;
   for (Setting setting : assign::testing::settings_for(row, 9)) {
@@ -120,7 +120,7 @@ TEST_F(OwnLists, of_fixed_length_are_those_of_brute_force_in_the_storage_fixed) 
   EXPECT_GT(dropped, 0u);
 }
 
-TEST_F(OwnLists, of_fixed_length_have_the_spots_of_gpu_cells) {
+TEST_F(DeviceOwnLists, of_fixed_length_have_the_spots_of_gpu_cells) {
   const AssignerDescriptor& row = *assign::find_assigner("gpu-cells-fixed");
   for (const Setting& setting : assign::testing::settings_for(row, 10))
     for (const std::string spot : {"sphere", "both"}) {
@@ -131,7 +131,7 @@ TEST_F(OwnLists, of_fixed_length_have_the_spots_of_gpu_cells) {
     }
 }
 
-TEST_F(OwnLists, of_fixed_length_forget_what_the_frame_before_dropped) {
+TEST_F(DeviceOwnLists, of_fixed_length_forget_what_the_frame_before_dropped) {
   const AssignerDescriptor& row = *assign::find_assigner("gpu-cells-fixed");
   Setting setting = assign::testing::settings_for(row, 9).front();
   keep_points_of(setting);
@@ -150,7 +150,7 @@ TEST_F(OwnLists, of_fixed_length_forget_what_the_frame_before_dropped) {
   EXPECT_EQ(run.structure()->buffers().front().elements, 0u);
 }
 
-TEST_F(OwnLists, of_fixed_length_stay_on_the_device_as_words) {
+TEST_F(DeviceOwnLists, of_fixed_length_stay_on_the_device_as_words) {
   const AssignerDescriptor& row = *assign::find_assigner("gpu-cells-fixed");
   const Setting setting = assign::testing::settings_for(row, 9).front();
   const StructureUse use = run_of(row.name, {}, Answer::structure, setting).structure()->use();
@@ -184,7 +184,7 @@ bool has_masks() {
   return device().facts().rounds_to_nearest;
 }
 
-TEST_F(OwnLists, of_tiles_are_those_of_tiled_where_spots_are_balls) {
+TEST_F(DeviceOwnLists, of_tiles_are_those_of_tiled_where_spots_are_balls) {
   std::uint64_t pairs = 0;
   for (const Setting& given : settings_of_tiles(9))
     for (const bool is_masked : {false, true})
@@ -361,7 +361,7 @@ class TileTwin {
   SeenTiles seen_;
 };
 
-TEST_F(OwnLists, of_tiles_are_those_of_the_same_steps_on_the_processor) {
+TEST_F(DeviceOwnLists, of_tiles_are_those_of_the_same_steps_on_the_processor) {
   if (!device().facts().rounds_to_nearest) GTEST_SKIP() << "skipped: the device may round either way";
   const AssignerDescriptor& row = *assign::find_assigner("gpu-tiled");
   std::uint64_t pairs = 0;
@@ -441,7 +441,7 @@ struct PairsOfPixels {
   }
 };
 
-TEST_F(OwnLists, of_tiles_know_their_tiles_as_the_processor_does) {
+TEST_F(DeviceOwnLists, of_tiles_know_their_tiles_as_the_processor_does) {
   for (const bool orthographic : {false, true}) {
     const PairsOfPixels given(orthographic, 17);
     const std::vector<std::uint32_t> words = given.on_device();
@@ -465,7 +465,7 @@ TEST_F(OwnLists, of_tiles_know_their_tiles_as_the_processor_does) {
   }
 }
 
-TEST_F(OwnLists, of_tiles_lose_no_light_that_meets_a_visible_part) {
+TEST_F(DeviceOwnLists, of_tiles_lose_no_light_that_meets_a_visible_part) {
   std::uint64_t true_pairs = 0;
   for (const Setting& setting : settings_of_tiles(13)) {
     const view::LightArrays lights = lights_of(setting);
@@ -488,7 +488,7 @@ TEST_F(OwnLists, of_tiles_lose_no_light_that_meets_a_visible_part) {
   EXPECT_GT(true_pairs, 1000u);
 }
 
-TEST_F(OwnLists, of_tiles_test_lights_in_view_against_tiles_that_show_a_surface) {
+TEST_F(DeviceOwnLists, of_tiles_test_lights_in_view_against_tiles_that_show_a_surface) {
   const AssignerDescriptor& row = *assign::find_assigner("gpu-tiled");
   Setting setting = assign::testing::settings_for(row, 9).front();
   keep_points_of(setting);

@@ -15,7 +15,7 @@ namespace {
 using assign::LookedUp;
 using assign::testing::Setting;
 
-class ReadingLookups : public ::testing::Test {
+class DeviceReadingLookups : public ::testing::Test {
  protected:
   void SetUp() override {
     if (const std::string obstacle = device_obstacle(); !obstacle.empty()) GTEST_SKIP() << "skipped: " << obstacle;
@@ -60,7 +60,7 @@ testing::Held bits_of(const Setting& setting) {
   return held;
 }
 
-TEST_F(ReadingLookups, find_the_cells_of_the_host_or_are_off_by_what_a_logarithm_may_be) {
+TEST_F(DeviceReadingLookups, find_the_cells_of_the_host_or_are_off_by_what_a_logarithm_may_be) {
   std::uint64_t differing = 0, all = 0;
   for (const Setting& setting : lookup_settings()) {
     const testing::Held held = bits_of(setting);
@@ -78,7 +78,7 @@ TEST_F(ReadingLookups, find_the_cells_of_the_host_or_are_off_by_what_a_logarithm
   std::cout << differing << " of " << all << " samples find another cell than on the host\n";
 }
 
-TEST_F(ReadingLookups, beside_boundaries_are_off_by_what_a_logarithm_may_be) {
+TEST_F(DeviceReadingLookups, beside_boundaries_are_off_by_what_a_logarithm_may_be) {
   std::uint64_t differing = 0, all = 0;
   for (const Setting& setting : lookup_settings()) {
     const std::vector<grid::Sample> beside = beside_boundaries(setting);

@@ -27,7 +27,7 @@ TEST(ReadingSpans, last_a_thousand_periods_of_the_clock) {
   EXPECT_EQ(repeats_for(100.0, 0.0, 1e8), 200u);
 }
 
-TEST(ReadingSpans, of_a_device_take_turns_and_keep_every_round) {
+TEST(DeviceReadingSpans, of_a_device_take_turns_and_keep_every_round) {
   if (const std::string obstacle = device_obstacle(); !obstacle.empty()) GTEST_SKIP() << "skipped: " << obstacle;
   const assign::AssignerDescriptor& row = testing::method_named("exact");
   const Setting setting = assign::testing::settings_for(row, 11).front();

@@ -19,7 +19,7 @@ using testing::Picture;
 
 constexpr Walking k_walkings[] = {Walking::by_lane, Walking::by_light, Walking::by_cell};
 
-class ReadingWalks : public ::testing::Test {
+class DeviceReadingWalks : public ::testing::Test {
  protected:
   void SetUp() override {
     if (const std::string obstacle = device_obstacle(); !obstacle.empty()) GTEST_SKIP() << "skipped: " << obstacle;
@@ -48,7 +48,7 @@ std::uint64_t expect_equal_walks(const Held& held, const Setting& setting) {
 }
 
 // Each choice in a quarter of the views: software devices take long to compile.
-TEST_F(ReadingWalks, find_the_lights_of_every_storage_on_every_kind_of_grid) {
+TEST_F(DeviceReadingWalks, find_the_lights_of_every_storage_on_every_kind_of_grid) {
   std::size_t turn = 0;
   for (const char* method : {"exact", "box-bounds", "distance", "cascades", "world-grid"}) {
     const AssignerDescriptor& row = testing::method_named(method);
@@ -60,7 +60,7 @@ TEST_F(ReadingWalks, find_the_lights_of_every_storage_on_every_kind_of_grid) {
   }
 }
 
-TEST_F(ReadingWalks, find_the_lights_of_indices_of_8_bits) {
+TEST_F(DeviceReadingWalks, find_the_lights_of_indices_of_8_bits) {
   const AssignerDescriptor& row = testing::method_named("exact");
   const Setting setting = testing::with_few_lights(assign::testing::settings_for(row, 11).front());
   ASSERT_LE(setting.frame.lights.size(), 255u);
@@ -73,7 +73,7 @@ bool has_own_lookup(const AssignerDescriptor& row) {
   return row.name == "tile-slices" || row.name == "naive-tile-size";
 }
 
-TEST_F(ReadingWalks, find_the_lights_of_every_structure_that_a_method_leaves) {
+TEST_F(DeviceReadingWalks, find_the_lights_of_every_structure_that_a_method_leaves) {
   std::size_t structures = 0, turn = 0;
   for (const AssignerDescriptor* row : assign::assigner_descriptors()) {
     if (row->make_own == nullptr) continue;
@@ -92,7 +92,7 @@ TEST_F(ReadingWalks, find_the_lights_of_every_structure_that_a_method_leaves) {
   EXPECT_GT(structures, 15u);
 }
 
-TEST_F(ReadingWalks, find_no_lights_where_there_are_none) {
+TEST_F(DeviceReadingWalks, find_no_lights_where_there_are_none) {
   const AssignerDescriptor& row = testing::method_named("exact");
   Setting setting = assign::testing::settings_for(row, 11).front();
   setting.frame.lights.clear();
@@ -116,7 +116,7 @@ void expect_bytes_of_a_frame(const Held& held) {
   }
 }
 
-TEST_F(ReadingWalks, upload_the_bytes_that_a_frame_uploads) {
+TEST_F(DeviceReadingWalks, upload_the_bytes_that_a_frame_uploads) {
   const AssignerDescriptor& row = testing::method_named("exact");
   const Setting setting = assign::testing::settings_for(row, 11).front();
   for (const testing::StorageChoice& choice : testing::storage_choices())
@@ -173,7 +173,7 @@ std::vector<grid::Sample> samples_of_cells(const Setting& setting) {
   return samples;
 }
 
-TEST_F(ReadingWalks, differ_where_one_bit_of_a_structure_does) {
+TEST_F(DeviceReadingWalks, differ_where_one_bit_of_a_structure_does) {
   const AssignerDescriptor& row = testing::method_named("exact");
   const Setting setting = assign::testing::settings_for(row, 11).front();
   const std::vector<grid::Sample> points = samples_of_cells(setting);
@@ -205,7 +205,7 @@ double lit_on_host(const view::LightArrays& lights, const std::vector<std::uint3
   return sum;
 }
 
-TEST_F(ReadingWalks, add_the_attenuations_of_their_lights) {
+TEST_F(DeviceReadingWalks, add_the_attenuations_of_their_lights) {
   const AssignerDescriptor& row = testing::method_named("exact");
   const Setting setting = assign::testing::settings_for(row, 11).front();
   const Picture picture(setting.frame, 16, 3);

@@ -220,9 +220,6 @@ std::string unavailability(const AssignerDescriptor& descriptor, const Params& p
 // All descriptors: those of registry.inc in its order, then those registered at run time.
 std::span<const AssignerDescriptor* const> assigner_descriptors();
 
-// Those of them that can run on this machine with their default parameters.
-std::vector<const AssignerDescriptor*> available_assigners();
-
 // Adds a method to the registry for as long as this object lives. Not while configurations are read or run.
 class AssignerRegistration {
  public:

@@ -52,14 +52,6 @@ std::span<const AssignerDescriptor* const> assigner_descriptors() {
   return registry();
 }
 
-std::vector<const AssignerDescriptor*> available_assigners() {
-  std::vector<const AssignerDescriptor*> all(registry());
-  std::erase_if(all, [](const AssignerDescriptor* descriptor) {
-    return !unavailability(*descriptor, Params(descriptor->params)).empty();
-  });
-  return all;
-}
-
 AssignerRegistration::AssignerRegistration(AssignerDescriptor descriptor) : descriptor_(std::move(descriptor)) {
   if (find_assigner(descriptor_.name) != nullptr)
     throw Error("", descriptor_.name, "is the name of an assigner that is there already");

@@ -88,18 +88,6 @@ class StepFile {
   std::filesystem::path path_;
 };
 
-// The methods that --methods names and that cannot run here, with the reason; "" if there are none.
-std::string unavailable_methods(const Pattern& wanted) {
-  std::string names, reason;
-  for (const assign::AssignerDescriptor* method : assign::assigner_descriptors()) {
-    const std::string unavailable = assign::unavailability(*method, assign::Params(method->params));
-    if (unavailable.empty() || !wanted.is_in(method->name)) continue;
-    names += (names.empty() ? "" : ", ") + method->name;
-    reason = unavailable;
-  }
-  return names.empty() ? "" : names + " cannot run here: " + reason;
-}
-
 ExitCode stress(const StressFlags& flags) {
   stress::StressRequest request = flags.request;
   request.cases = Pattern(cases_of(flags), "--cases");
@@ -115,12 +103,8 @@ ExitCode stress(const StressFlags& flags) {
   };
   const stress::StressResult result = stress::run_stress(request, listener, stop);
   progress.clear();
-  const std::string unavailable = unavailable_methods(request.methods);
   if (result.methods.empty())
-    throw Error("", "--methods",
-                "'" + flags.methods + "' names none" +
-                    (unavailable.empty() ? pattern_hint(flags.methods) : "; " + unavailable));
-  if (!unavailable.empty() && !flags.quiet) print_message("left out: " + unavailable);
+    throw Error("", "--methods", "'" + flags.methods + "' names none" + pattern_hint(flags.methods));
   if (!result.interrupted && result.cases.empty() && result.searches.empty() &&
       (!result.random || !flags.cases.empty()))
     throw Error("", "--cases",

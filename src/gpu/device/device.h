@@ -46,8 +46,8 @@ class Device {
 void use_device(const std::string& wanted);
 // After a failure: the next device() opens it anew. Nothing that was made with the old one may be left.
 void close_device();
-// The device of this process: opened at the first call. All methods of a run share it. Throws Error
-// with the reason if there is none.
+// The device of this process: opened at the first call, and never closed but by use_device(). All methods and threads
+// of a run share it. Throws Error with the reason if there is none.
 Device& device();
 // The reason why device() throws; "" if it does not.
 std::string device_obstacle();
@@ -83,8 +83,9 @@ struct Arguments {
   std::array<std::uint32_t, 32> words{};
 };
 
-// Commands that are recorded, then run once. Threads take turns: one records and runs at a time. Steps within a
-// dispatch run in any order; what a later step reads of an earlier one needs a barrier() between them.
+// Commands that are recorded, then run once. Steps within a dispatch run in any order; what a later step reads of an
+// earlier one needs a barrier() between them. Threads take turns: from the constructor to the end of run() the device
+// belongs to this recording.
 class Commands {
  public:
   Commands(Device& device, Buffers& buffers);
@@ -114,7 +115,7 @@ class Commands {
  private:
   Device::Impl& device_;
   Buffers::Impl& buffers_;
-  std::unique_lock<std::mutex> turn_;
+  std::unique_lock<std::recursive_mutex> turn_;
   std::uint32_t steps_ = 0;
 };
 

@@ -14,8 +14,9 @@ std::string lower(std::string text) {
   return text;
 }
 
-bool is_number(const std::string& text) {
-  return !text.empty() && text.size() <= 3 &&
+// Longer numbers are parts of names ("630").
+bool is_index(const std::string& text) {
+  return !text.empty() && text.size() <= 2 &&
          std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c); });
 }
 
@@ -33,16 +34,31 @@ std::string names_of(const DeviceList& list) {
   return text;
 }
 
+bool is_called(const DeviceFacts& device, const std::string& wanted) {
+  return device.uuid == wanted || lower(device.name) == wanted;
+}
+
 bool is_named(const DeviceFacts& device, const std::string& wanted) {
-  return device.uuid == wanted || (wanted.size() >= 8 && device.uuid.starts_with(wanted)) ||
+  return (wanted.size() >= 8 && device.uuid.starts_with(wanted)) ||
          lower(device.name).find(wanted) != std::string::npos;
 }
 
-std::size_t named_device(const DeviceList& list, const std::string& wanted) {
-  if (is_number(wanted) && std::stoul(wanted) < list.devices.size()) return std::stoul(wanted);
-  std::vector<std::size_t> named;
+std::vector<std::size_t> devices_where(const DeviceList& list, bool (*is_meant)(const DeviceFacts&, const std::string&),
+                                       const std::string& wanted) {
+  std::vector<std::size_t> meant;
   for (std::size_t i = 0; i < list.devices.size(); ++i)
-    if (is_named(list.devices[i], lower(wanted))) named.push_back(i);
+    if (is_meant(list.devices[i], wanted)) meant.push_back(i);
+  return meant;
+}
+
+std::size_t named_device(const DeviceList& list, const std::string& wanted) {
+  std::vector<std::size_t> named;
+  if (is_index(wanted)) {
+    if (std::stoul(wanted) < list.devices.size()) named = {std::stoul(wanted)};
+  } else {
+    named = devices_where(list, is_called, lower(wanted));  // a whole name can be a part of another one
+    if (named.empty()) named = devices_where(list, is_named, lower(wanted));
+  }
   if (named.size() == 1) return named.front();
   const std::string fault = named.empty() ? "is no device of this machine" : "is the name of several devices";
   throw Error("", "device",

@@ -38,18 +38,23 @@ void DeviceLists::assign(const assign::FrameInput& input, assign::Lists& out) {
     out.begin.assign(cells + 1, 0);
     return;
   }
-  std::uint32_t entries = run_all(input.lights, out);
+  std::uint32_t entries = run_all(input.lights, std::max(capacity_, k_first_capacity), out);
   if (entries > capacity_) {  // now it is known how long all lists are
-    capacity_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(std::uint64_t{entries} + entries / 4, 0xfffffffeu));
     assign::check_pair_count(entries == 0xffffffffu ? std::uint64_t{1} << 32 : entries);
-    entries = run_all(input.lights, out);
+    entries = run_all(input.lights, capacity_for(entries), out);
   }
   read_lists(entries, out);
 }
 
-std::uint32_t DeviceLists::run_all(const view::LightArrays& lights, assign::Lists& out) {
-  capacity_ = std::max(capacity_, k_first_capacity);
-  buffers().reserve(Binding::lists, std::uint64_t{capacity_} * k_word, "lists");
+// With room for more in the next frames, as far as the device allows it.
+std::uint32_t DeviceLists::capacity_for(std::uint32_t entries) {
+  const std::uint64_t most = std::min<std::uint64_t>(frame_.device().facts().max_buffer_bytes / k_word, 0xfffffffeu);
+  return std::max(entries, static_cast<std::uint32_t>(std::min(std::uint64_t{entries} + entries / 4, most)));
+}
+
+std::uint32_t DeviceLists::run_all(const view::LightArrays& lights, std::uint32_t capacity, assign::Lists& out) {
+  buffers().reserve(Binding::lists, std::uint64_t{capacity} * k_word, "lists");
+  capacity_ = capacity;  // not where that is refused: the next frame may have fewer lights
   frame_.prepare(lights);
   FrameArguments arguments = frame_.arguments();
   arguments.capacity = capacity_;

@@ -34,8 +34,9 @@ class DeviceLists : public assign::ListAssigner {
   }
 
  private:
-  // Returns the number of entries that all lists need.
-  std::uint32_t run_all(const view::LightArrays& lights, assign::Lists& out);
+  // Returns the number of entries that all lists need. Where that is more than the capacity, their ends are missing.
+  std::uint32_t run_all(const view::LightArrays& lights, std::uint32_t capacity, assign::Lists& out);
+  std::uint32_t capacity_for(std::uint32_t entries);
   void read_lists(std::uint32_t entries, assign::Lists& out);
 
   DeviceFrame frame_;

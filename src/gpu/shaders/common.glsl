@@ -49,7 +49,16 @@ const uint k_block = 256;  // of cells whose counts are summed by one group
 
 // Groups are spread over two dimensions where there are many.
 uint group_index() { return gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x; }
-uint invocation_index() { return group_index() * gl_WorkGroupSize.x + gl_LocalInvocationIndex; }
+// The number of an invocation in its group, as shaders use it. Software drivers run a group's invocations in their
+// order, which hides barriers that are missing; tests number them from the other end.
+uint lane_index() {
+#ifdef REVERSED_LANES
+  return gl_WorkGroupSize.x - 1 - gl_LocalInvocationIndex;
+#else
+  return gl_LocalInvocationIndex;
+#endif
+}
+uint invocation_index() { return group_index() * gl_WorkGroupSize.x + lane_index(); }
 
 struct Cell {
   uint index;

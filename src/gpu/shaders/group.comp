@@ -13,7 +13,7 @@ shared vec4 kept_balls[64];
 
 void main() {
   uvec3 blocks = uvec3((frame.columns + 3) / 4, (frame.rows + 3) / 4, (frame.slices + 3) / 4);
-  uint block = group_index(), lane = gl_LocalInvocationIndex;
+  uint block = group_index(), lane = lane_index();
   if (block >= blocks.x * blocks.y * blocks.z) return;  // the whole group
   uvec3 first = 4 * uvec3(block % blocks.x, block / blocks.x % blocks.y, block / (blocks.x * blocks.y));
   uvec3 at = first + uvec3(lane % 4, lane / 4 % 4, lane / 16);
@@ -46,13 +46,13 @@ void main() {
       kept_balls[place] = ball;
     }
     barrier();
+    // The bits were read before this barrier, and places are written only after the next two.
     uint kept_count = bitCount(low) + bitCount(high);
     for (uint i = 0; i < kept_count && is_cell; ++i) {
       if (!touches(kept[i], kept_balls[i], cell)) continue;
       if (MODE == k_fill && begin + count < frame.capacity) lists[begin + count] = kept[i];
       ++count;
     }
-    barrier();
   }
   if (!is_cell) return;
   if (MODE == k_count)

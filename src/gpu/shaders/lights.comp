@@ -15,7 +15,7 @@ bool is_within(float value, vec2 interval, float squared, float reach) {
 }
 
 void main() {
-  uint light = group_index(), lane = gl_LocalInvocationIndex;
+  uint light = group_index(), lane = lane_index();
   if (light >= frame.lights) return;  // the whole group
   vec4 ball = balls[light];
   if (ball.w < 0.0) return;

@@ -12,7 +12,8 @@ void main() {
   uint pairs_of_words = (frame.words + 1) / 2;
   uint group = group_index(), index = group / pairs_of_words, word = 2 * (group % pairs_of_words);
   if (index >= frame.cells) return;  // the whole group
-  if (gl_LocalInvocationIndex < 2) bits[gl_LocalInvocationIndex] = 0;
+  uint slot = lane_index();
+  if (slot < 2) bits[slot] = 0;
   barrier();
   uint first = gl_SubgroupID * gl_SubgroupSize, lane = first + gl_SubgroupInvocationID;
   uint light = 32 * word + lane;
@@ -27,6 +28,5 @@ void main() {
     }
   }
   barrier();
-  if (gl_LocalInvocationIndex < 2 && word + gl_LocalInvocationIndex < frame.words)
-    masks[index * frame.words + word + gl_LocalInvocationIndex] = bits[gl_LocalInvocationIndex];
+  if (slot < 2 && word + slot < frame.words) masks[index * frame.words + word + slot] = bits[slot];
 }

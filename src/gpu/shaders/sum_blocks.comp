@@ -6,7 +6,7 @@
 shared uint partial[k_block];
 
 void main() {
-  uint cell = invocation_index(), lane = gl_LocalInvocationIndex;
+  uint cell = invocation_index(), lane = lane_index();
   uint own = cell < frame.cells ? counts[cell] : 0;
   partial[lane] = own;
   for (uint step_size = 1; step_size < k_block; step_size *= 2) {

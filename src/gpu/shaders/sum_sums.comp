@@ -10,7 +10,7 @@ shared uint carry;
 uint saturated_sum(uint a, uint b) { return a > 0xffffffffu - b ? 0xffffffffu : a + b; }
 
 void main() {
-  uint lane = gl_LocalInvocationIndex, blocks = (frame.cells + k_block - 1) / k_block;
+  uint lane = lane_index(), blocks = (frame.cells + k_block - 1) / k_block;
   if (lane == 0) carry = 0;
   for (uint first = 0; first < blocks; first += k_block) {
     uint own = first + lane < blocks ? sums[first + lane] : 0;
@@ -21,12 +21,10 @@ void main() {
       barrier();
       partial[lane] = saturated_sum(partial[lane], before);
     }
-    barrier();
     uint start = carry;
     if (first + lane < blocks) sums[first + lane] = saturated_sum(start, partial[lane] - own);
     barrier();
-    if (lane == k_block - 1) carry = saturated_sum(start, partial[lane]);
-    barrier();
+    if (lane == k_block - 1) carry = saturated_sum(start, partial[lane]);  // read after the next turn's barriers
   }
-  if (lane == 0) begins[frame.cells] = carry;
+  if (lane == k_block - 1) begins[frame.cells] = carry;  // its own
 }

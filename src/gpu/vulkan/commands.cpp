@@ -13,7 +13,7 @@ constexpr std::uint64_t k_groups_in_a_row = 32768;  // devices take at least 65,
 }  // namespace
 
 Commands::Commands(Device& device, Buffers& buffers)
-    : device_(device.impl()), buffers_(buffers.impl()), turn_(device_.busy) {
+    : device_(device.impl()), buffers_(buffers.impl()), turn_(device_.turn) {
   buffers_.uploaded = 0;
   buffers_.downloads.clear();
   buffers_.mark_count = 0;
@@ -59,7 +59,7 @@ void Commands::dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t
   if (groups == 0) return;
   ++steps_;
   const std::uint64_t in_a_row = std::min(groups, k_groups_in_a_row);
-  vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_.pipeline_of(kernel));
+  vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_.pipelines.at(kernel));
   vkCmdPushConstants(device_.commands, device_.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof arguments.words,
                      arguments.words.data());
   vkCmdDispatch(device_.commands, static_cast<std::uint32_t>(in_a_row),

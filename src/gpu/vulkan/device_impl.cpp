@@ -16,6 +16,7 @@ const DeviceFacts& Device::facts() const {
 }
 
 Kernel Device::kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode) {
+  const std::lock_guard turn(impl_->turn);
   return impl_->kernel(shader, group_size, mode);
 }
 
@@ -107,16 +108,11 @@ void Device::Impl::create_layout() {
 }
 
 Kernel Device::Impl::kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode) {
-  const std::lock_guard turn(making_kernel);
+  const std::lock_guard lock(turn);
   const std::tuple key{shader, group_size, mode};
   if (const auto found = kernels.find(key); found != kernels.end()) return found->second;
   pipelines.push_back(create_pipeline(shader, group_size, mode));
   return kernels[key] = static_cast<Kernel>(pipelines.size() - 1);
-}
-
-VkPipeline Device::Impl::pipeline_of(Kernel kernel) const {
-  const std::lock_guard turn(making_kernel);
-  return pipelines.at(kernel);
 }
 
 VkPipeline Device::Impl::create_pipeline(const std::string& shader, std::uint32_t group_size,

@@ -30,13 +30,10 @@ struct Device::Impl {
   Memory allocate(std::uint64_t bytes, Place place) const;
   void free(Memory& memory) const;
   Kernel kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode);
-  VkPipeline pipeline_of(Kernel kernel) const;
 
   static constexpr std::uint32_t k_marks = 66;
 
-  std::mutex busy;                   // while commands are recorded and run
-  mutable std::mutex making_kernel;  // while one is made or looked up
-
+  std::recursive_mutex turn;  // of who records or adds a kernel
   DeviceFacts facts;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkPhysicalDeviceMemoryProperties memory_properties{};

@@ -2,6 +2,7 @@
 #include "gpu/vulkan/vulkan.h"
 
 #include <cstdlib>
+#include <mutex>
 #include <vector>
 
 #include "core/error.h"
@@ -17,9 +18,15 @@ Objections& noted_objections() {
   return all;
 }
 
+std::mutex& noting() {
+  static std::mutex only;
+  return only;
+}
+
 VKAPI_ATTR VkBool32 VKAPI_CALL note(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT,
                                     const VkDebugUtilsMessengerCallbackDataEXT* data, void*) {
   if (severity < VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT) return VK_FALSE;
+  const std::lock_guard lock(noting());
   Objections& all = noted_objections();
   if (all.count++ == 0) all.first = data->pMessage;
   return VK_FALSE;
@@ -122,7 +129,8 @@ void check(VkResult result, const char* call) {
                     ": VkResult " + std::to_string(result) + ")");
 }
 
-const Objections& objections() {
+Objections objections() {
+  const std::lock_guard lock(noting());
   return noted_objections();
 }
 

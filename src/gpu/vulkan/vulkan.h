@@ -27,7 +27,7 @@ struct Objections {
   int count = 0;
   std::string first;
 };
-const Objections& objections();
+Objections objections();
 
 struct PhysicalDevice {
   DeviceFacts facts;

@@ -1,0 +1,112 @@
+# The tests of the layer gpu. Those that need no device are called gpu.SUITE.NAME; those on a device (suites Device*) run once in
+# each of these modes, as gpu.MODE.SUITE.NAME:
+#   lavapipe, swiftshader       on the two software drivers
+#   lavapipe_reversed           with the invocations of each group numbered from the other end (lane_index() of common.glsl)
+#   lavapipe_sync               the validation layer looks for missing barriers between commands
+#   lavapipe_bounds             it looks for reads and writes beyond buffers
+# A missing driver, layer or Vulkan itself skips them with the reason; .ci/run takes that for a failure.
+file(GLOB LAVAPIPE /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.json)
+file(GLOB SWIFTSHADER /usr/lib/chromium/vk_swiftshader_icd.json /usr/lib*/chromium-browser/vk_swiftshader_icd.json
+     /opt/google/chrome/vk_swiftshader_icd.json)
+
+# The test program takes shaders of a folder in place of the embedded ones where it is told so: those with other numbers of
+# invocations, and changed ones of scripts/shader_mutations.py.
+if(NOT CLUSTERBENCH_SANITIZE AND GLSLANG AND VULKAN_INCLUDE AND VOLK_INCLUDE)
+  target_sources(test_gpu PRIVATE gpu/swapped/swapped_shaders.cpp)
+  set_source_files_properties(gpu/swapped/swapped_shaders.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  target_link_options(test_gpu PRIVATE
+    -Wl,--wrap=_ZN12clusterbench3gpu11shader_codeESt17basic_string_viewIcSt11char_traitsIcEEb)
+  set(REVERSED ${CMAKE_CURRENT_BINARY_DIR}/reversed_shaders)
+  file(MAKE_DIRECTORY ${REVERSED})
+  file(GLOB SHADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/gpu/shaders/*.comp)
+  set(MODULES "")
+  foreach(SHADER ${SHADERS})
+    get_filename_component(NAME ${SHADER} NAME_WE)
+    set(plain "")
+    set(to_nearest -DROUNDS_TO_NEAREST)
+    foreach(VARIANT plain to_nearest)
+      add_custom_command(OUTPUT ${REVERSED}/${NAME}_${VARIANT}.spv VERBATIM
+        DEPENDS ${SHADER} ${PROJECT_SOURCE_DIR}/src/gpu/shaders/common.glsl
+        COMMAND ${GLSLANG} -V --quiet --target-env vulkan1.3 -DREVERSED_LANES ${${VARIANT}}
+                -o ${REVERSED}/${NAME}_${VARIANT}.spv ${SHADER})
+      list(APPEND MODULES ${REVERSED}/${NAME}_${VARIANT}.spv)
+    endforeach()
+  endforeach()
+  add_custom_target(reversed_shaders DEPENDS ${MODULES})
+  add_dependencies(test_gpu reversed_shaders)
+endif()
+
+# Suites of MODE whose tests fit FILTER, in an environment; DRIVER is a file of the driver, or none.
+function(clusterbench_add_device_tests MODE DRIVER PACKAGE FILTER)
+  if(NOT DRIVER)
+    add_test(NAME gpu.${MODE} COMMAND ${CMAKE_COMMAND} -E echo "skipped: this machine lacks its driver (Debian: ${PACKAGE})")
+    set_tests_properties(gpu.${MODE} PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
+    return()
+  endif()
+  list(GET DRIVER 0 DRIVER)
+  # Two threads find races between groups; more take turns with the other tests.
+  set(ENVIRONMENT VK_DRIVER_FILES=${DRIVER} VK_ICD_FILENAMES=${DRIVER} LP_NUM_THREADS=2 ${ARGN})
+  if(CLUSTERBENCH_SANITIZE)
+    foreach(INDEX RANGE 1 2)
+      math(EXPR SHARD "${INDEX} - 1")
+      add_test(NAME gpu.${MODE}_part_${INDEX} COMMAND test_gpu --gtest_filter=${FILTER})
+      set_tests_properties(gpu.${MODE}_part_${INDEX} PROPERTIES TIMEOUT 1200
+        ENVIRONMENT "${ENVIRONMENT};GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${SHARD}")
+    endforeach()
+    return()
+  endif()
+  gtest_discover_tests(test_gpu NO_PRETTY_VALUES TEST_PREFIX gpu.${MODE}. TEST_FILTER ${FILTER} TEST_LIST GPU_TESTS_${MODE}
+    DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  # Properties that are lists get lost on their way through gtest_discover_tests().
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/gpu_${MODE}.cmake "foreach(TEST IN LISTS GPU_TESTS_${MODE})
+  set_tests_properties(\${TEST} PROPERTIES ENVIRONMENT \"${ENVIRONMENT}\")
+endforeach()
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/gpu_${MODE}.cmake)
+endfunction()
+
+# Without a device, and without any driver.
+set(NO_DRIVER VK_DRIVER_FILES=no-such-driver.json VK_ICD_FILENAMES=no-such-driver.json)
+if(CLUSTERBENCH_SANITIZE)
+  add_test(NAME gpu.part_1 COMMAND test_gpu --gtest_filter=-Device*:NoDriver*)
+else()
+  gtest_discover_tests(test_gpu NO_PRETTY_VALUES TEST_PREFIX gpu. TEST_FILTER -Device*:NoDriver* DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT 600)
+endif()
+add_test(NAME gpu.no_driver COMMAND test_gpu --gtest_filter=NoDriver*)
+set_tests_properties(gpu.no_driver PROPERTIES ENVIRONMENT "${NO_DRIVER}" TIMEOUT 600 SKIP_REGULAR_EXPRESSION "skipped: ")
+
+# lavapipe leaks at its end; SwiftShader's threads change stacks, which the thread sanitizer does not follow.
+if(NOT CLUSTERBENCH_SANITIZE)
+  clusterbench_add_device_tests(lavapipe "${LAVAPIPE}" mesa-vulkan-drivers Device*)
+  clusterbench_add_device_tests(lavapipe_reversed "${LAVAPIPE}" mesa-vulkan-drivers
+    "DeviceCommands.s*:DeviceMethods.have*:DeviceSizes.of_any*" CLUSTERBENCH_SWAPPED_SHADERS=${REVERSED})
+  clusterbench_add_device_tests(lavapipe_sync "${LAVAPIPE}" mesa-vulkan-drivers
+    "DeviceCommands.*:DeviceMethods.keep*:DeviceSizes.of_lists*" CLUSTERBENCH_VULKAN_VALIDATION=sync)
+  clusterbench_add_device_tests(lavapipe_bounds "${LAVAPIPE}" mesa-vulkan-drivers
+    "DeviceCommands.*:DeviceSizes.of_any*:DeviceSizes.of_lists*:DeviceSizes.of_more*" CLUSTERBENCH_VULKAN_VALIDATION=gpu)
+endif()
+if(NOT CLUSTERBENCH_SANITIZE STREQUAL "thread")
+  clusterbench_add_device_tests(swiftshader "${SWIFTSHADER}" chromium "Device*-*million*") # it takes 20 s for that
+endif()
+
+# Against the exact truth: some of the hard cases, and random settings. By hand, all: clusterbench stress --methods ^gpu-
+if(NOT CLUSTERBENCH_SANITIZE)
+  foreach(MODE lavapipe swiftshader)
+    string(TOUPPER ${MODE} DRIVER)
+    if(${DRIVER} AND TARGET reversed_shaders)
+      list(GET ${DRIVER} 0 DRIVER)
+      add_test(NAME gpu.${MODE}_stress COMMAND clusterbench stress --methods ^gpu-[a-z]+$ --cases H5|H7|H9|H19|H32 --random 60 -q
+               -o ${PROJECT_BINARY_DIR}/stress_${MODE}.json)
+      set_tests_properties(gpu.${MODE}_stress PROPERTIES ENVIRONMENT "VK_DRIVER_FILES=${DRIVER};VK_ICD_FILENAMES=${DRIVER}"
+        TIMEOUT 600)
+    endif()
+  endforeach()
+endif()
+
+# The SPIR-V that the build embeds.
+if(NOT CLUSTERBENCH_SANITIZE)
+  add_test(NAME gpu.shaders
+           COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/gpu/test_shaders.py ${PROJECT_BINARY_DIR}/spirv)
+  set_tests_properties(gpu.shaders PROPERTIES SKIP_RETURN_CODE 77)
+endif()
