@@ -16,17 +16,18 @@ LAYERS = ["core", "os", "result", "geom", "scene", "view", "depth", "grid", "cul
 # The same for the folders of a layer. Those that stand side by side do not include each other. ".": the files beside the
 # folders; where it is not named they stand above all folders.
 FOLDERS = {
+    "result": [["."], ["figures"], ["documents"]],
     "geom": [["numbers"], ["shapes"], ["ball", "box", "search", "certificate", "single_precision", "projection"], ["filter"],
              ["spot"]],
     "scene": [["."], ["gltf_document"], ["gltf_scene", "writers"], ["generators"]],
     "assign": [["contract", "simd"], ["lists"], ["grid_cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
                ["box_grid", "depth_bins", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],
-    "gpu": [["device"], ["vulkan"], ["methods"]],
+    "gpu": [["device"], ["vulkan"], ["methods", "reading"]],
     "measure": [["truth", "statistics"], ["lists", "samples"], ["shadows", "light_maps"]],
     "config": [["schema"], ["presets"]],
     "run": [["cases"], ["timing"], ["counters"], ["findings"], ["passes", "records"]],
     "report": [["cases"], ["comparing", "documents", "presets", "searches"], ["gates", "sizing", "tables", "exports", "page"],
-               ["choosing", "history"], ["results"]],
+               ["shader_code"], ["choosing", "history", "size_report"], ["results"]],
     "cli": [["command_line", "output", "processes"], ["completion", "options"], ["running", "sizing"], ["commands"]],
 }
 

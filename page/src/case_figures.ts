@@ -1,4 +1,4 @@
-// Figures of cases, with units and meanings, as the program's table has them (src/result/figure_table.cpp). A new
+// Figures of cases, with units and meanings, as the program's table has them (src/result/figures/figure_table.cpp). A new
 // column of a table is one line with the figure's name.
 
 import * as format from "./format.ts";

@@ -5,7 +5,7 @@ import type { FigureWords, Result } from "./schema_types.ts";
 export type { FigureWords, FrameCost, PageCase, PageData, Picture, Ranked, Result } from "./schema_types.ts";
 export type Maybe = number | null;
 
-export type FigureName = FigureWords["name"]; // a row of src/result/figure_table.cpp
+export type FigureName = FigureWords["name"]; // a row of src/result/figures/figure_table.cpp
 export type CaseResult = Result["cases"][number];
 export type SceneResult = Result["scenes"][number];
 export type Grid = CaseResult["grid"];

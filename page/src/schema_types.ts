@@ -177,6 +177,20 @@ export type Result = {
     }; // Programs that run or wait to run. Absent where nothing is timed [programs, over one minute, the machine]
     os: string; // System, kernel and architecture
   }; // Where it was measured
+  device?: {
+    name: string; // Its name, from its driver
+    driver: string; // Name and version
+    vulkan: string; // Version of Vulkan
+    uuid: string; // 32 hexadecimal digits
+    type: "discrete GPU" | "integrated GPU" | "virtual GPU" | "software" | "other"; // software: a driver that computes on the processor: its times are no GPU's, and nothing ranks by them
+    max_buffer_bytes: number; // Largest buffer that a shader can see [bytes, over one buffer]
+    max_group_size: number; // Largest group of a shader [invocations, over one group]
+    shared_bytes: number; // Shared memory [bytes, over one group]
+    subgroup_size: number; // Invocations that run in step [invocations, over one subgroup]
+    timestamp_bits: number; // Of its clock; 0: it has none [bits, over the clock]
+    timestamp_period_ns: number | null; // Between two ticks of its clock [ns, over the clock]
+    rounds_to_nearest: boolean; // Whether shaders can ask for it. If not, methods count the error of each step twice, and pad lights by it
+  }; // The device of the cases whose method runs on one (assigner.on_device). Absent where there are none
   config: {
     allocation: {
       margin: number; // What is allocated / the high-water mark [ratio, over all cases]
@@ -270,6 +284,7 @@ export type Result = {
       params: Record<string, unknown>; // All parameters, with their defaults
       conservative: boolean; // Never misses a true pair; a miss fails the run. False on packed lights that are not inflated
       exact: boolean; // Conservative, and lists nothing that is not true
+      on_device?: boolean; // true: it runs on the result's device, whose clock times it (device); there is no timing. Absent: it runs on the processor
     }; // The method that fills the lists
     storage: string; // What the lists are kept in; own: the assigner leaves a light structure of its own, without lists
     samples_search?: boolean; // true: the case is a light structure that each sample searches for its lights (a hierarchy, masks of bits) in place of reading a list. What that reads is counted and priced by config.cost, and no GPU has measured it: such a case stands on no front. Absent: it is none
@@ -610,11 +625,6 @@ export type Result = {
         convert?: number; // Of convert_ns; absent where a method leaves its own structure
       }; // How many passes over the timed frames one sample of warm times is the mean of, in the launch with fewest; each launch runs as many as take timing.min_time_ms. A sample of cold times is one pass [passes, over one sample]
       pre_cull_ns?: Time; // Per frame: from all lights to those that the method gets, side by side; absent where nothing is culled. Visible sets are built before (pre_cull.build_ns)
-      device?: {
-        upload_ns: Time; // Per frame: bringing the frame's input to the device
-        run_ns: Time; // Per frame: the device's work
-        readback_ns: Time; // Per frame: bringing the result back; 0 where it stays
-      }; // Of a method that runs on a device (a GPU): its parts by the device's own clock, within warm assign_ns. Absent elsewhere
       shadow_cull?: Array<{
         resolution: number; // As in shadows.culls [texels, over the case]
         texels: "proven" | "sampled"; // As in shadows.culls
@@ -663,6 +673,15 @@ export type Result = {
         }; // Where both programs' lists first differ
       }; // Rounds beside another program (run --baseline-binary)
     }; // Wall times
+    device?: {
+      frames_timed: number; // Evenly spaced over the path; all times are means over them [frames, over the path]
+      run_ns: Time; // Per frame: the device's work, from the lights to the lists
+      upload_ns: Time; // Per frame: bringing the frame's lights to the device
+      readback_ns: Time; // Per frame: bringing the lists back, which a renderer does not do
+      dispatches: number | null; // Steps of this work that wait for each other, per frame [steps, over the timed frames]
+      floor_ns: Time; // Per frame: as many steps that do nothing, of which the last writes as many bytes as the result has
+      floor_ratio: number | null; // run_ns by floor_ns: how far the work is from only starting and writing [ratio, over the rounds]
+    }; // Times of a method that runs on a device (a GPU), by the device's own clock. Absent elsewhere, and where nothing is timed or the device has no clock
     details?: {
       max_bytes: number; // Most bytes that the configuration allows [bytes, over the case]
       frames: Array<{
@@ -854,7 +873,7 @@ export type FrameCost = {
 
 // A row of the table of figures (`clusterbench list figures`)
 export type FigureWords = {
-  name: "frame_us" | "frame_us.max" | "assign_us" | "convert_us" | "frame_cost_us" | "instructions" | "assign_instructions" | "speedup" | "pair_rate" | "bytes" | "excess" | "missed" | "unlit" | "dropped" | "overshade" | "lights" | "lights_lit" | "lights_seen" | "lights_in_view" | "tests_done" | "fallbacks" | "lights_seen.mean" | "lights_in_view.mean" | "pairs.mean" | "pairs" | "lights_per_cell.mean" | "lights_per_cell.p99" | "longest" | "occupied_fraction" | "index_entries" | "entries_recommended" | "bytes_recommended" | "upload_bytes.mean" | "gpu_cost_us" | "traffic_bytes" | "upload_bytes" | "scratch_bytes" | "true_pairs" | "reported_pairs" | "false_positives" | "miss_ratio" | "deepest_miss" | "undecided" | "needed" | "evaluated" | "read_bytes" | "samples_missed" | "samples_missed_outside" | "lost_irradiance" | "changed_pairs" | "flickers" | "extra_pairs" | "build_us" | "pairs_timed" | "builds_per_frame" | "time_per_pair" | "write_floor" | "floor_ratio" | "build_instructions" | "convert_instructions" | "assign_cycles" | "convert_cycles" | "lights_beyond_grid"; // In the table
+  name: "frame_us" | "frame_us.max" | "assign_us" | "convert_us" | "frame_cost_us" | "instructions" | "assign_instructions" | "speedup" | "pair_rate" | "bytes" | "excess" | "missed" | "unlit" | "dropped" | "overshade" | "lights" | "lights_lit" | "lights_seen" | "lights_in_view" | "tests_done" | "fallbacks" | "lights_seen.mean" | "lights_in_view.mean" | "pairs.mean" | "pairs" | "lights_per_cell.mean" | "lights_per_cell.p99" | "longest" | "occupied_fraction" | "index_entries" | "entries_recommended" | "bytes_recommended" | "upload_bytes.mean" | "gpu_cost_us" | "traffic_bytes" | "upload_bytes" | "scratch_bytes" | "true_pairs" | "reported_pairs" | "false_positives" | "miss_ratio" | "deepest_miss" | "undecided" | "needed" | "evaluated" | "read_bytes" | "samples_missed" | "samples_missed_outside" | "lost_irradiance" | "changed_pairs" | "flickers" | "extra_pairs" | "build_us" | "pairs_timed" | "builds_per_frame" | "time_per_pair" | "write_floor" | "floor_ratio" | "build_instructions" | "convert_instructions" | "assign_cycles" | "convert_cycles" | "lights_beyond_grid" | "device_us" | "device_upload_us" | "device_readback_us" | "device_floor"; // In the table
   unit: string; // Of its values here
   meaning: string; // As the table has it
 };

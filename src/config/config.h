@@ -43,7 +43,7 @@ struct MethodRequest {
 // A preset's clustering for one viewport, as indices in the configuration's lists. No storage: the assigner's own
 // structure.
 struct PresetChoice {
-  std::string preset;  // config/presets/presets.h
+  std::string preset;  // config/presets/preset_library.h
   std::size_t viewport = 0, grid = 0, assigner = 0;
   std::optional<std::size_t> storage;
   // One for each of the configuration's own_pre_culls: that pre-cull followed by the engine's own steps, such as its

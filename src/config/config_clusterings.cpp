@@ -7,7 +7,7 @@
 #include "config/config_grids.h"
 #include "config/grid_json.h"
 #include "config/pre_cull_json.h"
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "config/schema/documents.h"
 #include "config/schema/schema_reader.h"
 #include "core/error.h"

@@ -5,7 +5,7 @@
 #include <regex>
 
 #include "config/presets/assigner_names.h"
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "config/schema/documents.h"
 #include "core/error.h"
 #include "core/json_document.h"
@@ -261,6 +261,10 @@ void set_threads(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"threads"}, flag, value_of(flag.value));
 }
 
+void set_device(FlaggedConfig& document, const FlagValue& flag) {
+  set_key(document, {"device"}, flag, flag.value);
+}
+
 // Decodes a step of a JSON pointer (RFC 6901): ~1 is a slash, ~0 a tilde.
 std::string unescaped(const std::string& step, const FlagValue& flag) {
   std::string out;
@@ -343,6 +347,9 @@ constexpr FlagRow k_rows[] = {
     {{"--rounds", "N: timed rounds over all cases of a group"}, set_rounds},
     {{"--launches", "N: processes that measure one after the other; intervals hold between them"}, set_launches},
     {{"--threads", "N: threads for the truth and for rays; results do not depend on it"}, set_threads},
+    {{"--device",
+      "NAME, UUID or number: the device of methods that run on one, as `clusterbench list devices` shows it"},
+     set_device},
     {{"--fail-if", "BUDGET, repeatable: fail where a case exceeds it, as in 'longest > 128' or 'bytes > 200000'", true},
      add_budget},
     {{"--set", "KEY=VALUE[,VALUE], repeatable: any key of the configuration, as in 'grids.*.slices.far=200,500'", true},

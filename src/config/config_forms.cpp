@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "config/presets/assigner_names.h"
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "config/schema/documents.h"
 #include "config/schema/schema_reader.h"
 #include "core/error.h"

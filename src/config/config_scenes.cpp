@@ -5,6 +5,7 @@
 #include "config/config_grids.h"
 #include "core/error.h"
 #include "core/file_text.h"
+#include "scene/camera_jitter.h"
 #include "scene/rig.h"
 
 namespace clusterbench::config {

@@ -157,6 +157,7 @@ struct LimitsRequest {
 struct Sections {
   RECORD(Sections);
   KEY(int, threads, 1);
+  KEY(std::string, device, {});  // of methods that run on one: gpu::chosen_device(); "": the best
   KEY(std::uint64_t, seed, 1);
   KEY(AccuracyRequest, accuracy, {});
   KEY(result::Nullable<LookupRequest>, lookup, {});                                // null: not measured

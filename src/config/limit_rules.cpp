@@ -11,7 +11,7 @@
 #include "core/pattern.h"
 #include "core/text.h"
 #include "measure/samples/samples.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 #include "result/sample_sets.h"
 
 namespace clusterbench::config {

@@ -15,7 +15,7 @@ struct LimitRule {
     outside  // of the range limit..upper
   };
 
-  std::string figure;         // result/case_figure.h: "longest", "opaque.unlit"
+  std::string figure;         // result/figures/case_figure.h: "longest", "opaque.unlit"
   bool is_inclusive = false;  // ">=" and "<="
   double limit = 0.0;
   Side side = Side::above;

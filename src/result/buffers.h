@@ -1,7 +1,7 @@
 #pragma once
 // Occupancy of cells, and memory of lists.
 
-#include "result/figures.h"
+#include "result/shared_parts.h"
 
 namespace clusterbench::result {
 

@@ -29,6 +29,10 @@ struct Method {
   FIELD(bool, conservative,
         "Never misses a true pair; a miss fails the run. False on packed lights that are not inflated");
   FIELD(bool, exact, "Conservative, and lists nothing that is not true");
+  FIELD(
+      std::optional<bool>, on_device,
+      "true: it runs on the result's device, whose clock times it (device); there is no timing. Absent: it runs on the "
+      "processor");
   END_RECORD;
 };
 
@@ -250,6 +254,11 @@ struct Case {
         "What lies in the shadow of the scene's triangles, and what sharing shadow maps saves; where the configuration "
         "asks for it (shadow_cull, shadow_frusta)");
   FIELD(std::optional<Timing>, timing, "Wall times", Compares::skipped);
+  FIELD(
+      std::optional<DeviceTimes>, device,
+      "Times of a method that runs on a device (a GPU), by the device's own clock. Absent elsewhere, and where nothing "
+      "is timed or the device has no clock",
+      Compares::skipped);
   FIELD(std::optional<Details>, details, "Chosen frames cell by cell");
   FIELD(std::optional<Count>, count, "Instructions of what is timed, with --count", Compares::skipped);
   FIELD(std::optional<Cost>, cost,

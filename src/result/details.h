@@ -1,7 +1,7 @@
 #pragma once
 // Frames cell by cell.
 
-#include "result/figures.h"
+#include "result/shared_parts.h"
 
 namespace clusterbench::result {
 

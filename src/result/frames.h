@@ -1,7 +1,7 @@
 #pragma once
 // Changes from frame to frame: slices that follow, tiles that react, storages that fall back, pairs that flicker.
 
-#include "result/figures.h"
+#include "result/shared_parts.h"
 
 namespace clusterbench::result {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The partition of space into cells.
 
-#include "result/figures.h"
+#include "result/shared_parts.h"
 
 namespace clusterbench::result {
 

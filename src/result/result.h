@@ -62,6 +62,26 @@ struct Machine {
   END_RECORD;
 };
 
+struct Device {
+  RECORD(Device);
+  FIELD(std::string, name, "Its name, from its driver");
+  FIELD(std::string, driver, "Name and version");
+  FIELD(std::string, vulkan, "Version of Vulkan");
+  FIELD(std::string, uuid, "32 hexadecimal digits");
+  FIELD(std::string, type,
+        About("software: a driver that computes on the processor: its times are no GPU's, and nothing ranks by them")
+            .one_of({"discrete GPU", "integrated GPU", "virtual GPU", "software", "other"}));
+  FIELD(std::uint64_t, max_buffer_bytes, "Largest buffer that a shader can see", "bytes", "one buffer");
+  FIELD(std::uint64_t, max_group_size, "Largest group of a shader", "invocations", "one group");
+  FIELD(std::uint64_t, shared_bytes, "Shared memory", "bytes", "one group");
+  FIELD(std::uint64_t, subgroup_size, "Invocations that run in step", "invocations", "one subgroup");
+  FIELD(std::uint64_t, timestamp_bits, "Of its clock; 0: it has none", "bits", "the clock");
+  FIELD(double, timestamp_period_ns, "Between two ticks of its clock", "ns", "the clock");
+  FIELD(bool, rounds_to_nearest,
+        "Whether shaders can ask for it. If not, methods count the error of each step twice, and pad lights by it");
+  END_RECORD;
+};
+
 struct SceneLights {
   RECORD(SceneLights);
   FIELD(std::uint64_t, point, "Point lights");
@@ -312,6 +332,8 @@ struct Result {
   FIELD(std::optional<std::string>, command, "The command line. Absent where nothing is timed");
   FIELD(Tool, tool, "The program that measured");
   FIELD(Machine, machine, "Where it was measured");
+  FIELD(std::optional<Device>, device,
+        "The device of the cases whose method runs on one (assigner.on_device). Absent where there are none");
   FIELD(Json, config,
         About("The configuration with every default (`clusterbench schema config`)").shaped(k_config_shape));
   FIELD(std::vector<Scene>, scenes, "");

@@ -1,7 +1,7 @@
 #pragma once
 // Lists compared with the truth, and lights that samples find in them.
 
-#include "result/figures.h"
+#include "result/shared_parts.h"
 
 namespace clusterbench::result {
 

@@ -1,7 +1,7 @@
 #pragma once
 // Pairs in shadow, and shadow maps that spots share.
 
-#include "result/figures.h"
+#include "result/shared_parts.h"
 
 namespace clusterbench::result {
 

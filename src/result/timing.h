@@ -1,7 +1,7 @@
 #pragma once
 // Times and instructions.
 
-#include "result/figures.h"
+#include "result/shared_parts.h"
 
 namespace clusterbench::result {
 
@@ -54,11 +54,19 @@ struct TimedPairs {
   END_RECORD;
 };
 
+// Of a method that runs on a device, by the device's clock.
 struct DeviceTimes {
   RECORD(DeviceTimes);
-  FIELD(Time, upload_ns, "Per frame: bringing the frame's input to the device");
-  FIELD(Time, run_ns, "Per frame: the device's work");
-  FIELD(Time, readback_ns, "Per frame: bringing the result back; 0 where it stays");
+  FIELD(std::uint64_t, frames_timed, "Evenly spaced over the path; all times are means over them", "frames",
+        "the path");
+  FIELD(Time, run_ns, "Per frame: the device's work, from the lights to the lists");
+  FIELD(Time, upload_ns, "Per frame: bringing the frame's lights to the device");
+  FIELD(Time, readback_ns, "Per frame: bringing the lists back, which a renderer does not do");
+  FIELD(double, dispatches, "Steps of this work that wait for each other, per frame", "steps", "the timed frames");
+  FIELD(Time, floor_ns,
+        "Per frame: as many steps that do nothing, of which the last writes as many bytes as the result has");
+  FIELD(double, floor_ratio, "run_ns by floor_ns: how far the work is from only starting and writing", "ratio",
+        "the rounds");
   END_RECORD;
 };
 
@@ -185,9 +193,6 @@ struct Timing {
   FIELD(std::optional<Time>, pre_cull_ns,
         "Per frame: from all lights to those that the method gets, side by side; absent where nothing is culled. "
         "Visible sets are built before (pre_cull.build_ns)");
-  FIELD(std::optional<DeviceTimes>, device,
-        "Of a method that runs on a device (a GPU): its parts by the device's own clock, within warm assign_ns. Absent "
-        "elsewhere");
   FIELD(std::optional<std::vector<ShadowCullTimes>>, shadow_cull,
         About("Of the ways of shadows.culls, in their order; in no other time. Wall time in the process of the run, "
               "where the lists are checked")

@@ -65,6 +65,7 @@ CaseResult case_result(const config::Config& config, const Plan& whole, const Ca
   out.assigner_label = assigner.label();
   out.assigner_params = params_to_json(assigner.params);
   const config::PrecisionRequest& precision = config.precisions[plan.precision];
+  out.on_device = descriptor.on_device;
   out.conservative =
       assign::is_conservative(descriptor, assigner.params) && (precision.inflate || !precision.is_lossy());
   if (!counted.losses.empty())

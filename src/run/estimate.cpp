@@ -81,7 +81,7 @@ GroupCost cost_of_group(const config::Config& config, const Plan& plan, const Gr
   const PathFrames path = path_of(config, plan, group);
   const int steps = config.stability ? config.stability->steps : 0;
   GroupCost cost{counting_ns(config, plan.scenes[group.scene], group, path, path.count() + steps), 0.0};
-  const GroupPlan timed = timed_cases(group);
+  const GroupPlan timed = timed_cases(config, group);
   if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns, limits);
   return cost;
 }

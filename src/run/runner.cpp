@@ -4,14 +4,16 @@
 #include <random>
 #include <set>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "gpu/device/device.h"
 #include "os/machine.h"
 #include "run/case_result.h"
 #include "run/cases/path_frames.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/details_pass.h"
+#include "run/passes/device_pass.h"
 #include "run/passes/stability_pass.h"
 #include "run/passes/timing_pass.h"
 #include "run/scene_facts.h"
@@ -55,9 +57,13 @@ std::vector<int> fullest_frames(const GroupPlan& group, const AccuracyResult& co
 }
 
 // Methods that emulate an engine's shader or rasteriser are not timed: their time here says nothing about the engine's.
-bool is_timed(const CasePlan& case_plan) {
+bool emulates_gpu(const CasePlan& case_plan) {
   const config::Preset* preset = config::find_preset(case_plan.preset);
-  return preset == nullptr || !preset->assigns_on_gpu();
+  return preset != nullptr && preset->assigns_on_gpu();
+}
+
+bool is_timed(const config::Config& config, const CasePlan& case_plan) {
+  return !emulates_gpu(case_plan) && !method_of(config, case_plan).on_device;
 }
 
 // A group whose counts are complete but whose times are missing.
@@ -73,6 +79,7 @@ struct CountedGroup {
   std::vector<Vec3i> cells;             // of tiles that react, frame by frame
   std::vector<std::optional<StabilityResult>> stabilities;
   std::vector<std::optional<Details>> details;
+  std::vector<std::optional<DeviceTimes>> device_times;  // by case
 };
 
 class Run {
@@ -102,6 +109,7 @@ class Run {
     out.config_name = config_.name;
     out.tool = tool_facts();
     out.machine = machine_facts();
+    out.device = device_of_cases();
     if (config_.timing.measure) note_beginning(out);
     out.config = config_.resolved;
     out.skipped = plan_.skipped;
@@ -124,6 +132,14 @@ class Run {
     out.date = os::utc_now();
     out.machine.clock = os::clock_now();
     if (const std::optional<double> load = os::load_now()) out.machine.load = LoadFacts{*load, *load};
+  }
+
+  // The device, if a case runs on it.
+  std::optional<gpu::DeviceFacts> device_of_cases() const {
+    for (const GroupPlan& group : plan_.groups)
+      for (const CasePlan& case_plan : group.cases)
+        if (method_of(config_, case_plan).on_device && gpu::device_obstacle().empty()) return gpu::device().facts();
+    return std::nullopt;
   }
 
   GroupPlan unfinished_part(GroupPlan group) const {
@@ -167,7 +183,7 @@ class Run {
   }
 
   double timing_cost_of(const GroupPlan& group) const {
-    const GroupPlan timed = timed_cases(group);
+    const GroupPlan timed = timed_cases(config_, group);
     if (timed.cases.empty()) return 0.0;
     const GroupCost* cost = cost_of(group);
     return cost != nullptr ? cost->timing_ns : timing_cost(config_, timed);
@@ -200,11 +216,37 @@ class Run {
       time_waiting(out);
     if (stop_) return;
     try {
-      count_group(std::move(group), out);
+      count_group(group, out);
+    } catch (const gpu::DeviceError& error) {
+      gpu::close_device();
+      run_apart(group, error.message(), out);
     } catch (const Error& error) {
       throw Error(error.file(), name_of_group_ + (error.where().empty() ? "" : ": " + error.where()), error.message(),
                   error.code());
     }
+  }
+
+  // After a failure of the device: the group without its cases, then each method on the device alone. One that fails
+  // alone is skipped.
+  void run_apart(const GroupPlan& group, const std::string& reason, Result& out) {
+    std::vector<GroupPlan> parts(1, group);
+    std::erase_if(parts.front().cases,
+                  [&](const CasePlan& case_plan) { return method_of(config_, case_plan).on_device; });
+    for (const Method& method : methods_of(group)) {
+      GroupPlan part = group;
+      std::erase_if(part.cases, [&](const CasePlan& case_plan) {
+        return case_plan.method() != method || !method_of(config_, case_plan).on_device;
+      });
+      parts.push_back(std::move(part));
+    }
+    std::erase_if(parts, [](const GroupPlan& part) { return part.cases.empty(); });
+    if (parts.size() > 1) {
+      for (const GroupPlan& part : parts) run_group(part, out);
+      return;
+    }
+    for (const CasePlan& case_plan : group.cases)
+      out.skipped.push_back({case_plan.name, reason, false, case_plan.preset});
+    progress_.cases_done += group.cases.size();
   }
 
   double waiting_cost() const {
@@ -254,11 +296,28 @@ class Run {
       counted_group.details = details_pass(config_, group, path, data.scene, counted_group.counted, stop_);
       if (counted_group.details.empty()) return;
     }
-    counted_group.timed = timed_cases(group);
+    counted_group.timed = timed_cases(config_, group);
+    if (config_.timing.measure && !time_on_device(group, path, counted_group)) return;
     counted_group.group = std::move(group);
     if (!config_.timing.measure || counted_group.timed.cases.empty()) return add_cases(counted_group, {}, out);
     if (launcher_) return waiting_.push_back(std::move(counted_group));
     time_here(counted_group, path, out);
+  }
+
+  // False if it was stopped.
+  bool time_on_device(const GroupPlan& group, const PathFrames& path, CountedGroup& out) {
+    GroupPlan on_device = group;
+    std::erase_if(on_device.cases, [&](const CasePlan& case_plan) { return !method_of(config_, case_plan).on_device; });
+    if (on_device.cases.empty()) return true;
+    report_progress(group, "time on the device", 0.0);
+    std::vector<DeviceTimes> times = device_pass(config_, on_device, path, stop_);
+    if (times.empty()) return false;
+    auto next = times.begin();
+    for (const CasePlan& case_plan : group.cases) {
+      out.device_times.emplace_back();
+      if (method_of(config_, case_plan).on_device) out.device_times.back() = std::move(*next++);
+    }
+    return true;
   }
 
   void time_here(CountedGroup& counted_group, const PathFrames& path, Result& out) {
@@ -309,7 +368,8 @@ class Run {
       if (counted.tile_moves) finished.reaction = reaction_result(counted, i);
       if (!counted.stabilities.empty()) finished.stability = counted.stabilities[i];
       if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
-      if (!timings.empty() && is_timed(counted.group.cases[i])) {
+      if (!counted.device_times.empty()) finished.device = std::move(counted.device_times[i]);
+      if (!timings.empty() && is_timed(config_, counted.group.cases[i])) {
         finished.timing = timings[next_timed++];
         finished.timing->session = session_;
         finished.timing->shadow_culls = finished.shadow_culls;
@@ -377,8 +437,8 @@ class Run {
 
 }  // namespace
 
-GroupPlan timed_cases(GroupPlan group) {
-  std::erase_if(group.cases, [](const CasePlan& case_plan) { return !is_timed(case_plan); });
+GroupPlan timed_cases(const config::Config& config, GroupPlan group) {
+  std::erase_if(group.cases, [&](const CasePlan& case_plan) { return !is_timed(config, case_plan); });
   return group;
 }
 

@@ -22,8 +22,9 @@ struct GroupCost {
   double counting_ns = 0.0, timing_ns = 0.0;
 };
 
-// A group's timed cases: of the presets only those of engines that assign on the CPU.
-GroupPlan timed_cases(GroupPlan group);
+// A group's cases that the processor's clock times: not those that run on a device, and of the presets only those of
+// engines that assign on the CPU.
+GroupPlan timed_cases(const config::Config& config, GroupPlan group);
 
 // Callbacks of the runner while it works. All are optional.
 struct Listener {

@@ -202,13 +202,6 @@ std::vector<CameraPath> paths_without_jitter(const Scene& scene, const PathReque
   return paths;
 }
 
-// Radical inverse: the digits of `index` in a base, mirrored at the point: 6 is 110 in base 2, so 0.011.
-double mirrored_digits(int index, int base) {
-  double value = 0.0;
-  for (double digit = 1.0 / base; index > 0; index /= base, digit /= base) value += digit * (index % base);
-  return value;
-}
-
 }  // namespace
 
 CameraMoments camera_moments(const Scene& scene, const Camera& camera, const PathRequest& request) {
@@ -248,12 +241,6 @@ std::optional<FieldOfView> field_of_view(const std::string& text) {
   const double degrees = std::stod(found[1]);
   if (!(degrees > 0.0 && degrees < 180.0)) return std::nullopt;
   return FieldOfView{degrees * 3.14159265358979323846 / 180.0, found[2] == "h"};
-}
-
-std::vector<Vec2d> halton_jitter(int count) {
-  std::vector<Vec2d> offsets;
-  for (int i = 1; i <= count; ++i) offsets.emplace_back(mirrored_digits(i, 2) - 0.5, mirrored_digits(i, 3) - 0.5);
-  return offsets;
 }
 
 }  // namespace clusterbench::scene

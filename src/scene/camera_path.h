@@ -68,7 +68,4 @@ std::vector<std::string> cameras_left_out(const Scene& scene, const PathRequest&
 // Time of the last move or change of lights; none if they never change.
 std::optional<double> last_change_of_lights_s(const Scene& scene);
 
-// The first `count` points of the Halton sequence in bases 2 and 3, minus a half: offsets within a pixel.
-std::vector<Vec2d> halton_jitter(int count);
-
 }  // namespace clusterbench::scene

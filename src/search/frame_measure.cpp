@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "measure/lists/lights_in_view_counts.h"
 #include "measure/lists/occupancy.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 namespace clusterbench::search {
 namespace {

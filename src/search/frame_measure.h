@@ -28,7 +28,7 @@ enum class Measure : std::uint8_t {
 struct MeasureRow {
   Measure measure;
   const char* name;
-  const char* figure;         // in the table of figures (result/case_figure.h); "": no row has it
+  const char* figure;         // in the table of figures (result/figures/case_figure.h); "": no row has it
   const char* pointer;        // to the number in a case of a result, for documents
   const char* meaning;        // of one frame; the table's words are for all frames of a path
   const char* own_unit = "";  // "": the figure's

@@ -7,7 +7,7 @@
 
 #include "cli/tool.h"
 #include "config/limit_rules.h"
-#include "result/figure_table.h"
+#include "result/figures/figure_table.h"
 
 namespace clusterbench::test {
 namespace {

@@ -1,7 +1,7 @@
 // Budgets as people write them.
 
 #include "config/limit_rules.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 
 #include "config/config.h"
 #include "config/grid_json.h"
+#include "config/presets/preset_library.h"
 #include "config/presets/preset_text.h"
 #include "config/presets/preset_tiles.h"
 #include "core/error.h"

@@ -1,4 +1,4 @@
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 
 #include <gtest/gtest.h>
 

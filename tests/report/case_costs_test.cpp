@@ -1,7 +1,7 @@
 // Costs of a result's cases, and what is ranked by them.
 
 #include "report/cases/case_costs.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What `size --engine` says of an engine agrees with its preset: version, limits, and what the limits are compiled to.
 
-#include "report/sizing/engine_limits.h"
+#include "report/size_report/engine_limits.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 
 namespace clusterbench::report {
 namespace {

@@ -336,7 +336,9 @@ TEST_F(EveryLeaf, that_is_mangled_is_refused_with_its_place_or_read_as_it_is) {
       ++read;
     } catch (const Error& error) {
       EXPECT_TRUE(is_at(error.where(), one.pointer)) << said << ": " << error.where();
-      EXPECT_FALSE(violations.empty()) << said << ": " << error.message();
+      // Signed numbers end with 64 bits, for which JSON Schema has no word.
+      const bool is_beyond_signed = error.message().find("-9223372036854775808") != std::string::npos;
+      EXPECT_TRUE(!violations.empty() || is_beyond_signed) << said << ": " << error.message();
       ++refused;
     }
     const std::string holder = one.pointer.substr(0, one.pointer.rfind('/'));

@@ -9,9 +9,10 @@
 #include <map>
 #include <set>
 
+#include "assign/contract/assigner.h"
 #include "places.h"
 #include "report/results/result_record.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 #include "run/cases/plan.h"
 #include "run/runner.h"
 
@@ -80,6 +81,14 @@ Formula mean_along(const std::string& pointer) {
 }
 Formula largest_along(const std::string& pointer) {
   return [pointer](const Recount& of) { return largest_of(of.list(pointer)); };
+}
+
+// The median over the rounds.
+Value device_floor(const Recount& of) {
+  const std::vector<double> run = of.list("/device/run_ns/samples"), floor = of.list("/device/floor_ns/samples");
+  std::vector<double> ratios;
+  for (std::size_t round = 0; round < run.size(); ++round) ratios.push_back(run[round] / floor[round]);
+  return median_of(ratios);
 }
 
 // --- Cells ---
@@ -284,7 +293,8 @@ double divergence(const Recount& of, const std::string& name) {
 
 Value gpu_ns(const Recount& of) {
   if (of.json("/cost") == nullptr) return {};
-  double ns = *of.at("/buffers/upload_bytes/mean") / of.config("/cost/upload_gb_per_s") +
+  const bool is_uploaded = !of.one["assigner"].value("on_device", false);
+  double ns = (is_uploaded ? *of.at("/buffers/upload_bytes/mean") : 0.0) / of.config("/cost/upload_gb_per_s") +
               of.at("/buffers/traffic_bytes/mean").value_or(0.0) / of.config("/cost/memory_gb_per_s");
   for (const auto& [name, weight] : of.result["config"]["cost"]["weights"].items()) {
     if (weight == 0.0 || of.json(name == "volume" ? "/shading" : "/samples/" + name) == nullptr) continue;
@@ -371,6 +381,10 @@ Formulas formulas_of_times() {
       {"builds_per_frame", recorded("/timing/builds_per_frame")},
       {"write_floor", recorded("/timing/write_floor_ns")},
       {"floor_ratio", recorded("/timing/floor_ratio")},
+      {"device_us", median_us("/device/run_ns")},
+      {"device_upload_us", median_us("/device/upload_ns")},
+      {"device_readback_us", median_us("/device/readback_ns")},
+      {"device_floor", device_floor},
       {"instructions", frame_instructions},
       {"assign_instructions", recorded("/count/instructions_per_frame/assign")},
       {"convert_instructions", recorded("/count/instructions_per_frame/convert")},
@@ -522,12 +536,39 @@ constexpr const char* k_street = R"({"name": "street", "scenes": [{"path": "../s
               {"kind": "world", "cells": [16, 4, 16]},
               {"kind": "cascades", "levels": 2, "cells": [8, 8, 8], "finest": 0.5}],
     "assigners": ["exact-fast", "aabb-fast", {"name": "naive-bounds", "flaw": "tile-division"}, "world-grid-fast",
-                  "cascades-fast", "z-binning"],
+                  "cascades-fast", "z-binning", "on-a-device"],
     "storages": ["packed", {"name": "fixed", "cap": 4}, "bitfield"],
     "precision": ["float32", "half"], "stability": {"steps": 60},
     "samples": {"opaque": {"divisor": 4, "ground": "lowest"}, "fog": {"froxels": [16, 9, 8]}},
     "cost": {"weights": {"fog": 2}}, "shading": {"samples": 256},
     "timing": {"rounds": 3, "launches": 1, "min_time_ms": 0.05, "frames": 4}})";
+
+// The lists of aabb; of the rounds the device takes less and less.
+class OnADevice final : public assign::ListAssigner {
+ public:
+  explicit OnADevice(const assign::Params& params) : aabb_(assign::find_assigner("aabb")->make(params)) {}
+  void build(const grid::Grid& grid, const assign::LightKinds& kinds) override { aabb_->build(grid, kinds); }
+  void assign(const assign::FrameInput& input, assign::Lists& out) override {
+    aabb_->assign(input, out);
+    spans_ = {0.9 * spans_.upload_ns, 0.8 * spans_.run_ns, 0.7 * spans_.readback_ns, 3, 64};
+  }
+  std::uint64_t tests_done() const override { return aabb_->tests_done(); }
+  const assign::DeviceSpans* device_spans() const override { return &spans_; }
+  double device_floor_ns() override { return 0.5 * spans_.run_ns + 10.0; }
+  std::size_t scratch_bytes() const override { return aabb_->scratch_bytes(); }
+
+ private:
+  std::unique_ptr<assign::ListAssigner> aabb_;
+  assign::DeviceSpans spans_{1e4, 1e6, 1e5, 3, 64};
+};
+
+assign::AssignerDescriptor on_a_device() {
+  assign::AssignerDescriptor descriptor = *assign::find_assigner("aabb");
+  descriptor.name = "on-a-device";
+  descriptor.on_device = true;
+  descriptor.make = assign::make_list_assigner<OnADevice>;
+  return descriptor;
+}
 
 constexpr const char* k_mix = R"({"name": "mix", "scenes": [{"path": "../scenes/mix.glb", "frames": 2}],
     "viewport": [192, 108],
@@ -564,6 +605,7 @@ TEST(FigureRecount, has_a_formula_for_every_figure_and_none_beside) {
 }
 
 TEST(FigureRecount, of_real_runs_gives_every_figure_of_each_case) {
+  const assign::AssignerRegistration device_method(on_a_device());
   Known known;
   for (const char* config : {k_street, k_mix, k_few_samples}) recount(measured(config), known);
   // Exact arithmetic decides all, grids that stay are built once, and no pair comes back on this path.

@@ -1,5 +1,5 @@
 #include "report/gates/limits.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 #include <gtest/gtest.h>
 

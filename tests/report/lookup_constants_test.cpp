@@ -1,6 +1,6 @@
 // What a shader gets to look cells up with.
 
-#include "report/sizing/lookup_constants.h"
+#include "report/shader_code/lookup_constants.h"
 
 #include <gtest/gtest.h>
 

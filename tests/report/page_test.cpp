@@ -6,7 +6,7 @@
 #include "records.h"
 #include "report/page/page_figures.h"
 #include "report/page/page_template.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 namespace clusterbench::report {
 namespace {

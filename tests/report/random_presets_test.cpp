@@ -10,7 +10,7 @@
 #include <fstream>
 #include <set>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/random.h"
 #include "effort.h"
 #include "report/cases/json_values.h"

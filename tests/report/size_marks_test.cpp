@@ -10,7 +10,7 @@
 #include "records.h"
 #include "report/result_by_hand.h"
 #include "report/results/result_record.h"
-#include "report/sizing/size.h"
+#include "report/size_report/size_report.h"
 
 namespace clusterbench::report {
 namespace {

@@ -12,7 +12,7 @@
 #include "report/result_by_hand.h"
 #include "report/results/result_record.h"
 #include "report/shader_compiler.h"
-#include "report/sizing/size.h"
+#include "report/size_report/size_report.h"
 
 namespace clusterbench::report {
 namespace {

@@ -13,7 +13,7 @@
 #include "report/result_by_hand.h"
 #include "report/results/result_record.h"
 #include "report/shader_compiler.h"
-#include "report/sizing/size.h"
+#include "report/size_report/size_report.h"
 #include "run/grid_facts.h"
 
 namespace clusterbench::report {

@@ -1,4 +1,4 @@
-#include "report/sizing/size.h"
+#include "report/size_report/size_report.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

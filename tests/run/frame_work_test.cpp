@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "places.h"
 #include "run/findings/gate.h"
 #include "run/scene_facts.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "gpu/device/device.h"
 #include "run/runner.h"
 
 namespace clusterbench::run {
@@ -81,7 +82,15 @@ class OnDevice final : public GivesAll<true> {
   const assign::DeviceSpans* device_spans() const override { return &spans_; }
 
  private:
-  assign::DeviceSpans spans_{100.0, 2000.0, 30.0};
+  double device_floor_ns() override { return 500.0; }
+
+  assign::DeviceSpans spans_{100.0, 2000.0, 30.0, 3, 64};
+};
+
+// A method whose device is lost.
+class OnLostDevice final : public GivesAll<true> {
+ public:
+  void fill(const assign::FrameInput&, AllLights<true>&) override { throw gpu::DeviceError("the device was lost"); }
 };
 
 // aabb's lists, each type's lights from the last to the first.
@@ -188,19 +197,45 @@ TEST(LightStructures, a_method_that_cannot_run_here_is_skipped_with_its_reason) 
   EXPECT_EQ(all.result.cases.size(), 1u);
 }
 
+TEST(LightStructures, a_device_that_fails_ends_the_cases_of_that_method_alone) {
+  assign::AssignerDescriptor works = all_lights<true>(), fails = works;
+  works.name = "works";
+  works.make_own = [](const assign::Params&) -> std::unique_ptr<assign::StructureAssigner> {
+    return std::make_unique<OnDevice>();
+  };
+  fails.name = "fails";
+  fails.make_own = [](const assign::Params&) -> std::unique_ptr<assign::StructureAssigner> {
+    return std::make_unique<OnLostDevice>();
+  };
+  works.on_device = fails.on_device = true;
+  const assign::AssignerRegistration first(works), second(fails);
+  const Ran all = ran(R"("assigners": ["works", "fails", "aabb"])");
+  EXPECT_EQ(all.result.cases.size(), 2u);
+  EXPECT_TRUE(all.of("works", "own").device);
+  EXPECT_TRUE(all.of("aabb", "packed").timing);
+  ASSERT_EQ(all.result.skipped.size(), 1u);
+  EXPECT_TRUE(all.result.skipped[0].name.ends_with("/fails/no lists")) << all.result.skipped[0].name;
+  EXPECT_EQ(all.result.skipped[0].reason, "the device was lost");
+}
+
 TEST(LightStructures, a_device_tells_its_spans_by_its_own_clock) {
   assign::AssignerDescriptor descriptor = all_lights<true>();
   descriptor.make_own = [](const assign::Params&) -> std::unique_ptr<assign::StructureAssigner> {
     return std::make_unique<OnDevice>();
   };
+  descriptor.on_device = true;
   const assign::AssignerRegistration registration(descriptor);
   const Ran all = ran(R"("assigners": ["all-lights", "aabb"])");
-  const std::optional<DeviceTimes>& device = all.of("all-lights", "own").timing->device;
+  EXPECT_FALSE(all.of("all-lights", "own").timing) << "the time of a process that waits";
+  const std::optional<DeviceTimes>& device = all.of("all-lights", "own").device;
   ASSERT_TRUE(device);
   EXPECT_EQ(device->upload_ns.samples, (std::vector<double>{100.0, 100.0})) << "two rounds, per frame";
   EXPECT_EQ(device->run_ns.median, 2000.0);
   EXPECT_EQ(device->readback_ns.median, 30.0);
-  EXPECT_FALSE(all.of("aabb", "packed").timing->device);
+  EXPECT_EQ(device->dispatches, 3.0);
+  EXPECT_EQ(device->floor_ratio, 4.0);
+  EXPECT_FALSE(all.of("aabb", "packed").device);
+  EXPECT_TRUE(all.of("aabb", "packed").timing);
 }
 
 TEST(LightStructures, lists_in_any_order_measure_as_ascending_ones) {

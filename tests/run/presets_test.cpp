@@ -10,7 +10,7 @@
 #include <fstream>
 #include <set>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "places.h"
 #include "run/cases/plan.h"
 #include "run/findings/gate.h"

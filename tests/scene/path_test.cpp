@@ -122,17 +122,6 @@ TEST(CameraPaths, jitter_is_gone_through_frame_by_frame_and_again_from_its_first
   EXPECT_EQ(seen, (std::vector<Vec2d>{a, b, a, b, a}));
 }
 
-TEST(CameraPaths, halton_offsets_are_mirrored_digits_within_a_pixel) {
-  const std::vector<Vec2d> offsets = halton_jitter(6);
-  ASSERT_EQ(offsets.size(), 6u);
-  const double x[] = {0.5, 0.25, 0.75, 0.125, 0.625, 0.375};
-  const double y[] = {1.0 / 3, 2.0 / 3, 1.0 / 9, 4.0 / 9, 7.0 / 9, 2.0 / 9};
-  for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_DOUBLE_EQ(offsets[i].x + 0.5, x[i]);
-    EXPECT_NEAR(offsets[i].y + 0.5, y[i], 1e-15);
-  }
-}
-
 TEST(CameraPaths, without_an_animated_camera_each_static_one_gives_one_frame) {
   const auto paths = camera_paths(scene_with_cameras(false), {});
   ASSERT_EQ(paths.size(), 2u);

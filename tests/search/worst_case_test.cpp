@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 #include "run/records/records.h"
 #include "run/runner.h"
 #include "scene/writers/write_gltf.h"

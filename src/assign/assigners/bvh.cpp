@@ -118,6 +118,9 @@ class Tree {
     return groups * k_width;
   }
   std::size_t size() const { return order_.size(); }
+  std::span<const Group> groups() const { return {groups_.data(), order_.empty() ? 0 : begin_[levels_]}; }
+  std::span<const std::uint32_t> level_begins() const { return {begin_.data(), order_.empty() ? 0 : levels_ + 1}; }
+  std::span<const std::uint32_t> order() const { return order_; }
   std::size_t capacity_bytes() const {
     return groups_.capacity() * sizeof(Group) + order_.capacity() * sizeof(std::uint32_t);
   }
@@ -362,6 +365,22 @@ class LightHierarchy final : public LightStructure {
     }
     return {{"boxes", k_box_bytes, boxes, limit().index_entries, k_width},
             {"order", sizeof(std::uint32_t), lights, ranges.size()}};
+  }
+  std::optional<ShaderBuffers> shader_buffers() const override {
+    ShaderBuffers shader{.walk = Walk::hierarchy, .looked_up = LookedUp::position};
+    std::vector<Group> groups;
+    std::vector<std::uint32_t> order;
+    for (const Tree& tree : trees.of_type) {
+      ShaderBuffers::Tree& levels = shader.trees.emplace_back();
+      levels.first_in_order = static_cast<std::uint32_t>(order.size());
+      for (const std::uint32_t begin : tree.level_begins())
+        levels.level_begins.push_back(begin + static_cast<std::uint32_t>(groups.size()));
+      groups.insert(groups.end(), tree.groups().begin(), tree.groups().end());
+      order.insert(order.end(), tree.order().begin(), tree.order().end());
+    }
+    shader.add("boxes", std::span<const Group>(groups));
+    shader.add("order", std::span<const std::uint32_t>(order));
+    return shader;
   }
   std::uint32_t index_bits() const override { return 8 * k_box_bytes; }
   bool has_cells() const override { return false; }

@@ -81,6 +81,18 @@ struct FrameInput {
 // The time of a device (a GPU) for one frame by its own clock, within the time of the assignment.
 struct DeviceSpans {
   double upload_ns = 0.0, run_ns = 0.0, readback_ns = 0.0;
+  // Steps of its work that wait for each other, and the bytes of the result that the last of them leave.
+  std::uint32_t dispatches = 0;
+  std::uint64_t result_bytes = 0;
+
+  DeviceSpans& operator+=(const DeviceSpans& more) {
+    upload_ns += more.upload_ns;
+    run_ns += more.run_ns;
+    readback_ns += more.readback_ns;
+    dispatches += more.dispatches;
+    result_bytes += more.result_bytes;
+    return *this;
+  }
 };
 
 class Assigner {
@@ -101,6 +113,9 @@ class Assigner {
   virtual std::uint64_t fallbacks() const { return 0; }
   // Times of the last assign; null if nothing runs on a device.
   virtual const DeviceSpans* device_spans() const { return nullptr; }
+  // Measures on its device, by the same clock, as many steps as those of the last assign that do nothing, of which the
+  // last writes as many bytes as its result has.
+  virtual double device_floor_ns() { return 0.0; }
   // Present size of the scratch memory.
   virtual std::size_t scratch_bytes() const = 0;
 };

@@ -2,9 +2,11 @@
 // The result of an assigner, as a shader reads it.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "assign/contract/lists.h"
+#include "assign/contract/shader_buffers.h"
 #include "grid/grid.h"
 #include "grid/occupied_cells.h"
 
@@ -74,6 +76,9 @@ class LightStructure {
   // up to those of use() and limit(), unless a storage drops pairs or has room that its parameters reserve.
   virtual std::vector<BufferNeed> buffers() const = 0;
   virtual std::uint32_t index_bits() const = 0;  // of an entry
+  // The bytes of its buffers in the current frame, as many as use() counts: a copy, not timed. None where shaders do
+  // not read it.
+  virtual std::optional<ShaderBuffers> shader_buffers() const { return std::nullopt; }
 
   // Do a sample's lights depend on its cell alone: of the grid, or of occupied_cells()?
   virtual bool has_cells() const = 0;

@@ -73,6 +73,12 @@ Reads OccupiedLists::reads_at(const grid::Sample& sample, grid::Log2 way) const 
   return cell < 0 ? Reads{} : packed_->reads_of_cell(static_cast<std::uint32_t>(cell));
 }
 
+std::optional<ShaderBuffers> OccupiedLists::shader_buffers() const {
+  std::optional<ShaderBuffers> shader = packed_->shader_buffers();
+  if (!has_slices(bounds_)) shader->looked_up = LookedUp::tile;
+  return shader;
+}
+
 grid::OccupiedCells OccupiedLists::occupied_cells() const {
   grid::OccupiedCells out;
   out.counts = grid_->cells();

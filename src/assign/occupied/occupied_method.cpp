@@ -11,16 +11,12 @@
 #include "geom/single_precision/touch_tests.h"
 
 namespace clusterbench::assign {
-namespace {
 
-// The grid's tiles without its slices: the frame's depths limit them.
 grid::Grid tiles_of(const grid::Grid& grid) {
   grid::ScreenGrid tiles = grid.screen();
   tiles.slices.boundaries = {tiles.slices.boundaries.front(), std::numeric_limits<float>::max()};
   return {tiles};
 }
-
-}  // namespace
 
 ParamSpec tile_test_param() {
   return {.name = "test",

@@ -13,6 +13,9 @@
 
 namespace clusterbench::assign {
 
+// The grid's tiles without its slices: the frame's depths limit them.
+grid::Grid tiles_of(const grid::Grid& grid);
+
 // `test`, for methods with a list per tile: "planes", "aabb" or "both" (the default).
 ParamSpec tile_test_param();
 std::vector<ParamSpec> tiled_params();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <vector>
 
 #include "assign/storages/list_encodings.h"
@@ -34,6 +35,8 @@ class IndexArray {
     return value;
   }
   std::uint32_t bits() const { return bits_; }
+  // Of the first entries.
+  std::span<const unsigned char> bytes(std::size_t entries) const { return {bytes_.data(), entries * (bits_ / 8)}; }
 
  private:
   std::vector<unsigned char> bytes_;

@@ -69,6 +69,12 @@ class Linked final : public Storage {
     return Reads::of(1, sizeof(std::uint32_t)) + Reads::of(nodes, sizeof(Node));
   }
 
+  std::optional<ShaderBuffers> shader_buffers() const override {
+    ShaderBuffers shader{.walk = Walk::linked};
+    shader.add("nodes", std::span<const Node>(nodes_).first(used_));
+    shader.add("heads", std::span<const std::uint32_t>(heads_));
+    return shader;
+  }
   std::uint32_t cell_count() const override { return static_cast<std::uint32_t>(heads_.size()); }
 
   std::uint32_t index_bits() const override { return 8 * sizeof(Node); }

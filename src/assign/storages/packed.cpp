@@ -117,6 +117,23 @@ class Packed final : public Storage {
     return block + Reads::of(1, header_size()) + Reads::of(lights, bits_ / 8);
   }
 
+  std::optional<ShaderBuffers> shader_buffers() const override {
+    ShaderBuffers shader{.walk = Walk::packed,
+                         .index_bytes = bits_ / 8,
+                         .header_words = header_size() / 4,
+                         .has_wide_counts = is_wide_,
+                         .has_boxes = has_boxes(),
+                         .is_sparse = is_sparse_};
+    std::vector<std::uint32_t> words;
+    for (std::uint32_t header = 0; header < header_count_; ++header) {
+      add_header(header_at(header), words);
+      words.resize((header + std::size_t{1}) * shader.header_words);
+    }
+    shader.add("indices", indices_.bytes(entries_));
+    shader.add("headers", std::span<const std::uint32_t>(words));
+    if (is_sparse_) shader.add("header_blocks", std::span<const Block>(blocks_));
+    return shader;
+  }
   std::uint32_t cell_count() const override { return cell_count_; }
 
   std::uint32_t index_bits() const override { return bits_; }
@@ -149,6 +166,16 @@ class Packed final : public Storage {
     const auto least = static_cast<std::uint32_t>((is_wide_ ? sizeof(WideHeader) : sizeof(Header)) +
                                                   (has_boxes() ? sizeof(std::uint32_t) : 0));
     return std::max(least, least_header_size_);
+  }
+
+  // As it is uploaded, but for what belongs to other kinds of objects.
+  void add_header(const Counts& header, std::vector<std::uint32_t>& words) const {
+    words.push_back(header.offset);
+    if (is_wide_)
+      words.insert(words.end(), {header.points, header.spots});
+    else
+      words.push_back(header.points | header.spots << 16);
+    if (has_boxes()) words.push_back(header.boxes);
   }
 
   bool has_limit() const { return max_entries_ > 0; }

@@ -78,6 +78,18 @@ class Runs final : public Storage {
     const Header& header = headers_[cell];
     return Reads::of(1, header_size()) + Reads::of(header.all(), run_bytes());
   }
+  std::optional<ShaderBuffers> shader_buffers() const override {
+    ShaderBuffers shader{.walk = Walk::runs,
+                         .index_bytes = bits_ / 8,
+                         .header_words = header_size() / 4,
+                         .has_wide_counts = is_wide_,
+                         .has_boxes = !lights_.boxes.empty()};
+    std::vector<std::uint32_t> words;
+    for (const Header& header : headers_) add_header(header, words);
+    shader.add("runs", indices_.bytes(2 * static_cast<std::size_t>(count_)));
+    shader.add("headers", std::span<const std::uint32_t>(words));
+    return shader;
+  }
   std::uint32_t cell_count() const override { return static_cast<std::uint32_t>(headers_.size()); }
   std::uint32_t index_bits() const override { return 2 * bits_; }
 
@@ -99,6 +111,16 @@ class Runs final : public Storage {
   std::uint32_t header_size() const { return (is_wide_ ? 12 : 8) + (lights_.boxes.empty() ? 0 : 4); }
   std::uint64_t header_bytes() const { return headers_.size() * std::uint64_t{header_size()}; }
   std::uint32_t run_count() const { return static_cast<std::uint32_t>(runs_.size() / 2); }
+
+  // As it is uploaded.
+  void add_header(const Header& header, std::vector<std::uint32_t>& words) const {
+    words.push_back(header.offset);
+    if (is_wide_)
+      words.insert(words.end(), {header.points, header.spots});
+    else
+      words.push_back(header.points | header.spots << 16);
+    if (!lights_.boxes.empty()) words.push_back(header.boxes);
+  }
 
   // Lists may come in any order; ascending order gives the fewest runs.
   std::span<const std::uint32_t> ascending(std::span<const std::uint32_t> list) {

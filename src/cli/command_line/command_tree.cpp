@@ -6,7 +6,7 @@
 
 #include "assign/contract/assigner.h"
 #include "config/grid_json.h"
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "grid/grid.h"
 #include "report/exports/exports.h"
 #include "scene/generators/generate.h"

@@ -9,10 +9,12 @@
 #include "assign/contract/assigner.h"
 #include "assign/contract/storage.h"
 #include "cli/command_line/commands.h"
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "cull/pre_cull_spec.h"
+#include "gpu/device/device_facts.h"
 #include "report/history/history.h"
-#include "result/figure_table.h"
+#include "result/figures/figure_table.h"
+#include "run/records/records.h"
 #include "scene/generators/generate.h"
 
 namespace clusterbench::cli {
@@ -59,6 +61,7 @@ Json to_json(const assign::AssignerDescriptor& assigner) {
               {"conservative", assigner.conservative},
               {"exact", assigner.exact},
               {"naive", assigner.naive},
+              {"on_device", assigner.on_device},
               {"orthographic", assigner.orthographic},
               {"params", to_json(assigner.params)}};
 }
@@ -129,8 +132,24 @@ Json everything() {
   return all;
 }
 
+Json to_json(const gpu::DeviceFacts& device) {
+  Json out = result::to_json(run::record_of(device));
+  if (!device.obstacle.empty()) out["obstacle"] = device.obstacle;
+  return out;
+}
+
+// They are looked for only where somebody asks for them: that loads every driver.
+Json devices() {
+  const gpu::DeviceList found = gpu::list_devices();
+  if (found.devices.empty()) throw Error("", "list devices", found.obstacle);
+  Json list = Json::array();
+  for (const gpu::DeviceFacts& device : found.devices) list.push_back(to_json(device));
+  return list;
+}
+
 std::string word_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value.get<double>());
   return text;
@@ -189,6 +208,27 @@ void print_presets(const Json& presets) {
   for (const Json& preset : presets) print_preset(preset);
 }
 
+void print_devices(const Json& devices) {
+  std::cout << "devices (for --device: the number, the UUID or a part of the name)\n";
+  std::size_t index = 0;
+  for (const Json& device : devices) {
+    std::cout << "  " << index++ << "  " << word_of(device["name"]) << " [" << word_of(device["type"]) << ", "
+              << word_of(device["driver"]) << ", Vulkan " << word_of(device["vulkan"]) << "]\n      "
+              << word_of(device["uuid"]) << "\n";
+    if (device.contains("obstacle")) {
+      std::cout << "      cannot be used: it " << word_of(device["obstacle"]) << "\n";
+      continue;
+    }
+    std::cout << "      subgroups of " << word_of(device["subgroup_size"]) << ", groups of at most "
+              << word_of(device["max_group_size"]) << " with " << word_of(device["shared_bytes"])
+              << " bytes, buffers of at most " << device["max_buffer_bytes"].get<std::uint64_t>() << " bytes; "
+              << (device["timestamp_bits"] == 0 ? std::string("no clock")
+                                                : "clock ticks of " + word_of(device["timestamp_period_ns"]) + " ns")
+              << (device["rounds_to_nearest"] ? "; rounds to nearest" : "; cannot be asked to round to nearest")
+              << "\n";
+  }
+}
+
 void print_figure(const Json& figure) {
   const Json& uses = figure["uses"];
   std::cout << "  " << word_of(figure["name"]) << " [" << word_of(figure["unit"]) << "]: " << word_of(figure["meaning"])
@@ -212,6 +252,10 @@ void print_figures(const Json& figures) {
 void print_section(const Json& all, const char* section) {
   if (std::string_view(section) == "presets") {
     print_presets(all[section]);
+    return;
+  }
+  if (std::string_view(section) == "devices") {
+    print_devices(all[section]);
     return;
   }
   if (std::string_view(section) == "figures") {
@@ -239,13 +283,16 @@ void print_section(const Json& all, const char* section) {
   }
 }
 
-constexpr const char* k_sections[] = {"assigners", "storages", "grids", "pre_culls", "scenes", "presets", "figures"};
+constexpr const char* k_devices = "devices";  // only by name
+constexpr const char* k_sections[] = {"assigners", "storages", "grids",   "pre_culls",
+                                      "scenes",    "presets",  "figures", k_devices};
 
 // `wanted`: "" for all sections.
 void print_text(const Json& all, const std::string& wanted) {
   for (const char* section : k_sections)
-    if (wanted.empty() || wanted == section) print_section(all, section);
+    if (wanted.empty() ? section != k_devices : wanted == section) print_section(all, section);
   if (!wanted.empty()) return;
+  std::cout << "Devices of this machine, for methods that run on one: clusterbench list devices\n";
   std::cout << "All keys of a configuration: docs/configuration.md, or `clusterbench schema config`\n";
 }
 
@@ -254,16 +301,18 @@ void print_text(const Json& all, const std::string& wanted) {
 void add_list(Command& program, Action& action) {
   Command command = program.add_command("list",
                                         "Assigners, storages, grids, pre-culls, scenes and presets that exist, with "
-                                        "their parameters, and figures of cases");
+                                        "their parameters, figures of cases, and devices");
   auto as_json = std::make_shared<bool>(false);
   auto section = std::make_shared<std::string>();
   command
-      .add_option("SECTION", *section, "Only these: assigners, storages, grids, pre_culls, scenes, presets or figures")
+      .add_option("SECTION", *section,
+                  "Only these: assigners, storages, grids, pre_culls, scenes, presets, figures or devices")
       .one_of({std::begin(k_sections), std::end(k_sections)});
   command.add_flag("--json", *as_json, "As JSON");
   command.when_named([as_json, section, &action] {
     action = [as_json, section] {
-      const Json all = everything();
+      Json all = everything();
+      if (*section == k_devices) all[k_devices] = devices();
       if (*as_json)
         std::cout << (section->empty() ? all : all[*section]).dump(2) << "\n";
       else

@@ -24,9 +24,9 @@
 #include "os/stop_signals.h"
 #include "report/cases/nothing_seen.h"
 #include "report/documents/result_file.h"
-#include "report/sizing/engine_settings.h"
+#include "report/size_report/engine_settings.h"
+#include "report/size_report/size_report.h"
 #include "report/sizing/found_frames.h"
-#include "report/sizing/size.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -46,10 +46,7 @@ Json to_json(const MethodSamples& method) {
            {"warm_each", method.warm_each},
            {"cold_each", method.cold_each},
            {"warm_passes", method.warm_passes},
-           {"stores", stores},
-           {"upload_ns", method.upload_ns},
-           {"run_ns", method.run_ns},
-           {"readback_ns", method.readback_ns}};
+           {"stores", stores}};
   if (!method.cull_warm_ns.empty())
     out["cull"] = {
         {"warm_ns", method.cull_warm_ns}, {"warm_each", method.cull_warm_each}, {"cold_each", method.cull_cold_each}};
@@ -67,10 +64,7 @@ MethodSamples method_samples(const Json& json) {
                        json.at("warm_each"),
                        json.at("cold_each"),
                        json.at("warm_passes"),
-                       {},
-                       json.at("upload_ns"),
-                       json.at("run_ns"),
-                       json.at("readback_ns")};
+                       {}};
   for (const Json& store : json.at("stores")) method.stores.push_back(store_samples(store));
   if (json.contains("cull")) {
     method.cull_warm_ns = json["cull"].at("warm_ns").get<std::vector<double>>();

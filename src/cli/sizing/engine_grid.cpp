@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "report/sizing/engine_limits.h"
+#include "report/size_report/engine_limits.h"
 
 namespace clusterbench::cli {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "cli/options/search_options.h"
 #include "cli/sizing/size_counting.h"
-#include "report/sizing/size.h"
+#include "report/size_report/size_report.h"
 
 namespace clusterbench::cli {
 

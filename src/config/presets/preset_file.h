@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset.h"
 
 namespace clusterbench::config {
 

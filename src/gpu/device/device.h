@@ -9,9 +9,16 @@
 #include <span>
 #include <string>
 
+#include "core/error.h"
 #include "gpu/device/device_facts.h"
 
 namespace clusterbench::gpu {
+
+// The device failed, or cannot hold what a method needs. It ends the cases that run on it, and not the run.
+class DeviceError : public Error {
+ public:
+  explicit DeviceError(std::string message) : Error("", "device", std::move(message)) {}
+};
 
 // A compute pipeline: a shader with the size of its groups and its mode (both specialization constants).
 using Kernel = std::uint32_t;
@@ -37,6 +44,8 @@ class Device {
 
 // Which device device() opens, as chosen_device() takes it. Closes the one that is open.
 void use_device(const std::string& wanted);
+// After a failure: the next device() opens it anew. Nothing that was made with the old one may be left.
+void close_device();
 // The device of this process: opened at the first call, and never closed but by use_device(). All methods and threads
 // of a run share it. Throws Error with the reason if there is none.
 Device& device();
@@ -46,17 +55,20 @@ std::string device_obstacle();
 // The buffers that kernels see, by binding. Memory is kept, and grows.
 class Buffers {
  public:
-  static constexpr std::uint32_t k_bindings = 12;
+  static constexpr std::uint32_t k_bindings = 15;
 
   explicit Buffers(Device& device);
   ~Buffers();
   Buffers(const Buffers&) = delete;
   Buffers& operator=(const Buffers&) = delete;
 
-  // At least this many bytes; if it has to grow, the contents are lost. Not while commands are recorded. Throws Error
-  // (with `name` and the numbers) above the device's limit or where it has no memory left.
+  // At least this many bytes; if it has to grow, the contents are lost. Not while commands are recorded. Throws
+  // DeviceError (with `name` and the numbers) above the device's limit or where it has no memory left.
   void reserve(std::uint32_t binding, std::uint64_t bytes, const char* name);
   std::uint64_t bytes(std::uint32_t binding) const;
+  // Kernels see another set's buffer at this binding, until that set makes more room there or is gone. Not while
+  // commands are recorded.
+  void borrow(std::uint32_t binding, const Buffers& from);
   std::uint64_t all_bytes() const;
 
   struct Impl;
@@ -81,15 +93,19 @@ class Commands {
   // Data for a buffer: copied now, arrives as a step.
   void upload(std::uint32_t binding, const void* data, std::uint64_t bytes);
   void fill(std::uint32_t binding, std::uint32_t word, std::uint64_t bytes);
+  // The dispatches that follow see these buffers in place of the constructor's.
+  void use(Buffers& buffers);
   // Groups are spread over two dimensions beyond 65,535: shaders number them by group_index().
   void dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t groups);
   void barrier();
-  // The time of all steps until now, by the device's clock. Up to 8 in one recording.
+  // The time of all steps until now, by the device's clock. Up to 64 in one recording.
   void mark();
+  // Steps until now that take turns on the device: dispatches and fills.
+  std::uint32_t steps() const { return steps_; }
   // The first bytes of a buffer, for downloaded() after run().
   void download(std::uint32_t binding, std::uint64_t bytes);
 
-  // Throws Error if the device fails.
+  // Throws DeviceError if the device fails.
   void run();
   // Between two marks; 0 without a clock.
   double ns_between(std::uint32_t first, std::uint32_t last) const;
@@ -100,6 +116,7 @@ class Commands {
   Device::Impl& device_;
   Buffers::Impl& buffers_;
   std::unique_lock<std::recursive_mutex> turn_;
+  std::uint32_t steps_ = 0;
 };
 
 }  // namespace clusterbench::gpu

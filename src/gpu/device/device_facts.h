@@ -33,6 +33,8 @@ struct DeviceFacts {
   // be the next number on either side.
   bool rounds_to_nearest = false;
   bool has_full_subgroups = false;
+  // Sums, minima and bitwise operations over subgroups, and broadcasts within them.
+  bool has_subgroup_arithmetic = false;
 
   // Its times are those of a processor.
   bool is_software() const { return type == DeviceType::software; }

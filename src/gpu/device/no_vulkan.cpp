@@ -39,11 +39,13 @@ void Buffers::reserve(std::uint32_t, std::uint64_t, const char*) {}
 std::uint64_t Buffers::bytes(std::uint32_t) const {
   return 0;
 }
+void Buffers::borrow(std::uint32_t, const Buffers&) {}
 std::uint64_t Buffers::all_bytes() const {
   return 0;
 }
 Commands::Commands(Device& device, Buffers& buffers) : device_(device.impl()), buffers_(buffers.impl()) {}
 void Commands::upload(std::uint32_t, const void*, std::uint64_t) {}
+void Commands::use(Buffers&) {}
 void Commands::fill(std::uint32_t, std::uint32_t, std::uint64_t) {}
 void Commands::dispatch(Kernel, const Arguments&, std::uint64_t) {}
 void Commands::barrier() {}

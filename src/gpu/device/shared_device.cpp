@@ -7,44 +7,51 @@ namespace clusterbench::gpu {
 namespace {
 
 struct Shared {
+  std::mutex busy;  // while one of the functions below uses the others
   std::string wanted;
   std::unique_ptr<Device> device;
   std::string obstacle;
 };
 
-// Never closed: at the end of the process a driver's own statics are gone before these would be, and drivers crash.
+// Never destroyed: at the end of the process the threads of some drivers have ended before its statics are destroyed.
 Shared& shared() {
   static Shared& only = *new Shared;
   return only;
 }
 
-std::recursive_mutex& sharing() {
-  static std::recursive_mutex only;
-  return only;
+Device& opened(Shared& now) {
+  if (!now.device) now.device = std::make_unique<Device>(now.wanted);
+  return *now.device;
 }
 
 }  // namespace
 
 void use_device(const std::string& wanted) {
-  const std::lock_guard lock(sharing());
   Shared& now = shared();
+  const std::lock_guard turn(now.busy);
   if (now.wanted == wanted) return;
-  now = Shared{wanted, nullptr, ""};
+  now.wanted = wanted;
+  now.device.reset();
+  now.obstacle.clear();
+}
+
+void close_device() {
+  const std::lock_guard turn(shared().busy);
+  shared().device.reset();
 }
 
 Device& device() {
-  const std::lock_guard lock(sharing());
   Shared& now = shared();
-  if (!now.device) now.device = std::make_unique<Device>(now.wanted);
-  return *now.device;
+  const std::lock_guard turn(now.busy);
+  return opened(now);
 }
 
 std::string device_obstacle() {
-  const std::lock_guard lock(sharing());
   Shared& now = shared();
+  const std::lock_guard turn(now.busy);
   if (now.device || !now.obstacle.empty()) return now.obstacle;
   try {
-    device();
+    opened(now);
   } catch (const Error& error) {
     now.obstacle = error.message();
   }

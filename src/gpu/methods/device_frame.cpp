@@ -2,14 +2,18 @@
 
 #include <algorithm>
 
+#include "assign/bounds/cell_bounds.h"
 #include "assign/bounds/cell_extents.h"
 #include "core/arrays.h"
+#include "core/error.h"
+#include "geom/single_precision/box_tests.h"
 
 namespace clusterbench::gpu {
 namespace {
 
 // A radius and a range whose squares are finite, and beyond all distances of the domain: for lights without an end.
 constexpr float k_endless = 1e19f;
+constexpr std::uint32_t k_group = 64;
 
 // Roundoffs of ball_touches_box() (common.glsl), as of assign::CellAabbs, which does the same steps. A device that does
 // not round to nearest may be off by two roundoffs a step.
@@ -27,7 +31,16 @@ void upload_all(Commands& commands, Binding binding, const std::vector<T>& data)
 }  // namespace
 
 std::vector<assign::ParamSpec> device_params() {
-  return assign::light_params();
+  std::vector<assign::ParamSpec> params = assign::light_params();
+  params.push_back(
+      {.name = "cells",
+       .summary =
+           "where the bounds of cells are made when the projection changes. host: and uploaded; device: of the grid's "
+           "boundaries, the same boxes and nearly as small spheres around cells (Operation Black Mesa)",
+       .default_value = std::string("host"),
+       .unit = "",
+       .choices = {"host", "device"}});
+  return params;
 }
 
 std::string no_device(const assign::Params&) {
@@ -35,25 +48,37 @@ std::string no_device(const assign::Params&) {
 }
 
 DeviceFrame::DeviceFrame(const assign::Params& params)
-    : device_(&gpu::device()), buffers_(*device_), test_(params, k_ball_roundoffs * steps_of(device_->facts())) {}
+    : device_(&gpu::device()),
+      buffers_(*device_),
+      test_(params, k_ball_roundoffs * steps_of(device_->facts())),
+      is_built_on_device_(params.values().contains("cells") && params.text("cells") == "device") {}
 
 void DeviceFrame::build(const grid::Grid& grid, const assign::LightKinds& kinds) {
-  const assign::CellExtents extents = assign::cell_extents(grid);
-  std::vector<assign::Interval> all = extents.x.extents;
-  arguments_ = {};
-  arguments_.first_row = static_cast<std::uint32_t>(all.size());
-  all.insert(all.end(), extents.y.extents.begin(), extents.y.extents.end());
-  arguments_.first_slice = static_cast<std::uint32_t>(all.size());
-  all.insert(all.end(), extents.z.extents.begin(), extents.z.extents.end());
   const Vec3i cells = grid.cells();
+  arguments_ = {};
   arguments_.cells = grid.cell_count();
   arguments_.columns = static_cast<std::uint32_t>(cells.x);
   arguments_.rows = static_cast<std::uint32_t>(cells.y);
   arguments_.slices = static_cast<std::uint32_t>(cells.z);
-  arguments_.column_pitch = static_cast<std::uint32_t>(extents.x.pitch);
-  arguments_.row_pitch = static_cast<std::uint32_t>(extents.y.pitch);
+  arguments_.column_pitch = arguments_.columns;
+  arguments_.row_pitch = arguments_.rows;
+  arguments_.first_row = arguments_.columns * arguments_.slices;
+  arguments_.first_slice = arguments_.first_row + arguments_.rows * arguments_.slices;
   arguments_.cone_slack = k_cone_slack * steps_of(device_->facts());
+  arguments_.is_orthographic = grid.screen().tiles.orthographic ? 1 : 0;
+  if (is_built_on_device_)
+    build_on_device(grid, kinds);
+  else
+    build_on_host(grid, kinds);
+}
+
+void DeviceFrame::build_on_host(const grid::Grid& grid, const assign::LightKinds& kinds) {
+  const assign::CellExtents extents = assign::cell_extents(grid);
+  std::vector<assign::Interval> all = extents.x.extents;
+  all.insert(all.end(), extents.y.extents.begin(), extents.y.extents.end());
+  all.insert(all.end(), extents.z.extents.begin(), extents.z.extents.end());
   test_.start_grid(grid, kinds);
+  has_cell_balls_ = !test_.cell_balls().empty();
 
   std::vector<Vec4> around_cells;
   for (const geom::Ball& ball : test_.cell_balls())
@@ -66,29 +91,55 @@ void DeviceFrame::build(const grid::Grid& grid, const assign::LightKinds& kinds)
   commands.run();
 }
 
+void DeviceFrame::build_on_device(const grid::Grid& grid, const assign::LightKinds& kinds) {
+  const grid::ScreenGrid& screen = grid.screen();
+  std::vector<float> boundaries = screen.tiles.x;
+  boundaries.insert(boundaries.end(), screen.tiles.y.begin(), screen.tiles.y.end());
+  boundaries.insert(boundaries.end(), screen.slices.boundaries.begin(), screen.slices.boundaries.end());
+  has_cell_balls_ = kinds.spots && test_.tests_cones();
+  const std::uint64_t intervals = arguments_.first_slice + arguments_.slices, cells = arguments_.cells;
+  buffers_.reserve(Binding::depths, bytes_of(boundaries), "boundaries of cells");
+  buffers_.reserve(Binding::bounds, intervals * sizeof(assign::Interval), "bounds of cells");
+  if (has_cell_balls_) buffers_.reserve(Binding::cell_balls, cells * sizeof(Vec4), "balls around cells");
+  const Kernel bounds = device_->kernel("bounds", k_group, has_cell_balls_ ? 1 : 0);
+  Commands commands(*device_, buffers_);
+  upload_all(commands, Binding::depths, boundaries);
+  commands.barrier();
+  commands.dispatch(bounds, arguments_, (cells + k_group - 1) / k_group);
+  commands.run();
+}
+
 void DeviceFrame::prepare(const view::LightArrays& lights) {
-  test_.start_frame(lights);
+  if (!lights.spots.empty() && test_.tests_cones() && !has_cell_balls_)
+    throw Error("", "lights", "have spots, which the build was not told of", ExitCode::internal);
   pack_balls(lights);
   pack_cones(lights);
-  arguments_.lights = lights.points.count + lights.spots.count;
+  pack_boxes(lights);
+  arguments_.lights = count_of(lights);
+  arguments_.first_box = lights.boxes.first;
   arguments_.points = lights.points.count;
   arguments_.words = (arguments_.lights + 31) / 32;
   arguments_.tests_cones = cones_.empty() ? 0 : 1;
   buffers_.reserve(Binding::balls, bytes_of(balls_), "balls of lights");
   buffers_.reserve(Binding::cones, bytes_of(cones_), "cones of spots");
+  buffers_.reserve(Binding::box_bounds, bytes_of(boxes_), "bounds of boxes");
 }
 
 void DeviceFrame::upload(Commands& commands) const {
   upload_all(commands, Binding::balls, balls_);
   upload_all(commands, Binding::cones, cones_);
+  upload_all(commands, Binding::box_bounds, boxes_);
   commands.barrier();
 }
 
 void DeviceFrame::pack_balls(const view::LightArrays& lights) {
   balls_.clear();
-  for (std::uint32_t light = 0; light < lights.boxes.first; ++light) {
+  lights_in_view_ = 0;
+  for (std::uint32_t light = 0; light < count_of(lights); ++light) {
     const geom::Ball ball = test_.ball(lights, light, k_ball_roundoffs * steps_of(device_->facts()));
-    const bool is_empty = lights.is_empty(light);
+    const bool is_empty =
+        lights.is_empty(light) || (view_ && view_->misses(test_.ball(lights, light, assign::k_cell_box_roundoffs)));
+    lights_in_view_ += is_empty ? 0 : 1;
     balls_.push_back(
         {ball.center.x, ball.center.y, ball.center.z, is_empty ? -1.0f : std::min(ball.radius, k_endless)});
   }
@@ -105,8 +156,20 @@ void DeviceFrame::pack_cones(const view::LightArrays& lights) {
   }
 }
 
+// As box-bounds: the device only compares the bounds, so all roundoffs are the host's.
+void DeviceFrame::pack_boxes(const view::LightArrays& lights) {
+  boxes_.clear();
+  const float roundoffs = test_.padding(geom::k_bounds_roundoffs - view::k_given_roundoffs);
+  for (std::uint32_t light = lights.boxes.first; light < count_of(lights); ++light) {
+    const geom::PaddedBox box = geom::padded(lights.box(light), roundoffs * (0x1p-24f * lights.reach[light]));
+    const Vec3f lo = box.box.center - box.extent, hi = box.box.center + box.extent;
+    boxes_.push_back({lo.x, lo.y, lo.z, 0.0f});
+    boxes_.push_back({hi.x, hi.y, hi.z, 0.0f});
+  }
+}
+
 std::size_t DeviceFrame::host_bytes() const {
-  return bytes_of(balls_, cones_) + test_.capacity_bytes();
+  return bytes_of(balls_, cones_, boxes_) + test_.capacity_bytes();
 }
 
 }  // namespace clusterbench::gpu

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assign/contract/light_test.h"
+#include "assign/grid_cull/view_cull.h"
 #include "gpu/methods/frame_arguments.h"
 
 namespace clusterbench::gpu {
@@ -14,8 +15,17 @@ class DeviceFrame {
  public:
   explicit DeviceFrame(const assign::Params& params);
 
-  // Uploads the bounds of a frustum grid's cells, and the balls around them if cones are tested.
+  // Makes the bounds of a frustum grid's cells, and the balls around them if cones are tested: on the host, or on the
+  // device of the grid's boundaries.
   void build(const grid::Grid& grid, const assign::LightKinds& kinds);
+  // From now on prepare() packs lights beside this grid's view as empty ones, as engines do that cull on the host.
+  void cull(const grid::ScreenGrid& grid) { view_ = assign::ViewCull(grid); }
+  // From now on prepare() also packs boxes, by the axis-aligned boxes around them.
+  void take_boxes() { takes_boxes_ = true; }
+  // The number of lights that prepare() packs.
+  std::uint32_t count_of(const view::LightArrays& lights) const {
+    return takes_boxes_ ? lights.size() : lights.boxes.first;
+  }
   // Packs a frame's lights, and makes room for them. Before commands are recorded, as all that makes room.
   void prepare(const view::LightArrays& lights);
   // Records the upload of the lights of the last prepare(), and the barrier behind it.
@@ -26,6 +36,8 @@ class DeviceFrame {
   const Buffers& buffers() const { return buffers_; }
   // Of the last build() and prepare().
   const FrameArguments& arguments() const { return arguments_; }
+  // Lights of the last prepare() that are neither empty nor beside the view.
+  std::uint32_t lights_in_view() const { return lights_in_view_; }
   std::size_t host_bytes() const;
 
  private:
@@ -35,18 +47,26 @@ class DeviceFrame {
   struct Cone {
     Vec4 apex_range, axis_cosine, sine;
   };
+  void build_on_host(const grid::Grid& grid, const assign::LightKinds& kinds);
+  void build_on_device(const grid::Grid& grid, const assign::LightKinds& kinds);
   void pack_balls(const view::LightArrays& lights);
   void pack_cones(const view::LightArrays& lights);
+  void pack_boxes(const view::LightArrays& lights);
 
   Device* device_;
   Buffers buffers_;
   assign::LightTest test_;
+  bool is_built_on_device_, has_cell_balls_ = false;
+  std::optional<assign::ViewCull> view_;
+  std::uint32_t lights_in_view_ = 0;
+  bool takes_boxes_ = false;
   FrameArguments arguments_;
   std::vector<Vec4> balls_;
   std::vector<Cone> cones_;
+  std::vector<Vec4> boxes_;  // the least and the greatest corner of each
 };
 
-// The parameters of every method: those of light tests.
+// The parameters of methods that take a grid's cells: those of light tests, and `cells`, where their bounds are made.
 std::vector<assign::ParamSpec> device_params();
 // The reason why no method can run here; "" if they can.
 std::string no_device(const assign::Params& params);

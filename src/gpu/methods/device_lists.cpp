@@ -15,7 +15,10 @@ constexpr std::uint32_t k_first_capacity = 1u << 16;
 }  // namespace
 
 DeviceLists::DeviceLists(const assign::Params& params)
-    : frame_(params), sum_blocks_(kernel("sum_blocks", k_block)), sum_sums_(kernel("sum_sums", k_block)) {}
+    : frame_(params),
+      floor_(frame_.device()),
+      sum_blocks_(kernel("sum_blocks", k_block)),
+      sum_sums_(kernel("sum_sums", k_block)) {}
 
 void DeviceLists::build(const grid::Grid& grid, const assign::LightKinds& kinds) {
   frame_.build(grid, kinds);
@@ -31,7 +34,7 @@ void DeviceLists::assign(const assign::FrameInput& input, assign::Lists& out) {
   tests_ = 0;
   out.lights.clear();
   const std::uint32_t cells = frame_.arguments().cells;
-  if (input.lights.boxes.first == 0) {
+  if (frame_.count_of(input.lights) == 0) {
     out.begin.assign(cells + 1, 0);
     return;
   }
@@ -73,9 +76,11 @@ std::uint32_t DeviceLists::run_all(const view::LightArrays& lights, std::uint32_
   spans_.upload_ns = commands.ns_between(0, 1);
   spans_.run_ns = commands.ns_between(1, 2);
   spans_.readback_ns = commands.ns_between(2, 3);
+  spans_.dispatches = commands.steps();
   tests_ = tests_of(arguments);
   const auto begins = commands.downloaded(0);
   out.begin.assign(begins.begin(), begins.end());
+  spans_.result_bytes = (begins.size() + begins.back()) * std::uint64_t{k_word};
   return begins.back();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The steps that methods with packed lists share: upload, counts of each cell, their sums, lists, and back to the host.
 
+#include "gpu/methods/device_floor.h"
 #include "gpu/methods/device_frame.h"
 
 namespace clusterbench::gpu {
@@ -12,6 +13,7 @@ class DeviceLists : public assign::ListAssigner {
 
   std::uint64_t tests_done() const final { return tests_; }
   const assign::DeviceSpans* device_spans() const final { return &spans_; }
+  double device_floor_ns() final { return floor_.measured_ns(buffers(), spans_.dispatches, spans_.result_bytes); }
   std::size_t scratch_bytes() const final { return frame_.host_bytes() + frame_.buffers().all_bytes(); }
 
  protected:
@@ -25,6 +27,7 @@ class DeviceLists : public assign::ListAssigner {
   // Tests of lights against cells, or what they are tested against first: one row of a shader's work.
   virtual std::uint64_t tests_of(const FrameArguments& arguments) const = 0;
 
+  DeviceFrame& frame() { return frame_; }
   Buffers& buffers() { return frame_.buffers(); }
   Kernel kernel(const char* shader, std::uint32_t group_size, Mode mode = Mode::count) {
     return frame_.device().kernel(shader, group_size, mode);
@@ -37,6 +40,7 @@ class DeviceLists : public assign::ListAssigner {
   void read_lists(std::uint32_t entries, assign::Lists& out);
 
   DeviceFrame frame_;
+  DeviceFloor floor_;
   Kernel sum_blocks_, sum_sums_;
   std::uint32_t capacity_ = 0;  // of all lists
   std::uint64_t tests_ = 0;

@@ -16,15 +16,33 @@ struct FrameArguments {
   std::uint32_t words = 0;                        // of 32 lights each
   std::uint32_t capacity = 0;                     // of a cell (fixed), of all lists (fill)
   float cone_slack = 0.0f;
+  std::uint32_t picture_width = 0, is_orthographic = 0;
+  std::uint32_t first_box = 0;  // boxes follow points and spots
 
   operator Arguments() const {  // NOLINT(google-explicit-constructor)
     return {{cells, lights, points, tests_cones, columns, rows, slices, column_pitch, row_pitch, first_row, first_slice,
-             words, capacity, std::bit_cast<std::uint32_t>(cone_slack)}};
+             words, capacity, std::bit_cast<std::uint32_t>(cone_slack), picture_width, is_orthographic, first_box}};
   }
 };
 
 // Bindings of the buffers.
-enum Binding : std::uint32_t { balls, bounds, cell_balls, cones, counts, begins, lists, sums, offsets, masks, dropped };
+enum Binding : std::uint32_t {
+  balls,
+  bounds,
+  cell_balls,
+  cones,
+  counts,
+  begins,
+  lists,
+  sums,
+  offsets,
+  masks,
+  dropped,
+  depths,
+  tile_sides,
+  tiles,
+  box_bounds
+};
 
 // Modes of the shaders that come in two or three.
 enum Mode : std::uint32_t { count, fill, fixed };

@@ -35,7 +35,9 @@ assign::AssignerDescriptor gpu_cells_descriptor() {
   return {
       .name = "gpu-cells",
       .summary = "on the GPU, an invocation per cell over all lights: counted, summed, written",
-      .source = "DaveH355, Operation Black Mesa",
+      .source =
+          "Operation Black Mesa (an offset and a count per cell into one list); DaveH355, whose lists have a fixed "
+          "length",
       .kinds = {grid::Kind::frustum},
       .all_pairs = true,
       .by_name = true,

@@ -38,7 +38,9 @@ assign::AssignerDescriptor gpu_group_descriptor() {
   return {
       .name = "gpu-group",
       .summary = "on the GPU, a group per 64 cells: lights in shared batches, against the block of cells first",
-      .source = "Avalanche, Ola Olsson",
+      .source =
+          "Ortiz 2018, A Primer On Efficient Rendering Algorithms & Clustered Shading (lights in shared batches); a "
+          "coarse pass first: Wicked Engine 2018, Optimizing tile-based light culling",
       .kinds = {grid::Kind::frustum},
       .by_name = true,
       .on_device = true,

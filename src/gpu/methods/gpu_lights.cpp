@@ -32,7 +32,9 @@ assign::AssignerDescriptor gpu_lights_descriptor() {
       .summary =
           "on the GPU, a group per light: bits scattered into the cells of its rectangle in each slice, lists from the "
           "bits",
-      .source = "Bevy, Ola Olsson",
+      .source =
+          "Bevy 0.19 (on the GPU: slice by slice, inside the light's rectangle, by a rasteriser; its lists are "
+          "counted, summed and written); bits: Godot 4",
       .kinds = {grid::Kind::frustum},
       .by_name = true,
       .on_device = true,

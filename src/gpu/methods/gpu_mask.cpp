@@ -28,7 +28,7 @@ assign::AssignerDescriptor gpu_mask_descriptor() {
   return {
       .name = "gpu-mask",
       .summary = "on the GPU, an invocation per cell and light: bits by ballot, lists from the bits",
-      .source = "Wicked Engine, Doom (2016)",
+      .source = "Granite (a ballot for 32 lights and a tile); bits of tiles without ballots: Wicked Engine",
       .kinds = {grid::Kind::frustum},
       .all_pairs = true,
       .by_name = true,

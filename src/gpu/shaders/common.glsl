@@ -26,11 +26,16 @@ layout(push_constant) uniform FrameArguments {
   uint words;                      // of 32 lights each
   uint capacity;                   // of a cell (k_fixed), of all lists (k_fill)
   float cone_slack;
+  uint picture_width, is_orthographic;
+  uint first_box;                  // boxes follow points and spots
 } frame;
 
+#ifndef CELLS_ACCESS
+#define CELLS_ACCESS readonly  // bounds.comp writes them
+#endif
 layout(std430, set = 0, binding = 0) readonly buffer Balls { vec4 balls[]; };           // centre, padded radius; < 0: empty
-layout(std430, set = 0, binding = 1) readonly buffer Bounds { vec2 bounds[]; };         // of columns, rows, slices
-layout(std430, set = 0, binding = 2) readonly buffer CellBalls { vec4 cell_balls[]; };  // only for cones
+layout(std430, set = 0, binding = 1) CELLS_ACCESS buffer Bounds { vec2 bounds[]; };         // of columns, rows, slices
+layout(std430, set = 0, binding = 2) CELLS_ACCESS buffer CellBalls { vec4 cell_balls[]; };  // only for cones
 layout(std430, set = 0, binding = 3) readonly buffer Cones { vec4 cones[]; };           // three for each spot
 layout(std430, set = 0, binding = 4) buffer Counts { uint counts[]; };                  // by cell
 layout(std430, set = 0, binding = 5) buffer Begins { uint begins[]; };                  // by cell, and the end

@@ -14,9 +14,8 @@ void Buffers::reserve(std::uint32_t binding, std::uint64_t bytes, const char* na
   if (bytes <= memory.bytes) return;
   const DeviceFacts& facts = impl_->device.facts;
   if (bytes > facts.max_buffer_bytes)
-    throw Error("", "device",
-                std::string(name) + " need a buffer of " + std::to_string(bytes) + " bytes; " + facts.name +
-                    " allows " + std::to_string(facts.max_buffer_bytes) + "; use fewer lights or cells");
+    throw DeviceError(std::string(name) + " need a buffer of " + std::to_string(bytes) + " bytes; " + facts.name +
+                      " allows " + std::to_string(facts.max_buffer_bytes) + "; use fewer lights or cells");
   check_memory(name, bytes, 1);
   impl_->device.free(memory);
   memory = impl_->device.allocate(bytes, Place::device);
@@ -25,6 +24,10 @@ void Buffers::reserve(std::uint32_t binding, std::uint64_t bytes, const char* na
 
 std::uint64_t Buffers::bytes(std::uint32_t binding) const {
   return impl_->at.at(binding).bytes;
+}
+
+void Buffers::borrow(std::uint32_t binding, const Buffers& from) {
+  impl_->bind(binding, from.impl_->at.at(binding).buffer);
 }
 
 std::uint64_t Buffers::all_bytes() const {
@@ -61,8 +64,8 @@ Buffers::Impl::~Impl() {
   vkDestroyDescriptorPool(device.device, pool, nullptr);
 }
 
-void Buffers::Impl::bind(std::uint32_t binding) const {
-  const VkDescriptorBufferInfo info{at[binding].buffer, 0, VK_WHOLE_SIZE};
+void Buffers::Impl::bind(std::uint32_t binding, VkBuffer buffer) const {
+  const VkDescriptorBufferInfo info{buffer, 0, VK_WHOLE_SIZE};
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
   write.dstSet = set;

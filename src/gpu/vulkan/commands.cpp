@@ -46,11 +46,18 @@ void Commands::upload(std::uint32_t binding, const void* data, std::uint64_t byt
 }
 
 void Commands::fill(std::uint32_t binding, std::uint32_t word, std::uint64_t bytes) {
+  ++steps_;
   if (bytes > 0) vkCmdFillBuffer(device_.commands, buffers_.at.at(binding).buffer, 0, bytes, word);
+}
+
+void Commands::use(Buffers& buffers) {
+  vkCmdBindDescriptorSets(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_.layout, 0, 1, &buffers.impl().set,
+                          0, nullptr);
 }
 
 void Commands::dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t groups) {
   if (groups == 0) return;
+  ++steps_;
   const std::uint64_t in_a_row = std::min(groups, k_groups_in_a_row);
   vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_.pipelines.at(kernel));
   vkCmdPushConstants(device_.commands, device_.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof arguments.words,

@@ -108,17 +108,18 @@ void Device::Impl::create_layout() {
 }
 
 Kernel Device::Impl::kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode) {
-  const auto [found, is_new] = kernels.try_emplace({shader, group_size, mode}, static_cast<Kernel>(pipelines.size()));
-  if (is_new) pipelines.push_back(create_pipeline(shader, group_size, mode));
-  return found->second;
+  const std::lock_guard lock(turn);
+  const std::tuple key{shader, group_size, mode};
+  if (const auto found = kernels.find(key); found != kernels.end()) return found->second;
+  pipelines.push_back(create_pipeline(shader, group_size, mode));
+  return kernels[key] = static_cast<Kernel>(pipelines.size() - 1);
 }
 
 VkPipeline Device::Impl::create_pipeline(const std::string& shader, std::uint32_t group_size,
                                          std::uint32_t mode) const {
   if (group_size > facts.max_group_size)
-    throw Error("", "device",
-                facts.name + " runs at most " + std::to_string(facts.max_group_size) + " invocations in a group; " +
-                    shader + " needs " + std::to_string(group_size));
+    throw DeviceError(facts.name + " runs at most " + std::to_string(facts.max_group_size) +
+                      " invocations in a group; " + shader + " needs " + std::to_string(group_size));
   const std::span<const std::uint32_t> code = shader_code(shader, facts.rounds_to_nearest);
   VkShaderModuleCreateInfo module_info{};
   module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
@@ -157,7 +158,7 @@ std::uint32_t Device::Impl::memory_type(std::uint32_t allowed, Place place) cons
   for (const VkMemoryPropertyFlags flags : {needed | liked, needed})
     for (std::uint32_t i = 0; i < memory_properties.memoryTypeCount; ++i)
       if ((allowed >> i & 1) != 0 && (memory_properties.memoryTypes[i].propertyFlags & flags) == flags) return i;
-  throw Error("", "device", facts.name + " has no memory that buffers can use");
+  throw DeviceError(facts.name + " has no memory that buffers can use");
 }
 
 Memory Device::Impl::allocate(std::uint64_t bytes, Place place) const {

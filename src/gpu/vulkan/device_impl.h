@@ -31,7 +31,7 @@ struct Device::Impl {
   void free(Memory& memory) const;
   Kernel kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode);
 
-  static constexpr std::uint32_t k_marks = 10;
+  static constexpr std::uint32_t k_marks = 66;
 
   std::recursive_mutex turn;  // of who records or adds a kernel
   DeviceFacts facts;
@@ -61,7 +61,8 @@ struct Buffers::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  void bind(std::uint32_t binding) const;
+  void bind(std::uint32_t binding) const { bind(binding, at[binding].buffer); }
+  void bind(std::uint32_t binding, VkBuffer buffer) const;
 
   Device::Impl& device;
   VkDescriptorPool pool = VK_NULL_HANDLE;

@@ -97,6 +97,9 @@ PhysicalDevice facts_of(VkPhysicalDevice device) {
   facts.rounds_to_nearest =
       properties12.shaderRoundingModeRTEFloat32 != 0 && properties12.shaderSignedZeroInfNanPreserveFloat32 != 0;
   facts.has_full_subgroups = features13.subgroupSizeControl != 0 && features13.computeFullSubgroups != 0;
+  constexpr VkSubgroupFeatureFlags k_arithmetic = VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
+  facts.has_subgroup_arithmetic = (properties11.subgroupSupportedOperations & k_arithmetic) == k_arithmetic &&
+                                  (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
   found.queue_family = compute_family(families);
   if (found.queue_family < count) facts.timestamp_bits = families[found.queue_family].timestampValidBits;
   facts.obstacle = found.queue_family == count ? "has no queue that computes" : limit_obstacle(limits);

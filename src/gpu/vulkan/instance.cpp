@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "gpu/device/device.h"
 
 namespace clusterbench::gpu {
 namespace {
@@ -124,9 +125,8 @@ void create(Instance& made) {
 void check(VkResult result, const char* call) {
   if (result == VK_SUCCESS) return;
   const char* reason = meaning(result);
-  throw Error("", "device",
-              std::string(reason != nullptr ? reason : "the driver reported an error") + " (" + call + ": VkResult " +
-                  std::to_string(result) + ")");
+  throw DeviceError(std::string(reason != nullptr ? reason : "the driver reported an error") + " (" + call +
+                    ": VkResult " + std::to_string(result) + ")");
 }
 
 Objections objections() {

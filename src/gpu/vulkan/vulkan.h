@@ -9,7 +9,7 @@
 
 namespace clusterbench::gpu {
 
-// Throws Error with the call's name and the meaning of the result, unless it is VK_SUCCESS.
+// Throws DeviceError with the call's name and the meaning of the result, unless it is VK_SUCCESS.
 void check(VkResult result, const char* call);
 
 // The loader and an instance, opened at the first call and closed at the end of the process.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "depth/depth_image.h"
 #include "measure/samples/shading.h"
 #include "measure/statistics/frame_cost.h"
@@ -168,7 +168,7 @@ std::optional<WholeFrame> whole_frame(const Case& result_case, const Json& confi
 
 bool makes_lists_on_gpu(const Case& result_case) {
   const config::Preset* preset = config::find_preset(result_case.preset.value_or(""));
-  return preset != nullptr && preset->assigns_on_gpu();
+  return runs_on_device(result_case) || (preset != nullptr && preset->assigns_on_gpu());
 }
 
 void add_costs(std::vector<Case>& cases, const Json& config) {

@@ -8,7 +8,7 @@
 
 #include "measure/samples/shading.h"
 #include "measure/statistics/frame_cost.h"
-#include "report/cases/sample_sets.h"
+#include "report/cases/case_samples.h"
 #include "result/case.h"
 
 namespace clusterbench::report {
@@ -35,7 +35,7 @@ struct WholeFrame {
 // and for a result without a model.
 std::optional<WholeFrame> whole_frame(const result::Case& result_case, const nlohmann::ordered_json& config);
 
-// Whether a case is of a preset whose engine makes its lists on a GPU.
+// Whether a case is of a preset whose engine makes its lists on a GPU, or its own method runs on a device.
 bool makes_lists_on_gpu(const result::Case& result_case);
 
 // Samples that need fewer lights cannot show that the missed share is at most k_most_unlit: a single missed light would

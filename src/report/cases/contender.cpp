@@ -6,7 +6,7 @@
 #include "assign/contract/assigner.h"
 #include "report/cases/columns.h"
 #include "result/at.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 #include "run/cases/case_names.h"
 
 namespace clusterbench::report {
@@ -60,6 +60,10 @@ bool samples_search(const Case& result_case) {
   return assigner == nullptr ? result_case.samples_search.value_or(false) : assigner->own_is_searched();
 }
 
+bool runs_on_device(const Case& result_case) {
+  return result_case.assigner.on_device.value_or(false);
+}
+
 bool is_at_surfaces(const std::string& assigner) {
   const assign::AssignerDescriptor* method = assign::find_assigner(assigner);
   return method != nullptr && method->at_surfaces;
@@ -91,7 +95,7 @@ run::Contender contender_of(const Case& result_case, RankBy by) {
                      result_case.scene,
                      view_of(result_case),
                      costs_of(result_case, by),
-                     loses_nothing_seen(result_case) && !samples_search(result_case),
+                     loses_nothing_seen(result_case) && !samples_search(result_case) && !runs_on_device(result_case),
                      block_of(result_case),
                      {},
                      {},

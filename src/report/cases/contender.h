@@ -18,10 +18,10 @@ RankBy rank_by(const result::Result& result);  // from its configuration
 bool loses_nothing_seen(const result::Case& result_case);
 
 // A case that loses lights, or whose samples search the structure, is not eligible: the cost of the search was not
-// measured. Overshade is that of the ranking samples if there are any, else of points of the whole view. By cost, the
-// time interval of a case is moved by the modelled cost; without timing it is the modelled cost alone. Overshade is
-// part of the cost. A case without this cost is not eligible: if an engine makes its lists on a GPU, their time is
-// unknown.
+// measured. Nor is one whose method runs on a device. Overshade is that of the ranking samples if there are any, else
+// of points of the whole view. By cost, the time interval of a case is moved by the modelled cost; without timing it is
+// the modelled cost alone. Overshade is part of the cost. A case without this cost is not eligible: if an engine makes
+// its lists on a GPU, their time is unknown.
 run::Contender contender_of(const result::Case& result_case, RankBy by = RankBy::frame_time);
 
 // From the method (assign/contract/assigner.h).
@@ -32,6 +32,9 @@ bool draws_lights(const result::Case& result_case);
 
 // Whether each sample searches the structure for lights: only the model prices that, so these cases rank separately.
 bool samples_search(const result::Case& result_case);
+
+// Whether the method runs on a device, whose times are not those of the processor: these cases rank separately.
+bool runs_on_device(const result::Case& result_case);
 
 // Whether a method's lists contain only lights of visible opaque surfaces.
 bool is_at_surfaces(const std::string& assigner);

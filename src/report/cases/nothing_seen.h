@@ -10,7 +10,7 @@
 
 namespace clusterbench::report {
 
-// Whether samples (report/cases/sample_sets.h) rank the cases.
+// Whether samples (report/cases/case_samples.h) rank the cases.
 enum class RankedBy : std::uint8_t { samples, no_samples };
 
 inline constexpr const char* k_all_lights_dark = "all lights in view are dark (intensity 0 or black) in all frames";

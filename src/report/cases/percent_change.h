@@ -5,7 +5,7 @@
 #include <string>
 
 #include "config/limit_rules.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 namespace clusterbench::report {
 

@@ -10,12 +10,13 @@
 #include "measure/statistics/side_by_side.h"
 #include "report/cases/case_costs.h"
 #include "report/cases/case_filter.h"
+#include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
 #include "report/cases/failures.h"
 #include "report/cases/nothing_seen.h"
-#include "report/cases/sample_sets.h"
 #include "report/choosing/conclusion_words.h"
+#include "report/choosing/device_conclusion.h"
 #include "report/choosing/weighed_cases.h"
 #include "result/at.h"
 #include "result/rounding.h"
@@ -24,11 +25,6 @@ namespace clusterbench::report {
 namespace {
 
 using result::Case;
-
-std::string case_title(const Case& result_case) {
-  const std::string& name = result_case.name;
-  return shown(name.substr(name.find('/', name.find('/') + 1) + 1));
-}
 
 // The first cases; of those with the same lists only the fastest, if known.
 std::string first_titles(const std::vector<const WeighedCase*>& cases) {
@@ -219,6 +215,8 @@ std::string unsound_text(const std::vector<const Case*>& cases) {
 }
 
 std::string why_none(const SceneView& view) {
+  if (!view.on_device.empty() && view.sound.empty())
+    return "nothing to take of methods that run on the processor: none was measured, or each loses lights";
   if (!view.searched.empty())
     return "nothing to take: only structures that samples search are sound here, and no GPU has measured such a search";
   if (view.unsampled > 0)
@@ -237,7 +235,8 @@ void add_against(const Choice& choice, result::Conclusion& out) {
     out.by_prices = result::Pair{counted(range.low), counted(range.high)};
 }
 
-result::Conclusion conclusion_of(const SceneView& view, std::uint64_t seed) {
+result::Conclusion conclusion_of(const SceneView& view, const std::optional<result::Device>& device,
+                                 std::uint64_t seed) {
   const std::string unseen = why_nothing_is_seen(view.cases, RankedBy::samples);
   const Choice choice = unseen.empty() ? choose_of(view, seed) : Choice{};
   result::Conclusion out;
@@ -250,14 +249,15 @@ result::Conclusion conclusion_of(const SceneView& view, std::uint64_t seed) {
     return out;
   }
   if (choice.take == nullptr) {
-    out.text += why_none(view) + ".";
+    out.text += why_none(view) + "." + device_text(view, device);
     return out;
   }
   out.take = choice.take->result_case->id;
   if (choice.against != nullptr) add_against(choice, out);
   for (const WeighedCase* weighed : choice.alike) out.alike.push_back(weighed->result_case->id);
   out.text += "take " + case_title(*choice.take->result_case) + " (" + bytes_text(choice.take->bytes()) + ")" +
-              whole_cost_text(*choice.take) + against_text(choice) + doubts_text(choice) + ".";
+              whole_cost_text(*choice.take) + against_text(choice) + doubts_text(choice) + "." +
+              device_text(view, device);
   return out;
 }
 
@@ -265,7 +265,8 @@ result::Conclusion conclusion_of(const SceneView& view, std::uint64_t seed) {
 
 std::vector<result::Conclusion> conclusions_of(const result::Result& result, const result::Result& origin) {
   std::vector<result::Conclusion> out;
-  for (const SceneView& view : scene_views(result, origin.config)) out.push_back(conclusion_of(view, seed_of(origin)));
+  for (const SceneView& view : scene_views(result, origin.config))
+    out.push_back(conclusion_of(view, result.device, seed_of(origin)));
   return out;
 }
 

@@ -6,10 +6,15 @@
 #include "core/text.h"
 #include "measure/statistics/frame_cost.h"
 #include "report/cases/case_costs.h"
+#include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
-#include "report/cases/sample_sets.h"
 
 namespace clusterbench::report {
+
+std::string case_title(const result::Case& result_case) {
+  const std::string& name = result_case.name;
+  return shown(name.substr(name.find('/', name.find('/') + 1) + 1));
+}
 
 std::string ns_text(double ns) {
   const double us = 1e-3 * ns;

@@ -5,9 +5,12 @@
 #include <vector>
 
 #include "measure/statistics/time_statistics.h"
+#include "result/case.h"
 
 namespace clusterbench::report {
 
+// "frustum 16x9 x 24 exponential/aabb/packed".
+std::string case_title(const result::Case& result_case);
 std::string ns_text(double ns);        // "3.50 us"
 std::string bytes_text(double bytes);  // "232 B", "13.3 MB"
 

@@ -10,7 +10,7 @@
 #include "report/cases/contender.h"
 #include "report/cases/json_values.h"
 #include "result/at.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 #include "result/sample_sets.h"
 #include "run/findings/gate.h"
 #include "run/records/records.h"

@@ -7,7 +7,7 @@
 
 #include "config/limit_rules.h"
 #include "result/case.h"
-#include "result/figure_table.h"
+#include "result/figures/figure_table.h"
 #include "search/recommend.h"
 
 namespace clusterbench::report {

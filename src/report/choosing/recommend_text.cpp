@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
-#include "report/cases/sample_sets.h"
 #include "report/choosing/answer_conclusion.h"
 #include "report/choosing/recommend_report.h"
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <set>
 
+#include "report/cases/case_samples.h"
 #include "report/cases/json_values.h"
-#include "report/cases/sample_sets.h"
 #include "result/at.h"
 
 namespace clusterbench::report {
@@ -63,8 +63,12 @@ std::vector<SceneView> scene_views(const result::Result& result, const Json& con
       ++view->unsampled;
       continue;
     }
-    (samples_search(result_case) ? view->searched : view->sound).push_back(weighed);
+    (runs_on_device(result_case)   ? view->on_device
+     : samples_search(result_case) ? view->searched
+                                   : view->sound)
+        .push_back(weighed);
   }
+  for (SceneView& view : views) std::ranges::stable_sort(view.on_device, {}, &WeighedCase::device_ns);
   for (SceneView& view : views)
     for (std::vector<WeighedCase>* cases : {&view.sound, &view.searched})
       std::ranges::stable_sort(*cases, {}, &WeighedCase::order);

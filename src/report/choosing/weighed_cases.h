@@ -9,6 +9,7 @@
 #include "measure/statistics/frame_cost.h"
 #include "report/cases/case_costs.h"
 #include "report/cases/contender.h"
+#include "result/figures/case_figure.h"
 #include "result/result.h"
 #include "run/findings/gate.h"
 
@@ -29,6 +30,7 @@ struct WeighedCase {
   // The cheapest first; among equal untimed ones the one known to be faster.
   auto order() const { return std::tuple(weight(), !is_timed() && !has_simd(), is_timed() ? 0 : slowness()); }
   double unlit() const { return unlit_at_samples(*result_case).value_or(0.0); }
+  double device_ns() const { return figure_of(*result_case, "device_us").value_or(0.0) * 1e3; }
   int slowness() const { return slowness_of(*result_case); }
   bool has_simd() const { return slowness() == 1; }
   // Among cases of equal cost the smallest is recommended.
@@ -43,6 +45,7 @@ struct SceneView {
   std::string scene, camera;
   result::Counts2 viewport{};
   std::vector<WeighedCase> sound{}, searched{};  // the cheapest first
+  std::vector<WeighedCase> on_device{};          // the fastest by the device's clock first
   std::size_t unsampled = 0;                     // cases with unknown cost or losses
   std::vector<const result::Case*> cases{};
 };

@@ -12,12 +12,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using result::Case;
-using result::number;
 using result::Timing;
 
-// The compared time of separate runs: the frame time.
-std::optional<double> frame_time(const Case& result_case) {
-  return number<&Case::timing, &Timing::frame_ns, &result::Time::median>(result_case);
+// The compared time of separate runs: the frame time, or the work of the device that the method runs on. Null: not
+// timed.
+const result::Time* compared_time(const Case& result_case) {
+  if (result_case.timing) return &result_case.timing->frame_ns;
+  return result_case.device ? &result_case.device->run_ns : nullptr;
 }
 
 // Identifies a method: its storages share the assignment time, except for a method's own structure. In separate runs
@@ -44,11 +45,12 @@ TimeChange paired_change(const result::BaselineTimes& paired) {
 }
 
 // Without an interval there is no conclusion, as without samples.
-measure::MedianTime median_frame_time(const Timing& timing) {
-  const result::Time& time = timing.frame_ns;
+measure::MedianTime median_time(const Case& result_case) {
+  const result::Time& time = *compared_time(result_case);
   const double low = time.ci95[0], high = time.ci95[1];
   if (!std::isfinite(low) || !std::isfinite(high)) return {time.median, {}, 0, 1};
-  return {time.median, {low, high}, time.samples.size(), static_cast<int>(timing.launches.value_or(1))};
+  const std::uint64_t launches = result_case.timing ? result_case.timing->launches.value_or(1) : 1;
+  return {time.median, {low, high}, time.samples.size(), static_cast<int>(launches)};
 }
 
 std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
@@ -59,10 +61,9 @@ std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
     return is_known ? std::optional(paired_change(*paired)) : std::nullopt;
   }
   if (!are_timed(match)) return std::nullopt;
-  const Timing &base_timing = *match.base.timing, &next_timing = *match.next.timing;
-  const measure::MedianTime base = median_frame_time(base_timing), next = median_frame_time(next_timing);
+  const measure::MedianTime base = median_time(match.base), next = median_time(match.next);
   if (!(base.ns > 0.0) || !(next.ns > 0.0)) return std::nullopt;
-  if (are_same(base_timing.frame_ns, next_timing.frame_ns))
+  if (are_same(*compared_time(match.base), *compared_time(match.next)))
     return TimeChange{{0.0, 0.0, measure::k_least_freedom}, {}, base.ns, next.ns};  // one measurement, twice
   return TimeChange{measure::change_of_medians(base, next), {}, base.ns, next.ns};
 }
@@ -70,7 +71,9 @@ std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
 }  // namespace
 
 bool are_timed(const Match& match) {
-  return frame_time(match.base) && frame_time(match.next);
+  const result::Time *base = compared_time(match.base), *next = compared_time(match.next);
+  return match.base.device.has_value() == match.next.device.has_value() && base != nullptr && next != nullptr &&
+         std::isfinite(base->median) && std::isfinite(next->median);
 }
 
 TimeChanges::TimeChanges(const std::vector<Match>& matches, bool is_paired) : is_paired_(is_paired) {

@@ -1,12 +1,12 @@
 #pragma once
-// The figures of a case for other tools: those of result/figure_table.h that a result records, under their exported
-// names. Names and units are stable.
+// The figures of a case for other tools: those of result/figures/figure_table.h that a result records, under their
+// exported names. Names and units are stable.
 
 #include <vector>
 
 #include "measure/statistics/time_statistics.h"
 #include "result/case.h"
-#include "result/figure_table.h"
+#include "result/figures/figure_table.h"
 
 namespace clusterbench::report {
 

@@ -13,7 +13,7 @@
 #include "report/cases/columns.h"
 #include "report/cases/percent_change.h"
 #include "report/gates/baseline_cases.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 namespace clusterbench::report {
 namespace {

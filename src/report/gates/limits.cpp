@@ -10,11 +10,11 @@
 #include "core/pattern.h"
 #include "core/text.h"
 #include "report/cases/case_filter.h"
+#include "report/cases/case_samples.h"
 #include "report/cases/percent_change.h"
-#include "report/cases/sample_sets.h"
 #include "report/gates/baseline_cases.h"
 #include "result/at.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 namespace clusterbench::report {
 namespace {

@@ -1,6 +1,6 @@
 #include "report/page/page_figures.h"
 
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 #include "result/rounding.h"
 #include "result/sample_sets.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The figures of cases (result/figure_table.h), with their words, for the page.
+// The figures of cases (result/figures/figure_table.h), with their words, for the page.
 
 #include <vector>
 

@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/text.h"
 #include "measure/samples/shading.h"
 #include "report/cases/case_costs.h"
+#include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
 #include "report/cases/nothing_seen.h"
-#include "report/cases/sample_sets.h"
 #include "report/presets/preset_losses.h"
 #include "report/presets/preset_words.h"
 #include "result/at.h"

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/presets/presets.h"
+#include "config/presets/preset_library.h"
 #include "core/text.h"
 #include "measure/samples/shading.h"
+#include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
 #include "report/cases/contender.h"
 #include "report/cases/json_values.h"
 #include "report/cases/nothing_seen.h"
-#include "report/cases/sample_sets.h"
 #include "result/at.h"
 #include "run/grid_facts.h"
 

@@ -14,8 +14,8 @@
 #include "report/cases/columns.h"
 #include "report/cases/json_values.h"
 #include "report/documents/result_file.h"
-#include "result/case_figure.h"
 #include "result/documents/worst_case.h"
+#include "result/figures/case_figure.h"
 #include "run/cases/case_names.h"
 #include "scene/camera_path.h"
 

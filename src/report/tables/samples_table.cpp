@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "measure/samples/samples.h"
+#include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
-#include "report/cases/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {

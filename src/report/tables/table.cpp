@@ -8,8 +8,8 @@
 #include "assign/contract/assigner.h"
 #include "core/text.h"
 #include "report/cases/case_costs.h"
+#include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
-#include "report/cases/sample_sets.h"
 #include "report/cases/timing_warnings.h"
 #include "report/comparing/ratios.h"
 #include "report/presets/preset_ranking.h"
@@ -23,7 +23,7 @@
 #include "report/tables/stability_table.h"
 #include "report/tables/warnings.h"
 #include "result/at.h"
-#include "result/case_figure.h"
+#include "result/figures/case_figure.h"
 
 namespace clusterbench::report {
 namespace {
@@ -47,7 +47,7 @@ struct Line {
 // Optional columns: true if some case has the figure.
 struct Extras {
   bool storages = false, times = false, conversions = false, builds = false, instructions = false, samples = false,
-       dropped = false, cold = false, launches = false, costs = false, searched = false;
+       dropped = false, cold = false, launches = false, costs = false, searched = false, device = false;
 };
 
 std::string time_text(const std::optional<double>& us) {
@@ -92,7 +92,7 @@ std::pair<bool, double> sort_key(const Case& result_case, RankBy by) {
   if (by == RankBy::frame_cost)
     for (const char* figure : {"frame_cost_us", "gpu_cost_us"})
       if (const auto found = figure_of(result_case, figure)) return {!result_case.cost->lit, *found};
-  for (const char* figure : {"frame_us", "assign_instructions", "excess"})
+  for (const char* figure : {"frame_us", "device_us", "assign_instructions", "excess"})
     if (const auto found = figure_of(result_case, figure)) return {false, *found};
   return {false, 0.0};
 }
@@ -100,7 +100,7 @@ std::pair<bool, double> sort_key(const Case& result_case, RankBy by) {
 constexpr const char* k_frame_heading = "frame us";
 constexpr const char* k_cost_heading = "cost us";
 
-// A figure (result/figure_table.h) in a format, or its own text.
+// A figure (result/figures/figure_table.h) in a format, or its own text.
 struct Column {
   const char* heading;
   const char* figure = nullptr;
@@ -123,6 +123,10 @@ constexpr Column k_columns[] = {
     {.heading = "build", .figure = "build_us", .format = time_text, .needed = &Extras::builds},
     {.heading = k_cost_heading, .own_text = cost_text, .needed = &Extras::costs},
     {.heading = "instr", .figure = "assign_instructions", .format = short_count, .needed = &Extras::instructions},
+    {.heading = "device us", .figure = "device_us", .format = time_text, .needed = &Extras::device},
+    {.heading = "x floor", .figure = "device_floor", .format = two_digits, .needed = &Extras::device},
+    {.heading = "upload", .figure = "device_upload_us", .format = time_text, .needed = &Extras::device},
+    {.heading = "readback", .figure = "device_readback_us", .format = time_text, .needed = &Extras::device},
     {.heading = "pairs", .own_text = pairs_text},
     {.heading = "ns/pair", .figure = "time_per_pair", .format = two_digits, .needed = &Extras::times},
     {.heading = "excess",
@@ -215,8 +219,19 @@ Extras extras_of(const std::vector<Case>& cases) {
     extras.costs |= result_case.cost.has_value();
     extras.searched |= samples_search(result_case) && !ranking_set_names(result_case).empty();
     extras.dropped |= result_case.buffers.overflow.dropped_pairs != 0;
+    extras.device |= result_case.device.has_value();
   }
   extras.storages = storages.size() > 1;
+  return extras;
+}
+
+// The optional columns of one block: methods on a device have times of their own.
+Extras extras_in_block(Extras extras, const std::vector<const Case*>& cases) {
+  if (!runs_on_device(*cases.front())) {
+    extras.device = false;
+    return extras;
+  }
+  extras.times = extras.conversions = extras.builds = extras.instructions = extras.costs = false;
   return extras;
 }
 
@@ -305,27 +320,36 @@ std::string legend(const std::vector<Case>& cases, const Extras& extras, RankBy 
         ". They have no star: no GPU has measured the search (the key `cost` has a "
         "model "
         "of it). read: bytes that a\nsample reads to know its lights.\n";
+  if (extras.device)
+    out +=
+        "device: the device's work for a frame by its own clock, from lights to lists; x floor: times what as many "
+        "steps take\nthat only write as much; upload, readback: of the frame's lights and lists. These times are not "
+        "compared with the processor's.\n";
   return out + "bytes: headers and indices, largest of all frames.\n";
 }
 
-// The blocks of a scene: for each grid the cases with lists, then for each view those whose samples search the
-// structure.
+// The blocks of a scene: for each grid the cases with lists, then those that a device makes, then for each view those
+// whose samples search the structure.
 struct TableBlock {
   std::string heading;
   std::vector<const Case*> cases;
 };
-std::vector<TableBlock> table_blocks(const std::vector<Case>& cases, const result::Scene& scene) {
-  std::vector<TableBlock> lists, searched;
-  for (const Case& result_case : cases) {
+std::vector<TableBlock> table_blocks(const result::Result& result, const result::Scene& scene) {
+  const std::string on_device = "on " + (result.device ? shown(result.device->name) : std::string("a device")) + ": ";
+  std::vector<TableBlock> lists, device_lists, searched;
+  for (const Case& result_case : result.cases) {
     if (result_case.scene != scene.name) continue;
     const bool is_searched = samples_search(result_case);
     std::string heading = block_of(result_case);
     if (is_searched) heading = "structures that samples search" + heading.substr(shown(result_case.grid.name).size());
-    std::vector<TableBlock>& blocks = is_searched ? searched : lists;
+    const bool is_on_device = runs_on_device(result_case);
+    if (is_on_device) heading.insert(0, on_device);
+    std::vector<TableBlock>& blocks = is_on_device ? device_lists : is_searched ? searched : lists;
     auto found = std::ranges::find(blocks, heading, &TableBlock::heading);
     if (found == blocks.end()) found = blocks.insert(blocks.end(), {heading, {}});
     found->cases.push_back(&result_case);
   }
+  lists.insert(lists.end(), device_lists.begin(), device_lists.end());
   lists.insert(lists.end(), searched.begin(), searched.end());
   return lists;
 }
@@ -360,16 +384,17 @@ std::string render_table(const result::Result& result, bool colour) {
   bool is_complete = true, has_alike = false;
   std::string out;
   for (const result::Scene& scene : result.scenes) {
-    const std::vector<TableBlock> blocks = table_blocks(cases, scene);
+    const std::vector<TableBlock> blocks = table_blocks(result, scene);
     if (blocks.empty()) continue;
     out += (colour ? k_bold : "") + scene_heading(scene) + (colour ? k_plain : "") + "\n";
     for (const TableBlock& block : blocks) {
       const Case& sampled = most_sampled(block.cases);
       const std::vector<std::string> sets = ranking_set_names(sampled);
-      const Cells heads = headings(extras, sampled);
+      const Extras of_block = extras_in_block(extras, block.cases);
+      const Cells heads = headings(of_block, sampled);
       std::vector<Line> lines;
       for (const Case* result_case : block.cases)
-        lines.push_back(line_of(*result_case, on_front.contains(result_case->id), extras, by, sets));
+        lines.push_back(line_of(*result_case, on_front.contains(result_case->id), of_block, by, sets));
       std::stable_sort(lines.begin(), lines.end(),
                        [](const Line& a, const Line& b) { return a.sort_key < b.sort_key; });
       has_alike |= mark_alike(result, heads, by, lines);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/text.h"
+#include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
-#include "report/cases/sample_sets.h"
 
 namespace clusterbench::report {
 namespace {

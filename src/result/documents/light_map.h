@@ -1,7 +1,7 @@
 #pragma once
 // Light maps: the output of `clusterbench light-map`.
 
-#include "result/figures.h"
+#include "result/shared_parts.h"
 
 namespace clusterbench::result {
 

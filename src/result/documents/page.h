@@ -1,7 +1,7 @@
 #pragma once
 // The data of a page of `clusterbench report`, which page/ reads: results, and numbers computed from them.
 
-#include "result/figure_table.h"
+#include "result/figures/figure_table.h"
 #include "result/result.h"
 
 namespace clusterbench::result {

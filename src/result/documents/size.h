@@ -1,7 +1,7 @@
 #pragma once
 // Allocations: the output of `clusterbench size --format json`.
 
-#include "result/figures.h"
+#include "result/shared_parts.h"
 
 namespace clusterbench::result {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The worst frames of a case: the output of `clusterbench worst-case`.
 
-#include "result/figures.h"
+#include "result/shared_parts.h"
 
 namespace clusterbench::result {
 

@@ -18,6 +18,10 @@ std::vector<Method> methods_of(const GroupPlan& group) {
   return list;
 }
 
+const assign::AssignerDescriptor& method_of(const config::Config& config, const CasePlan& case_plan) {
+  return *assign::find_assigner(config.assigners[case_plan.assigner].name);
+}
+
 assign::AssignerRun start_method(const config::Config& config, const Method& method) {
   const config::MethodRequest& request = config.assigners[method.assigner];
   return {*assign::find_assigner(request.name), request.params, method.answer};

@@ -10,6 +10,7 @@
 #include "core/memory.h"
 #include "core/pattern.h"
 #include "core/text.h"
+#include "gpu/device/device.h"
 #include "run/cases/case_identity.h"
 #include "run/cases/case_names.h"
 #include "run/cases/frame_work.h"
@@ -269,6 +270,16 @@ std::string impossible_text(const std::vector<Skipped>& skipped, const std::stri
          meant->reason;
 }
 
+// A device that somebody named and that is not there is an error; without a name, cases that need one are skipped.
+void use_device(const config::Config& config) {
+  gpu::use_device(config.device);
+  const bool is_needed = std::ranges::any_of(config.assigners, [](const config::MethodRequest& method) {
+    return assign::find_assigner(method.name)->on_device;
+  });
+  if (is_needed && !config.device.empty() && !gpu::device_obstacle().empty())
+    throw Error(config.file.string(), "device", gpu::device_obstacle());
+}
+
 }  // namespace
 
 std::size_t Plan::case_count() const {
@@ -279,6 +290,7 @@ std::size_t Plan::case_count() const {
 
 Plan make_plan(const config::Config& config, const std::string& filter) {
   set_memory_limit(config.limits.memory_mib << 20);
+  use_device(config);
   Plan plan;
   Expansion expansion(config, filter, plan);
   plan.scenes = load_scenes(config);

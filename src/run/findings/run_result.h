@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/config.h"
+#include "gpu/device/device_facts.h"
 #include "measure/lists/buffers.h"
 #include "measure/lists/lights_beyond_grid.h"
 #include "measure/lists/lights_in_view_counts.h"
@@ -89,7 +90,11 @@ struct WarmTimes {
 
 // Per frame, by the own clock of the device (a GPU) that a method runs on.
 struct DeviceTimes {
-  measure::TimeStats upload_ns, run_ns, readback_ns;
+  int frames_timed = 0;
+  measure::TimeStats run_ns, upload_ns, readback_ns;
+  double dispatches = 0.0;      // per frame
+  measure::TimeStats floor_ns;  // as many steps that do nothing but write as many bytes
+  double floor_ratio = 0.0;
 };
 
 // Times of slices that follow the needs of frames.
@@ -136,8 +141,7 @@ struct TimingResult {
   std::optional<WarmTimes> warm;                  // beside cold times
   int warm_assign_passes = 1;                     // over the timed frames in a warm sample, in the launch with fewest
   std::optional<int> warm_convert_passes;
-  std::optional<DeviceTimes> device;  // within warm times
-  double builds_per_frame = 0.0;      // 0 if the grid stays, 1 if each frame has its own
+  double builds_per_frame = 0.0;  // 0 if the grid stays, 1 if each frame has its own
   WorstTimedFrame worst;
   std::optional<double> pairs_mean;  // of the timed frames; none without cells
   std::uint64_t pairs_max = 0;
@@ -227,7 +231,7 @@ struct CaseResult {
   // conservative: packed lights must be inflated for it, and a pre-cull must be conservative, too
   bool conservative = true, exact = false;
   std::string storage_label;
-  std::string preset;                    // config/presets/presets.h; "" for the configuration's own clusterings
+  std::string preset;                    // config/presets/preset_library.h; "" for the configuration's own clusterings
   int lights = 0;                        // lights of the scene that methods get: points, spots, and boxes if requested
   measure::LightsInView lights_in_view;  // the same for all cases of a camera and viewport
   std::optional<measure::LightsBeyondGrid> lights_beyond_grid;  // with the grid's cells
@@ -252,9 +256,11 @@ struct CaseResult {
   std::vector<ShadowCullResult> shadow_culls;        // of lists, one per way; empty if not requested
   std::optional<SharedFrustaResult> shared_frusta;   // if requested
   std::optional<TimingResult> timing;
-  std::optional<CountResult> count;  // if requested
-  std::optional<Details> details;    // with cells, if requested
-  std::vector<Failure> failures;     // run/findings/gate.h
+  bool on_device = false;             // the method runs on a device
+  std::optional<DeviceTimes> device;  // its times, in place of `timing`
+  std::optional<CountResult> count;   // if requested
+  std::optional<Details> details;     // with cells, if requested
+  std::vector<Failure> failures;      // run/findings/gate.h
 };
 
 // Cells of the case's grid in a frame.
@@ -265,6 +271,7 @@ struct Result {
   std::string date, command;  // "" without timing: the result is then the same whenever it is made
   ToolFacts tool;
   MachineFacts machine;
+  std::optional<gpu::DeviceFacts> device;  // if a case runs on it
   nlohmann::json config;
   std::vector<SceneResult> scenes;
   std::vector<CaseResult> cases;

@@ -55,11 +55,6 @@ class TimingTrack {
     work_.assign();  // warms caches
     samples_.warm_ns.push_back(assign_.sample() / frames);
     samples_.warm_passes = assign_.runs_per_sample();
-    if (const assign::DeviceSpans* device = work_.device_spans()) {  // of the last pass
-      samples_.upload_ns.push_back(device->upload_ns / frames);
-      samples_.run_ns.push_back(device->run_ns / frames);
-      samples_.readback_ns.push_back(device->readback_ns / frames);
-    }
     samples_.floor_ns.push_back(floor_.sample() / frames);
     // Conversion has branches that depend on the lists. Without a warm-up of its own, some conversions take up to a
     // quarter longer after a method with other lists than after one with the same lists.
@@ -319,9 +314,6 @@ class MethodTimes {
     out.build_ns = stats(rounds(&MethodSamples::build_ns));
     out.builds_per_frame = first_.builds_per_frame;
     out.frames_timed = static_cast<int>(first_.mean_frames);
-    if (!first_.run_ns.empty())
-      out.device = {stats(rounds(&MethodSamples::upload_ns)), stats(rounds(&MethodSamples::run_ns)),
-                    stats(rounds(&MethodSamples::readback_ns))};
     if (!first_.pairs.empty()) {
       const auto end = first_.pairs.begin() + static_cast<std::ptrdiff_t>(first_.mean_frames);
       out.pairs_mean = static_cast<double>(std::accumulate(first_.pairs.begin(), end, std::uint64_t{0})) /

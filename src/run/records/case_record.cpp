@@ -16,7 +16,8 @@ std::optional<std::string> known(const std::string& text) {
 }
 
 result::Method method_record(const CaseResult& found) {
-  return {found.assigner, found.assigner_label, result::Json(found.assigner_params), found.conservative, found.exact};
+  return {found.assigner,     found.assigner_label, result::Json(found.assigner_params),
+          found.conservative, found.exact,          found.on_device ? std::optional(true) : std::nullopt};
 }
 
 // Whether samples search a structure of the method's own.
@@ -71,6 +72,7 @@ void add_parts(result::Case& out, const CaseResult& found) {
   if (found.fallback) out.fallback = fallback_record(*found.fallback);
   out.shadows = shadows_record(found);
   if (found.timing) out.timing = timing_record(*found.timing);
+  if (found.device) out.device = device_record(*found.device);
   if (found.count) out.count = count_record(*found.count);
   if (found.details) out.details = details_record(*found.details);
 }
@@ -118,6 +120,21 @@ result::Scene record_of(const SceneResult& scene) {
 
 result::Tool record_of(const ToolFacts& tool) {
   return {tool.version, tool.git_sha, tool.compiler, tool.flags, tool.build_type, tool.simd_target, tool.libraries};
+}
+
+result::Device record_of(const gpu::DeviceFacts& device) {
+  return {device.name,
+          device.driver,
+          device.vulkan,
+          device.uuid,
+          gpu::type_name(device.type),
+          device.max_buffer_bytes,
+          device.max_group_size,
+          device.shared_bytes,
+          device.subgroup_size,
+          device.timestamp_bits,
+          device.timestamp_period_ns,
+          device.rounds_to_nearest};
 }
 
 result::Machine record_of(const MachineFacts& machine) {

@@ -26,6 +26,7 @@ result::Stability stability_record(const StabilityResult& stability);
 std::optional<result::Shadows> shadows_record(const CaseResult& found);
 std::vector<result::ShadowCullTimes> shadow_times_record(const std::vector<ShadowCullResult>& culls);
 result::Timing timing_record(const TimingResult& timing);
+result::DeviceTimes device_record(const DeviceTimes& times);
 result::Count count_record(const CountResult& count);
 result::Details details_record(const Details& details);
 

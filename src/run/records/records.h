@@ -14,5 +14,6 @@ result::Case record_of(const CaseResult& found);
 result::Scene record_of(const SceneResult& scene);
 result::Tool record_of(const ToolFacts& tool);
 result::Machine record_of(const MachineFacts& machine);
+result::Device record_of(const gpu::DeviceFacts& device);
 
 }  // namespace clusterbench::run

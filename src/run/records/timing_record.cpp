@@ -50,8 +50,6 @@ result::Timing timing_record(const TimingResult& t) {
   out.assign_ns = time_record(t.assign_ns);
   out.convert_ns = time_record(t.convert_ns);
   out.pre_cull_ns = time_record(t.pre_cull_ns);
-  if (t.device)
-    out.device = {time_record(t.device->upload_ns), time_record(t.device->run_ns), time_record(t.device->readback_ns)};
   if (t.warm)
     out.warm = {time_record(t.warm->frame_ns), time_record(t.warm->assign_ns), time_record(t.warm->convert_ns),
                 time_record(t.warm->pre_cull_ns)};
@@ -68,6 +66,16 @@ result::Timing timing_record(const TimingResult& t) {
   if (!t.shadow_culls.empty()) out.shadow_cull = shadow_times_record(t.shadow_culls);
   out.disturbed = disturbed_record(t.disturbance);
   return out;
+}
+
+result::DeviceTimes device_record(const DeviceTimes& t) {
+  return {static_cast<std::uint64_t>(t.frames_timed),
+          time_record(t.run_ns),
+          time_record(t.upload_ns),
+          time_record(t.readback_ns),
+          result::counted(t.dispatches),
+          time_record(t.floor_ns),
+          measured(t.floor_ratio)};
 }
 
 result::Count count_record(const CountResult& c) {

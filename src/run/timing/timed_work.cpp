@@ -126,10 +126,7 @@ void TimedWork::assign() {
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     assign_frame(i);
     if (!device_) continue;
-    const assign::DeviceSpans& spans = *assigner().device_spans();
-    device_->upload_ns += spans.upload_ns;
-    device_->run_ns += spans.run_ns;
-    device_->readback_ns += spans.readback_ns;
+    *device_ += *assigner().device_spans();
   }
 }
 

@@ -57,6 +57,8 @@ class TimedWork {
   void assign_frame(std::size_t frame);
   // For all frames of the last assign(), by the device's own clock; null without a device.
   const assign::DeviceSpans* device_spans() const { return device_ ? &*device_ : nullptr; }
+  // For the last of these frames.
+  double device_floor_ns() const { return assigner().device_floor_ns(); }
   // Number of builds in an assign() that follows another one.
   std::size_t builds() const;
   // Whether its lists are converted to the storages of its cases; a structure of its own is not.

@@ -33,8 +33,6 @@ struct MethodSamples {
   std::vector<EachFrame> warm_each, cold_each;      // of each round; warm_each only without cold_each
   int warm_passes = 0;                              // over the frames, in one of warm_ns
   std::vector<StoreSamples> stores;                 // in the order of the method's cases; empty if nothing is converted
-  // By the device's own clock, of each round: per frame. Empty without a device.
-  std::vector<double> upload_ns, run_ns, readback_ns;
   // Times of the pre-cull, of each round, as in warm_ns and the others; empty without one.
   std::vector<double> cull_warm_ns = {};
   std::vector<EachFrame> cull_warm_each = {}, cull_cold_each = {};

@@ -1,0 +1,59 @@
+// Of the methods that take a tile of the picture as a cell, between the least and the greatest depth of its pixels.
+// frame.cells is the number of tiles.
+//
+// Ranges, masks of depth and boxes are those of the processor (assign/occupied), bit for bit.
+
+#include "around.glsl"
+
+layout(std430, set = 0, binding = 11) readonly buffer Depths { uint depths[]; };       // bits of floats, by pixel
+layout(std430, set = 0, binding = 12) readonly buffer TileSides { uvec4 sides[]; };    // of columns, then of rows
+layout(std430, set = 0, binding = 13) buffer Tiles { uvec4 tiles[]; };
+
+// The side before column or row i, and the one behind it at i + 1; those of rows follow those of columns.
+struct Side {
+  float boundary;       // slope, or metres in an orthographic view
+  float across, along;  // unit normal, to the right or upward: of the coordinate, of the depth
+  uint pixel;           // the first one behind it
+};
+Side side_at(uint i) {
+  return Side(uintBitsToFloat(sides[i].x), uintBitsToFloat(sides[i].y), uintBitsToFloat(sides[i].z), sides[i].w);
+}
+Side column_side(uint column) { return side_at(column); }
+Side row_side(uint row) { return side_at(frame.columns + 1 + row); }
+
+// A tile's range of depth: empty if lo > hi.
+struct Range {
+  float lo, hi, scale;
+  uint mask;  // of the parts with pixels
+};
+Range range_of(uint tile) {
+  uvec4 bits = tiles[tile];
+  return Range(uintBitsToFloat(bits.x), uintBitsToFloat(bits.y), uintBitsToFloat(bits.w), bits.z);
+}
+bool is_empty(Range range) { return range.lo > range.hi; }
+void write_range(uint tile, Range range) {
+  tiles[tile] = uvec4(floatBitsToUint(range.lo), floatBitsToUint(range.hi), range.mask, floatBitsToUint(range.scale));
+}
+
+// What lies around a tile between its depths.
+Around around_tile(uint tile) {
+  uint at = frame.cells + 3 * tile;
+  return Around(uintBitsToFloat(tiles[at].xyz), uintBitsToFloat(tiles[at + 1].xyz), uintBitsToFloat(tiles[at + 2]));
+}
+void write_around(uint tile, Around around) {
+  uint at = frame.cells + 3 * tile;
+  tiles[at] = uvec4(floatBitsToUint(around.lo), 0);
+  tiles[at + 1] = uvec4(floatBitsToUint(around.hi), 0);
+  tiles[at + 2] = floatBitsToUint(around.ball);
+}
+
+// The part of a depth among 32 equal ones of a range. Monotonic, so a light's parts are those of all depths that it
+// reaches.
+uint part_of(float depth, Range range) {
+  precise float part = (depth - range.lo) * range.scale;
+  return part >= 31.0 ? 31u : part > 0.0 ? uint(part) : 0u;
+}
+uint bits_between(float near, float far, Range range) {
+  uint first = part_of(near, range), last = part_of(far, range);
+  return (0xffffffffu >> (31 - (last - first))) << first;
+}

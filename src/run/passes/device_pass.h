@@ -1,0 +1,18 @@
+#pragma once
+// Times of methods that run on a device, by the device's own clock: rounds in which they take turns in changing order
+// (method_order() of timing_pass.h), each followed by its floor. In this process, which has the device open.
+
+#include <atomic>
+#include <vector>
+
+#include "run/cases/case_plan.h"
+#include "run/cases/path_frames.h"
+#include "run/findings/run_result.h"
+
+namespace clusterbench::run {
+
+// One for each case of the group, whose methods all run on the device; empty if stopped before the end.
+std::vector<DeviceTimes> device_pass(const config::Config& config, const GroupPlan& group, const PathFrames& path,
+                                     const std::atomic<bool>& stop);
+
+}  // namespace clusterbench::run

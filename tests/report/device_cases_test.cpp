@@ -1,0 +1,97 @@
+// Cases whose method runs on a device: their times are the device's, and rank nothing but each other.
+
+#include <gtest/gtest.h>
+
+#include "config/schema/documents.h"
+#include "config/schema/schema_verdict.h"
+#include "report/cases/contender.h"
+#include "report/choosing/conclusion.h"
+#include "report/comparison_by_hand.h"
+#include "report/tables/table.h"
+
+namespace clusterbench::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::case_by_hand;
+using testing::compared;
+using testing::holds;
+using testing::json_of;
+using testing::result_by_hand;
+
+// The cases by hand (9.5 and 3.5 us on the processor), and one on a device that took this long.
+run::Result with_device(double run_ns, gpu::DeviceType type = gpu::DeviceType::discrete) {
+  run::Result result = result_by_hand();
+  result.device.emplace();
+  result.device->name = "Card";
+  result.device->type = type;
+  run::CaseResult on_device = case_by_hand("device", "gpu-cells", 1.0);
+  on_device.timing.reset();
+  on_device.on_device = true;
+  const auto time = [](double ns) {
+    return measure::TimeStats{ns, 1.0, ns, ns, {0.998 * ns, 1.002 * ns}, std::vector<double>(31, ns)};
+  };
+  on_device.device = run::DeviceTimes{2, time(run_ns), time(100.0), time(200.0), 4.0, time(500.0), run_ns / 500.0};
+  result.cases.push_back(on_device);
+  result.planned_ids.push_back("device");
+  return result;
+}
+
+std::string conclusion_of(const run::Result& result) {
+  return json_of(result)["conclusions"][0]["text"];
+}
+
+TEST(DeviceCases, have_no_star_however_fast_they_are) {
+  const Json json = json_of(with_device(1.0));
+  EXPECT_EQ(json["pareto_front"][0]["ids"].dump(), Json(json_of(result_by_hand())["pareto_front"][0]["ids"]).dump());
+  EXPECT_EQ(json["cases"][2]["assigner"]["on_device"], true);
+  EXPECT_FALSE(json["cases"][2].contains("timing"));
+  EXPECT_EQ(config::schema_violations(config::result_schema(), nlohmann::json::parse(json.dump())),
+            std::vector<std::string>{});
+}
+
+TEST(DeviceCases, are_in_a_block_of_their_own_with_times_of_their_own) {
+  const std::string table = render_table(test::result_of(json_of(with_device(2000.0))), false);
+  const std::size_t own = table.find("frustum 64px"), on_card = table.find("on Card: frustum 64px");
+  ASSERT_NE(on_card, std::string::npos) << table;
+  EXPECT_LT(own, on_card);
+  EXPECT_NE(table.find("device us  x floor  upload  readback", on_card), std::string::npos) << table;
+  EXPECT_EQ(table.substr(0, on_card).find("device us"), std::string::npos) << table;
+  EXPECT_NE(table.find("    gpu-cells       2.00     4.00    0.10      0.20"), std::string::npos) << table;
+}
+
+TEST(DeviceCases, are_told_of_after_the_conclusion_on_the_processor) {
+  const std::string text = conclusion_of(with_device(2000.0)), without = conclusion_of(result_by_hand());
+  EXPECT_TRUE(text.starts_with(without)) << text;
+  EXPECT_NE(
+      text.find("On Card: frustum 64px/gpu-cells/packed makes its lists fastest, in 2.00 us by its clock, 4.0 times"),
+      std::string::npos)
+      << text;
+}
+
+TEST(DeviceCases, of_software_rank_nothing) {
+  const std::string text = conclusion_of(with_device(2000.0, gpu::DeviceType::software));
+  EXPECT_NE(text.find("On Card: 1 case, whose times rank nothing"), std::string::npos) << text;
+  EXPECT_EQ(text.find("fastest, in"), std::string::npos) << text;
+}
+
+TEST(DeviceCases, alone_leave_nothing_to_take_on_the_processor) {
+  run::Result result = with_device(2000.0);
+  result.cases.erase(result.cases.begin(), result.cases.begin() + 2);
+  const std::string text = conclusion_of(result);
+  EXPECT_NE(text.find("nothing to take of methods that run on the processor"), std::string::npos) << text;
+  EXPECT_NE(text.find("On Card: "), std::string::npos) << text;
+}
+
+TEST(DeviceCases, are_compared_by_the_devices_times_on_the_same_device_alone) {
+  const Json base = json_of(with_device(2000.0)), next = json_of(with_device(2400.0));
+  EXPECT_EQ(compared(base, next, 0.02)["cases"][2]["hint"], "longer");
+  Json elsewhere = next;
+  elsewhere["device"]["name"] = "Other card";
+  const Json comparison = compared(base, elsewhere, 0.02);
+  EXPECT_FALSE(comparison["cases"][2].contains("hint"));
+  EXPECT_TRUE(holds(comparison, "/device/name is")) << comparison.dump(1);
+}
+
+}  // namespace
+}  // namespace clusterbench::report
