@@ -78,7 +78,7 @@ TEST_F(DeviceMethods, have_the_lists_of_the_same_steps_on_the_processor) {
   for (const AssignerDescriptor* row : testing::list_methods()) {
     for (const Setting& setting : assign::testing::settings_for(*row, 11)) {
       const Setting thin = testing::thinned(setting, 8, turn);
-      for (const Params& params : test::every_nth(assign::testing::params_of(*row), 4, turn++ % 4))
+      for (const Params& params : test::every_nth(testing::choices_with_cells_of_host(*row), 4, turn++ % 4))
         EXPECT_EQ(
             testing::first_difference(testing::lists_of(*row, params, thin), testing::reference_lists(params, thin)),
             "")

@@ -109,6 +109,16 @@ inline assign::Lists lists_of(const assign::AssignerDescriptor& method, const as
   return fault.empty() ? run.cell_lists() : assign::Lists{};
 }
 
+// Each choice, with cells that the host has made: the balls around those of the device are others
+// (device_cells_test.cpp).
+inline std::vector<assign::Params> choices_with_cells_of_host(const assign::AssignerDescriptor& row) {
+  std::vector<assign::Params> choices = assign::testing::params_of(row);
+  std::erase_if(choices, [](const assign::Params& params) {
+    return params.values().contains("cells") && params.text("cells") != "host";
+  });
+  return choices;
+}
+
 // The first cell whose lists differ, as a sentence; "" if none does.
 inline std::string first_difference(const assign::Lists& found, const assign::Lists& expected) {
   if (found.cell_count() != expected.cell_count()) return "lists of " + std::to_string(found.cell_count()) + " cells";

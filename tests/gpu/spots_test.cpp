@@ -110,7 +110,7 @@ TEST_F(DeviceSpots, have_the_lists_of_the_same_steps_on_the_processor) {
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     const Setting setting = grazing_setting(k_origins[seed % 4], 90, seed);
     for (const assign::AssignerDescriptor* row : testing::list_methods()) {
-      const std::vector<Params> choices = assign::testing::params_of(*row);
+      const std::vector<Params> choices = testing::choices_with_cells_of_host(*row);
       const Params& params = choices[turn++ % choices.size()];
       EXPECT_EQ(testing::first_difference(testing::lists_of(*row, params, setting),
                                           testing::reference_lists(params, setting)),
@@ -142,7 +142,7 @@ TEST_F(DeviceSpots, and_points_are_right_at_all_scales_of_the_domain) {
   std::size_t turn = 0;
   for (const Setting& setting : assign::testing::settings_of_any_size(*assign::find_assigner("gpu-group"), 20, 51))
     for (const assign::AssignerDescriptor* row : testing::list_methods()) {
-      const std::vector<Params> choices = assign::testing::params_of(*row);
+      const std::vector<Params> choices = testing::choices_with_cells_of_host(*row);
       const Params& params = choices[turn++ % choices.size()];
       const Lists lists = testing::lists_of(*row, params, setting);
       EXPECT_EQ(testing::first_difference(lists, testing::reference_lists(params, setting)), "")

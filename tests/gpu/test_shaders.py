@@ -22,13 +22,13 @@ class Embedded(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for shader in SHADERS:
                 for variant in shader_modules.VARIANTS:
-                    with self.subTest(shader=shader, variant=variant):
-                        words = shader_modules.words_of_header(HEADERS / f"{shader}_{variant}.h")
-                        yield shader, variant, shader_modules.written(words, folder, f"{shader}_{variant}")
+                    words = shader_modules.words_of_header(HEADERS / f"{shader}_{variant}.h")
+                    yield shader, variant, shader_modules.written(words, folder, f"{shader}_{variant}")
 
     def test_every_shader_is_valid_rounds_as_it_says_and_has_no_arithmetic_that_a_driver_may_change(self):
         for shader, variant, module in self.modules():
-            self.assertEqual(shader_modules.faults_of(module, shader, variant), [])
+            with self.subTest(shader=shader, variant=variant):
+                self.assertEqual(shader_modules.faults_of(module, shader, variant), [])
 
     def test_both_variants_have_the_same_instructions(self):
         def instructions(module):
@@ -42,7 +42,7 @@ class Embedded(unittest.TestCase):
 
     def test_names_of_those_that_decide_nothing_are_shaders_with_a_reason(self):
         for shader, reason in shader_modules.DECIDE_NOTHING.items():
-            self.assertIn(shader, SHADERS)
+            self.assertTrue(any(name.startswith(shader) for name in SHADERS), shader)
             self.assertGreater(len(reason), 20)
 
 
@@ -62,12 +62,12 @@ class Changed(unittest.TestCase):
 
     def users_of(self, file):
         """The shaders to look at after a change of this file."""
-        return [file.stem] if file.suffix == ".comp" else ["cells"]
+        return [file.stem] if file.suffix == ".comp" else [{"around": "bounds", "tile": "tile_lights"}.get(file.stem, "cells")]
 
     def test_a_precise_that_is_missing_is_found(self):
         for file in sorted(self.shaders.glob("*.*")):
             text = file.read_text()
-            if file.stem in shader_modules.DECIDE_NOTHING or "precise " not in text:
+            if file.stem.startswith("read") or "precise " not in text:
                 continue
             found = []
             for place in re.finditer(r"^\s*precise ", text, re.M):

@@ -35,7 +35,7 @@ float parts_per_metre(float depth_range) {
 }
 
 void main() {
-  uint tile = group_index(), lane = gl_LocalInvocationIndex;
+  uint tile = group_index(), lane = lane_index();
   if (tile >= frame.cells) return;  // the whole group
   uint column = tile % frame.columns, row = tile / frame.columns;
   if (lane == 0) {

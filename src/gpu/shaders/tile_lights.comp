@@ -52,7 +52,7 @@ bool meets_tile(uint light, uint tile, Range range, Around around) {
 }
 
 void main() {
-  uint tile = group_index(), lane = gl_LocalInvocationIndex;
+  uint tile = group_index(), lane = lane_index();
   if (tile >= frame.cells) return;  // the whole group
   Range range = range_of(tile);
   if (is_empty(range)) return;  // the whole group
