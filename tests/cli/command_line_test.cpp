@@ -33,7 +33,7 @@ TEST(CommandLine, what_is_unknown_or_missing_is_told_in_one_line_with_the_neares
       {"man all", "man: 'all' is one argument too many; see `clusterbench man --help`"},
       {"list preset",
        "list: SECTION: no 'preset' (did you mean 'presets'?); there are: assigners, storages, grids, pre_culls, "
-       "scenes, presets, figures; "
+       "scenes, presets, figures, devices; "
        "see `clusterbench list --help`"},
       {"compare a.json", "compare: NEW is required; see `clusterbench compare --help`"},
       {"run", "run: INPUT is required; see `clusterbench run --help`"},
@@ -202,7 +202,13 @@ TEST(CommandLine, list_names_every_assigner_with_its_parameters) {
                                              "three-js-boxes",
                                              "babylon-as-shipped",
                                              "naive-mask",
-                                             "naive-tile-size"}));
+                                             "naive-tile-size",
+                                             "gpu-cells",
+                                             "gpu-cells-fixed",
+                                             "gpu-group",
+                                             "gpu-mask",
+                                             "gpu-lights",
+                                             "gpu-tiled"}));
   const std::string text = tool("list").out;
   for (const std::string& name : names) EXPECT_NE(text.find(name), std::string::npos) << name;
   const std::string inflation = ": padding of the light's radius";

@@ -11,6 +11,7 @@
 #include "config/schema/schema_verdict.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "gpu/methods/methods.h"
 #include "places.h"
 
 namespace clusterbench::config {
@@ -66,7 +67,8 @@ const Broken k_broken[] = {
      "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, as_shipped, "
      "assigners, "
      "cost, "
-     "details, device, grids, jitter, limits, lookup, name, pre_cull, precision, presets, rank_by, samples, scenes, seed, "
+     "details, device, grids, jitter, limits, lookup, name, pre_cull, precision, presets, rank_by, samples, scenes, "
+     "seed, "
      "shading, "
      "shadow_cull, shadow_frusta, stability, "
      "storages, "
@@ -478,6 +480,7 @@ TEST(Config, the_resolved_configuration_is_a_configuration_that_means_the_same) 
 
 TEST(Config, the_committed_configurations_are_valid_for_reader_and_schema_and_name_what_exists) {
   setenv("CLUSTERBENCH_SCENE_LIBRARY", "library", 0);
+  gpu::register_methods();
   namespace fs = std::filesystem;
   std::size_t configurations = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(test::source_dir() + "/configs")) {
