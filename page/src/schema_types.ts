@@ -674,6 +674,7 @@ export type Result = {
       }; // Rounds beside another program (run --baseline-binary)
     }; // Wall times
     device?: {
+      device: string; // Name and driver of the device; times of one device alone compare
       frames_timed: number; // Evenly spaced over the path; all times are means over them [frames, over the path]
       run_ns: Time; // Per frame: the device's work, from the lights to the lists
       upload_ns: Time; // Per frame: bringing the frame's lights to the device

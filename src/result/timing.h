@@ -57,6 +57,7 @@ struct TimedPairs {
 // Of a method that runs on a device, by the device's clock.
 struct DeviceTimes {
   RECORD(DeviceTimes);
+  FIELD(std::string, device, "Name and driver of the device; times of one device alone compare");
   FIELD(std::uint64_t, frames_timed, "Evenly spaced over the path; all times are means over them", "frames",
         "the path");
   FIELD(Time, run_ns, "Per frame: the device's work, from the lights to the lists");

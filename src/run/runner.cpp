@@ -310,7 +310,7 @@ class Run {
     std::erase_if(on_device.cases, [&](const CasePlan& case_plan) { return !method_of(config_, case_plan).on_device; });
     if (on_device.cases.empty()) return true;
     report_progress(group, "time on the device", 0.0);
-    std::vector<DeviceTimes> times = device_pass(config_, on_device, path, stop_);
+    std::vector<std::optional<DeviceTimes>> times = device_pass(config_, on_device, path, stop_);
     if (times.empty()) return false;
     auto next = times.begin();
     for (const CasePlan& case_plan : group.cases) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "gpu/device/device_facts.h"
+#include "gpu/device/device_choice.h"
 
 namespace clusterbench::gpu {
 namespace {

@@ -7,6 +7,7 @@
 #include "report/cases/contender.h"
 #include "report/choosing/conclusion.h"
 #include "report/comparison_by_hand.h"
+#include "report/results/merge.h"
 #include "report/tables/table.h"
 
 namespace clusterbench::report {
@@ -15,7 +16,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using testing::case_by_hand;
 using testing::compared;
-using testing::holds;
 using testing::json_of;
 using testing::result_by_hand;
 
@@ -31,7 +31,8 @@ run::Result with_device(double run_ns, gpu::DeviceType type = gpu::DeviceType::d
   const auto time = [](double ns) {
     return measure::TimeStats{ns, 1.0, ns, ns, {0.998 * ns, 1.002 * ns}, std::vector<double>(31, ns)};
   };
-  on_device.device = run::DeviceTimes{2, time(run_ns), time(100.0), time(200.0), 4.0, time(500.0), run_ns / 500.0};
+  on_device.device =
+      run::DeviceTimes{"Card", 2, time(run_ns), time(100.0), time(200.0), 4.0, time(500.0), run_ns / 500.0};
   result.cases.push_back(on_device);
   result.planned_ids.push_back("device");
   return result;
@@ -87,10 +88,23 @@ TEST(DeviceCases, are_compared_by_the_devices_times_on_the_same_device_alone) {
   const Json base = json_of(with_device(2000.0)), next = json_of(with_device(2400.0));
   EXPECT_EQ(compared(base, next, 0.02)["cases"][2]["hint"], "longer");
   Json elsewhere = next;
-  elsewhere["device"]["name"] = "Other card";
+  elsewhere["cases"][2]["device"]["device"] = "Other card";
   const Json comparison = compared(base, elsewhere, 0.02);
   EXPECT_FALSE(comparison["cases"][2].contains("hint"));
-  EXPECT_TRUE(holds(comparison, "/device/name is")) << comparison.dump(1);
+  EXPECT_EQ(comparison["cases"][0]["hint"], "none") << "times of the processor are compared all the same";
+}
+
+TEST(DeviceCases, keep_their_device_in_a_merged_result_unless_there_are_several) {
+  run::Result on_processor = result_by_hand(), on_device = with_device(2000.0), on_other = with_device(2000.0);
+  on_device.cases.erase(on_device.cases.begin(), on_device.cases.begin() + 2);
+  on_other.cases = {on_device.cases[0]};
+  on_other.cases[0].id = "other";
+  on_other.planned_ids = {"other"};
+  on_other.device->name = "Other card";
+  const NamedPart first{"a.json", test::result_of(json_of(on_processor))},
+      second{"b.json", test::result_of(json_of(on_device))}, third{"c.json", test::result_of(json_of(on_other))};
+  EXPECT_EQ(merged({first, second}).device->name, "Card");
+  EXPECT_FALSE(merged({first, second, third}).device);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "assign/contract/assigner.h"
 #include "cli/command_line/commands.h"
 #include "cli/options/run_inputs.h"
 #include "cli/output/duration.h"
@@ -97,6 +98,12 @@ config::Config read_input(const RecommendFlags& flags, std::string& ignored) {
   defaults["samples"] = {{"opaque", {{"divisor", 16}}}};
   config::Config config = read_inputs(flags.inputs, {}, defaults);
   ignored = ignored_keys(config);
+  for (const config::MethodRequest& method : config.assigners)
+    if (assign::find_assigner(method.name)->on_device)
+      throw Error(config.file.string(), "assigners",
+                  method.name +
+                      " runs on a device, whose times do not compare with those of the processor; `clusterbench "
+                      "run` measures it beside others");
   return config::changed(
       config, {{"details", nullptr}, {"stability", nullptr}, {"shadow_cull", nullptr}, {"shadow_frusta", nullptr}});
 }

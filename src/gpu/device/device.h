@@ -46,8 +46,8 @@ class Device {
 void use_device(const std::string& wanted);
 // After a failure: the next device() opens it anew. Nothing that was made with the old one may be left.
 void close_device();
-// The device of this process: opened at the first call, and never closed but by use_device(). All methods and threads
-// of a run share it. Throws Error with the reason if there is none.
+// The device of this process: opened at the first call, and closed by use_device() and close_device() alone. All
+// methods and threads of a run share it. Throws Error with the reason if there is none.
 Device& device();
 // The reason why device() throws; "" if it does not.
 std::string device_obstacle();

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/error.h"
+#include "gpu/device/device_choice.h"
 #include "gpu/vulkan/shader_code.h"
 
 namespace clusterbench::gpu {

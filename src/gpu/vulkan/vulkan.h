@@ -12,7 +12,7 @@ namespace clusterbench::gpu {
 // Throws DeviceError with the call's name and the meaning of the result, unless it is VK_SUCCESS.
 void check(VkResult result, const char* call);
 
-// The loader and an instance, opened at the first call and closed at the end of the process.
+// The loader and an instance, opened at the first call and never closed.
 struct Instance {
   VkInstance handle = VK_NULL_HANDLE;
   std::string obstacle;  // the reason why there is none

@@ -215,7 +215,7 @@ std::string unsound_text(const std::vector<const Case*>& cases) {
 }
 
 std::string why_none(const SceneView& view) {
-  if (!view.on_device.empty() && view.sound.empty())
+  if (!view.on_device.empty() && view.sound.empty() && view.searched.empty() && view.unsampled == 0)
     return "nothing to take of methods that run on the processor: none was measured, or each loses lights";
   if (!view.searched.empty())
     return "nothing to take: only structures that samples search are sound here, and no GPU has measured such a search";

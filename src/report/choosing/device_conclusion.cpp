@@ -1,5 +1,7 @@
 #include "report/choosing/device_conclusion.h"
 
+#include <algorithm>
+
 #include "core/text.h"
 #include "report/cases/columns.h"
 #include "report/choosing/conclusion_words.h"
@@ -38,16 +40,26 @@ std::string fastest_text(const std::vector<WeighedCase>& timed) {
 }  // namespace
 
 std::string device_text(const SceneView& view, const std::optional<result::Device>& device) {
-  std::vector<WeighedCase> timed;
-  for (const WeighedCase& weighed : view.on_device)
-    if (weighed.result_case->device) timed.push_back(weighed);
   if (view.on_device.empty() || !device) return "";
+  std::vector<std::vector<WeighedCase>> grids;  // lists of one grid compare; those of visible surfaces alone do not
+  std::size_t timed = 0;
+  for (const WeighedCase& weighed : view.on_device) {
+    if (!weighed.result_case->device) continue;
+    ++timed;
+    if (is_at_surfaces(weighed.method())) continue;
+    const auto same = std::ranges::find_if(grids, [&](const std::vector<WeighedCase>& grid) {
+      return grid.front().result_case->grid.name == weighed.result_case->grid.name;
+    });
+    (same == grids.end() ? grids.emplace_back() : *same).push_back(weighed);
+  }
   const std::string on = " On " + shown(device->name) + ": ";
-  if (timed.empty()) return on + "nothing was timed.";
+  if (timed == 0) return on + "nothing was timed.";
   if (device->type == "software")
-    return on + number_of(timed.size(), "case") +
+    return on + number_of(timed, "case") +
            ", whose times rank nothing: they are those of a driver that computes on the processor, and no GPU's.";
-  return on + fastest_text(timed) + ". Times of a device and of the processor are not compared.";
+  std::string out;
+  for (const std::vector<WeighedCase>& grid : grids) out += (out.empty() ? on : "; ") + fastest_text(grid);
+  return out.empty() ? "" : out + ". Times of a device and of the processor are not compared.";
 }
 
 }  // namespace clusterbench::report

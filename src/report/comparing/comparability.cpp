@@ -29,10 +29,8 @@ std::optional<std::string> caches_of_times(const Result& result) {
 
 // The fields that figures depend on, at their place in a result.
 Json facts_of(const Result& result) {
-  return {{"machine", result::to_json(result.machine)},
-          {"device", result.device ? result::to_json(*result.device) : Json()},
-          {"tool", result::to_json(result.tool)},
-          {"config", result.config}};
+  return {
+      {"machine", result::to_json(result.machine)}, {"tool", result::to_json(result.tool)}, {"config", result.config}};
 }
 
 std::vector<std::string> texts_of(const std::vector<OtherSetting>& settings) {
@@ -88,8 +86,7 @@ Obstacles obstacles(const Result& base, const Result& next) {
   out.to_instructions =
       differing({"/machine/cpu", "/machine/family", "/machine/model", "/machine/stepping", "/machine/caches",
                  "/tool/compiler", "/tool/flags", "/tool/build_type", "/tool/simd_target", "/config/timing/frames"});
-  out.to_times = differing(
-      {"/machine/cores", "/machine/ram_bytes", "/machine/os", "/device/name", "/device/driver", "/device/uuid"});
+  out.to_times = differing({"/machine/cores", "/machine/ram_bytes", "/machine/os"});
   const std::optional<std::string> base_caches = caches_of_times(base), next_caches = caches_of_times(next);
   if (base_caches && next_caches && *base_caches != *next_caches)
     out.to_times.push_back("/cases/*/timing/caches is \"" + *base_caches + "\" and \"" + *next_caches + "\"");

@@ -72,7 +72,8 @@ std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
 
 bool are_timed(const Match& match) {
   const result::Time *base = compared_time(match.base), *next = compared_time(match.next);
-  return match.base.device.has_value() == match.next.device.has_value() && base != nullptr && next != nullptr &&
+  const auto device_of = [](const Case& one) { return one.device ? one.device->device : std::string(); };
+  return device_of(match.base) == device_of(match.next) && base != nullptr && next != nullptr &&
          std::isfinite(base->median) && std::isfinite(next->median);
 }
 

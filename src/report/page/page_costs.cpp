@@ -19,7 +19,7 @@ using result::Timing;
 std::vector<result::FrameCost> page_costs(const result::Result& result) {
   std::vector<result::FrameCost> costs;
   for (const Case& result_case : result.cases) {
-    if (!loses_nothing_seen(result_case)) continue;
+    if (!loses_nothing_seen(result_case) || runs_on_device(result_case)) continue;
     const std::optional<WholeFrame> frame = whole_frame(result_case, result.config);
     const bool is_timed = result_case.timing.has_value();
     if (!frame || (is_timed && makes_lists_on_gpu(result_case))) continue;

@@ -103,6 +103,17 @@ std::string merged_name(const std::vector<NamedPart>& parts) {
   return name;
 }
 
+// The device of all parts that have one. None where they have several: each case names that of its times.
+std::optional<result::Device> common_device(const std::vector<NamedPart>& parts) {
+  std::optional<result::Device> device;
+  for (const NamedPart& part : parts) {
+    if (!part.result.device) continue;
+    if (device && !are_same(*device, *part.result.device)) return {};
+    device = part.result.device;
+  }
+  return device;
+}
+
 }  // namespace
 
 result::Result merged(const std::vector<NamedPart>& parts) {
@@ -112,6 +123,7 @@ result::Result merged(const std::vector<NamedPart>& parts) {
   out.name = merged_name(parts);
   out.tool = first.tool;
   out.machine = without_state(first.machine);
+  out.device = common_device(parts);
   out.config = merged_config(parts);
   std::vector<std::string> failed;
   Union<result::Scene> scenes(out.scenes, "scenes", &result::Scene::name, "name");

@@ -90,6 +90,7 @@ struct WarmTimes {
 
 // Per frame, by the own clock of the device (a GPU) that a method runs on.
 struct DeviceTimes {
+  std::string device;  // name and driver
   int frames_timed = 0;
   measure::TimeStats run_ns, upload_ns, readback_ns;
   double dispatches = 0.0;      // per frame

@@ -46,7 +46,9 @@ void count_pass(const config::Config& config, const Plan& plan, const std::funct
                 InstructionCounter& counter, const std::function<void(const CasePlan&, const CountResult&)>& on_case,
                 const std::atomic<bool>& stop) {
   for (GroupPlan group : plan.groups) {
-    std::erase_if(group.cases, [&](const CasePlan& case_plan) { return !is_wanted(case_plan); });
+    std::erase_if(group.cases, [&](const CasePlan& case_plan) {
+      return !is_wanted(case_plan) || method_of(config, case_plan).on_device;
+    });
     if (group.cases.empty()) continue;
     const PathFrames path = path_of(config, plan, group);
     const std::vector<TimedFrame> frames = timed_frames(config, group, path, mean_frames(config, path));

@@ -3,6 +3,7 @@
 // (method_order() of timing_pass.h), each followed by its floor. In this process, which has the device open.
 
 #include <atomic>
+#include <optional>
 #include <vector>
 
 #include "run/cases/case_plan.h"
@@ -11,8 +12,9 @@
 
 namespace clusterbench::run {
 
-// One for each case of the group, whose methods all run on the device; empty if stopped before the end.
-std::vector<DeviceTimes> device_pass(const config::Config& config, const GroupPlan& group, const PathFrames& path,
-                                     const std::atomic<bool>& stop);
+// One for each case of the group, whose methods all run on the device, none where it has no clock; empty if stopped
+// before the end.
+std::vector<std::optional<DeviceTimes>> device_pass(const config::Config& config, const GroupPlan& group,
+                                                    const PathFrames& path, const std::atomic<bool>& stop);
 
 }  // namespace clusterbench::run

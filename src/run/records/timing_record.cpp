@@ -69,7 +69,8 @@ result::Timing timing_record(const TimingResult& t) {
 }
 
 result::DeviceTimes device_record(const DeviceTimes& t) {
-  return {static_cast<std::uint64_t>(t.frames_timed),
+  return {t.device,
+          static_cast<std::uint64_t>(t.frames_timed),
           time_record(t.run_ns),
           time_record(t.upload_ns),
           time_record(t.readback_ns),

@@ -78,7 +78,6 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
   }
   if (extra_ != nullptr) assign_frame(frames.size());
   assign();
-  if (assigner().device_spans() != nullptr) device_.emplace();
 }
 
 std::vector<std::size_t> TimedWork::frames_of_stores(std::size_t all_frames) {
@@ -122,12 +121,7 @@ const view::LightArrays& TimedWork::lights(std::size_t frame) const {
 }
 
 void TimedWork::assign() {
-  if (device_) device_.emplace();
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    assign_frame(i);
-    if (!device_) continue;
-    *device_ += *assigner().device_spans();
-  }
+  for (std::size_t i = 0; i < frames_.size(); ++i) assign_frame(i);
 }
 
 void TimedWork::prepare_frame(std::size_t frame) {

@@ -55,9 +55,8 @@ class TimedWork {
   void prepare_frame(std::size_t frame);
   // One frame, in the same way as assign().
   void assign_frame(std::size_t frame);
-  // For all frames of the last assign(), by the device's own clock; null without a device.
-  const assign::DeviceSpans* device_spans() const { return device_ ? &*device_ : nullptr; }
-  // For the last of these frames.
+  // Of the last frame that was assigned, by the device's own clock. Only of methods that run on a device.
+  const assign::DeviceSpans& device_spans() const { return *assigner().device_spans(); }
   double device_floor_ns() const { return assigner().device_floor_ns(); }
   // Number of builds in an assign() that follows another one.
   std::size_t builds() const;
@@ -98,7 +97,6 @@ class TimedWork {
   std::unique_ptr<assign::ListAssigner> lists_assigner_;
   std::unique_ptr<assign::StructureAssigner> structure_assigner_;  // only one of the two is set
   const grid::Grid* built_for_ = nullptr;
-  std::optional<assign::DeviceSpans> device_;
   std::vector<assign::Lists> lists_;
   std::vector<std::unique_ptr<assign::LightStructure>> structures_;
   std::vector<std::size_t> case_indices_;
