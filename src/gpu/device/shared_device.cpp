@@ -19,8 +19,16 @@ Shared& shared() {
   return only;
 }
 
+// One that cannot be opened again, after a failure, ends the cases that run on it as the failure did.
 Device& opened(Shared& now) {
-  if (!now.device) now.device = std::make_unique<Device>(now.wanted);
+  if (now.device) return *now.device;
+  try {
+    now.device = std::make_unique<Device>(now.wanted);
+  } catch (const DeviceError&) {
+    throw;
+  } catch (const Error& error) {
+    throw DeviceError(error.message());
+  }
   return *now.device;
 }
 
