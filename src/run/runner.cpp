@@ -210,7 +210,7 @@ class Run {
 
   // With a launcher, several groups of a scene wait until they are timed together: each launch then starts only once
   // for all of them, some time after the previous launch.
-  void run_group(GroupPlan group, Result& out) {
+  void run_group(const GroupPlan& group, Result& out) {
     if (group.cases.empty()) return;
     if (!waiting_.empty() && (waiting_.front().group.scene != group.scene || waiting_cost() > k_most_waiting_ns))
       time_waiting(out);

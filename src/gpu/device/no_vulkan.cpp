@@ -3,6 +3,10 @@
 #include "core/error.h"
 #include "gpu/device/device.h"
 
+#ifndef CLUSTERBENCH_GPU_OBSTACLE
+#define CLUSTERBENCH_GPU_OBSTACLE "this clusterbench was built without Vulkan"
+#endif
+
 namespace clusterbench::gpu {
 namespace {
 

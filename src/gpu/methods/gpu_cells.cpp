@@ -1,5 +1,6 @@
 // On the device: one invocation per cell, over all lights; counted, summed, then written: the compute shader of
 // tutorials, with lists of any length.
+#include "gpu/methods/descriptors.h"
 #include "gpu/methods/device_lists.h"
 
 namespace clusterbench::gpu {
@@ -30,7 +31,6 @@ class Cells final : public DeviceLists {
 
 }  // namespace
 
-assign::AssignerDescriptor gpu_cells_descriptor();
 assign::AssignerDescriptor gpu_cells_descriptor() {
   return {
       .name = "gpu-cells",

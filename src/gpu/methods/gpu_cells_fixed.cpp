@@ -1,6 +1,7 @@
 // On the device: one invocation per cell, over all lights, in one pass: each cell has room for the same number of
 // lights, and those that find none are dropped and counted.
 #include "assign/storages/fixed.h"
+#include "gpu/methods/descriptors.h"
 #include "gpu/methods/device_floor.h"
 #include "gpu/methods/device_frame.h"
 #include "gpu/methods/device_lists.h"
@@ -86,7 +87,6 @@ class CellsFixed final : public assign::StructureAssigner {
 
 }  // namespace
 
-assign::AssignerDescriptor gpu_cells_fixed_descriptor();
 assign::AssignerDescriptor gpu_cells_fixed_descriptor() {
   std::vector<assign::ParamSpec> params{assign::cap_param()};
   for (assign::ParamSpec& param : device_params()) params.push_back(std::move(param));

@@ -1,5 +1,6 @@
 // On the device: one group per block of 4 x 4 x 4 cells. Lights are tested against the block first, and those that
 // touch it against its cells.
+#include "gpu/methods/descriptors.h"
 #include "gpu/methods/device_lists.h"
 
 namespace clusterbench::gpu {
@@ -33,7 +34,6 @@ class Group final : public DeviceLists {
 
 }  // namespace
 
-assign::AssignerDescriptor gpu_group_descriptor();
 assign::AssignerDescriptor gpu_group_descriptor() {
   return {
       .name = "gpu-group",

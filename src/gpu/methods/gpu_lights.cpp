@@ -1,4 +1,5 @@
 // On the device: a group per light, which scatters bits into the cells of the rows and columns that it reaches.
+#include "gpu/methods/descriptors.h"
 #include "gpu/methods/device_lists.h"
 
 namespace clusterbench::gpu {
@@ -25,7 +26,6 @@ class Lights final : public MaskLists {
 
 }  // namespace
 
-assign::AssignerDescriptor gpu_lights_descriptor();
 assign::AssignerDescriptor gpu_lights_descriptor() {
   return {
       .name = "gpu-lights",

@@ -1,4 +1,5 @@
 // On the device: an invocation per cell and light; ballots make a bit for each pair, and lists are made of the bits.
+#include "gpu/methods/descriptors.h"
 #include "gpu/methods/device_lists.h"
 
 namespace clusterbench::gpu {
@@ -23,7 +24,6 @@ class Mask final : public MaskLists {
 
 }  // namespace
 
-assign::AssignerDescriptor gpu_mask_descriptor();
 assign::AssignerDescriptor gpu_mask_descriptor() {
   return {
       .name = "gpu-mask",

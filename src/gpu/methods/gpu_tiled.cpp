@@ -4,6 +4,7 @@
 
 #include "assign/bounds/tile_planes.h"
 #include "assign/occupied/occupied_method.h"
+#include "gpu/methods/descriptors.h"
 #include "gpu/methods/device_lists.h"
 
 namespace clusterbench::gpu {
@@ -191,7 +192,7 @@ std::vector<assign::ParamSpec> params_of_tiles() {
 
 // The host says which parts of a tile's depth are occupied, so the device's parts have to be the same.
 std::string no_tiles(const assign::Params& params) {
-  const std::string obstacle = no_device(params);
+  std::string obstacle = no_device(params);
   if (!obstacle.empty() || !params.flag("depth_mask") || gpu::device().facts().rounds_to_nearest) return obstacle;
   return gpu::device().facts().name + " cannot be asked to round to nearest, so its parts of depth may differ from " +
          "those that are checked; use depth_mask = false";
@@ -199,7 +200,6 @@ std::string no_tiles(const assign::Params& params) {
 
 }  // namespace
 
-assign::AssignerDescriptor gpu_tiled_descriptor();
 assign::AssignerDescriptor gpu_tiled_descriptor() {
   return {
       .name = "gpu-tiled",
