@@ -10,6 +10,7 @@
 #include "effort.h"
 #include "geom/light_meets_cell.h"
 #include "gpu/device/device.h"
+#include "gpu/device_test.h"
 #include "gpu/methods/device_frame.h"
 #include "gpu/methods/methods.h"
 
@@ -23,13 +24,7 @@ using assign::Lists;
 using assign::Params;
 using assign::testing::Setting;
 
-class DeviceCells : public ::testing::Test {
- protected:
-  void SetUp() override {
-    register_methods();
-    if (const std::string obstacle = device_obstacle(); !obstacle.empty()) GTEST_SKIP() << "skipped: " << obstacle;
-  }
-};
+using DeviceCells = testing::DeviceTest;
 
 Lists lists_with_cells_of(const std::string& place, const char* spot, const Setting& setting) {
   const AssignerDescriptor& method = *assign::find_assigner("gpu-cells");

@@ -22,6 +22,7 @@
 #include "geom/single_precision/box_tests.h"
 #include "geom/single_precision/touch_tests.h"
 #include "gpu/device/device.h"
+#include "gpu/device_test.h"
 #include "gpu/methods/frame_arguments.h"
 #include "gpu/methods/methods.h"
 
@@ -38,13 +39,7 @@ using assign::StructureUse;
 using assign::testing::Setting;
 using Values = std::map<std::string, ParamValue>;
 
-class DeviceOwnLists : public ::testing::Test {
- protected:
-  void SetUp() override {
-    register_methods();
-    if (const std::string obstacle = device_obstacle(); !obstacle.empty()) GTEST_SKIP() << "skipped: " << obstacle;
-  }
-};
+using DeviceOwnLists = testing::DeviceTest;
 
 view::LightArrays lights_of(const Setting& setting) {
   return view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
