@@ -79,6 +79,23 @@ TEST_F(DeviceCommands, fill_a_buffer_and_no_more_of_it_than_asked_for) {
 }
 
 // A buffer that was refused or did not fit can be asked for again.
+TEST_F(DeviceCommands, count_the_steps_that_wait_for_each_other) {
+  Buffers buffers(device());
+  buffers.reserve(0, 64, "words");
+  Commands commands(device(), buffers);
+  commands.barrier();
+  EXPECT_EQ(commands.steps(), 0u);
+  commands.fill(0, 1, 32);
+  commands.fill(1, 1, 32);
+  commands.fill(2, 1, 0);
+  EXPECT_EQ(commands.steps(), 1u);
+  commands.barrier();
+  commands.barrier();
+  commands.fill(0, 2, 32);
+  EXPECT_EQ(commands.steps(), 2u);
+  commands.run();
+}
+
 TEST_F(DeviceCommands, refuse_a_buffer_above_the_devices_limit_with_both_numbers) {
   Buffers buffers(device());
   const std::uint64_t limit = device().facts().max_buffer_bytes;

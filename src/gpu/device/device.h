@@ -100,8 +100,8 @@ class Commands {
   void barrier();
   // The time of all steps until now, by the device's clock. Up to 64 in one recording.
   void mark();
-  // Steps until now that take turns on the device: dispatches and fills.
-  std::uint32_t steps() const { return steps_; }
+  // Steps until now that wait for each other: dispatches and fills between two barriers are one.
+  std::uint32_t steps() const { return steps_ + (has_work_ ? 1 : 0); }
   // The first bytes of a buffer, for downloaded() after run().
   void download(std::uint32_t binding, std::uint64_t bytes);
 
@@ -116,7 +116,8 @@ class Commands {
   Device::Impl& device_;
   Buffers::Impl& buffers_;
   std::unique_lock<std::recursive_mutex> turn_;
-  std::uint32_t steps_ = 0;
+  std::uint32_t steps_ = 0;  // until the last barrier
+  bool has_work_ = false;    // since then
 };
 
 }  // namespace clusterbench::gpu

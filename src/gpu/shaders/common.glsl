@@ -14,7 +14,7 @@ spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [44
 #endif
 
 layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint MODE = 0;  // the same number in gpu/methods/device_lists.h
+layout(constant_id = 1) const uint MODE = 0;  // as gpu/methods/frame_arguments.h
 const uint k_count = 0, k_fill = 1, k_fixed = 2;
 
 // As gpu/methods/frame_arguments.h.

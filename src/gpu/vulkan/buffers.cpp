@@ -61,7 +61,7 @@ Buffers::Impl::~Impl() {
   for (Memory& memory : outgrown) device.free(memory);
   device.free(to_device);
   device.free(to_host);
-  vkDestroyDescriptorPool(device.device, pool, nullptr);
+  if (!device.is_stuck) vkDestroyDescriptorPool(device.device, pool, nullptr);
 }
 
 void Buffers::Impl::bind(std::uint32_t binding, VkBuffer buffer) const {

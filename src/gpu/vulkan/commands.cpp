@@ -14,6 +14,7 @@ constexpr std::uint64_t k_groups_in_a_row = 32768;  // devices take at least 65,
 
 Commands::Commands(Device& device, Buffers& buffers)
     : device_(device.impl()), buffers_(buffers.impl()), turn_(device_.turn) {
+  if (device_.is_stuck) throw DeviceError(device_.facts.name + " did not answer an earlier frame");
   buffers_.uploaded = 0;
   buffers_.downloads.clear();
   buffers_.mark_count = 0;
@@ -46,8 +47,9 @@ void Commands::upload(std::uint32_t binding, const void* data, std::uint64_t byt
 }
 
 void Commands::fill(std::uint32_t binding, std::uint32_t word, std::uint64_t bytes) {
-  ++steps_;
-  if (bytes > 0) vkCmdFillBuffer(device_.commands, buffers_.at.at(binding).buffer, 0, bytes, word);
+  if (bytes == 0) return;
+  has_work_ = true;
+  vkCmdFillBuffer(device_.commands, buffers_.at.at(binding).buffer, 0, bytes, word);
 }
 
 void Commands::use(Buffers& buffers) {
@@ -57,7 +59,7 @@ void Commands::use(Buffers& buffers) {
 
 void Commands::dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t groups) {
   if (groups == 0) return;
-  ++steps_;
+  has_work_ = true;
   const std::uint64_t in_a_row = std::min(groups, k_groups_in_a_row);
   vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_.pipelines.at(kernel));
   vkCmdPushConstants(device_.commands, device_.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof arguments.words,
@@ -67,6 +69,8 @@ void Commands::dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t
 }
 
 void Commands::barrier() {
+  steps_ = steps();
+  has_work_ = false;
   VkMemoryBarrier2 memory{};
   memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
   memory.srcStageMask = memory.dstStageMask =
@@ -127,7 +131,9 @@ void Commands::run() {
   submit.commandBufferInfoCount = 1;
   submit.pCommandBufferInfos = &command;
   check(vkQueueSubmit2(device_.queue, 1, &submit, device_.fence), "vkQueueSubmit2");
-  check(vkWaitForFences(device_.device, 1, &device_.fence, VK_TRUE, k_longest_run_ns), "vkWaitForFences");
+  const VkResult waited = vkWaitForFences(device_.device, 1, &device_.fence, VK_TRUE, k_longest_run_ns);
+  device_.is_stuck = waited == VK_TIMEOUT;
+  check(waited, "vkWaitForFences");
   check(vkResetFences(device_.device, 1, &device_.fence), "vkResetFences");
   for (Memory& memory : buffers_.outgrown) device_.free(memory);
   buffers_.outgrown.clear();

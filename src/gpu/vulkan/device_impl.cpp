@@ -31,7 +31,7 @@ Device::Impl::Impl(const std::string& wanted) {
 }
 
 Device::Impl::~Impl() {
-  if (device == VK_NULL_HANDLE) return;
+  if (device == VK_NULL_HANDLE || is_stuck) return;
   vkDeviceWaitIdle(device);
   for (VkPipeline pipeline : pipelines) vkDestroyPipeline(device, pipeline, nullptr);
   vkDestroyPipelineLayout(device, layout, nullptr);
@@ -189,6 +189,7 @@ Memory Device::Impl::allocate(std::uint64_t bytes, Place place) const {
 }
 
 void Device::Impl::free(Memory& memory) const {
+  if (is_stuck) return;
   if (memory.buffer != VK_NULL_HANDLE) vkDestroyBuffer(device, memory.buffer, nullptr);
   if (memory.memory != VK_NULL_HANDLE) vkFreeMemory(device, memory.memory, nullptr);
   memory = {};

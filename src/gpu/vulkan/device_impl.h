@@ -33,6 +33,7 @@ struct Device::Impl {
 
   static constexpr std::uint32_t k_marks = 66;
 
+  bool is_stuck = false;      // it may still work on what was submitted: nothing is destroyed, and nothing more is run
   std::recursive_mutex turn;  // of who records or adds a kernel
   DeviceFacts facts;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
