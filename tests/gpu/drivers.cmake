@@ -4,10 +4,19 @@
 #   lavapipe_reversed           with the invocations of each group numbered from the other end (lane_index() of common.glsl)
 #   lavapipe_sync               the validation layer looks for missing barriers between commands
 #   lavapipe_bounds             it looks for reads and writes beyond buffers
+#   lavapipe_core               it looks for what is used against the rules, or not destroyed
 # A missing driver, layer or Vulkan itself skips them with the reason; .ci/run takes that for a failure.
 file(GLOB LAVAPIPE /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.json)
 file(GLOB SWIFTSHADER /usr/lib/chromium/vk_swiftshader_icd.json /usr/lib*/chromium-browser/vk_swiftshader_icd.json
      /opt/google/chrome/vk_swiftshader_icd.json)
+
+# Faults of Vulkan's calls, which the test program puts between the layer and the driver.
+if(VULKAN_INCLUDE AND VOLK_INCLUDE AND GLSLANG)
+  set(FAULTS gpu/faults/made_and_destroyed.cpp gpu/faults/faults_test.cpp)
+  target_sources(test_gpu PRIVATE ${FAULTS})
+  target_include_directories(test_gpu SYSTEM PRIVATE ${VULKAN_INCLUDE} ${VOLK_INCLUDE})
+  set_source_files_properties(${FAULTS} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endif()
 
 # The test program takes shaders of a folder in place of the embedded ones where it is told so: those with other numbers of
 # invocations, and changed ones of scripts/shader_mutations.py.
@@ -87,6 +96,8 @@ if(NOT CLUSTERBENCH_SANITIZE)
   clusterbench_add_device_tests(lavapipe_bounds "${LAVAPIPE}" mesa-vulkan-drivers
     "DeviceCommands.*:DeviceSizes.of_any*:DeviceSizes.of_lists*:DeviceSizes.of_more*:DeviceOwnLists.of_tiles_know*:\
 DeviceOwnLists.of_fixed_length_f*:DeviceReadingLookups.*:DeviceReadingWalks.differ*" CLUSTERBENCH_VULKAN_VALIDATION=gpu)
+  clusterbench_add_device_tests(lavapipe_core "${LAVAPIPE}" mesa-vulkan-drivers "DeviceFaults.*"
+    CLUSTERBENCH_VULKAN_VALIDATION=core)
 endif()
 if(NOT CLUSTERBENCH_SANITIZE STREQUAL "thread")
   # Not what takes it long, and not what wants rounding to nearest.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <span>
 
 #include "cli/output/output.h"
 #include "core/error.h"
@@ -84,6 +85,21 @@ void print_other_cameras(const config::Config& config, const run::Plan& plan) {
     if (others.empty()) continue;
     print_message("of " + scene.name + " only camera '" + plan.scenes[i].paths.front().camera + "', and not " +
                   number_of(others.size(), "other") + "; --set 'scenes.*.camera=*' takes all");
+  }
+}
+
+void print_ended_cases(const run::Plan& plan, const run::Result& result) {
+  // Those of the plan come first.
+  const std::span ended(result.skipped.begin() + static_cast<std::ptrdiff_t>(plan.skipped.size()),
+                        result.skipped.end());
+  std::vector<std::string> told;
+  for (const run::Skipped& one : ended) {
+    if (std::ranges::find(told, one.reason) != told.end()) continue;
+    told.push_back(one.reason);
+    const auto others = std::ranges::count(ended, one.reason, &run::Skipped::reason) - 1;
+    print_message("warning: " + one.name +
+                  (others > 0 ? " and " + number_of(static_cast<std::uint64_t>(others), "more case") : std::string()) +
+                  (others > 0 ? " were" : " was") + " not measured to the end: " + one.reason);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "cli/command_line/command.h"
 #include "config/config.h"
 #include "run/cases/plan.h"
+#include "run/findings/run_result.h"
 
 namespace clusterbench::cli {
 
@@ -38,5 +39,8 @@ std::vector<std::string> files_of(const RunInputs& inputs, const config::Config&
 // For commands that use one camera or some cameras of a scene: prints the other cameras, and those that --fov does not
 // change.
 void print_other_cameras(const config::Config& config, const run::Plan& plan);
+
+// Prints which cases of the plan a device has ended, once for each reason.
+void print_ended_cases(const run::Plan& plan, const run::Result& result);
 
 }  // namespace clusterbench::cli

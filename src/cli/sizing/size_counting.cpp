@@ -302,6 +302,8 @@ std::optional<SizeCounts> counted_for_size(SizePlan plan, bool quiet) {
     for (const std::string& warning : scene.warnings) print_message("warning: " + scene.name + ": " + warning);
   if (result.cases.empty())
     for (const run::Skipped& skipped : result.skipped) print_message("skipped " + skipped.name + ": " + skipped.reason);
+  else
+    print_ended_cases(plan.plan, result);
   SizeCounts out{std::move(plan.config), std::move(plan.plan), report::record_of(result, {}), {}};
   out.result.conclusions.emplace();  // nothing was compared, so there is no recommendation
   if (plan.limited) out.grown = grown_tiles(*plan.limited, out.plan);
