@@ -105,8 +105,8 @@ TEST_F(OnDevice, that_is_another_one_resume_refuses_unless_no_method_runs_on_it)
     const std::string input = config_ + " --filter " + filter;
     ASSERT_EQ(tool("run -q " + input + " -o " + quick).code, 0);
     const auto result = nlohmann::ordered_json::parse(file_text(quick));
-    const std::string run = " -q --set timing.measure=true --set timing.rounds=1000000 " + input + " -o " + out();
-    const std::string wait = "while [ ! -s " + out() + ".partial ]; do sleep 0.01; done";
+    const std::string run = " -q --set timing.measure=true --set timing.rounds=100000 " + input + " -o " + out();
+    const std::string wait = "while [ ! -s " + out() + ".partial ] && kill -0 $pid; do sleep 0.01; done";
     const int killed =
         std::system((test::program() + " run" + run + " & pid=$!; " + wait + "; kill -KILL $pid; wait $pid").c_str());
     ASSERT_EQ(WEXITSTATUS(killed), 128 + 9);

@@ -76,7 +76,7 @@ TEST(StressOnADevice, that_fails_ends_its_search_for_losses_alone) {
   StressRequest request = request_of("H31$", "^(fails|fails-too|aabb)$");
   request.tries = 500;
   request.threads = 2;
-  FailingMethod::fail_after(100, 1);
+  FailingMethod::fail_after(3, 1);
   const StressResult cut = ran(request);
   ASSERT_EQ(cut.searches.size(), 3u);
   for (const SearchResult& search : cut.searches) {
