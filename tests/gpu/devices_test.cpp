@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "gpu/device/device_choice.h"
 #include "gpu/device_test.h"
 
 namespace clusterbench::gpu {
