@@ -21,7 +21,12 @@ struct ReadingLine {
   std::size_t set_order, walk_order;
 
   bool is_first() const { return set_order == 0 && walk_order == 0; }  // that of the figures
+  std::optional<double> frame_ns() const { return is_first() ? result_case->reading->frame_ns : std::nullopt; }
 };
+
+bool have_frames(const std::vector<ReadingLine>& lines) {
+  return std::ranges::all_of(lines, [](const ReadingLine& line) { return !line.is_first() || line.frame_ns(); });
+}
 
 std::string us_text(double ns) {
   const double us = ns / 1e3;
@@ -50,10 +55,12 @@ std::vector<ReadingLine> lines_of(const std::vector<Case>& cases, const result::
       for (std::size_t walk = 0; walk < sets[set].walks.size(); ++walk)
         lines.push_back({&result_case, &sets[set], &sets[set].walks[walk], set, walk});
   }
-  std::ranges::stable_sort(lines, [&](const ReadingLine& a, const ReadingLine& b) {
-    return std::tuple(a.set_order, a.walk_order, is_software ? 0.0 : a.walk->read_ns.median) <
-           std::tuple(b.set_order, b.walk_order, is_software ? 0.0 : b.walk->read_ns.median);
-  });
+  const bool is_by_frame = have_frames(lines);
+  const auto key = [&](const ReadingLine& line) {
+    const double ns = is_by_frame && line.is_first() ? *line.frame_ns() : line.walk->read_ns.median;
+    return std::tuple(line.set_order, line.walk_order, is_software ? 0.0 : ns);
+  };
+  std::ranges::stable_sort(lines, {}, key);
   return lines;
 }
 
@@ -72,7 +79,7 @@ Cells cells_of(const ReadingLine& line, bool has_frames) {
               text("%.2f", line.set->lights),
               text("%.2f", line.set->reads),
               short_count(reading.structure_bytes)};
-  if (has_frames) cells.push_back(line.is_first() && reading.frame_ns ? us_text(*reading.frame_ns) : "-");
+  if (has_frames) cells.push_back(line.frame_ns() ? us_text(*line.frame_ns()) : "-");
   return cells;
 }
 
@@ -93,6 +100,14 @@ std::string savings_text(const std::vector<ReadingLine>& lines) {
          ": what a tighter method may cost more.\n";
 }
 
+std::string fault_text(const std::vector<ReadingLine>& lines) {
+  std::uint64_t differing = 0;
+  for (const ReadingLine& line : lines) differing = std::max(differing, line.set->differing);
+  if (differing == 0) return "";
+  return "   At " + number_of(differing, "sample") +
+         " the device walked other lights than the structure has: a fault; do not trust these times.\n";
+}
+
 std::string reading_block(const std::string& block, const std::vector<ReadingLine>& lines) {
   const auto has_frame = [](const ReadingLine& line) { return line.result_case->reading->frame_ns.has_value(); };
   const bool has_frames = std::ranges::any_of(lines, has_frame);
@@ -104,13 +119,12 @@ std::string reading_block(const std::string& block, const std::vector<ReadingLin
   std::string out = " " + block + "\n" + aligned_rows(rows);
   const bool has_exact =
       std::ranges::any_of(lines, [](const ReadingLine& line) { return line.is_first() && line.walk->exact_ratio; });
-  if (!lines.front().result_case->reading->software && has_exact) out += savings_text(lines);
-  std::uint64_t differing = 0;
-  for (const ReadingLine& line : lines) differing = std::max(differing, line.set->differing);
-  if (differing > 0)
-    out += "   At " + number_of(differing, "sample") +
-           " the device walked other lights than the structure has: a fault; do not trust these times.\n";
-  return out;
+  if (lines.front().result_case->reading->software) return out + fault_text(lines);
+  if (has_exact) out += savings_text(lines);
+  if (have_frames(lines))
+    out += "   Cheapest with its assignment and upload: " + line_name(lines.front()) + ", " +
+           us_text(*lines.front().frame_ns()) + " us a frame.\n";
+  return out + fault_text(lines);
 }
 
 }  // namespace
