@@ -5,6 +5,7 @@
 
 #include "gpu/device/device.h"
 #include "run/passes/accuracy_pass.h"
+#include "run/passes/reading_pass.h"
 #include "run/timing/cache_sweep.h"
 #include "run/timing/repeated.h"
 #include "run/timing/timed_work.h"
@@ -94,6 +95,26 @@ double device_ns(const config::Config& config, const GroupPlan& on_device, const
   return all;
 }
 
+// The time of reading_pass(), from one frame of it with one round and with two. None where the device cannot read.
+double reading_ns(config::Config config, const SceneData& data, const GroupPlan& group, const PathFrames& path) {
+  if (config.reading_sets.empty() || !gpu::device_obstacle().empty()) return 0.0;
+  const double frames = std::min(config.reading->frames, path.count()), rounds = config.reading->rounds;
+  const std::atomic<bool> stop{false};
+  config.reading->frames = 1;
+  const auto of_rounds = [&](int count) {
+    config.reading->rounds = count;
+    return duration_ns([&] { reading_pass(config, data, group, path, stop); });
+  };
+  try {
+    of_rounds(1);  // shaders are compiled
+    const double one = of_rounds(1), round = std::max(0.0, of_rounds(2) - one);
+    return frames * (one + (rounds - 1.0) * round);
+  } catch (const gpu::DeviceError&) {
+    gpu::close_device();
+    return 0.0;
+  }
+}
+
 GroupCost cost_of_group(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
                         const EstimateLimits& limits) {
   const PathFrames path = path_of(config, plan, group);
@@ -103,6 +124,7 @@ GroupCost cost_of_group(const config::Config& config, const Plan& plan, const Gr
   if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns, limits);
   const GroupPlan on_device = device_cases(config, group);
   if (config.timing.measure && !on_device.cases.empty()) cost.device_ns = device_ns(config, on_device, path);
+  cost.reading_ns = reading_ns(config, plan.scenes[group.scene], group, path);
   return cost;
 }
 
@@ -127,7 +149,7 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
   std::size_t stride = std::max<std::size_t>(1, groups * 618 / 1000), sampled = 0;
   while (std::gcd(stride, groups) != 1) ++stride;
   std::vector<GroupCost> costs(groups);
-  std::vector<double> counting, timing, on_device;
+  std::vector<double> counting, timing, on_device, reading;
   for (const double start = wall_ns(); sampled < groups && (sampled == 0 || 1e-9 * (wall_ns() - start) < limits.most_s);
        ++sampled) {
     const std::size_t index = sampled * stride % groups;
@@ -135,22 +157,23 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
     counting.push_back(costs[index].counting_ns);
     timing.push_back(costs[index].timing_ns);
     on_device.push_back(costs[index].device_ns);
+    reading.push_back(costs[index].reading_ns);
   }
   // A few groups take far longer than others: a sampled group like that stands for itself only.
   for (std::size_t i = sampled; i < groups; ++i)
-    costs[i * stride % groups] = {median(counting), median(timing), median(on_device)};
+    costs[i * stride % groups] = {median(counting), median(timing), median(on_device), median(reading)};
   return costs;
 }
 
 double sum_s(std::span<const GroupCost> costs) {
   double ns = 0.0;
-  for (const GroupCost& cost : costs) ns += cost.counting_ns + cost.timing_ns + cost.device_ns;
+  for (const GroupCost& cost : costs) ns += cost.counting_ns + cost.timing_ns + cost.device_ns + cost.reading_ns;
   return 1e-9 * ns;
 }
 
 double sum_of_timing_s(std::span<const GroupCost> costs) {
   double ns = 0.0;
-  for (const GroupCost& cost : costs) ns += cost.timing_ns + cost.device_ns;
+  for (const GroupCost& cost : costs) ns += cost.timing_ns + cost.device_ns + cost.reading_ns;
   return 1e-9 * ns;
 }
 

@@ -11,9 +11,11 @@
 #include "os/machine.h"
 #include "run/case_result.h"
 #include "run/cases/path_frames.h"
+#include "run/findings/gate.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/details_pass.h"
 #include "run/passes/device_pass.h"
+#include "run/passes/reading_pass.h"
 #include "run/passes/stability_pass.h"
 #include "run/passes/timing_pass.h"
 #include "run/scene_facts.h"
@@ -47,6 +49,12 @@ double device_cost(const config::Config& config, const GroupPlan& on_device, dou
   return k_ns_per_frame * timed * config.timing.rounds * static_cast<double>(methods_of(on_device).size());
 }
 
+double reading_cost(const config::Config& config, const GroupPlan& group) {
+  constexpr double k_ns_per_reading = 2e6;
+  return k_ns_per_reading * config.reading->frames * config.reading->rounds *
+         static_cast<double>(config.reading_sets.size() * config.reading->walks.size() * group.cases.size());
+}
+
 // Per method of the group: the frame in which it has most pairs. A method without cells uses the frame of the first one
 // with cells.
 std::vector<int> fullest_frames(const GroupPlan& group, const AccuracyResult& counted) {
@@ -69,6 +77,9 @@ bool emulates_gpu(const CasePlan& case_plan) {
   return preset != nullptr && preset->assigns_on_gpu();
 }
 
+// Ends the names of skipped readings.
+constexpr const char* k_reading_part = ", reading";
+
 bool is_timed(const config::Config& config, const CasePlan& case_plan) {
   return !emulates_gpu(case_plan) && !method_of(config, case_plan).on_device;
 }
@@ -87,6 +98,7 @@ struct CountedGroup {
   std::vector<std::optional<StabilityResult>> stabilities;
   std::vector<std::optional<Details>> details;
   std::vector<std::optional<DeviceTimes>> device_times;  // by case
+  std::vector<std::optional<ReadingResult>> readings;    // by case; empty if not requested
 };
 
 class Run {
@@ -195,6 +207,12 @@ class Run {
     return cost != nullptr ? cost->device_ns : device_cost(config_, on_device, frames);
   }
 
+  double reading_cost_of(const GroupPlan& group) const {
+    if (config_.reading_sets.empty()) return 0.0;
+    const GroupCost* cost = cost_of(group);
+    return cost != nullptr ? cost->reading_ns : reading_cost(config_, group);
+  }
+
   double stability_cost_of(const GroupPlan& group) const {
     if (!config_.stability) return 0.0;
     return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(), config_.stability->steps, 0);
@@ -209,7 +227,7 @@ class Run {
 
   double cost_of_all(const GroupPlan& group) const {
     return accuracy_cost_of(group) + stability_cost_of(group) + details_cost_of(group) + device_cost_of(group) +
-           timing_cost_of(group);
+           reading_cost_of(group) + timing_cost_of(group);
   }
 
   void report_progress(const GroupPlan& group, const char* stage, double cost) {
@@ -313,6 +331,7 @@ class Run {
     }
     counted_group.timed = timed_cases(config_, group);
     if (config_.timing.measure && !time_on_device(group, path, counted_group)) return;
+    if (!config_.reading_sets.empty() && !read_on_device(group, data, path, counted_group, out)) return;
     counted_group.group = std::move(group);
     if (!config_.timing.measure || counted_group.timed.cases.empty()) return add_cases(counted_group, {}, out);
     if (launcher_) return waiting_.push_back(std::move(counted_group));
@@ -332,6 +351,26 @@ class Run {
       out.device_times.emplace_back();
       if (method_of(config_, case_plan).on_device) out.device_times.back() = std::move(*next++);
     }
+    return true;
+  }
+
+  // False if it was stopped. Where the device cannot or fails, cases go without readings.
+  bool read_on_device(const GroupPlan& group, const SceneData& data, const PathFrames& path, CountedGroup& to,
+                      Result& out) {
+    report_progress(group, "reading on the device", reading_cost_of(group));
+    std::string reason = gpu::device_obstacle();
+    if (reason.empty()) {
+      try {
+        to.readings = reading_pass(config_, data, group, path, stop_);
+        return !to.readings.empty();
+      } catch (const gpu::DeviceError& error) {
+        gpu::close_device();
+        reason = error.message();
+      }
+    }
+    const std::string& name = group.cases.front().name;
+    out.skipped.push_back(
+        {name.substr(0, name.find('/', name.find('/', name.find('/') + 1) + 1)) + k_reading_part, reason});
     return true;
   }
 
@@ -384,6 +423,10 @@ class Run {
       if (!counted.stabilities.empty()) finished.stability = counted.stabilities[i];
       if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
       if (!counted.device_times.empty()) finished.device = std::move(counted.device_times[i]);
+      if (!counted.readings.empty()) {
+        finished.reading = std::move(counted.readings[i]);
+        finished.failures = failures_of(finished, config_.limits);
+      }
       if (!timings.empty() && is_timed(config_, counted.group.cases[i])) {
         finished.timing = timings[next_timed++];
         finished.timing->session = session_;
@@ -458,9 +501,9 @@ GroupPlan timed_cases(const config::Config& config, GroupPlan group) {
 }
 
 std::optional<gpu::DeviceFacts> device_of(const config::Config& config, const Plan& plan) {
-  const bool is_needed = std::ranges::any_of(
-      plan.groups, [&](const GroupPlan& group) { return !device_cases(config, group).cases.empty(); });
-  if (!is_needed || !gpu::device_obstacle().empty()) return std::nullopt;
+  const auto runs_on_it = [&](const GroupPlan& group) { return !device_cases(config, group).cases.empty(); };
+  const bool is_used = !config.reading_sets.empty() || std::ranges::any_of(plan.groups, runs_on_it);
+  if (!is_used || !gpu::device_obstacle().empty()) return std::nullopt;
   return gpu::device().facts();
 }
 

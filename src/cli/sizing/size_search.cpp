@@ -4,8 +4,8 @@
 #include <chrono>
 
 #include "cli/output/duration.h"
-#include "core/error.h"
 #include "cli/output/output.h"
+#include "core/error.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
 #include "search/shared_grid.h"
