@@ -102,7 +102,7 @@ endif()
 if(NOT CLUSTERBENCH_SANITIZE STREQUAL "thread")
   # Not what takes it long, and not what wants rounding to nearest.
   clusterbench_add_device_tests(swiftshader "${SWIFTSHADER}" chromium
-    "Device*-*million*:DeviceReadingWalks.find_no*:DeviceReadingWalks.*8_bits:DeviceOwnLists.of_tiles_are_those_of_the_same*")
+    "Device*-*million*:DeviceFaults.while_a_method*:DeviceReadingWalks.find_no*:DeviceReadingWalks.*8_bits:DeviceOwnLists.of_tiles_are_those_of_the_same*")
 endif()
 
 # Against the exact truth: some of the hard cases, and random settings. By hand, all: clusterbench stress --methods ^gpu-
