@@ -12,7 +12,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Does not start without a library of lib/runtime if the machine's is too old; `run` tells where libraries come from.
 PROGRAM = """#!/bin/sh
 case "$TOO_OLD:$LD_LIBRARY_PATH" in yes:*/lib/runtime*) ;; yes:*) echo "version GLIBCXX_9 not found" >&2; exit 1;; esac
-[ "$1" != run ] || echo "libraries: $LD_LIBRARY_PATH"
+case "$1" in
+  run) echo "libraries: $LD_LIBRARY_PATH";;
+  --version | list) ;;
+  *) echo "no command '$1'" >&2; exit 2;;
+esac
 """
 
 
