@@ -336,6 +336,25 @@ TEST(Presets, as_shipped_keep_their_methods_with_mistakes_where_a_device_is_name
   EXPECT_EQ(config.assigners.at(config.presets.at(1).assigner).name, "gpu-cells-fixed");
 }
 
+TEST(Presets, are_counted_on_the_processor_for_sizes_whatever_device_is_named) {
+  gpu::register_methods();
+  const std::string presets = R"(, "presets": ["three-js", "filament"], "device": "0")";
+  const auto methods = [](const Config& config) {
+    std::vector<std::string> names;
+    for (const MethodRequest& method : config.assigners) names.push_back(method.name);
+    return names;
+  };
+  const Config counted = with_presets_on_processor(with_presets(presets));
+  EXPECT_EQ(methods(counted), (std::vector<std::string>{"brute-force", "sphere-refinement"}));
+  EXPECT_EQ(counted.storages.at(counted.presets.at(0).storage.value()).label(), "fixed(cap=64)");
+  const Config own = with_presets(R"(, "assigners": ["gpu-cells"], "device": "0")");
+  EXPECT_EQ(with_presets_on_processor(own).device, "0") << "no preset";
+  const Config beside = with_presets(presets + R"(, "assigners": ["aabb"])");
+  EXPECT_EQ(methods(with_presets_on_processor(beside)),
+            (std::vector<std::string>{"aabb", "brute-force", "sphere-refinement"}));
+  EXPECT_THROW(with_presets_on_processor(with_presets(presets + R"(, "assigners": ["gpu-cells"])")), Error);
+}
+
 // As a replay of a case has it.
 TEST(Presets, pre_culls_are_written_as_a_configuration_has_them) {
   const std::string all = R"(["none", "frustum", {"distance_m": 90}, ["frustum", {"most": {"lights": 255}}],

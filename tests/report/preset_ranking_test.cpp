@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "config/presets/preset_library.h"
 #include "records.h"
 #include "report/presets/preset_losses.h"
 #include "report/presets/preset_words.h"
@@ -166,6 +167,12 @@ TEST(PresetRanking, a_case_on_a_device_says_so_and_needs_no_hint) {
   const std::size_t at = table.find(" three-js ");
   EXPECT_TRUE(table.substr(at, table.find('\n', at) - at).ends_with("device")) << table;
   EXPECT_EQ(table.find("--device NAME"), std::string::npos) << table;
+  const auto told = [&](bool is_on_device) {
+    on_device["assigner"]["on_device"] = is_on_device;
+    return preset_facts(test::cases_of(Json::array({on_device})), {}).at(0).approximated;
+  };
+  EXPECT_EQ(told(false), config::find_preset("three-js")->approximated);
+  EXPECT_EQ(told(true), told(false) + "; on the device: " + config::find_preset("three-js")->on_device->approximated);
 }
 
 // A storage drops after its lists were compared, a shader before.

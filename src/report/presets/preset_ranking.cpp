@@ -209,6 +209,15 @@ std::string device_hint(const result::Result& result) {
          ".\n";
 }
 
+// With what differs on a device, if one of its cases ran there.
+std::string approximated_text(const config::Preset& preset, const std::vector<Case>& cases) {
+  const bool is_on_device =
+      std::ranges::any_of(cases, [&](const Case& one) { return one.preset == preset.name && runs_on_device(one); });
+  if (!is_on_device || !preset.on_device || preset.on_device->approximated.empty()) return preset.approximated;
+  return preset.approximated + (preset.approximated.empty() ? "" : "; ") +
+         "on the device: " + preset.on_device->approximated;
+}
+
 }  // namespace
 
 std::vector<result::Preset> preset_facts(const std::vector<Case>& cases, const std::vector<result::Skipped>& skipped) {
@@ -224,7 +233,7 @@ std::vector<result::Preset> preset_facts(const std::vector<Case>& cases, const s
     fact.mistakes = preset.mistakes;
     fact.summary = preset.summary;
     fact.source = preset.source;
-    fact.approximated = preset.approximated;
+    fact.approximated = approximated_text(preset, cases);
     fact.unverified = preset.unverified;
     if (const std::uint64_t most = config::most_lights(preset); most > 0) fact.most_lights = most;
     fact.assigns_on = preset.assigns_on;
