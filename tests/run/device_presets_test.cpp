@@ -140,10 +140,6 @@ TEST_F(DevicePresets, list_what_their_schemes_list_on_the_processor) {
       EXPECT_EQ(one.on_device, config::find_preset(one.preset)->on_device.has_value()) << name;
       EXPECT_EQ(one.id == references.at(one.preset).id, !one.on_device) << name;
       if (one.on_device) expect_lists_of(references.at(one.preset), one, name);
-      if (one.on_device && getenv("SHOW"))
-        std::printf("%s %s: %.10g pairs, %.10g; dropped %llu %llu\n", scene, one.preset.c_str(), pairs_found(one),
-                    pairs_found(references.at(one.preset)), (unsigned long long)one.buffers.dropped_pairs,
-                    (unsigned long long)references.at(one.preset).buffers.dropped_pairs);
       if (one.on_device) dropped += one.buffers.dropped_pairs;
     }
   }

@@ -99,7 +99,7 @@ void refuse_devices(const config::Config& config) {
     if (!assign::find_assigner(name)->on_device) continue;
     const bool is_of_preset = i >= config.own_assigners;
     throw Error(config.file.string(), is_of_preset ? "device" : "assigners",
-                (is_of_preset ? "with a device presets take methods like " + name + ", which runs on it: its"
+                (is_of_preset ? "with a device presets take methods that run on it (" + name + "), whose"
                               : name + " runs on a device, whose") +
                     " times do not compare with those of the processor; " +
                     (is_of_preset ? "leave the device out, or take `clusterbench run`"

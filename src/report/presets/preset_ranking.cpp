@@ -190,8 +190,8 @@ constexpr const char* k_legend =
     "frame by the model; lists that a GPU makes are not uploaded, and what it pays to make them is not counted. "
     "lights: that a sample\n"
     "is given, on average. longest: the longest list, before a cap drops any (on a device: after). dropped, missed: "
-    "pairs that cells "
-    "in view lack, seen or\n"
+    "pairs that cells\n"
+    "in view lack, seen or "
     "not; unlit: what samples lack decides. assign: us of one core here, of engines that assign on the CPU; gpu: "
     "a time here would not\n"
     "be the engine's; device: it ran on the result's device, whose time is in the block of its grid.\n";
