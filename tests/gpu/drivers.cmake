@@ -103,6 +103,7 @@ endif()
 set(PROGRAM test_run)
 if(NOT CLUSTERBENCH_SANITIZE)
   clusterbench_add_device_tests(lavapipe "${LAVAPIPE}" mesa-vulkan-drivers DevicePresets.*)
+  clusterbench_add_device_tests(lavapipe_sync "${LAVAPIPE}" mesa-vulkan-drivers DevicePresets.are* CLUSTERBENCH_VULKAN_VALIDATION=sync)
   clusterbench_add_device_tests(swiftshader "${SWIFTSHADER}" chromium DevicePresets.*)
 endif()
 
