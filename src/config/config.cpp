@@ -89,6 +89,7 @@ Config read_config(const JsonText& text, const GridChange& preset_grid) {
   config.sample_sets = sample_sets(document);
   check_ranking(document, config.sample_sets, text);
   static_cast<Sections&>(config) = read_sections(document, text);
+  if (config.reading && config.timing.measure) config.reading_sets = reading_sets(*config.reading, config.sample_sets);
   return config;
 }
 

@@ -67,6 +67,7 @@ struct Config : Sections {
   std::vector<cull::PreCullSpec> pre_culls{{}};
   std::size_t own_pre_culls = 1;                // the others belong to presets
   std::vector<SampleSetRequest> sample_sets;    // each set once; the whole view's first
+  std::vector<SampleSetRequest> reading_sets;   // at which a device reads; empty: nothing is read
   std::vector<ShadowCullRequest> shadow_culls;  // each once; empty: not measured
 
   // With other precisions than float32, results show the losses of each precision.

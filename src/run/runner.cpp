@@ -11,9 +11,11 @@
 #include "os/machine.h"
 #include "run/case_result.h"
 #include "run/cases/path_frames.h"
+#include "run/findings/gate.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/details_pass.h"
 #include "run/passes/device_pass.h"
+#include "run/passes/reading_pass.h"
 #include "run/passes/stability_pass.h"
 #include "run/passes/timing_pass.h"
 #include "run/scene_facts.h"
@@ -62,6 +64,9 @@ bool emulates_gpu(const CasePlan& case_plan) {
   return preset != nullptr && preset->assigns_on_gpu();
 }
 
+// Ends the names of skipped readings.
+constexpr const char* k_reading_part = ", reading";
+
 bool is_timed(const config::Config& config, const CasePlan& case_plan) {
   return !emulates_gpu(case_plan) && !method_of(config, case_plan).on_device;
 }
@@ -80,6 +85,7 @@ struct CountedGroup {
   std::vector<std::optional<StabilityResult>> stabilities;
   std::vector<std::optional<Details>> details;
   std::vector<std::optional<DeviceTimes>> device_times;  // by case
+  std::vector<std::optional<ReadingResult>> readings;    // by case; empty if not requested
 };
 
 class Run {
@@ -134,11 +140,14 @@ class Run {
     if (const std::optional<double> load = os::load_now()) out.machine.load = LoadFacts{*load, *load};
   }
 
-  // The device, if a case runs on it.
+  // The device, if a case runs on it or is read on it.
   std::optional<gpu::DeviceFacts> device_of_cases() const {
-    for (const GroupPlan& group : plan_.groups)
-      for (const CasePlan& case_plan : group.cases)
-        if (method_of(config_, case_plan).on_device && gpu::device_obstacle().empty()) return gpu::device().facts();
+    const auto runs_on_it = [&](const GroupPlan& group) {
+      return std::ranges::any_of(group.cases,
+                                 [&](const CasePlan& case_plan) { return method_of(config_, case_plan).on_device; });
+    };
+    const bool is_used = !config_.reading_sets.empty() || std::ranges::any_of(plan_.groups, runs_on_it);
+    if (is_used && gpu::device_obstacle().empty()) return gpu::device().facts();
     return std::nullopt;
   }
 
@@ -298,6 +307,7 @@ class Run {
     }
     counted_group.timed = timed_cases(config_, group);
     if (config_.timing.measure && !time_on_device(group, path, counted_group)) return;
+    if (!config_.reading_sets.empty() && !read_on_device(group, data, path, counted_group, out)) return;
     counted_group.group = std::move(group);
     if (!config_.timing.measure || counted_group.timed.cases.empty()) return add_cases(counted_group, {}, out);
     if (launcher_) return waiting_.push_back(std::move(counted_group));
@@ -317,6 +327,26 @@ class Run {
       out.device_times.emplace_back();
       if (method_of(config_, case_plan).on_device) out.device_times.back() = std::move(*next++);
     }
+    return true;
+  }
+
+  // False if it was stopped. Where the device cannot or fails, cases go without readings.
+  bool read_on_device(const GroupPlan& group, const SceneData& data, const PathFrames& path, CountedGroup& to,
+                      Result& out) {
+    report_progress(group, "reading on the device", 0.0);
+    std::string reason = gpu::device_obstacle();
+    if (reason.empty()) {
+      try {
+        to.readings = reading_pass(config_, data, group, path, stop_);
+        return !to.readings.empty();
+      } catch (const gpu::DeviceError& error) {
+        gpu::close_device();
+        reason = error.message();
+      }
+    }
+    const std::string& name = group.cases.front().name;
+    out.skipped.push_back(
+        {name.substr(0, name.find('/', name.find('/', name.find('/') + 1) + 1)) + k_reading_part, reason});
     return true;
   }
 
@@ -369,6 +399,10 @@ class Run {
       if (!counted.stabilities.empty()) finished.stability = counted.stabilities[i];
       if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
       if (!counted.device_times.empty()) finished.device = std::move(counted.device_times[i]);
+      if (!counted.readings.empty()) {
+        finished.reading = std::move(counted.readings[i]);
+        finished.failures = failures_of(finished, config_.limits);
+      }
       if (!timings.empty() && is_timed(config_, counted.group.cases[i])) {
         finished.timing = timings[next_timed++];
         finished.timing->session = session_;

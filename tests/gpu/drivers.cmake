@@ -121,6 +121,20 @@ if(NOT CLUSTERBENCH_SANITIZE)
   endforeach()
 endif()
 
+# What samples pay, through the program.
+if(NOT CLUSTERBENCH_SANITIZE)
+  foreach(MODE lavapipe swiftshader)
+    string(TOUPPER ${MODE} DRIVER)
+    if(${DRIVER})
+      list(GET ${DRIVER} 0 DRIVER)
+      add_test(NAME gpu.${MODE}_readings COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/gpu/test_readings.py
+               $<TARGET_FILE:clusterbench> ${PROJECT_SOURCE_DIR}/scenes)
+      set_tests_properties(gpu.${MODE}_readings PROPERTIES ENVIRONMENT "VK_DRIVER_FILES=${DRIVER};VK_ICD_FILENAMES=${DRIVER}"
+        TIMEOUT 600 SKIP_RETURN_CODE 77)
+    endif()
+  endforeach()
+endif()
+
 # The SPIR-V that the build embeds.
 if(NOT CLUSTERBENCH_SANITIZE)
   add_test(NAME gpu.shaders

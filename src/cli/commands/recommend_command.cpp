@@ -87,6 +87,7 @@ std::string ignored_keys(const config::Config& config) {
   };
   add(config.details.has_value(), "details");
   add(config.stability.has_value(), "stability");
+  add(config.reading.has_value(), "reading");
   add(!config.shadow_culls.empty(), "shadow_cull");
   add(config.shared_frusta.has_value(), "shadow_frusta");
   return keys;
@@ -114,8 +115,11 @@ config::Config read_input(const RecommendFlags& flags, std::string& ignored) {
   config::Config config = read_inputs(flags.inputs, {}, defaults);
   ignored = ignored_keys(config);
   refuse_devices(config);
-  return config::changed(
-      config, {{"details", nullptr}, {"stability", nullptr}, {"shadow_cull", nullptr}, {"shadow_frusta", nullptr}});
+  return config::changed(config, {{"details", nullptr},
+                                  {"stability", nullptr},
+                                  {"reading", nullptr},
+                                  {"shadow_cull", nullptr},
+                                  {"shadow_frusta", nullptr}});
 }
 
 // A preset whose engine makes its lists on a GPU, so that times measured here are not the engine's; "" without any.

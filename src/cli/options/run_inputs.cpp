@@ -1,12 +1,15 @@
 #include "cli/options/run_inputs.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <iterator>
 
 #include "cli/output/output.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "report/documents/result_file.h"
+#include "report/results/measured_prices.h"
 #include "run/scene_facts.h"
 #include "scene/gltf_document/exporters.h"
 #include "scene/gltf_document/gltf_files.h"
@@ -23,6 +26,9 @@ void add_config_options(Command& command, RunInputs& inputs, const std::vector<s
     command.add_flag("--as-shipped", inputs.are_as_shipped,
                      "Presets with the known bugs of Filament, Bevy, three.js and Babylon.js, which lose lights");
   }
+  command.add_option(
+      "--cost-from", inputs.cost_from,
+      "RESULT of a run with `reading` on a GPU: its prices of a light, a read and a byte for the key cost");
 }
 
 std::vector<config::FlagValue> flag_values(const RunInputs& inputs) {
@@ -46,9 +52,28 @@ bool is_scene(const std::string& path) {
   return scene::is_scene_file(path);
 }
 
+namespace {
+
+// The prices that a result's readings tell, as flags, and a note that says them.
+std::vector<config::FlagValue> measured_prices(const std::string& path) {
+  if (path.empty()) return {};
+  const report::MeasuredPrices prices = report::measured_prices(report::read_result(path), path);
+  print_message(prices.text());
+  const auto set = [](const char* key, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, "cost.%s=%.6g", key, value);
+    return config::FlagValue{"--set", text};
+  };
+  return {set("ns_per_light", prices.ns_per_light), set("ns_per_read", prices.ns_per_read),
+          set("read_gb_per_s", prices.read_gb_per_s)};
+}
+
+}  // namespace
+
 config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first,
                            const nlohmann::json& defaults) {
   std::vector<config::FlagValue> flags = first;
+  std::ranges::move(measured_prices(inputs.cost_from), std::back_inserter(flags));
   const std::vector<config::FlagValue> given = flag_values(inputs);
   flags.insert(flags.end(), given.begin(), given.end());
   const auto scenes = static_cast<std::size_t>(std::count_if(inputs.paths.begin(), inputs.paths.end(), is_scene));

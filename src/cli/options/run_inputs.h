@@ -15,10 +15,11 @@ struct RunInputs {
   std::vector<std::string> paths;
   std::vector<std::vector<std::string>> settings{config::config_flags().size()};  // by flag
   bool has_all_presets = false, are_as_shipped = false;
+  std::string cost_from;           // a result with readings, whose prices replace those of the cost model; "" without
   config::GridChange preset_grid;  // replaces keys of the presets' grids
 };
 
-// Adds an option for each flag of config_flags() except those in `without`.
+// Adds an option for each flag of config_flags() except those in `without`, and --cost-from.
 void add_config_options(Command& command, RunInputs& inputs, const std::vector<std::string>& without = {});
 
 // The flags that were given, in the order of config_flags().
