@@ -1,5 +1,5 @@
 # The tests of the layer gpu. Those that need no device are called gpu.SUITE.NAME; those on a device (suites Device*) run once in
-# each of these modes, as gpu.MODE.SUITE.NAME:
+# each of these modes, as gpu.MODE.SUITE.NAME, and so do some of the layer run:
 #   lavapipe, swiftshader       on the two software drivers
 #   lavapipe_reversed           with the invocations of each group numbered from the other end (lane_index() of common.glsl)
 #   lavapipe_sync               the validation layer looks for missing barriers between commands
@@ -46,9 +46,16 @@ if(NOT CLUSTERBENCH_SANITIZE AND GLSLANG AND VULKAN_INCLUDE AND VOLK_INCLUDE)
   add_dependencies(test_gpu reversed_shaders)
 endif()
 
-# Suites of MODE whose tests fit FILTER, in an environment; DRIVER is a file of the driver, or none.
+# Suites of ${PROGRAM} whose tests fit FILTER, in MODE and an environment; DRIVER is a file of the driver, or none.
+set(PROGRAM test_gpu)
 function(clusterbench_add_device_tests MODE DRIVER PACKAGE FILTER)
+  if(NOT TARGET ${PROGRAM})
+    return()
+  endif()
   if(NOT DRIVER)
+    if(NOT PROGRAM STREQUAL test_gpu)
+      return() # that it lacks is said once
+    endif()
     add_test(NAME gpu.${MODE} COMMAND ${CMAKE_COMMAND} -E echo "skipped: this machine lacks its driver (Debian: ${PACKAGE})")
     set_tests_properties(gpu.${MODE} PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
     return()
@@ -59,20 +66,20 @@ function(clusterbench_add_device_tests MODE DRIVER PACKAGE FILTER)
   if(CLUSTERBENCH_SANITIZE)
     foreach(INDEX RANGE 1 2)
       math(EXPR SHARD "${INDEX} - 1")
-      add_test(NAME gpu.${MODE}_part_${INDEX} COMMAND test_gpu --gtest_filter=${FILTER})
-      set_tests_properties(gpu.${MODE}_part_${INDEX} PROPERTIES TIMEOUT 1200
+      add_test(NAME gpu.${MODE}_${PROGRAM}_${INDEX} COMMAND ${PROGRAM} --gtest_filter=${FILTER})
+      set_tests_properties(gpu.${MODE}_${PROGRAM}_${INDEX} PROPERTIES TIMEOUT 1200
         ENVIRONMENT "${ENVIRONMENT};GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${SHARD}")
     endforeach()
     return()
   endif()
-  gtest_discover_tests(test_gpu NO_PRETTY_VALUES TEST_PREFIX gpu.${MODE}. TEST_FILTER ${FILTER} TEST_LIST GPU_TESTS_${MODE}
+  gtest_discover_tests(${PROGRAM} NO_PRETTY_VALUES TEST_PREFIX gpu.${MODE}. TEST_FILTER ${FILTER} TEST_LIST ${PROGRAM}_${MODE}
     DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
   # Properties that are lists get lost on their way through gtest_discover_tests().
-  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/gpu_${MODE}.cmake "foreach(TEST IN LISTS GPU_TESTS_${MODE})
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${PROGRAM}_${MODE}.cmake "foreach(TEST IN LISTS ${PROGRAM}_${MODE})
   set_tests_properties(\${TEST} PROPERTIES ENVIRONMENT \"${ENVIRONMENT}\")
 endforeach()
 ")
-  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/gpu_${MODE}.cmake)
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${PROGRAM}_${MODE}.cmake)
 endfunction()
 
 # Without a device, and without any driver.
@@ -103,6 +110,12 @@ if(NOT CLUSTERBENCH_SANITIZE STREQUAL "thread")
   # Not what takes it long, and not what wants rounding to nearest.
   clusterbench_add_device_tests(swiftshader "${SWIFTSHADER}" chromium
     "Device*-*million*:DeviceFaults.while_a_method*:DeviceReadingWalks.find_no*:DeviceReadingWalks.*8_bits:DeviceOwnLists.of_tiles_are_those_of_the_same*")
+endif()
+set(PROGRAM test_run)
+if(NOT CLUSTERBENCH_SANITIZE)
+  clusterbench_add_device_tests(lavapipe "${LAVAPIPE}" mesa-vulkan-drivers DevicePresets.*)
+  clusterbench_add_device_tests(lavapipe_sync "${LAVAPIPE}" mesa-vulkan-drivers DevicePresets.are* CLUSTERBENCH_VULKAN_VALIDATION=sync)
+  clusterbench_add_device_tests(swiftshader "${SWIFTSHADER}" chromium DevicePresets.*)
 endif()
 
 # Against the exact truth: some of the hard cases, and random settings. By hand, all: clusterbench stress --methods ^gpu-

@@ -93,18 +93,28 @@ std::string ignored_keys(const config::Config& config) {
   return keys;
 }
 
+// Methods that run on a device; presets take such where one is named.
+void refuse_devices(const config::Config& config) {
+  for (std::size_t i = 0; i < config.assigners.size(); ++i) {
+    const std::string& name = config.assigners[i].name;
+    if (!assign::find_assigner(name)->on_device) continue;
+    const bool is_of_preset = i >= config.own_assigners;
+    throw Error(config.file.string(), is_of_preset ? "device" : "assigners",
+                (is_of_preset ? "with a device presets take methods that run on it (" + name + "), whose"
+                              : name + " runs on a device, whose") +
+                    " times do not compare with those of the processor; " +
+                    (is_of_preset ? "leave the device out, or take `clusterbench run`"
+                                  : "`clusterbench run` measures it beside others"));
+  }
+}
+
 // `ignored`: receives the keys that are left out.
 config::Config read_input(const RecommendFlags& flags, std::string& ignored) {
   nlohmann::json defaults = search::recommend_space();
   defaults["samples"] = {{"opaque", {{"divisor", 16}}}};
   config::Config config = read_inputs(flags.inputs, {}, defaults);
   ignored = ignored_keys(config);
-  for (const config::MethodRequest& method : config.assigners)
-    if (assign::find_assigner(method.name)->on_device)
-      throw Error(config.file.string(), "assigners",
-                  method.name +
-                      " runs on a device, whose times do not compare with those of the processor; `clusterbench "
-                      "run` measures it beside others");
+  refuse_devices(config);
   return config::changed(config, {{"details", nullptr},
                                   {"stability", nullptr},
                                   {"reading", nullptr},

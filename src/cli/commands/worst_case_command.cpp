@@ -91,7 +91,7 @@ void check_path(const search::WorstCase& found, const report::WorstCaseFacts& fa
 }
 
 ExitCode worst_case(const WorstCaseFlags& flags) {
-  config::Config config = read_inputs(flags.inputs);
+  config::Config config = config::with_presets_on_processor(read_inputs(flags.inputs));
   const search::WorstCaseRequest request = request_of(flags, config);
   const run::Plan plan = run::make_plan(config, flags.filter);
   const run::CasePlan& case_plan = search::case_to_search(config, plan);

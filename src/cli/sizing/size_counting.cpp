@@ -82,13 +82,13 @@ bool uses_exact_methods(const RunInputs& inputs, const std::string& filter, bool
 
 // Removes the keys that only times or pictures need; lists are not compared with the truth.
 config::Config counting_only(const config::Config& config) {
-  return config::changed(config, {{"timing", {{"measure", false}}},
-                                  {"accuracy", {{"check", false}}},
-                                  {"stability", nullptr},
-                                  {"lookup", nullptr},
-                                  {"details", nullptr},
-                                  {"shadow_cull", nullptr},
-                                  {"shadow_frusta", nullptr}});
+  return config::changed(config::with_presets_on_processor(config), {{"timing", {{"measure", false}}},
+                                                                     {"accuracy", {{"check", false}}},
+                                                                     {"stability", nullptr},
+                                                                     {"lookup", nullptr},
+                                                                     {"details", nullptr},
+                                                                     {"shadow_cull", nullptr},
+                                                                     {"shadow_frusta", nullptr}});
 }
 
 // Whether a method lists all lights of each cell, whatever its parameters and its lights: its lists and those of other
