@@ -73,6 +73,7 @@ TEST(ReadingTable, has_the_cheapest_reading_of_each_walk_first) {
 TEST(ReadingTable, is_by_the_time_of_a_frame_where_all_have_it) {
   run::Result result = read_result();
   result.config["reading"] = {{"async", 0.0}};
+  result.config["cost"] = {{"upload_gb_per_s", 15.75}};
   result.cases[0].timing->frame_ns.median = 100.0;
   result.cases[1].timing->frame_ns.median = 50'000.0;
   const std::string table = table_of(result);
