@@ -688,12 +688,16 @@ export type Result = {
       software: boolean; // true: the device computes on the processor: its times are no GPU's, and nothing ranks by them
       frames: number; // Evenly spaced over the path; all times are means over them [frames, over the path]
       structure_bytes: number | null; // Of the light structure, mean [B, over the frames that are read]
-      exact: string; // Storage of the exact lists that exact_ns is of
+      exact?: {
+        storage: string; // In which they are kept
+        bytes: number | null; // Of this structure, mean [B, over the frames that are read]
+      }; // The lists of exact_ns: the case's storage filled with exact lists of all lights; `packed` beside a structure of a method's own. Absent where cells are not compared with the truth
       frame_ns?: number | null; // (1 - config.reading.async) x assignment + upload + reading (the first set's first walk). A method on the device: device.run_ns + device.upload_ns; another: timing.frame_ns and buffers.upload_bytes by cost.upload_gb_per_s, and only where config.reading.async is given [ns, over one frame]
       sets: Array<{
         set: "volume" | "opaque" | "transparent" | "fog" | "mirror" | "anywhere"; // Whose samples read, as in samples (volume: random points in the whole view)
         samples: number | null; // Samples per frame, mean [samples, over the frames that are read]
         lights: number | null; // Lights that a sample walks, mean [lights, over the samples]
+        exact_lights?: number | null; // Lights that a sample walks in the exact lists, mean; absent without them [lights, over the samples]
         reads: number | null; // Elements of the light structure that a sample fetches, mean [elements, over the samples]
         read_bytes: number | null; // Their bytes, mean [B, over the samples]
         divergence: number | null; // Of the device's waves: the sum of their longest lists by that of their mean ones; 1: no lane waits [ratio, over the waves]
@@ -704,7 +708,7 @@ export type Result = {
           walk: "lane" | "light" | "cell"; // How the samples of a wave walk their lights. lane: each its own list, until the longest is done. light: all together, light by light. cell: all together, cell by cell
           read_ns: Time; // Per frame: each sample looks up its list, walks its lights, adds a small attenuation for each and writes the sum; the same samples again and again, so that caches hold what fits
           cold_ns: Time; // Per frame: the same once, after other memory went through the caches
-          exact_ns?: Time; // Per frame: read_ns of the exact lists, in the storage that `exact` names. Absent where cells are not compared with the truth
+          exact_ns?: Time; // Per frame: read_ns of the lists that `exact` names. Absent where cells are not compared with the truth
           exact_ratio?: number | null; // read_ns by exact_ns: median of the rounds' ratios [ratio, over the rounds]
           exact_ci95?: Interval; // 95 % interval of exact_ratio [ratio, over the rounds]
           nothing_ratio: number | null; // read_ns by nothing_ns: median of the rounds' ratios [ratio, over the rounds]

@@ -16,7 +16,7 @@ struct WalkReading {
         "sum; the same samples again and again, so that caches hold what fits");
   FIELD(Time, cold_ns, "Per frame: the same once, after other memory went through the caches");
   FIELD(std::optional<Time>, exact_ns,
-        "Per frame: read_ns of the exact lists, in the storage that `exact` names. Absent where cells are not compared "
+        "Per frame: read_ns of the lists that `exact` names. Absent where cells are not compared "
         "with the truth");
   FIELD(std::optional<double>, exact_ratio, "read_ns by exact_ns: median of the rounds' ratios", "ratio", "the rounds");
   FIELD(std::optional<Interval>, exact_ci95, "95 % interval of exact_ratio", "ratio", "the rounds");
@@ -31,6 +31,8 @@ struct SetReading {
             .one_of({"volume", "opaque", "transparent", "fog", "mirror", "anywhere"}));
   FIELD(double, samples, "Samples per frame, mean", "samples", "the frames that are read");
   FIELD(double, lights, "Lights that a sample walks, mean", "lights", "the samples");
+  FIELD(std::optional<double>, exact_lights, "Lights that a sample walks in the exact lists, mean; absent without them",
+        "lights", "the samples");
   FIELD(double, reads, "Elements of the light structure that a sample fetches, mean", "elements", "the samples");
   FIELD(double, read_bytes, "Their bytes, mean", "B", "the samples");
   FIELD(double, divergence,
@@ -46,6 +48,13 @@ struct SetReading {
   END_RECORD;
 };
 
+struct ExactLists {
+  RECORD(ExactLists);
+  FIELD(std::string, storage, "In which they are kept");
+  FIELD(double, bytes, "Of this structure, mean", "B", "the frames that are read");
+  END_RECORD;
+};
+
 struct Reading {
   RECORD(Reading);
   FIELD(std::string, device, "Name and driver of the device; times of one device alone compare");
@@ -53,7 +62,10 @@ struct Reading {
         "true: the device computes on the processor: its times are no GPU's, and nothing ranks by them");
   FIELD(std::uint64_t, frames, "Evenly spaced over the path; all times are means over them", "frames", "the path");
   FIELD(double, structure_bytes, "Of the light structure, mean", "B", "the frames that are read");
-  FIELD(std::string, exact, "Storage of the exact lists that exact_ns is of");
+  FIELD(std::optional<ExactLists>, exact,
+        "The lists of exact_ns: the case's storage filled with exact lists of all lights; `packed` beside a structure "
+        "of a "
+        "method's own. Absent where cells are not compared with the truth");
   FIELD(std::optional<double>, frame_ns,
         "(1 - config.reading.async) x assignment + upload + reading (the first set's first walk). A method on the "
         "device: device.run_ns + device.upload_ns; another: timing.frame_ns and buffers.upload_bytes by "

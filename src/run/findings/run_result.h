@@ -113,7 +113,8 @@ struct WalkReading {
 // What the samples of a set pay for their lights on a device.
 struct SetReading {
   measure::SampleSet set = measure::SampleSet::opaque;
-  gpu::ReadingWork work;                // over the frames
+  gpu::ReadingWork work;                           // over the frames
+  std::optional<std::uint64_t> exact_lights = {};  // that the samples walk in the exact lists
   std::uint64_t differing = 0;          // samples for which the device walked other lights than the structure has
   measure::TimeStats write_ns;          // a word for each sample
   measure::TimeStats nothing_ns;        // the lookup as well
@@ -124,9 +125,13 @@ struct ReadingResult {
   std::string device;  // name and driver
   bool is_software = false;
   int frames = 0;
-  double structure_bytes = 0.0;       // mean
-  std::string exact_storage;          // of the exact lists
-  std::vector<SetReading> sets = {};  // in the order of the configuration, those that the scene has
+  double structure_bytes = 0.0;  // mean
+  struct ExactLists {
+    std::string storage;
+    double bytes = 0.0;  // mean
+  };
+  std::optional<ExactLists> exact = {};  // without the truth of cells there are none
+  std::vector<SetReading> sets = {};     // in the order of the configuration, those that the scene has
 };
 
 // Times of slices that follow the needs of frames.

@@ -41,7 +41,7 @@ struct RoundTimes {
 struct SetMeter {
   gpu::ReadingWork work;
   double waiting_lights = 0.0;  // the sum of lights x divergence
-  std::uint64_t differing = 0;
+  std::uint64_t exact_lights = 0, differing = 0;
   RoundTimes write, nothing;
   std::map<Walking, RoundTimes> own, exact;
 
@@ -155,6 +155,7 @@ class SetReader {
     ReadingStructure* const alike = looking_up_.try_emplace(own.looked_up(), &own).first->second;
     plan({looking_up_.begin()->second, Walking::by_lane, ReadingOutput::write_only}, meter.write);
     plan({alike, Walking::by_lane, ReadingOutput::nothing}, meter.nothing);
+    if (structure.exact != nullptr) meter.exact_lights += lights_of(*structure.exact);
     for (const Walking walking : walks) {
       if (!own.allows(walking)) continue;
       own_checks_.push_back({&own, walking, &meter});
@@ -184,6 +185,13 @@ class SetReader {
     SetMeter* meter;
   };
 
+  // That the samples walk in exact lists, which several cases share.
+  std::uint64_t lights_of(ReadingStructure& exact) {
+    const auto [known, is_new] = exact_lights_.try_emplace(&exact, 0);
+    if (is_new) known->second = gpu::work_of(exact.on_host(), samples_, 1).lights;
+    return known->second;
+  }
+
   // Equal readings, those of exact lists that several cases share, are done once.
   void plan(const gpu::ReadingTask& task, RoundTimes& times) {
     const auto same = std::ranges::find_if(tasks_, [&](const gpu::ReadingTask& other) {
@@ -198,6 +206,7 @@ class SetReader {
   }
 
   gpu::ReadingSamples samples_;
+  std::map<ReadingStructure*, std::uint64_t> exact_lights_;
   std::map<assign::LookedUp, ReadingStructure*> looking_up_;  // of each way to look up one structure
   std::vector<gpu::ReadingTask> tasks_;
   std::vector<std::vector<RoundTimes*>> times_of_;
@@ -206,9 +215,16 @@ class SetReader {
 
 // One case over the frames.
 struct CaseReading {
-  bool is_read = false;
-  double bytes = 0.0;               // sum over the frames
-  std::vector<SetMeter> sets = {};  // of the configuration
+  bool is_compared = false;               // with exact lists
+  double bytes = 0.0, exact_bytes = 0.0;  // sums over the frames
+  std::vector<SetMeter> sets = {};        // of the configuration
+
+  void add(const FrameStructure& structure) {
+    if (structure.on_device) bytes += static_cast<double>(structure.on_device->bytes());
+    if (structure.exact == nullptr) return;
+    is_compared = true;
+    exact_bytes += static_cast<double>(structure.exact->bytes());
+  }
 };
 
 class Totals {
@@ -221,6 +237,7 @@ class Totals {
     out.set = request.set;
     out.work = meter.work;
     if (meter.work.lights > 0) out.work.divergence = meter.waiting_lights / static_cast<double>(meter.work.lights);
+    if (!meter.exact.empty()) out.exact_lights = meter.exact_lights;
     out.differing = meter.differing;
     out.write_ns = per_frame(meter.write.warm_ns);
     out.nothing_ns = per_frame(meter.nothing.warm_ns);
@@ -253,18 +270,15 @@ class Totals {
   int frames_;
 };
 
-}  // namespace
-
-std::vector<std::optional<ReadingResult>> reading_pass(const config::Config& config, const SceneData& data,
-                                                       const GroupPlan& group, const PathFrames& path,
-                                                       const std::atomic<bool>& stop) {
-  const config::ReadingRequest& request = *config.reading;
+// The readings of all cases of a group in the frames.
+std::optional<std::vector<CaseReading>> read_cases(const config::Config& config, const SceneData& data,
+                                                   const GroupPlan& group, const PathFrames& path,
+                                                   const std::vector<int>& frames, const std::atomic<bool>& stop) {
   const GroupCulls culls(config, group, path);
   std::vector<CaseReading> cases(group.cases.size());
   for (CaseReading& one : cases) one.sets.resize(config.reading_sets.size());
   FrameSamples samples(config, config.reading_sets, data, path);
   GridOfFrames grids(config.grids[group.grid]);
-  const std::vector<int> frames = evenly_spaced(request.frames, path.count());
   for (const int index : frames) {
     const view::Frame frame = path.frame(index);
     grids.update(path, frame);
@@ -275,30 +289,40 @@ std::vector<std::optional<ReadingResult>> reading_pass(const config::Config& con
       if (sets[set].samples.empty()) continue;
       SetReader reader(sets[set], grids.grid());
       for (std::size_t i = 0; i < cases.size(); ++i)
-        if (structures.cases()[i].on_device) reader.add(structures.cases()[i], request.walks, cases[i].sets[set]);
+        if (structures.cases()[i].on_device)
+          reader.add(structures.cases()[i], config.reading->walks, cases[i].sets[set]);
       reader.check();
-      reader.read(request.rounds);
+      reader.read(config.reading->rounds);
     }
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      const std::unique_ptr<ReadingStructure>& on_device = structures.cases()[i].on_device;
-      cases[i].is_read |= on_device != nullptr;
-      if (on_device) cases[i].bytes += static_cast<double>(on_device->bytes());
-    }
+    for (std::size_t i = 0; i < cases.size(); ++i) cases[i].add(structures.cases()[i]);
   }
+  return cases;
+}
+
+ReadingResult result_of(const config::Config& config, const CasePlan& case_plan, const CaseReading& read, int frames) {
   const gpu::DeviceFacts& facts = gpu::device().facts();
-  const Totals totals(config.seed, static_cast<int>(frames.size()));
+  const Totals totals(config.seed, frames);
+  ReadingResult result{facts.name + ", " + facts.driver, facts.is_software(), frames, read.bytes / frames};
+  if (read.is_compared)
+    result.exact = {case_plan.storage ? storage_label(config, case_plan) : "packed", read.exact_bytes / frames};
+  for (std::size_t set = 0; set < config.reading_sets.size(); ++set)
+    if (!read.sets[set].write.warm_ns.empty())
+      result.sets.push_back(totals.of(config.reading_sets[set], config.reading->walks, read.sets[set]));
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::optional<ReadingResult>> reading_pass(const config::Config& config, const SceneData& data,
+                                                       const GroupPlan& group, const PathFrames& path,
+                                                       const std::atomic<bool>& stop) {
+  const std::vector<int> frames = evenly_spaced(config.reading->frames, path.count());
+  const std::optional<std::vector<CaseReading>> cases = read_cases(config, data, group, path, frames, stop);
+  if (!cases) return {};
   std::vector<std::optional<ReadingResult>> out;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    ReadingResult& result = out.emplace_back(ReadingResult{}).value();
-    result.device = facts.name + ", " + facts.driver;
-    result.is_software = facts.is_software();
-    result.frames = static_cast<int>(frames.size());
-    result.structure_bytes = cases[i].bytes / static_cast<double>(frames.size());
-    result.exact_storage = group.cases[i].storage ? storage_label(config, group.cases[i]) : "packed";
-    for (std::size_t set = 0; set < config.reading_sets.size(); ++set)
-      if (const SetMeter& meter = cases[i].sets[set]; !meter.write.warm_ns.empty())
-        result.sets.push_back(totals.of(config.reading_sets[set], request.walks, meter));
-    if (result.sets.empty()) out.back().reset();
+  for (std::size_t i = 0; i < cases->size(); ++i) {
+    out.emplace_back(result_of(config, group.cases[i], (*cases)[i], static_cast<int>(frames.size())));
+    if (out.back()->sets.empty()) out.back().reset();
   }
   return out;
 }

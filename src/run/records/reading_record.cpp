@@ -29,6 +29,7 @@ result::SetReading set_record(const SetReading& set, int frames) {
   out.set = measure::name_of(set.set);
   out.samples = counted(samples / frames);
   out.lights = per_sample(set.work.lights);
+  if (set.exact_lights) out.exact_lights = per_sample(*set.exact_lights);
   out.reads = per_sample(set.work.reads);
   out.read_bytes = per_sample(set.work.read_bytes);
   out.divergence = counted(set.work.divergence);
@@ -47,7 +48,7 @@ result::Reading reading_record(const ReadingResult& reading) {
   out.software = reading.is_software;
   out.frames = static_cast<std::uint64_t>(reading.frames);
   out.structure_bytes = counted(reading.structure_bytes);
-  out.exact = reading.exact_storage;
+  if (reading.exact) out.exact = {reading.exact->storage, counted(reading.exact->bytes)};
   for (const SetReading& set : reading.sets) out.sets.push_back(set_record(set, reading.frames));
   return out;
 }
