@@ -692,7 +692,9 @@ export type Result = {
         storage: string; // In which they are kept
         bytes: number | null; // Of this structure, mean [B, over the frames that are read]
       }; // The lists of exact_ns: the case's storage filled with exact lists of all lights; `packed` beside a structure of a method's own. Absent where cells are not compared with the truth
-      frame_ns?: number | null; // (1 - config.reading.async) x assignment + upload + reading (the first set's first walk). A method on the device: device.run_ns + device.upload_ns; another: timing.frame_ns and buffers.upload_bytes by cost.upload_gb_per_s, and only where config.reading.async is given [ns, over one frame]
+      frame_ns?: number | null; // (1 - config.reading.async) x assignment + upload + reading (the one of set and walk), each a median over its own frames: reading.frames, timing.frames, and all for uploads of the processor. A method on the device: device.run_ns + device.upload_ns; another: timing.frame_ns and buffers.upload_bytes by cost.upload_gb_per_s, and only where config.reading.async is given. Builds for a changed grid and the picture of depths are in none [ns, over one frame]
+      set: string; // Its samples are those of the figures and of frame_ns: the configuration's first
+      walk: string; // Likewise; a structure without cells cannot be walked cell by cell, and then has no figures
       sets: Array<{
         set: "volume" | "opaque" | "transparent" | "fog" | "mirror" | "anywhere"; // Whose samples read, as in samples (volume: random points in the whole view)
         samples: number | null; // Samples per frame, mean [samples, over the frames that are read]
@@ -700,10 +702,10 @@ export type Result = {
         exact_lights?: number | null; // Lights that a sample walks in the exact lists, mean; absent without them [lights, over the samples]
         reads: number | null; // Elements of the light structure that a sample fetches, mean [elements, over the samples]
         read_bytes: number | null; // Their bytes, mean [B, over the samples]
-        divergence: number | null; // Of the device's waves: the sum of their longest lists by that of their mean ones; 1: no lane waits [ratio, over the waves]
-        differing: number; // Samples for which the device walked other lights than the structure has, of those whose cell it found: 0, or a fault of the driver or of this program, and the times are not to be trusted [samples, over the frames that are read]
+        divergence: number | null; // Of as many invocations as the device's waves have: the sum of their longest lists by that of their mean ones, weighted by lights over the frames. Idle lanes and steps that walk no light are left out [ratio, over the waves]
+        differing: number; // Walks of samples, here and in the exact lists, that met other lights than the structure has, and samples whose cell the device finds farther off than rounding explains. Other than 0: a fault of the driver or of this program, and the times are not to be trusted [walks and samples, over the frames that are read]
         write_ns: Time; // Per frame: each sample writes a word, and reads nothing at all
-        nothing_ns: Time; // Per frame: each sample looks up its cell and writes its number, and reads no list
+        nothing_ns: Time; // Per frame: each sample looks up its cell and writes a word made of it, and reads no list. Where samples look up no cell (a hierarchy) it is that of its position
         walks: Array<{
           walk: "lane" | "light" | "cell"; // How the samples of a wave walk their lights. lane: each its own list, until the longest is done. light: all together, light by light. cell: all together, cell by cell
           read_ns: Time; // Per frame: each sample looks up its list, walks its lights, adds a small attenuation for each and writes the sum; the same samples again and again, so that caches hold what fits
@@ -715,6 +717,7 @@ export type Result = {
         }>; // In the order of the configuration
       }>; // In the order of the configuration, those that the scene has
     }; // What samples pay for their lights on a device (a GPU), by its clock; where the configuration asks for it (reading). Absent for structures that shaders do not read, and where the device has no clock
+    unread?: string; // Why there is no reading though the configuration asks for it, as text
     details?: {
       max_bytes: number; // Most bytes that the configuration allows [bytes, over the case]
       frames: Array<{

@@ -27,6 +27,12 @@ std::string PrecisionRequest::label() const {
   return std::string(view::packing_name(packing)) + (inflate ? "+inflate" : "");
 }
 
+double SampleSetRequest::most_samples(Vec2i viewport) const {
+  if (needs_triangles()) return static_cast<double>(viewport.x) * viewport.y / divisor / divisor;
+  if (set == measure::SampleSet::fog) return static_cast<double>(froxels.x) * froxels.y * froxels.z;
+  return count;
+}
+
 std::vector<measure::LookupWay> LookupRequest::ways() const {
   std::vector<measure::LookupWay> all;
   for (const measure::Logarithm logarithm : logarithms)

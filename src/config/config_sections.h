@@ -89,6 +89,7 @@ struct SampleSetRequest {
 
   bool needs_bounds() const { return set == measure::SampleSet::mirror || set == measure::SampleSet::anywhere; }
   bool needs_triangles() const { return set == measure::SampleSet::opaque || set == measure::SampleSet::transparent; }
+  double most_samples(Vec2i viewport) const;  // in a frame; of surfaces one for each ray
 };
 
 // What samples pay for their lights on the device.

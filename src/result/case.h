@@ -265,6 +265,8 @@ struct Case {
         "What samples pay for their lights on a device (a GPU), by its clock; where the configuration asks for it "
         "(reading). Absent for structures that shaders do not read, and where the device has no clock",
         Compares::skipped);
+  FIELD(std::optional<std::string>, unread, "Why there is no reading though the configuration asks for it, as text",
+        Compares::skipped);
   FIELD(std::optional<Details>, details, "Chosen frames cell by cell");
   FIELD(std::optional<Count>, count, "Instructions of what is timed, with --count", Compares::skipped);
   FIELD(std::optional<Cost>, cost,

@@ -36,14 +36,20 @@ struct SetReading {
   FIELD(double, reads, "Elements of the light structure that a sample fetches, mean", "elements", "the samples");
   FIELD(double, read_bytes, "Their bytes, mean", "B", "the samples");
   FIELD(double, divergence,
-        "Of the device's waves: the sum of their longest lists by that of their mean ones; 1: no lane waits", "ratio",
-        "the waves");
-  FIELD(std::uint64_t, differing,
-        "Samples for which the device walked other lights than the structure has, of those whose cell it found: 0, or "
-        "a fault of the driver or of this program, and the times are not to be trusted",
-        "samples", "the frames that are read");
+        "Of as many invocations as the device's waves have: the sum of their longest lists by that of their mean ones, "
+        "weighted by lights over the frames. Idle lanes and steps that walk no light are left out",
+        "ratio", "the waves");
+  FIELD(
+      std::uint64_t, differing,
+      "Walks of samples, here and in the exact lists, that met other lights than the structure has, and samples whose "
+      "cell the device finds farther off than rounding explains. Other than 0: a fault of the driver or of this "
+      "program, and the times are not to be trusted",
+      "walks and samples", "the frames that are read");
   FIELD(Time, write_ns, "Per frame: each sample writes a word, and reads nothing at all");
-  FIELD(Time, nothing_ns, "Per frame: each sample looks up its cell and writes its number, and reads no list");
+  FIELD(
+      Time, nothing_ns,
+      "Per frame: each sample looks up its cell and writes a word made of it, and reads no list. Where samples look up "
+      "no cell (a hierarchy) it is that of its position");
   FIELD(std::vector<WalkReading>, walks, "In the order of the configuration");
   END_RECORD;
 };
@@ -67,10 +73,15 @@ struct Reading {
         "of a "
         "method's own. Absent where cells are not compared with the truth");
   FIELD(std::optional<double>, frame_ns,
-        "(1 - config.reading.async) x assignment + upload + reading (the first set's first walk). A method on the "
-        "device: device.run_ns + device.upload_ns; another: timing.frame_ns and buffers.upload_bytes by "
-        "cost.upload_gb_per_s, and only where config.reading.async is given",
+        "(1 - config.reading.async) x assignment + upload + reading (the one of set and walk), each a median over its "
+        "own "
+        "frames: reading.frames, timing.frames, and all for uploads of the processor. A method on the device: "
+        "device.run_ns + device.upload_ns; another: timing.frame_ns and buffers.upload_bytes by cost.upload_gb_per_s, "
+        "and only where config.reading.async is given. Builds for a changed grid and the picture of depths are in none",
         "ns", "one frame");
+  FIELD(std::string, set, "Its samples are those of the figures and of frame_ns: the configuration's first");
+  FIELD(std::string, walk,
+        "Likewise; a structure without cells cannot be walked cell by cell, and then has no figures");
   FIELD(std::vector<SetReading>, sets, "In the order of the configuration, those that the scene has");
   END_RECORD;
 };

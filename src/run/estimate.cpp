@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "gpu/device/device.h"
+#include "gpu/reading/reading.h"
 #include "run/passes/accuracy_pass.h"
-#include "run/passes/reading_pass.h"
 #include "run/timing/cache_sweep.h"
 #include "run/timing/repeated.h"
 #include "run/timing/timed_work.h"
@@ -95,24 +95,17 @@ double device_ns(const config::Config& config, const GroupPlan& on_device, const
   return all;
 }
 
-// The time of reading_pass(), from one frame of it with one round and with two. None where the device cannot read.
-double reading_ns(config::Config config, const SceneData& data, const GroupPlan& group, const PathFrames& path) {
-  if (config.reading_sets.empty() || !gpu::device_obstacle().empty()) return 0.0;
-  const double frames = std::min(config.reading->frames, path.count()), rounds = config.reading->rounds;
-  const std::atomic<bool> stop{false};
-  config.reading->frames = 1;
-  const auto of_rounds = [&](int count) {
-    config.reading->rounds = count;
-    return duration_ns([&] { reading_pass(config, data, group, path, stop); });
-  };
-  try {
-    of_rounds(1);  // shaders are compiled
-    const double one = of_rounds(1), round = std::max(0.0, of_rounds(2) - one);
-    return frames * (one + (rounds - 1.0) * round);
-  } catch (const gpu::DeviceError&) {
-    gpu::close_device();
-    return 0.0;
-  }
+// The time of reading_pass(), roughly: on the host, which counts each walk, and on the device.
+double reading_ns(const config::Config& config, const GroupPlan& group, const PathFrames& path) {
+  constexpr double k_host_ns = 300.0, k_software_ns = 20.0, k_gpu_ns = 0.1;  // of a sample
+  if (config.reading_sets.empty() || !gpu::reading_obstacle().empty()) return 0.0;
+  double samples = 0.0;
+  for (const config::SampleSetRequest& request : config.reading_sets) samples += request.most_samples(path.viewport());
+  const auto walks = static_cast<double>(config.reading->walks.size() * group.cases.size());
+  const double device_ns = gpu::device().facts().is_software() ? k_software_ns : k_gpu_ns;
+  constexpr double k_cold_and_warm_with_exact = 4.0;
+  return std::min(config.reading->frames, path.count()) * samples * walks *
+         (k_host_ns + k_cold_and_warm_with_exact * config.reading->rounds * device_ns);
 }
 
 GroupCost cost_of_group(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
@@ -124,7 +117,7 @@ GroupCost cost_of_group(const config::Config& config, const Plan& plan, const Gr
   if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns, limits);
   const GroupPlan on_device = device_cases(config, group);
   if (config.timing.measure && !on_device.cases.empty()) cost.device_ns = device_ns(config, on_device, path);
-  cost.reading_ns = reading_ns(config, plan.scenes[group.scene], group, path);
+  cost.reading_ns = reading_ns(config, group, path);
   return cost;
 }
 

@@ -77,9 +77,6 @@ bool emulates_gpu(const CasePlan& case_plan) {
   return preset != nullptr && preset->assigns_on_gpu();
 }
 
-// Ends the names of skipped readings.
-constexpr const char* k_reading_part = ", reading";
-
 bool is_timed(const config::Config& config, const CasePlan& case_plan) {
   return !emulates_gpu(case_plan) && !method_of(config, case_plan).on_device;
 }
@@ -98,7 +95,7 @@ struct CountedGroup {
   std::vector<std::optional<StabilityResult>> stabilities;
   std::vector<std::optional<Details>> details;
   std::vector<std::optional<DeviceTimes>> device_times;  // by case
-  std::vector<std::optional<ReadingResult>> readings;    // by case; empty if not requested
+  std::vector<ReadCase> readings;                        // by case; empty if not requested
 };
 
 class Run {
@@ -173,16 +170,9 @@ class Run {
 
   // Approximate.
   double samples_per_frame(const GroupPlan& group) const {
-    const Vec2i viewport = config_.viewports[group.viewport];
     double samples = 0.0;
-    for (const config::SampleSetRequest& request : config_.sample_sets) {
-      if (request.needs_triangles())
-        samples += static_cast<double>(viewport.x) * viewport.y / request.divisor / request.divisor;
-      else if (request.set == measure::SampleSet::fog)
-        samples += static_cast<double>(request.froxels.x) * request.froxels.y * request.froxels.z;
-      else
-        samples += request.count;
-    }
+    for (const config::SampleSetRequest& request : config_.sample_sets)
+      samples += request.most_samples(config_.viewports[group.viewport]);
     return samples;
   }
 
@@ -331,7 +321,11 @@ class Run {
     }
     counted_group.timed = timed_cases(config_, group);
     if (config_.timing.measure && !time_on_device(group, path, counted_group)) return;
-    if (!config_.reading_sets.empty() && !read_on_device(group, data, path, counted_group, out)) return;
+    if (!config_.reading_sets.empty()) {
+      report_progress(group, "reading on the device", reading_cost_of(group));
+      counted_group.readings = reading_pass(config_, data, group, path, stop_);
+      if (counted_group.readings.empty()) return;
+    }
     counted_group.group = std::move(group);
     if (!config_.timing.measure || counted_group.timed.cases.empty()) return add_cases(counted_group, {}, out);
     if (launcher_) return waiting_.push_back(std::move(counted_group));
@@ -351,26 +345,6 @@ class Run {
       out.device_times.emplace_back();
       if (method_of(config_, case_plan).on_device) out.device_times.back() = std::move(*next++);
     }
-    return true;
-  }
-
-  // False if it was stopped. Where the device cannot or fails, cases go without readings.
-  bool read_on_device(const GroupPlan& group, const SceneData& data, const PathFrames& path, CountedGroup& to,
-                      Result& out) {
-    report_progress(group, "reading on the device", reading_cost_of(group));
-    std::string reason = gpu::device_obstacle();
-    if (reason.empty()) {
-      try {
-        to.readings = reading_pass(config_, data, group, path, stop_);
-        return !to.readings.empty();
-      } catch (const gpu::DeviceError& error) {
-        gpu::close_device();
-        reason = error.message();
-      }
-    }
-    const std::string& name = group.cases.front().name;
-    out.skipped.push_back(
-        {name.substr(0, name.find('/', name.find('/', name.find('/') + 1) + 1)) + k_reading_part, reason});
     return true;
   }
 
@@ -424,7 +398,8 @@ class Run {
       if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
       if (!counted.device_times.empty()) finished.device = std::move(counted.device_times[i]);
       if (!counted.readings.empty()) {
-        finished.reading = std::move(counted.readings[i]);
+        finished.reading = std::move(counted.readings[i].reading);
+        finished.unread = std::move(counted.readings[i].obstacle);
         finished.failures = failures_of(finished, config_.limits);
       }
       if (!timings.empty() && is_timed(config_, counted.group.cases[i])) {

@@ -8,9 +8,11 @@ processor. Without a device all tests but those of its absence are skipped (exit
 """
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PROGRAM, SCENES = map(os.path.abspath, sys.argv[1:3])
@@ -133,6 +135,47 @@ class Readings(unittest.TestCase):
             self.assertEqual([one["differing"] for one in case["reading"]["sets"]], [0, 0], case["name"])
             self.assertEqual(len(case["reading"]["sets"][0]["walks"]), 2, case["name"])
 
+    def test_a_walk_that_a_structure_does_not_allow_is_no_other_ones_figure(self):
+        document = config(assigners=["aabb-fast", "bvh"], storages=["packed"])
+        document["reading"].update(walks=["cell", "lane"], sets=["opaque"])
+        result, done = run(document, "--fail-if", "own: reading_us >= 0")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("no case has reading_us", done.stderr)
+        walks = {case["storage"]: [walk["walk"] for walk in case["reading"]["sets"][0]["walks"]] for case in result["cases"]}
+        self.assertEqual(walks, {"packed": ["cell", "lane"], "own": ["lane"]})
+        self.assertEqual({case["reading"]["walk"] for case in result["cases"]}, {"cell"})
+
+    def test_below_the_memory_limit_what_fits_is_read_and_the_rest_has_the_reason(self):
+        document = config(assigners=["aabb-fast"], storages=["packed", {"name": "fixed", "cap": 2000}], limits={"memory_mib": 1})
+        document["reading"]["sets"] = ["opaque"]
+        result, done = run(document)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        read = {case["storage"]: "reading" in case for case in result["cases"]}
+        self.assertTrue(read["packed"], result["cases"][0].get("unread"))
+
+    def test_readings_stop_when_they_are_interrupted(self):
+        document = config(assigners=["aabb-fast"], storages=["packed"])
+        document["reading"]["rounds"] = 100000
+        with tempfile.TemporaryDirectory() as folder:
+            path = f"{folder}/config.json"
+            with open(path, "w") as file:
+                json.dump(document, file)
+            running = subprocess.Popen([PROGRAM, "run", path, "-o", f"{folder}/result.json", "-q"], stderr=subprocess.PIPE)
+            time.sleep(2)
+            running.send_signal(signal.SIGINT)
+            running.communicate(timeout=60)
+            self.assertNotEqual(running.returncode, 0)
+
+    def test_each_case_has_a_reading_or_the_reason(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path, out = f"{folder}/config.json", f"{folder}/result.json"
+            with open(path, "w") as file:
+                json.dump(config(assigners=["aabb-fast", "deferred"], storages=["packed"]), file)
+            subprocess.run([PROGRAM, "run", path, "-o", out, "-q"], check=True, capture_output=True)
+            with open(out) as file:
+                cases = json.load(file)["cases"]
+            self.assertEqual([sorted({"reading", "unread"} & set(case)) for case in cases], [["reading"], ["unread"]])
+
     def test_without_times_nothing_is_read(self):
         result, done = run(config(), "--no-timing")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -171,8 +214,8 @@ class WithoutDevice(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("reading", result["cases"][0])
         self.assertIn("frame_ns", result["cases"][0]["timing"])
-        self.assertTrue(result["skipped"][-1]["name"].endswith(", reading"), result["skipped"])
-        self.assertIn("Nothing was read on a device: ", done.stderr)
+        self.assertTrue(result["cases"][0]["unread"])
+        self.assertIn("Not read on a device: 1 case: ", done.stderr)
 
 
 if __name__ == "__main__":

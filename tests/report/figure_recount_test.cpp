@@ -648,7 +648,10 @@ result::Result with_readings(result::Result result) {
     set.set = "opaque";
     set.nothing_ns = time_by_hand(ns / 2.0);
     set.walks = {walk, walk};
-    result.cases[i].reading.emplace().sets = {set};
+    result::Reading& reading = result.cases[i].reading.emplace();
+    reading.sets = {set};
+    reading.set = "opaque";
+    reading.walk = "lane";
   }
   add_device_frames(result.cases, result.config);
   return result;

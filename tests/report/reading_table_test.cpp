@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "report/comparison_by_hand.h"
 #include "report/results/measured_prices.h"
-#include "report/tables/table.h"
+#include "result/figures/case_figure.h"
 
 namespace clusterbench::report {
 namespace {
@@ -36,7 +36,14 @@ run::ReadingResult reading_of(double read_ns, double exact_ns, bool is_software 
   set.nothing_ns = rounds_of(1000.0);
   set.walks = {walk_of(gpu::Walking::by_lane, read_ns, exact_ns),
                walk_of(gpu::Walking::by_light, read_ns + 1.0, exact_ns)};
-  return {"Card, driver 1", is_software, 2, 4096.0, run::ReadingResult::ExactLists{"packed", 2048.0}, {set}};
+  return {"Card, driver 1",
+          is_software,
+          2,
+          4096.0,
+          measure::SampleSet::opaque,
+          gpu::Walking::by_lane,
+          run::ReadingResult::ExactLists{"packed", 2048.0},
+          {set}};
 }
 
 // The cases by hand, whose second is read faster.
@@ -86,14 +93,43 @@ TEST(ReadingTable, is_by_the_time_of_a_frame_where_all_have_it) {
 
 TEST(ReadingTable, says_what_exact_lists_would_save_at_most) {
   const std::string table = table_of(read_result());
-  EXPECT_NE(table.find("would save a frame at most 3.00 us of reading, those of " +
-                       result_by_hand().cases[0].assigner_label + " / packed (x 1.50)"),
+  EXPECT_NE(table.find("would save a frame at most 3.06 us of reading, those of " +
+                       result_by_hand().cases[0].assigner_label + " / packed (x 1.49 to 1.51)"),
             std::string::npos)
       << table;
   run::Result tight = read_result();
   tight.cases[0].reading = reading_of(6030.0, 6000.0);  // 1.005, and its interval holds 1
   tight.cases[1].reading = reading_of(5900.0, 6000.0);
-  EXPECT_NE(table_of(tight).find("not known to be read faster than any of these"), std::string::npos);
+  EXPECT_NE(table_of(tight).find("would save a frame at most 0.09 us"), std::string::npos) << table_of(tight);
+  tight.cases[0].reading = reading_of(5800.0, 6000.0);
+  EXPECT_NE(table_of(tight).find("would be read no faster than any of these lists"), std::string::npos);
+  for (run::CaseResult& one : tight.cases) one.reading->sets[0].walks[0].exact_ratio->ci95 = {};
+  EXPECT_NE(table_of(tight).find("is not known: an interval takes 6 rounds"), std::string::npos);
+}
+
+TEST(ReadingTable, compares_nothing_with_lists_that_lack_lights) {
+  run::Result result = read_result();
+  result.config["reading"] = {{"async", 0.0}};
+  result.config["cost"] = {{"upload_gb_per_s", 15.75}};
+  result.cases[1].buffers.dropped_pairs = 5;  // read faster
+  const std::string table = table_of(result);
+  EXPECT_NE(table.find("! " + result.cases[1].assigner_label), std::string::npos) << table;
+  EXPECT_LT(line_with(table, result.cases[0].assigner_label + " / packed  "),
+            line_with(table, result.cases[1].assigner_label + " / packed  "));
+  EXPECT_NE(table.find("Cheapest with its assignment and upload: " + result.cases[0].assigner_label), std::string::npos)
+      << table;
+  EXPECT_NE(table.find("!: lacks lights"), std::string::npos) << table;
+  result.cases[0].storage_label = "own";  // 1.5 times the exact lists in another storage
+  EXPECT_EQ(table_of(result).find("would save"), std::string::npos) << table_of(result);
+}
+
+TEST(ReadingTable, has_the_figures_of_the_set_and_walk_that_are_named_first) {
+  run::Result result = read_result();
+  result.cases[0].reading->walking = gpu::Walking::by_light;
+  result.cases[1].reading->walking = gpu::Walking::by_cell;  // not read so
+  const result::Result record = test::result_of(testing::json_of(result));
+  EXPECT_EQ(result::figure_of(record.cases[0], "reading_us"), 9.001);
+  EXPECT_EQ(result::figure_of(record.cases[1], "reading_us"), std::nullopt);
 }
 
 TEST(ReadingTable, marks_times_of_software_and_ranks_nothing_by_them) {
@@ -109,17 +145,17 @@ TEST(ReadingTable, marks_times_of_software_and_ranks_nothing_by_them) {
 TEST(ReadingTable, warns_of_lights_that_a_device_walked_wrongly) {
   run::Result result = read_result();
   result.cases[1].reading->sets[0].differing = 7;
-  EXPECT_NE(table_of(result).find("At 7 samples the device walked other lights"), std::string::npos);
+  EXPECT_NE(table_of(result).find("7 walks met other lights"), std::string::npos);
 }
 
 TEST(ReadingTable, is_missing_without_readings_and_its_reason_is_told) {
   run::Result result = result_by_hand();
   EXPECT_EQ(table_of(result), "");
-  result.skipped.push_back({"hall/walk/frustum 64px, reading", "there is no Vulkan driver"});
-  const std::string table = render_table(test::result_of(testing::json_of(result)), false);
-  EXPECT_NE(table.find("Nothing was read on a device: there is no Vulkan driver.\n"), std::string::npos) << table;
-  const std::size_t others = result_by_hand().skipped.size();
-  EXPECT_NE(table.find(std::to_string(others) + " combination"), std::string::npos) << "a reading is none";
+  for (run::CaseResult& one : result.cases) one.unread = "there is no Vulkan driver";
+  EXPECT_EQ(table_of(result), "Not read on a device: 2 cases: there is no Vulkan driver.\n");
+  result.cases[1].reading = read_result().cases[1].reading;
+  result.cases[1].unread = "";
+  EXPECT_NE(table_of(result).find("Not read on a device: 1 case: there is"), std::string::npos);
 }
 
 // --- Prices ---
@@ -170,6 +206,9 @@ TEST(MeasuredPrices, are_those_that_the_readings_were_made_of) {
 TEST(MeasuredPrices, are_refused_with_what_is_missing) {
   EXPECT_NE(refusal_of(result_by_hand()).find("has no readings; --set 'reading={}'"), std::string::npos);
   EXPECT_NE(refusal_of(read_result(true)).find("computes on the processor"), std::string::npos);
+  run::Result wrong = priced(0.02, 0.005, 1500.0);
+  wrong.cases[0].reading->sets[0].differing = 1;
+  EXPECT_NE(refusal_of(wrong).find("was read wrongly"), std::string::npos);
   EXPECT_NE(refusal_of(read_result()).find("do not tell the prices apart"), std::string::npos);
   run::Result two = priced(0.02, 0.005, 1500.0);
   two.cases[1].reading->device = "Another card, driver 2";

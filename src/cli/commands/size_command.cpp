@@ -241,7 +241,7 @@ void add_size(Command& program, Action& action) {
       .once_a_name();
   add_effort_options(command, flags->search, &worst_case);
   add_space_options(command, flags->search, &worst_case);
-  add_config_options(command, flags->inputs, {"--rounds", "--launches"});
+  add_config_options(command, flags->inputs, {"--rounds", "--launches", k_cost_from});
   command.add_flag("--allow-no-lights", flags->allows_no_lights, "Does not fail where no light is ever in view");
   command.add_flag("-q,--quiet", flags->quiet, "No progress; warnings stay");
   command.when_named([flags, &action] { action = [flags] { return size(*flags); }; });

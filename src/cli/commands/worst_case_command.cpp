@@ -154,7 +154,7 @@ void add_worst_case(Command& program, Action& action) {
       .range(1, 1000)
       .shows_standard();
   add_space_options(command, flags->search);
-  add_config_options(command, flags->inputs, {"--rounds", "--launches", "--fail-if"});
+  add_config_options(command, flags->inputs, {"--rounds", "--launches", "--fail-if", k_cost_from});
   command.add_flag("-q,--quiet", flags->quiet, "No progress and no text");
   command.when_named([flags, &action] { action = [flags] { return worst_case(*flags); }; });
 }

@@ -27,8 +27,9 @@ void add_config_options(Command& command, RunInputs& inputs, const std::vector<s
     command.add_flag("--as-shipped", inputs.are_as_shipped,
                      "Presets with the known bugs of Filament, Bevy, three.js and Babylon.js, which lose lights");
   }
+  if (std::ranges::find(without, k_cost_from) != without.end()) return;
   command.add_option(
-      "--cost-from", inputs.cost_from,
+      k_cost_from, inputs.cost_from,
       "RESULT of a run with `reading` on a GPU: its prices of a light, a read and a byte for the key cost");
 }
 

@@ -12,6 +12,8 @@
 
 namespace clusterbench::cli {
 
+inline constexpr const char* k_cost_from = "--cost-from";
+
 struct RunInputs {
   std::vector<std::string> paths;
   std::vector<std::vector<std::string>> settings{config::config_flags().size()};  // by flag
@@ -20,7 +22,7 @@ struct RunInputs {
   config::GridChange preset_grid;  // replaces keys of the presets' grids
 };
 
-// Adds an option for each flag of config_flags() except those in `without`, and --cost-from.
+// Adds an option for each flag of config_flags() and --cost-from, except those in `without`.
 void add_config_options(Command& command, RunInputs& inputs, const std::vector<std::string>& without = {});
 
 // The flags that were given, in the order of config_flags().

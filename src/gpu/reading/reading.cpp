@@ -119,7 +119,6 @@ class Turns {
       commands.mark();
     }
     commands.run();
-    if (device().facts().timestamp_bits == 0) return;
     for (std::uint32_t i = 0; i < spans.size(); ++i) {
       ReadingTimes& times = times_[spans[i].task];
       const double ns = commands.ns_between(2 * i, 2 * i + 1);
@@ -158,6 +157,15 @@ std::uint32_t repeats_for(double reading_ns, double timestamp_period_ns, double 
   return static_cast<std::uint32_t>(std::clamp(std::ceil(least / one), 1.0, std::min<double>(most, k_most_repeats)));
 }
 
+std::string reading_obstacle() {
+  if (const std::string obstacle = device_obstacle(); !obstacle.empty()) return obstacle;
+  const DeviceFacts& facts = device().facts();
+  if (facts.timestamp_bits == 0) return facts.name + " has no clock";
+  if (!facts.has_subgroup_arithmetic)
+    return facts.name + " has no arithmetic over subgroups, which readings of whole waves need";
+  return "";
+}
+
 std::vector<std::uint32_t> results_of(const ReadingTask& task, ReadingSamples& samples, bool given) {
   task.structure->bind(samples);
   const std::uint64_t words = std::uint64_t{samples.invocations()} * (task.output == ReadingOutput::check ? 2 : 1);
@@ -176,7 +184,8 @@ std::vector<ReadingTimes> read_in_turns(std::span<const ReadingTask> tasks, Read
                                         const ReadingPlan& plan) {
   if (tasks.empty() || samples.invocations() == 0) return std::vector<ReadingTimes>(tasks.size());
   Turns turns(tasks, samples, plan);
-  for (int round = 0; round < plan.rounds; ++round) turns.run_round(static_cast<std::size_t>(round));
+  for (int round = 0; round < plan.rounds && !(plan.stop != nullptr && *plan.stop); ++round)
+    turns.run_round(static_cast<std::size_t>(round));
   return turns.take_times();
 }
 

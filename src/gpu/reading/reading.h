@@ -2,13 +2,19 @@
 // What samples pay for their lights: the time of a device that looks up each sample's cell, walks its lights and adds
 // their attenuations, by the device's clock.
 
+#include <atomic>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "gpu/reading/reading_structure.h"
 
 namespace clusterbench::gpu {
+
+// Why the device of this process cannot read: there is none, or it lacks a clock or arithmetic over subgroups. "" if it
+// can.
+std::string reading_obstacle();
 
 struct ReadingTask {
   ReadingStructure* structure = nullptr;  // also where only its lookup is run
@@ -25,6 +31,7 @@ struct ReadingPlan {
   // Filled before each cold reading, so that no cache holds what it reads. Less on software devices, whose caches are
   // the processor's.
   std::uint64_t flushed_bytes = std::uint64_t{256} << 20, flushed_bytes_of_software = std::uint64_t{32} << 20;
+  const std::atomic<bool>* stop = nullptr;  // once true, the rounds until then are returned
   double longest_submit_ns = 1e8;  // devices are asked to do no more at a time, if they can do one reading in it
 };
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/memory.h"
+
 namespace clusterbench::gpu {
 namespace {
 
@@ -77,7 +79,7 @@ void ReadingSamples::give_cells(std::span<const std::int32_t> cells) {
 }
 
 std::uint64_t ReadingSamples::reserve_flushed(std::uint64_t bytes) {
-  bytes = std::min(bytes, device().facts().max_buffer_bytes) / 4 * 4;
+  bytes = std::min({bytes, device().facts().max_buffer_bytes, memory_limit()}) / 4 * 4;
   buffers_.reserve(ReadingBinding::flushed, bytes, "bytes that flush caches");
   return bytes;
 }

@@ -37,7 +37,7 @@ class ReadingSamples {
 
   // The cells that readings with ReadingLookup::given take, one for each invocation.
   void give_cells(std::span<const std::int32_t> cells);
-  // Memory to be filled before a cold reading; less where the device allows less. Returns its size.
+  // Memory to be filled before a cold reading; less where the device or the memory limit allows less. Returns its size.
   std::uint64_t reserve_flushed(std::uint64_t bytes);
 
   Buffers& buffers() { return buffers_; }

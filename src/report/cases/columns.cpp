@@ -74,15 +74,18 @@ std::string text(const char* format, double value) {
   return out;
 }
 
-std::string frame_interval_text(const Case& result_case) {
+std::string interval_text(const Time& time) {
   constexpr double k_wide_percent = 20.0;
-  const auto median = result::number<&Case::timing, &Timing::frame_ns, &Time::median>(result_case);
-  if (!median || *median <= 0.0) return "-";
-  const auto [low, high] = result::Pair(result_case.timing->frame_ns.ci95);
+  if (!(time.median > 0.0)) return "-";
+  const auto [low, high] = result::Pair(time.ci95);
   if (!std::isfinite(low) || !std::isfinite(high)) return k_unknown_interval;
-  const double below = 100.0 * (1.0 - low / *median), above = 100.0 * (high / *median - 1.0);
+  const double below = 100.0 * (1.0 - low / time.median), above = 100.0 * (high / time.median - 1.0);
   if (std::max(below, above) < k_wide_percent) return text("%.1f %%", 0.5 * (below + above));
   return text("-%.0f", below) + text("/+%.0f %%", above);
+}
+
+std::string frame_interval_text(const Case& result_case) {
+  return result_case.timing ? interval_text(result_case.timing->frame_ns) : "-";
 }
 
 std::string unlit_text(const std::optional<double>& share) {

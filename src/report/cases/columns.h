@@ -32,6 +32,7 @@ inline constexpr const char* k_unknown_interval = "unknown";
 // The 95 % interval of a frame's time in percent of it, in all texts: half of its width, "3.5 %"; for a wide asymmetric
 // interval both ends: "-14/+36 %".
 std::string frame_interval_text(const result::Case& result_case);
+std::string interval_text(const result::Time& time);  // likewise
 // The requirements of an interval: "an interval takes ..."
 std::string what_intervals_take();
 // One number in a printf format.

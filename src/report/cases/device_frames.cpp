@@ -25,8 +25,8 @@ std::optional<ListTimes> of_processor(const Case& result_case, const result::Jso
   if (!result_case.timing || !config.contains("cost")) return {};
   const auto bytes =
       result::number<&Case::buffers, &result::Buffers::upload_bytes, &result::FrameBytes::mean>(result_case);
-  return ListTimes{result_case.timing->frame_ns.median,
-                   bytes.value_or(0.0) / cost_model_of(config["cost"]).upload_gb_per_s};
+  if (!bytes) return {};
+  return ListTimes{result_case.timing->frame_ns.median, *bytes / cost_model_of(config["cost"]).upload_gb_per_s};
 }
 
 std::optional<double> frame_ns(const Case& result_case, const result::Json& config) {

@@ -198,15 +198,18 @@ constexpr const char* k_legend =
 
 // Names presets whose cases could have run on a device; "" if there are none.
 std::string device_hint(const result::Result& result) {
+  if (!result.config.is_object() || !result.config.value("device", "").empty()) return "";
+  const bool is_as_shipped = result.config.value("as_shipped", false);
   std::vector<std::string> names;
   for (const Case& result_case : result.cases) {
     const config::Preset* preset = config::find_preset(result_case.preset.value_or(""));
-    if (preset == nullptr || !preset->on_device || runs_on_device(result_case)) continue;
+    if (preset == nullptr || !preset->on_device || (is_as_shipped && preset->has_mistakes())) continue;
     if (std::ranges::find(names, preset->name) == names.end()) names.push_back(preset->name);
   }
   if (names.empty()) return "";
-  return "--device NAME (clusterbench list devices) runs and times the engines' own kind of shader: " + joined(names) +
-         ".\n";
+  return "--device NAME (clusterbench list devices) runs and times shaders that work as the engines' do, as far as "
+         "`list presets` says: " +
+         joined(names) + ".\n";
 }
 
 // With what differs on a device, if one of its cases ran there.

@@ -13,6 +13,8 @@
 namespace clusterbench::report {
 namespace {
 
+constexpr double k_most_gb_per_s = 1e6;  // of the configuration's schema
+
 using result::Case;
 using result::SetReading;
 using result::WalkReading;
@@ -36,7 +38,7 @@ std::vector<gpu::CostObservation> observations_of(const std::vector<Case>& cases
     if (!result_case.reading) continue;
     for (const SetReading& set : result_case.reading->sets)
       for (const WalkReading& walk : set.walks)
-        if (walk.walk == "lane" && set.lights > 0.0)
+        if (walk.walk == "lane" && set.lights > 0.0 && walk.read_ns.median > set.nothing_ns.median)
           all.push_back({walk.read_ns.median - set.nothing_ns.median, work_of(set)});
   }
   return all;
@@ -47,6 +49,11 @@ std::set<std::string> devices_of(const std::vector<Case>& cases) {
   for (const Case& result_case : cases)
     if (result_case.reading) devices.insert(result_case.reading->device);
   return devices;
+}
+
+bool is_wrong(const Case& result_case) {
+  return result_case.reading &&
+         std::ranges::any_of(result_case.reading->sets, [](const SetReading& set) { return set.differing > 0; });
 }
 
 // "ns_per_read, read_gb_per_s"
@@ -63,12 +70,13 @@ std::string untold(const gpu::CostFit& fit) {
 std::string MeasuredPrices::text() const {
   return "cost by " + number_of(readings, "reading") + " on " + shown(device) +
          report::text(": a light %.3g ns", ns_per_light) + report::text(", a read %.3g ns", ns_per_read) +
-         report::text(", %.4g GB/s", read_gb_per_s) + report::text(" (off by %.2g %% rms)", 100.0 * error_rms) +
+         (read_gb_per_s < k_most_gb_per_s ? report::text(", %.4g GB/s", read_gb_per_s)
+                                          : std::string(", bytes nothing beside it")) +
+         report::text(" (%.2g %% rms off at these readings)", 100.0 * error_rms) +
          "; a light there is a small attenuation: if yours costs more, --set cost.ns_per_light says so";
 }
 
 MeasuredPrices measured_prices(const result::Result& result, const std::string& path) {
-  constexpr double k_most_gb_per_s = 1e6;  // of the configuration's schema
   const std::string where = "--cost-from";
   const std::set<std::string> devices = devices_of(result.cases);
   if (devices.empty())
@@ -80,8 +88,11 @@ MeasuredPrices measured_prices(const result::Result& result, const std::string& 
   if (std::ranges::any_of(result.cases, [](const Case& one) { return one.reading && one.reading->software; }))
     throw Error(path, where,
                 "was read on " + *devices.begin() + ", which computes on the processor: its prices are no GPU's");
+  if (const auto wrong = std::ranges::find_if(result.cases, is_wrong); wrong != result.cases.end())
+    throw Error(path, where, wrong->name + " was read wrongly (differing): its times are not to be trusted");
   const std::vector<gpu::CostObservation> observations = observations_of(result.cases);
-  if (observations.empty()) throw Error(path, where, "has no readings with the walk `lane` that walk a light");
+  if (observations.empty())
+    throw Error(path, where, "has no readings with the walk `lane` that walk a light and take longer than nothing");
   const gpu::CostFit fit = gpu::fit_cost(observations);
   if (!fit.is_determined())
     throw Error(path, where,

@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Parts of a configuration that must be equal for all cases of a result.
-constexpr const char* k_in_common[] = {"allocation", "cost", "rank_by"};
+constexpr const char* k_in_common[] = {"allocation", "cost", "rank_by", "reading"};
 
 bool is_measured(const result::Result& result) {
   return std::ranges::any_of(result.cases,

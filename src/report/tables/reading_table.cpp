@@ -1,10 +1,14 @@
 #include "report/tables/reading_table.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <tuple>
 
 #include "report/cases/columns.h"
+#include "report/cases/contender.h"
 #include "result/at.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 namespace {
@@ -19,10 +23,21 @@ struct ReadingLine {
   const SetReading* set;
   const WalkReading* walk;
   std::size_t set_order, walk_order;
+  // Loses no light and fails nothing: else short lists would count as an advantage.
+  bool is_sound;
 
-  bool is_first() const { return set_order == 0 && walk_order == 0; }  // that of the figures
+  bool is_first() const {  // that of the figures
+    return set->set == result_case->reading->set && walk->walk == result_case->reading->walk;
+  }
   std::optional<double> frame_ns() const { return is_first() ? result_case->reading->frame_ns : std::nullopt; }
+  bool has_lists() const { return result_case->storage != run::k_own_structure; }
 };
+
+bool is_sound(const Case& result_case) {
+  const bool culls_lights = result_case.pre_cull && !result_case.pre_cull->conservative;
+  return result_case.failures.empty() && loses_nothing_seen(result_case) && !culls_lights &&
+         result_case.buffers.overflow.dropped_pairs == 0;
+}
 
 bool have_frames(const std::vector<ReadingLine>& lines) {
   return std::ranges::all_of(lines, [](const ReadingLine& line) { return !line.is_first() || line.frame_ns(); });
@@ -33,32 +48,28 @@ std::string us_text(double ns) {
   return text(us < 10.0 ? "%.2f" : us < 1000.0 ? "%.1f" : "%.0f", us);
 }
 
-std::string half_interval_text(const result::Time& time) {
-  const result::Pair& ends = time.ci95;
-  if (!(ends[0] <= ends[1])) return k_unknown_interval;
-  return text("%.1f %%", 50.0 * (ends[1] - ends[0]) / time.median);
-}
-
 std::string line_name(const ReadingLine& line) {
   return method_name(*line.result_case) + " / " + storage_name(*line.result_case);
 }
 
-std::vector<ReadingLine> lines_of(const std::vector<Case>& cases, const result::Scene& scene,
-                                  const std::string& block) {
+std::vector<ReadingLine> lines_of(const std::vector<Case>& cases, const result::Scene& scene, const std::string& block,
+                                  const std::string& device) {
   std::vector<ReadingLine> lines;
   bool is_software = false;
   for (const Case& result_case : cases) {
-    if (!result_case.reading || result_case.scene != scene.name || block_of(result_case) != block) continue;
+    if (!result_case.reading || result_case.reading->device != device || result_case.scene != scene.name ||
+        block_of(result_case) != block)
+      continue;
     is_software |= result_case.reading->software;
     const std::vector<SetReading>& sets = result_case.reading->sets;
     for (std::size_t set = 0; set < sets.size(); ++set)
       for (std::size_t walk = 0; walk < sets[set].walks.size(); ++walk)
-        lines.push_back({&result_case, &sets[set], &sets[set].walks[walk], set, walk});
+        lines.push_back({&result_case, &sets[set], &sets[set].walks[walk], set, walk, is_sound(result_case)});
   }
   const bool is_by_frame = have_frames(lines);
   const auto key = [&](const ReadingLine& line) {
     const double ns = is_by_frame && line.is_first() ? *line.frame_ns() : line.walk->read_ns.median;
-    return std::tuple(line.set_order, line.walk_order, is_software ? 0.0 : ns);
+    return std::tuple(line.set_order, line.walk_order, !is_software && !line.is_sound, is_software ? 0.0 : ns);
   };
   std::ranges::stable_sort(lines, {}, key);
   return lines;
@@ -67,12 +78,12 @@ std::vector<ReadingLine> lines_of(const std::vector<Case>& cases, const result::
 Cells cells_of(const ReadingLine& line, bool has_frames) {
   const Reading& reading = *line.result_case->reading;
   const WalkReading& walk = *line.walk;
-  Cells cells{"",
+  Cells cells{line.is_sound ? "" : "!",
               line_name(line),
               line.set->set,
               walk.walk,
               us_text(walk.read_ns.median),
-              half_interval_text(walk.read_ns),
+              interval_text(walk.read_ns),
               text_of(walk.exact_ratio, "%.2f"),
               text("%.2f", walk.nothing_ratio),
               us_text(walk.cold_ns.median),
@@ -83,29 +94,51 @@ Cells cells_of(const ReadingLine& line, bool has_frames) {
   return cells;
 }
 
-// By how much exact lists would make the figures' reading faster, where that is most.
+// What exact lists may save of the figures' reading, by the far end of its interval.
+double most_saved_ns(const ReadingLine& line) {
+  return line.walk->read_ns.median * (1.0 - 1.0 / result::Pair(*line.walk->exact_ci95)[1]);
+}
+
+// The most that exact lists save: what a tighter method may cost more. Only where nothing is lost or dropped: shorter
+// lists that lack lights are read faster than exact ones.
 std::string savings_text(const std::vector<ReadingLine>& lines) {
   const ReadingLine* most = nullptr;
-  const auto saved_ns = [](const ReadingLine& line) {
-    return line.walk->exact_ns ? line.walk->read_ns.median - line.walk->exact_ns->median : 0.0;
-  };
-  for (const ReadingLine& line : lines)
-    if (line.is_first() && line.walk->exact_ci95 && result::Pair(*line.walk->exact_ci95)[0] > 1.0 &&
-        (most == nullptr || saved_ns(line) > saved_ns(*most)))
-      most = &line;
+  bool has_ratios = false;
+  for (const ReadingLine& line : lines) {
+    if (!line.is_first() || !line.is_sound || !line.has_lists() || !line.walk->exact_ratio) continue;
+    has_ratios = true;
+    const bool is_known = line.walk->exact_ci95 && std::isfinite(result::Pair(*line.walk->exact_ci95)[1]);
+    if (is_known && (most == nullptr || most_saved_ns(line) > most_saved_ns(*most))) most = &line;
+  }
+  if (!has_ratios) return "";
   if (most == nullptr)
-    return "   Exact lists are not known to be read faster than any of these: tighter ones save no reading.\n";
-  return "   Exact lists in the same storage would save a frame at most " + us_text(saved_ns(*most)) +
-         " us of reading, those of " + line_name(*most) + text(" (x %.2f)", *most->walk->exact_ratio) +
+    return "   What exact lists would save is not known: an interval takes 6 rounds (reading.rounds).\n";
+  if (most_saved_ns(*most) <= 0.0)
+    return "   Exact lists in the same storage would be read no faster than any of these lists.\n";
+  const auto [low, high] = result::Pair(*most->walk->exact_ci95);
+  return "   Exact lists in the same storage would save a frame at most " + us_text(most_saved_ns(*most)) +
+         " us of reading, those of " + line_name(*most) + text(" (x %.3g", low) + text(" to %.3g)", high) +
          ": what a tighter method may cost more.\n";
+}
+
+// The cheapest frame, and the next.
+std::string cheapest_text(const std::vector<ReadingLine>& lines) {
+  const bool has_next = lines.size() > 1 && lines[1].is_sound && lines[1].is_first();
+  return "   Cheapest with its assignment and upload: " + line_name(lines[0]) + ", " + us_text(*lines[0].frame_ns()) +
+         " us a frame" +
+         (has_next ? "; " + line_name(lines[1]) +
+                         text(" costs %.3g times as much", *lines[1].frame_ns() / *lines[0].frame_ns())
+                   : "") +
+         ".\n";
 }
 
 std::string fault_text(const std::vector<ReadingLine>& lines) {
   std::uint64_t differing = 0;
-  for (const ReadingLine& line : lines) differing = std::max(differing, line.set->differing);
+  for (const ReadingLine& line : lines)
+    if (line.walk == line.set->walks.data()) differing += line.set->differing;  // once for each set of a case
   if (differing == 0) return "";
-  return "   At " + number_of(differing, "sample") +
-         " the device walked other lights than the structure has: a fault; do not trust these times.\n";
+  return "   " + number_of(differing, "walk") +
+         " met other lights than the structure has, or another cell: a fault; do not trust these times.\n";
 }
 
 std::string reading_block(const std::string& block, const std::vector<ReadingLine>& lines) {
@@ -117,46 +150,71 @@ std::string reading_block(const std::string& block, const std::vector<ReadingLin
   std::vector<Cells> rows{headings};
   for (const ReadingLine& line : lines) rows.push_back(cells_of(line, has_frames));
   std::string out = " " + block + "\n" + aligned_rows(rows);
-  const bool has_exact =
-      std::ranges::any_of(lines, [](const ReadingLine& line) { return line.is_first() && line.walk->exact_ratio; });
   if (lines.front().result_case->reading->software) return out + fault_text(lines);
-  if (has_exact) out += savings_text(lines);
-  if (have_frames(lines))
-    out += "   Cheapest with its assignment and upload: " + line_name(lines.front()) + ", " +
-           us_text(*lines.front().frame_ns()) + " us a frame.\n";
+  out += savings_text(lines);
+  if (have_frames(lines) && lines.front().is_sound && lines.front().is_first()) out += cheapest_text(lines);
   return out + fault_text(lines);
+}
+
+std::vector<std::string> devices_of_scene(const result::Result& result, const result::Scene& scene) {
+  std::vector<std::string> devices;
+  for (const Case& result_case : result.cases)
+    if (result_case.reading && result_case.scene == scene.name &&
+        std::ranges::find(devices, result_case.reading->device) == devices.end())
+      devices.push_back(result_case.reading->device);
+  return devices;
+}
+
+// "Not read on a device: 3 cases: REASON; ..."
+std::string unread_text(const std::vector<Case>& cases) {
+  std::map<std::string, std::size_t> reasons;
+  for (const Case& result_case : cases)
+    if (result_case.unread) ++reasons[*result_case.unread];
+  std::string out;
+  for (const auto& [reason, count] : reasons)
+    out += (out.empty() ? "Not read on a device: " : "; ") + number_of(count, "case") + ": " + shown(reason);
+  return out.empty() ? "" : out + ".\n";
 }
 
 }  // namespace
 
 std::string reading_table(const result::Result& result) {
   std::string out;
-  bool has_frames = false;
-  for (const result::Scene& scene : result.scenes) {
-    std::string blocks;
-    const Reading* reading = nullptr;
-    for (const std::string& block : blocks_of(result.cases, scene)) {
-      const std::vector<ReadingLine> lines = lines_of(result.cases, scene, block);
-      if (lines.empty()) continue;
-      blocks += reading_block(block, lines);
-      reading = &*lines.front().result_case->reading;
-      for (const ReadingLine& line : lines) has_frames |= line.result_case->reading->frame_ns.has_value();
+  bool has_frames = false, has_unsound = false;
+  for (const result::Scene& scene : result.scenes)
+    for (const std::string& device : devices_of_scene(result, scene)) {
+      std::string blocks;
+      bool is_software = false;
+      for (const std::string& block : blocks_of(result.cases, scene)) {
+        const std::vector<ReadingLine> lines = lines_of(result.cases, scene, block, device);
+        if (lines.empty()) continue;
+        blocks += reading_block(block, lines);
+        is_software = lines.front().result_case->reading->software;
+        for (const ReadingLine& line : lines) {
+          has_frames |= line.frame_ns().has_value();
+          has_unsound |= !line.is_sound;
+        }
+      }
+      out += "reading on " + shown(device) + ": " + shown(scene.name) + "\n";
+      if (is_software)
+        out +=
+            " A software device: these times are a processor's and no GPU's. They are not sorted, and rank nothing.\n";
+      out += blocks + "\n";
     }
-    if (reading == nullptr) continue;
-    out += "reading on " + shown(reading->device) + ": " + shown(scene.name) + "\n";
-    if (reading->software)
-      out += " A software device: these times are a processor's and no GPU's. They are not sorted, and rank nothing.\n";
-    out += blocks + "\n";
-  }
-  if (out.empty()) return "";
+  const std::string unread = unread_text(result.cases);
+  if (out.empty()) return unread;
   return "\n" + out +
          "read: a frame's samples look up their lists, walk them and add a small attenuation for each light, by the "
-         "device's clock;\ncold: the same once after other memory. x exact: times the same with exact lists. x "
-         "nothing: "
-         "times looking up cells and\nreading no list. lights, reads: walked lights and fetched elements of a "
-         "sample.\n" +
+         "device's clock;\ncold: the same once after other memory. x exact: times the same with exact lists of all "
+         "lights (beside structures without lists: in\npacked). x nothing: times looking up cells and reading no list. "
+         "lights, reads: walked lights and fetched elements of a sample.\n" +
          (has_frames ? "frame: assignment, upload and this reading, less what runs beside other work (reading.async).\n"
-                     : "");
+                     : "") +
+         (has_unsound
+              ? "!: lacks lights that are needed (lost, dropped or culled) or fails: short for that reason, and "
+                "compared with nothing.\n"
+              : "") +
+         unread;
 }
 
 }  // namespace clusterbench::report

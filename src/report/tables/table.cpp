@@ -356,21 +356,15 @@ std::vector<TableBlock> table_blocks(const result::Result& result, const result:
 }
 
 // With the reason if all have the same, and with the methods that support boxes if some skipped ones do not.
-std::string skipped_text(std::vector<result::Skipped> skipped) {
-  std::string unread;
-  std::erase_if(skipped, [&](const result::Skipped& one) {
-    if (!one.name.ends_with(", reading")) return false;
-    unread = "Nothing was read on a device: " + shown(one.reason) + ".\n";
-    return true;
-  });
-  if (skipped.empty()) return unread;
+std::string skipped_text(const std::vector<result::Skipped>& skipped) {
+  if (skipped.empty()) return "";
   std::set<std::string> reasons;
   bool takes_no_boxes = false;
   for (const result::Skipped& skipped_case : skipped) {
     reasons.insert(skipped_case.reason);
     takes_no_boxes = takes_no_boxes || skipped_case.reason.ends_with(" takes no boxes");
   }
-  std::string out = unread + number_of(skipped.size(), "combination") + " of grid, method and storage left out";
+  std::string out = number_of(skipped.size(), "combination") + " of grid, method and storage left out";
   out += reasons.size() == 1 ? ": " + shown(*reasons.begin()) + ".\n"
                              : ", since they do not go together (`skipped` in the result).\n";
   if (!takes_no_boxes) return out;

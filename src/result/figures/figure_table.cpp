@@ -32,11 +32,14 @@ std::optional<double> frame_instructions(const Case& result_case) {
   return assign ? std::optional(pre_cull.value_or(0.0) + *assign + convert.value_or(0.0)) : std::nullopt;
 }
 
-// The first set's first walk: those that the configuration names first.
+// That of the set and walk which the configuration names first.
 const WalkReading* first_walk(const Case& result_case) {
-  if (!result_case.reading || result_case.reading->sets.empty()) return nullptr;
-  const std::vector<WalkReading>& walks = result_case.reading->sets.front().walks;
-  return walks.empty() ? nullptr : &walks.front();
+  if (!result_case.reading) return nullptr;
+  const Reading& reading = *result_case.reading;
+  const auto set = std::ranges::find(reading.sets, reading.set, &SetReading::set);
+  if (set == reading.sets.end()) return nullptr;
+  const auto walk = std::ranges::find(set->walks, reading.walk, &WalkReading::walk);
+  return walk == set->walks.end() ? nullptr : &*walk;
 }
 
 template <auto... Members>

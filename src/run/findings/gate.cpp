@@ -245,7 +245,7 @@ std::string limit_text(const CaseResult& result, const ExceededLimit& limit) {
   return text;
 }
 
-// Samples at which a device walked other lights than those of the structure.
+// Walks of samples that met other lights than those of the structure, or another cell.
 std::uint64_t wrong_readings(const CaseResult& result) {
   std::uint64_t differing = 0;
   if (result.reading)
@@ -285,11 +285,10 @@ std::vector<Failure> failures_of(const CaseResult& result, const config::LimitsR
     failures.push_back({Kind::lost_at_samples, "lost " + std::to_string(counts->missed - counts->missed_outside) +
                                                    " of " + number_of(counts->needed, "light") + " that " +
                                                    needing_text(set)});
-  if (const std::uint64_t samples = wrong_readings(result); samples > 0)
-    failures.push_back({Kind::wrong_readings, "read on " + result.reading->device + ", " +
-                                                  number_of(samples, "sample") +
-                                                  " walked other lights than the structure has: a fault of the driver "
-                                                  "or of this program"});
+  if (const std::uint64_t walks = wrong_readings(result); walks > 0)
+    failures.push_back({Kind::wrong_readings, "read on " + result.reading->device + ", " + number_of(walks, "walk") +
+                                                  " met other lights than the structure has, or another cell: a fault "
+                                                  "of the driver or of this program"});
   const measure::Buffers& buffers = result.buffers;
   if (limits.dropped_pairs && buffers.dropped_pairs > *limits.dropped_pairs)
     failures.push_back({Kind::dropped_pairs, dropped_text(result) + ", more than limits.dropped_pairs allows (" +

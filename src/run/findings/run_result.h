@@ -126,6 +126,9 @@ struct ReadingResult {
   bool is_software = false;
   int frames = 0;
   double structure_bytes = 0.0;  // mean
+  // The figures are those of this set and walk; none where they are missing.
+  measure::SampleSet set = measure::SampleSet::opaque;
+  gpu::Walking walking = gpu::Walking::by_lane;
   struct ExactLists {
     std::string storage;
     double bytes = 0.0;  // mean
@@ -296,6 +299,7 @@ struct CaseResult {
   bool on_device = false;                // the method runs on a device
   std::optional<DeviceTimes> device;     // its times, in place of `timing`
   std::optional<ReadingResult> reading;  // if requested
+  std::string unread;                    // why there is none though it was requested
   std::optional<CountResult> count;      // if requested
   std::optional<Details> details;        // with cells, if requested
   std::vector<Failure> failures;         // run/findings/gate.h

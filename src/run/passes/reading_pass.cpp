@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 
 #include "assign/contract/storage.h"
+#include "core/error.h"
 #include "gpu/device/device.h"
 #include "gpu/reading/reading.h"
 #include "gpu/reading/reading_check.h"
@@ -151,6 +153,7 @@ class SetReader {
 
   void add(const FrameStructure& structure, const std::vector<Walking>& walks, SetMeter& meter) {
     ReadingStructure& own = *structure.on_device;
+    meters_.push_back(&meter);
     meter.add(gpu::work_of(own.on_host(), samples_, gpu::device().facts().subgroup_size));
     ReadingStructure* const alike = looking_up_.try_emplace(own.looked_up(), &own).first->second;
     plan({looking_up_.begin()->second, Walking::by_lane, ReadingOutput::write_only}, meter.write);
@@ -158,21 +161,31 @@ class SetReader {
     if (structure.exact != nullptr) meter.exact_lights += lights_of(*structure.exact);
     for (const Walking walking : walks) {
       if (!own.allows(walking)) continue;
-      own_checks_.push_back({&own, walking, &meter});
+      checks_.push_back({&own, walking, &meter});
       plan({&own, walking, ReadingOutput::lights}, meter.own[walking]);
-      if (structure.exact != nullptr && structure.exact->allows(walking))
-        plan({structure.exact, walking, ReadingOutput::lights}, meter.exact[walking]);
+      if (structure.exact == nullptr || !structure.exact->allows(walking)) continue;
+      checks_.push_back({structure.exact, walking, &meter});
+      plan({structure.exact, walking, ReadingOutput::lights}, meter.exact[walking]);
     }
   }
 
-  void check() {
-    for (const Check& check : own_checks_)
-      check.meter->differing += gpu::check_own_lookup(*check.structure, samples_, check.walking).differing;
+  // Holds every walk against the host, and every lookup.
+  void check(const std::atomic<bool>& stop) {
+    std::map<std::pair<ReadingStructure*, Walking>, std::uint64_t> differing;
+    for (const Check& check : checks_) {
+      if (stop) return;
+      const auto [known, is_new] = differing.try_emplace({check.structure, check.walking}, 0);
+      if (is_new) known->second = gpu::check_own_lookup(*check.structure, samples_, check.walking).differing;
+      check.meter->differing += known->second;
+    }
+    for (const auto& [_, structure] : looking_up_) lost_ += gpu::check_lookup(*structure, samples_).unexplained;
+    for (SetMeter* meter : meters_) meter->differing += lost_;
   }
 
-  void read(int rounds) {
+  void read(int rounds, const std::atomic<bool>& stop) {
     gpu::ReadingPlan how;
     how.rounds = rounds;
+    how.stop = &stop;
     const std::vector<gpu::ReadingTimes> times = gpu::read_in_turns(tasks_, samples_, how);
     for (std::size_t i = 0; i < times.size(); ++i)
       for (RoundTimes* sums : times_of_[i]) sums->add(times[i]);
@@ -210,17 +223,21 @@ class SetReader {
   std::map<assign::LookedUp, ReadingStructure*> looking_up_;  // of each way to look up one structure
   std::vector<gpu::ReadingTask> tasks_;
   std::vector<std::vector<RoundTimes*>> times_of_;
-  std::vector<Check> own_checks_;
+  std::vector<Check> checks_;
+  std::vector<SetMeter*> meters_;
+  std::uint64_t lost_ = 0;  // samples whose cell the device finds farther off than rounding explains
 };
 
 // One case over the frames.
 struct CaseReading {
-  bool is_compared = false;               // with exact lists
-  double bytes = 0.0, exact_bytes = 0.0;  // sums over the frames
-  std::vector<SetMeter> sets = {};        // of the configuration
+  bool is_read = false, is_compared = false;  // compared: with exact lists
+  double bytes = 0.0, exact_bytes = 0.0;      // sums over the frames
+  std::vector<SetMeter> sets = {};            // of the configuration
 
   void add(const FrameStructure& structure) {
-    if (structure.on_device) bytes += static_cast<double>(structure.on_device->bytes());
+    if (!structure.on_device) return;
+    is_read = true;
+    bytes += static_cast<double>(structure.on_device->bytes());
     if (structure.exact == nullptr) return;
     is_compared = true;
     exact_bytes += static_cast<double>(structure.exact->bytes());
@@ -291,38 +308,75 @@ std::optional<std::vector<CaseReading>> read_cases(const config::Config& config,
       for (std::size_t i = 0; i < cases.size(); ++i)
         if (structures.cases()[i].on_device)
           reader.add(structures.cases()[i], config.reading->walks, cases[i].sets[set]);
-      reader.check();
-      reader.read(config.reading->rounds);
+      reader.check(stop);
+      reader.read(config.reading->rounds, stop);
+      if (stop) return {};
     }
     for (std::size_t i = 0; i < cases.size(); ++i) cases[i].add(structures.cases()[i]);
   }
   return cases;
 }
 
-ReadingResult result_of(const config::Config& config, const CasePlan& case_plan, const CaseReading& read, int frames) {
+ReadCase result_of(const config::Config& config, const CasePlan& case_plan, const CaseReading& read, int frames) {
+  if (!read.is_read) return {{}, "shaders do not read such a structure"};
   const gpu::DeviceFacts& facts = gpu::device().facts();
   const Totals totals(config.seed, frames);
   ReadingResult result{facts.name + ", " + facts.driver, facts.is_software(), frames, read.bytes / frames};
+  result.set = config.reading->sets.front();
+  result.walking = config.reading->walks.front();
   if (read.is_compared)
     result.exact = {case_plan.storage ? storage_label(config, case_plan) : "packed", read.exact_bytes / frames};
   for (std::size_t set = 0; set < config.reading_sets.size(); ++set)
     if (!read.sets[set].write.warm_ns.empty())
       result.sets.push_back(totals.of(config.reading_sets[set], config.reading->walks, read.sets[set]));
-  return result;
+  if (result.sets.empty()) return {{}, "no set of reading.sets has a sample in the frames that are read"};
+  return {std::move(result), ""};
+}
+
+std::vector<ReadCase> read_group(const config::Config& config, const SceneData& data, const GroupPlan& group,
+                                 const PathFrames& path, const std::atomic<bool>& stop) {
+  const std::vector<int> frames = evenly_spaced(config.reading->frames, path.count());
+  const std::optional<std::vector<CaseReading>> cases = read_cases(config, data, group, path, frames, stop);
+  std::vector<ReadCase> out;
+  for (std::size_t i = 0; cases && i < cases->size(); ++i)
+    out.push_back(result_of(config, group.cases[i], (*cases)[i], static_cast<int>(frames.size())));
+  return out;
+}
+
+// What fails, as a reason; none if it was read, or stopped.
+std::string failure_of(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const gpu::DeviceError& error) {
+    gpu::close_device();
+    return error.message();
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::internal) throw;
+    return error.message();
+  }
+  return "";
 }
 
 }  // namespace
 
-std::vector<std::optional<ReadingResult>> reading_pass(const config::Config& config, const SceneData& data,
-                                                       const GroupPlan& group, const PathFrames& path,
-                                                       const std::atomic<bool>& stop) {
-  const std::vector<int> frames = evenly_spaced(config.reading->frames, path.count());
-  const std::optional<std::vector<CaseReading>> cases = read_cases(config, data, group, path, frames, stop);
-  if (!cases) return {};
-  std::vector<std::optional<ReadingResult>> out;
-  for (std::size_t i = 0; i < cases->size(); ++i) {
-    out.emplace_back(result_of(config, group.cases[i], (*cases)[i], static_cast<int>(frames.size())));
-    if (out.back()->sets.empty()) out.back().reset();
+std::vector<ReadCase> reading_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,
+                                   const PathFrames& path, const std::atomic<bool>& stop) {
+  std::vector<ReadCase> out(group.cases.size());
+  const auto skip_all = [&](const std::string& reason) {
+    for (ReadCase& one : out) one.obstacle = reason;
+    return out;
+  };
+  if (const std::string obstacle = gpu::reading_obstacle(); !obstacle.empty()) return skip_all(obstacle);
+  const std::string failure = failure_of([&] { out = read_group(config, data, group, path, stop); });
+  if (failure.empty()) return out;
+  if (group.cases.size() == 1) return skip_all(failure);
+  out.clear();
+  for (const CasePlan& case_plan : group.cases) {
+    GroupPlan alone = group;
+    alone.cases = {case_plan};
+    std::vector<ReadCase> read = reading_pass(config, data, alone, path, stop);
+    if (read.empty()) return {};
+    out.push_back(std::move(read.front()));
   }
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "run/cases/case_plan.h"
@@ -13,10 +14,14 @@
 
 namespace clusterbench::run {
 
-// One for each case of the group; none for structures that no shader reads, for sets that are empty in all frames, and
-// where the device has no clock. Empty if stopped before the end. Throws gpu::DeviceError if the device fails.
-std::vector<std::optional<ReadingResult>> reading_pass(const config::Config& config, const SceneData& data,
-                                                       const GroupPlan& group, const PathFrames& path,
-                                                       const std::atomic<bool>& stop);
+struct ReadCase {
+  std::optional<ReadingResult> reading;
+  std::string obstacle;  // why there is none
+};
+
+// One for each case of the group; empty if stopped before the end. Where the device fails, or a structure exceeds its
+// limits or those of the configuration, each case is read alone, and those that fail alone are not.
+std::vector<ReadCase> reading_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,
+                                   const PathFrames& path, const std::atomic<bool>& stop);
 
 }  // namespace clusterbench::run

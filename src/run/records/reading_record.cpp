@@ -47,6 +47,8 @@ result::Reading reading_record(const ReadingResult& reading) {
   out.device = reading.device;
   out.software = reading.is_software;
   out.frames = static_cast<std::uint64_t>(reading.frames);
+  out.set = measure::name_of(reading.set);
+  out.walk = gpu::name_of(reading.walking);
   out.structure_bytes = counted(reading.structure_bytes);
   if (reading.exact) out.exact = {reading.exact->storage, counted(reading.exact->bytes)};
   for (const SetReading& set : reading.sets) out.sets.push_back(set_record(set, reading.frames));
