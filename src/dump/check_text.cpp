@@ -86,9 +86,9 @@ std::string verdict_text(const result::CheckedSet& set) {
            length_text(error.deepest_mm);
   std::string out = "LOST: " + number_of(beyond, "pair") + " of a cell and a light";
   if (error.lost_within_rounding > 0) out += ", and " + number(error.lost_within_rounding) + " within rounding";
-  out += "; " + number_of(error.lost_lights, "light") + " of them";
+  out += " (" + number_of(error.lost_lights, "light");
   if (error.absent_lights > 0) out += ", " + number(error.absent_lights) + " in no list at all";
-  return out + "; the deepest reaches in by " + length_text(error.deepest_mm) + ", " +
+  return out + "); the deepest reaches in by " + length_text(error.deepest_mm) + ", " +
          format("%.3g", error.deepest_percent) + " % of its range";
 }
 

@@ -69,12 +69,13 @@ class LightRowsReader {
       throw Error("", pointer + "/cone", "is missing: by `kind` there are spots, which have a direction and a cone");
     if (given.cone) {
       direction_ = reader.field(*given.direction, given.stride, pointer + "/direction", 3);
-      cone_ = reader.field({given.cone->at, given.cone->type, {}}, given.stride, pointer + "/cone");
+      cone_ = reader.field({given.cone->at, given.cone->type, {}}, given.stride, pointer + "/cone",
+                           given.cone->is == "scale-offset" ? 2 : 1);
     }
     if (given.kind)
       kind_ = reader.field({given.kind->at, given.kind->type, given.kind->bits}, given.stride, pointer + "/kind");
     rows_ = reader.rows(reader.buffer(given.buffer, pointer + "/buffer"), given.at.value_or(0), given.stride,
-                        given.count, given.stride, pointer, "lights");
+                        given.count, given.stride, pointer, "light");
   }
 
   scene::WorldLight light(std::uint64_t i, const std::string& name) const {
@@ -87,7 +88,7 @@ class LightRowsReader {
     if (!is_spot) return light;
     Vec3d direction = vector_at(row, direction_);
     if (given_.direction_is.value_or("from-light") == "to-light") direction = -direction;
-    const double half_angle = half_angle_of(layout::real_at(row + cone_.at, cone_.type), given_.cone->is);
+    const double half_angle = half_angle_at(row);
     make_spot(light, direction, half_angle, place(i, std::isfinite(half_angle) ? direction_ : cone_, name));
     return light;
   }
@@ -97,6 +98,11 @@ class LightRowsReader {
     const std::uint64_t step = layout::size_of(field.type);
     const auto number = [&](std::uint64_t i) { return layout::real_at(row + field.at + i * step, field.type); };
     return {number(0), number(1), number(2)};
+  }
+  double half_angle_at(const std::byte* row) const {
+    const double number = layout::real_at(row + cone_.at, cone_.type);
+    if (given_.cone->is != "scale-offset") return half_angle_of(number, given_.cone->is);
+    return std::acos(-layout::real_at(row + cone_.at + layout::size_of(cone_.type), cone_.type) / number);
   }
   LightPlace place(std::uint64_t i, const layout::Field& field, const std::string& name) const {
     return {rows_.buffer().file, "byte " + std::to_string(rows_.byte_of(i) + field.at), name};

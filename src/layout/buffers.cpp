@@ -102,7 +102,7 @@ Rows BufferReader::rows(const Buffer& buffer, std::uint64_t at, std::uint64_t st
   const std::uint64_t room = rows_in(buffer.bytes.size(), at, stride, row_bytes);
   if (count <= room) return out;
   throw Error("", pointer,
-              std::to_string(count) + " " + subject + ", " + std::to_string(stride) + " bytes apart from byte " +
+              number_of(count, subject) + ", " + std::to_string(stride) + " bytes apart from byte " +
                   std::to_string(at) + ", do not fit into buffer '" + buffer.name + "' of " +
                   std::to_string(buffer.bytes.size()) + " bytes, which has room for " + std::to_string(room));
 }
@@ -114,7 +114,7 @@ Rows BufferReader::all_rows(const Buffer& buffer, std::uint64_t at, std::uint64_
     throw Error("", pointer + "/at",
                 "is " + std::to_string(at) + ", beyond the end of buffer '" + buffer.name + "' of " +
                     std::to_string(buffer.bytes.size()) + " bytes");
-  return rows(buffer, at, stride, rows_in(buffer.bytes.size(), at, stride, row_bytes), row_bytes, pointer, "rows");
+  return rows(buffer, at, stride, rows_in(buffer.bytes.size(), at, stride, row_bytes), row_bytes, pointer, "row");
 }
 
 }  // namespace clusterbench::layout

@@ -69,7 +69,7 @@ class BufferReader {
   // A field that lies within its row. `values`: consecutive numbers.
   Field field(const result::DumpField& field, std::uint64_t row_bytes, const std::string& pointer,
               std::uint64_t values = 1) const;
-  // `count` rows of which the first `row_bytes` bytes are read each. `subject`: for messages, "rows of cells".
+  // `count` rows of which the first `row_bytes` bytes are read each. `subject`: for messages, "row".
   Rows rows(const Buffer& buffer, std::uint64_t at, std::uint64_t stride, std::uint64_t count, std::uint64_t row_bytes,
             const std::string& pointer, const char* subject) const;
   // As many rows as there are in the buffer.

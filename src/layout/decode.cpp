@@ -89,7 +89,7 @@ std::uint64_t rows_of_cells(const ListPart& part, const Shape& shape) {
 Rows cell_rows(const BufferReader& reader, const ListPart& part, std::uint64_t rows, std::uint64_t row_bytes) {
   const result::DumpRows& given = needed(part.lists.rows, part, "rows");
   const Buffer& buffer = reader.buffer(given.buffer, part.pointer + "/rows/buffer");
-  return reader.rows(buffer, given.at.value_or(0), given.stride, rows, row_bytes, part.pointer + "/rows", "rows");
+  return reader.rows(buffer, given.at.value_or(0), given.stride, rows, row_bytes, part.pointer + "/rows", "row");
 }
 
 std::vector<Field> count_fields(const BufferReader& reader, const ListPart& part) {
@@ -216,7 +216,7 @@ class FixedReader final : public PartReader {
       if (!counts_.empty()) rows_ = cell_rows(reader, part, rows, end_of(counts_));
       const Buffer& buffer = reader.buffer(*entries.buffer, part.pointer + "/entries/buffer");
       entries_ = reader.rows(buffer, entries.at.value_or(0), per_cell_ * step_, rows, list_bytes,
-                             part.pointer + "/entries", "lists");
+                             part.pointer + "/entries", "list");
       return;
     }
     entry_at_ = entries.at.value_or(0);
@@ -270,11 +270,11 @@ class LightRangesReader {
     const Buffer& buffer = reader.buffer(ranges.buffer, pointer + "/buffer");
     const auto slices = static_cast<std::uint64_t>(shape.cells.z);
     const std::uint64_t at = ranges.at.value_or(0);
-    slices_ = reader.rows(buffer, at, ranges.stride, slices, row_bytes, pointer, "ranges");
+    slices_ = reader.rows(buffer, at, ranges.stride, slices, row_bytes, pointer, "range");
     if (part.lists.layout != "bits_and_slice_ranges") return;
     tile_stride_ = needed(ranges.tile_stride, part, "ranges/tile_stride");
     const std::uint64_t tile_bytes = (slices - 1) * ranges.stride + row_bytes;
-    reader.rows(buffer, at, tile_stride_, rows_of_cells(part, shape), tile_bytes, pointer, "tiles of ranges");
+    reader.rows(buffer, at, tile_stride_, rows_of_cells(part, shape), tile_bytes, pointer, "tile");
   }
 
   struct Range {

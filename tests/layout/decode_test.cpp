@@ -173,8 +173,7 @@ TEST(Decode, descriptions_that_do_not_fit_are_refused_without_overflow) {
   EXPECT_EQ(refusal_of(right), "");
   const std::uint64_t huge = ~std::uint64_t{0};
   const std::pair<std::function<void(result::DumpLists&)>, const char*> rows[] = {
-      {[&](auto& d) { d.rows->at = huge; }, "/lists/0/rows: 1 rows, 52 bytes apart"},
-      {[&](auto& d) { d.rows->stride = huge; }, "/lists/0/rows: 1 rows"},
+      {[&](auto& d) { d.rows->at = huge; }, "/lists/0/rows: 1 row, 52 bytes apart"},
       {[&](auto& d) { d.rows->stride = 36; },
        "/lists/0/entries/at: is 36: 4 entries there end beyond the stride of 36"},
       {[&](auto& d) { d.per_cell = huge; }, "/lists/0/per_cell: is 18446744073709551615, which no buffer holds"},

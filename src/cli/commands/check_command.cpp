@@ -1,11 +1,14 @@
 // `clusterbench check DUMP...`: light lists of any program against the exact ones.
 
+#include <algorithm>
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include "cli/command_line/commands.h"
 #include "cli/output/output.h"
 #include "core/text.h"
+#include "dump/dump_template.h"
 #include "dump/judge.h"
 
 namespace clusterbench::cli {
@@ -13,7 +16,7 @@ namespace {
 
 struct CheckFlags {
   std::vector<std::string> dumps;
-  std::string json;
+  std::string json, engine;
   int most_lost = 10, threads = 1;
   bool no_methods = false, allow_rounding = false, quiet = false;
 };
@@ -33,7 +36,24 @@ std::string last_line(const std::string& verdict, bool allows_rounding) {
          "(`clusterbench schema dump`).";
 }
 
+// "12 dumps: 3 lost, 9 right".
+std::string frames_line(const std::vector<result::CheckedDump>& frames) {
+  std::map<std::string, std::size_t> counts;
+  for (const result::CheckedDump& frame : frames) ++counts[dump::worst_verdict({frame})];
+  std::vector<std::string> words;
+  for (const auto& [verdict, count] : counts) words.push_back(std::to_string(count) + " " + verdict);
+  return number_of(frames.size(), "dump") + ": " + joined(words) + "\n";
+}
+
+ExitCode print_template(const CheckFlags& flags) {
+  if (!flags.dumps.empty()) throw Error("", "--template", "prints a dump to fill in, and checks none");
+  std::cout << std::ranges::find(dump::dump_templates(), flags.engine, &dump::DumpTemplate::name)->text;
+  return ExitCode::ok;
+}
+
 ExitCode check(const CheckFlags& flags) {
+  if (!flags.engine.empty()) return print_template(flags);
+  if (flags.dumps.empty()) throw Error("", "DUMP", "is required, or --template ENGINE for a dump to fill in");
   refuse_overwriting({flags.json}, flags.dumps);
   LaterOutput output(flags.json, flags.json.empty());
   std::ostream& out = flags.json == "-" ? std::cerr : std::cout;
@@ -48,6 +68,7 @@ ExitCode check(const CheckFlags& flags) {
     }
   checked.verdict = dump::worst_verdict(checked.frames);
   if (!flags.json.empty()) output.write(result::to_json(checked));
+  if (!flags.quiet && checked.frames.size() > 1) out << frames_line(checked.frames);
   if (!flags.quiet) out << last_line(checked.verdict, flags.allow_rounding) << "\n";
   const bool is_right = checked.verdict == "right" || (flags.allow_rounding && checked.verdict == "rounding");
   return is_right ? ExitCode::ok : ExitCode::gate_failed;

@@ -172,8 +172,10 @@ struct DumpCone {
   FIELD(std::uint64_t, at, "First byte within the light", "bytes");
   FIELD(std::string, type, number_type_about());
   FIELD(std::string, is,
-        About("What the number says of the half-angle between axis and edge")
-            .one_of({"radians", "degrees", "cosine", "cosine-squared", "sine", "tangent"}));
+        About("What the number says of the half-angle between axis and edge; scale-offset: two numbers, and light "
+              "falls off "
+              "with the cosine times scale plus offset (glTF, Filament)")
+            .one_of({"radians", "degrees", "cosine", "cosine-squared", "sine", "tangent", "scale-offset"}));
   END_RECORD;
 };
 
