@@ -45,6 +45,8 @@ std::string other_text(const result::CheckedSet& set) {
   std::string out = "  Probably it is the description: with grid.axes '" + other.axes + "', first_row '" +
                     other.first_row + "', first_slice '" + other.first_slice + "'";
   if (!other.camera.empty()) out += " and " + other.camera;
+  if (set.error->lost_pairs == 0)
+    return out + " the listed pairs are true, and " + number_of(other.lost_pairs, "pair") + " would be lost.\n";
   return out + ", " + number_of(other.lost_pairs, "pair") + " would be lost in place of " +
          number(set.error->lost_pairs) + ".\n";
 }
@@ -78,6 +80,10 @@ std::string verdict_text(const result::CheckedSet& set) {
   if (set.verdict == "unreadable")
     return "these are no lists: " + number_of(set.reading.fault_count, "value") + " cannot be right";
   if (set.verdict == "right") return "right: no light is lost";
+  if (set.verdict == "empty") return "no light reaches a cell, so nothing was checked";
+  if (set.verdict == "misread" && set.error->lost_pairs == 0)
+    return "no light is lost, but " + number(set.error->false_positives) + " of " + number(set.error->listed_pairs) +
+           " listed pairs are not true";
   if (set.verdict == "twice") return number_of(set.reading.fault_count, "light") + " twice in a list";
   const result::ListErrors& error = *set.error;
   const std::uint64_t beyond = error.lost_pairs - error.lost_within_rounding;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "assign/contract/assigner_run.h"
 #include "assign/contract/storage.h"
@@ -66,11 +67,14 @@ class SetJudge {
     const bool is_beyond = lost.lost_pairs > lost.within_rounding;
     out.verdict = is_beyond                  ? "lost"
                   : decoded.faults.twice > 0 ? "twice"
+                  : lost.true_pairs == 0     ? "empty"
                   : lost.within_rounding > 0 ? "rounding"
                                              : "right";
-    if (!is_beyond) return out;
-    if (auto other = better_reading(dump_, frame_, set, truth_.lists, listed, lost.lost_pairs, threads_))
+    if (!is_beyond && !are_for_nothing(lost)) return out;
+    if (auto other = better_reading(dump_, frame_, set, truth_.lists, listed, lost, threads_)) {
       out.other_reading = *other;
+      out.verdict = "misread";
+    }
     return out;
   }
 
@@ -164,7 +168,8 @@ std::vector<result::CheckedMethod> checked_methods(const DumpFrame& frame, const
   return out;
 }
 
-constexpr std::array k_verdicts = {"right", "rounding", "twice", "lost", "unreadable"};  // from good to bad
+constexpr std::array k_verdicts = {"right", "rounding", "empty",     "twice",
+                                   "lost",  "misread",  "unreadable"};  // from good to bad
 
 result::CheckedDump judged(const DumpFile& dump, const JudgeOptions& options) {
   const DumpFrame frame = frame_of(dump);
@@ -183,6 +188,11 @@ result::CheckedDump judged(const DumpFile& dump, const JudgeOptions& options) {
   return out;
 }
 
+// Most often a frame of a path that looks away from all lights.
+bool is_nothing(const result::CheckedSet& set) {
+  return set.verdict == "empty" && set.error->listed_pairs == 0;
+}
+
 }  // namespace
 
 result::CheckedDump judge(const DumpFile& dump, const JudgeOptions& options) {
@@ -195,12 +205,14 @@ result::CheckedDump judge(const DumpFile& dump, const JudgeOptions& options) {
 }
 
 std::string worst_verdict(const std::vector<result::CheckedDump>& frames) {
-  std::size_t worst = 0;
+  std::optional<std::size_t> worst;
   for (const result::CheckedDump& frame : frames)
-    for (const result::CheckedSet& set : frame.sets)
-      for (std::size_t i = worst; i < k_verdicts.size(); ++i)
-        if (set.verdict == k_verdicts[i]) worst = i;
-  return k_verdicts[worst];
+    for (const result::CheckedSet& set : frame.sets) {
+      if (is_nothing(set)) continue;
+      const auto found = std::ranges::find(k_verdicts, set.verdict);
+      worst = std::max(worst.value_or(0), static_cast<std::size_t>(found - k_verdicts.begin()));
+    }
+  return worst ? k_verdicts[*worst] : "empty";
 }
 
 }  // namespace clusterbench::dump

@@ -15,7 +15,8 @@ struct JudgeOptions {
 // matrices where lights are lost. Throws Error (file, JSON pointer or byte) for a dump that describes no frame.
 result::CheckedDump judge(const DumpFile& dump, const JudgeOptions& options);
 
-// The worst verdict of all sets; "right" if there are none.
+// The worst verdict of all sets. Where no light reaches a cell and none is listed a set does not count, unless all are
+// such sets.
 std::string worst_verdict(const std::vector<result::CheckedDump>& frames);
 
 // For people. `most`: how many lost lights are named.

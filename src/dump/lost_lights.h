@@ -22,6 +22,11 @@ struct LostLights {
   std::vector<LostPair> deepest;  // the deepest first
 };
 
+// Nearly all listed pairs: as if they were of another frame.
+inline bool are_for_nothing(const LostLights& found) {
+  return found.false_positives > found.listed_pairs / 10 * 9;
+}
+
 // `rounding`: roundoffs that are allowed for. Both lists ascend.
 LostLights find_lost(const view::Frame& frame, const grid::Grid& grid, const assign::Lists& truth,
                      const assign::Lists& listed, double rounding);

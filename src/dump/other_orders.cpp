@@ -5,7 +5,6 @@
 #include "core/error.h"
 #include "core/memory.h"
 #include "dump/camera.h"
-#include "dump/lost_lights.h"
 
 namespace clusterbench::dump {
 namespace {
@@ -69,14 +68,19 @@ std::optional<grid::Grid> grid_from_other_row(const DumpFile& dump, const DumpFr
 
 class BestReading {
  public:
-  BestReading(const result::DumpGrid& given, const ListSet& set, const assign::Lists& listed, std::uint64_t lost)
-      : given_(order_of(given)), listed_(listed), of_tiles_(is_of_tiles(set)), most_(lost / k_times_fewer) {}
+  BestReading(const result::DumpGrid& given, const ListSet& set, const assign::Lists& listed, const LostLights& found,
+              std::uint64_t wrong)
+      : given_(order_of(given)),
+        listed_(listed),
+        of_tiles_(is_of_tiles(set)),
+        most_(wrong / k_times_fewer),
+        true_before_(found.true_pairs - found.lost_pairs) {}
 
   void try_orders(const grid::Grid& grid, const assign::Lists& truth, const char* camera) {
     if (truth.cell_count() != listed_.cell_count()) return;
     for (const layout::CellOrder& order : layout::all_orders()) {
       const std::uint64_t lost = count_lost(truth, listed_, source_cells(grid, given_, order, of_tiles_), most_);
-      if (lost > most_ || (best_ && lost >= best_->lost_pairs)) continue;
+      if (lost > most_ || truth.pair_count() - lost <= true_before_ || (best_ && lost >= best_->lost_pairs)) continue;
       best_ = result::OtherReading{order.axes, order.is_from_bottom ? "bottom" : "top",
                                    order.is_from_far ? "far" : "near", camera, lost};
     }
@@ -87,7 +91,7 @@ class BestReading {
   layout::CellOrder given_;
   const assign::Lists& listed_;
   bool of_tiles_;
-  std::uint64_t most_;
+  std::uint64_t most_, true_before_;
   std::optional<result::OtherReading> best_;
 };
 
@@ -95,10 +99,11 @@ class BestReading {
 
 std::optional<result::OtherReading> better_reading(const DumpFile& dump, const DumpFrame& frame, const ListSet& set,
                                                    const assign::Lists& truth, const assign::Lists& listed,
-                                                   std::uint64_t lost, int threads) {
+                                                   const LostLights& found, int threads) {
   constexpr std::uint64_t k_too_few = 10;  // to say so
-  if (lost < k_too_few || listed.pair_count() == 0) return std::nullopt;
-  BestReading best(dump.record.grid, set, listed, lost);
+  const std::uint64_t wrong = std::max(found.lost_pairs, are_for_nothing(found) ? found.listed_pairs : 0);
+  if (wrong < k_too_few || listed.pair_count() == 0) return std::nullopt;
+  BestReading best(dump.record.grid, set, listed, found, wrong);
   best.try_orders(frame.grid, truth, "");
   if (const std::optional<grid::Grid> grid = best.best() ? std::nullopt : grid_from_other_row(dump, frame))
     best.try_orders(*grid, measure::find_truth(frame.frame, *grid, threads).lists, "");

@@ -63,7 +63,7 @@ TEST(PlantedFaults, a_light_removed_where_it_reaches_deepest_is_named_with_its_c
 struct PlantedRow {
   const char* name;
   std::function<Moved(std::uint32_t cell, std::uint32_t light)> plant;
-  bool loses_all_of_light_7 = false;
+  bool loses_all_of_one = false;
 };
 
 TEST(PlantedFaults, each_is_found) {
@@ -84,9 +84,9 @@ TEST(PlantedFaults, each_is_found) {
          if (cell % columns == columns - 1) return std::nullopt;
          return std::pair(cell, light);
        }},
-      {"light 7 is in no list",
+      {"one light is in no list",
        [](auto cell, auto light) -> Moved {
-         if (light == 7) return std::nullopt;
+         if (light == made().truth.lights[0]) return std::nullopt;
          return std::pair(cell, light);
        },
        true},
@@ -113,7 +113,7 @@ TEST(PlantedFaults, each_is_found) {
     ASSERT_TRUE(set.error) << row.name;
     EXPECT_GT(lost, 0u) << row.name;
     EXPECT_EQ(set.error->lost_pairs, lost) << row.name;
-    EXPECT_EQ(set.error->absent_lights == 1, row.loses_all_of_light_7) << row.name;
+    EXPECT_EQ(set.error->absent_lights == 1, row.loses_all_of_one) << row.name;
   }
 }
 
@@ -127,6 +127,7 @@ TEST(PlantedFaults, a_wrong_order_of_cells_is_said_before_its_losses) {
     const result::CheckedDump checked = judge(dump, {.with_methods = false});
     const result::CheckedSet& set = checked.sets.front();
     ASSERT_TRUE(set.other_reading) << real.axes;
+    EXPECT_EQ(set.verdict, "misread");
     EXPECT_EQ(set.other_reading->axes, real.axes);
     EXPECT_EQ(set.other_reading->first_row == "bottom", real.is_from_bottom);
     EXPECT_EQ(set.other_reading->first_slice == "far", real.is_from_far);
@@ -139,7 +140,7 @@ TEST(PlantedFaults, a_wrong_order_of_cells_is_said_before_its_losses) {
 TEST(PlantedFaults, the_other_handedness_and_transposed_matrices_are_found) {
   DumpFile turned = dump_of(made(), made().truth);
   turned.record.camera.forward = "+z";
-  ASSERT_EQ(verdict_on(turned).verdict, "lost");
+  EXPECT_EQ(verdict_on(turned).verdict, "misread");
   ASSERT_TRUE(verdict_on(turned).other_reading);
   EXPECT_EQ(verdict_on(turned).other_reading->camera, "camera.forward: the other way");
 
@@ -186,6 +187,21 @@ TEST(PlantedFaults, a_light_that_is_lost_within_rounding_is_told_apart) {
     ASSERT_FALSE(set.lost.empty());
     EXPECT_NEAR(set.lost[0].reach_mm, 1000.0 * beyond_m, 1e-6);
   }
+}
+
+TEST(PlantedFaults, a_camera_that_sees_no_light_checks_nothing) {
+  Made away = made_frame();
+  away.frame.view_space.origin.z += 1000.0;
+  away.frame.view_space.rotation = Mat3d(Vec3d(-1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, -1));
+  away.truth = measure::find_truth(away.frame, away.grid, 1).lists;
+  ASSERT_EQ(away.truth.pair_count(), 0u);
+  const result::CheckedDump empty = judge(dump_of(away, away.truth), {.with_methods = false});
+  EXPECT_EQ(empty.sets[0].verdict, "empty");
+  EXPECT_EQ(worst_verdict({empty}), "empty");
+  const result::CheckedDump right = judge(dump_of(made(), made().truth), {.with_methods = false});
+  EXPECT_EQ(worst_verdict({right, empty}), "right") << "one of many frames may see none";
+  EXPECT_EQ(judge(dump_of(away, made().truth), {.with_methods = false}).sets[0].verdict, "empty");
+  EXPECT_EQ(worst_verdict({right, judge(dump_of(away, made().truth), {.with_methods = false})}), "empty");
 }
 
 TEST(PlantedFaults, a_light_twice_in_a_list_is_told_and_lists_are_judged_all_the_same) {

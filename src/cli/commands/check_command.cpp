@@ -28,7 +28,10 @@ std::string last_line(const std::string& verdict, bool allows_rounding) {
     return allows_rounding
                ? "No light is lost beyond rounding."
                : "Lights are lost within rounding: widen the engine's test by it, or pass --allow-rounding.";
+  if (verdict == "empty")
+    return "Nothing was checked: take a frame with lights in view, or correct camera and grid of the dump.";
   if (verdict == "twice") return "A light is shaded twice: the engine adds it twice, or two parts of a set overlap.";
+  if (verdict == "misread") return "Correct the description of the dump as said first, and check again.";
   if (verdict == "lost")
     return "Lights are lost. Compare the first cell above with the engine's own test; --json FILE has up to 1000 of "
            "them.";

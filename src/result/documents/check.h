@@ -76,9 +76,12 @@ struct CheckedSet {
   RECORD(CheckedSet);
   FIELD(std::string, name, "Of the set");
   FIELD(std::string, verdict,
-        About("unreadable: no lists; lost: a light is missing where it shines, beyond rounding; twice: none is, and "
-              "one is twice in a list; rounding: one is missing within rounding; right: nothing of all that")
-            .one_of({"unreadable", "lost", "twice", "rounding", "right"}));
+        About("unreadable: no lists; misread: other_reading fits far better; lost: a light is missing where it shines, "
+              "beyond rounding; twice: none is, and "
+              "one is twice in a list; empty: no light reaches a cell, so nothing was checked; rounding: one is "
+              "missing within "
+              "rounding; right: nothing of all that")
+            .one_of({"unreadable", "misread", "lost", "twice", "empty", "rounding", "right"}));
   FIELD(ListReading, reading, "The buffers");
   FIELD(std::uint64_t, bytes, "Of all buffers that its lists are read from", "bytes");
   FIELD(std::uint64_t, longest_list, "Most lights in a cell", "lights");
@@ -118,7 +121,8 @@ struct Check {
   RECORD(Check);
   FIELD(int, check_version, About("Grows whenever a name or a meaning changes").always(1));
   FIELD(std::string, verdict,
-        About("The worst of all sets").one_of({"unreadable", "lost", "twice", "rounding", "right"}));
+        About("The worst of all sets; without empty frames whose lists are empty, too, unless all are")
+            .one_of({"unreadable", "misread", "lost", "twice", "empty", "rounding", "right"}));
   FIELD(std::vector<CheckedDump>, frames, "In the order of the command line; of a folder by name");
   END_RECORD;
 };
