@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 #include "core/text.h"
 #include "dump/judge.h"
@@ -30,13 +31,14 @@ std::string length_text(double mm) {
 
 std::string faults_text(const result::ListReading& reading) {
   std::string out;
-  for (const result::ReadingFault& fault : reading.faults) {
+  constexpr std::size_t k_most_shown = 3;
+  const std::size_t shown = std::min(k_most_shown, reading.faults.size());
+  for (const result::ReadingFault& fault : std::span(reading.faults).first(shown)) {
     out += "    ";
     if (!fault.buffer.empty()) out += "buffer '" + fault.buffer + "', byte " + number(fault.byte) + ": ";
     out += fault.message + ", in cell " + cell_text(fault.cell) + "\n";
   }
-  if (reading.fault_count > reading.faults.size())
-    out += "    and " + number(reading.fault_count - reading.faults.size()) + " more\n";
+  if (reading.fault_count > shown) out += "    and " + number(reading.fault_count - shown) + " more\n";
   return out;
 }
 

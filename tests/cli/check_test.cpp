@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "cli/tool.h"
@@ -8,7 +11,7 @@ namespace clusterbench::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 // One light before the camera in a grid of two cells, with its lists in buffers.
 struct Small {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "places.h"
+#include "cli/tool.h"
 
 namespace clusterbench::test {
 

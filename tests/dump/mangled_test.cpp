@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/random.h"
 #include "dump/made_dump.h"
 #include "effort.h"
 
