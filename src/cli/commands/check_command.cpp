@@ -82,8 +82,12 @@ ExitCode check(const CheckFlags& flags) {
 void add_check(Command& program, Action& action) {
   auto flags = std::make_shared<CheckFlags>();
   Command command = program.add_command("check", "Check the light lists of any program, from a dump of its buffers");
-  command.add_option("DUMP", flags->dumps, "Dumps (.json, see `clusterbench schema dump`), or folders of them")
-      .required();
+  command.add_option("DUMP", flags->dumps, "Dumps (.json, see `clusterbench schema dump`), or folders of them");
+  std::vector<std::string> engines;
+  for (const dump::DumpTemplate& row : dump::dump_templates()) engines.emplace_back(row.name);
+  command
+      .add_option("--template", flags->engine, "Print a dump of an engine to fill in: camera, files, numbers of lights")
+      .one_of(engines);
   command.add_option("--json", flags->json, "Write the verdict as JSON to this file; -: standard output");
   command.add_option("--most-lost", flags->most_lost, "Lost lights that are named").range(0, 1000).shows_standard();
   command.add_flag("--allow-rounding", flags->allow_rounding, "Lights that are lost within rounding do not fail");
