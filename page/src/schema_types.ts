@@ -290,7 +290,7 @@ export type Result = {
     samples_search?: boolean; // true: the case is a light structure that each sample searches for its lights (a hierarchy, masks of bits) in place of reading a list. What that reads is counted and priced by config.cost, and no GPU has measured it: such a case stands on no front. Absent: it is none
     preset?: string; // The preset that the case is of (`clusterbench list presets`); absent for the configuration's own clusterings
     failures: Array<{
-      kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration
+      kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs" | "wrong_readings"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration. wrong_readings: a device walked other lights than the structure has (reading)
       text: string; // The same for people, without the case's name
     }>; // Why the case fails the run; empty: it passes
     warnings: Array<{
@@ -683,6 +683,34 @@ export type Result = {
       floor_ns: Time; // Per frame: as many steps that do nothing, of which the last writes as many bytes as the result has
       floor_ratio: number | null; // run_ns by floor_ns: how far the work is from only starting and writing [ratio, over the rounds]
     }; // Times of a method that runs on a device (a GPU), by the device's own clock. Absent elsewhere, and where nothing is timed or the device has no clock
+    reading?: {
+      device: string; // Name and driver of the device; times of one device alone compare
+      software: boolean; // true: the device computes on the processor: its times are no GPU's, and nothing ranks by them
+      frames: number; // Evenly spaced over the path; all times are means over them [frames, over the path]
+      structure_bytes: number | null; // Of the light structure, mean [B, over the frames that are read]
+      exact: string; // Storage of the exact lists that exact_ns is of
+      frame_ns?: number | null; // (1 - config.reading.async) x assignment + upload + reading (the first set's first walk). A method on the device: device.run_ns + device.upload_ns; another: timing.frame_ns and buffers.upload_bytes by cost.upload_gb_per_s, and only where config.reading.async is given [ns, over one frame]
+      sets: Array<{
+        set: "volume" | "opaque" | "transparent" | "fog" | "mirror" | "anywhere"; // Whose samples read, as in samples (volume: random points in the whole view)
+        samples: number | null; // Samples per frame, mean [samples, over the frames that are read]
+        lights: number | null; // Lights that a sample walks, mean [lights, over the samples]
+        reads: number | null; // Elements of the light structure that a sample fetches, mean [elements, over the samples]
+        read_bytes: number | null; // Their bytes, mean [B, over the samples]
+        divergence: number | null; // Of the device's waves: the sum of their longest lists by that of their mean ones; 1: no lane waits [ratio, over the waves]
+        differing: number; // Samples for which the device walked other lights than the structure has, of those whose cell it found: 0, or a fault of the driver or of this program, and the times are not to be trusted [samples, over the frames that are read]
+        write_ns: Time; // Per frame: each sample writes a word, and reads nothing at all
+        nothing_ns: Time; // Per frame: each sample looks up its cell and writes its number, and reads no list
+        walks: Array<{
+          walk: "lane" | "light" | "cell"; // How the samples of a wave walk their lights. lane: each its own list, until the longest is done. light: all together, light by light. cell: all together, cell by cell
+          read_ns: Time; // Per frame: each sample looks up its list, walks its lights, adds a small attenuation for each and writes the sum; the same samples again and again, so that caches hold what fits
+          cold_ns: Time; // Per frame: the same once, after other memory went through the caches
+          exact_ns?: Time; // Per frame: read_ns of the exact lists, in the storage that `exact` names. Absent where cells are not compared with the truth
+          exact_ratio?: number | null; // read_ns by exact_ns: median of the rounds' ratios [ratio, over the rounds]
+          exact_ci95?: Interval; // 95 % interval of exact_ratio [ratio, over the rounds]
+          nothing_ratio: number | null; // read_ns by nothing_ns: median of the rounds' ratios [ratio, over the rounds]
+        }>; // In the order of the configuration
+      }>; // In the order of the configuration, those that the scene has
+    }; // What samples pay for their lights on a device (a GPU), by its clock; where the configuration asks for it (reading). Absent for structures that shaders do not read, and where the device has no clock
     details?: {
       max_bytes: number; // Most bytes that the configuration allows [bytes, over the case]
       frames: Array<{
@@ -874,7 +902,7 @@ export type FrameCost = {
 
 // A row of the table of figures (`clusterbench list figures`)
 export type FigureWords = {
-  name: "frame_us" | "frame_us.max" | "assign_us" | "convert_us" | "frame_cost_us" | "instructions" | "assign_instructions" | "speedup" | "pair_rate" | "bytes" | "excess" | "missed" | "unlit" | "dropped" | "overshade" | "lights" | "lights_lit" | "lights_seen" | "lights_in_view" | "tests_done" | "fallbacks" | "lights_seen.mean" | "lights_in_view.mean" | "pairs.mean" | "pairs" | "lights_per_cell.mean" | "lights_per_cell.p99" | "longest" | "occupied_fraction" | "index_entries" | "entries_recommended" | "bytes_recommended" | "upload_bytes.mean" | "gpu_cost_us" | "traffic_bytes" | "upload_bytes" | "scratch_bytes" | "true_pairs" | "reported_pairs" | "false_positives" | "miss_ratio" | "deepest_miss" | "undecided" | "needed" | "evaluated" | "read_bytes" | "samples_missed" | "samples_missed_outside" | "lost_irradiance" | "changed_pairs" | "flickers" | "extra_pairs" | "build_us" | "pairs_timed" | "builds_per_frame" | "time_per_pair" | "write_floor" | "floor_ratio" | "build_instructions" | "convert_instructions" | "assign_cycles" | "convert_cycles" | "lights_beyond_grid" | "device_us" | "device_upload_us" | "device_readback_us" | "device_floor"; // In the table
+  name: "frame_us" | "frame_us.max" | "assign_us" | "convert_us" | "frame_cost_us" | "instructions" | "assign_instructions" | "speedup" | "pair_rate" | "bytes" | "excess" | "missed" | "unlit" | "dropped" | "overshade" | "lights" | "lights_lit" | "lights_seen" | "lights_in_view" | "tests_done" | "fallbacks" | "lights_seen.mean" | "lights_in_view.mean" | "pairs.mean" | "pairs" | "lights_per_cell.mean" | "lights_per_cell.p99" | "longest" | "occupied_fraction" | "index_entries" | "entries_recommended" | "bytes_recommended" | "upload_bytes.mean" | "gpu_cost_us" | "traffic_bytes" | "upload_bytes" | "scratch_bytes" | "true_pairs" | "reported_pairs" | "false_positives" | "miss_ratio" | "deepest_miss" | "undecided" | "needed" | "evaluated" | "read_bytes" | "samples_missed" | "samples_missed_outside" | "lost_irradiance" | "changed_pairs" | "flickers" | "extra_pairs" | "build_us" | "pairs_timed" | "builds_per_frame" | "time_per_pair" | "write_floor" | "floor_ratio" | "build_instructions" | "convert_instructions" | "assign_cycles" | "convert_cycles" | "lights_beyond_grid" | "device_us" | "device_upload_us" | "device_readback_us" | "device_floor" | "reading_us" | "reading_x_exact" | "reading_x_nothing" | "device_frame_us"; // In the table
   unit: string; // Of its values here
   meaning: string; // As the table has it
 };

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "gpu/device/device.h"
 #include "run/passes/accuracy_pass.h"
+#include "run/passes/reading_pass.h"
 #include "run/timing/cache_sweep.h"
 #include "run/timing/repeated.h"
 #include "run/timing/timed_work.h"
@@ -76,14 +78,66 @@ double sweep_duration_ns() {
   return duration_ns([&] { sweep(); });
 }
 
+// The time of device_pass() for all methods and rounds, from the time of one frame with its floor: the second of two,
+// since shaders are compiled and memory grows in the first.
+double device_ns(const config::Config& config, const GroupPlan& on_device, const PathFrames& path) {
+  const auto frames = static_cast<double>(mean_frames(config, path).size());
+  const std::vector<TimedFrame> middle_frame = timed_frames(config, on_device, path, {path.count() / 2});
+  double all = 0.0;
+  for (const Method& method : methods_of(on_device)) {
+    TimedWork work(config, on_device, method, middle_frame);
+    const auto round = [&] {
+      work.assign_frame(0);
+      work.device_floor_ns();
+    };
+    all += duration_ns(round) + frames * config.timing.rounds * duration_ns(round);
+  }
+  return all;
+}
+
+// The time of reading_pass(), from one frame of it with one round and with two. None where the device cannot read.
+double reading_ns(config::Config config, const SceneData& data, const GroupPlan& group, const PathFrames& path) {
+  if (config.reading_sets.empty() || !gpu::device_obstacle().empty()) return 0.0;
+  const double frames = std::min(config.reading->frames, path.count()), rounds = config.reading->rounds;
+  const std::atomic<bool> stop{false};
+  config.reading->frames = 1;
+  const auto of_rounds = [&](int count) {
+    config.reading->rounds = count;
+    return duration_ns([&] { reading_pass(config, data, group, path, stop); });
+  };
+  try {
+    of_rounds(1);  // shaders are compiled
+    const double one = of_rounds(1), round = std::max(0.0, of_rounds(2) - one);
+    return frames * (one + (rounds - 1.0) * round);
+  } catch (const gpu::DeviceError&) {
+    gpu::close_device();
+    return 0.0;
+  }
+}
+
 GroupCost cost_of_group(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
                         const EstimateLimits& limits) {
   const PathFrames path = path_of(config, plan, group);
   const int steps = config.stability ? config.stability->steps : 0;
-  GroupCost cost{counting_ns(config, plan.scenes[group.scene], group, path, path.count() + steps), 0.0};
+  GroupCost cost{.counting_ns = counting_ns(config, plan.scenes[group.scene], group, path, path.count() + steps)};
   const GroupPlan timed = timed_cases(config, group);
   if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns, limits);
+  const GroupPlan on_device = device_cases(config, group);
+  if (config.timing.measure && !on_device.cases.empty()) cost.device_ns = device_ns(config, on_device, path);
+  cost.reading_ns = reading_ns(config, plan.scenes[group.scene], group, path);
   return cost;
+}
+
+// If a device fails, that of the cases without one: the run itself says why the others are skipped.
+GroupCost cost_of_what_runs(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
+                            const EstimateLimits& limits) {
+  try {
+    return cost_of_group(config, plan, group, sweep_ns, limits);
+  } catch (const gpu::DeviceError&) {
+    gpu::close_device();
+    const GroupPlan others = processor_cases(config, group);
+    return others.cases.empty() ? GroupCost{} : cost_of_group(config, plan, others, sweep_ns, limits);
+  }
 }
 
 }  // namespace
@@ -95,28 +149,31 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
   std::size_t stride = std::max<std::size_t>(1, groups * 618 / 1000), sampled = 0;
   while (std::gcd(stride, groups) != 1) ++stride;
   std::vector<GroupCost> costs(groups);
-  std::vector<double> counting, timing;
+  std::vector<double> counting, timing, on_device, reading;
   for (const double start = wall_ns(); sampled < groups && (sampled == 0 || 1e-9 * (wall_ns() - start) < limits.most_s);
        ++sampled) {
     const std::size_t index = sampled * stride % groups;
-    costs[index] = cost_of_group(config, plan, plan.groups[index], sweep_ns, limits);
+    costs[index] = cost_of_what_runs(config, plan, plan.groups[index], sweep_ns, limits);
     counting.push_back(costs[index].counting_ns);
     timing.push_back(costs[index].timing_ns);
+    on_device.push_back(costs[index].device_ns);
+    reading.push_back(costs[index].reading_ns);
   }
   // A few groups take far longer than others: a sampled group like that stands for itself only.
-  for (std::size_t i = sampled; i < groups; ++i) costs[i * stride % groups] = {median(counting), median(timing)};
+  for (std::size_t i = sampled; i < groups; ++i)
+    costs[i * stride % groups] = {median(counting), median(timing), median(on_device), median(reading)};
   return costs;
 }
 
 double sum_s(std::span<const GroupCost> costs) {
   double ns = 0.0;
-  for (const GroupCost& cost : costs) ns += cost.counting_ns + cost.timing_ns;
+  for (const GroupCost& cost : costs) ns += cost.counting_ns + cost.timing_ns + cost.device_ns + cost.reading_ns;
   return 1e-9 * ns;
 }
 
 double sum_of_timing_s(std::span<const GroupCost> costs) {
   double ns = 0.0;
-  for (const GroupCost& cost : costs) ns += cost.timing_ns;
+  for (const GroupCost& cost : costs) ns += cost.timing_ns + cost.device_ns + cost.reading_ns;
   return 1e-9 * ns;
 }
 

@@ -4,6 +4,8 @@
 
 #include "cli/tool.h"
 
+#include "places.h"
+
 namespace clusterbench::test {
 
 // A configuration of a few small cases on one of the project's own scenes.

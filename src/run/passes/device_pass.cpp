@@ -66,16 +66,19 @@ class DeviceTrack {
 }  // namespace
 
 std::vector<std::optional<DeviceTimes>> device_pass(const config::Config& config, const GroupPlan& group,
-                                                    const PathFrames& path, const std::atomic<bool>& stop) {
+                                                    const PathFrames& path, const std::function<void()>& on_round,
+                                                    const std::atomic<bool>& stop) {
   const std::vector<TimedFrame> frames = timed_frames(config, group, path, mean_frames(config, path));
   std::vector<std::unique_ptr<DeviceTrack>> tracks;
   for (const Method& method : methods_of(group))
     tracks.push_back(std::make_unique<DeviceTrack>(config, group, method, frames));
-  for (int round = 0; round < config.timing.rounds; ++round)
+  for (int round = 0; round < config.timing.rounds; ++round) {
     for (const std::size_t track : method_order(tracks.size(), config.seed, 0, round)) {
       if (stop) return {};
       tracks[track]->round();
     }
+    on_round();
+  }
   std::vector<std::optional<DeviceTimes>> times;
   for (const CasePlan& case_plan : group.cases)
     for (const auto& track : tracks)

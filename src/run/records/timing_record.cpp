@@ -3,7 +3,6 @@
 #include "run/records/parts.h"
 
 namespace clusterbench::run {
-namespace {
 
 using result::measured;
 
@@ -21,6 +20,8 @@ result::Time time_record(const measure::TimeStats& stats) {
 std::optional<result::Time> time_record(const std::optional<measure::TimeStats>& stats) {
   return stats ? std::optional(time_record(*stats)) : std::nullopt;
 }
+
+namespace {
 
 result::Disturbed disturbed_record(const Disturbance& disturbance) {
   const auto cores = [&](double busy_s) {
