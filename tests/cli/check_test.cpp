@@ -186,6 +186,19 @@ TEST(Check, the_lists_of_a_run_come_back_right_in_every_storage) {
   }
 }
 
+TEST(Check, the_smallest_dump_of_the_document_is_one) {
+  const std::string text = file_text(source_file("docs/check.md"));
+  const std::size_t begin = text.find("```json\n") + 8, end = text.find("```", begin);
+  const Small small;
+  const std::string path = small.folder.write("smallest.json", text.substr(begin, end - begin)).string();
+  EXPECT_EQ(tool("validate " + path).out, path + ": valid, a dump for `clusterbench check` with 1 list\n");
+  small.folder.write("lights.bin", std::string(4800, '\0'));
+  small.folder.write("cells.bin", std::string(27648, '\0'));
+  const Outcome done = tool("check --no-methods " + path);
+  EXPECT_EQ(done.code, 1) << done.err;
+  EXPECT_NE(done.out.find("no light reaches a cell, so nothing was checked"), std::string::npos) << done.out;
+}
+
 TEST(Check, a_template_is_printed_and_another_engine_gets_a_list_of_those_that_are_there) {
   const Outcome printed = tool("check --template filament");
   EXPECT_EQ(printed.code, 0);
