@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 
@@ -251,6 +253,110 @@ TEST(Engines, lists_of_bevy_are_judged_in_their_own_layout) {
       EXPECT_EQ(found.checked.sets[0].verdict, "right") << found.text;
     }
   }
+}
+
+// Bits of a tile's lights, and the range of lights of each of its cells: of lights [first, first + count).
+struct TileBits {
+  std::vector<std::uint32_t> words;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges;  // first and end, per slice
+};
+
+TileBits tile_bits(const assign::Lists& lists, std::uint32_t tile, std::uint32_t tiles, std::uint32_t first,
+                   std::uint32_t count, std::size_t words) {
+  TileBits out{std::vector<std::uint32_t>(words, 0), {}};
+  for (std::uint32_t cell = tile; cell < lists.cell_count(); cell += tiles) {
+    std::pair<std::uint32_t, std::uint32_t> range{0, 0};
+    for (const std::uint32_t light : lists.of(cell)) {
+      if (light < first || light >= first + count) continue;
+      out.words[(light - first) / 32] |= 1u << (light - first) % 32;
+      if (range.second == 0) range.first = light - first;
+      range.second = light - first + 1;
+    }
+    out.ranges.push_back(range);
+  }
+  return out;
+}
+
+TEST(Engines, lists_of_godot_are_judged_in_its_two_parts_of_the_cluster_buffer) {
+  Json json = template_of("godot");
+  fill_camera(json, {1920, 1080});
+  json["grid"]["slices"]["formula"]["scale"] = 32.0 / 60.0;
+  std::vector<Lamp> all = lamps(0.3);
+  std::ranges::stable_partition(all, [](const Lamp& lamp) { return lamp.half_angle_rad == 0.0; });
+  std::vector<float> omnis, spots;
+  for (const Lamp& lamp : all) {
+    std::vector<float> row(56, 0.0f);
+    for (int i = 0; i < 3; ++i) {
+      row[static_cast<std::size_t>(i)] = static_cast<float>(lamp.position[i] - (i == 1 ? 2.0 : 0.0));
+      row[static_cast<std::size_t>(i) + 4] = static_cast<float>(lamp.direction[i]);
+    }
+    row[3] = static_cast<float>(1.0 / lamp.range_m);
+    row[13] = static_cast<float>(std::cos(lamp.half_angle_rad));
+    std::vector<float>& of_type = lamp.half_angle_rad == 0.0 ? omnis : spots;
+    of_type.insert(of_type.end(), row.begin(), row.end());
+  }
+  const auto omni_count = static_cast<std::uint32_t>(omnis.size() / 56);
+  const auto spot_count = static_cast<std::uint32_t>(spots.size() / 56);
+  ASSERT_GT(spot_count, 30u);
+  json["lights"]["rows"][0]["count"] = json["lists"][0]["lights"] = omni_count;
+  json["lights"]["rows"][1]["count"] = json["lists"][1]["lights"] = spot_count;
+  json["lists"][1]["first_light"] = omni_count;
+  const Judged found =
+      judged(json, {floats("omnis", omnis), floats("spots", spots)}, "exact",
+             [&](const assign::Lists& lists, const DumpFrame&, const layout::CellOrder&) {
+               layout::Described out;
+               out.buffers = {{"clusters", "clusters.bin", 0, {}}};
+               constexpr std::uint32_t k_tiles = 60 * 34;
+               for (std::uint32_t tile = 0; tile < 2 * k_tiles; ++tile) {
+                 const bool is_spots = tile >= k_tiles;
+                 const TileBits bits = tile_bits(lists, tile % k_tiles, k_tiles, is_spots ? omni_count : 0,
+                                                 is_spots ? spot_count : omni_count, 16);
+                 for (std::size_t i = 0; i < 16; ++i)
+                   layout::testing::put(out.buffers[0].bytes, 192 * std::size_t{tile} + 4 * i, bits.words[i]);
+                 for (std::size_t z = 0; z < 32; ++z)
+                   layout::testing::put(out.buffers[0].bytes, 192 * std::size_t{tile} + 64 + 4 * z,
+                                        bits.ranges[z].first | bits.ranges[z].second << 16);
+               }
+               return out;
+             });
+  const result::CheckedSet& set = found.checked.sets[0];
+  EXPECT_EQ(set.verdict, "right") << found.text;
+  EXPECT_EQ(set.error->true_pairs, found.counted.true_pairs);
+  EXPECT_EQ(found.checked.spots, spot_count);
+}
+
+TEST(Engines, lists_of_unity_are_judged_in_their_tiles_and_bins) {
+  Json json = template_of("unity-urp");
+  fill_camera(json, {1280, 720});
+  json["grid"]["slices"] = {{"count", 64}, {"formula", {{"function", "log2"}, {"scale", 9.25}, {"bias", 9.25}}}};
+  std::vector<Lamp> all = lamps(0.3);
+  all.resize(30);
+  list_lights(json, all);
+  const Judged found = judged(
+      json, {}, "exact", [&](const assign::Lists& lists, const DumpFrame& frame, const layout::CellOrder& order) {
+        layout::Described out;
+        out.buffers = {{"tiles", "tiles.bin", 0, {}}, {"bins", "bins.bin", 0, {}}};
+        EXPECT_TRUE(order.is_from_bottom);
+        const Vec3i cells = frame.grid.cells();
+        const auto tiles = static_cast<std::uint32_t>(cells.x * cells.y);
+        std::vector<std::uint32_t> bins(static_cast<std::size_t>(cells.z), 0);
+        for (std::uint32_t tile = 0; tile < tiles; ++tile)
+          layout::testing::put(out.buffers[0].bytes, 4 * std::size_t{tile},
+                               tile_bits(lists, tile, tiles, 0, 30, 1).words[0]);
+        for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+          for (const std::uint32_t light : lists.of(cell)) bins[cell / tiles] |= 1u << light;
+        for (std::size_t z = 0; z < bins.size(); ++z) {
+          const auto first = static_cast<std::uint32_t>(std::countr_zero(bins[z]));
+          const std::uint32_t last = 31 - static_cast<std::uint32_t>(std::countl_zero(bins[z]));
+          layout::testing::put(out.buffers[1].bytes, 12 * z, bins[z] == 0 ? 0x0000'ffffu : first | last << 16);
+          layout::testing::put(out.buffers[1].bytes, 12 * z + 4, 0x0000'ffffu);  // no probes
+          layout::testing::put(out.buffers[1].bytes, 12 * z + 8, bins[z]);
+        }
+        return out;
+      });
+  EXPECT_EQ(found.checked.sets[0].verdict, "right") << found.text;
+  EXPECT_EQ(found.checked.sets[0].error->true_pairs, found.counted.true_pairs);
+  EXPECT_GT(found.counted.true_pairs, 1000u);
 }
 
 TEST(Engines, every_template_says_what_is_to_be_filled_in_and_is_a_dump_once_it_is) {
