@@ -7,7 +7,19 @@
 
 namespace clusterbench::config {
 
-enum class Document { config, result, comparison, ratios, recommendation, stress, worst_case, size, light_map, dump, check };
+enum class Document {
+  config,
+  result,
+  comparison,
+  ratios,
+  recommendation,
+  stress,
+  worst_case,
+  size,
+  light_map,
+  dump,
+  check
+};
 
 struct DocumentRow {
   Document document;
