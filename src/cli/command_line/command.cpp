@@ -257,9 +257,10 @@ int run_command_line(int argc, char** argv) {
   app.require_subcommand(0, 1);
   Command program(&app);
   Action action;
-  for (const auto add : {add_run, add_compare, add_ratio, add_size, add_worst_case, add_recommend, add_light_map,
-                         add_report, add_export, add_scene, add_stress, add_list, add_schema, add_validate, add_history,
-                         add_merge, add_completion, add_man, add_version})
+  for (const auto add :
+       {add_run,      add_compare, add_ratio,  add_size,       add_worst_case, add_recommend, add_light_map,
+        add_check,    add_report,  add_export, add_scene,      add_stress,     add_list,      add_schema,
+        add_validate, add_history, add_merge,  add_completion, add_man,        add_version})
     add(program, action);
   try {
     app.parse(argc, argv);

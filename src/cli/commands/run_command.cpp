@@ -5,14 +5,17 @@
 #include <memory>
 
 #include "cli/command_line/commands.h"
+#include "cli/output/output.h"
 #include "cli/processes/handover.h"
 #include "cli/processes/launches.h"
 #include "cli/processes/rounds_protocol.h"
 #include "cli/running/dry_run.h"
 #include "cli/running/measured_run.h"
 #include "cli/running/run_flags.h"
+#include "cli/running/written_dumps.h"
 #include "config/config.h"
 #include "core/file_text.h"
+#include "core/text.h"
 #include "os/stop_signals.h"
 #include "run/cases/plan.h"
 
@@ -72,6 +75,12 @@ ExitCode run(const RunFlags& flags) {
   const std::vector<ExportTarget> exports = export_targets(flags.exports);
   if (flags.dry_run) {
     print_plan(flags, config, std::move(plan));
+    return ExitCode::ok;
+  }
+  if (!flags.dump_folder.empty()) {
+    const std::size_t written = write_dumps(config, plan, flags.dump_folder, flags.dump_frames);
+    if (!flags.quiet)
+      print_message(number_of(written, "dump") + " written; `clusterbench check " + flags.dump_folder + "` reads them");
     return ExitCode::ok;
   }
   if (!flags.baseline.binary.empty()) check_baseline(flags);

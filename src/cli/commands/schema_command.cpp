@@ -1,4 +1,4 @@
-// `clusterbench schema config|result|comparison|ratios|recommendation|stress|worst-case|size|light-map` and
+// `clusterbench schema config|result|comparison|ratios|recommendation|stress|worst-case|size|light-map|dump|check` and
 // `clusterbench validate FILE...`.
 
 #include <algorithm>
@@ -24,7 +24,7 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) print_message(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
-  for (const char* part : {"case", "block", "answer", "frame", "structure", "scene"}) {
+  for (const char* part : {"case", "block", "answer", "frame", "structure", "scene", "list"}) {
     const std::string parts = std::string(part) + "s";
     if (!document.contains(parts)) continue;
     std::cout << path << ": valid, " << row.title << " with " << number_of(document[parts].size(), part) << "\n";
@@ -57,7 +57,7 @@ void add_schema(Command& program, Action& action) {
   command
       .add_option("WHICH", *name,
                   "Of a configuration, or of what run, compare --json, ratio --json, recommend, stress, worst-case, "
-                  "size --format json or light-map write")
+                  "size --format json, light-map or check --json write, or of a dump that check reads")
       .required()
       .one_of(names);
   command.when_named([name, &action] {

@@ -53,6 +53,12 @@ void add_run_options(Command& command, RunFlags& flags) {
   command.add_flag("--resume", flags.resume, "Continue the interrupted run of the same -o FILE");
   command.add_flag("--dry-run", flags.dry_run,
                    "List the cases and what is skipped, and tell about how long the run takes; write nothing");
+  const Option dumps = command.add_option("--write-dump", flags.dump_folder,
+                                          "Folder: write the lists as dumps for `clusterbench check`, and end");
+  command.add_option("--dump-frames", flags.dump_frames, "With --write-dump: frames of each case, evenly spaced")
+      .needs(dumps)
+      .range(1, 100000)
+      .shows_standard();
   command.add_flag("--no-timing", flags.no_timing, "Count only; the output is then the same on every machine");
   command.add_flag("-q,--quiet", flags.quiet, "No progress and no table; warnings stay");
 }

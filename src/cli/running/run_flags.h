@@ -24,6 +24,9 @@ struct RunFlags {
   GateFlags gates;
   ImageFlags images;
 
+  std::string dump_folder;
+  int dump_frames = 1;
+
   // Set only if this program is measured beside another one.
   int rounds_server = 0;
 

@@ -10,7 +10,9 @@
 #include "assign/contract/storage.h"
 #include "config/schema/schema_text.h"
 #include "core/error.h"
+#include "result/documents/check.h"
 #include "result/documents/comparison.h"
+#include "result/documents/dump.h"
 #include "result/documents/light_map.h"
 #include "result/documents/ratios.h"
 #include "result/documents/recommendation.h"
@@ -132,7 +134,7 @@ Json result_schema() {
 }
 
 std::span<const DocumentRow> document_rows() {
-  static const std::array<DocumentRow, 9> rows{{
+  static const std::array<DocumentRow, 11> rows{{
       {Document::config, "config", "a configuration", config_schema},
       {Document::result, "result", "a result of `clusterbench run`", result_schema},
       {Document::comparison, "comparison", "a comparison of `clusterbench compare`",
@@ -144,6 +146,8 @@ std::span<const DocumentRow> document_rows() {
       {Document::worst_case, "worst-case", "a result of `clusterbench worst-case`", json_of<result::worst_case_schema>},
       {Document::size, "size", "allocations of `clusterbench size`", json_of<result::size_schema>},
       {Document::light_map, "light-map", "light maps of `clusterbench light-map`", json_of<result::light_map_schema>},
+      {Document::dump, "dump", "a dump for `clusterbench check`", json_of<result::dump_schema>},
+      {Document::check, "check", "a verdict of `clusterbench check`", json_of<result::check_schema>},
   }};
   return rows;
 }
@@ -151,7 +155,7 @@ std::span<const DocumentRow> document_rows() {
 void check_version(const std::string& path, const Json& document, const DocumentRow& row) {
   const Json schema = row.schema();
   for (const char* key : {"schema_version", "comparison_version", "ratios_version", "recommendation_version",
-                          "size_version", "light_map_version"}) {
+                          "size_version", "light_map_version", "dump_version", "check_version"}) {
     if (!document.contains(key) || !schema["properties"].contains(key)) continue;
     const Json &found = document[key], &wanted = schema["properties"][key]["const"];
     if (found == wanted) continue;

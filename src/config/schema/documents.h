@@ -7,7 +7,19 @@
 
 namespace clusterbench::config {
 
-enum class Document { config, result, comparison, ratios, recommendation, stress, worst_case, size, light_map };
+enum class Document {
+  config,
+  result,
+  comparison,
+  ratios,
+  recommendation,
+  stress,
+  worst_case,
+  size,
+  light_map,
+  dump,
+  check
+};
 
 struct DocumentRow {
   Document document;
@@ -28,6 +40,8 @@ Document document_of(const Json& value) {
   if (value.contains("recommendation_version")) return Document::recommendation;
   if (value.contains("size_version")) return Document::size;
   if (value.contains("light_map_version")) return Document::light_map;
+  if (value.contains("dump_version")) return Document::dump;
+  if (value.contains("check_version")) return Document::check;
   if (!value.contains("schema_version") || !value.contains("cases")) return Document::config;
   return value.contains("kind") && value["kind"] == "stress" ? Document::stress : Document::result;
 }

@@ -1,4 +1,6 @@
+#include "result/documents/check.h"
 #include "result/documents/comparison.h"
+#include "result/documents/dump.h"
 #include "result/documents/light_map.h"
 #include "result/documents/page.h"
 #include "result/documents/ratios.h"
@@ -11,7 +13,9 @@
 namespace clusterbench::result {
 
 // Here once: each instance lists the fields of all records below it.
+template const Type& type_of<Check>();
 template const Type& type_of<Comparison>();
+template const Type& type_of<Dump>();
 template const Type& type_of<LightMaps>();
 template const Type& type_of<PageData>();
 template const Type& type_of<Ratios>();
@@ -20,10 +24,22 @@ template const Type& type_of<Size>();
 template const Type& type_of<Stress>();
 template const Type& type_of<WorstCase>();
 
+Json check_schema() {
+  return schema_of<Check>("clusterbench check",
+                          "What `clusterbench check DUMP --json FILE` writes: light lists of any program, held against "
+                          "the exact ones.");
+}
+
 Json comparison_schema() {
   return schema_of<Comparison>("clusterbench comparison",
                                "What `clusterbench compare BASE NEW --json FILE` writes. Times are nanoseconds per "
                                "frame, ratios new / base.");
+}
+
+Json dump_schema() {
+  return schema_of<Dump>("clusterbench dump",
+                         "What `clusterbench check` reads: a camera, a grid, lights and light lists of any program, as "
+                         "they lie in buffers.");
 }
 
 Json light_map_schema() {

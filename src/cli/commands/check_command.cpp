@@ -1,0 +1,102 @@
+// `clusterbench check DUMP...`: light lists of any program against the exact ones.
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "cli/command_line/commands.h"
+#include "cli/output/output.h"
+#include "core/text.h"
+#include "dump/dump_template.h"
+#include "dump/judge.h"
+
+namespace clusterbench::cli {
+namespace {
+
+struct CheckFlags {
+  std::vector<std::string> dumps;
+  std::string json, engine;
+  int most_lost = 10, threads = 1;
+  bool no_methods = false, allow_rounding = false, quiet = false;
+};
+
+// What to do now.
+std::string last_line(const std::string& verdict, bool allows_rounding) {
+  if (verdict == "right") return "No light is lost.";
+  if (verdict == "rounding")
+    return allows_rounding
+               ? "No light is lost beyond rounding."
+               : "Lights are lost within rounding: widen the engine's test by it, or pass --allow-rounding.";
+  if (verdict == "empty")
+    return "Nothing was checked: take a frame with lights in view, or correct camera and grid of the dump.";
+  if (verdict == "twice") return "A light is shaded twice: the engine adds it twice, or two parts of a set overlap.";
+  if (verdict == "misread") return "Correct the description of the dump as said first, and check again.";
+  if (verdict == "lost")
+    return "Lights are lost. Compare the first cell above with the engine's own test; --json FILE has up to 1000 of "
+           "them.";
+  return "The buffers are not laid out as the dump says: compare its description with the engine's shader "
+         "(`clusterbench schema dump`).";
+}
+
+// "12 dumps: 3 lost, 9 right".
+std::string frames_line(const std::vector<result::CheckedDump>& frames) {
+  std::map<std::string, std::size_t> counts;
+  for (const result::CheckedDump& frame : frames) ++counts[dump::worst_verdict({frame})];
+  std::vector<std::string> words;
+  for (const auto& [verdict, count] : counts) words.push_back(std::to_string(count) + " " + verdict);
+  return number_of(frames.size(), "dump") + ": " + joined(words) + "\n";
+}
+
+ExitCode print_template(const CheckFlags& flags) {
+  if (!flags.dumps.empty()) throw Error("", "--template", "prints a dump to fill in, and checks none");
+  std::cout << std::ranges::find(dump::dump_templates(), flags.engine, &dump::DumpTemplate::name)->text;
+  return ExitCode::ok;
+}
+
+ExitCode check(const CheckFlags& flags) {
+  if (!flags.engine.empty()) return print_template(flags);
+  if (flags.dumps.empty()) throw Error("", "DUMP", "is required, or --template ENGINE for a dump to fill in");
+  refuse_overwriting({flags.json}, flags.dumps);
+  LaterOutput output(flags.json, flags.json.empty());
+  std::ostream& out = flags.json == "-" ? std::cerr : std::cout;
+  result::Check checked;
+  checked.check_version = 1;
+  for (const std::string& given : flags.dumps)
+    for (const std::filesystem::path& path : dump::dump_paths(given)) {
+      checked.frames.push_back(dump::judge(dump::read_dump(path), {!flags.no_methods, flags.threads}));
+      if (!flags.quiet)
+        out << printable_lines(dump::check_text(checked.frames.back(), static_cast<std::size_t>(flags.most_lost)))
+            << std::flush;
+    }
+  checked.verdict = dump::worst_verdict(checked.frames);
+  if (!flags.json.empty()) output.write(result::to_json(checked));
+  if (!flags.quiet && checked.frames.size() > 1) out << frames_line(checked.frames);
+  if (!flags.quiet) out << last_line(checked.verdict, flags.allow_rounding) << "\n";
+  const bool is_right = checked.verdict == "right" || (flags.allow_rounding && checked.verdict == "rounding");
+  return is_right ? ExitCode::ok : ExitCode::gate_failed;
+}
+
+}  // namespace
+
+void add_check(Command& program, Action& action) {
+  auto flags = std::make_shared<CheckFlags>();
+  Command command = program.add_command("check", "Check the light lists of any program, from a dump of its buffers");
+  command.add_option("DUMP", flags->dumps, "Dumps (.json, see `clusterbench schema dump`), or folders of them");
+  std::vector<std::string> engines;
+  for (const dump::DumpTemplate& row : dump::dump_templates()) engines.emplace_back(row.name);
+  command
+      .add_option("--template", flags->engine, "Print a dump of an engine to fill in: camera, files, numbers of lights")
+      .one_of(engines);
+  command.add_option("--json", flags->json, "Write the verdict as JSON to this file; -: standard output");
+  command.add_option("--most-lost", flags->most_lost, "Lost lights that are named").range(0, 1000).shows_standard();
+  command.add_flag("--allow-rounding", flags->allow_rounding, "Lights that are lost within rounding do not fail");
+  command.add_flag("--no-methods", flags->no_methods, "Without the methods of clusterbench on the same frame");
+  command.add_option("--threads", flags->threads, "Threads; results do not depend on it")
+      .range(1, 1024)
+      .shows_standard();
+  command.add_flag("-q,--quiet", flags->quiet, "No text; the exit code is the verdict");
+  command.when_named([flags, &action] { action = [flags] { return check(*flags); }; });
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,24 @@
+#pragma once
+// The camera of a dump, from an engine's matrices with their conventions.
+
+#include "result/documents/dump.h"
+#include "view/frame.h"
+
+namespace clusterbench::dump {
+
+struct Camera {
+  view::Space view_space;
+  view::Projection projection;
+  // The engine's world or view space is left-handed. Then z of all that is in the world changes its sign, so that
+  // view_space stays a rotation.
+  bool is_world_mirrored = false;
+};
+
+// Whether a dump's camera has numbers of its own; otherwise it is one of a scene.
+bool has_matrices(const result::DumpCamera& camera);
+
+// `lights_in_view_space`: then the world is view space, and no view matrix is needed. Throws Error ("", JSON pointer)
+// for a singular or scaled view matrix, a projection that is none, and for what is missing.
+Camera camera_of(const result::DumpCamera& camera, bool lights_in_view_space);
+
+}  // namespace clusterbench::dump

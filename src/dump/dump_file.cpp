@@ -1,0 +1,119 @@
+#include "dump/dump_file.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/file_text.h"
+#include "core/json_document.h"
+#include "core/memory.h"
+#include "core/text.h"
+#include "result/allowed_values.h"
+
+namespace clusterbench::dump {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t k_most_json_bytes = std::uint64_t{64} << 20;
+
+// Throws Error unless it is a file, which has a size.
+std::uint64_t checked_size(const fs::path& path) {
+  std::error_code failed;
+  if (fs::is_directory(path, failed)) throw Error(path.string(), "", "is a folder, not a file");
+  if (!fs::exists(path, failed)) throw Error(path.string(), "", "does not exist");
+  if (!fs::is_regular_file(path, failed)) throw Error(path.string(), "", "is no file of a known size");
+  const std::uintmax_t size = fs::file_size(path, failed);
+  if (failed) throw Error(path.string(), "", "cannot be read: " + failed.message());
+  return size;
+}
+
+layout::Buffer read_buffer(const DumpFile& dump, const std::string& name, const result::DumpBuffer& given,
+                           std::uint64_t& sum) {
+  const std::string pointer = "/buffers/" + name;
+  const fs::path path = dump.beside(given.file);
+  std::error_code none;
+  if (!fs::exists(path, none))
+    throw Error(dump.path.string(), pointer + "/file", "names " + path.string() + ", which does not exist");
+  const std::uint64_t size = checked_size(path), at = given.at.value_or(0);
+  if (at > size)
+    throw Error(dump.path.string(), pointer + "/at",
+                "is " + std::to_string(at) + "; " + given.file + " has " + number_of(size, "byte"));
+  const std::uint64_t bytes = given.bytes.value_or(size - at);
+  if (bytes > size - at)
+    throw Error(dump.path.string(), pointer + "/bytes",
+                "is " + std::to_string(bytes) + " from byte " + std::to_string(at) + " on; " + given.file + " has " +
+                    number_of(size, "byte"));
+  if (bytes > memory_limit() - std::min(sum, memory_limit()))
+    throw Error(dump.path.string(), pointer,
+                "has " + std::to_string(bytes) + " bytes: with it the buffers take more than " +
+                    std::to_string(memory_limit() >> 20) + " MiB; name the part that is needed (at, bytes)");
+  sum += bytes;
+  layout::Buffer buffer{name, path.string(), at};
+  buffer.bytes.resize(bytes);
+  std::ifstream in(path, std::ios::binary);
+  in.seekg(static_cast<std::streamoff>(at));
+  in.read(reinterpret_cast<char*>(buffer.bytes.data()), static_cast<std::streamsize>(bytes));
+  if (!in && bytes > 0) throw Error(path.string(), "", "cannot be read");
+  return buffer;
+}
+
+}  // namespace
+
+result::Dump parse_dump(std::string_view text, const std::string& file) {
+  const auto json = read_json<result::Json>(text, file, JsonComments::allowed);
+  if (!json.is_object() || !json.contains("dump_version"))
+    throw Error(file, "/dump_version", "is missing: this is no dump (see `clusterbench schema dump`)");
+  try {
+    if (json["dump_version"] != 1)
+      throw Error("", "/dump_version", "is " + json["dump_version"].dump() + "; this version reads 1");
+    auto dump = result::from_json<result::Dump>(json);
+    result::check_values(dump);
+    return dump;
+  } catch (const Error& error) {
+    throw Error(file, error.where(), error.message(), error.code());
+  }
+}
+
+DumpFile read_dump(const fs::path& path) {
+  if (const std::uint64_t size = checked_size(path); size > k_most_json_bytes)
+    throw Error(path.string(), "",
+                "has " + std::to_string(size) + " bytes; a dump's JSON has at most " +
+                    std::to_string(k_most_json_bytes) + ": write lists and lights as buffers");
+  DumpFile dump{path, parse_dump(file_text(path), path.string()), {}};
+  std::uint64_t sum = 0;
+  if (dump.record.buffers)
+    for (const auto& [name, buffer] : *dump.record.buffers)
+      dump.buffers.push_back(read_buffer(dump, name, buffer, sum));
+  return dump;
+}
+
+std::vector<fs::path> dump_paths(const fs::path& path) {
+  std::error_code failed;
+  if (!fs::is_directory(path, failed)) return {path};
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path, failed))
+    if (entry.path().extension() == ".json" && entry.is_regular_file(failed)) found.push_back(entry.path());
+  if (failed) throw Error(path.string(), "", "cannot be read: " + failed.message());
+  std::erase_if(found, [](const fs::path& file) {
+    std::error_code none;
+    if (fs::file_size(file, none) > k_most_json_bytes) return false;  // refused by name when it is read
+    return file_text(file).find("\"dump_version\"") == std::string::npos;
+  });
+  std::ranges::sort(found);
+  if (found.empty()) throw Error(path.string(), "", "has no dump in it: no .json file with a dump_version");
+  return found;
+}
+
+std::vector<ListSet> list_sets(const result::Dump& dump) {
+  std::vector<ListSet> sets;
+  for (std::size_t i = 0; i < dump.lists.size(); ++i) {
+    const std::string name = dump.lists[i].set.value_or("lists");
+    auto set = std::ranges::find(sets, name, &ListSet::name);
+    if (set == sets.end()) set = sets.insert(sets.end(), {name, {}});
+    set->parts.push_back({dump.lists[i], "/lists/" + std::to_string(i)});
+  }
+  return sets;
+}
+
+}  // namespace clusterbench::dump

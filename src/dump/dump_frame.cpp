@@ -1,0 +1,106 @@
+#include "dump/dump_frame.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "dump/camera.h"
+
+namespace clusterbench::dump {
+namespace {
+
+Vec2i viewport_of(const result::Dump& dump) {
+  return {static_cast<int>(dump.viewport[0]), static_cast<int>(dump.viewport[1])};
+}
+
+view::Frame scene_frame(const DumpFile& dump, const result::DumpCamera& given) {
+  scene::Scene scene = scene::load_gltf(dump.beside(*given.scene));
+  scene::resolve_ranges(scene, {});
+  std::vector<std::string> names;
+  for (const scene::Camera& camera : scene.cameras) names.push_back(camera.name);
+  if (names.empty()) throw Error("", "/camera/scene", "names a scene without a camera");
+  const std::string name = given.camera.value_or(names.front());
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end())
+    throw Error("", "/camera/camera",
+                "found '" + name + "'" + did_you_mean(name, names) + ", allowed: " + joined(names));
+  const scene::Camera& camera = scene.cameras[static_cast<std::size_t>(found - names.begin())];
+  const double time_s = given.time_s.value_or(0.0);
+  const scene::Shot shot{time_s, scene::camera_pose(scene, camera, time_s),
+                         scene::projection_at(scene, camera, time_s)};
+  return view::make_frame(scene, shot, 0, viewport_of(dump.record));
+}
+
+void mirror(scene::WorldLight& light) {
+  light.position.z = -light.position.z;
+  light.direction.z = -light.direction.z;
+}
+
+view::Frame matrix_frame(const DumpFile& dump, const result::DumpCamera& given_camera, bool& is_world_mirrored) {
+  const Camera camera = camera_of(given_camera, dump.record.lights.space.value_or("world") == "view");
+  view::Frame frame;
+  frame.viewport = viewport_of(dump.record);
+  frame.projection = camera.projection;
+  frame.view_space = camera.view_space;
+  is_world_mirrored = camera.is_world_mirrored;
+  return frame;
+}
+
+// Points before spots, each in the order of the dump.
+void take_lights(DumpFrame& out, const std::vector<scene::WorldLight>& lights) {
+  out.dump_index.resize(lights.size());
+  std::iota(out.dump_index.begin(), out.dump_index.end(), 0u);
+  std::ranges::stable_sort(out.dump_index,
+                           [&](std::uint32_t a, std::uint32_t b) { return lights[a].type < lights[b].type; });
+  out.frame.lights.clear();
+  out.frame_index.resize(lights.size());
+  for (std::uint32_t i = 0; i < lights.size(); ++i) {
+    out.frame.lights.push_back(lights[out.dump_index[i]]);
+    out.frame.lights.back().rig_index = static_cast<int>(out.dump_index[i]);
+    out.frame_index[out.dump_index[i]] = i;
+  }
+  out.frame.count_types();
+}
+
+DumpFrame made_frame(const DumpFile& dump, const result::DumpCamera& camera) {
+  const result::DumpLights& given = dump.record.lights;
+  const bool of_scene = given.scene.value_or(false), has_scene = !has_matrices(camera);
+  if (of_scene + given.rows.has_value() + given.listed.has_value() != 1)
+    throw Error("", "/lights", "needs one of rows, listed and scene");
+  if (of_scene && !has_scene) throw Error("", "/lights/scene", "is true, and the camera names no scene");
+  if (has_scene && given.space.value_or("world") == "view")
+    throw Error("", "/lights/space", "is view; beside the camera of a scene lights are in the world");
+  DumpFrame out;
+  bool is_world_mirrored = false;
+  out.frame = has_scene ? scene_frame(dump, camera) : matrix_frame(dump, camera, is_world_mirrored);
+  std::vector<scene::WorldLight> lights = of_scene ? out.frame.lights : lights_of(dump);
+  if (lights.empty()) throw Error("", "/lights", "are none, so there is nothing to check");
+  if (is_world_mirrored) std::ranges::for_each(lights, mirror);
+  take_lights(out, lights);
+  if (dump.record.grid.kind.value_or("frustum") == "world") {
+    if (given.space.value_or("world") == "view")
+      throw Error("", "/lights/space", "is view; a world grid needs lights in the world");
+    if (is_world_mirrored)
+      throw Error("", "/grid/kind", "is world in a left-handed world: give lights and bounds with z reversed");
+  }
+  out.grid = grid_of(dump.record.grid, out.frame);
+  return out;
+}
+
+}  // namespace
+
+DumpFrame frame_of(const DumpFile& dump) {
+  return frame_of(dump, dump.record.camera);
+}
+
+DumpFrame frame_of(const DumpFile& dump, const result::DumpCamera& camera) {
+  try {
+    return made_frame(dump, camera);
+  } catch (const Error& error) {
+    if (!error.file().empty()) throw;
+    throw Error(dump.path.string(), error.where(), error.message(), error.code());
+  }
+}
+
+}  // namespace clusterbench::dump

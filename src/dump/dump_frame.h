@@ -1,0 +1,39 @@
+#pragma once
+// The frame of a dump: its camera, its lights and its grid, in this program's terms.
+
+#include <vector>
+
+#include "dump/dump_file.h"
+#include "grid/grid.h"
+#include "view/frame.h"
+
+namespace clusterbench::dump {
+
+struct DumpFrame {
+  view::Frame frame;
+  grid::Grid grid;
+  // Of the frame's lights, which are sorted by type: the index in the dump, and back.
+  std::vector<std::uint32_t> dump_index, frame_index;
+
+  layout::Shape shape(const layout::CellOrder& order) const {
+    return {grid.cells(), order, static_cast<std::uint32_t>(frame_index.size())};
+  }
+};
+
+// Throws Error (file, JSON pointer or byte) for whatever makes no frame: NaN in a light, a singular matrix, slices that
+// do not ascend.
+DumpFrame frame_of(const DumpFile& dump);
+// With another camera.
+DumpFrame frame_of(const DumpFile& dump, const result::DumpCamera& camera);
+
+layout::CellOrder order_of(const result::DumpGrid& grid);
+
+// --- Parts of it ---
+
+// The lights that are described by numbers, in the order of the dump. Throws Error (the file, byte or JSON pointer).
+std::vector<scene::WorldLight> lights_of(const DumpFile& dump);
+
+// Throws Error ("", JSON pointer).
+grid::Grid grid_of(const result::DumpGrid& grid, const view::Frame& frame);
+
+}  // namespace clusterbench::dump

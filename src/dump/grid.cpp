@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "dump/dump_frame.h"
+
+namespace clusterbench::dump {
+namespace {
+
+constexpr const char* k_slices = "/grid/slices";
+
+// Where f(depth) has a value.
+double depth_of(const std::string& function, double value) {
+  if (function == "log2") return std::exp2(value);
+  if (function == "ln") return std::exp(value);
+  return value;
+}
+
+// Slices as a shader's formula gives them. What it gives below slice 0 belongs to slice 0, which then begins at the
+// near plane.
+std::vector<double> formula_boundaries(const result::DumpFormula& formula, std::int64_t count,
+                                       const view::Projection& projection) {
+  std::vector<double> out;
+  for (std::int64_t i = 0; i <= count; ++i)
+    out.push_back(depth_of(formula.function, (static_cast<double>(i) - formula.bias) / formula.scale));
+  if (!projection.orthographic) out.front() = std::max(out.front(), 0.0);
+  if (projection.near_m < out[1]) out.front() = std::min(out.front(), projection.near_m);
+  if (formula.far_m) out.back() = *formula.far_m;
+  return out;
+}
+
+void set_boundaries(grid::Slicing& slices, std::vector<double> boundaries) {
+  for (std::size_t i = 1; i < boundaries.size(); ++i)
+    if (!(boundaries[i - 1] < boundaries[i]))
+      throw Error("", std::string(k_slices) + "/boundaries_m",
+                  "do not ascend: " + grid::number_name(boundaries[i - 1]) + " m is followed by " +
+                      grid::number_name(boundaries[i]) + " m (slice " + std::to_string(i - 1) + ")");
+  slices.scheme = grid::Scheme::list;
+  slices.near_m = boundaries.front();
+  slices.far_m = boundaries.back();
+  slices.count = static_cast<int>(boundaries.size()) - 1;
+  slices.boundaries_m = std::move(boundaries);
+}
+
+int needed_count(const result::DumpSlices& given) {
+  if (!given.count) throw Error("", std::string(k_slices) + "/count", "is missing: scheme and formula need it");
+  return static_cast<int>(*given.count);
+}
+
+void set_scheme(grid::Slicing& slices, const result::DumpSlices& given) {
+  const bool has_first = *given.scheme == "exponential-first";
+  if (has_first != given.first_m.has_value())
+    throw Error(
+        "", std::string(k_slices) + "/first_m",
+        has_first ? "is missing: exponential-first needs it" : "has no meaning without scheme exponential-first");
+  slices.scheme = has_first                        ? grid::Scheme::exponential_first
+                  : *given.scheme == "exponential" ? grid::Scheme::exponential
+                                                   : grid::Scheme::linear;
+  slices.count = needed_count(given);
+  slices.near_m = given.near_m.value_or(0.0);
+  slices.far_m = given.far_m.value_or(0.0);
+  if (has_first) slices.first_m = *given.first_m;
+}
+
+grid::Slicing slicing_of(const std::optional<result::DumpSlices>& given, const view::Projection& projection) {
+  grid::Slicing slices;
+  if (!given || (!given->boundaries_m && !given->scheme && !given->formula)) {
+    if (!std::isfinite(projection.far_m))
+      throw Error("", k_slices, "are missing: where the camera has no far plane, say where the one slice ends");
+    set_boundaries(slices, {projection.near_m, projection.far_m});
+    return slices;
+  }
+  if (given->boundaries_m.has_value() + given->scheme.has_value() + given->formula.has_value() != 1)
+    throw Error("", k_slices, "has several of boundaries_m, scheme and formula; allowed: one");
+  if (given->scheme) {
+    set_scheme(slices, *given);
+    if (slices.far_m == 0.0 && !std::isfinite(projection.far_m))
+      throw Error("", std::string(k_slices) + "/far_m", "is missing: the camera has no far plane");
+  } else {
+    set_boundaries(slices, given->formula ? formula_boundaries(*given->formula, needed_count(*given), projection)
+                                          : *given->boundaries_m);
+  }
+  return slices;
+}
+
+Vec2i pair_of(const result::Size2& size) {
+  return {static_cast<int>(size[0]), static_cast<int>(size[1])};
+}
+
+grid::Tiling tiling_of(const result::DumpGrid& given) {
+  grid::Tiling tiles;
+  if (!given.tiles || given.tiles->count.has_value() == given.tiles->pixels.has_value())
+    throw Error("", "/grid/tiles", "needs count or pixels, one of the two");
+  if (given.tiles->count) tiles.count = pair_of(*given.tiles->count);
+  if (given.tiles->pixels) tiles.pixels = pair_of(*given.tiles->pixels);
+  return tiles;
+}
+
+// Rows of tiles in pixels that are counted from the bottom: the row that is cut off is at the top.
+void count_rows_from_bottom(grid::ScreenGrid& screen, const grid::Tiling& tiling, const view::Frame& frame) {
+  view::Projection turned = frame.projection;
+  turned.top = -frame.projection.bottom;
+  turned.bottom = -frame.projection.top;
+  const std::vector<float> from_bottom = grid::make_tiles(tiling, turned, frame.viewport).y;
+  std::ranges::transform(from_bottom.rbegin(), from_bottom.rend(), screen.tiles.y.begin(), [](float y) { return -y; });
+}
+
+grid::GridSpec world_spec(const result::DumpGrid& given) {
+  grid::GridSpec spec;
+  spec.kind = grid::Kind::world;
+  if (!given.cells) throw Error("", "/grid/cells", "is missing: a world grid needs it");
+  if (!given.bounds) throw Error("", "/grid/bounds", "is missing: a world grid needs it");
+  if (given.tiles || given.slices)
+    throw Error("", given.tiles ? "/grid/tiles" : k_slices, "has no meaning in a world grid");
+  const auto& cells = *given.cells;
+  spec.cells = {static_cast<int>(cells[0]), static_cast<int>(cells[1]), static_cast<int>(cells[2])};
+  spec.has_bounds = true;
+  for (int i = 0; i < 3; ++i) {
+    spec.bounds_lo_m[i] = given.bounds->lo_m[static_cast<std::size_t>(i)];
+    spec.bounds_hi_m[i] = given.bounds->hi_m[static_cast<std::size_t>(i)];
+  }
+  return spec;
+}
+
+}  // namespace
+
+layout::CellOrder order_of(const result::DumpGrid& grid) {
+  return {grid.axes.value_or("xyz"), grid.first_row.value_or("top") == "bottom",
+          grid.first_slice.value_or("near") == "far"};
+}
+
+grid::Grid grid_of(const result::DumpGrid& given, const view::Frame& frame) {
+  const std::string kind = given.kind.value_or("frustum");
+  grid::GridSpec spec;
+  if (kind == "world") {
+    spec = world_spec(given);
+  } else {
+    if (given.cells || given.bounds)
+      throw Error("", given.cells ? "/grid/cells" : "/grid/bounds", "is of world grids only");
+    spec.kind = kind == "distance" ? grid::Kind::distance : grid::Kind::frustum;
+    spec.tiles = tiling_of(given);
+    spec.slices = slicing_of(given.slices, frame.projection);
+  }
+  try {
+    grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, 0.0, Vec3d(0.0), Vec3d(0.0)));
+    if (grid.has_tiles() && given.first_row.value_or("top") == "bottom" && !spec.tiles.is_by_count())
+      count_rows_from_bottom(std::get<grid::ScreenGrid>(grid.shape), spec.tiles, frame);
+    return grid;
+  } catch (const Error& error) {  // names keys of a configuration, "slices.near"
+    std::string pointer = "/grid/" + error.where();
+    std::ranges::replace(pointer, '.', '/');
+    throw Error("", pointer, error.message(), error.code());
+  }
+}
+
+}  // namespace clusterbench::dump

@@ -1,0 +1,25 @@
+#pragma once
+// Lists of a dump against the exact ones.
+
+#include "dump/dump_frame.h"
+#include "result/documents/check.h"
+
+namespace clusterbench::dump {
+
+struct JudgeOptions {
+  bool with_methods = true;
+  int threads = 1;
+};
+
+// Reads the lists, compares them with the truth, and tries the other orders of cells and the other conventions of
+// matrices where lights are lost. Throws Error (file, JSON pointer or byte) for a dump that describes no frame.
+result::CheckedDump judge(const DumpFile& dump, const JudgeOptions& options);
+
+// The worst verdict of all sets. Where no light reaches a cell and none is listed a set does not count, unless all are
+// such sets.
+std::string worst_verdict(const std::vector<result::CheckedDump>& frames);
+
+// For people. `most`: how many lost lights are named.
+std::string check_text(const result::CheckedDump& checked, std::size_t most);
+
+}  // namespace clusterbench::dump

@@ -1,0 +1,102 @@
+#include "dump/lost_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "geom/filter/light_filter.h"
+
+namespace clusterbench::dump {
+namespace {
+
+// Calls lost(light) for each light of `wanted` that `listed` lacks, and returns how many it has; both ascend.
+template <class Lost>
+std::size_t each_lost(std::span<const std::uint32_t> wanted, std::span<const std::uint32_t> listed, Lost&& lost) {
+  std::size_t next = 0, found = 0;
+  for (const std::uint32_t light : wanted) {
+    while (next < listed.size() && listed[next] < light) ++next;
+    if (next < listed.size() && listed[next] == light)
+      ++found;
+    else
+      lost(light);
+  }
+  return found;
+}
+
+// What single precision may do to a light, as a share of its range.
+std::vector<double> rounding_shares(const view::Frame& frame, double rounding) {
+  std::vector<double> shares;
+  for (const scene::WorldLight& light : frame.lights) {
+    const Vec3d p = frame.view_space.rotation * (light.position - frame.view_space.origin);
+    const double reach = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + light.range_m;
+    shares.push_back(light.range_m > 0.0 && std::isfinite(light.range_m) ? rounding * 0x1p-24 * reach / light.range_m
+                                                                         : 0.0);
+  }
+  return shares;
+}
+
+bool reaches_beyond(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light,
+                    double share) {
+  if (share >= 1.0) return false;
+  const geom::LightVolume volume = view::volume_of(frame.lights[light], grid::space_of(grid, frame));
+  if (std::isinf(geom::range_of(volume))) return true;
+  return geom::filter_meets(geom::with_range(volume, geom::range_of(volume) * (1.0 - share)), grid.cell(cell)) !=
+         geom::Verdict::no;
+}
+
+bool is_deeper(const LostPair& a, const LostPair& b) {
+  if (a.reach != b.reach) return a.reach > b.reach;
+  return a.cell != b.cell ? a.cell < b.cell : a.light < b.light;
+}
+
+// The deepest pairs, as a heap whose top is the least deep.
+void keep_deepest(std::vector<LostPair>& kept, const LostPair& pair) {
+  if (kept.size() == LostLights::k_most_kept) {
+    if (!is_deeper(pair, kept.front())) return;
+    std::pop_heap(kept.begin(), kept.end(), is_deeper);
+    kept.pop_back();
+  }
+  kept.push_back(pair);
+  std::push_heap(kept.begin(), kept.end(), is_deeper);
+}
+
+}  // namespace
+
+LostLights find_lost(const view::Frame& frame, const grid::Grid& grid, const assign::Lists& truth,
+                     const assign::Lists& listed, double rounding) {
+  LostLights out;
+  const std::vector<double> shares = rounding_shares(frame, rounding);
+  std::vector<bool> is_lost(frame.lights.size(), false), is_listed(frame.lights.size(), false);
+  for (const std::uint32_t light : listed.lights) is_listed[light] = true;
+  for (std::uint32_t cell = 0; cell < truth.cell_count(); ++cell) {
+    const std::size_t found = each_lost(truth.of(cell), listed.of(cell), [&](std::uint32_t light) {
+      ++out.lost_pairs;
+      is_lost[light] = true;
+      LostPair pair{cell, light, 0.0, !reaches_beyond(frame, grid, cell, light, shares[light])};
+      out.within_rounding += pair.is_within_rounding ? 1 : 0;
+      const bool is_full = out.deepest.size() == LostLights::k_most_kept;
+      const double below = is_full ? 1.0 - out.deepest.front().reach : 1.0;
+      pair.reach = 1.0 - measure::relative_distance(frame, grid, cell, light, below);
+      keep_deepest(out.deepest, pair);
+    });
+    out.false_positives += listed.of(cell).size() - found;
+  }
+  std::ranges::sort(out.deepest, is_deeper);
+  out.true_pairs = truth.pair_count();
+  out.listed_pairs = listed.pair_count();
+  for (std::size_t light = 0; light < is_lost.size(); ++light) {
+    out.lights += is_lost[light] ? 1 : 0;
+    out.absent_lights += is_lost[light] && !is_listed[light] ? 1 : 0;
+  }
+  return out;
+}
+
+std::uint64_t count_lost(const assign::Lists& truth, const assign::Lists& listed,
+                         const std::vector<std::uint32_t>& from, std::uint64_t most) {
+  std::uint64_t lost = 0;
+  for (std::uint32_t cell = 0; cell < truth.cell_count() && lost <= most; ++cell)
+    each_lost(truth.of(cell), listed.of(from[cell]), [&lost](std::uint32_t) { ++lost; });
+  return lost;
+}
+
+}  // namespace clusterbench::dump

@@ -1,0 +1,38 @@
+#pragma once
+// Lost lights: pairs of a cell and a light that are true and not listed, and how far the light reaches into the cell.
+
+#include <cstdint>
+#include <vector>
+
+#include "measure/truth/truth.h"
+
+namespace clusterbench::dump {
+
+struct LostPair {
+  std::uint32_t cell = 0, light = 0;  // of the frame
+  double reach = 0.0;                 // share of the range: 1 - distance / range
+  bool is_within_rounding = false;
+};
+
+struct LostLights {
+  static constexpr std::size_t k_most_kept = 1000;
+
+  std::uint64_t true_pairs = 0, listed_pairs = 0, false_positives = 0;
+  std::uint64_t lost_pairs = 0, within_rounding = 0, lights = 0, absent_lights = 0;
+  std::vector<LostPair> deepest;  // the deepest first
+};
+
+// Nearly all listed pairs: as if they were of another frame.
+inline bool are_for_nothing(const LostLights& found) {
+  return found.false_positives > found.listed_pairs / 10 * 9;
+}
+
+// `rounding`: roundoffs that are allowed for. Both lists ascend.
+LostLights find_lost(const view::Frame& frame, const grid::Grid& grid, const assign::Lists& truth,
+                     const assign::Lists& listed, double rounding);
+
+// Only their number, where the list of cell c is that of cell from[c]. Stops above `most`.
+std::uint64_t count_lost(const assign::Lists& truth, const assign::Lists& listed,
+                         const std::vector<std::uint32_t>& from, std::uint64_t most);
+
+}  // namespace clusterbench::dump

@@ -1,0 +1,212 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.h"
+
+namespace clusterbench::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+// One light before the camera in a grid of two cells, with its lists in buffers.
+struct Small {
+  Folder folder;
+  Json dump = Json::parse(R"({
+    "dump_version": 1, "viewport": [64, 64],
+    "buffers": {"cells": {"file": "cells.bin"}, "indices": {"file": "indices.bin"}, "lights": {"file": "lights.bin"}},
+    "camera": {"world_to_view": [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1],
+               "sides": [-1, 1, -1, 1], "near_m": 1, "far_m": 100},
+    "grid": {"tiles": {"count": [1, 1]}, "slices": {"boundaries_m": [1, 10, 100]}},
+    "lights": {"rows": [{"buffer": "lights", "stride": 16, "count": 1,
+                         "position": {"at": 0, "type": "f32"}, "range": {"at": 12, "type": "f32"}}]},
+    "lists": [{"layout": "packed", "rows": {"buffer": "cells", "stride": 4},
+               "offset": {"at": 0, "type": "u16"}, "counts": [{"at": 2, "type": "u16"}],
+               "entries": {"buffer": "indices", "type": "u16"}}]})");
+
+  Small() {
+    write<std::uint16_t>("cells.bin", {0, 1, 1, 1});
+    write<std::uint16_t>("indices.bin", {0, 0});
+    write<float>("lights.bin", {0.0f, 0.0f, -9.0f, 2.0f});
+  }
+  template <class T>
+  void write(const std::string& name, const std::vector<T>& values) {
+    folder.write(name, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+  }
+  std::string path() const { return folder.write("dump.json", dump.dump()).string(); }
+  Outcome check(const std::string& flags = "--no-methods") const { return tool("check " + path() + " " + flags); }
+};
+
+TEST(Check, right_lists_pass_and_a_lost_light_fails_with_its_cell_and_how_far_it_reaches_in) {
+  Small small;
+  const Outcome right = small.check();
+  EXPECT_EQ(right.code, 0) << right.err;
+  EXPECT_NE(right.out.find("lists: right: no light is lost"), std::string::npos) << right.out;
+  small.write<std::uint16_t>("cells.bin", {0, 1, 1, 0});
+  const Outcome lost = small.check("--no-methods --json " + (small.folder / "out.json").string());
+  EXPECT_EQ(lost.code, 1);
+  EXPECT_NE(
+      lost.out.find("light 0, cell (0, 0, 1) (number 1, depth 10 to 100 m): reaches in by 1 m, 50 % of its range"),
+      std::string::npos)
+      << lost.out;
+  const Json found = Json::parse(file_text(small.folder / "out.json"));
+  EXPECT_EQ(found["verdict"], "lost");
+  EXPECT_EQ(found["frames"][0]["sets"][0]["error"]["lost_pairs"], 1);
+  EXPECT_NEAR(found["frames"][0]["sets"][0]["lost"][0]["reach_mm"].get<double>(), 1000.0, 1e-3);
+  const std::string out = (small.folder / "out.json").string();
+  EXPECT_EQ(tool("validate " + out).out, out + ": valid, a verdict of `clusterbench check` with 1 frame\n");
+  EXPECT_EQ(tool("validate " + small.path()).code, 0);
+  const Outcome quiet = small.check("-q");
+  EXPECT_EQ(quiet.code, 1);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST(Check, buffers_that_are_no_lists_are_told_with_their_bytes_and_the_likeliest_reading) {
+  Small small;
+  small.write<std::uint32_t>("indices.bin", {0, 0});
+  small.dump["lists"][0]["entries"]["type"] = "u16";
+  small.dump["lights"]["rows"][0]["count"] = 1;
+  small.write<std::uint16_t>("indices.bin", {0, 7});
+  const Outcome done = small.check();
+  EXPECT_EQ(done.code, 1);
+  EXPECT_NE(done.out.find("these are no lists: 1 value cannot be right"), std::string::npos) << done.out;
+  EXPECT_NE(done.out.find("buffer 'indices', byte 2: index 7 is not below the 1 light, in cell (0, 0, 1)"),
+            std::string::npos)
+      << done.out;
+  EXPECT_NE(done.out.find("with entries as u8 all 2 indices are below 1"), std::string::npos) << done.out;
+}
+
+TEST(Check, what_is_bad_in_a_dump_is_one_line_with_file_and_place) {
+  using Change = std::function<void(Small&)>;
+  const std::pair<Change, const char*> rows[] = {
+      {[](Small& s) { s.dump["dump_version"] = 2; }, "dump.json: /dump_version: is 2; this version reads 1"},
+      {[](Small& s) { s.dump.erase("dump_version"); }, "dump.json: /dump_version: is missing: this is no dump"},
+      {[](Small& s) { s.dump["viewprt"] = 1; }, "dump.json: /viewprt: is not known"},
+      {[](Small& s) {
+         s.dump["viewport"] = {0, 64};
+       },
+       "dump.json: /viewport/0: is 0; allowed: at least 1"},
+      {[](Small& s) { s.dump["lists"] = Json::array(); }, "dump.json: /lists: has 0 elements; allowed: at least 1"},
+      {[](Small& s) { s.dump["lists"][0]["layout"] = "packd"; },
+       "dump.json: /lists/0/layout: found 'packd' (did you mean 'packed'?), allowed: packed, fixed"},
+      {[](Small& s) { s.dump["lists"][0]["rows"]["stride"] = -1; },
+       "dump.json: /lists/0/rows/stride: must be a whole number of at least 0"},
+      {[](Small& s) { s.dump["buffers"]["cells"]["file"] = "none.bin"; }, "dump.json: /buffers/cells/file: names "},
+      {[](Small& s) { s.dump["buffers"]["cells"]["at"] = 9; },
+       "dump.json: /buffers/cells/at: is 9; cells.bin has 8 bytes"},
+      {[](Small& s) { s.dump["buffers"]["cells"]["bytes"] = 18446744073709551615ull; },
+       "dump.json: /buffers/cells/bytes: is 18446744073709551615 from byte 0 on; cells.bin has 8 bytes"},
+      {[](Small& s) { s.dump["lights"]["rows"][0]["count"] = 4000000000000ull; },
+       "dump.json: /lights/rows/0: 4000000000000 lights, 16 bytes apart from byte 0, do not fit into buffer 'lights'"},
+      {[](Small& s) { s.dump["lights"]["rows"][0]["count"] = 0; },
+       "dump.json: /lights: are none, so there is nothing to check"},
+      {[](Small& s) {
+         s.write<float>("lights.bin", {0.0f, NAN, 0.0f, 1.0f});
+       },
+       "lights.bin: byte 0: light 0 has a position that is no number, or beyond 1e15 m"},
+      {[](Small& s) {
+         s.write<float>("lights.bin", {0.0f, 0.0f, 0.0f, -1.0f});
+       },
+       "lights.bin: byte 12: light 0 has a range that is no number, or below 0"},
+      {[](Small& s) { s.dump["camera"]["world_to_view"][0] = 0; },
+       "dump.json: /camera/world_to_view: is singular: its axes lie in one plane"},
+      {[](Small& s) {
+         s.dump["grid"]["slices"]["boundaries_m"] = {1, 10, 10};
+       },
+       "dump.json: /grid/slices/boundaries_m: do not ascend: 10 m is followed by 10 m (slice 1)"},
+      {[](Small& s) {
+         s.dump["grid"]["tiles"]["count"] = {65, 1};
+       },
+       "dump.json: /grid/tiles/count: gives 65 tiles along 64 pixels; at most one tile per pixel"},
+      {[](Small& s) {
+         s.dump["grid"]["slices"] = {{"scheme", "exponential-first"}, {"count", 4}};
+       },
+       "dump.json: /grid/slices/first_m: is missing: exponential-first needs it"},
+      {[](Small& s) { s.dump["grid"]["axes"] = "xy"; }, "dump.json: /grid/axes: found 'xy'"},
+      {[](Small& s) {
+         s.dump["viewport"] = {65536, 65536};
+         s.dump["grid"]["tiles"]["count"] = {65536, 65536};
+       },
+       "dump.json: /grid/cells: are more than 10^9"},
+      {[](Small& s) {
+         s.dump["grid"]["tiles"]["count"] = {64, 64};
+       },
+       "dump.json: /lists/0/rows: 8192 rows, 4 bytes apart from byte 0, do not fit into buffer 'cells' of 8 bytes, "
+       "which "
+       "has room for 2"},
+  };
+  for (const auto& [change, wanted] : rows) {
+    Small small;
+    change(small);
+    const Outcome done = small.check();
+    EXPECT_EQ(done.code, 2) << wanted << done.out;
+    EXPECT_NE(done.err.find(wanted), std::string::npos) << done.err;
+    EXPECT_EQ(std::ranges::count(done.err, '\n'), 1) << done.err;
+  }
+  const Small small;
+  EXPECT_EQ(tool("check " + small.folder.write("half.json", "{\"dump_version\": 1,").string()).code, 2);
+  EXPECT_NE(tool("check " + small.folder.path().string()).err.find("half.json: byte "), std::string::npos);
+  EXPECT_EQ(tool("check /nowhere.json").err, "clusterbench: /nowhere.json: does not exist\n");
+  EXPECT_EQ(tool("check").err, "clusterbench: DUMP: is required, or --template ENGINE for a dump to fill in\n");
+}
+
+TEST(Check, large_files_are_refused_before_they_are_read) {
+  const Small small;
+  const fs::path large = small.folder.write("large.json", "{");
+  fs::resize_file(large, std::uint64_t{2} << 30);
+  EXPECT_NE(tool("check " + large.string()).err.find("large.json: has 2147483648 bytes; a dump's JSON has at most"),
+            std::string::npos);
+  fs::remove(large);
+  fs::resize_file(small.folder / "cells.bin", std::uint64_t{5} << 30);
+  EXPECT_NE(small.check().err.find("/buffers/cells: has 5368709120 bytes: with it the buffers take more than 4096 MiB"),
+            std::string::npos);
+}
+
+TEST(Check, the_lists_of_a_run_come_back_right_in_every_storage) {
+  const Folder folder;
+  const std::string dumps = (folder / "dumps").string();
+  const Outcome written = tool(
+      "run " + source_file("scenes/street.glb") + " --assigner exact-fast --grid frustum --tiles 96 --slices 8 " +
+      "--set 'storages=[\"packed\",\"fixed\",\"bitfield\",\"linked\",\"runs\"]' --dump-frames 2 --write-dump " + dumps);
+  ASSERT_EQ(written.code, 0) << written.err;
+  EXPECT_NE(written.err.find("10 dumps written"), std::string::npos) << written.err;
+  const Outcome done = tool("check " + dumps + " --json " + (folder / "out.json").string());
+  EXPECT_EQ(done.code, 0) << done.out;
+  const Json found = Json::parse(file_text(folder / "out.json"));
+  ASSERT_EQ(found["frames"].size(), 10u);
+  for (const Json& frame : found["frames"]) {
+    EXPECT_EQ(frame["sets"][0]["verdict"], "right") << frame["name"];
+    EXPECT_EQ(frame["sets"][0]["error"]["false_positives"], 0) << frame["name"];
+    for (const Json& method : frame["methods"]) EXPECT_EQ(method["lost_pairs"], 0) << method["name"];
+    EXPECT_GE(frame["methods"].size(), 5u);
+  }
+}
+
+TEST(Check, the_smallest_dump_of_the_document_is_one) {
+  const std::string text = file_text(source_file("docs/check.md"));
+  const std::size_t begin = text.find("```json\n") + 8, end = text.find("```", begin);
+  const Small small;
+  const std::string path = small.folder.write("smallest.json", text.substr(begin, end - begin)).string();
+  EXPECT_EQ(tool("validate " + path).out, path + ": valid, a dump for `clusterbench check` with 1 list\n");
+  small.folder.write("lights.bin", std::string(4800, '\0'));
+  small.folder.write("cells.bin", std::string(27648, '\0'));
+  const Outcome done = tool("check --no-methods " + path);
+  EXPECT_EQ(done.code, 1) << done.err;
+  EXPECT_NE(done.out.find("no light reaches a cell, so nothing was checked"), std::string::npos) << done.out;
+}
+
+TEST(Check, a_template_is_printed_and_another_engine_gets_a_list_of_those_that_are_there) {
+  const Outcome printed = tool("check --template filament");
+  EXPECT_EQ(printed.code, 0);
+  EXPECT_NE(printed.out.find("\"dump_version\": 1"), std::string::npos);
+  const Outcome unknown = tool("check --template filamnt");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("did you mean 'filament'?"), std::string::npos) << unknown.err;
+}
+
+}  // namespace
+}  // namespace clusterbench::test

@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "dump/dump_frame.h"
+#include "dump/made_dump.h"
+
+namespace clusterbench::dump {
+namespace {
+
+view::Frame frame_720() {
+  view::Frame frame;
+  frame.viewport = {1280, 720};
+  frame.projection = {false, -1.6, 1.6, -0.9, 0.9, 0.1, 200.0};
+  return frame;
+}
+
+result::DumpGrid grid_with(const char* json) {
+  return result::from_json<result::DumpGrid>(result::Json::parse(json));
+}
+
+std::vector<float> boundaries(const char* slices, const view::Frame& frame = frame_720()) {
+  const std::string text = std::string(R"({"tiles": {"count": [4, 3]}, "slices": )") + slices + "}";
+  return grid_of(grid_with(text.c_str()), frame).screen().slices.boundaries;
+}
+
+TEST(DumpGrid, tiles_in_pixels_are_counted_from_the_first_row) {
+  const char* from_top = R"({"tiles": {"pixels": [100, 100]}, "first_row": "top"})";
+  const char* from_bottom = R"({"tiles": {"pixels": [100, 100]}, "first_row": "bottom"})";
+  const grid::Tiles top = grid_of(grid_with(from_top), frame_720()).screen().tiles;
+  const grid::Tiles bottom = grid_of(grid_with(from_bottom), frame_720()).screen().tiles;
+  ASSERT_EQ(top.y.size(), 9u);
+  ASSERT_EQ(bottom.y.size(), 9u);
+  // Planes from the top: 0, 100 .. 700, 720 pixels below it, or 0, 20, 120 .. 720.
+  for (int i = 0; i < 9; ++i) {
+    const auto slope = [](double pixel) { return static_cast<float>(0.9 - 1.8 * pixel / 720.0); };
+    EXPECT_NEAR(top.y[static_cast<std::size_t>(i)], slope(i == 8 ? 720.0 : 100.0 * i), 1e-6);
+    EXPECT_NEAR(bottom.y[static_cast<std::size_t>(i)], slope(i == 0 ? 0.0 : 100.0 * i - 80.0), 1e-6);
+  }
+  EXPECT_EQ(top.x, bottom.x);
+}
+
+TEST(DumpGrid, a_formula_gives_the_slices_of_its_scheme) {
+  // Bevy: ln(depth) * a - b + 1, the first slice to 5 m, 23 more to 100 m.
+  const double a = 23.0 / std::log(20.0), b = std::log(5.0) * a;
+  const std::string ln = R"({"count": 24, "formula": {"function": "ln", "scale": )" + grid::number_name(a) +
+                         R"(, "bias": )" + grid::number_name(1.0 - b) + "}}";
+  const std::vector<float> by_formula = boundaries(ln.c_str());
+  const std::vector<float> by_scheme =
+      boundaries(R"({"scheme": "exponential-first", "count": 24, "first_m": 5, "far_m": 100})");
+  ASSERT_EQ(by_formula.size(), 25u);
+  for (std::size_t i = 0; i < 25; ++i) EXPECT_NEAR(by_formula[i], by_scheme[i], 1e-5 * by_scheme[i]) << i;
+  const std::vector<float> log2 =
+      boundaries(R"({"count": 4, "formula": {"function": "log2", "scale": 2, "bias": 1, "far_m": 9}})");
+  EXPECT_EQ(log2[1], 1.0f);
+  EXPECT_EQ(log2[3], 2.0f);
+  EXPECT_EQ(log2[4], 9.0f);
+  EXPECT_LE(log2[0], 0.1f) << "slice 0 begins at the near plane";
+  EXPECT_EQ(boundaries(R"({"count": 4, "formula": {"function": "linear", "scale": 0.02, "bias": 0}})"),
+            (std::vector<float>{0.0f, 50.0f, 100.0f, 150.0f, 200.0f}));
+}
+
+TEST(DumpGrid, boundaries_of_our_own_grids_come_back_to_the_bit) {
+  const testing::Made made = testing::made_frame();
+  const DumpFile dump = testing::dump_of(made, made.truth);
+  const grid::Grid back = frame_of(dump).grid;
+  EXPECT_EQ(back.screen().slices.boundaries, made.grid.screen().slices.boundaries);
+  EXPECT_EQ(back.screen().tiles.x, made.grid.screen().tiles.x);
+  EXPECT_EQ(back.screen().tiles.y, made.grid.screen().tiles.y);
+  EXPECT_EQ(frame_of(dump).frame.view_space.origin, made.frame.view_space.origin);
+  EXPECT_EQ(frame_of(dump).frame.view_space.rotation, made.frame.view_space.rotation);
+}
+
+TEST(DumpGrid, without_slices_there_is_one_to_the_far_plane) {
+  view::Frame frame = frame_720();
+  EXPECT_EQ(grid_of(grid_with(R"({"tiles": {"count": [4, 3]}})"), frame).screen().slices.boundaries.back(), 200.0f);
+  frame.projection.far_m = INFINITY;
+  EXPECT_THROW(grid_of(grid_with(R"({"tiles": {"count": [4, 3]}})"), frame), Error);
+  EXPECT_THROW(boundaries(R"({"scheme": "linear", "count": 4})", frame), Error);
+}
+
+}  // namespace
+}  // namespace clusterbench::dump

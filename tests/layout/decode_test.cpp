@@ -1,0 +1,235 @@
+#include "layout/decode.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/memory.h"
+#include "layout/encoders.h"
+
+namespace clusterbench::layout {
+namespace {
+
+using namespace testing;
+
+constexpr Vec3i k_cells{5, 3, 4};
+constexpr std::uint32_t k_lights = 70;
+
+std::string order_name(const CellOrder& order) {
+  return order.axes + (order.is_from_bottom ? " from the bottom" : "") + (order.is_from_far ? " from the far end" : "");
+}
+
+TEST(Decode, the_lists_of_every_storage_in_every_order_are_those_that_were_stored) {
+  const assign::Lists lists = random_lists(k_cells, k_lights, 0.2, 1);
+  const std::pair<const char*, std::map<std::string, assign::ParamValue>> storages[] = {
+      {"packed", {}},
+      {"packed", {{"index_bits", std::string("16")}}},
+      {"packed", {{"header_size", 32.0}}},
+      {"packed", {{"equal_lists", std::string("shared")}}},
+      {"fixed", {}},
+      {"fixed", {{"counts", std::string("none")}}},
+      {"fixed", {{"cap", 40.0}}},
+      {"bitfield", {}},
+      {"linked", {}},
+      {"runs", {}}};
+  for (const auto& [storage, params] : storages)
+    for (const CellOrder& order : all_orders())
+      for (const view::LightRanges& lights : {view::LightRanges(40, 30), view::LightRanges(30, 20, 20)}) {
+        const Described described = stored(storage, params, in_order(lists, k_cells, order), lights);
+        const Decoded found = decoded(described, {k_cells, order, k_lights});
+        EXPECT_EQ(found.lists, lists) << storage << " " << order_name(order);
+        EXPECT_EQ(found.faults.count, 0u) << storage << " " << order_name(order);
+      }
+}
+
+TEST(Decode, the_lists_of_engines_in_every_order_are_those_that_were_written) {
+  const assign::Lists lists = random_lists(k_cells, k_lights, 0.2, 2);
+  const std::pair<const char*, std::function<Described(const assign::Lists&)>> engines[] = {
+      {"filament", filament},
+      {"tutorial", [](const auto& given) { return tutorial(given, 100); }},
+      {"playcanvas", [](const auto& given) { return from_one(given, 64); }},
+      {"inline", in_json}};
+  for (const auto& [engine, write] : engines)
+    for (const CellOrder& order : all_orders()) {
+      const Decoded found = decoded(write(in_order(lists, k_cells, order)), {k_cells, order, k_lights});
+      EXPECT_EQ(found.lists, lists) << engine << " " << order_name(order);
+      EXPECT_EQ(found.faults.count, 0u) << engine;
+    }
+}
+
+TEST(Decode, bits_of_tiles_with_ranges_of_slices_in_every_order_are_those_that_were_written) {
+  for (const bool per_tile : {false, true})
+    for (const CellOrder& order : all_orders()) {
+      const TileLists given = random_tiles(k_cells, k_lights, per_tile, 3);
+      const Decoded found = decoded(tile_bits(given, k_cells, k_lights, order), {k_cells, order, k_lights});
+      EXPECT_EQ(found.lists, given.lists) << per_tile << " " << order_name(order);
+      EXPECT_EQ(found.faults.count, 0u);
+    }
+}
+
+TEST(Decode, parts_of_a_set_are_united_and_may_begin_at_another_light) {
+  const assign::Lists lists = random_lists(k_cells, k_lights, 0.2, 4);
+  assign::Lists parts[2];
+  for (assign::Lists& part : parts) part.begin.push_back(0);
+  for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+    for (const std::uint32_t light : lists.of(cell))
+      parts[light < 30 ? 0 : 1].lights.push_back(light < 30 ? light : light - 30);
+    for (assign::Lists& part : parts) part.begin.push_back(static_cast<std::uint32_t>(part.lights.size()));
+  }
+  Described points = filament(parts[0]), spots = tutorial(parts[1], 60);
+  spots.lists.first_light = 30;
+  std::vector<Buffer> buffers = points.buffers;
+  buffers.insert(buffers.end(), spots.buffers.begin(), spots.buffers.end());
+  const ListPart both[] = {{points.lists, "/lists/0"}, {spots.lists, "/lists/1"}};
+  EXPECT_EQ(decode(both, buffers, {k_cells, {}, k_lights}).lists, lists);
+  EXPECT_EQ(bytes_of(both, buffers), buffers[0].bytes.size() + buffers[1].bytes.size() + buffers[2].bytes.size());
+}
+
+// One cell with lights 3 and 5 of 10, and what is wrong with it.
+struct FaultRow {
+  const char* name;
+  std::function<void(Described&)> plant;
+  std::uint64_t byte, value;
+  const char* message;
+};
+
+TEST(Decode, a_value_that_cannot_be_right_is_named_with_its_byte) {
+  const assign::Lists lists{{0, 2}, {3, 5}};
+  const auto linked = [&] { return stored("linked", {}, lists, {10, 0}); };
+  const FaultRow packed_rows[] = {
+      {"index", [](Described& d) { put<std::uint8_t>(d.buffers[1].bytes, 1, 10); }, 1, 10,
+       "index 10 is not below the 10 lights"},
+      {"count", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 0, 0x0b); }, 0, 11,
+       "count 11 is above the 10 lights of its part"},
+      {"offset", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 0, 0x00010002); }, 0, 1,
+       "offset 1 and count 2 end beyond the 2 entries of buffer 'records'"},
+      {"twice", [](Described& d) { put<std::uint8_t>(d.buffers[1].bytes, 1, 3); }, 0, 3,
+       "light 3 is twice in its list"}};
+  for (const FaultRow& row : packed_rows) {
+    Described described = filament(lists);
+    row.plant(described);
+    const Faults faults = decoded(described, {Vec3i(1), {}, 10}).faults;
+    ASSERT_EQ(faults.count, 1u) << row.name;
+    EXPECT_EQ(faults.first[0].message, row.message);
+    EXPECT_EQ(faults.first[0].byte, row.byte) << row.name;
+    EXPECT_EQ(faults.first[0].value, row.value) << row.name;
+    EXPECT_EQ(faults.are_readable(), std::string(row.name) == "twice");
+  }
+  const FaultRow linked_rows[] = {
+      {"circle", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 4, 1); }, 12, 0,
+       "the list has more nodes than the 10 lights of its part: it goes in a circle, or has a light twice"},
+      {"node", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 12, 7); }, 12, 7,
+       "node 7 is not below the 2 nodes of buffer 'nodes'"}};
+  for (const FaultRow& row : linked_rows) {
+    Described described = linked();
+    row.plant(described);
+    const Faults faults = decoded(described, {Vec3i(1), {}, 10}).faults;
+    ASSERT_GE(faults.count, 1u) << row.name;
+    EXPECT_EQ(faults.first[0].message, row.message);
+  }
+}
+
+TEST(Decode, bits_of_lights_that_do_not_exist_and_ranges_beyond_them_are_faults) {
+  Described bits = stored("bitfield", {}, {{0, 1}, {3}}, {10, 0});
+  put<std::uint32_t>(bits.buffers[0].bytes, 0, 1u << 10);
+  EXPECT_EQ(decoded(bits, {Vec3i(1), {}, 10}).faults.first[0].message, "index 10 is not below the 10 lights");
+  TileLists tiles = random_tiles(Vec3i(2, 1, 2), 10, false, 1);
+  tiles.ranges[0][1] = {3, 12};
+  const Faults faults = decoded(tile_bits(tiles, Vec3i(2, 1, 2), 10, {}), {Vec3i(2, 1, 2), {}, 10}).faults;
+  ASSERT_EQ(faults.count, 2u);
+  EXPECT_EQ(faults.first[0].byte, 10u);
+  EXPECT_EQ(faults.first[0].message, "the range of lights 3 to 11 is not below the 10 lights");
+}
+
+TEST(Decode, the_likeliest_other_reading_is_found) {
+  const assign::Lists lists = random_lists(k_cells, k_lights, 0.2, 5);
+  const Shape shape{k_cells, {}, k_lights};
+  const std::pair<std::function<void(result::DumpLists&)>, const char*> rows[] = {
+      {[](auto& given) { given.entries->type = "u32"; }, "with entries as u16 all "},
+      {[](auto& given) { given.offset_is = "bytes"; }, "with the other unit of offsets (offset_is) all "},
+      {[](auto& given) { given.entries->first_light = 2; },
+       "with indices that count from 1 (entries.first_light) all "}};
+  Described right = stored("packed", {{"index_bits", std::string("16")}}, lists, {40, 30});
+  for (const auto& [change, wanted] : rows) {
+    ListPart part{right.lists, "/lists/0"};
+    change(part.lists);
+    EXPECT_FALSE(decode({&part, 1}, right.buffers, shape).faults.are_readable()) << wanted;
+    const auto likely = likely_reading({&part, 1}, right.buffers, shape);
+    ASSERT_TRUE(likely) << wanted;
+    EXPECT_EQ(likely->substr(0, std::string(wanted).size()), wanted);
+  }
+}
+
+std::string refusal_of(const Described& described, std::uint32_t lights = 10) {
+  try {
+    decoded(described, {Vec3i(1), {}, lights});
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST(Decode, descriptions_that_do_not_fit_are_refused_without_overflow) {
+  const Described right = tutorial({{0, 2}, {3, 5}}, 4);
+  EXPECT_EQ(refusal_of(right), "");
+  const std::uint64_t huge = ~std::uint64_t{0};
+  const std::pair<std::function<void(result::DumpLists&)>, const char*> rows[] = {
+      {[&](auto& d) { d.rows->at = huge; }, "/lists/0/rows: 1 row, 52 bytes apart"},
+      {[&](auto& d) { d.rows->stride = 36; },
+       "/lists/0/entries/at: is 36: 4 entries there end beyond the stride of 36"},
+      {[&](auto& d) { d.per_cell = huge; }, "/lists/0/per_cell: is 18446744073709551615, which no buffer holds"},
+      {[&](auto& d) { d.per_cell = huge / 8; }, "/lists/0/entries/at"},
+      {[&](auto& d) { d.entries->at = huge; }, "/lists/0/entries/at"},
+      {[&](auto& d) { d.entries->stride = 0; }, "/lists/0/entries/stride: is 0"},
+      {[&](auto& d) { d.counts->front().at = huge; }, "/lists/0/counts/0/at: is 18446744073709551615"},
+      {[&](auto& d) { d.counts->front().at = 49; }, "/lists/0/counts/0/at: is 49: its 4 bytes end beyond the stride"},
+      {[&](auto& d) {
+         d.counts->front().bits = result::Counts2{30, 4};
+       },
+       "/lists/0/counts/0/bits: is [30, 4]"},
+      {[&](auto& d) {
+         d.counts->front().bits = result::Counts2{1, huge};
+       },
+       "/lists/0/counts/0/bits"},
+      {[&](auto& d) { d.rows->buffer = "cluster"; },
+       "/lists/0/rows/buffer: found 'cluster' (did you mean 'clusters'?)"},
+      {[&](auto& d) { d.counts.reset(); }, "/lists/0: layout 'fixed' needs counts or entries.end"},
+      {[&](auto& d) { d.first_light = 11; }, "/lists/0/first_light: is 11; the dump has 10 lights"},
+      {[&](auto& d) { d.lights = 11; }, "/lists/0/lights: is 11 from 0 on; the dump has 10 lights"},
+      {[&](auto& d) { d.layout = "packed"; }, "/lists/0/offset: is missing: layout 'packed' needs it"},
+      {[&](auto& d) { d.layout = "linked"; }, "/lists/0/nodes: is missing"},
+      {[&](auto& d) { d.layout = "bits_and_bins"; }, "/lists/0/ranges: is missing"},
+      {[&](auto& d) { d.layout = "inline"; }, "/lists/0/cells: is missing"}};
+  for (const auto& [change, wanted] : rows) {
+    Described changed = right;
+    change(changed.lists);
+    EXPECT_EQ(refusal_of(changed).substr(0, std::string(wanted).size()), wanted);
+  }
+}
+
+TEST(Decode, lists_that_take_more_memory_than_allowed_are_refused) {
+  const assign::Lists lists = random_lists(Vec3i(16, 16, 8), 200, 0.9, 6);
+  const Described bits = stored("bitfield", {}, lists, {200, 0});
+  const MemoryLimitScope limit(std::uint64_t{1} << 20);
+  EXPECT_THROW(decoded(bits, {Vec3i(16, 16, 8), {}, 200}), Error);
+}
+
+TEST(Decode, numbers_of_all_types_are_read) {
+  std::vector<std::byte> bytes;
+  put<std::uint64_t>(bytes, 1, 0x0123456789abcdefu);
+  put<float>(bytes, 9, 2.5f);
+  put<double>(bytes, 13, -3.25);
+  put<std::uint16_t>(bytes, 21, 0x3e00);  // 1.5 in binary16
+  EXPECT_EQ(whole_at(bytes.data() + 1, NumberType::u64), 0x0123456789abcdefu);
+  EXPECT_EQ(whole_at(bytes.data() + 1, NumberType::u32), 0x89abcdefu);
+  EXPECT_EQ(whole_at(bytes.data() + 1, NumberType::u16), 0xcdefu);
+  EXPECT_EQ(whole_at(bytes.data() + 1, NumberType::u8), 0xefu);
+  EXPECT_EQ(real_at(bytes.data() + 9, NumberType::f32), 2.5);
+  EXPECT_EQ(whole_at(bytes.data() + 9, NumberType::f32), k_no_whole);
+  EXPECT_EQ(real_at(bytes.data() + 13, NumberType::f64), -3.25);
+  EXPECT_EQ(real_at(bytes.data() + 21, NumberType::f16), 1.5);
+  put<float>(bytes, 9, 7.0f);
+  EXPECT_EQ(whole_at(bytes.data() + 9, NumberType::f32), 7u);
+}
+
+}  // namespace
+}  // namespace clusterbench::layout
