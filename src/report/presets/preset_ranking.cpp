@@ -198,8 +198,9 @@ constexpr const char* k_legend =
 
 // Names presets whose cases could have run on a device; "" if there are none.
 std::string device_hint(const result::Result& result) {
-  if (!result.config.is_object() || !result.config.value("device", "").empty()) return "";
-  const bool is_as_shipped = result.config.value("as_shipped", false);
+  const result::Json& config = result.config;
+  if (config.is_object() && !config.value("device", "").empty()) return "";
+  const bool is_as_shipped = config.is_object() && config.value("as_shipped", false);
   std::vector<std::string> names;
   for (const Case& result_case : result.cases) {
     const config::Preset* preset = config::find_preset(result_case.preset.value_or(""));
