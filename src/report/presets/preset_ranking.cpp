@@ -204,7 +204,8 @@ std::string device_hint(const result::Result& result) {
   std::vector<std::string> names;
   for (const Case& result_case : result.cases) {
     const config::Preset* preset = config::find_preset(result_case.preset.value_or(""));
-    if (preset == nullptr || !preset->on_device || (is_as_shipped && preset->has_mistakes())) continue;
+    if (preset == nullptr || !preset->on_device || runs_on_device(result_case)) continue;
+    if (is_as_shipped && preset->has_mistakes()) continue;
     if (std::ranges::find(names, preset->name) == names.end()) names.push_back(preset->name);
   }
   if (names.empty()) return "";
