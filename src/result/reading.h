@@ -29,16 +29,21 @@ struct SetReading {
   FIELD(std::string, set,
         About("Whose samples read, as in samples (volume: random points in the whole view)")
             .one_of({"volume", "opaque", "transparent", "fog", "mirror", "anywhere"}));
-  FIELD(double, samples, "Samples per frame, mean", "samples", "the frames that are read");
-  FIELD(double, lights, "Lights that a sample walks, mean", "lights", "the samples");
+  FIELD(double, samples, About("Samples per frame, mean", "samples", "the frames that are read").finite().at_least(0));
+  FIELD(double, lights, About("Lights that a sample walks, mean", "lights", "the samples").finite().at_least(0));
   FIELD(std::optional<double>, exact_lights, "Lights that a sample walks in the exact lists, mean; absent without them",
         "lights", "the samples");
-  FIELD(double, reads, "Elements of the light structure that a sample fetches, mean", "elements", "the samples");
-  FIELD(double, read_bytes, "Their bytes, mean", "B", "the samples");
+  FIELD(double, reads,
+        About("Elements of the light structure that a sample fetches, mean", "elements", "the samples")
+            .finite()
+            .at_least(0));
+  FIELD(double, read_bytes, About("Their bytes, mean", "B", "the samples").finite().at_least(0));
   FIELD(double, divergence,
-        "Of as many invocations as the device's waves have: the sum of their longest lists by that of their mean ones, "
-        "weighted by lights over the frames. Idle lanes and steps that walk no light are left out",
-        "ratio", "the waves");
+        About("Of as many invocations as the device's waves have: the sum of their longest lists by that of their mean "
+              "ones, weighted by lights over the frames. Idle lanes and steps that walk no light are left out",
+              "ratio", "the waves")
+            .finite()
+            .at_least(1));
   FIELD(
       std::uint64_t, differing,
       "Walks of samples, here and in the exact lists, that met other lights than the structure has, and samples whose "

@@ -176,6 +176,25 @@ class Readings(unittest.TestCase):
                 cases = json.load(file)["cases"]
             self.assertEqual([sorted({"reading", "unread"} & set(case)) for case in cases], [["reading"], ["unread"]])
 
+    def test_cases_are_the_same_with_and_without_readings(self):
+        document = config(assigners=["aabb-fast"], storages=["packed"])
+        del document["samples"]  # only readings need the scene's triangles
+        ids = []
+        for flags in [], ["--no-timing"], ["--set", "reading=null"]:
+            result, done = run(document, *flags)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            ids.append([case["id"] for case in result["cases"]])
+        self.assertEqual(ids[0], ids[1])
+        self.assertEqual(ids[0], ids[2])
+
+    def test_what_is_read_twice_is_refused(self):
+        for key, twice in ("sets", ["fog", "fog"]), ("walks", ["lane", "lane"]):
+            document = config(assigners=["aabb-fast"], storages=["packed"])
+            document["reading"][key] = twice
+            _, done = run(document)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"/reading/{key}/1: '{twice[0]}' stands here twice", done.stderr)
+
     def test_without_times_nothing_is_read(self):
         result, done = run(config(), "--no-timing")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -209,6 +209,9 @@ TEST(MeasuredPrices, are_refused_with_what_is_missing) {
   run::Result wrong = priced(0.02, 0.005, 1500.0);
   wrong.cases[0].reading->sets[0].differing = 1;
   EXPECT_NE(refusal_of(wrong).find("was read wrongly"), std::string::npos);
+  run::Result noise = priced(0.02, 0.005, 1500.0);
+  noise.cases[0].reading->sets[0].walks[0].read_ns.median *= 20.0;
+  EXPECT_NE(refusal_of(noise).find("do not explain its readings"), std::string::npos) << refusal_of(noise);
   EXPECT_NE(refusal_of(read_result()).find("do not tell the prices apart"), std::string::npos);
   run::Result two = priced(0.02, 0.005, 1500.0);
   two.cases[1].reading->device = "Another card, driver 2";

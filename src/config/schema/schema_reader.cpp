@@ -135,6 +135,13 @@ class Reader {
                 "found " + found_text(value) + did_you_mean(word, names) + ", allowed: " + joined(names));
   }
 
+  void check_unique(const Json& list, const std::string& pointer) const {
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (std::find(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(i), list[i]) !=
+          list.begin() + static_cast<std::ptrdiff_t>(i))
+        throw Error(text_.file, text_.where(child_pointer(pointer, i)), found_text(list[i]) + " stands here twice");
+  }
+
   Json read_array(const Json& schema, const Json& value, const std::string& pointer) const {
     if (value.empty() && schema.value("minItems", 0U) > 0)
       throw Error(text_.file, text_.where(pointer),
@@ -146,6 +153,7 @@ class Reader {
     Json out = Json::array();
     for (std::size_t i = 0; i < value.size(); ++i)
       out.push_back(schema.contains("items") ? read(schema["items"], value[i], child_pointer(pointer, i)) : value[i]);
+    if (schema.value("uniqueItems", false)) check_unique(out, pointer);
     return out;
   }
 

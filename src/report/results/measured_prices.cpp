@@ -13,7 +13,8 @@
 namespace clusterbench::report {
 namespace {
 
-constexpr double k_most_gb_per_s = 1e6;  // of the configuration's schema
+constexpr double k_most_gb_per_s = 1e6, k_most_ns = 1e6;  // of the configuration's schema
+constexpr double k_most_error = 0.5;
 
 using result::Case;
 using result::SetReading;
@@ -99,6 +100,13 @@ MeasuredPrices measured_prices(const result::Result& result, const std::string& 
                 "its " + number_of(observations.size(), "reading") + " do not tell the prices apart" +
                     (untold(fit).empty() ? "" : " (" + untold(fit) + ")") +
                     "; read more structures (storages packed, bitfield, linked, runs), grids and scenes");
+  if (fit.residual_rms > k_most_error)
+    throw Error(path, where,
+                "three prices do not explain its readings: they are off by " +
+                    report::text("%.2g %%", 100.0 * fit.residual_rms) +
+                    " (rms; at most 50 % is allowed); read with more rounds on an idle device");
+  if (std::max(fit.ns_per_light.value, fit.ns_per_read.value) > k_most_ns)
+    throw Error(path, where, "its readings cost more than a millisecond a light or element; no device is as slow");
   return {fit.ns_per_light.value, fit.ns_per_read.value, std::min(fit.read_gb_per_s(), k_most_gb_per_s),
           *devices.begin(),       observations.size(),   fit.residual_rms};
 }

@@ -15,9 +15,9 @@
 namespace clusterbench::run {
 namespace {
 
+// For anything that is counted.
 bool needs_triangles(const config::Config& config) {
   return std::ranges::any_of(config.sample_sets, &config::SampleSetRequest::needs_triangles) ||
-         std::ranges::any_of(config.reading_sets, &config::SampleSetRequest::needs_triangles) ||
          !config.shadow_culls.empty() ||
          std::ranges::any_of(
              config.assigners,
@@ -103,7 +103,9 @@ SceneData scene_data(const config::Config& config, const config::SceneRequest& r
   data.paths = scene::camera_paths(data.scene, request.camera);
   weigh_frames(config, request, data);
   check_and_name_paths(data);
-  if (needs_triangles(config) && !request.rig) {
+  data.counts_triangles = needs_triangles(config);
+  const bool reads_triangles = std::ranges::any_of(config.reading_sets, &config::SampleSetRequest::needs_triangles);
+  if ((data.counts_triangles || reads_triangles) && !request.rig) {
     data.geometry = scene::load_geometry(data.scene);
     const std::vector<std::string>& warnings = data.geometry->warnings;
     data.scene.warnings.insert(data.scene.warnings.end(), warnings.begin(), warnings.end());
@@ -119,7 +121,7 @@ bool SceneData::has_lights(scene::LightType type) const {
 }
 
 std::string SceneData::contents_sha256() const {
-  return geometry ? sha256_hex(scene.sha256 + geometry->sha256) : scene.sha256;
+  return geometry && counts_triangles ? sha256_hex(scene.sha256 + geometry->sha256) : scene.sha256;
 }
 
 std::vector<SceneData> load_scenes(const config::Config& config) {

@@ -21,6 +21,7 @@ struct SceneData {
   std::vector<double> lights_at_points = {};     // run/cases/frame_work.h, of each path; empty if nothing depends on it
   int requested_frames = 0, equal_steps = 0;     // set if the path has fewer equal steps than requested
   std::optional<scene::Geometry> geometry = {};  // read only if something needs triangles
+  bool counts_triangles = false;                 // something else than readings does: they are part of the contents
   // Depths of these triangles, for all cameras, viewports and grids; null without triangles. Refers to this plan's
   // scene: a plan is moved, never copied.
   std::shared_ptr<FrameDepths> depths = {};

@@ -330,6 +330,8 @@ ReadCase result_of(const config::Config& config, const CasePlan& case_plan, cons
     if (!read.sets[set].write.warm_ns.empty())
       result.sets.push_back(totals.of(config.reading_sets[set], config.reading->walks, read.sets[set]));
   if (result.sets.empty()) return {{}, "no set of reading.sets has a sample in the frames that are read"};
+  if (std::ranges::all_of(result.sets, [](const SetReading& set) { return set.walks.empty(); }))
+    return {{}, "its samples look up no cell, so they cannot walk cell by cell (reading.walks)"};
   return {std::move(result), ""};
 }
 
