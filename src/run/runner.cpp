@@ -110,6 +110,7 @@ class Run {
     out.tool = tool_facts();
     out.machine = machine_facts();
     out.device = device_of_cases();
+    if (out.device) out.arithmetic = gpu::arithmetic_of_device();
     if (config_.timing.measure) note_beginning(out);
     out.config = config_.resolved;
     out.skipped = plan_.skipped;
@@ -310,7 +311,8 @@ class Run {
     std::erase_if(on_device.cases, [&](const CasePlan& case_plan) { return !method_of(config_, case_plan).on_device; });
     if (on_device.cases.empty()) return true;
     report_progress(group, "time on the device", 0.0);
-    std::vector<std::optional<DeviceTimes>> times = device_pass(config_, on_device, path, stop_);
+    std::vector<std::optional<DeviceTimes>> times =
+        device_pass(config_, on_device, path, launcher_ ? config_.timing.launches : 1, stop_);
     if (times.empty()) return false;
     auto next = times.begin();
     for (const CasePlan& case_plan : group.cases) {

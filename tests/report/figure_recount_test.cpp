@@ -385,6 +385,9 @@ Formulas formulas_of_times() {
       {"device_upload_us", median_us("/device/upload_ns")},
       {"device_readback_us", median_us("/device/readback_ns")},
       {"device_floor", device_floor},
+      {"device_warm_us", median_us("/device/warm/run_ns")},
+      {"device_build_us", median_us("/device/build_ns")},
+      {"device_clock_mhz", recorded("/device/clock_mhz/median")},
       {"instructions", frame_instructions},
       {"assign_instructions", recorded("/count/instructions_per_frame/assign")},
       {"convert_instructions", recorded("/count/instructions_per_frame/convert")},
@@ -555,6 +558,7 @@ class OnADevice final : public assign::ListAssigner {
   std::uint64_t tests_done() const override { return aabb_->tests_done(); }
   const assign::DeviceSpans* device_spans() const override { return &spans_; }
   double device_floor_ns() override { return 0.5 * spans_.run_ns + 10.0; }
+  std::optional<double> device_build_ns() override { return 0.25 * spans_.run_ns; }
   std::size_t scratch_bytes() const override { return aabb_->scratch_bytes(); }
 
  private:

@@ -21,4 +21,12 @@ std::uint32_t repeats_for(double once_ns, double timestamp_period_ns, double lon
   return static_cast<std::uint32_t>(std::clamp(std::ceil(least / one), 1.0, std::min(most, k_most_repeats)));
 }
 
+std::uint32_t cold_repeats_for(double once_ns, double timestamp_period_ns, std::uint64_t flushed_bytes) {
+  constexpr double k_most_spans = 20.0;  // of three marks each
+  const double flush_ns = static_cast<double>(flushed_bytes) / k_flushed_bytes_per_ns;
+  const double fitting = std::min(k_most_spans, std::floor(k_longest_submit_ns / (once_ns + flush_ns)));
+  const std::uint32_t wanted = repeats_for(once_ns, timestamp_period_ns, k_longest_submit_ns);
+  return static_cast<std::uint32_t>(std::clamp(fitting, 1.0, static_cast<double>(wanted)));
+}
+
 }  // namespace clusterbench::gpu

@@ -21,5 +21,8 @@ double least_span_ns(double timestamp_period_ns);
 // How often work that takes `once_ns` is repeated in a span: until it lasts least_span_ns(), but no longer than
 // `longest_ns`. At least 1.
 std::uint32_t repeats_for(double once_ns, double timestamp_period_ns, double longest_ns);
+// The same for cold work, where so many bytes are filled before each repetition, which has a span of its own: all of
+// them together last as long, if they fit in a submission and its marks.
+std::uint32_t cold_repeats_for(double once_ns, double timestamp_period_ns, std::uint64_t flushed_bytes);
 
 }  // namespace clusterbench::gpu

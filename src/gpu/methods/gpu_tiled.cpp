@@ -24,8 +24,8 @@ class TileLists final : public MaskLists {
  public:
   TileLists(const assign::Params& params, std::uint32_t mode)
       : MaskLists(params),
-        depths_(device().kernel("tile_depths", k_pixel_group, (mode & TileMode::depth_mask) != 0 ? 1 : 0)),
-        lights_(device().kernel("tile_lights", k_light_group, mode)) {
+        depths_(kernel("tile_depths", k_pixel_group, (mode & TileMode::depth_mask) != 0 ? 1 : 0)),
+        lights_(kernel("tile_lights", k_light_group, mode)) {
     frame().take_boxes();
   }
 
@@ -135,7 +135,9 @@ class Tiled final : public assign::AssignerOf<assign::OccupiedLists> {
     tile_lists_.start(grid.screen(), tiles_.screen());
   }
   std::uint64_t tests_done() const override { return tests_; }
+  std::vector<assign::ShaderStatistic> shader_statistics() const override { return tile_lists_.shader_statistics(); }
   const assign::DeviceSpans* device_spans() const override { return &spans_; }
+  void repeat_on_device(const assign::DeviceRepeats& repeats) override { tile_lists_.repeat_on_device(repeats); }
   double device_floor_ns() override { return tile_lists_.device_floor_ns(); }
   std::size_t scratch_bytes() const override {
     return tile_lists_.scratch_bytes() + frame_cells_.capacity_bytes() + bytes_of(lists_.begin, lists_.lights);

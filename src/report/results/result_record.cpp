@@ -92,6 +92,7 @@ result::Result record_of(const run::Result& result, const std::vector<Case>& ear
   out.tool = run::record_of(result.tool);
   out.machine = run::record_of(result.machine);
   if (result.device) out.device = run::record_of(*result.device);
+  if (out.device && result.arithmetic) out.device->arithmetic = run::record_of(*result.arithmetic);
   out.config = result.config;
   for (const run::SceneResult& scene : result.scenes) out.scenes.push_back(run::record_of(scene));
   out.cases = in_plan_order(result, earlier_cases);
