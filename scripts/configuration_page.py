@@ -31,7 +31,7 @@ TABLES = {
                  + [("samples.", "/properties/samples")]
                  + [(f"samples.{name}.", f"/properties/samples/properties/{name}")
                     for name in ("opaque", "transparent", "fog", "mirror", "anywhere")]
-                 + [(key + ".", f"/properties/{key}/anyOf/1") for key in ("lookup", "stability", "details")]
+                 + [(key + ".", f"/properties/{key}/anyOf/1") for key in ("reading", "lookup", "stability", "details")]
                  + [(key + ".", f"/properties/{key}") for key in ("shadow_cull", "shadow_frusta")]
                  + [("jitter.", "/properties/jitter/anyOf/2")]
                  + [(key + ".", f"/properties/{key}") for key in ("timing", "limits", "allocation", "cost")]

@@ -10,6 +10,7 @@ import sys
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "docs" / "presets.md"
 HEAD = ("| preset | of | version | known by | scheme | limit | what differs here |\n"
         "|---|---|---|---|---|---|---|\n")
+HEAD_DEVICE = "| preset | with `--device` | what of its steps differs there |\n|---|---|---|\n"
 HEAD_SHIPPED = "| preset | with `--as-shipped` | method |\n|---|---|---|\n"
 
 
@@ -28,6 +29,19 @@ def shipped_table(presets):
                                   for preset in presets if "mistakes" in preset)
 
 
+def method_text(entry):
+    params = ", ".join(f"{key} = {str(value).lower() if isinstance(value, bool) else value}"
+                       for key, value in entry.items() if key != "name")
+    return f"`{entry['name']}`" + (f" ({params})" if params else "")
+
+
+def device_table(presets):
+    rows = [f"| `{preset['name']}` | {method_text(preset['on_device']['assigner'])} | {preset['on_device']['approximated']} |\n"
+            for preset in presets if "on_device" in preset]
+    rows += [f"| `{preset['name']}` | none: {preset['not_on_device']} | |\n" for preset in presets if "not_on_device" in preset]
+    return HEAD_DEVICE + "".join(rows)
+
+
 def filled(text, name, content):
     whole = re.compile(rf"(<!-- {name} -->\n).*?(<!-- /{name} -->)", re.DOTALL)
     if len(whole.findall(text)) != 1:
@@ -42,6 +56,7 @@ def main():
     presets = json.loads(subprocess.run([arguments[0], "list", "presets", "--json"], check=True, stdout=subprocess.PIPE).stdout)
     text = PAGE.read_text()
     new = filled(filled(text, "presets", table(presets)), "as-shipped", shipped_table(presets))
+    new = filled(new, "on-device", device_table(presets))
     if "--check" not in sys.argv:
         PAGE.write_text(new)
     elif new != text:

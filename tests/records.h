@@ -61,14 +61,15 @@ inline std::vector<result::Case> cases_of(const result::Json& json) {
   return record_of<std::vector<result::Case>>(json);
 }
 
-// Gives each number of a record, and of all that it can hold, a value.
+// Gives each number of a record, and of all that it can hold, a value. Lists of records get one.
 template <class Next>
 void fill_with_numbers(const result::Type& type, void* value, Next&& next) {
   using result::Kind;
   if (type.kind == Kind::object) {
     for (const result::Field& field : type.fields) fill_with_numbers(*field.type, field.make(value), next);
   } else if (type.kind == Kind::list) {
-    for (std::size_t i = 0; i < type.fixed_size; ++i) fill_with_numbers(*type.element, type.append(value, i, ""), next);
+    const std::size_t size = type.fixed_size > 0 ? type.fixed_size : type.element->kind == Kind::object ? 1 : 0;
+    for (std::size_t i = 0; i < size; ++i) fill_with_numbers(*type.element, type.append(value, i, ""), next);
   } else if (type.kind == Kind::integer || type.kind == Kind::number) {
     type.from_json(next(), value);
   }

@@ -190,6 +190,16 @@ export type Result = {
     timestamp_bits: number; // Of its clock; 0: it has none [bits, over the clock]
     timestamp_period_ns: number | null; // Between two ticks of its clock [ns, over the clock]
     rounds_to_nearest: boolean; // Whether shaders can ask for it. If not, methods count the error of each step twice, and pad lights by it
+    arithmetic?: {
+      rounding: "to_nearest" | "either_way" | "wrong"; // Of sums and products. either_way: to the next number on either side of the exact result
+      contracts: boolean; // A product and a sum were rounded once, though shaders forbid it
+      reorders: boolean; // A sum of three was not made in its order
+      flushes_denormals: boolean; // Results below the least normal number became 0, which is allowed
+      division_ulp: number | null; // Largest error of a quotient; readings allow for 2.5 [ulp, over the numbers]
+      sqrt_ulp: number | null; // Largest error of a root; readings allow for 4.5 [ulp, over the numbers]
+      log2_ulp: number | null; // Largest error of a logarithm of numbers beyond [0.5, 2]; readings allow for 3 [ulp, over the numbers]
+      log2_error: number | null; // The same of numbers in [0.5, 2], absolute; readings allow for 4.8e-7 [over the numbers]
+    }; // What a probe found, before anything ran, by thousands of numbers whose results the processor knows. Methods do not run where it contradicts what their lists rest on. Absent in older results
   }; // The device of the cases whose method runs on one (assigner.on_device). Absent where there are none
   config: {
     allocation: {
@@ -290,7 +300,7 @@ export type Result = {
     samples_search?: boolean; // true: the case is a light structure that each sample searches for its lights (a hierarchy, masks of bits) in place of reading a list. What that reads is counted and priced by config.cost, and no GPU has measured it: such a case stands on no front. Absent: it is none
     preset?: string; // The preset that the case is of (`clusterbench list presets`); absent for the configuration's own clusterings
     failures: Array<{
-      kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration
+      kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs" | "wrong_readings"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration. wrong_readings: a device walked other lights than the structure has (reading)
       text: string; // The same for people, without the case's name
     }>; // Why the case fails the run; empty: it passes
     warnings: Array<{
@@ -676,13 +686,76 @@ export type Result = {
     device?: {
       device: string; // Name and driver of the device; times of one device alone compare
       frames_timed: number; // Evenly spaced over the path; all times are means over them [frames, over the path]
+      caches?: "cold" | "warm"; // Of all times here but those of warm. cold: memory of the device is filled before each frame's upload, as all else of an engine's frame does; warm: the same frame again and again. Absent in older results, where caches were as the method before left them
+      launches?: number; // How often the device was opened anew, each time for an equal share of every array of samples, one after the other, in one process. From two on all 95 % intervals are between them, else between rounds [openings, over the case]
       run_ns: Time; // Per frame: the device's work, from the lights to the lists
       upload_ns: Time; // Per frame: bringing the frame's lights to the device
       readback_ns: Time; // Per frame: bringing the lists back, which a renderer does not do
       dispatches: number | null; // Steps of this work that wait for each other, per frame [steps, over the timed frames]
       floor_ns: Time; // Per frame: as many steps that do nothing, of which the last writes as many bytes as the result has
       floor_ratio: number | null; // run_ns by floor_ns: how far the work is from only starting and writing [ratio, over the rounds]
+      repeats?: {
+        upload: number; // Of upload_ns
+        run: number; // Of run_ns
+        floor: number; // Of floor_ns
+      }; // How often a frame's work is repeated in one sample, which is the mean: until it lasts 1,000 periods of the clock and 20 us, if that fits in a submission of 100 ms; in the frame with fewest. Of cold times each has a span of its own. Readbacks are never repeated [repetitions, over one sample of a frame]
+      warm?: {
+        run_ns: Time; // Per frame: as the one beside cold times
+        upload_ns: Time; // Per frame: as the one beside cold times
+        floor_ns: Time; // Per frame: as the one beside cold times
+        floor_ratio: number | null; // As the one beside cold times [ratio, over the rounds]
+        repeats: {
+          upload: number; // Of upload_ns
+          run: number; // Of run_ns
+          floor: number; // Of floor_ns
+        }; // As the ones beside cold times [repetitions, over one sample of a frame]
+      }; // The same frames with warm caches, beside cold times
+      build_ns?: Time; // Per build: the device's work for a changed grid; in no other time. Absent where the host makes the cells
+      builds_per_frame?: number; // As in timing, of build_ns [builds, over the timed frames]
+      clock_mhz?: {
+        median: number | null; // Over the rounds
+        min: number | null; // In the slowest round
+        max: number | null; // In the fastest round
+        samples: Array<number | null>; // Of each round, launch after launch
+      }; // How fast the device ran, by a shader that counts cycles after each round of the method. Absent where its shaders cannot count. Some devices count at a fixed rate [MHz, over the rounds]
+      shaders?: Array<{
+        shader: string; // Of src/gpu/shaders, with its mode if it has one
+        name: string; // As the driver calls it
+        value: number; // In the driver's unit
+      }>; // Registers, spills and memory of the method's shaders. Absent where the driver tells nothing
     }; // Times of a method that runs on a device (a GPU), by the device's own clock. Absent elsewhere, and where nothing is timed or the device has no clock
+    reading?: {
+      device: string; // Name and driver of the device; times of one device alone compare
+      software: boolean; // true: the device computes on the processor: its times are no GPU's, and nothing ranks by them
+      frames: number; // Evenly spaced over the path; all times are means over them [frames, over the path]
+      structure_bytes: number | null; // Of the light structure, mean [B, over the frames that are read]
+      exact?: {
+        storage: string; // In which they are kept
+        bytes: number | null; // Of this structure, mean [B, over the frames that are read]
+      }; // The lists of exact_ns: the case's storage filled with exact lists of all lights; `packed` beside a structure of a method's own. Absent where cells are not compared with the truth
+      frame_ns?: number | null; // (1 - config.reading.async) x assignment + upload + reading (the first set's first walk). A method on the device: device.run_ns + device.upload_ns; another: timing.frame_ns and buffers.upload_bytes by cost.upload_gb_per_s, and only where config.reading.async is given [ns, over one frame]
+      sets: Array<{
+        set: "volume" | "opaque" | "transparent" | "fog" | "mirror" | "anywhere"; // Whose samples read, as in samples (volume: random points in the whole view)
+        samples: number | null; // Samples per frame, mean [samples, over the frames that are read]
+        lights: number | null; // Lights that a sample walks, mean [lights, over the samples]
+        exact_lights?: number | null; // Lights that a sample walks in the exact lists, mean; absent without them [lights, over the samples]
+        reads: number | null; // Elements of the light structure that a sample fetches, mean [elements, over the samples]
+        read_bytes: number | null; // Their bytes, mean [B, over the samples]
+        divergence: number | null; // Of the device's waves: the sum of their longest lists by that of their mean ones; 1: no lane waits [ratio, over the waves]
+        differing: number; // Samples for which the device walked other lights than the structure has, of those whose cell it found: 0, or a fault of the driver or of this program, and the times are not to be trusted [samples, over the frames that are read]
+        write_ns: Time; // Per frame: each sample writes a word, and reads nothing at all
+        nothing_ns: Time; // Per frame: each sample looks up its cell and writes its number, and reads no list
+        walks: Array<{
+          walk: "lane" | "light" | "cell"; // How the samples of a wave walk their lights. lane: each its own list, until the longest is done. light: all together, light by light. cell: all together, cell by cell
+          read_ns: Time; // Per frame: each sample looks up its list, walks its lights, adds a small attenuation for each and writes the sum; the same samples again and again, so that caches hold what fits
+          cold_ns: Time; // Per frame: the same once, after other memory went through the caches
+          exact_ns?: Time; // Per frame: read_ns of the lists that `exact` names. Absent where cells are not compared with the truth
+          exact_ratio?: number | null; // read_ns by exact_ns: median of the rounds' ratios [ratio, over the rounds]
+          exact_ci95?: Interval; // 95 % interval of exact_ratio [ratio, over the rounds]
+          nothing_ratio: number | null; // read_ns by nothing_ns: median of the rounds' ratios [ratio, over the rounds]
+        }>; // In the order of the configuration
+      }>; // In the order of the configuration, those that the scene has
+    }; // What samples pay for their lights on a device (a GPU), by its clock; where the configuration asks for it (reading). Absent for structures that shaders do not read, and where the device has no clock
     details?: {
       max_bytes: number; // Most bytes that the configuration allows [bytes, over the case]
       frames: Array<{
@@ -874,7 +947,7 @@ export type FrameCost = {
 
 // A row of the table of figures (`clusterbench list figures`)
 export type FigureWords = {
-  name: "frame_us" | "frame_us.max" | "assign_us" | "convert_us" | "frame_cost_us" | "instructions" | "assign_instructions" | "speedup" | "pair_rate" | "bytes" | "excess" | "missed" | "unlit" | "dropped" | "overshade" | "lights" | "lights_lit" | "lights_seen" | "lights_in_view" | "tests_done" | "fallbacks" | "lights_seen.mean" | "lights_in_view.mean" | "pairs.mean" | "pairs" | "lights_per_cell.mean" | "lights_per_cell.p99" | "longest" | "occupied_fraction" | "index_entries" | "entries_recommended" | "bytes_recommended" | "upload_bytes.mean" | "gpu_cost_us" | "traffic_bytes" | "upload_bytes" | "scratch_bytes" | "true_pairs" | "reported_pairs" | "false_positives" | "miss_ratio" | "deepest_miss" | "undecided" | "needed" | "evaluated" | "read_bytes" | "samples_missed" | "samples_missed_outside" | "lost_irradiance" | "changed_pairs" | "flickers" | "extra_pairs" | "build_us" | "pairs_timed" | "builds_per_frame" | "time_per_pair" | "write_floor" | "floor_ratio" | "build_instructions" | "convert_instructions" | "assign_cycles" | "convert_cycles" | "lights_beyond_grid" | "device_us" | "device_upload_us" | "device_readback_us" | "device_floor"; // In the table
+  name: "frame_us" | "frame_us.max" | "assign_us" | "convert_us" | "frame_cost_us" | "instructions" | "assign_instructions" | "speedup" | "pair_rate" | "bytes" | "excess" | "missed" | "unlit" | "dropped" | "overshade" | "lights" | "lights_lit" | "lights_seen" | "lights_in_view" | "tests_done" | "fallbacks" | "lights_seen.mean" | "lights_in_view.mean" | "pairs.mean" | "pairs" | "lights_per_cell.mean" | "lights_per_cell.p99" | "longest" | "occupied_fraction" | "index_entries" | "entries_recommended" | "bytes_recommended" | "upload_bytes.mean" | "gpu_cost_us" | "traffic_bytes" | "upload_bytes" | "scratch_bytes" | "true_pairs" | "reported_pairs" | "false_positives" | "miss_ratio" | "deepest_miss" | "undecided" | "needed" | "evaluated" | "read_bytes" | "samples_missed" | "samples_missed_outside" | "lost_irradiance" | "changed_pairs" | "flickers" | "extra_pairs" | "build_us" | "pairs_timed" | "builds_per_frame" | "time_per_pair" | "write_floor" | "floor_ratio" | "build_instructions" | "convert_instructions" | "assign_cycles" | "convert_cycles" | "lights_beyond_grid" | "device_us" | "device_upload_us" | "device_readback_us" | "device_floor" | "device_warm_us" | "device_build_us" | "device_clock_mhz" | "reading_us" | "reading_x_exact" | "reading_x_nothing" | "device_frame_us"; // In the table
   unit: string; // Of its values here
   meaning: string; // As the table has it
 };

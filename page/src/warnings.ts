@@ -18,6 +18,7 @@ const failures: Record<FailureKind, string> = {
   extra_pairs: "reported pairs that are not true in spite of being exact",
   lost_at_samples: "lost lights at samples in spite of being conservative",
   dropped_pairs: "dropped more pairs than the configuration allows",
+  wrong_readings: "were read wrongly on the device",
 };
 
 function counted(cases: Case[], what: string): string {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "assign/contract/assigner.h"
 #include "config/config_clusterings.h"
 #include "config/config_forms.h"
 #include "config/config_grids.h"
@@ -88,6 +89,7 @@ Config read_config(const JsonText& text, const GridChange& preset_grid) {
   config.sample_sets = sample_sets(document);
   check_ranking(document, config.sample_sets, text);
   static_cast<Sections&>(config) = read_sections(document, text);
+  if (config.reading && config.timing.measure) config.reading_sets = reading_sets(*config.reading, config.sample_sets);
   return config;
 }
 
@@ -143,6 +145,18 @@ Config changed(const Config& config, const Json& patch) {
   text.value = config.resolved;
   text.value.merge_patch(patch);
   return read_config(text, config.preset_grid);
+}
+
+Config with_presets_on_processor(const Config& config) {
+  const auto on_device = [](const MethodRequest& method) { return assign::find_assigner(method.name)->on_device; };
+  const auto own_end = config.assigners.begin() + static_cast<std::ptrdiff_t>(config.own_assigners);
+  if (config.device.empty() || std::none_of(own_end, config.assigners.end(), on_device)) return config;
+  if (const auto own = std::find_if(config.assigners.begin(), own_end, on_device); own != own_end)
+    throw Error(config.file.string(), "assigners",
+                own->name +
+                    " runs on the device, and beside it presets would, too, whose lists are counted on the "
+                    "processor here; measure it without presets");
+  return changed(config, {{"device", ""}});
 }
 
 Config parse_config(const std::string& text, const fs::path& file, std::span<const FlagValue> flags,

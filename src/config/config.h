@@ -67,6 +67,7 @@ struct Config : Sections {
   std::vector<cull::PreCullSpec> pre_culls{{}};
   std::size_t own_pre_culls = 1;                // the others belong to presets
   std::vector<SampleSetRequest> sample_sets;    // each set once; the whole view's first
+  std::vector<SampleSetRequest> reading_sets;   // at which a device reads; empty: nothing is read
   std::vector<ShadowCullRequest> shadow_culls;  // each once; empty: not measured
 
   // With other precisions than float32, results show the losses of each precision.
@@ -80,6 +81,9 @@ struct Config : Sections {
 // Applies a merge patch (RFC 7396) to the configuration's keys and reads it again, so that all fields follow from its
 // keys. Throws Error.
 Config changed(const Config& config, const nlohmann::json& patch);
+// With presets as they are where no device is named, for what counts and times nothing: a method on a device has what
+// is left of lists that are full. Throws Error if the configuration's own methods run on the device.
+Config with_presets_on_processor(const Config& config);
 
 // Reads and checks a configuration file, and applies the command line's flags. `defaults`: members of a configuration
 // that replace the schema's defaults for keys that the file does not have. `preset_grid`: members that replace those of

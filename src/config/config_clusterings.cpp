@@ -99,9 +99,9 @@ Json changed_grid(Json grid, const GridChange& change) {
   return grid;
 }
 
-void add_preset(const Preset& preset, std::size_t viewport, const Json& schema, bool as_shipped,
+void add_preset(const Preset& preset, std::size_t viewport, const Json& schema, PresetForm form,
                 const GridChange& preset_grid, Config& config) {
-  Json parts = preset_parts(preset, config.viewports[viewport], as_shipped);
+  Json parts = preset_parts(preset, config.viewports[viewport], form);
   parts["grid"] = changed_grid(parts["grid"], preset_grid);
   JsonText text;
   text.file = "preset " + preset.name;
@@ -166,10 +166,11 @@ void read_clusterings(const Json& document, const JsonText& text, const GridChan
   config.own_storages = config.storages.size();
   if (!document.contains("presets")) return;
   const Json schema = config_schema();
+  // Only a device that is named: without one, results are the same on every machine.
+  const PresetForm form{document.value("as_shipped", false), !document.value("device", "").empty()};
   for (std::size_t viewport = 0; viewport < config.viewports.size(); ++viewport)
     for (const Json& name : document["presets"])
-      add_preset(*find_preset(name.get<std::string>()), viewport, schema, document.value("as_shipped", false),
-                 preset_grid, config);
+      add_preset(*find_preset(name.get<std::string>()), viewport, schema, form, preset_grid, config);
 }
 
 }  // namespace clusterbench::config

@@ -348,7 +348,8 @@ constexpr FlagRow k_rows[] = {
     {{"--launches", "N: processes that measure one after the other; intervals hold between them"}, set_launches},
     {{"--threads", "N: threads for the truth and for rays; results do not depend on it"}, set_threads},
     {{"--device",
-      "NAME, UUID or number: the device of methods that run on one, as `clusterbench list devices` shows it"},
+      "NAME, UUID or number: the device of methods that run on one, as `clusterbench list devices` shows it; presets "
+      "of engines that assign on the GPU then take such methods"},
      set_device},
     {{"--fail-if", "BUDGET, repeatable: fail where a case exceeds it, as in 'longest > 128' or 'bytes > 200000'", true},
      add_budget},

@@ -137,6 +137,15 @@ KEY_TYPE(cull::MostStep::Keep) {
   return named_values<cull::MostStep::Keep, cull::name_of, first, nearest, shallowest>();
 }
 
+KEY_TYPE(gpu::Walking) {
+  using enum gpu::Walking;
+  return named_values<gpu::Walking, gpu::name_of, by_lane, by_light, by_cell>();
+}
+KEY_TYPE(measure::SampleSet) {
+  using enum measure::SampleSet;
+  return named_values<measure::SampleSet, measure::name_of, volume, opaque, transparent, fog, mirror, anywhere>();
+}
+
 KEY_TYPE(measure::Logarithm) {
   using enum measure::Logarithm;
   return named_values<measure::Logarithm, measure::name_of, rounded, glsl, fast>();

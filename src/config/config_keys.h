@@ -17,8 +17,10 @@
 #include "config/limit_rules.h"
 #include "cull/pre_cull_spec.h"
 #include "depth/shadow_map.h"
+#include "gpu/reading/walking.h"
 #include "measure/lists/buffers.h"
 #include "measure/samples/lookup_check.h"
+#include "measure/samples/samples.h"
 #include "result/fields.h"
 #include "scene/rig.h"
 #include "scene/scene.h"
@@ -58,6 +60,8 @@ KEY_TYPE(cull::DistanceStep);
 KEY_TYPE(cull::VisibleSetStep);
 KEY_TYPE(cull::MostStep);
 KEY_TYPE(cull::MostStep::Keep);
+KEY_TYPE(gpu::Walking);
+KEY_TYPE(measure::SampleSet);
 KEY_TYPE(measure::Logarithm);
 KEY_TYPE(measure::DepthRead);
 KEY_TYPE(measure::AllocationRule);

@@ -92,6 +92,18 @@ std::vector<SampleSetRequest> sample_sets(const Json& document) {
   return sets;
 }
 
+std::vector<SampleSetRequest> reading_sets(const ReadingRequest& reading, const std::vector<SampleSetRequest>& sets) {
+  std::vector<SampleSetRequest> out;
+  for (const measure::SampleSet set : reading.sets) {
+    const auto given = std::ranges::find(sets, set, &SampleSetRequest::set);
+    SampleSetRequest& request = out.emplace_back(given == sets.end() ? SampleSetRequest{.set = set} : *given);
+    if (!request.needs_triangles()) continue;
+    request.divisor = reading.divisor;
+    if (set == measure::SampleSet::opaque && !request.ground) request.ground = GroundRequest{.is_lowest = true};
+  }
+  return out;
+}
+
 }  // namespace clusterbench::config
 
 namespace clusterbench::result {

@@ -91,6 +91,20 @@ struct SampleSetRequest {
   bool needs_triangles() const { return set == measure::SampleSet::opaque || set == measure::SampleSet::transparent; }
 };
 
+// What samples pay for their lights on the device.
+struct ReadingRequest {
+  RECORD(ReadingRequest);
+  KEY(std::vector<measure::SampleSet>, sets, {measure::SampleSet::opaque});  // figures are those of the first
+  KEY(std::vector<gpu::Walking>, walks, {gpu::Walking::by_lane});            // likewise
+  KEY(int, divisor, 1);                                                      // of the sets of surfaces
+  KEY(int, frames, 2);                                                       // evenly spaced over the path
+  KEY(int, rounds, 9);
+  // Share of the assignment that runs beside other work of the frame. None: methods of the processor have no time of a
+  // frame with its reading.
+  KEY_AS("async", std::optional<double>, overlap, {});
+  END_RECORD;
+};
+
 struct ShadingRequest {
   RECORD(ShadingRequest);
   KEY(int, samples, 1024);  // of the set `volume`, per frame; 0: no such set
@@ -161,6 +175,7 @@ struct Sections {
   KEY(std::uint64_t, seed, 1);
   KEY(AccuracyRequest, accuracy, {});
   KEY(result::Nullable<LookupRequest>, lookup, {});                                // null: not measured
+  KEY(result::Nullable<ReadingRequest>, reading, {});                              // null: not measured
   KEY(result::Nullable<StabilityRequest>, stability, {});                          // null: not measured
   KEY(result::Nullable<DetailsRequest>, details, {});                              // null: no details
   KEY_AS("shadow_frusta", std::optional<SharedFrustaRequest>, shared_frusta, {});  // none: not measured
@@ -176,6 +191,8 @@ std::vector<PrecisionRequest> precisions(const nlohmann::json& document, const J
 std::vector<ShadowCullRequest> shadow_culls(const nlohmann::json& document, const JsonText& text);
 // In the order of measure::SampleSet.
 std::vector<SampleSetRequest> sample_sets(const nlohmann::json& document);
+// The sets of a reading in its order: with the keys that `sets` gives them, else with defaults that any scene has.
+std::vector<SampleSetRequest> reading_sets(const ReadingRequest& reading, const std::vector<SampleSetRequest>& sets);
 
 }  // namespace clusterbench::config
 

@@ -5,6 +5,7 @@
 #include "result/details.h"
 #include "result/frames.h"
 #include "result/grid.h"
+#include "result/reading.h"
 #include "result/samples.h"
 #include "result/shadows.h"
 #include "result/timing.h"
@@ -40,8 +41,9 @@ struct Failure {
   RECORD(Failure);
   FIELD(std::string, kind,
         About("Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of "
-              "an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration")
-            .one_of({"lost_pairs", "extra_pairs", "lost_at_samples", "dropped_pairs"}));
+              "an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration. wrong_readings: a device "
+              "walked other lights than the structure has (reading)")
+            .one_of({"lost_pairs", "extra_pairs", "lost_at_samples", "dropped_pairs", "wrong_readings"}));
   FIELD(std::string, text, "The same for people, without the case's name");
   END_RECORD;
 };
@@ -259,6 +261,10 @@ struct Case {
       "Times of a method that runs on a device (a GPU), by the device's own clock. Absent elsewhere, and where nothing "
       "is timed or the device has no clock",
       Compares::skipped);
+  FIELD(std::optional<Reading>, reading,
+        "What samples pay for their lights on a device (a GPU), by its clock; where the configuration asks for it "
+        "(reading). Absent for structures that shaders do not read, and where the device has no clock",
+        Compares::skipped);
   FIELD(std::optional<Details>, details, "Chosen frames cell by cell");
   FIELD(std::optional<Count>, count, "Instructions of what is timed, with --count", Compares::skipped);
   FIELD(std::optional<Cost>, cost,

@@ -77,6 +77,7 @@ struct DeviceClock {
   FIELD(double, median, "Over the rounds");
   FIELD(double, min, "In the slowest round");
   FIELD(double, max, "In the fastest round");
+  FIELD(std::vector<double>, samples, "Of each round, launch after launch");
   END_RECORD;
 };
 

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "gpu/device/device.h"
 #include "run/passes/accuracy_pass.h"
+#include "run/passes/device_pass.h"
+#include "run/passes/reading_pass.h"
 #include "run/timing/cache_sweep.h"
 #include "run/timing/repeated.h"
 #include "run/timing/timed_work.h"
@@ -76,14 +79,70 @@ double sweep_duration_ns() {
   return duration_ns([&] { sweep(); });
 }
 
+// The time of device_pass() for all methods, launches and rounds, from one frame of it.
+double device_ns(config::Config config, const GroupPlan& on_device, const PathFrames& path) {
+  const auto frames = static_cast<double>(mean_frames(config, path).size());
+  const double launches = config.timing.launches, rounds = rounds_per_launch(config.timing, config.timing.launches);
+  const std::atomic<bool> stop{false};
+  config.timing.frames = 1;
+  config.timing.rounds = 2;
+  double round = 0.0, last = 0.0;  // the second round, and when one ended
+  const auto on_round = [&] {
+    const double now = wall_ns();
+    round = now - last;
+    last = now;
+  };
+  const auto pass_ns = [&] { return duration_ns([&] { device_pass(config, on_device, path, 1, on_round, stop); }); };
+  pass_ns();
+  gpu::close_device();
+  const double opening = pass_ns(), again = pass_ns();  // in each launch shaders are compiled
+  const double preparation = std::max(0.0, again - 2.0 * round);
+  return launches * (std::max(0.0, opening - again) + frames * (preparation + rounds * round));
+}
+
+// The time of reading_pass(), from one frame of it with one round and with two. None where the device cannot read.
+double reading_ns(config::Config config, const SceneData& data, const GroupPlan& group, const PathFrames& path) {
+  if (config.reading_sets.empty() || !gpu::device_obstacle().empty()) return 0.0;
+  const double frames = std::min(config.reading->frames, path.count()), rounds = config.reading->rounds;
+  const std::atomic<bool> stop{false};
+  config.reading->frames = 1;
+  const auto of_rounds = [&](int count) {
+    config.reading->rounds = count;
+    return duration_ns([&] { reading_pass(config, data, group, path, stop); });
+  };
+  try {
+    of_rounds(1);  // shaders are compiled
+    const double one = of_rounds(1), round = std::max(0.0, of_rounds(2) - one);
+    return frames * (one + (rounds - 1.0) * round);
+  } catch (const gpu::DeviceError&) {
+    gpu::close_device();
+    return 0.0;
+  }
+}
+
 GroupCost cost_of_group(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
                         const EstimateLimits& limits) {
   const PathFrames path = path_of(config, plan, group);
   const int steps = config.stability ? config.stability->steps : 0;
-  GroupCost cost{counting_ns(config, plan.scenes[group.scene], group, path, path.count() + steps), 0.0};
+  GroupCost cost{.counting_ns = counting_ns(config, plan.scenes[group.scene], group, path, path.count() + steps)};
   const GroupPlan timed = timed_cases(config, group);
   if (config.timing.measure && !timed.cases.empty()) cost.timing_ns = timing_ns(config, timed, path, sweep_ns, limits);
+  const GroupPlan on_device = device_cases(config, group);
+  if (config.timing.measure && !on_device.cases.empty()) cost.device_ns = device_ns(config, on_device, path);
+  cost.reading_ns = reading_ns(config, plan.scenes[group.scene], group, path);
   return cost;
+}
+
+// If a device fails, that of the cases without one: the run itself says why the others are skipped.
+GroupCost cost_of_what_runs(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
+                            const EstimateLimits& limits) {
+  try {
+    return cost_of_group(config, plan, group, sweep_ns, limits);
+  } catch (const gpu::DeviceError&) {
+    gpu::close_device();
+    const GroupPlan others = processor_cases(config, group);
+    return others.cases.empty() ? GroupCost{} : cost_of_group(config, plan, others, sweep_ns, limits);
+  }
 }
 
 }  // namespace
@@ -95,28 +154,31 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
   std::size_t stride = std::max<std::size_t>(1, groups * 618 / 1000), sampled = 0;
   while (std::gcd(stride, groups) != 1) ++stride;
   std::vector<GroupCost> costs(groups);
-  std::vector<double> counting, timing;
+  std::vector<double> counting, timing, on_device, reading;
   for (const double start = wall_ns(); sampled < groups && (sampled == 0 || 1e-9 * (wall_ns() - start) < limits.most_s);
        ++sampled) {
     const std::size_t index = sampled * stride % groups;
-    costs[index] = cost_of_group(config, plan, plan.groups[index], sweep_ns, limits);
+    costs[index] = cost_of_what_runs(config, plan, plan.groups[index], sweep_ns, limits);
     counting.push_back(costs[index].counting_ns);
     timing.push_back(costs[index].timing_ns);
+    on_device.push_back(costs[index].device_ns);
+    reading.push_back(costs[index].reading_ns);
   }
   // A few groups take far longer than others: a sampled group like that stands for itself only.
-  for (std::size_t i = sampled; i < groups; ++i) costs[i * stride % groups] = {median(counting), median(timing)};
+  for (std::size_t i = sampled; i < groups; ++i)
+    costs[i * stride % groups] = {median(counting), median(timing), median(on_device), median(reading)};
   return costs;
 }
 
 double sum_s(std::span<const GroupCost> costs) {
   double ns = 0.0;
-  for (const GroupCost& cost : costs) ns += cost.counting_ns + cost.timing_ns;
+  for (const GroupCost& cost : costs) ns += cost.counting_ns + cost.timing_ns + cost.device_ns + cost.reading_ns;
   return 1e-9 * ns;
 }
 
 double sum_of_timing_s(std::span<const GroupCost> costs) {
   double ns = 0.0;
-  for (const GroupCost& cost : costs) ns += cost.timing_ns;
+  for (const GroupCost& cost : costs) ns += cost.timing_ns + cost.device_ns + cost.reading_ns;
   return 1e-9 * ns;
 }
 

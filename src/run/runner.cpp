@@ -11,9 +11,11 @@
 #include "os/machine.h"
 #include "run/case_result.h"
 #include "run/cases/path_frames.h"
+#include "run/findings/gate.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/details_pass.h"
 #include "run/passes/device_pass.h"
+#include "run/passes/reading_pass.h"
 #include "run/passes/stability_pass.h"
 #include "run/passes/timing_pass.h"
 #include "run/scene_facts.h"
@@ -40,6 +42,19 @@ double timing_cost(const config::Config& config, const GroupPlan& group) {
   return (warm + cold) * config.timing.rounds * static_cast<double>(methods_of(group).size());
 }
 
+// On the device; without an estimate.
+double device_cost(const config::Config& config, const GroupPlan& on_device, double frames) {
+  constexpr double k_ns_per_frame = 2e6;
+  const double timed = config.timing.frames == 0 ? frames : std::min(frames, static_cast<double>(config.timing.frames));
+  return k_ns_per_frame * timed * config.timing.rounds * static_cast<double>(methods_of(on_device).size());
+}
+
+double reading_cost(const config::Config& config, const GroupPlan& group) {
+  constexpr double k_ns_per_reading = 2e6;
+  return k_ns_per_reading * config.reading->frames * config.reading->rounds *
+         static_cast<double>(config.reading_sets.size() * config.reading->walks.size() * group.cases.size());
+}
+
 // Per method of the group: the frame in which it has most pairs. A method without cells uses the frame of the first one
 // with cells.
 std::vector<int> fullest_frames(const GroupPlan& group, const AccuracyResult& counted) {
@@ -62,6 +77,9 @@ bool emulates_gpu(const CasePlan& case_plan) {
   return preset != nullptr && preset->assigns_on_gpu();
 }
 
+// Ends the names of skipped readings.
+constexpr const char* k_reading_part = ", reading";
+
 bool is_timed(const config::Config& config, const CasePlan& case_plan) {
   return !emulates_gpu(case_plan) && !method_of(config, case_plan).on_device;
 }
@@ -80,6 +98,7 @@ struct CountedGroup {
   std::vector<std::optional<StabilityResult>> stabilities;
   std::vector<std::optional<Details>> details;
   std::vector<std::optional<DeviceTimes>> device_times;  // by case
+  std::vector<std::optional<ReadingResult>> readings;    // by case; empty if not requested
 };
 
 class Run {
@@ -99,8 +118,7 @@ class Run {
       const GroupPlan left = unfinished_part(group);
       progress_.cases_done += group.cases.size() - left.cases.size();
       if (left.cases.empty()) continue;
-      progress_.cost_total +=
-          accuracy_cost_of(left) + stability_cost_of(left) + details_cost_of(left) + timing_cost_of(left);
+      progress_.cost_total += cost_of_all(left);
     }
   }
 
@@ -109,8 +127,8 @@ class Run {
     out.config_name = config_.name;
     out.tool = tool_facts();
     out.machine = machine_facts();
-    out.device = device_of_cases();
-    if (out.device) out.arithmetic = gpu::arithmetic_of_device();
+    out.device = device_of(config_, plan_);
+    if (out.device) out.arithmetic = known_arithmetic();
     if (config_.timing.measure) note_beginning(out);
     out.config = config_.resolved;
     out.skipped = plan_.skipped;
@@ -128,19 +146,21 @@ class Run {
   }
 
  private:
+  // None if the device fails at it; what runs on it then says why it fails.
+  static std::optional<gpu::Arithmetic> known_arithmetic() {
+    try {
+      return gpu::arithmetic_of_device();
+    } catch (const gpu::DeviceError&) {
+      gpu::close_device();
+      return std::nullopt;
+    }
+  }
+
   // Facts that times can depend on. Without times a result has no date, so that it is the same every time.
   static void note_beginning(Result& out) {
     out.date = os::utc_now();
     out.machine.clock = os::clock_now();
     if (const std::optional<double> load = os::load_now()) out.machine.load = LoadFacts{*load, *load};
-  }
-
-  // The device, if a case runs on it.
-  std::optional<gpu::DeviceFacts> device_of_cases() const {
-    for (const GroupPlan& group : plan_.groups)
-      for (const CasePlan& case_plan : group.cases)
-        if (method_of(config_, case_plan).on_device && gpu::device_obstacle().empty()) return gpu::device().facts();
-    return std::nullopt;
   }
 
   GroupPlan unfinished_part(GroupPlan group) const {
@@ -190,6 +210,20 @@ class Run {
     return cost != nullptr ? cost->timing_ns : timing_cost(config_, timed);
   }
 
+  double device_cost_of(const GroupPlan& group) const {
+    const GroupPlan on_device = device_cases(config_, group);
+    if (!config_.timing.measure || on_device.cases.empty()) return 0.0;
+    const GroupCost* cost = cost_of(group);
+    const auto frames = static_cast<double>(path_of(group).shots.size());
+    return cost != nullptr ? cost->device_ns : device_cost(config_, on_device, frames);
+  }
+
+  double reading_cost_of(const GroupPlan& group) const {
+    if (config_.reading_sets.empty()) return 0.0;
+    const GroupCost* cost = cost_of(group);
+    return cost != nullptr ? cost->reading_ns : reading_cost(config_, group);
+  }
+
   double stability_cost_of(const GroupPlan& group) const {
     if (!config_.stability) return 0.0;
     return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(), config_.stability->steps, 0);
@@ -200,6 +234,11 @@ class Run {
     const config::DetailsFrames& wanted = config_.details->frames;
     const int frames = std::max({1, wanted.count, static_cast<int>(wanted.list.size())});
     return list_cost(config_, group, plan_.scenes[group.scene].scene.lights.size(), frames, 0);
+  }
+
+  double cost_of_all(const GroupPlan& group) const {
+    return accuracy_cost_of(group) + stability_cost_of(group) + details_cost_of(group) + device_cost_of(group) +
+           reading_cost_of(group) + timing_cost_of(group);
   }
 
   void report_progress(const GroupPlan& group, const char* stage, double cost) {
@@ -216,10 +255,12 @@ class Run {
     if (!waiting_.empty() && (waiting_.front().group.scene != group.scene || waiting_cost() > k_most_waiting_ns))
       time_waiting(out);
     if (stop_) return;
+    const double done_before = progress_.cost_done;
     try {
       count_group(group, out);
     } catch (const gpu::DeviceError& error) {
       gpu::close_device();
+      progress_.cost_done = done_before;
       run_apart(group, error.message(), out);
     } catch (const Error& error) {
       throw Error(error.file(), name_of_group_ + (error.where().empty() ? "" : ": " + error.where()), error.message(),
@@ -230,24 +271,26 @@ class Run {
   // After a failure of the device: the group without its cases, then each method on the device alone. One that fails
   // alone is skipped.
   void run_apart(const GroupPlan& group, const std::string& reason, Result& out) {
-    std::vector<GroupPlan> parts(1, group);
-    std::erase_if(parts.front().cases,
-                  [&](const CasePlan& case_plan) { return method_of(config_, case_plan).on_device; });
-    for (const Method& method : methods_of(group)) {
-      GroupPlan part = group;
-      std::erase_if(part.cases, [&](const CasePlan& case_plan) {
-        return case_plan.method() != method || !method_of(config_, case_plan).on_device;
-      });
+    std::vector<GroupPlan> parts(1, processor_cases(config_, group));
+    const GroupPlan on_device = device_cases(config_, group);
+    for (const Method& method : methods_of(on_device)) {
+      GroupPlan part = on_device;
+      std::erase_if(part.cases, [&](const CasePlan& case_plan) { return case_plan.method() != method; });
       parts.push_back(std::move(part));
     }
     std::erase_if(parts, [](const GroupPlan& part) { return part.cases.empty(); });
     if (parts.size() > 1) {
+      double cost = 0.0;
+      for (const GroupPlan& part : parts) cost += cost_of_all(part);
+      progress_.cost_total += cost - cost_of_all(group);
       for (const GroupPlan& part : parts) run_group(part, out);
       return;
     }
+    progress_.cost_total -= cost_of_all(group);
     for (const CasePlan& case_plan : group.cases)
       out.skipped.push_back({case_plan.name, reason, false, case_plan.preset});
     progress_.cases_done += group.cases.size();
+    if (listener_.on_progress) listener_.on_progress(progress_);
   }
 
   double waiting_cost() const {
@@ -299,6 +342,7 @@ class Run {
     }
     counted_group.timed = timed_cases(config_, group);
     if (config_.timing.measure && !time_on_device(group, path, counted_group)) return;
+    if (!config_.reading_sets.empty() && !read_on_device(group, data, path, counted_group, out)) return;
     counted_group.group = std::move(group);
     if (!config_.timing.measure || counted_group.timed.cases.empty()) return add_cases(counted_group, {}, out);
     if (launcher_) return waiting_.push_back(std::move(counted_group));
@@ -307,18 +351,38 @@ class Run {
 
   // False if it was stopped.
   bool time_on_device(const GroupPlan& group, const PathFrames& path, CountedGroup& out) {
-    GroupPlan on_device = group;
-    std::erase_if(on_device.cases, [&](const CasePlan& case_plan) { return !method_of(config_, case_plan).on_device; });
+    const GroupPlan on_device = device_cases(config_, group);
     if (on_device.cases.empty()) return true;
-    report_progress(group, "time on the device", 0.0);
-    std::vector<std::optional<DeviceTimes>> times =
-        device_pass(config_, on_device, path, launcher_ ? config_.timing.launches : 1, stop_);
+    const int launches = launcher_ ? config_.timing.launches : 1;
+    const double per_round = device_cost_of(group) / (launches * rounds_per_launch(config_.timing, launches));
+    std::vector<std::optional<DeviceTimes>> times = device_pass(
+        config_, on_device, path, launches, [&] { report_progress(group, "time on the device", per_round); }, stop_);
     if (times.empty()) return false;
     auto next = times.begin();
     for (const CasePlan& case_plan : group.cases) {
       out.device_times.emplace_back();
       if (method_of(config_, case_plan).on_device) out.device_times.back() = std::move(*next++);
     }
+    return true;
+  }
+
+  // False if it was stopped. Where the device cannot or fails, cases go without readings.
+  bool read_on_device(const GroupPlan& group, const SceneData& data, const PathFrames& path, CountedGroup& to,
+                      Result& out) {
+    report_progress(group, "reading on the device", reading_cost_of(group));
+    std::string reason = gpu::device_obstacle();
+    if (reason.empty()) {
+      try {
+        to.readings = reading_pass(config_, data, group, path, stop_);
+        return !to.readings.empty();
+      } catch (const gpu::DeviceError& error) {
+        gpu::close_device();
+        reason = error.message();
+      }
+    }
+    const std::string& name = group.cases.front().name;
+    out.skipped.push_back(
+        {name.substr(0, name.find('/', name.find('/', name.find('/') + 1) + 1)) + k_reading_part, reason});
     return true;
   }
 
@@ -371,6 +435,10 @@ class Run {
       if (!counted.stabilities.empty()) finished.stability = counted.stabilities[i];
       if (!counted.details.empty()) finished.details = std::move(counted.details[i]);
       if (!counted.device_times.empty()) finished.device = std::move(counted.device_times[i]);
+      if (!counted.readings.empty()) {
+        finished.reading = std::move(counted.readings[i]);
+        finished.failures = failures_of(finished, config_.limits);
+      }
       if (!timings.empty() && is_timed(config_, counted.group.cases[i])) {
         finished.timing = timings[next_timed++];
         finished.timing->session = session_;
@@ -441,6 +509,23 @@ class Run {
 
 GroupPlan timed_cases(const config::Config& config, GroupPlan group) {
   std::erase_if(group.cases, [&](const CasePlan& case_plan) { return !is_timed(config, case_plan); });
+  return group;
+}
+
+std::optional<gpu::DeviceFacts> device_of(const config::Config& config, const Plan& plan) {
+  const auto runs_on_it = [&](const GroupPlan& group) { return !device_cases(config, group).cases.empty(); };
+  const bool is_used = !config.reading_sets.empty() || std::ranges::any_of(plan.groups, runs_on_it);
+  if (!is_used || !gpu::device_obstacle().empty()) return std::nullopt;
+  return gpu::device().facts();
+}
+
+GroupPlan device_cases(const config::Config& config, GroupPlan group) {
+  std::erase_if(group.cases, [&](const CasePlan& case_plan) { return !method_of(config, case_plan).on_device; });
+  return group;
+}
+
+GroupPlan processor_cases(const config::Config& config, GroupPlan group) {
+  std::erase_if(group.cases, [&](const CasePlan& case_plan) { return method_of(config, case_plan).on_device; });
   return group;
 }
 

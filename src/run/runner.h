@@ -3,8 +3,10 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <span>
 
+#include "gpu/device/device_facts.h"
 #include "run/cases/plan.h"
 #include "run/findings/run_result.h"
 #include "run/passes/count_pass.h"
@@ -17,14 +19,20 @@ struct Progress {
   std::string doing;                         // case name and stage
 };
 
-// Approximate time of a group, in nanoseconds: counting, and timing.
+// Approximate time of a group, in nanoseconds: counting, timing, timing of what runs on a device, and readings.
 struct GroupCost {
-  double counting_ns = 0.0, timing_ns = 0.0;
+  double counting_ns = 0.0, timing_ns = 0.0, device_ns = 0.0, reading_ns = 0.0;
 };
 
 // A group's cases that the processor's clock times: not those that run on a device, and of the presets only those of
 // engines that assign on the CPU.
 GroupPlan timed_cases(const config::Config& config, GroupPlan group);
+// Those that run on a device, and the others.
+GroupPlan device_cases(const config::Config& config, GroupPlan group);
+GroupPlan processor_cases(const config::Config& config, GroupPlan group);
+
+// The device, if a case of the plan runs on it or is read on it.
+std::optional<gpu::DeviceFacts> device_of(const config::Config& config, const Plan& plan);
 
 // Callbacks of the runner while it works. All are optional.
 struct Listener {

@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "core/text.h"
 #include "geom/shapes/domain.h"
+#include "gpu/device/device.h"
 #include "measure/lists/lights_in_view_counts.h"
 #include "search/best_frames.h"
 #include "search/optimizer.h"
@@ -39,12 +40,25 @@ class Clockwork {
     return is_over_;
   }
   const std::atomic<bool>& over() const { return is_over_; }
-  Ended ended() const { return stop_ ? Ended::signal : is_over_ ? Ended::seconds : Ended::evaluations; }
+  // From any thread; the first reason is kept.
+  void fail(const std::string& reason) {
+    const std::lock_guard lock(failing_);
+    if (!has_failed_) failure_ = reason;
+    has_failed_ = is_over_ = true;
+  }
+  bool has_failed() const { return has_failed_; }
+  const std::string& failure() const { return failure_; }  // of threads that have ended
+  Ended ended() const {
+    if (has_failed_) return Ended::device;
+    return stop_ ? Ended::signal : is_over_ ? Ended::seconds : Ended::evaluations;
+  }
 
  private:
   const std::atomic<bool>& stop_;
   std::optional<SearchClock::time_point> deadline_;
-  std::atomic<bool> is_over_{false};
+  std::atomic<bool> is_over_{false}, has_failed_{false};
+  std::mutex failing_;
+  std::string failure_;
 };
 
 class SearchProgress {
@@ -160,11 +174,14 @@ class WorstCaseSearch {
       out_.floor_triangles = floor_->triangles();
       out_.floor_area_m2 = floor_->area_m2();
     }
+    if (best_.frames().empty() && clock_.has_failed()) throw gpu::DeviceError(clock_.failure());
     if (best_.frames().empty()) return std::move(out_);
     const double searched = best_.frames().front().value;
     compare_with_random();
-    make_path();
+    tell_path();
     warn_of_better(searched);
+    out_.ended = clock_.ended();
+    out_.device_failure = clock_.failure();
     return std::move(out_);
   }
 
@@ -241,14 +258,26 @@ class WorstCaseSearch {
           "the camera's projection changes along its path; the search takes that of its first frame");
   }
 
+  // A device that fails ends the search; what the tasks have found by then is kept.
+  template <class Work>
+  void each_task(std::size_t count, Work work) {
+    ThreadPool(request_.threads).each(count, [&](std::size_t task) {
+      try {
+        work(task);
+      } catch (const gpu::DeviceError& error) {
+        clock_.fail(error.message());
+      }
+    });
+  }
+
   // Rates this many frames; `frame_of(i)` gives each, `is_over()` ends it early. Returns the number of rated frames.
   template <class FrameOf, class IsOver>
   int rate_each(int count, BestFrames& best, FrameOf frame_of, IsOver is_over, std::vector<double>* values = nullptr) {
     std::vector<BestFrames> found(k_tasks, BestFrames(kept(), near_m()));
     std::atomic<int> rated = 0;
-    ThreadPool(request_.threads).each(k_tasks, [&](std::size_t task) {
+    each_task(k_tasks, [&](std::size_t task) {
       const int begin = static_cast<int>(task) * count / k_tasks, end = static_cast<int>(task + 1) * count / k_tasks;
-      if (begin == end) return;
+      if (begin == end || is_over()) return;
       FrameRater meter = rater();
       for (int i = begin; i < end && !is_over(); ++i) {
         RatedFrame frame = frame_of(i);
@@ -318,17 +347,18 @@ class WorstCaseSearch {
   int run_tasks(std::size_t count, Work work) {
     std::vector<BestFrames> found(count, BestFrames(kept(), near_m()));
     std::vector<int> used(count, 0);
-    ThreadPool(request_.threads).each(count, [&](std::size_t task) {
+    each_task(count, [&](std::size_t task) {
       FrameRater meter = rater();
       const Objective objective = [&](const std::vector<double>& point) {
         clock_.is_over();
         RatedFrame frame{0.0, point, space_.at(point)};
         frame.value = meter.rate(frame.choice);
         found[task].add(frame);
+        ++used[task];
         progress_.step();
         return frame.value;
       };
-      used[task] = work(task, objective);
+      work(task, objective);
     });
     for (const BestFrames& task : found) best_.add_all(task);
     return std::accumulate(used.begin(), used.end(), 0);
@@ -391,23 +421,23 @@ class WorstCaseSearch {
     frames.resize(std::min(frames.size(), static_cast<std::size_t>(request_.frames)));
     if (frames.empty()) return;
     std::vector<int> used(frames.size(), 0);
-    ThreadPool(request_.threads).each(frames.size(), [&](std::size_t i) {
+    each_task(frames.size(), [&](std::size_t i) {
       FrameRater meter = rater();
-      used[i] = move_lights_of(frames[i], share(evaluations, i, frames.size()), request_.seed + i, meter);
+      move_lights_of(frames[i], share(evaluations, i, frames.size()), request_.seed + i, meter, used[i]);
     });
     for (const RatedFrame& frame : frames) best_.add(frame);
     end_stage("moved lights", std::accumulate(used.begin(), used.end(), 0));
   }
 
-  int move_lights_of(RatedFrame& frame, int evaluations, std::uint64_t seed, FrameRater& meter) {
+  // `used`: receives the number of rated frames.
+  void move_lights_of(RatedFrame& frame, int evaluations, std::uint64_t seed, FrameRater& meter, int& used) {
     SplitMix64 random(seed);
     for (std::size_t light = 0; light < rig_.own_lights(); ++light)
       frame.choice.moved.emplace_back(light, rig_.position(frame.choice.moment, light));
-    int used = 0;
     const auto keep_if_better = [&](const FrameChoice& tried) {
+      const double value = meter.rate(tried);
       ++used;
       progress_.step();
-      const double value = meter.rate(tried);
       if (value <= frame.value) return;
       frame.value = value;
       frame.choice = tried;
@@ -423,7 +453,6 @@ class WorstCaseSearch {
     }
     std::erase_if(frame.choice.moved,
                   [&](const auto& entry) { return entry.second == rig_.position(frame.choice.moment, entry.first); });
-    return used;
   }
 
   static Vec3d within(const Vec3d& way, double most_m) {
@@ -437,12 +466,29 @@ class WorstCaseSearch {
     return point * radius_m;
   }
 
+  // A device that fails here, or for good before, leaves the values as they were found.
+  void tell_path() {
+    if (clock_.has_failed()) gpu::close_device();  // of which no task has anything left
+    try {
+      make_path();
+    } catch (const gpu::DeviceError& error) {
+      clock_.fail(error.message());
+      out_.frames.clear();
+      out_.buffers.clear();
+      out_.theoretical_max.reset();
+      for (std::size_t i = 0; i < told_frames(); ++i)
+        out_.frames.push_back({best_.frames()[i].choice, best_.frames()[i].value});
+    }
+  }
+  std::size_t told_frames() const { return std::min(best_.frames().size(), static_cast<std::size_t>(request_.frames)); }
+
   void make_path() {
-    const std::size_t count = std::min(best_.frames().size(), static_cast<std::size_t>(request_.frames));
+    const std::size_t count = told_frames();
     out_.path_scene = rig_.scene(count, projection());
     for (std::size_t i = 0; i < count; ++i) rig_.set_frame(out_.path_scene, i, best_.frames()[i].choice);
     const scene::CameraPath path = path_of(out_.path_scene, config_.scenes[case_.scene].camera);
     const run::PathFrames frames(out_.path_scene, path, config_.viewports[case_.viewport]);
+    count_dark_lights(frames.frame(0));
     const std::vector<double> values = values_along(config_, case_, request_.measure, frames);
     for (std::size_t i = 0; i < count; ++i) out_.frames.push_back({best_.frames()[i].choice, values[i]});
     FrameRater meter = rater();
@@ -452,7 +498,6 @@ class WorstCaseSearch {
     FrameRater lists(config_, case_, Measure::entries, rig_, projection());
     lists.rate(out_.frames.front().choice);
     out_.buffers = lists.buffers();
-    count_dark_lights(frames.frame(0));
   }
 
   // The search goes to lights, lit or dark.
@@ -473,7 +518,8 @@ class WorstCaseSearch {
     BestFrames found(kept(), near_m());
     std::vector<double> values(static_cast<std::size_t>(request_.random), 0.0);
     out_.random.frames = rate_each(
-        request_.random, found, [this](int i) { return random_frame(i, 1); }, [this] { return stop_.load(); }, &values);
+        request_.random, found, [this](int i) { return random_frame(i, 1); },
+        [this] { return stop_.load() || clock_.has_failed(); }, &values);
     if (out_.random.frames == 0) return;
     out_.random.max = found.frames().front().value;
     best_.add_all(found);
@@ -569,7 +615,12 @@ WorstCase find_worst_case(const config::Config& config, const run::Plan& plan, c
                           const WorstCaseRequest& request, const WorstCaseListener& listener,
                           const std::atomic<bool>& stop) {
   check_request(plan.scenes[case_plan.scene], request);
-  return WorstCaseSearch(config, plan, case_plan, request, listener, stop).result();
+  try {
+    return WorstCaseSearch(config, plan, case_plan, request, listener, stop).result();
+  } catch (const gpu::DeviceError&) {
+    gpu::close_device();
+    throw;
+  }
 }
 
 double estimated_search_s(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,

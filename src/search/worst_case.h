@@ -52,7 +52,8 @@ struct FoundFrame {
   double value = 0.0;  // in the written path
 };
 
-enum class Ended : std::uint8_t { evaluations, seconds, signal };
+// device: that on which the method runs has failed.
+enum class Ended : std::uint8_t { evaluations, seconds, signal, device };
 
 struct RandomFrames {
   int frames = 0;
@@ -67,6 +68,7 @@ struct RecordedFrames {
 
 struct WorstCase {
   Ended ended = Ended::evaluations;
+  std::string device_failure;  // the reason for Ended::device
   int evaluations = 0;
   std::vector<Stage> stages;
   std::vector<FoundFrame> frames;  // best first
@@ -89,7 +91,9 @@ struct WorstCase {
 const run::CasePlan& case_to_search(const config::Config& config, const run::Plan& plan);
 
 // Throws Error for a scene without lights, or without a place for a camera. `stop` is checked before each evaluation;
-// the frames found by then are the result.
+// the frames found by then are the result. So they are where the method's device fails, unless it does before the first
+// one: then it throws gpu::DeviceError. Their values are then those of the search, without buffers, if the device
+// cannot measure the written path.
 WorstCase find_worst_case(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
                           const WorstCaseRequest& request, const WorstCaseListener& listener,
                           const std::atomic<bool>& stop);

@@ -14,6 +14,7 @@
 #include "geom/light_meets_cell.h"
 #include "geom/shapes/light_volume.h"
 #include "geom/shapes/verdict.h"
+#include "gpu/device/device.h"
 #include "measure/truth/truth.h"
 #include "stress/contact.h"
 #include "stress/stress_run.h"
@@ -367,7 +368,7 @@ SearchResult search_for_losses(const StressMethod& method, const StressRequest& 
   SplitMix64 random(request.seed);
   World world = random_world(random, *method.assigner);
   std::size_t best = 0;
-  while (!is_over(result.tries)) {
+  const auto climb_once = [&] {
     const World next =
         random.below(3) == 0 ? random_world(random, *method.assigner) : mutated(world, random, *method.assigner);
     Climb climb(method, next, ladder);
@@ -381,7 +382,12 @@ SearchResult search_for_losses(const StressMethod& method, const StressRequest& 
       world = next;
     }
     on_progress(result.tries);
-  }
+  };
+  while (!is_over(result.tries) && result.fault.empty()) try {
+      climb_once();
+    } catch (const gpu::DeviceError& error) {
+      result.fault = error.message();
+    }
   // Steps 0 .. best - 1 are not listed: the first listed step is the margin.
   result.least_margin = best >= ladder.touching() ? 0.0 : ladder.roundoffs(best);
   return result;

@@ -11,6 +11,7 @@
 #include "geom/shapes/light_volume.h"
 #include "geom/shapes/placement.h"
 #include "geom/shapes/verdict.h"
+#include "gpu/device/device.h"
 #include "measure/samples/shading.h"
 #include "measure/truth/truth.h"
 #include "stress/random_search.h"
@@ -194,7 +195,7 @@ class SettingCheck {
         if (answer.lists != run.cell_lists())
           add(FaultKind::lists, method.label, "the same frame gave other lists", 0, 0);
       } catch (const std::exception& error) {
-        add(FaultKind::error, method.label, error.what(), 0, 0);
+        add_error(method, error);
         continue;
       }
       report_.counts.compared_pairs += answer.lists.pair_count();
@@ -221,7 +222,7 @@ class SettingCheck {
           if (!std::ranges::binary_search(lists.of(cell), light) && is_met(light, cells.of(cell)))
             return add(FaultKind::loss, method.label, pair_text(cell, light) + " is true and not listed", cell, light);
     } catch (const std::exception& error) {
-      add(FaultKind::error, method.label, error.what(), 0, 0);
+      add_error(method, error);
     }
   }
 
@@ -450,6 +451,13 @@ class SettingCheck {
                        std::abs(projection.top));
     }
     return 0x1p-18 * size;
+  }
+
+  void add_error(const StressMethod& method, const std::exception& error) {
+    const std::size_t before = report_.faults.size();
+    add(FaultKind::error, method.label, error.what(), 0, 0);
+    if (report_.faults.size() > before)
+      report_.faults.back().is_of_device = dynamic_cast<const gpu::DeviceError*>(&error) != nullptr;
   }
 
   void add(FaultKind kind, const std::string& method, const std::string& detail, std::uint32_t cell,

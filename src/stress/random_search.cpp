@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/parallel.h"
+#include "gpu/device/device.h"
 #include "stress/random_setting.h"
 #include "stress/stress_run.h"
 
@@ -31,6 +32,7 @@ void collect(const SettingReport& report, std::uint64_t seed, const Trial& trial
 }
 
 void shrink(RandomFault& found, std::span<const StressMethod> methods) {
+  if (found.fault.is_of_device) return;
   found.scene = shrunk(found.scene, found.fault, methods);
   for (const SettingFault& fault : check_setting(found.scene, methods).faults)
     if (fault.kind == found.fault.kind && fault.method == found.fault.method && fault.type == found.fault.type)
@@ -75,6 +77,10 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
       trials[i] = random_setting(request.seed + first + i);
       reports[i] = check_setting(trials[i], methods);
     });
+    const bool has_failed = std::ranges::any_of(reports, [](const std::optional<SettingReport>& report) {
+      return report && std::ranges::any_of(report->faults, &SettingFault::is_of_device);
+    });
+    if (has_failed) gpu::close_device();  // of which nothing is left now; the next settings open it anew
     // Stops at the first unfinished one, so that the first seed and the number identify the checked seeds.
     for (std::size_t i = 0; i < count && reports[i]; ++i)
       collect(*reports[i], request.seed + first + i, trials[i], search);

@@ -36,6 +36,7 @@ struct SettingFault {
   std::string detail;  // a sentence
   std::uint32_t cell = 0, light = 0;
   scene::LightType type = scene::LightType::point;  // of the light
+  bool is_of_device = false;                        // the device failed, which no smaller setting explains
 };
 
 struct SettingCounts {

@@ -6,6 +6,7 @@
 #include "config/config.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "gpu/device/device.h"
 #include "measure/truth/list_errors.h"
 
 namespace clusterbench::stress {
@@ -68,7 +69,13 @@ void add_trial(StressCell& cell, const StressMethod& method, const Trial& trial,
     return;
   }
   if (trial.is_refused) return cell.faults.push_back(trial.label + ": should have been refused");
-  add_lists(cell, method, trial, at);
+  try {
+    add_lists(cell, method, trial, at);
+  } catch (const gpu::DeviceError& error) {
+    gpu::close_device();
+    cell.is_ended = true;
+    cell.faults.push_back(trial.label + ": " + error.message() + "; no further trial of this case");
+  }
 }
 
 std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressMethod>& methods,
@@ -87,32 +94,40 @@ std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressM
     if (!is_wanted) continue;
     const Prepared at = prepared(trial, request.threads);
     for (std::size_t i = 0; i < methods.size(); ++i)
-      if (supports_trial(methods[i], trial)) add_trial(cells[i], methods[i], trial, at);
+      if (supports_trial(methods[i], trial) && !cells[i].is_ended) add_trial(cells[i], methods[i], trial, at);
   }
   std::erase_if(cells, [](const StressCell& cell) { return cell.trials == 0; });
   return cells;
 }
 
-// One search per method, several at once on several threads.
+// One search per method, several at once on several threads; those on a device one after the other behind them, since
+// one that fails is closed before the next.
 std::vector<SearchResult> run_searches(const std::vector<StressMethod>& methods, const StressRequest& request,
                                        const std::function<void(const std::string& method, double done)>& on_tries,
                                        const std::atomic<bool>& stop) {
   std::vector<SearchResult> results(methods.size());
   std::mutex telling;
   double tries = 0.0;
+  const auto search = [&](std::size_t i) {
+    if (stop || methods[i].assigner->needs.depth) return;  // the search moves lights against the grid's cells
+    std::uint64_t before = 0;
+    const auto on_progress = [&](std::uint64_t now) {
+      const std::lock_guard lock(telling);
+      tries += static_cast<double>(now - before);
+      before = now;
+      on_tries(methods[i].label, tries / static_cast<double>(request.tries));
+    };
+    results[i] = search_for_losses(methods[i], request, on_progress, stop);
+  };
   parallel_ranges(methods.size(), request.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end && !stop; ++i) {
-      if (methods[i].assigner->needs.depth) continue;  // the search moves lights against the grid's cells
-      std::uint64_t before = 0;
-      const auto on_progress = [&](std::uint64_t now) {
-        const std::lock_guard lock(telling);
-        tries += static_cast<double>(now - before);
-        before = now;
-        on_tries(methods[i].label, tries / static_cast<double>(request.tries));
-      };
-      results[i] = search_for_losses(methods[i], request, on_progress, stop);
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      if (!methods[i].assigner->on_device) search(i);
   });
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    if (!methods[i].assigner->on_device) continue;
+    search(i);
+    if (!results[i].fault.empty()) gpu::close_device();
+  }
   return results;
 }
 
@@ -133,23 +148,35 @@ void add_choices(const assign::AssignerDescriptor& assigner, std::vector<StressM
       if (assign::ParamValue(choice) != spec.default_value) add(assign::Params(assigner.params, {{spec.name, choice}}));
 }
 
-// Those that run on a device and can do so here. Throws Error with the reason if a pattern of names is of none but
-// methods that cannot.
-std::vector<StressMethod> wanted_methods(const Pattern& pattern) {
-  std::vector<StressMethod> methods = stress_methods();
-  const bool is_of_names = !pattern.is_in("");
-  std::string obstacle;
+// Adds those that run on a device, if it is asked for, by itself or by their names, and they can do so here.
+void add_device_methods(const StressRequest& request, StressResult& result) {
+  const bool is_of_names = !request.methods.is_in("");
+  std::string others;
   for (const assign::AssignerDescriptor* assigner : assign::assigner_descriptors()) {
-    if (!assigner->on_device || !is_of_names) continue;
-    const std::string reason = assign::unavailability(*assigner, assign::Params(assigner->params));
+    if (!assigner->on_device) continue;
+    if (!request.takes_device && !is_of_names) {
+      others += (others.empty() ? "" : ", ") + assigner->name;
+      continue;
+    }
+    std::vector<StressMethod> choices;
+    add_choices(*assigner, choices);
+    std::erase_if(choices, [&](const StressMethod& method) { return !request.methods.is_in(method.label); });
+    if (choices.empty()) continue;
+    const std::string reason = assign::unavailability(*assigner, choices.front().params);
     if (reason.empty())
-      add_choices(*assigner, methods);
-    else if (pattern.is_in(assigner->name))
-      obstacle = assigner->name + ": " + reason;
+      result.methods.insert(result.methods.end(), choices.begin(), choices.end());
+    else
+      result.left_out.push_back(assigner->name + ": " + reason);
   }
-  std::erase_if(methods, [&](const StressMethod& method) { return !pattern.is_in(method.label); });
-  if (methods.empty() && !obstacle.empty()) throw Error("", "--methods", obstacle);
-  return methods;
+  if (!others.empty()) result.left_out.push_back(others + ": run on a device, and none is named");
+}
+
+// Throws Error with the reason if a pattern of names is of none but methods that cannot run.
+void choose_methods(const StressRequest& request, StressResult& result) {
+  result.methods = stress_methods();
+  std::erase_if(result.methods, [&](const StressMethod& method) { return !request.methods.is_in(method.label); });
+  add_device_methods(request, result);
+  if (result.methods.empty() && !result.left_out.empty()) throw Error("", "--methods", result.left_out.front());
 }
 
 }  // namespace
@@ -162,7 +189,9 @@ std::vector<StressMethod> stress_methods() {
 
 StressResult run_stress(const StressRequest& request, const StressListener& listener, const std::atomic<bool>& stop) {
   StressResult result;
-  result.methods = wanted_methods(request.methods);
+  choose_methods(request, result);
+  if (listener.on_left_out)
+    for (const std::string& reason : result.left_out) listener.on_left_out(reason);
   for (const HardCase& hard : hard_cases())
     if (request.cases.is_all_of(hard.id)) result.cases.push_back(hard);
   const bool searches = request.tries > 0 && request.cases.is_all_of("H31");
@@ -187,7 +216,8 @@ StressResult run_stress(const StressRequest& request, const StressListener& list
       report_progress("H31 " + method, done + methods_done);
     };
     result.searches = run_searches(result.methods, request, on_tries, stop);
-    std::erase_if(result.searches, [](const SearchResult& search) { return search.tries == 0; });
+    std::erase_if(result.searches,
+                  [](const SearchResult& search) { return search.tries == 0 && search.fault.empty(); });
   }
   if (request.random > 0 && !stop) {
     const auto on_settings = [&](std::uint64_t settings, const std::string& doing) {

@@ -36,7 +36,8 @@ struct StressRequest {
   std::uint64_t tries = 20'000;  // of the search, per method; 0 = no search
   double seconds = 0.0;          // of the search, per method, and of random settings; 0 = no limit
   std::uint64_t random = 0;      // random settings to check, with the seeds from `seed` on
-  Pattern cases, methods;        // methods that run on a device: only where names are asked for
+  Pattern cases, methods;
+  bool takes_device = false;  // methods that run on the device of the process; without it only those that are named
   int threads = 1;
 };
 
@@ -51,7 +52,8 @@ struct Loss {
 struct StressCell {
   std::string hard_case, method;
   int trials = 0, refused = 0;      // refused: as expected
-  std::vector<std::string> faults;  // a missing refusal, an unexpected one, lists that are not lists
+  std::vector<std::string> faults;  // a missing refusal, an unexpected one, lists that are not lists, a failed device
+  bool is_ended = false;            // by the device
   std::uint64_t true_pairs = 0, misses = 0, extra_pairs = 0, undecided = 0;
   std::optional<Loss> deepest;
 
@@ -66,10 +68,12 @@ struct SearchResult {
   double least_margin =
       0.0;  // of the padding: roundoffs by which the nearest light could be moved away and still be listed
   std::optional<Loss> deepest;
+  std::string fault;  // why the device ended it before its time
 };
 
 struct StressResult {
   std::vector<StressMethod> methods;
+  std::vector<std::string> left_out;           // methods on a device, each with the reason
   std::vector<HardCase> cases;                 // the selected ones
   std::vector<std::vector<ToolCheck>> checks;  // per case
   std::vector<StressCell> cells;               // per case and method, if the method supports a grid of the case
@@ -80,6 +84,7 @@ struct StressResult {
 
 struct StressListener {
   std::function<void(const std::string& doing, double done, double whole)> on_progress;
+  std::function<void(const std::string& reason)> on_left_out;  // before all work: methods that are not run
 };
 
 // On `stop` it ends with the cases, searches and settings done so far.

@@ -130,6 +130,10 @@ TEST(CommandLine, list_tells_where_presets_come_from_and_what_of_them_is_unverif
   EXPECT_NE(text.find("playcanvas: PlayCanvas, 2.23 (ran): "), std::string::npos) << text;
   EXPECT_NE(text.find("limit: 255 lights in view, the first; 255 in a cell"), std::string::npos) << text;
   EXPECT_NE(text.find("with --as-shipped: the row of a light's centre is taken once"), std::string::npos) << text;
+  EXPECT_NE(text.find("with --device: {\"name\":\"gpu-lights\",\"spot\":\"cone-sphere\"}; approximated: a group"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("not with --device: it rasterises meshes of lights"), std::string::npos) << text;
   EXPECT_EQ(text.find("brute-force:"), std::string::npos) << "nothing else";
 }
 

@@ -28,6 +28,17 @@ TEST(Recommend, names_what_a_configuration_asks_for_in_vain) {
   EXPECT_EQ(notes("").find("leaves out"), std::string::npos);
 }
 
+TEST(Recommend, refuses_presets_on_a_device_whose_times_do_not_compare) {
+  const Outcome refused =
+      tool("recommend " + test::source_dir() + "/scenes/street.glb --preset three-js,filament --device 0 -q");
+  EXPECT_EQ(refused.code, 2) << refused.err;
+  EXPECT_NE(
+      refused.err.find("device: with a device presets take methods that run on it (gpu-cells-fixed), whose times do "
+                       "not compare with those of the processor; leave the device out"),
+      std::string::npos)
+      << refused.err;
+}
+
 TEST(Recommend, ranks_what_samples_search_apart_and_never_takes_it_while_there_are_lists) {
   std::string config = space();
   config.replace(config.find(R"("aabb-fast", "exact-fast")"), 25, R"("aabb-fast", "bvh", "z-binning")");

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "cli/tool.h"
+
 #include "places.h"
 
 namespace clusterbench::test {

@@ -42,6 +42,7 @@ const Section k_sections[] = {
     section<ShadingRequest>("/properties/shading"),
     section<StabilityRequest>("/properties/stability/anyOf/1"),
     section<LookupRequest>("/properties/lookup/anyOf/1"),
+    section<ReadingRequest>("/properties/reading/anyOf/1"),
     section<DetailsRequest>("/properties/details/anyOf/1"),
     section<ShadowCullRequest>("/properties/shadow_cull"),
     section<SharedFrustaRequest>("/properties/shadow_frusta"),

@@ -67,7 +67,7 @@ const Broken k_broken[] = {
      "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, as_shipped, "
      "assigners, "
      "cost, "
-     "details, device, grids, jitter, limits, lookup, name, pre_cull, precision, presets, rank_by, samples, scenes, "
+     "details, device, grids, jitter, limits, lookup, name, pre_cull, precision, presets, rank_by, reading, samples, scenes, "
      "seed, "
      "shading, "
      "shadow_cull, shadow_frusta, stability, "

@@ -10,6 +10,7 @@
 #include "config/grid_json.h"
 #include "config/pre_cull_json.h"
 #include "core/error.h"
+#include "gpu/methods/methods.h"
 
 namespace clusterbench::config {
 namespace {
@@ -267,9 +268,91 @@ TEST(Presets, as_shipped_have_the_mistakes_of_engines_whose_code_was_run_and_els
   for (const Preset& preset : presets()) {
     EXPECT_EQ(preset.has_mistakes(), with_mistakes.contains(preset.name)) << preset.name;
     if (!preset.has_mistakes()) {
-      EXPECT_EQ(preset_parts(preset, {1920, 1080}, true), preset_parts(preset, {1920, 1080}, false)) << preset.name;
+      EXPECT_EQ(preset_parts(preset, {1920, 1080}, {.as_shipped = true}), preset_parts(preset, {1920, 1080}))
+          << preset.name;
     }
   }
+}
+
+// --- On a device ---
+
+TEST(Presets, take_their_methods_for_a_device_only_where_one_is_named) {
+  gpu::register_methods();
+  std::size_t on_device = 0;
+  for (const Preset& preset : presets()) {
+    const std::string rest = R"(, "presets": [")" + preset.name + R"("])";
+    const Config without = with_presets(rest), unnamed = with_presets(R"(, "device": "")" + rest),
+                 named = with_presets(R"(, "device": "no such device")" + rest),
+                 by_flag = with_presets(rest, {{"--device", "no such device"}});
+    const auto method = [](const Config& config) { return config.assigners.at(config.presets.at(0).assigner); };
+    const auto is_on_device = [&](const Config& config) {
+      return assign::find_assigner(method(config).name)->on_device;
+    };
+    EXPECT_FALSE(is_on_device(without) || is_on_device(unnamed)) << preset.name;
+    EXPECT_EQ(is_on_device(named), preset.on_device.has_value()) << preset.name;
+    EXPECT_EQ(method(by_flag).label(), method(named).label()) << preset.name;
+    EXPECT_EQ(grid_identity(named.grids.at(0)), grid_identity(without.grids.at(0))) << preset.name;
+    EXPECT_EQ(named.pre_culls, without.pre_culls) << preset.name;
+    on_device += is_on_device(named) ? 1 : 0;
+  }
+  EXPECT_EQ(on_device, 7u);
+}
+
+// Spots, and how many lights a cell has room for: what decides which lights are listed is the same on a device.
+TEST(Presets, have_on_a_device_the_same_scheme) {
+  gpu::register_methods();
+  constexpr std::pair<const char*, const char*> k_methods[] = {{"daveh355", "gpu-cells-fixed(spot=range,cells=device)"},
+                                                               {"three-js", "gpu-cells-fixed(cap=64,spot=sphere)"},
+                                                               {"black-mesa", "gpu-cells(spot=sphere,cells=device)"},
+                                                               {"wicked", "gpu-tiled(spot=sphere)"},
+                                                               {"unity-hdrp-fptl", "gpu-tiled(depth_mask=false)"},
+                                                               {"bevy-gpu", "gpu-lights(spot=cone-sphere)"},
+                                                               {"unreal", "gpu-cells"}};
+  for (const auto& [name, label] : k_methods) {
+    const std::string rest = std::string(R"(, "presets": [")") + name + R"("])";
+    const Config scheme = with_presets(rest), on_device = with_presets(R"(, "device": "0")" + rest);
+    const PresetChoice &of_scheme = scheme.presets.at(0), &choice = on_device.presets.at(0);
+    const MethodRequest& method = on_device.assigners.at(choice.assigner);
+    EXPECT_EQ(method.label(), label);
+    const auto &values = method.params.values(),
+               &of_processor = scheme.assigners.at(of_scheme.assigner).params.values();
+    EXPECT_EQ(values.at("spot"), of_processor.at("spot")) << name;
+    const bool has_lists = assign::find_assigner(method.name)->answers(assign::Answer::lists);
+    EXPECT_EQ(choice.storage.has_value(), has_lists) << name;
+    if (choice.storage) {
+      EXPECT_EQ(on_device.storages.at(*choice.storage).label(), scheme.storages.at(*of_scheme.storage).label()) << name;
+    }
+    if (values.contains("cap")) {
+      EXPECT_EQ(values.at("cap"), scheme.storages.at(*of_scheme.storage).params.values().at("cap")) << name;
+    }
+  }
+}
+
+TEST(Presets, as_shipped_keep_their_methods_with_mistakes_where_a_device_is_named) {
+  gpu::register_methods();
+  const Config config = with_presets(R"(, "presets": ["three-js", "daveh355"], "as_shipped": true, "device": "0")");
+  EXPECT_EQ(config.assigners.at(config.presets.at(0).assigner).name, "three-js-boxes");
+  EXPECT_EQ(config.storages.at(config.presets.at(0).storage.value()).label(), "fixed(cap=64)");
+  EXPECT_EQ(config.assigners.at(config.presets.at(1).assigner).name, "gpu-cells-fixed");
+}
+
+TEST(Presets, are_counted_on_the_processor_for_sizes_whatever_device_is_named) {
+  gpu::register_methods();
+  const std::string presets = R"(, "presets": ["three-js", "filament"], "device": "0")";
+  const auto methods = [](const Config& config) {
+    std::vector<std::string> names;
+    for (const MethodRequest& method : config.assigners) names.push_back(method.name);
+    return names;
+  };
+  const Config counted = with_presets_on_processor(with_presets(presets));
+  EXPECT_EQ(methods(counted), (std::vector<std::string>{"brute-force", "sphere-refinement"}));
+  EXPECT_EQ(counted.storages.at(counted.presets.at(0).storage.value()).label(), "fixed(cap=64)");
+  const Config own = with_presets(R"(, "assigners": ["gpu-cells"], "device": "0")");
+  EXPECT_EQ(with_presets_on_processor(own).device, "0") << "no preset";
+  const Config beside = with_presets(presets + R"(, "assigners": ["aabb"])");
+  EXPECT_EQ(methods(with_presets_on_processor(beside)),
+            (std::vector<std::string>{"aabb", "brute-force", "sphere-refinement"}));
+  EXPECT_THROW(with_presets_on_processor(with_presets(presets + R"(, "assigners": ["gpu-cells"])")), Error);
 }
 
 // As a replay of a case has it.

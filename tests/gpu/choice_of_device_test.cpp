@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "gpu/device/device_choice.h"
 
@@ -119,6 +121,55 @@ TEST(ChoiceOfDevice, without_words_is_a_device_that_can_be_used) {
   EXPECT_EQ(chosen_device(list, ""), 1u);
   list.devices[1].obstacle = list.devices[0].obstacle = "lets a shader see 8 buffers; 12 are needed";
   EXPECT_EQ(refusal(list, ""), "llvmpipe (LLVM 15.0.6, 256 bits) lets a shader see 8 buffers; 12 are needed");
+}
+
+TEST(ChoiceOfDevice, after_a_failure_is_the_same_device_wherever_it_stands_now) {
+  const DeviceList before = a_workstation();
+  DeviceList now = before;
+  std::ranges::reverse(now.devices);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(same_device(now, before.devices[i]), 4 - i);
+}
+
+TEST(ChoiceOfDevice, after_a_failure_is_no_other_one_and_says_that_it_is_gone) {
+  const DeviceFacts card = a_workstation().devices[2];
+  const auto refusal_of = [&](const DeviceList& now) -> std::string {
+    try {
+      same_device(now, card);
+    } catch (const Error& error) {
+      return error.where() + ": " + error.message();
+    }
+    return "chosen";
+  };
+  DeviceList gone = a_workstation(), driver = gone, renamed = gone, useless = gone;
+  gone.devices.erase(gone.devices.begin() + 2);
+  driver.devices[2].driver = "another one";
+  renamed.devices[2].name = "NVIDIA GeForce RTX 4090 D";
+  useless.devices[2].obstacle = "has no queue that computes";
+  for (const DeviceList& now : {gone, driver, renamed}) {
+    const std::string told = refusal_of(now);
+    EXPECT_TRUE(
+        told.starts_with("device: NVIDIA GeForce RTX 4090 (UUID 10de26840000000001000000000000bb), which this "
+                         "run began with, is gone; there are 0 (llvmpipe"))
+        << told;
+    EXPECT_TRUE(told.ends_with("), and results of two devices do not go together")) << told;
+  }
+  EXPECT_EQ(refusal_of(useless), "device: NVIDIA GeForce RTX 4090 has no queue that computes");
+  EXPECT_EQ(
+      refusal_of({{}, "no driver"}),
+      "device: NVIDIA GeForce RTX 4090 (UUID 10de26840000000001000000000000bb), which this run began with, is gone; "
+      "no driver, and results of two devices do not go together");
+}
+
+TEST(NeedsOfShaders, are_what_a_device_may_lack_each_in_a_sentence) {
+  DeviceFacts plain, full;
+  full.has_ballots = full.has_subgroup_arithmetic = full.has_full_subgroups = true;
+  const Needs all{.ballots = true, .subgroup_arithmetic = true, .full_subgroups = true};
+  EXPECT_EQ(lacking(plain, {}), "");
+  EXPECT_EQ(lacking(full, all), "");
+  EXPECT_EQ(lacking(plain, {.ballots = true}), "has no ballots in subgroups");
+  EXPECT_EQ(lacking(plain, {.subgroup_arithmetic = true}), "has no arithmetic over subgroups");
+  EXPECT_EQ(lacking(plain, {.full_subgroups = true}), "cannot be asked for subgroups without idle invocations");
+  EXPECT_EQ(lacking(plain, all), "has no ballots in subgroups");
 }
 
 TEST(ChoiceOfDevice, without_devices_says_why_there_are_none) {

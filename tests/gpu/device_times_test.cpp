@@ -35,6 +35,7 @@ TEST(ColdSpans, are_as_many_as_last_long_enough_and_fit_in_a_submission) {
 struct Recorded {
   int uploads = 0, runs = 0;
   assign::DeviceSpans spans;
+  double upload_ns = 0.0, run_ns = 0.0;  // of all repetitions, by their marks
 };
 
 Recorded recorded(const DeviceRepeats& repeats) {
@@ -57,6 +58,15 @@ Recorded recorded(const DeviceRepeats& repeats) {
       });
   commands.run();
   out.spans = work.spans();
+  if (repeats.caches == Caches::warm) {
+    out.upload_ns = commands.ns_between(0, 1);
+    out.run_ns = commands.ns_between(2, 3);
+    return out;
+  }
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(out.runs); ++i) {
+    out.upload_ns += commands.ns_between(3 * i, 3 * i + 1);
+    out.run_ns += commands.ns_between(3 * i + 1, 3 * i + 2);
+  }
   return out;
 }
 
@@ -68,22 +78,16 @@ TEST_F(DeviceMeasuring, come_from_work_that_is_repeated_as_often_as_asked_for) {
   EXPECT_EQ(cold.runs, 3);
   EXPECT_EQ(warm.uploads, 1 + 5) << "once untimed";
   EXPECT_EQ(warm.runs, 1 + 2);
+  EXPECT_DOUBLE_EQ(once.spans.run_ns, once.run_ns);
+  EXPECT_DOUBLE_EQ(cold.spans.upload_ns * 3, cold.upload_ns);
+  EXPECT_DOUBLE_EQ(cold.spans.run_ns * 3, cold.run_ns);
+  EXPECT_DOUBLE_EQ(warm.spans.upload_ns * 5, warm.upload_ns);
+  EXPECT_DOUBLE_EQ(warm.spans.run_ns * 2, warm.run_ns);
   for (const Recorded& one : {once, cold, warm}) {
     EXPECT_EQ(one.spans.dispatches, 2u) << "of one repetition";
     EXPECT_GE(one.spans.upload_ns, 0.0);
-    if (device().facts().timestamp_bits > 0) EXPECT_GT(one.spans.run_ns, 0.0);
+    EXPECT_TRUE(one.spans.run_ns > 0.0 || device().facts().timestamp_bits == 0);
   }
-}
-
-// The mean over the repetitions: 200 of them take far more than one in all.
-TEST_F(DeviceMeasuring, are_those_of_one_repetition) {
-  if (device().facts().timestamp_bits == 0) GTEST_SKIP() << "skipped: no clock";
-  double least_once = 1e18, least_mean = 1e18;
-  for (int i = 0; i < 5; ++i) {
-    least_once = std::min(least_once, recorded({Caches::warm, 1, 1}).spans.run_ns);
-    least_mean = std::min(least_mean, recorded({Caches::warm, 1, 200}).spans.run_ns);
-  }
-  EXPECT_LT(least_mean, 20.0 * least_once);
 }
 
 assign::Lists lists_after(const AssignerDescriptor& row, const Setting& setting, const DeviceRepeats& repeats,
@@ -146,7 +150,7 @@ TEST_F(DeviceMeasuring, of_a_build_are_there_where_the_device_builds_and_leave_t
       method->repeat_on_device({caches, 1, 1, 1, 3});
       const std::optional<double> ns = method->device_build_ns();
       ASSERT_TRUE(ns) << row->name;
-      if (device().facts().timestamp_bits > 0) EXPECT_GT(*ns, 0.0) << row->name;
+      EXPECT_TRUE(*ns > 0.0 || device().facts().timestamp_bits == 0) << row->name;
     }
     method->repeat_on_device({});
     method->assign(setting.input(lights), after);
@@ -162,7 +166,7 @@ TEST_F(DeviceMeasuring, rest_on_arithmetic_that_a_probe_has_looked_at) {
   EXPECT_EQ(contradiction(found, facts), "");
   EXPECT_FALSE(found.contracts);
   EXPECT_FALSE(found.reorders);
-  if (facts.rounds_to_nearest) EXPECT_EQ(found.rounding, Rounding::to_nearest);
+  EXPECT_TRUE(found.rounding == Rounding::to_nearest || !facts.rounds_to_nearest);
   // What Vulkan allows.
   EXPECT_LE(found.division_ulp, 2.5);
   EXPECT_LE(found.sqrt_ulp, 4.5);
@@ -190,21 +194,33 @@ TEST_F(DeviceMeasuring, would_not_rest_on_arithmetic_that_a_driver_has_changed) 
 }
 
 TEST(ProbedArithmetic, that_rounds_either_way_contradicts_only_devices_that_said_they_round_to_nearest) {
-  Arithmetic found{.rounding = Rounding::either_way, .flushes_denormals = true, .division_ulp = 100.0};
-  EXPECT_EQ(contradiction(found, {.name = "Card", .rounds_to_nearest = false}), "");
-  EXPECT_NE(contradiction(found, {.name = "Card", .rounds_to_nearest = true}), "");
+  Arithmetic found;
+  found.rounding = Rounding::either_way;
+  found.flushes_denormals = true;
+  found.division_ulp = 100.0;
+  DeviceFacts card;
+  card.name = "Card";
+  card.rounds_to_nearest = false;
+  EXPECT_EQ(contradiction(found, card), "");
+  card.rounds_to_nearest = true;
+  EXPECT_EQ(contradiction(found, card),
+            "Card was asked to round to nearest and does not, so that the lists of its methods could lose lights (a "
+            "probe of its arithmetic)");
 }
 
 // --- What the device tells ---
 
+// Drivers on the processor may be interrupted while they count.
 TEST_F(DeviceMeasuring, have_a_clock_where_shaders_can_count) {
   ClockProbe probe(device());
-  for (int i = 0; i < 3; ++i) {
+  const bool can_tell = device().facts().has_shader_clock && device().facts().timestamp_bits > 0;
+  int told = 0;
+  for (int i = 0; i < 30; ++i) {
     const std::optional<double> mhz = probe.mhz();
-    if (!device().facts().has_shader_clock) EXPECT_FALSE(mhz);
-    if (mhz) EXPECT_GT(*mhz, 1.0);
+    told += mhz ? 1 : 0;
+    EXPECT_TRUE(!mhz || *mhz > 0.0);
   }
-  if (device().facts().has_shader_clock) EXPECT_TRUE(probe.mhz());
+  EXPECT_EQ(told > 0, can_tell);
 }
 
 TEST_F(DeviceMeasuring, have_statistics_of_shaders_where_the_driver_tells_them) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "core/error.h"
+#include "gpu/device/device_choice.h"
 #include "gpu/device_test.h"
 
 namespace clusterbench::gpu {
@@ -65,6 +66,24 @@ TEST_F(Devices, are_opened_by_their_uuid_and_a_wrong_name_says_which_there_are) 
   use_device("");
   EXPECT_EQ(device_obstacle(), "");
   EXPECT_EQ(device().facts().name, name);
+}
+
+TEST_F(Devices, open_after_a_failure_as_the_one_that_was_open_before_and_as_no_other) {
+  const DeviceFacts first = device().facts();
+  close_device();
+  EXPECT_EQ(device().facts().uuid, first.uuid);
+  EXPECT_EQ(Device("words that then mean nothing", &first).facts().uuid, first.uuid);
+  DeviceFacts other = first;
+  other.uuid = std::string(32, '0');
+  try {
+    const Device opened("", &other);
+    ADD_FAILURE() << "opened " << opened.facts().name;
+  } catch (const Error& error) {
+    EXPECT_TRUE(error.message().starts_with(first.name +
+                                            " (UUID 00000000000000000000000000000000), which this run began "
+                                            "with, is gone; there are 0 ("))
+        << error.message();
+  }
 }
 
 // --- Without a driver: CTest sets VK_DRIVER_FILES to a file that does not exist ---

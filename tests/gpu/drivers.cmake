@@ -1,13 +1,22 @@
 # The tests of the layer gpu. Those that need no device are called gpu.SUITE.NAME; those on a device (suites Device*) run once in
-# each of these modes, as gpu.MODE.SUITE.NAME:
+# each of these modes, as gpu.MODE.SUITE.NAME, and so do some of the layer run:
 #   lavapipe, swiftshader       on the two software drivers
 #   lavapipe_reversed           with the invocations of each group numbered from the other end (lane_index() of common.glsl)
 #   lavapipe_sync               the validation layer looks for missing barriers between commands
 #   lavapipe_bounds             it looks for reads and writes beyond buffers
+#   lavapipe_core               it looks for what is used against the rules, or not destroyed
 # A missing driver, layer or Vulkan itself skips them with the reason; .ci/run takes that for a failure.
 file(GLOB LAVAPIPE /usr/share/vulkan/icd.d/lvp_icd*.json /etc/vulkan/icd.d/lvp_icd*.json)
 file(GLOB SWIFTSHADER /usr/lib/chromium/vk_swiftshader_icd.json /usr/lib*/chromium-browser/vk_swiftshader_icd.json
      /opt/google/chrome/vk_swiftshader_icd.json)
+
+# Faults of Vulkan's calls, which the test program puts between the layer and the driver.
+if(VULKAN_INCLUDE AND VOLK_INCLUDE AND GLSLANG)
+  set(FAULTS gpu/faults/made_and_destroyed.cpp gpu/faults/faults_test.cpp)
+  target_sources(test_gpu PRIVATE ${FAULTS})
+  target_include_directories(test_gpu SYSTEM PRIVATE ${VULKAN_INCLUDE} ${VOLK_INCLUDE})
+  set_source_files_properties(${FAULTS} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endif()
 
 # The test program takes shaders of a folder in place of the embedded ones where it is told so: those with other numbers of
 # invocations, and changed ones of scripts/shader_mutations.py.
@@ -37,9 +46,16 @@ if(NOT CLUSTERBENCH_SANITIZE AND GLSLANG AND VULKAN_INCLUDE AND VOLK_INCLUDE)
   add_dependencies(test_gpu reversed_shaders)
 endif()
 
-# Suites of MODE whose tests fit FILTER, in an environment; DRIVER is a file of the driver, or none.
+# Suites of ${PROGRAM} whose tests fit FILTER, in MODE and an environment; DRIVER is a file of the driver, or none.
+set(PROGRAM test_gpu)
 function(clusterbench_add_device_tests MODE DRIVER PACKAGE FILTER)
+  if(NOT TARGET ${PROGRAM})
+    return()
+  endif()
   if(NOT DRIVER)
+    if(NOT PROGRAM STREQUAL test_gpu)
+      return() # that it lacks is said once
+    endif()
     add_test(NAME gpu.${MODE} COMMAND ${CMAKE_COMMAND} -E echo "skipped: this machine lacks its driver (Debian: ${PACKAGE})")
     set_tests_properties(gpu.${MODE} PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
     return()
@@ -50,20 +66,20 @@ function(clusterbench_add_device_tests MODE DRIVER PACKAGE FILTER)
   if(CLUSTERBENCH_SANITIZE)
     foreach(INDEX RANGE 1 2)
       math(EXPR SHARD "${INDEX} - 1")
-      add_test(NAME gpu.${MODE}_part_${INDEX} COMMAND test_gpu --gtest_filter=${FILTER})
-      set_tests_properties(gpu.${MODE}_part_${INDEX} PROPERTIES TIMEOUT 1200
+      add_test(NAME gpu.${MODE}_${PROGRAM}_${INDEX} COMMAND ${PROGRAM} --gtest_filter=${FILTER})
+      set_tests_properties(gpu.${MODE}_${PROGRAM}_${INDEX} PROPERTIES TIMEOUT 1200
         ENVIRONMENT "${ENVIRONMENT};GTEST_TOTAL_SHARDS=2;GTEST_SHARD_INDEX=${SHARD}")
     endforeach()
     return()
   endif()
-  gtest_discover_tests(test_gpu NO_PRETTY_VALUES TEST_PREFIX gpu.${MODE}. TEST_FILTER ${FILTER} TEST_LIST GPU_TESTS_${MODE}
+  gtest_discover_tests(${PROGRAM} NO_PRETTY_VALUES TEST_PREFIX gpu.${MODE}. TEST_FILTER ${FILTER} TEST_LIST ${PROGRAM}_${MODE}
     DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
   # Properties that are lists get lost on their way through gtest_discover_tests().
-  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/gpu_${MODE}.cmake "foreach(TEST IN LISTS GPU_TESTS_${MODE})
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/${PROGRAM}_${MODE}.cmake "foreach(TEST IN LISTS ${PROGRAM}_${MODE})
   set_tests_properties(\${TEST} PROPERTIES ENVIRONMENT \"${ENVIRONMENT}\")
 endforeach()
 ")
-  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/gpu_${MODE}.cmake)
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${PROGRAM}_${MODE}.cmake)
 endfunction()
 
 # Without a device, and without any driver.
@@ -87,11 +103,19 @@ if(NOT CLUSTERBENCH_SANITIZE)
   clusterbench_add_device_tests(lavapipe_bounds "${LAVAPIPE}" mesa-vulkan-drivers
     "DeviceCommands.*:DeviceSizes.of_any*:DeviceSizes.of_lists*:DeviceSizes.of_more*:DeviceOwnLists.of_tiles_know*:\
 DeviceOwnLists.of_fixed_length_f*:DeviceReadingLookups.*:DeviceReadingWalks.differ*" CLUSTERBENCH_VULKAN_VALIDATION=gpu)
+  clusterbench_add_device_tests(lavapipe_core "${LAVAPIPE}" mesa-vulkan-drivers "DeviceFaults.*"
+    CLUSTERBENCH_VULKAN_VALIDATION=core)
 endif()
 if(NOT CLUSTERBENCH_SANITIZE STREQUAL "thread")
   # Not what takes it long, and not what wants rounding to nearest.
   clusterbench_add_device_tests(swiftshader "${SWIFTSHADER}" chromium
-    "Device*-*million*:DeviceReadingWalks.find_no*:DeviceReadingWalks.*8_bits:DeviceOwnLists.of_tiles_are_those_of_the_same*")
+    "Device*-*million*:DeviceFaults.while_a_method*:DeviceReadingWalks.find_no*:DeviceReadingWalks.*8_bits:DeviceOwnLists.of_tiles_are_those_of_the_same*")
+endif()
+set(PROGRAM test_run)
+if(NOT CLUSTERBENCH_SANITIZE)
+  clusterbench_add_device_tests(lavapipe "${LAVAPIPE}" mesa-vulkan-drivers DevicePresets.*)
+  clusterbench_add_device_tests(lavapipe_sync "${LAVAPIPE}" mesa-vulkan-drivers DevicePresets.are* CLUSTERBENCH_VULKAN_VALIDATION=sync)
+  clusterbench_add_device_tests(swiftshader "${SWIFTSHADER}" chromium DevicePresets.*)
 endif()
 
 # Against the exact truth: some of the hard cases, and random settings. By hand, all: clusterbench stress --methods ^gpu-
@@ -104,6 +128,20 @@ if(NOT CLUSTERBENCH_SANITIZE)
                -o ${PROJECT_BINARY_DIR}/stress_${MODE}.json)
       set_tests_properties(gpu.${MODE}_stress PROPERTIES ENVIRONMENT "VK_DRIVER_FILES=${DRIVER};VK_ICD_FILENAMES=${DRIVER}"
         TIMEOUT 600)
+    endif()
+  endforeach()
+endif()
+
+# What samples pay, through the program.
+if(NOT CLUSTERBENCH_SANITIZE)
+  foreach(MODE lavapipe swiftshader)
+    string(TOUPPER ${MODE} DRIVER)
+    if(${DRIVER})
+      list(GET ${DRIVER} 0 DRIVER)
+      add_test(NAME gpu.${MODE}_readings COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/gpu/test_readings.py
+               $<TARGET_FILE:clusterbench> ${PROJECT_SOURCE_DIR}/scenes)
+      set_tests_properties(gpu.${MODE}_readings PROPERTIES ENVIRONMENT "VK_DRIVER_FILES=${DRIVER};VK_ICD_FILENAMES=${DRIVER}"
+        TIMEOUT 600 SKIP_RETURN_CODE 77)
     endif()
   endforeach()
 endif()

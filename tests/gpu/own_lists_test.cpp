@@ -175,7 +175,8 @@ void expect_same_cells(const assign::LightStructure& found, const assign::LightS
   }
 }
 
-bool has_masks() {
+// Where a device may round either way, its masks have some more parts.
+bool has_masks_of_the_processor() {
   return device().facts().rounds_to_nearest;
 }
 
@@ -184,7 +185,7 @@ TEST_F(DeviceOwnLists, of_tiles_are_those_of_tiled_where_spots_are_balls) {
   for (const Setting& given : settings_of_tiles(9))
     for (const bool is_masked : {false, true})
       for (const std::string spot : {"sphere", "range"}) {
-        if (is_masked && !has_masks()) continue;
+        if (is_masked && !has_masks_of_the_processor()) continue;
         const Setting setting = without_boxes(given);
         const std::string where = setting.name + ", " + spot + (is_masked ? ", masked" : "");
         const AssignerRun run =
@@ -460,13 +461,94 @@ TEST_F(DeviceOwnLists, of_tiles_know_their_tiles_as_the_processor_does) {
   }
 }
 
+// Tiles of four pixels: the ends of a range, and the depths on both sides of where one of its parts begins. Ranges are
+// so long that these depths are closer to it than a device's roundoffs.
+class BesideAPart {
+ public:
+  static constexpr std::uint32_t k_tiles = 4000;
+
+  explicit BesideAPart(std::uint64_t seed) {
+    assign::testing::Random random(seed);
+    for (std::uint32_t tile = 0; tile < k_tiles; ++tile) {
+      const auto lo = static_cast<float>(random.log_between(1e-3, 1e6)),
+                 hi = static_cast<float>(lo * (1.0 + random.log_between(40.0, 1e4)));
+      const assign::DepthParts parts(lo, std::nextafter(hi, INFINITY));
+      part_.push_back(1 + static_cast<int>(31.0 * random.unit()));
+      float before = lo, behind = hi;
+      while (std::nextafter(before, INFINITY) < behind) {
+        const float middle = before + (behind - before) / 2.0f;
+        (parts.part_of(middle) < part_.back() ? before : behind) = middle;
+      }
+      depths_.insert(depths_.end(), {lo, before, behind, hi});
+    }
+  }
+
+  int part(std::uint32_t tile) const { return part_[tile]; }
+  std::uint32_t bits_on_host(std::uint32_t tile) const {
+    const float* pixel = &depths_[4 * tile];
+    const assign::DepthParts parts(pixel[0], std::nextafter(pixel[3], INFINITY));
+    return parts.bit_of(pixel[0]) | parts.bit_of(pixel[1]) | parts.bit_of(pixel[2]) | parts.bit_of(pixel[3]);
+  }
+  // `without`: of each tile, pixel 1 or 2 is as if it were not there.
+  std::vector<std::uint32_t> bits_on_device(std::uint32_t mode, std::uint32_t without) const {
+    std::vector<float> depths = depths_;
+    for (std::uint32_t tile = 0; tile < k_tiles; ++tile) depths[4 * tile + without] = depths[4 * tile];
+    std::vector<std::uint32_t> sides;
+    for (std::uint32_t i = 0; i <= k_tiles; ++i)
+      sides.insert(sides.end(), {std::bit_cast<std::uint32_t>(static_cast<float>(i)), 0, 0, 4 * i});
+    for (std::uint32_t row = 0; row < 2; ++row)
+      sides.insert(sides.end(), {std::bit_cast<std::uint32_t>(1.0f - static_cast<float>(row)), 0, 0, row});
+    FrameArguments arguments;
+    arguments.cells = arguments.columns = k_tiles;
+    arguments.rows = arguments.slices = 1;
+    arguments.picture_width = 4 * k_tiles;
+    Buffers buffers(device());
+    buffers.reserve(Binding::depths, bytes_of(depths), "depths");
+    buffers.reserve(Binding::tile_sides, bytes_of(sides), "sides");
+    buffers.reserve(Binding::tiles, 64 * k_tiles, "tiles");
+    Commands commands(device(), buffers);
+    commands.upload(Binding::depths, depths.data(), bytes_of(depths));
+    commands.upload(Binding::tile_sides, sides.data(), bytes_of(sides));
+    commands.barrier();
+    commands.dispatch(device().kernel("tile_depths", 64, mode), arguments, k_tiles);
+    commands.download(Binding::tiles, 16 * k_tiles);
+    commands.run();
+    const auto words = commands.downloaded(0);
+    std::vector<std::uint32_t> bits;
+    for (std::uint32_t tile = 0; tile < k_tiles; ++tile) bits.push_back(words[4 * tile + 2]);
+    return bits;
+  }
+
+ private:
+  std::vector<float> depths_;
+  std::vector<int> part_;
+};
+
+TEST_F(DeviceOwnLists, of_tiles_have_both_parts_of_a_depth_between_them_where_a_device_may_round_either_way) {
+  constexpr std::uint32_t k_mask = 1, k_widened_mask = 3;
+  const BesideAPart given(23);
+  for (const std::uint32_t without : {1u, 2u}) {
+    const std::vector<std::uint32_t> bits = given.bits_on_device(k_mask, without),
+                                     wider = given.bits_on_device(k_widened_mask, without);
+    std::uint32_t more = 0;
+    for (std::uint32_t tile = 0; tile < BesideAPart::k_tiles; ++tile) {
+      const std::uint32_t both = 3u << (given.part(tile) - 1);
+      ASSERT_EQ(wider[tile] & both, both) << tile << ": the depth next to part " << given.part(tile);
+      ASSERT_EQ(wider[tile] & given.bits_on_host(tile), given.bits_on_host(tile)) << tile;
+      ASSERT_EQ(bits[tile] & ~wider[tile], 0u) << tile;
+      ASSERT_LE(std::popcount(wider[tile]), 6) << tile << ": only what lies next to a depth";
+      more += bits[tile] != wider[tile] ? 1 : 0;
+    }
+    EXPECT_GT(more, BesideAPart::k_tiles / 2) << "a mask that is not widened has one of the two";
+  }
+}
+
 TEST_F(DeviceOwnLists, of_tiles_lose_no_light_that_meets_a_visible_part) {
   std::uint64_t true_pairs = 0;
   for (const Setting& setting : settings_of_tiles(13)) {
     const view::LightArrays lights = lights_of(setting);
     for (const std::string test : {"planes", "both"}) {
-      const AssignerRun run =
-          run_of("gpu-tiled", {{"test", test}, {"depth_mask", has_masks()}}, Answer::structure, setting);
+      const AssignerRun run = run_of("gpu-tiled", {{"test", test}}, Answer::structure, setting);
       const grid::OccupiedCells cells = run.structure()->occupied_cells();
       const Lists lists = run.structure()->expanded();
       for (std::uint32_t cell = 0; cell < cells.cell_count(); cell += 5)
@@ -490,7 +572,7 @@ TEST_F(DeviceOwnLists, of_tiles_test_lights_in_view_against_tiles_that_show_a_su
   for (float& depth : setting.depth.nearest) depth = INFINITY;
   EXPECT_EQ(run_of(row.name, {}, Answer::structure, setting).tests_done(), 0u);
   setting.depth.nearest[0] = 5.0f;
-  const AssignerRun run = run_of(row.name, {{"depth_mask", has_masks()}}, Answer::structure, setting);
+  const AssignerRun run = run_of(row.name, {}, Answer::structure, setting);
   EXPECT_GT(run.tests_done(), 0u);
   EXPECT_LT(run.tests_done(), setting.frame.lights.size()) << "one tile; some lights lie beside the view";
   EXPECT_EQ(run.structure()->occupied_cells().parts.size(), 1u);

@@ -40,6 +40,10 @@ class Embedded(unittest.TestCase):
         for shader in SHADERS:
             self.assertEqual(modules[shader, "plain"], modules[shader, "to_nearest"], shader)
 
+    def test_how_shaders_round_is_said_in_one_file(self):
+        files = [file.name for file in shader_modules.SHADERS.iterdir() if "spirv_execution_mode" in file.read_text()]
+        self.assertEqual(files, ["rounding.glsl"])
+
     def test_names_of_those_that_decide_nothing_are_shaders_with_a_reason(self):
         for shader, reason in shader_modules.DECIDE_NOTHING.items():
             self.assertTrue(any(name.startswith(shader) for name in SHADERS), shader)
@@ -115,11 +119,12 @@ class Changed(unittest.TestCase):
             self.assertTrue(any("atomicOr" in fault for fault in faults), f"{shader}: {faults}")
 
     def test_rounding_that_is_not_asked_for_is_found(self):
-        common = self.shaders / "common.glsl"
-        text = common.read_text()
-        common.write_text(re.sub(r"^spirv_execution_mode.*4462.*\n", "", text, flags=re.M))
-        faults = shader_modules.faults_of(self.compile("cells"), "cells", "to_nearest")
-        self.assertTrue(any("RoundingModeRTE" in fault for fault in faults), faults)
+        file = self.shaders / "rounding.glsl"
+        text = file.read_text()
+        file.write_text(re.sub(r"^spirv_execution_mode.*4462.*\n", "", text, flags=re.M))
+        for shader in ("cells", "read_packed"):
+            faults = shader_modules.faults_of(self.compile(shader), shader, "to_nearest")
+            self.assertTrue(any("RoundingModeRTE" in fault for fault in faults), faults)
 
 
 if __name__ == "__main__":

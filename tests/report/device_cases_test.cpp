@@ -9,6 +9,7 @@
 #include "report/comparison_by_hand.h"
 #include "report/results/merge.h"
 #include "report/tables/table.h"
+#include "result/figures/case_figure.h"
 
 namespace clusterbench::report {
 namespace {
@@ -86,8 +87,8 @@ TEST(DeviceCases, tell_how_they_were_measured) {
   EXPECT_EQ(device["repeats"].dump(), R"({"upload":3,"run":3,"floor":4})");
   EXPECT_EQ(device["warm"]["run_ns"]["median"], 1500.0);
   EXPECT_EQ(device["build_ns"]["median"], 900.0);
-  EXPECT_EQ(device["clock_mhz"].dump(), R"({"median":1500.0,"min":1480.0,"max":1510.0})");
-  EXPECT_EQ(device["shaders"].dump(), R"([{"shader":"cells, mode 1","name":"Register Count","value":40.0}])");
+  EXPECT_EQ(device["clock_mhz"].dump(), R"({"median":1500,"min":1480,"max":1510,"samples":[1500,1510,1480]})");
+  EXPECT_EQ(device["shaders"].dump(), R"([{"shader":"cells, mode 1","name":"Register Count","value":40}])");
   EXPECT_EQ(json["device"]["arithmetic"]["rounding"], "either_way");
   EXPECT_EQ(json["device"]["arithmetic"]["division_ulp"], 1.5);
   EXPECT_EQ(config::schema_violations(config::result_schema(), nlohmann::json::parse(json.dump())),

@@ -104,6 +104,55 @@ TEST_F(JournalTest, a_line_cut_in_the_middle_is_passed_over) {
   EXPECT_EQ(later.earlier_ids(), std::vector<std::string>{"first"});
 }
 
+TEST_F(JournalTest, of_another_device_is_refused_with_both_names) {
+  const auto header = [](const char* name, const char* uuid) {
+    return Json{{"config", "a"}, {"device", {{"name", name}, {"driver", "1.0"}, {"uuid", uuid}}}};
+  };
+  const auto refusal_of = [&](const Json& earlier, const Json& now) -> std::string {
+    fs::remove(file_.string() + ".partial");
+    {
+      Journal journal(file_, earlier, false, 100);
+      journal.add_case(case_named("first"));
+    }
+    std::string told;
+    try {
+      finished_ids(file_, now);
+    } catch (const Error& error) {
+      told = error.message();
+    }
+    EXPECT_EQ(told.empty(), earlier == now);
+    if (told.empty())
+      EXPECT_EQ(Journal(file_, now, true, 100).earlier_ids().size(), 1u);
+    else
+      EXPECT_THROW(Journal(file_, now, true, 100), Error);
+    return told;
+  };
+  const std::string end =
+      "; --device NAME takes the same one, where it is there; without --resume the run begins anew and the file is "
+      "kept "
+      "under another name";
+  EXPECT_EQ(refusal_of(header("RTX 4090", "01"), header("RTX 4090", "01")), "");
+  EXPECT_EQ(refusal_of(header("RTX 4090", "01"), header("UHD 630", "02")),
+            "is an interrupted run on RTX 4090, and this one is on UHD 630" + end);
+  EXPECT_EQ(refusal_of(header("RTX 4090", "01"), header("RTX 4090", "02")),
+            "is an interrupted run on RTX 4090, and this one is on another device or driver of that name" + end);
+  EXPECT_EQ(refusal_of(header("RTX 4090", "01"), k_header),
+            "is an interrupted run on RTX 4090, and this one is on no device" + end);
+  EXPECT_EQ(refusal_of(k_header, header("RTX 4090", "01")),
+            "is an interrupted run on no device, and this one is on RTX 4090" + end);
+  Json other = header("UHD 630", "02");
+  other["config"] = "b";
+  EXPECT_TRUE(
+      refusal_of(header("RTX 4090", "01"), other).starts_with("is an interrupted run of another configuration"));
+  for (const char* broken : {"7", "null", R"({"name": 7})", R"({"uuid": "01"})", "[]"}) {
+    Json mangled = k_header;
+    mangled["device"] = Json::parse(broken);
+    EXPECT_TRUE(refusal_of(mangled, header("RTX 4090", "01"))
+                    .starts_with("is an interrupted run on a device without a name, and this one is on RTX 4090"))
+        << broken;
+  }
+}
+
 // Only the last line can be cut by the end of a run.
 TEST_F(JournalTest, another_broken_line_is_an_error_that_names_it) {
   const auto refusal_with = [&](const std::string& line) -> std::string {

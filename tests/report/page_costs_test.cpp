@@ -34,6 +34,19 @@ TEST(PageCosts, are_not_those_of_engines_that_make_their_lists_on_the_gpu_and_we
   EXPECT_TRUE(page_costs(test::result_of({{"config", Json::object()}, {"cases", Json::array({preset})}})).empty());
 }
 
+TEST(PageCosts, are_not_those_of_presets_that_a_device_has_timed) {
+  Json preset = costly_case("a", true);
+  preset.erase("timing");
+  preset["preset"] = "unreal";
+  const auto costs_of = [&] {
+    return page_costs(test::result_of({{"config", Json::object()}, {"cases", Json::array({preset})}})).size();
+  };
+  EXPECT_EQ(costs_of(), 1u) << "counted on the processor: the model's part";
+  preset["assigner"] = {{"on_device", true}};
+  preset["device"] = {{"run_ns", {{"median", 5000.0}}}};
+  EXPECT_EQ(costs_of(), 0u);
+}
+
 TEST(PageCosts, are_none_without_a_model) {
   Json plain = costly_case("a", true);
   plain.erase("cost");

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 
+#include "config/presets/preset_library.h"
 #include "records.h"
+#include "report/presets/preset_losses.h"
 #include "report/presets/preset_words.h"
 #include "run/grid_facts.h"
 
@@ -145,9 +147,46 @@ TEST(PresetRanking, a_time_on_the_cpu_is_shown_only_of_engines_that_assign_there
   EXPECT_TRUE(line("three-js").ends_with("gpu")) << table;
   EXPECT_TRUE(line("filament").ends_with("50.0")) << table;
   EXPECT_NE(table.find("of engines that assign on the CPU"), std::string::npos) << table;
+  EXPECT_NE(table.find("--device NAME (clusterbench list devices) runs and times the engines' own kind of shader: "
+                       "three-js.\n"),
+            std::string::npos)
+      << table;
   EXPECT_NE(table.find("30 frames; lights in view: 120 on average, 300 at most"), std::string::npos) << table;
   EXPECT_EQ(preset_conclusions(result),
             "conclusion: presets for level/walk: " + ranking_of_cases(cases)["text"].get<std::string>() + ".\n");
+}
+
+TEST(PresetRanking, a_case_on_a_device_says_so_and_needs_no_hint) {
+  Json on_device = preset_case("three-js", 0, 1e4, 2e5);
+  on_device["assigner"]["on_device"] = true;
+  on_device.erase("timing");
+  const Json cases{on_device, preset_case("filament", 1e3, 1e4, 4e5)};
+  const Json ranking = ranking_of_cases(cases);
+  EXPECT_EQ(line_of(ranking, "three-js")["upload_ns"], 0.0);
+  const std::string table = preset_table_of(ranking, cases);
+  const std::size_t at = table.find(" three-js ");
+  EXPECT_TRUE(table.substr(at, table.find('\n', at) - at).ends_with("device")) << table;
+  EXPECT_EQ(table.find("--device NAME"), std::string::npos) << table;
+  const auto told = [&](bool is_on_device) {
+    on_device["assigner"]["on_device"] = is_on_device;
+    return preset_facts(test::cases_of(Json::array({on_device})), {}).at(0).approximated;
+  };
+  EXPECT_EQ(told(false), config::find_preset("three-js")->approximated);
+  EXPECT_EQ(told(true), told(false) + "; on the device: " + config::find_preset("three-js")->on_device->approximated);
+}
+
+// A storage drops after its lists were compared, a shader before.
+TEST(PresetRanking, what_has_no_room_in_a_list_of_the_methods_own_is_dropped_and_not_missed_by_its_test) {
+  Json full = preset_case("three-js", 0, 1e4, 2e5);
+  full["buffers"]["overflow"] = {{"dropped_pairs", 12}, {"lights", {3, 4}}, {"frames", 2}};
+  full["error"] = {{"false_negatives", 9}, {"true_pairs", 1000}};
+  EXPECT_EQ(preset_losses(test::cases_of(Json::array({full}))[0]).by_method, 9u) << "in a storage";
+  full["storage"] = "own";
+  const PresetLosses own = preset_losses(test::cases_of(Json::array({full}))[0]);
+  EXPECT_EQ(own.by_method, 0u);
+  EXPECT_EQ(own.dropped, 12u);
+  full["buffers"]["overflow"]["dropped_pairs"] = 4;
+  EXPECT_EQ(preset_losses(test::cases_of(Json::array({full}))[0]).by_method, 5u);
 }
 
 TEST(PresetRanking, lost_pairs_that_no_sample_needs_are_told_and_are_no_loss) {

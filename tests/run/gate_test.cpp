@@ -105,6 +105,14 @@ TEST(Gate, any_difference_of_an_exact_method_fails) {
   EXPECT_EQ(kinds(case_result), (std::vector{Kind::extra_pairs}));
 }
 
+TEST(Gate, a_device_that_walks_other_lights_fails_the_case) {
+  CaseResult case_result = with_cells();
+  case_result.reading.emplace().sets.resize(2);
+  EXPECT_TRUE(kinds(case_result).empty());
+  case_result.reading->sets[1].differing = 1;
+  EXPECT_EQ(kinds(case_result), (std::vector{Kind::wrong_readings}));
+}
+
 TEST(Gate, without_cells_a_light_missed_at_a_sample_is_a_lost_one) {
   CaseResult case_result = without_cells();
   miss(case_result, 1, 1);

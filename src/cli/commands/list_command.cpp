@@ -84,6 +84,8 @@ Json to_json(const config::Preset& preset) {
   if (parts.contains("pre_cull")) out["pre_cull"] = parts["pre_cull"];
   if (const std::string limit = config::limit_text(preset); !limit.empty()) out["limit"] = limit;
   if (const std::uint64_t most = config::most_lights(preset); most > 0) out["most_lights"] = most;
+  if (preset.on_device) out["on_device"] = result::to_json(*preset.on_device);
+  if (preset.not_on_device) out["not_on_device"] = *preset.not_on_device;
   if (preset.has_mistakes()) {
     out["mistakes"] = *preset.mistakes;
     out["as_shipped"] = result::to_json(*preset.as_shipped);
@@ -190,6 +192,16 @@ std::string parts_text(const Json& preset) {
   return text;
 }
 
+// What a device that is named changes. "" for engines that assign on the processor.
+std::string device_text(const Json& preset) {
+  if (preset.contains("not_on_device")) return "not with --device: " + preset["not_on_device"].get<std::string>();
+  if (!preset.contains("on_device")) return "";
+  const Json& on_device = preset["on_device"];
+  const std::string approximated = on_device["approximated"].get<std::string>();
+  return "with --device: " + on_device["assigner"].dump() +
+         (approximated.empty() ? "" : "; approximated: " + approximated);
+}
+
 void print_preset(const Json& preset) {
   const auto text = [&](const char* key) { return preset.value(key, ""); };
   std::cout << "  " << text("name") << ": " << text("engine") << ", " << text("version") << " (" << text("evidence")
@@ -199,12 +211,15 @@ void print_preset(const Json& preset) {
     if (!text(key).empty()) std::cout << "      " << key << ": " << text(key) << "\n";
   if (preset.contains("mistakes")) std::cout << "      with --as-shipped: " << text("mistakes") << "\n";
   std::cout << "      " << parts_text(preset) << "\n";
+  if (const std::string on_device = device_text(preset); !on_device.empty()) std::cout << "      " << on_device << "\n";
 }
 
 void print_presets(const Json& presets) {
   std::cout
       << "presets (tiles that follow the viewport as for 1920 x 1080; ran: the engine's own code, or a transcription "
-         "of it, was run\nand its lists compared; read: its code or publication was read; memory: neither)\n";
+         "of it, was run\nand its lists compared; read: its code or publication was read; memory: neither; with "
+         "--device: the "
+         "method that is run\nand timed in place of the other where a device is named)\n";
   for (const Json& preset : presets) print_preset(preset);
 }
 

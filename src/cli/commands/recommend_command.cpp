@@ -87,9 +87,25 @@ std::string ignored_keys(const config::Config& config) {
   };
   add(config.details.has_value(), "details");
   add(config.stability.has_value(), "stability");
+  add(config.reading.has_value(), "reading");
   add(!config.shadow_culls.empty(), "shadow_cull");
   add(config.shared_frusta.has_value(), "shadow_frusta");
   return keys;
+}
+
+// Methods that run on a device; presets take such where one is named.
+void refuse_devices(const config::Config& config) {
+  for (std::size_t i = 0; i < config.assigners.size(); ++i) {
+    const std::string& name = config.assigners[i].name;
+    if (!assign::find_assigner(name)->on_device) continue;
+    const bool is_of_preset = i >= config.own_assigners;
+    throw Error(config.file.string(), is_of_preset ? "device" : "assigners",
+                (is_of_preset ? "with a device presets take methods that run on it (" + name + "), whose"
+                              : name + " runs on a device, whose") +
+                    " times do not compare with those of the processor; " +
+                    (is_of_preset ? "leave the device out, or take `clusterbench run`"
+                                  : "`clusterbench run` measures it beside others"));
+  }
 }
 
 // `ignored`: receives the keys that are left out.
@@ -98,14 +114,12 @@ config::Config read_input(const RecommendFlags& flags, std::string& ignored) {
   defaults["samples"] = {{"opaque", {{"divisor", 16}}}};
   config::Config config = read_inputs(flags.inputs, {}, defaults);
   ignored = ignored_keys(config);
-  for (const config::MethodRequest& method : config.assigners)
-    if (assign::find_assigner(method.name)->on_device)
-      throw Error(config.file.string(), "assigners",
-                  method.name +
-                      " runs on a device, whose times do not compare with those of the processor; `clusterbench "
-                      "run` measures it beside others");
-  return config::changed(
-      config, {{"details", nullptr}, {"stability", nullptr}, {"shadow_cull", nullptr}, {"shadow_frusta", nullptr}});
+  refuse_devices(config);
+  return config::changed(config, {{"details", nullptr},
+                                  {"stability", nullptr},
+                                  {"reading", nullptr},
+                                  {"shadow_cull", nullptr},
+                                  {"shadow_frusta", nullptr}});
 }
 
 // A preset whose engine makes its lists on a GPU, so that times measured here are not the engine's; "" without any.

@@ -8,6 +8,7 @@
 #include "cli/output/output.h"
 #include "cli/output/progress_line.h"
 #include "core/text.h"
+#include "gpu/device/device.h"
 #include "os/stop_signals.h"
 #include "report/searches/stress_report.h"
 
@@ -15,7 +16,7 @@ namespace clusterbench::cli {
 namespace {
 
 struct StressFlags {
-  std::string output, cases, methods = ".*", failures;
+  std::string output, cases, methods = ".*", device, failures;
   stress::StressRequest request;
   bool quiet = false;
 };
@@ -88,10 +89,18 @@ class StepFile {
   std::filesystem::path path_;
 };
 
+// Whether a device is named. Throws Error if it is not there.
+bool takes_device(const std::string& wanted) {
+  gpu::use_device(wanted);
+  if (!wanted.empty() && !gpu::device_obstacle().empty()) throw Error("", "--device", gpu::device_obstacle());
+  return !wanted.empty();
+}
+
 ExitCode stress(const StressFlags& flags) {
   stress::StressRequest request = flags.request;
   request.cases = Pattern(cases_of(flags), "--cases");
   request.methods = Pattern(flags.methods, "--methods");
+  request.takes_device = takes_device(flags.device);
   LaterOutput output(flags.output, is_for_reading(flags.output));
   const std::atomic<bool>& stop = os::stop_on_signals();
   ProgressLine progress(os::terminal(os::StandardStream::error), flags.quiet);
@@ -100,6 +109,9 @@ ExitCode stress(const StressFlags& flags) {
   listener.on_progress = [&](const std::string& doing, double done, double whole) {
     step_file.write(doing);
     progress.show({static_cast<std::size_t>(done), static_cast<std::size_t>(whole), done, whole, doing});
+  };
+  listener.on_left_out = [&](const std::string& reason) {
+    if (!flags.quiet) print_message("left out " + reason + (flags.device.empty() ? " (--device NAME)" : ""));
   };
   const stress::StressResult result = stress::run_stress(request, listener, stop);
   progress.clear();
@@ -135,6 +147,9 @@ void add_stress(Command& program, Action& action) {
                      "Only hard cases of this name, or that match it as a regular expression (H1 .. H35)");
   command.add_option("--methods", flags->methods,
                      "Only methods whose name has this in it, or matches it as a regular expression");
+  command.add_option("--device", flags->device,
+                     "NAME, UUID or number: also methods that run on a device, on this one, as `clusterbench list "
+                     "devices` shows it; without it only those that --methods names, on the best one");
   command.add_option("--tries", flags->request.tries, "Tries of the search H31 per method; 0 = no search")
       .shows_standard();
   command

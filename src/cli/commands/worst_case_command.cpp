@@ -91,7 +91,7 @@ void check_path(const search::WorstCase& found, const report::WorstCaseFacts& fa
 }
 
 ExitCode worst_case(const WorstCaseFlags& flags) {
-  config::Config config = read_inputs(flags.inputs);
+  config::Config config = config::with_presets_on_processor(read_inputs(flags.inputs));
   const search::WorstCaseRequest request = request_of(flags, config);
   const run::Plan plan = run::make_plan(config, flags.filter);
   const run::CasePlan& case_plan = search::case_to_search(config, plan);
@@ -112,10 +112,15 @@ ExitCode worst_case(const WorstCaseFlags& flags) {
   if (!facts.scene_file.empty()) write_path(found, facts);
   const bool for_reading = is_for_reading(flags.output);
   output.write(result::to_json(report::worst_case_document(found, facts)));
-  if (!facts.scene_file.empty()) check_path(found, facts);
+  const bool has_failed = found.ended == search::Ended::device;
+  if (!facts.scene_file.empty() && !has_failed) check_path(found, facts);
   if (!flags.quiet)
     (for_reading ? std::cout : std::cerr) << printable_lines(report::worst_case_text(found, facts)) << std::flush;
   if (for_reading) warn_result_not_saved();
+  if (has_failed) {
+    print_message(found.device_failure + "; the worst frames by then are told");
+    return ExitCode::usage;
+  }
   if (!stop) return ExitCode::ok;
   print_message("interrupted: the worst frames by then are told");
   return os::stopped_exit_code();

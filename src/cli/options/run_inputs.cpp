@@ -1,12 +1,16 @@
 #include "cli/options/run_inputs.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <span>
 
 #include "cli/output/output.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "report/documents/result_file.h"
+#include "report/results/measured_prices.h"
 #include "run/scene_facts.h"
 #include "scene/gltf_document/exporters.h"
 #include "scene/gltf_document/gltf_files.h"
@@ -23,6 +27,9 @@ void add_config_options(Command& command, RunInputs& inputs, const std::vector<s
     command.add_flag("--as-shipped", inputs.are_as_shipped,
                      "Presets with the known bugs of Filament, Bevy, three.js and Babylon.js, which lose lights");
   }
+  command.add_option(
+      "--cost-from", inputs.cost_from,
+      "RESULT of a run with `reading` on a GPU: its prices of a light, a read and a byte for the key cost");
 }
 
 std::vector<config::FlagValue> flag_values(const RunInputs& inputs) {
@@ -46,9 +53,28 @@ bool is_scene(const std::string& path) {
   return scene::is_scene_file(path);
 }
 
+namespace {
+
+// The prices that a result's readings tell, as flags, and a note that says them.
+std::vector<config::FlagValue> measured_prices(const std::string& path) {
+  if (path.empty()) return {};
+  const report::MeasuredPrices prices = report::measured_prices(report::read_result(path), path);
+  print_message(prices.text());
+  const auto set = [](const char* key, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, "cost.%s=%.6g", key, value);
+    return config::FlagValue{"--set", text};
+  };
+  return {set("ns_per_light", prices.ns_per_light), set("ns_per_read", prices.ns_per_read),
+          set("read_gb_per_s", prices.read_gb_per_s)};
+}
+
+}  // namespace
+
 config::Config read_inputs(const RunInputs& inputs, const std::vector<config::FlagValue>& first,
                            const nlohmann::json& defaults) {
   std::vector<config::FlagValue> flags = first;
+  std::ranges::move(measured_prices(inputs.cost_from), std::back_inserter(flags));
   const std::vector<config::FlagValue> given = flag_values(inputs);
   flags.insert(flags.end(), given.begin(), given.end());
   const auto scenes = static_cast<std::size_t>(std::count_if(inputs.paths.begin(), inputs.paths.end(), is_scene));
@@ -84,6 +110,21 @@ void print_other_cameras(const config::Config& config, const run::Plan& plan) {
     if (others.empty()) continue;
     print_message("of " + scene.name + " only camera '" + plan.scenes[i].paths.front().camera + "', and not " +
                   number_of(others.size(), "other") + "; --set 'scenes.*.camera=*' takes all");
+  }
+}
+
+void print_ended_cases(const run::Plan& plan, const run::Result& result) {
+  // Those of the plan come first.
+  const std::span ended(result.skipped.begin() + static_cast<std::ptrdiff_t>(plan.skipped.size()),
+                        result.skipped.end());
+  std::vector<std::string> told;
+  for (const run::Skipped& one : ended) {
+    if (std::ranges::find(told, one.reason) != told.end()) continue;
+    told.push_back(one.reason);
+    const auto others = std::ranges::count(ended, one.reason, &run::Skipped::reason) - 1;
+    print_message("warning: " + one.name +
+                  (others > 0 ? " and " + number_of(static_cast<std::uint64_t>(others), "more case") : std::string()) +
+                  (others > 0 ? " were" : " was") + " not measured to the end: " + one.reason);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "cli/command_line/command.h"
 #include "config/config.h"
 #include "run/cases/plan.h"
+#include "run/findings/run_result.h"
 
 namespace clusterbench::cli {
 
@@ -15,10 +16,11 @@ struct RunInputs {
   std::vector<std::string> paths;
   std::vector<std::vector<std::string>> settings{config::config_flags().size()};  // by flag
   bool has_all_presets = false, are_as_shipped = false;
+  std::string cost_from;           // a result with readings, whose prices replace those of the cost model; "" without
   config::GridChange preset_grid;  // replaces keys of the presets' grids
 };
 
-// Adds an option for each flag of config_flags() except those in `without`.
+// Adds an option for each flag of config_flags() except those in `without`, and --cost-from.
 void add_config_options(Command& command, RunInputs& inputs, const std::vector<std::string>& without = {});
 
 // The flags that were given, in the order of config_flags().
@@ -38,5 +40,8 @@ std::vector<std::string> files_of(const RunInputs& inputs, const config::Config&
 // For commands that use one camera or some cameras of a scene: prints the other cameras, and those that --fov does not
 // change.
 void print_other_cameras(const config::Config& config, const run::Plan& plan);
+
+// Prints which cases of the plan a device has ended, once for each reason.
+void print_ended_cases(const run::Plan& plan, const run::Result& result);
 
 }  // namespace clusterbench::cli

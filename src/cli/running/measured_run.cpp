@@ -144,6 +144,7 @@ class MeasuredRun {
     try {
       run::Result fresh = run::run_plan(config_, plan_, earlier, listener, stop, counts, launcher, costs);
       progress.clear();
+      print_ended_cases(plan_, fresh);
       return fresh;
     } catch (const Error& error) {
       progress.clear();
@@ -186,7 +187,9 @@ class MeasuredRun {
     }
     const ExitCode code = report_verdicts(verdicts, result);
     if (!flags_.quiet) print_conclusion(flags_, result);
-    return code;
+    if (!result.cases.empty()) return code;
+    print_message("no case was measured to the end");  // a device ended them all
+    return ExitCode::usage;
   }
 
   const RunFlags& flags_;

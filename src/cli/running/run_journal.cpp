@@ -3,6 +3,7 @@
 #include "cli/output/output.h"
 #include "os/stop_signals.h"
 #include "run/records/records.h"
+#include "run/runner.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -12,7 +13,8 @@ using Json = nlohmann::ordered_json;
 // The configuration without the keys that do not change results.
 Json measured_config(const config::Config& config) {
   Json out = config.resolved;
-  out.erase("threads");
+  for (const char* key : {"threads", "device"})
+    out.erase(key);  // the header has the device itself, however it is named
   for (const char* gate : {"fail_if", "baseline", "allow_no_lights", "allow_changed_lights"}) out["limits"].erase(gate);
   return out;
 }
@@ -25,6 +27,8 @@ Json journal_header(const RunFlags& flags, const config::Config& config, const r
   Json header{{"version", tool.version}, {"git_sha", tool.git_sha}, {"flags", tool.flags},
               {"scenes", scenes},        {"filter", flags.filter},  {"config", measured_config(config)}};
   if (!flags.count.empty()) header["count"] = flags.count;
+  if (const std::optional<gpu::DeviceFacts> device = run::device_of(config, plan))
+    header["device"] = {{"name", device->name}, {"driver", device->driver}, {"uuid", device->uuid}};
   return header;
 }
 

@@ -82,13 +82,13 @@ bool uses_exact_methods(const RunInputs& inputs, const std::string& filter, bool
 
 // Removes the keys that only times or pictures need; lists are not compared with the truth.
 config::Config counting_only(const config::Config& config) {
-  return config::changed(config, {{"timing", {{"measure", false}}},
-                                  {"accuracy", {{"check", false}}},
-                                  {"stability", nullptr},
-                                  {"lookup", nullptr},
-                                  {"details", nullptr},
-                                  {"shadow_cull", nullptr},
-                                  {"shadow_frusta", nullptr}});
+  return config::changed(config::with_presets_on_processor(config), {{"timing", {{"measure", false}}},
+                                                                     {"accuracy", {{"check", false}}},
+                                                                     {"stability", nullptr},
+                                                                     {"lookup", nullptr},
+                                                                     {"details", nullptr},
+                                                                     {"shadow_cull", nullptr},
+                                                                     {"shadow_frusta", nullptr}});
 }
 
 // Whether a method lists all lights of each cell, whatever its parameters and its lights: its lists and those of other
@@ -302,6 +302,8 @@ std::optional<SizeCounts> counted_for_size(SizePlan plan, bool quiet) {
     for (const std::string& warning : scene.warnings) print_message("warning: " + scene.name + ": " + warning);
   if (result.cases.empty())
     for (const run::Skipped& skipped : result.skipped) print_message("skipped " + skipped.name + ": " + skipped.reason);
+  else
+    print_ended_cases(plan.plan, result);
   SizeCounts out{std::move(plan.config), std::move(plan.plan), report::record_of(result, {}), {}};
   out.result.conclusions.emplace();  // nothing was compared, so there is no recommendation
   if (plan.limited) out.grown = grown_tiles(*plan.limited, out.plan);

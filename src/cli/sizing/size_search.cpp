@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "cli/output/duration.h"
+#include "cli/output/output.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
@@ -33,9 +34,10 @@ search::Measure measure_named(const std::string& name) {
       ->measure;
 }
 
+// `failures`: receives why a device ended the search before its time.
 report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& sized,
                             const search::WorstCaseRequest& request, const search::WorstCaseListener& listener,
-                            const std::atomic<bool>& stop) {
+                            std::vector<std::string>& failures, const std::atomic<bool>& stop) {
   report::FoundFrame out;
   out.case_name = sized.name;
   out.measure = search::row_of(request.measure).name;
@@ -49,6 +51,8 @@ report::FoundFrame found_in(const SizeCounts& counts, const report::SizedCase& s
     const search::WorstCase found = search::find_worst_case(config, counts.plan, *case_plan, request, listener, stop);
     if (found.frames.empty())
       return out.refusal = "its seconds were over before its first frame; allow more (--seconds)", out;
+    if (found.ended == search::Ended::device)
+      failures.push_back("the search of " + sized.name + " ended early: " + found.device_failure);
     out.value = static_cast<std::uint64_t>(found.frames.front().value);
     out.evaluations = found.evaluations;
     out.seed = request.seed;
@@ -147,15 +151,18 @@ std::optional<std::vector<report::FoundFrame>> search_sized(const SizeCounts& co
   const std::atomic<bool>& stop = os::stop_on_signals();
   ProgressLine progress(os::terminal(os::StandardStream::error), quiet);
   std::vector<report::FoundFrame> out;
+  std::vector<std::string> failures;
   std::size_t searches = 0;
   for (const report::SizedCase& sized : cases) searches += sized.measures.size();
   for (const report::SizedCase& sized : cases)
     for (const std::string& measure : sized.measures) {
       request.measure = measure_named(measure);
       request.seconds = seconds.share(searches - out.size());
-      out.push_back(found_in(counts, sized, request, search_listener(progress, out.size(), searches), stop));
+      out.push_back(found_in(counts, sized, request, search_listener(progress, out.size(), searches), failures, stop));
       if (stop) return {};
     }
+  progress.clear();
+  for (const std::string& failure : failures) print_message("warning: " + failure);
   return out;
 }
 

@@ -18,6 +18,14 @@ struct PresetChanges {
   END_RECORD;
 };
 
+// The engine's own kind of shader, for a device that a configuration names.
+struct PresetOnDevice {
+  RECORD(PresetOnDevice);
+  FIELD(result::Json, assigner, "Entry of assigners, of a method that runs on a device");
+  FIELD(std::string, approximated, "What of its steps is not as there; empty where nothing is known to differ");
+  END_RECORD;
+};
+
 struct Preset {
   RECORD(Preset);
   FIELD(std::string, name, "Unique, and the name of the file");
@@ -41,6 +49,9 @@ struct Preset {
   FIELD(result::Json, assigner, "Entry of assigners");
   FIELD(std::optional<result::Json>, storage, "Entry of storages; without it the method's own structure");
   FIELD(std::optional<result::Json>, pre_cull, "Entry of pre_cull, a list of steps; without it all lights");
+  // Of engines that assign on a GPU one of these two, of others neither.
+  FIELD(std::optional<PresetOnDevice>, on_device, "In place of assigner where a configuration names a device");
+  FIELD(std::optional<std::string>, not_on_device, "Why no method on a device does as the engine");
   FIELD(std::optional<std::string>, mistakes, "Of the engine as it is shipped, in words");
   FIELD(std::optional<PresetChanges>, as_shipped, "What changes with the mistakes");
   END_RECORD;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "assign/contract/assigner.h"
 #include "config/presets/preset_tiles.h"
 #include "config/schema/json_text.h"
 #include "core/error.h"
@@ -29,6 +30,33 @@ void check_words(const JsonText& text) {
   if (text.value.contains("tiles_by")) check_word(text, "tiles_by", tiles_by_names());
 }
 
+// A name that no method has is refused as in a configuration, by the schema: a program may know no methods on devices.
+void check_device_method(const Preset& preset, const JsonText& text) {
+  const result::Json& entry = preset.on_device->assigner;
+  const std::string pointer = "/on_device/assigner";
+  if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string())
+    refuse_member(text, pointer, "found " + entry.dump() + ", allowed: an entry of assigners, {\"name\": ...}");
+  const std::string name = entry["name"].get<std::string>();
+  const assign::AssignerDescriptor* method = assign::find_assigner(name);
+  if (method != nullptr && !method->on_device)
+    refuse_member(text, pointer + "/name", "found '" + name + "', allowed: a method that runs on a device (gpu-*)");
+}
+
+// Without a method on a device a reader wants to know why.
+void check_on_device(const Preset& preset, const JsonText& text) {
+  if (!preset.assigns_on_gpu()) {
+    for (const char* key : {"on_device", "not_on_device"})
+      if (text.value.contains(key))
+        refuse_member(text, std::string("/") + key, "is allowed only beside \"assigns_on\": \"gpu\"");
+    return;
+  }
+  if (preset.on_device.has_value() == preset.not_on_device.has_value())
+    refuse_member(text, "/assigns_on",
+                  std::string("is gpu, and ") + (preset.on_device ? "both" : "neither") +
+                      " of on_device and not_on_device is there; allowed: one of them");
+  if (preset.on_device) check_device_method(preset, text);
+}
+
 }  // namespace
 
 Preset read_preset(const std::string& text, const std::string& file) {
@@ -45,6 +73,7 @@ Preset read_preset(const std::string& text, const std::string& file) {
     refuse_member(json, "/name", "found '" + preset.name + "', allowed: the name of the file, '" + stem + "'");
   if (preset.mistakes.has_value() != preset.as_shipped.has_value())
     refuse_member(json, "", "has one of mistakes and as_shipped; allowed: both, or neither");
+  check_on_device(preset, json);
   return preset;
 }
 

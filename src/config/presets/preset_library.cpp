@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "assign/contract/assigner.h"
 #include "config/presets/assigner_names.h"
 #include "config/presets/preset_file.h"
 #include "config/presets/preset_text.h"
@@ -66,6 +67,17 @@ Json parts_of(const Record& record) {
   return parts;
 }
 
+bool takes_device_method(const Preset& preset, PresetForm form) {
+  const bool is_as_shipped = form.as_shipped && preset.as_shipped && preset.as_shipped->assigner;
+  return form.on_device && preset.on_device && !is_as_shipped;
+}
+
+void take_device_method(const Preset& preset, Json& parts) {
+  parts["assigner"] = preset.on_device->assigner;
+  const assign::AssignerDescriptor* method = assign::find_assigner(parts["assigner"]["name"].get<std::string>());
+  if (method != nullptr && !method->answers(assign::Answer::lists)) parts.erase("storage");
+}
+
 }  // namespace
 
 std::span<const Preset> presets() {
@@ -83,10 +95,11 @@ std::vector<std::string> preset_names() {
   return names;
 }
 
-Json preset_parts(const Preset& preset, Vec2i viewport, bool as_shipped) {
+Json preset_parts(const Preset& preset, Vec2i viewport, PresetForm form) {
   Json parts = parts_of(preset);
   if (preset.tiles_by) parts["grid"]["tiles"] = find_tiles_by(*preset.tiles_by)(viewport);
-  if (!as_shipped || !preset.as_shipped) return parts;
+  if (takes_device_method(preset, form)) take_device_method(preset, parts);
+  if (!form.as_shipped || !preset.as_shipped) return parts;
   const Json changes = parts_of(*preset.as_shipped);
   for (const auto& [key, value] : changes.items())
     if (key == "grid")

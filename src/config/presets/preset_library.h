@@ -18,8 +18,13 @@ std::span<const Preset> presets();
 const Preset* find_preset(const std::string& name);  // null for an unknown name
 std::vector<std::string> preset_names();
 
-// The preset's parts for a viewport: the scheme without the engine's mistakes, or as shipped.
-nlohmann::json preset_parts(const Preset& preset, Vec2i viewport, bool as_shipped = false);
+struct PresetForm {
+  bool as_shipped = false;  // with the engine's mistakes
+  bool on_device = false;   // with its method for a device, if it has one: methods as shipped have none
+};
+
+// The preset's parts for a viewport. A method that leaves a light structure of its own has no storage.
+nlohmann::json preset_parts(const Preset& preset, Vec2i viewport, PresetForm form = {});
 
 // The preset's limits on lights and on entries per cell, as text: "255 lights in view, the first; 255 in a cell"; "" if
 // no limit is known.

@@ -27,8 +27,9 @@ using Kernel = std::uint32_t;
 
 class Device {
  public:
-  // Throws Error with the reason if there is none.
-  explicit Device(const std::string& wanted);
+  // The device that chosen_device() or, where a device was open before, same_device() takes. Throws Error with the
+  // reason if there is none.
+  explicit Device(const std::string& wanted, const DeviceFacts* before = nullptr);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -40,6 +41,8 @@ class Device {
   std::vector<assign::ShaderStatistic> statistics(Kernel kernel) const;
   // The size of the memory that Commands::flush() fills, which this makes room for.
   std::uint64_t reserve_flushed();
+  // The reason why this device cannot run that shader; "" if it can.
+  std::string obstacle(const std::string& shader) const;
 
   struct Impl;
   Impl& impl() { return *impl_; }
@@ -50,7 +53,8 @@ class Device {
 
 // Which device device() opens, as chosen_device() takes it. Closes the one that is open.
 void use_device(const std::string& wanted);
-// After a failure: the next device() opens it anew. Nothing that was made with the old one may be left.
+// After a failure: the next device() opens it anew, and no other one, so that all results of this process are of one
+// device. Nothing that was made with the old one may be left.
 void close_device();
 // The device of this process: opened at the first call, and closed by use_device() and close_device() alone. All
 // methods and threads of a run share it. Throws Error with the reason if there is none.

@@ -86,4 +86,25 @@ std::size_t chosen_device(const DeviceList& list, const std::string& wanted) {
   return best;
 }
 
+std::string lacking(const DeviceFacts& device, const Needs& needs) {
+  if (needs.ballots && !device.has_ballots) return "has no ballots in subgroups";
+  if (needs.subgroup_arithmetic && !device.has_subgroup_arithmetic) return "has no arithmetic over subgroups";
+  if (needs.full_subgroups && !device.has_full_subgroups)
+    return "cannot be asked for subgroups without idle invocations";
+  return "";
+}
+
+std::size_t same_device(const DeviceList& list, const DeviceFacts& before) {
+  for (std::size_t i = 0; i < list.devices.size(); ++i) {
+    const DeviceFacts& now = list.devices[i];
+    if (now.uuid != before.uuid || now.name != before.name || now.driver != before.driver) continue;
+    if (!now.obstacle.empty()) throw Error("", "device", now.name + " " + now.obstacle);
+    return i;
+  }
+  const std::string rest = list.devices.empty() ? list.obstacle : "there are " + names_of(list);
+  throw Error("", "device",
+              before.name + " (UUID " + before.uuid + "), which this run began with, is gone; " + rest +
+                  ", and results of two devices do not go together");
+}
+
 }  // namespace clusterbench::gpu

@@ -32,9 +32,9 @@ struct DeviceFacts {
   // Arithmetic: whether shaders can ask for rounding to nearest in single precision. Otherwise a sum or a product may
   // be the next number on either side.
   bool rounds_to_nearest = false;
-  bool has_full_subgroups = false;
-  // Sums, minima and bitwise operations over subgroups, and broadcasts within them.
-  bool has_subgroup_arithmetic = false;
+  // Subgroups in compute shaders: each invocation in use, where a group is whole subgroups; ballots and broadcasts; and
+  // sums, minima and bitwise operations beside these.
+  bool has_full_subgroups = false, has_ballots = false, has_subgroup_arithmetic = false;
 
   bool has_shader_clock = false;         // shaders can count cycles
   bool tells_shader_statistics = false;  // its driver tells registers and spills

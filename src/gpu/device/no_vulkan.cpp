@@ -23,11 +23,14 @@ DeviceList list_devices() {
   return {{}, CLUSTERBENCH_GPU_OBSTACLE};
 }
 
-Device::Device(const std::string&) {
+Device::Device(const std::string&, const DeviceFacts*) {
   refuse();
 }
 Device::~Device() = default;
 const DeviceFacts& Device::facts() const {
+  refuse();
+}
+std::string Device::obstacle(const std::string&) const {
   refuse();
 }
 Kernel Device::kernel(const std::string&, std::uint32_t, std::uint32_t) {

@@ -1,5 +1,7 @@
 // The device of this process.
 
+#include <optional>
+
 #include "core/error.h"
 #include "gpu/device/device.h"
 
@@ -9,6 +11,7 @@ namespace {
 struct Shared {
   std::mutex busy;  // while one of the functions below uses the others
   std::string wanted;
+  std::optional<DeviceFacts> before;  // of the first device that these words named
   std::unique_ptr<Device> device;
   std::string obstacle;
 };
@@ -23,7 +26,8 @@ Shared& shared() {
 Device& opened(Shared& now) {
   if (now.device) return *now.device;
   try {
-    now.device = std::make_unique<Device>(now.wanted);
+    now.device = std::make_unique<Device>(now.wanted, now.before ? &*now.before : nullptr);
+    now.before = now.device->facts();
   } catch (const DeviceError&) {
     throw;
   } catch (const Error& error) {
@@ -39,6 +43,7 @@ void use_device(const std::string& wanted) {
   const std::lock_guard turn(now.busy);
   if (now.wanted == wanted) return;
   now.wanted = wanted;
+  now.before.reset();
   now.device.reset();
   now.obstacle.clear();
 }

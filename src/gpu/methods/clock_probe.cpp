@@ -7,8 +7,9 @@
 namespace clusterbench::gpu {
 namespace {
 
-// A short and a long wait: starting one takes its time, too, which the difference is free of.
-constexpr std::array<std::uint32_t, 2> k_waited_cycles{30'000, 130'000};
+// The first wait is not timed. Then a short and a long one: starting one takes its time, too, which the difference is
+// free of.
+constexpr std::array<std::uint32_t, 3> k_waited_cycles{1'000, 30'000, 130'000};
 
 }  // namespace
 
@@ -22,7 +23,6 @@ std::optional<double> ClockProbe::mhz() {
   if (!wait_) return std::nullopt;
   Commands commands(*device_, buffers_);
   FrameArguments arguments;
-  commands.mark();
   for (std::uint32_t i = 0; i < k_waited_cycles.size(); ++i) {
     arguments.capacity = k_waited_cycles[i];
     arguments.first_box = i;
@@ -34,8 +34,8 @@ std::optional<double> ClockProbe::mhz() {
   commands.run();
   const auto cycles = commands.downloaded(0);
   const double ns = commands.ns_between(1, 2) - commands.ns_between(0, 1);
-  if (!(ns > 0.0) || cycles[1] <= cycles[0]) return std::nullopt;
-  return 1e3 * static_cast<double>(cycles[1] - cycles[0]) / ns;
+  if (!(ns > 0.0) || cycles[2] <= cycles[1]) return std::nullopt;
+  return 1e3 * static_cast<double>(cycles[2] - cycles[1]) / ns;
 }
 
 }  // namespace clusterbench::gpu

@@ -11,7 +11,8 @@ class ClockProbe {
  public:
   explicit ClockProbe(Device& device);
 
-  // None where shaders cannot count, or the device has no clock. Takes some tenths of a millisecond.
+  // None where shaders cannot count, the device has no clock, or something came between. Takes some tenths of a
+  // millisecond.
   std::optional<double> mhz();
 
  private:

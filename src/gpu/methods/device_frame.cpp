@@ -54,6 +54,11 @@ std::string no_device(const assign::Params&) {
   }
 }
 
+std::string no_device_for(const char* shader, const assign::Params& params) {
+  std::string obstacle = no_device(params);
+  return obstacle.empty() ? gpu::device().obstacle(shader) : obstacle;
+}
+
 DeviceFrame::DeviceFrame(const assign::Params& params)
     : device_(&gpu::device()),
       buffers_(*device_),

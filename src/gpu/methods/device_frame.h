@@ -79,5 +79,7 @@ class DeviceFrame {
 std::vector<assign::ParamSpec> device_params();
 // The reason why no method can run here; "" if they can.
 std::string no_device(const assign::Params& params);
+// The same for a method with this shader.
+std::string no_device_for(const char* shader, const assign::Params& params);
 
 }  // namespace clusterbench::gpu

@@ -35,7 +35,7 @@ assign::AssignerDescriptor gpu_mask_descriptor() {
       .on_device = true,
       .params = device_params(),
       .make = assign::make_list_assigner<Mask>,
-      .unavailable = no_device,
+      .unavailable = [](const assign::Params& params) { return no_device_for("mask", params); },
   };
 }
 

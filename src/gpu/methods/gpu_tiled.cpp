@@ -10,22 +10,29 @@
 namespace clusterbench::gpu {
 namespace {
 
-// Bits of the modes of tile_depths and tile_lights.
-enum TileMode : std::uint32_t { planes = 1, boxes = 2, depth_mask = 4 };
+// Bits of the modes of tile_depths and tile_lights. Masks are widened where the device may round either way: the host
+// says which depths are in a part.
+enum DepthMode : std::uint32_t { with_mask = 1, widened_mask = 2 };
+enum TileMode : std::uint32_t { planes = 1, boxes = 2, depth_mask = 4, widened = 8 };
 
-std::uint32_t mode_of(const assign::Params& params) {
+std::uint32_t depth_mode_of(const assign::Params& params, const DeviceFacts& facts) {
+  if (!params.flag("depth_mask")) return 0;
+  return facts.rounds_to_nearest ? DepthMode::with_mask : DepthMode::with_mask | DepthMode::widened_mask;
+}
+
+std::uint32_t mode_of(const assign::Params& params, const DeviceFacts& facts) {
   const std::string& test = params.text("test");
   return (test != "aabb" ? TileMode::planes : 0u) | (test != "planes" ? TileMode::boxes : 0u) |
-         (params.flag("depth_mask") ? TileMode::depth_mask : 0u);
+         (params.flag("depth_mask") ? TileMode::depth_mask : 0u) | (facts.rounds_to_nearest ? 0u : TileMode::widened);
 }
 
 // The lists of the tiles of a frame, with the depths on the device.
 class TileLists final : public MaskLists {
  public:
-  TileLists(const assign::Params& params, std::uint32_t mode)
+  explicit TileLists(const assign::Params& params)
       : MaskLists(params),
-        depths_(kernel("tile_depths", k_pixel_group, (mode & TileMode::depth_mask) != 0 ? 1 : 0)),
-        lights_(kernel("tile_lights", k_light_group, mode)) {
+        depths_(kernel("tile_depths", k_pixel_group, depth_mode_of(params, device().facts()))),
+        lights_(kernel("tile_lights", k_light_group, mode_of(params, device().facts()))) {
     frame().take_boxes();
   }
 
@@ -126,7 +133,7 @@ class Tiled final : public assign::AssignerOf<assign::OccupiedLists> {
  public:
   explicit Tiled(const assign::Params& params)
       : bounds_(params.flag("depth_mask") ? assign::CellBounds::masked_tile : assign::CellBounds::tile),
-        tile_lists_(params, mode_of(params)) {}
+        tile_lists_(params) {}
 
   void build(const grid::Grid& grid, const assign::LightKinds& kinds) override {
     grid_ = &grid;
@@ -192,14 +199,6 @@ std::vector<assign::ParamSpec> params_of_tiles() {
   return params;
 }
 
-// The host says which parts of a tile's depth are occupied, so the device's parts have to be the same.
-std::string no_tiles(const assign::Params& params) {
-  std::string obstacle = no_device(params);
-  if (!obstacle.empty() || !params.flag("depth_mask") || gpu::device().facts().rounds_to_nearest) return obstacle;
-  return gpu::device().facts().name + " cannot be asked to round to nearest, so its parts of depth may differ from " +
-         "those that are checked; use depth_mask = false";
-}
-
 }  // namespace
 
 assign::AssignerDescriptor gpu_tiled_descriptor() {
@@ -220,7 +219,7 @@ assign::AssignerDescriptor gpu_tiled_descriptor() {
       .on_device = true,
       .params = params_of_tiles(),
       .make_own = assign::make_structure_assigner<Tiled>,
-      .unavailable = no_tiles,
+      .unavailable = no_device,
   };
 }
 

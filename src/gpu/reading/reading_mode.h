@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "gpu/device/device.h"
+#include "gpu/reading/walking.h"
 
 namespace clusterbench::gpu {
 
@@ -16,13 +17,6 @@ enum class ReadingOutput : std::uint8_t {
   cells,       // the cell, -1 outside
   lights,      // the sum of the attenuations of its lights
   check        // two words: the number of its lights, and the sum of their hashes
-};
-
-// How the invocations of a subgroup (a wave) walk their lights.
-enum class Walking : std::uint8_t {
-  by_lane,   // each its own: the wave takes as long as its longest walk
-  by_light,  // together, the union of their lights (subgroupMin over lists, subgroupOr over bits)
-  by_cell    // together, one cell after the other (readFirstLane)
 };
 
 enum class ReadingLookup : std::uint8_t { given, screen, tile, cascades, world, position };

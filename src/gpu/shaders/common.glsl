@@ -5,13 +5,7 @@
 // whose error is the driver's: squares are compared instead.
 
 #extension GL_EXT_control_flow_attributes : enable
-#ifdef ROUNDS_TO_NEAREST
-// GLSL has no words for SPV_KHR_float_controls: the execution modes RoundingModeRTE and SignedZeroInfNanPreserve, each
-// with its capability.
-#extension GL_EXT_spirv_intrinsics : require
-spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4467], 4462, 32);
-spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
-#endif
+#include "rounding.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint MODE = 0;  // as gpu/methods/frame_arguments.h

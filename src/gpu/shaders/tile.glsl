@@ -1,7 +1,8 @@
 // Of the methods that take a tile of the picture as a cell, between the least and the greatest depth of its pixels.
 // frame.cells is the number of tiles.
 //
-// Ranges, masks of depth and boxes are those of the processor (assign/occupied), bit for bit.
+// Ranges, masks of depth and boxes are those of the processor (assign/occupied), bit for bit; on a device that may round
+// either way, masks have some more parts.
 
 #include "around.glsl"
 
@@ -47,13 +48,19 @@ void write_around(uint tile, Around around) {
   tiles[at + 2] = floatBitsToUint(around.ball);
 }
 
-// The part of a depth among 32 equal ones of a range. Monotonic, so a light's parts are those of all depths that it
-// reaches.
-uint part_of(float depth, Range range) {
-  precise float part = (depth - range.lo) * range.scale;
+// Where the device may round either way: the parts, too, that the processor may find. Both are off by less than 2^-20 of
+// the distance from the range's begin: here a difference, the range's length, its inverse and a product are, by up to
+// 2^-23 each, and there by half of that. Where the range is so short that numbers may be flushed to zero, all parts.
+const float k_wider = 1.0 + 1.0 / 524288.0, k_narrower = 1.0 - 1.0 / 524288.0, k_short_range = 1.0e36;
+
+// The place of a depth among 32 equal parts of a range, times a factor.
+uint part_of(float depth, Range range, float factor) {
+  precise float part = (depth - range.lo) * range.scale * factor;
   return part >= 31.0 ? 31u : part > 0.0 ? uint(part) : 0u;
 }
-uint bits_between(float near, float far, Range range) {
-  uint first = part_of(near, range), last = part_of(far, range);
+// The parts from one depth to another. Monotonic, so a light's parts are those of all depths that it reaches.
+uint bits_between(float near, float far, Range range, bool widens) {
+  if (widens && range.scale > k_short_range) return 0xffffffffu;
+  uint first = part_of(near, range, widens ? k_narrower : 1.0), last = part_of(far, range, widens ? k_wider : 1.0);
   return (0xffffffffu >> (31 - (last - first))) << first;
 }

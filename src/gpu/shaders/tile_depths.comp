@@ -5,7 +5,7 @@
 
 // One group per tile, over its pixels: the range of their depths, the mask of the parts with pixels, and what lies around
 // the tile between these depths.
-const uint k_with_mask = 1;  // a bit of MODE
+const uint k_with_mask = 1, k_widens = 2;  // bits of MODE
 
 shared uint nearest, farthest, parts;
 shared Range range;
@@ -75,7 +75,9 @@ void main() {
     uint bits = 0;
     for (uint pixel = lane; pixel < pixels; pixel += gl_WorkGroupSize.x) {
       uint depth = depths[(first.y + pixel / size.x) * frame.picture_width + first.x + pixel % size.x];
-      if (depth != k_infinity) bits |= 1u << part_of(uintBitsToFloat(depth), own);
+      if (depth == k_infinity) continue;
+      float at = uintBitsToFloat(depth);
+      bits |= bits_between(at, at, own, (MODE & k_widens) != 0);
     }
     atomicOr(parts, bits);
     barrier();

@@ -5,7 +5,7 @@
 
 // One group per tile, 64 lights at a time, an invocation for each: a bit for each light that meets the tile. The masks
 // must have been cleared; tiles without a surface are left alone.
-const uint k_planes = 1, k_boxes = 2, k_depth_mask = 4;  // bits of MODE
+const uint k_planes = 1, k_boxes = 2, k_depth_mask = 4, k_widens = 8;  // bits of MODE
 
 layout(std430, set = 0, binding = 14) readonly buffer BoxBounds { vec4 box_bounds[]; };  // two for each box
 
@@ -30,7 +30,7 @@ bool is_beside(vec4 ball, uint column, uint row) {
 
 bool meets_depths(float near, float far, Range range) {
   if (near > range.hi || far < range.lo) return false;
-  return (MODE & k_depth_mask) == 0 || (bits_between(near, far, range) & range.mask) != 0;
+  return (MODE & k_depth_mask) == 0 || (bits_between(near, far, range, (MODE & k_widens) != 0) & range.mask) != 0;
 }
 
 // Boxes by the padded axis-aligned boxes around them: comparisons alone.

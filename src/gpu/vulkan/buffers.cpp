@@ -36,7 +36,7 @@ std::uint64_t Buffers::all_bytes() const {
   return sum;
 }
 
-Buffers::Impl::Impl(Device::Impl& of) : device(of) {
+Buffers::Impl::Impl(Device::Impl& of) : Impl(of, Nothing{}) {
   const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, k_bindings};
   VkDescriptorPoolCreateInfo pool_info{};
   pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;

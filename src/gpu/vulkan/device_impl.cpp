@@ -8,15 +8,20 @@
 #include "gpu/device/device_choice.h"
 #include "gpu/device/span_length.h"
 #include "gpu/vulkan/shader_code.h"
+#include "gpu/vulkan/shader_needs.h"
 #include "gpu/vulkan/shader_statistics.h"
 
 namespace clusterbench::gpu {
 
-Device::Device(const std::string& wanted) : impl_(std::make_unique<Impl>(wanted)) {}
+Device::Device(const std::string& wanted, const DeviceFacts* before) : impl_(std::make_unique<Impl>(wanted, before)) {}
 Device::~Device() = default;
 
 const DeviceFacts& Device::facts() const {
   return impl_->facts;
+}
+
+std::string Device::obstacle(const std::string& shader) const {
+  return impl_->obstacle(shader);
 }
 
 Kernel Device::kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode) {
@@ -39,8 +44,9 @@ std::uint64_t Device::reserve_flushed() {
   return memory.bytes;
 }
 
-Device::Impl::Impl(const std::string& wanted) {
-  const std::size_t index = chosen_device(list_devices(), wanted);
+Device::Impl::Impl(const std::string& wanted, const DeviceFacts* before) : Impl() {
+  const DeviceList list = list_devices();
+  const std::size_t index = before != nullptr ? same_device(list, *before) : chosen_device(list, wanted);
   physical = physical_devices().at(index);
   PhysicalDevice found = facts_of(physical);
   facts = std::move(found.facts);
@@ -148,8 +154,19 @@ Kernel Device::Impl::kernel(const std::string& shader, std::uint32_t group_size,
   const std::lock_guard lock(turn);
   const std::tuple key{shader, group_size, mode};
   if (const auto found = kernels.find(key); found != kernels.end()) return found->second;
-  pipelines.push_back(create_pipeline(shader, group_size, mode));
+  pipelines.push_back(VK_NULL_HANDLE);  // first, so that no memory is missing for what is made
+  try {
+    pipelines.back() = create_pipeline(shader, group_size, mode);
+  } catch (...) {
+    pipelines.pop_back();
+    throw;
+  }
   return kernels[key] = static_cast<Kernel>(pipelines.size() - 1);
+}
+
+std::string Device::Impl::obstacle(const std::string& shader) const {
+  const std::string lacks = lacking(facts, needs_of(shader_code(shader, facts.rounds_to_nearest)));
+  return lacks.empty() ? "" : facts.name + " " + lacks + ", which " + shader + " needs";
 }
 
 VkPipeline Device::Impl::create_pipeline(const std::string& shader, std::uint32_t group_size,
@@ -157,6 +174,7 @@ VkPipeline Device::Impl::create_pipeline(const std::string& shader, std::uint32_
   if (group_size > facts.max_group_size)
     throw DeviceError(facts.name + " runs at most " + std::to_string(facts.max_group_size) +
                       " invocations in a group; " + shader + " needs " + std::to_string(group_size));
+  if (const std::string reason = obstacle(shader); !reason.empty()) throw DeviceError(reason);
   const std::span<const std::uint32_t> code = shader_code(shader, facts.rounds_to_nearest);
   VkShaderModuleCreateInfo module_info{};
   module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;

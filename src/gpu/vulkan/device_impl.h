@@ -22,7 +22,7 @@ struct Memory {
 enum class Place : std::uint8_t { device, host_writes, host_reads };
 
 struct Device::Impl {
-  explicit Impl(const std::string& wanted);
+  Impl(const std::string& wanted, const DeviceFacts* before);
   ~Impl();
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
@@ -31,6 +31,7 @@ struct Device::Impl {
   void free(Memory& memory) const;
   Kernel kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode);
   std::vector<assign::ShaderStatistic> statistics(Kernel kernel) const;
+  std::string obstacle(const std::string& shader) const;
 
   static constexpr std::uint32_t k_marks = 66;
 
@@ -52,6 +53,7 @@ struct Device::Impl {
   std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, Kernel> kernels;
 
  private:
+  Impl() = default;  // what is complete is destroyed, however far the constructor after it comes
   void create_device(std::uint32_t queue_family);
   void create_layout();
   VkPipeline create_pipeline(const std::string& shader, std::uint32_t group_size, std::uint32_t mode) const;
@@ -59,7 +61,7 @@ struct Device::Impl {
 };
 
 struct Buffers::Impl {
-  explicit Impl(Device::Impl& of);
+  explicit Impl(Device::Impl& of);  // with buffers at all bindings
   ~Impl();
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
@@ -84,6 +86,10 @@ struct Buffers::Impl {
   std::vector<Download> downloads;
   std::uint32_t mark_count = 0;
   std::array<std::uint64_t, Device::Impl::k_marks> ticks{};
+
+ private:
+  struct Nothing {};
+  Impl(Device::Impl& of, Nothing) : device(of) {}  // as that of Device::Impl
 };
 
 }  // namespace clusterbench::gpu

@@ -47,10 +47,19 @@ std::uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& familie
   return family;
 }
 
+std::string feature_obstacle(const VkPhysicalDeviceVulkan13Features& features) {
+  if (features.synchronization2 == 0) return "lacks synchronization2, a feature of Vulkan 1.3";
+  if (features.maintenance4 == 0) return "lacks maintenance4, a feature of Vulkan 1.3";
+  return "";
+}
+
 std::string limit_obstacle(const VkPhysicalDeviceLimits& limits) {
   if (limits.maxPerStageDescriptorStorageBuffers < Buffers::k_bindings)
     return "lets a shader see " + std::to_string(limits.maxPerStageDescriptorStorageBuffers) + " buffers; " +
            std::to_string(Buffers::k_bindings) + " are needed";
+  if (limits.maxPushConstantsSize < sizeof(Arguments))
+    return "takes " + std::to_string(limits.maxPushConstantsSize) + " bytes of arguments; " +
+           std::to_string(sizeof(Arguments)) + " are needed";
   return "";
 }
 
@@ -125,13 +134,15 @@ PhysicalDevice facts_of(VkPhysicalDevice device) {
   facts.rounds_to_nearest =
       properties12.shaderRoundingModeRTEFloat32 != 0 && properties12.shaderSignedZeroInfNanPreserveFloat32 != 0;
   facts.has_full_subgroups = features13.subgroupSizeControl != 0 && features13.computeFullSubgroups != 0;
-  constexpr VkSubgroupFeatureFlags k_arithmetic = VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
-  facts.has_subgroup_arithmetic = (properties11.subgroupSupportedOperations & k_arithmetic) == k_arithmetic &&
-                                  (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  const bool has_subgroups = (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  const VkSubgroupFeatureFlags operations = has_subgroups ? properties11.subgroupSupportedOperations : 0;
+  facts.has_ballots = (operations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
+  facts.has_subgroup_arithmetic = facts.has_ballots && (operations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) != 0;
   add_extras(device, facts);
   found.queue_family = compute_family(families);
   if (found.queue_family < count) facts.timestamp_bits = families[found.queue_family].timestampValidBits;
   facts.obstacle = found.queue_family == count ? "has no queue that computes" : limit_obstacle(limits);
+  if (facts.obstacle.empty()) facts.obstacle = feature_obstacle(features13);
   return found;
 }
 

@@ -55,6 +55,13 @@ std::string aligned(const Cells& cells, const std::vector<std::size_t>& widths) 
   return row + "\n";
 }
 
+std::string aligned_rows(const std::vector<Cells>& rows) {
+  std::string out;
+  const std::vector<std::size_t> widths = widths_of(rows);
+  for (const Cells& row : rows) out += aligned(row, widths);
+  return out;
+}
+
 std::string what_intervals_take() {
   return "an interval takes " + std::to_string(static_cast<int>(measure::k_least_freedom) + 1) + " launches, or " +
          std::to_string(measure::k_least_rounds) + " rounds of a single one";

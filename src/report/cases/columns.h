@@ -19,6 +19,7 @@ using Cells = std::vector<std::string>;  // one line: a mark, a name, then numbe
 std::vector<std::size_t> widths_of(const std::vector<Cells>& rows);
 // The first two columns left-aligned, numbers right-aligned.
 std::string aligned(const Cells& cells, const std::vector<std::size_t>& widths);
+std::string aligned_rows(const std::vector<Cells>& rows);
 
 // printable() of a result's text: names in a scene file may contain terminal escapes.
 inline std::string shown(const std::string& text) {

@@ -166,9 +166,7 @@ std::string table(const std::vector<ComparedCase>& cases) {
   add({k_columns.begin(), k_columns.end()}, " ");
   for (const ComparedCase& compared_case : cases) add(row_of(compared_case), mark_of(compared_case));
   std::string text;
-  const std::vector<std::size_t> widths = widths_of(rows);
-  for (const Cells& row : rows) text += aligned(row, widths);
-  return text + legend(cases);
+  return text + aligned_rows(rows) + legend(cases);
 }
 
 std::string markdown_row(const Cells& cells) {

@@ -45,6 +45,25 @@ bool accepts_case(const Json& entry, std::set<std::string>& ids) {
          ids.insert(id->dump()).second;
 }
 
+std::string device_name(const Json& header) {
+  if (!header.contains("device")) return "no device";
+  const Json* name = value_at(header, "/device/name");
+  return name != nullptr && name->is_string() ? name->get<std::string>() : "a device without a name";
+}
+
+// The reason why a run cannot go on if nothing but its device differs, since a result is of one; "" if it is the same.
+std::string other_device(const Json& earlier, const Json& now) {
+  const auto without = [](Json header) {
+    header.erase("device");
+    return header;
+  };
+  if (!earlier.is_object() || !now.is_object() || earlier == now || without(earlier) != without(now)) return "";
+  const bool has_one_name = device_name(earlier) == device_name(now);
+  return "is an interrupted run on " + device_name(earlier) + ", and this one is on " +
+         (has_one_name ? "another device or driver of that name" : device_name(now)) +
+         "; --device NAME takes the same one, where it is there";
+}
+
 // Calls accept(entry) for each line after the header; it returns false for a line that no run writes. Returns the end
 // of the last complete line.
 std::size_t each_entry(const std::string& text, const fs::path& path, const Json& header,
@@ -62,6 +81,8 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
     };
     if (is_cut) refuse("is not what a run writes");
     if (number == 1 && (!entry.is_object() || !entry.contains("header"))) refuse("does not say what was run");
+    if (number == 1)
+      if (const std::string other = other_device(entry["header"], header); !other.empty()) refuse(other);
     if (number == 1 && entry["header"] != header)
       refuse("is an interrupted run of another configuration, --count, scene or build");
     if (number > 1 && !(entry.is_object() && accept(entry))) refuse("is not what a run writes");

@@ -5,6 +5,7 @@
 #include "report/cases/case_costs.h"
 #include "result/at.h"
 #include "result/sample_sets.h"
+#include "run/cases/case_names.h"
 
 namespace clusterbench::report {
 namespace {
@@ -28,6 +29,9 @@ PresetLosses preset_losses(const result::Case& result_case) {
     losses.true_pairs = error->true_pairs;
     losses.by_method = error->false_negatives;
   }
+  // Lists that the method itself keeps are compared without what they have no room for; a storage's before it drops
+  // any.
+  if (result_case.storage == run::k_own_structure) losses.by_method -= std::min(losses.by_method, losses.dropped);
   if (const auto& pre_cull = result_case.pre_cull) {
     losses.by_method -= std::min(losses.by_method, pre_cull->lost_pairs);
     if (pre_cull->over_limit) {

@@ -133,8 +133,9 @@ std::string place_text(const result::RankedPreset& line) {
   return line.standing == name_of(PresetStanding::searched) ? "s" + place : "-";
 }
 
-// If an engine assigns on a GPU, the time here is not its own; older results have one.
+// If an engine assigns on a GPU, the time of a processor is not its own; older results have one.
 std::string assign_text(const Case& result_case) {
+  if (runs_on_device(result_case)) return "device";
   const config::Preset* preset = config::find_preset(result_case.preset.value_or(""));
   if (preset != nullptr && preset->assigns_on_gpu()) return "gpu";
   return text_of(number<&Case::timing, &result::Timing::assign_ns, &result::Time::median>(result_case), "%.1f", 1e-3);
@@ -188,11 +189,34 @@ constexpr const char* k_legend =
     "upload, read: us of a\n"
     "frame by the model; lists that a GPU makes are not uploaded, and what it pays to make them is not counted. "
     "lights: that a sample\n"
-    "is given, on average. longest: the longest list, before a cap drops any. dropped, missed: pairs that cells "
-    "in view lack, seen or\n"
+    "is given, on average. longest: the longest list, before a cap drops any (on a device: after). dropped, missed: "
+    "pairs that cells\n"
+    "in view lack, seen or "
     "not; unlit: what samples lack decides. assign: us of one core here, of engines that assign on the CPU; gpu: "
     "a time here would not\n"
-    "be the engine's.\n";
+    "be the engine's; device: it ran on the result's device, whose time is in the block of its grid.\n";
+
+// Names presets whose cases could have run on a device; "" if there are none.
+std::string device_hint(const result::Result& result) {
+  std::vector<std::string> names;
+  for (const Case& result_case : result.cases) {
+    const config::Preset* preset = config::find_preset(result_case.preset.value_or(""));
+    if (preset == nullptr || !preset->on_device || runs_on_device(result_case)) continue;
+    if (std::ranges::find(names, preset->name) == names.end()) names.push_back(preset->name);
+  }
+  if (names.empty()) return "";
+  return "--device NAME (clusterbench list devices) runs and times the engines' own kind of shader: " + joined(names) +
+         ".\n";
+}
+
+// With what differs on a device, if one of its cases ran there.
+std::string approximated_text(const config::Preset& preset, const std::vector<Case>& cases) {
+  const bool is_on_device =
+      std::ranges::any_of(cases, [&](const Case& one) { return one.preset == preset.name && runs_on_device(one); });
+  if (!is_on_device || !preset.on_device || preset.on_device->approximated.empty()) return preset.approximated;
+  return preset.approximated + (preset.approximated.empty() ? "" : "; ") +
+         "on the device: " + preset.on_device->approximated;
+}
 
 }  // namespace
 
@@ -209,7 +233,7 @@ std::vector<result::Preset> preset_facts(const std::vector<Case>& cases, const s
     fact.mistakes = preset.mistakes;
     fact.summary = preset.summary;
     fact.source = preset.source;
-    fact.approximated = preset.approximated;
+    fact.approximated = approximated_text(preset, cases);
     fact.unverified = preset.unverified;
     if (const std::uint64_t most = config::most_lights(preset); most > 0) fact.most_lights = most;
     fact.assigns_on = preset.assigns_on;
@@ -254,7 +278,7 @@ std::string preset_table(const result::Result& result) {
   }
   for (const result::Skipped& skipped : result.skipped)
     if (skipped.preset) out += "  " + shown(*skipped.preset) + " is not measured: " + shown(skipped.reason) + ".\n";
-  return out + k_legend;
+  return out + k_legend + device_hint(result);
 }
 
 std::string preset_conclusions(const result::Result& result) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "report/cases/case_costs.h"
+#include "report/cases/device_frames.h"
 #include "report/cases/case_samples.h"
 #include "report/cases/contender.h"
 #include "report/cases/nothing_seen.h"
@@ -98,6 +99,7 @@ result::Result record_of(const run::Result& result, const std::vector<Case>& ear
   out.cases = in_plan_order(result, earlier_cases);
   add_extra_pairs(out.cases);
   add_costs(out.cases, out.config);
+  add_device_frames(out.cases, out.config);
   out.pareto_front = fronts(out.scenes, out.cases, out);
   for (const run::Skipped& skipped : result.skipped)
     out.skipped.push_back({skipped.name, skipped.reason, known(skipped.preset)});

@@ -145,13 +145,6 @@ Cells bytes_row(const std::string& name, const std::string& own, const LightMapC
           counts.pairs > 0 ? text("%.3f", share_of(counts.tile_false_positives(), counts.pairs)) : "-"};
 }
 
-std::string aligned_rows(const std::vector<Cells>& rows) {
-  std::string out;
-  const std::vector<std::size_t> widths = widths_of(rows);
-  for (const Cells& row : rows) out += aligned(row, widths);
-  return out;
-}
-
 // The maps with the most texels, in the order of the scene.
 std::vector<const LightMap*> shown_maps(const LightMaps& found) {
   std::vector<const LightMap*> maps;

@@ -81,7 +81,7 @@ result::Nullable<result::RandomSettings> random_settings(const std::optional<str
 
 std::string in_lines(const stress::RandomFault& found) {
   return found.name() + ": " + found.fault.detail + " (seed " + std::to_string(found.seeds.front()) +
-         ", shrunk; shown by " + number_of(found.settings, "setting") + ")";
+         (found.fault.is_of_device ? "" : ", shrunk") + "; shown by " + number_of(found.settings, "setting") + ")";
 }
 
 void print_random(std::ostream& out, const stress::RandomSearch& random) {
@@ -202,6 +202,7 @@ void print_searches(std::ostream& out, const stress::StressResult& result) {
           << " of its range inside\n";
     else
       out << "none lost, margin " << search.least_margin << "\n";
+    if (!search.fault.empty()) out << "    ended by the device: " << search.fault << "\n";
     if (search.undecided > 0) out << "    " << search.undecided << " more not listed, and undecided\n";
   }
 }
@@ -264,6 +265,8 @@ std::vector<std::string> stress_failures(const stress::StressResult& result) {
     if (search.deepest && method_of(result, search.method).conservative)
       failures.push_back("H31 " + search.method + ": " + number_of(search.misses, "light") + " lost, the deepest " +
                          share_in_percent(search.deepest->depth) + " of its range inside");
+  for (const stress::SearchResult& search : result.searches)
+    if (!search.fault.empty()) failures.push_back("H31 " + search.method + ": " + search.fault);
   for (const stress::SearchResult& search : result.searches)
     if (search.undecided > 0 && method_of(result, search.method).conservative)
       failures.push_back("H31 " + search.method + ": " + number_of(search.undecided, "light") +

@@ -26,7 +26,7 @@ Json figure_value(double value, search::Measure measure) {
 }
 
 const char* name_of(search::Ended ended) {
-  constexpr const char* k_names[] = {"evaluations", "seconds", "signal"};
+  constexpr const char* k_names[] = {"evaluations", "seconds", "signal", "device"};
   return k_names[static_cast<int>(ended)];
 }
 
@@ -215,6 +215,8 @@ std::string worst_case_text(const WorstCase& found, const WorstCaseFacts& facts)
   for (const std::string& warning : found.warnings) out += line("warning", warning);
   if (found.ended == search::Ended::seconds)
     out += line("warning", "--seconds ended the search: the next one can end elsewhere");
+  if (found.ended == search::Ended::device)
+    out += line("warning", "the device ended the search: " + found.device_failure);
   if (!facts.config_file.empty())
     out += line("replay", "clusterbench run " + shell_command(std::vector<std::string>{facts.config_file}));
   return out;

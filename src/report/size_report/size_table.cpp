@@ -75,13 +75,6 @@ std::vector<Cells> group_rows(const SizedStructure& structure) {
   return rows;
 }
 
-std::string aligned_rows(const std::vector<Cells>& rows) {
-  std::string out;
-  const std::vector<std::size_t> widths = widths_of(rows);
-  for (const Cells& row : rows) out += aligned(row, widths);
-  return out;
-}
-
 // The frames with the marks: usually the same for all buffers that differ between frames.
 std::string worst_lines(const SizedStructure& structure) {
   std::vector<std::pair<std::string, std::vector<std::string>>> by_frame;

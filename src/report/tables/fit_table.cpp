@@ -63,8 +63,7 @@ std::string fit_table(const result::Result& result) {
       }
       if (any == nullptr) continue;
       blocks += " " + block + "\n  " + range_text(*any) + "\n";
-      const std::vector<std::size_t> widths = widths_of(rows);
-      for (const Cells& row : rows) blocks += aligned(row, widths);
+      blocks += aligned_rows(rows);
     }
     if (!blocks.empty()) out += "fitted slices of " + shown(scene.name) + "\n" + blocks + "\n";
   }

@@ -34,10 +34,7 @@ std::string lookup_block(const std::string& block, const std::vector<NamedCase>&
     rows.push_back(row);
   }
   rows.push_back(padding);
-  const std::vector<std::size_t> widths = widths_of(rows);
-  std::string out = " " + block + "\n";
-  for (const Cells& row : rows) out += aligned(row, widths);
-  return out;
+  return " " + block + "\n" + aligned_rows(rows);
 }
 
 }  // namespace

@@ -62,9 +62,8 @@ std::string pre_cull_table(const result::Result& result) {
       for (const NamedCase& line : distinct_cases(result.cases, scene, block, parts_of))
         if (line.result_case->pre_cull) rows.push_back(pre_cull_row(line));
       if (rows.size() == 1) continue;
-      const std::vector<std::size_t> widths = widths_of(rows);
       blocks += " " + block + "\n";
-      for (const Cells& row : rows) blocks += aligned(row, widths);
+      blocks += aligned_rows(rows);
     }
     if (!blocks.empty()) out += "pre-culls of " + shown(scene.name) + "\n" + blocks + "\n";
   }

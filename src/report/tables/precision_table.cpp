@@ -78,9 +78,7 @@ std::string precision_block(const std::string& block, const std::vector<NamedCas
     if (precision.packing != "float32" && told.insert(precision.packing).second) out += loss_text(precision);
     rows.push_back(precision_row(named));
   }
-  const std::vector<std::size_t> widths = widths_of(rows);
-  for (const Cells& row : rows) out += aligned(row, widths);
-  return out;
+  return out + aligned_rows(rows);
 }
 
 }  // namespace

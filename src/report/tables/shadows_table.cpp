@@ -79,9 +79,7 @@ std::string shadows_block(const std::string& block, const std::vector<NamedCase>
     for (std::size_t i = 0; shadows.culls && i < shadows.culls->size(); ++i) rows.push_back(cull_row(named, i));
   }
   if (rows.size() == 1) return out;
-  const std::vector<std::size_t> widths = widths_of(rows);
-  for (const Cells& row : rows) out += aligned(row, widths);
-  return out;
+  return out + aligned_rows(rows);
 }
 
 Json part_of(const Case& result_case) {

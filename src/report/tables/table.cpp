@@ -18,6 +18,7 @@
 #include "report/tables/pre_cull_table.h"
 #include "report/tables/precision_table.h"
 #include "report/tables/reaction_table.h"
+#include "report/tables/reading_table.h"
 #include "report/tables/samples_table.h"
 #include "report/tables/shadows_table.h"
 #include "report/tables/stability_table.h"
@@ -363,15 +364,21 @@ std::vector<TableBlock> table_blocks(const result::Result& result, const result:
 }
 
 // With the reason if all have the same, and with the methods that support boxes if some skipped ones do not.
-std::string skipped_text(const std::vector<result::Skipped>& skipped) {
-  if (skipped.empty()) return "";
+std::string skipped_text(std::vector<result::Skipped> skipped) {
+  std::string unread;
+  std::erase_if(skipped, [&](const result::Skipped& one) {
+    if (!one.name.ends_with(", reading")) return false;
+    unread = "Nothing was read on a device: " + shown(one.reason) + ".\n";
+    return true;
+  });
+  if (skipped.empty()) return unread;
   std::set<std::string> reasons;
   bool takes_no_boxes = false;
   for (const result::Skipped& skipped_case : skipped) {
     reasons.insert(skipped_case.reason);
     takes_no_boxes = takes_no_boxes || skipped_case.reason.ends_with(" takes no boxes");
   }
-  std::string out = number_of(skipped.size(), "combination") + " of grid, method and storage left out";
+  std::string out = unread + number_of(skipped.size(), "combination") + " of grid, method and storage left out";
   out += reasons.size() == 1 ? ": " + shown(*reasons.begin()) + ".\n"
                              : ", since they do not go together (`skipped` in the result).\n";
   if (!takes_no_boxes) return out;
@@ -423,9 +430,9 @@ std::string render_table(const result::Result& result, bool colour) {
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
   out += skipped_text(result.skipped);
   return out + samples_table(result) + lookup_table(result) + stability_table(result) + fit_table(result) +
-         reaction_table(result) + fallback_table(result) + precision_table(result) + pre_cull_table(result) +
-         shadows_table(result) + preset_table(result) + notes_text(result) + warnings_text(result) +
-         timing_warnings(cases);
+         reaction_table(result) + reading_table(result) + fallback_table(result) + precision_table(result) +
+         pre_cull_table(result) + shadows_table(result) + preset_table(result) + notes_text(result) +
+         warnings_text(result) + timing_warnings(cases);
 }
 
 }  // namespace clusterbench::report

@@ -188,7 +188,7 @@ struct WorstCase {
   FIELD(std::uint64_t, evaluations_allowed, About("At most").at_least(1));
   FIELD(std::string, ended,
         About("What ended the search. Only with `evaluations` the same call gives the same result")
-            .one_of({"evaluations", "seconds", "signal"}));
+            .one_of({"evaluations", "seconds", "signal", "device"}));
   FIELD(SearchSpace, space, "What could be chosen");
   FIELD(std::vector<SearchStage>, stages, "Of the search, in their order");
   FIELD(std::vector<WorstFrame>, frames,

@@ -17,6 +17,7 @@ constexpr std::string_view k_of_cold_devices =
 constexpr std::string_view k_of_device_builds = " (only methods have it whose cells a device makes: cells = device)";
 constexpr std::string_view k_of_device_clocks =
     " (only methods that run on a device have it, where its shaders can count cycles)";
+constexpr std::string_view k_of_readings = " (the key reading measures it, on a device, where times are measured)";
 constexpr std::string_view k_of_cells = " (structures without cells have none)";
 constexpr std::string_view k_of_truth =
     " (accuracy.check: false leaves errors out; structures without cells have none)";
@@ -34,6 +35,24 @@ std::optional<double> frame_instructions(const Case& result_case) {
              assign = number<&Case::count, &Count::instructions_per_frame, &PerFrame::assign>(result_case),
              convert = number<&Case::count, &Count::instructions_per_frame, &PerFrame::convert>(result_case);
   return assign ? std::optional(pre_cull.value_or(0.0) + *assign + convert.value_or(0.0)) : std::nullopt;
+}
+
+// The first set's first walk: those that the configuration names first.
+const WalkReading* first_walk(const Case& result_case) {
+  if (!result_case.reading || result_case.reading->sets.empty()) return nullptr;
+  const std::vector<WalkReading>& walks = result_case.reading->sets.front().walks;
+  return walks.empty() ? nullptr : &walks.front();
+}
+
+template <auto... Members>
+std::optional<double> of_reading(const Case& result_case) {
+  const WalkReading* walk = first_walk(result_case);
+  return walk == nullptr ? std::nullopt : number<Members...>(*walk);
+}
+
+const Interval* interval_of_reading(const Case& result_case) {
+  const WalkReading* walk = first_walk(result_case);
+  return walk == nullptr ? nullptr : &walk->read_ns.ci95;
 }
 
 constexpr Place<Case> k_fullest_frame{number<&Case::buffers, &Buffers::worst_frame>,
@@ -554,6 +573,35 @@ constexpr Figure k_figures[] = {
      .basis = time,
      .recorded = number<&Case::device, &DeviceTimes::clock_mhz, &DeviceClock::median>,
      .none = k_of_device_clocks},
+    {.name = "reading_us",
+     .unit = "ns",
+     .meaning = "median time of a device for all samples of a frame to look up and walk their lights, in microseconds",
+     .basis = time,
+     .recorded = of_reading<&WalkReading::read_ns, &Time::median>,
+     .interval = interval_of_reading,
+     .is_in_us = true,
+     .none = k_of_readings,
+     .export_name = "reading_time"},
+    {.name = "reading_x_exact",
+     .unit = "ratio",
+     .meaning = "time of that reading / time with exact lists",
+     .basis = time,
+     .recorded = of_reading<&WalkReading::exact_ratio>,
+     .none = k_of_readings},
+    {.name = "reading_x_nothing",
+     .unit = "ratio",
+     .meaning = "time of that reading / time of looking up cells and reading no lists",
+     .basis = time,
+     .recorded = of_reading<&WalkReading::nothing_ratio>,
+     .none = k_of_readings},
+    {.name = "device_frame_us",
+     .unit = "ns",
+     .meaning = "assignment, upload and reading together, less what runs beside other work, in microseconds",
+     .basis = derived,
+     .recorded = number<&Case::reading, &Reading::frame_ns>,
+     .is_in_us = true,
+     .none = " (the key reading measures it; methods of the processor need reading.async)",
+     .export_name = "device_frame_time"},
 };
 
 }  // namespace

@@ -4,12 +4,13 @@
 
 namespace clusterbench::run {
 
-FrameSamples::FrameSamples(const config::Config& config, const SceneData& data, const PathFrames& path)
-    : config_(config), data_(data), path_(path) {}
+FrameSamples::FrameSamples(const config::Config& config, std::span<const config::SampleSetRequest> sets,
+                           const SceneData& data, const PathFrames& path)
+    : config_(config), sets_(sets), data_(data), path_(path) {}
 
 std::vector<FrameSampleSet> FrameSamples::of(const view::Frame& frame) {
   std::vector<FrameSampleSet> out;
-  for (const config::SampleSetRequest& request : config_.sample_sets) {
+  for (const config::SampleSetRequest& request : sets_) {
     FrameSampleSet& set = out.emplace_back();
     if (!set_obstacle(request, data_).empty()) continue;
     if (!request.needs_triangles())

@@ -2,6 +2,7 @@
 // The sample sets that a configuration requests, frame by frame.
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "config/config.h"
@@ -22,9 +23,12 @@ struct FrameSampleSet {
 class FrameSamples {
  public:
   // All must outlive this object.
-  FrameSamples(const config::Config& config, const SceneData& data, const PathFrames& path);
+  FrameSamples(const config::Config& config, const SceneData& data, const PathFrames& path)
+      : FrameSamples(config, config.sample_sets, data, path) {}
+  FrameSamples(const config::Config& config, std::span<const config::SampleSetRequest> sets, const SceneData& data,
+               const PathFrames& path);
 
-  // One per set of Config::sample_sets, in the same order; sets of surfaces are empty if the scene has no triangles.
+  // One per set, in the same order; sets that the scene does not have (set_obstacle()) are empty.
   std::vector<FrameSampleSet> of(const view::Frame& frame);
 
  private:
@@ -33,6 +37,7 @@ class FrameSamples {
                            FrameSampleSet& out) const;
 
   const config::Config& config_;
+  std::span<const config::SampleSetRequest> sets_;
   const SceneData& data_;
   const PathFrames& path_;
 };

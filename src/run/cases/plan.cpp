@@ -276,7 +276,7 @@ void use_device(const config::Config& config) {
   const bool is_needed = std::ranges::any_of(config.assigners, [](const config::MethodRequest& method) {
     return assign::find_assigner(method.name)->on_device;
   });
-  if (is_needed && !config.device.empty() && !gpu::device_obstacle().empty())
+  if ((is_needed || !config.reading_sets.empty()) && !config.device.empty() && !gpu::device_obstacle().empty())
     throw Error(config.file.string(), "device", gpu::device_obstacle());
 }
 

@@ -17,6 +17,7 @@ namespace {
 
 bool needs_triangles(const config::Config& config) {
   return std::ranges::any_of(config.sample_sets, &config::SampleSetRequest::needs_triangles) ||
+         std::ranges::any_of(config.reading_sets, &config::SampleSetRequest::needs_triangles) ||
          !config.shadow_culls.empty() ||
          std::ranges::any_of(
              config.assigners,
@@ -79,16 +80,19 @@ double lowest_height(const SceneData& data) {
   return lowest_m;
 }
 
-// Finds the floor for a set of samples, and adds a note with its height.
+// Finds the floor for sets of samples, those of readings included, and adds a note with its height.
 void lay_ground(const config::Config& config, SceneData& data) {
-  for (const config::SampleSetRequest& request : config.sample_sets) {
-    if (!request.ground || data.has_triangles()) continue;
-    if (request.ground->is_lowest) data.lowest_m = lowest_height(data);
-    char height[32];
-    std::snprintf(height, sizeof height, "%.4g", *ground_height(request, data));
-    data.scene.warnings.push_back("no triangles: its opaque samples lie on a floor at y = " + std::string(height) +
-                                  " m (samples.opaque.ground), and none above the horizon");
-  }
+  std::set<std::string> notes;
+  for (const auto* sets : {&config.sample_sets, &config.reading_sets})
+    for (const config::SampleSetRequest& request : *sets) {
+      if (!request.ground || data.has_triangles()) continue;
+      if (request.ground->is_lowest) data.lowest_m = lowest_height(data);
+      char height[32];
+      std::snprintf(height, sizeof height, "%.4g", *ground_height(request, data));
+      notes.insert("no triangles: its opaque samples lie on a floor at y = " + std::string(height) +
+                   " m (samples.opaque.ground), and none above the horizon");
+    }
+  data.scene.warnings.insert(data.scene.warnings.end(), notes.begin(), notes.end());
 }
 
 // `names`: those of earlier scenes; adds this one's.

@@ -245,6 +245,14 @@ std::string limit_text(const CaseResult& result, const ExceededLimit& limit) {
   return text;
 }
 
+// Samples at which a device walked other lights than those of the structure.
+std::uint64_t wrong_readings(const CaseResult& result) {
+  std::uint64_t differing = 0;
+  if (result.reading)
+    for (const SetReading& set : result.reading->sets) differing += set.differing;
+  return differing;
+}
+
 std::string undecided_text(const char* where, std::uint64_t pairs) {
   return std::string(where) + ": " + number_of(pairs, "undecided pair") + " counted as true";
 }
@@ -252,7 +260,7 @@ std::string undecided_text(const char* where, std::uint64_t pairs) {
 }  // namespace
 
 const char* name_of(Failure::Kind kind) {
-  constexpr const char* k_names[] = {"lost_pairs", "extra_pairs", "lost_at_samples", "dropped_pairs"};
+  constexpr const char* k_names[] = {"lost_pairs", "extra_pairs", "lost_at_samples", "dropped_pairs", "wrong_readings"};
   return k_names[static_cast<std::size_t>(kind)];
 }
 
@@ -277,6 +285,11 @@ std::vector<Failure> failures_of(const CaseResult& result, const config::LimitsR
     failures.push_back({Kind::lost_at_samples, "lost " + std::to_string(counts->missed - counts->missed_outside) +
                                                    " of " + number_of(counts->needed, "light") + " that " +
                                                    needing_text(set)});
+  if (const std::uint64_t samples = wrong_readings(result); samples > 0)
+    failures.push_back({Kind::wrong_readings, "read on " + result.reading->device + ", " +
+                                                  number_of(samples, "sample") +
+                                                  " walked other lights than the structure has: a fault of the driver "
+                                                  "or of this program"});
   const measure::Buffers& buffers = result.buffers;
   if (limits.dropped_pairs && buffers.dropped_pairs > *limits.dropped_pairs)
     failures.push_back({Kind::dropped_pairs, dropped_text(result) + ", more than limits.dropped_pairs allows (" +

@@ -13,6 +13,8 @@
 #include "config/config.h"
 #include "gpu/device/device_facts.h"
 #include "gpu/methods/arithmetic_probe.h"
+#include "gpu/reading/cost_fit.h"
+#include "gpu/reading/walking.h"
 #include "measure/lists/buffers.h"
 #include "measure/lists/lights_beyond_grid.h"
 #include "measure/lists/lights_in_view_counts.h"
@@ -111,6 +113,40 @@ struct DeviceTimes {
 
   bool is_cold() const { return cold.has_value(); }
   const DeviceSpanTimes& first() const { return cold ? *cold : warm; }
+};
+
+// One way in which the waves of a device walk the lights of a set's samples. Times are of a frame, with warm caches
+// where nothing else is said.
+struct WalkReading {
+  gpu::Walking walking = gpu::Walking::by_lane;
+  measure::TimeStats read_ns, cold_ns;
+  std::optional<measure::TimeStats> exact_ns;  // of the exact lists; without the truth of cells there are none
+  std::optional<measure::Ratio> exact_ratio;   // read_ns / exact_ns
+  measure::Ratio nothing_ratio;                // read_ns / nothing_ns
+};
+
+// What the samples of a set pay for their lights on a device.
+struct SetReading {
+  measure::SampleSet set = measure::SampleSet::opaque;
+  gpu::ReadingWork work;                           // over the frames
+  std::optional<std::uint64_t> exact_lights = {};  // that the samples walk in the exact lists
+  std::uint64_t differing = 0;          // samples for which the device walked other lights than the structure has
+  measure::TimeStats write_ns;          // a word for each sample
+  measure::TimeStats nothing_ns;        // the lookup as well
+  std::vector<WalkReading> walks = {};  // in the order of the configuration
+};
+
+struct ReadingResult {
+  std::string device;  // name and driver
+  bool is_software = false;
+  int frames = 0;
+  double structure_bytes = 0.0;  // mean
+  struct ExactLists {
+    std::string storage;
+    double bytes = 0.0;  // mean
+  };
+  std::optional<ExactLists> exact = {};  // without the truth of cells there are none
+  std::vector<SetReading> sets = {};     // in the order of the configuration, those that the scene has
 };
 
 // Times of slices that follow the needs of frames.
@@ -218,7 +254,7 @@ struct PreCullResult {
 
 // A reason for a run to fail.
 struct Failure {
-  enum class Kind : std::uint8_t { lost_pairs, extra_pairs, lost_at_samples, dropped_pairs };
+  enum class Kind : std::uint8_t { lost_pairs, extra_pairs, lost_at_samples, dropped_pairs, wrong_readings };
   Kind kind = Kind::lost_pairs;
   std::string text;  // without the case's name
 };
@@ -272,11 +308,12 @@ struct CaseResult {
   std::vector<ShadowCullResult> shadow_culls;        // of lists, one per way; empty if not requested
   std::optional<SharedFrustaResult> shared_frusta;   // if requested
   std::optional<TimingResult> timing;
-  bool on_device = false;             // the method runs on a device
-  std::optional<DeviceTimes> device;  // its times, in place of `timing`
-  std::optional<CountResult> count;   // if requested
-  std::optional<Details> details;     // with cells, if requested
-  std::vector<Failure> failures;      // run/findings/gate.h
+  bool on_device = false;                // the method runs on a device
+  std::optional<DeviceTimes> device;     // its times, in place of `timing`
+  std::optional<ReadingResult> reading;  // if requested
+  std::optional<CountResult> count;      // if requested
+  std::optional<Details> details;        // with cells, if requested
+  std::vector<Failure> failures;         // run/findings/gate.h
 };
 
 // Cells of the case's grid in a frame.

@@ -172,18 +172,21 @@ class DeviceStatistics {
 
 // False if stopped.
 bool run_launch(const config::Config& config, const GroupPlan& group, std::span<const TimedFrame> frames, int launch,
-                int rounds, std::vector<MethodDeviceSamples>& samples, const std::atomic<bool>& stop) {
+                int rounds, std::vector<MethodDeviceSamples>& samples, const std::function<void()>& on_round,
+                const std::atomic<bool>& stop) {
   const std::vector<Method> methods = methods_of(group);
   std::vector<std::unique_ptr<DeviceTrack>> tracks;
   for (std::size_t i = 0; i < methods.size(); ++i)
     tracks.push_back(std::make_unique<DeviceTrack>(config, group, methods[i], frames, samples[i]));
   std::optional<gpu::ClockProbe> clock;  // a processor's cycles are counted at a fixed rate
   if (has_device() && !gpu::device().facts().is_software()) clock.emplace(gpu::device());
-  for (int round = 0; round < rounds; ++round)
+  for (int round = 0; round < rounds; ++round) {
     for (const std::size_t track : method_order(tracks.size(), config.seed, launch, round)) {
       if (stop) return false;
       tracks[track]->round(clock ? &*clock : nullptr);
     }
+    on_round();
+  }
   return true;
 }
 
@@ -191,13 +194,14 @@ bool run_launch(const config::Config& config, const GroupPlan& group, std::span<
 
 std::vector<std::optional<DeviceTimes>> device_pass(const config::Config& config, const GroupPlan& group,
                                                     const PathFrames& path, int launches,
+                                                    const std::function<void()>& on_round,
                                                     const std::atomic<bool>& stop) {
   const std::vector<TimedFrame> frames = timed_frames(config, group, path, mean_frames(config, path));
   const std::vector<Method> methods = methods_of(group);
   std::vector<MethodDeviceSamples> samples(methods.size());
   for (int launch = 0; launch < launches; ++launch) {
     if (launch > 0) gpu::close_device();
-    if (!run_launch(config, group, frames, launch, rounds_per_launch(config.timing, launches), samples, stop))
+    if (!run_launch(config, group, frames, launch, rounds_per_launch(config.timing, launches), samples, on_round, stop))
       return {};
   }
   const DeviceStatistics statistics(launches, config.seed);

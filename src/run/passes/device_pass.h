@@ -7,6 +7,7 @@
 // were compiled) have more in common than those of two, as times of one process have on the processor.
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -17,9 +18,11 @@
 namespace clusterbench::run {
 
 // One for each case of the group, whose methods all run on the device, none where it has no clock; empty if stopped
-// before the end. Nothing else may use the device: it is closed between launches.
+// before the end. Nothing else may use the device: it is closed between launches. `on_round` is called behind each
+// round.
 std::vector<std::optional<DeviceTimes>> device_pass(const config::Config& config, const GroupPlan& group,
                                                     const PathFrames& path, int launches,
+                                                    const std::function<void()>& on_round,
                                                     const std::atomic<bool>& stop);
 
 }  // namespace clusterbench::run

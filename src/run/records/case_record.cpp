@@ -73,6 +73,7 @@ void add_parts(result::Case& out, const CaseResult& found) {
   out.shadows = shadows_record(found);
   if (found.timing) out.timing = timing_record(*found.timing);
   if (found.device) out.device = device_record(*found.device);
+  if (found.reading) out.reading = reading_record(*found.reading);
   if (found.count) out.count = count_record(*found.count);
   if (found.details) out.details = details_record(*found.details);
 }

@@ -27,6 +27,10 @@ std::optional<result::Shadows> shadows_record(const CaseResult& found);
 std::vector<result::ShadowCullTimes> shadow_times_record(const std::vector<ShadowCullResult>& culls);
 result::Timing timing_record(const TimingResult& timing);
 result::DeviceTimes device_record(const DeviceTimes& times);
+result::Reading reading_record(const ReadingResult& reading);
+result::Time time_record(const measure::TimeStats& stats);
+std::optional<result::Time> time_record(const std::optional<measure::TimeStats>& stats);
+result::Interval interval_record(const measure::Interval& interval);
 result::Count count_record(const CountResult& count);
 result::Details details_record(const Details& details);
 

@@ -5,7 +5,6 @@
 #include "run/records/parts.h"
 
 namespace clusterbench::run {
-namespace {
 
 using result::measured;
 
@@ -23,6 +22,8 @@ result::Time time_record(const measure::TimeStats& stats) {
 std::optional<result::Time> time_record(const std::optional<measure::TimeStats>& stats) {
   return stats ? std::optional(time_record(*stats)) : std::nullopt;
 }
+
+namespace {
 
 result::Disturbed disturbed_record(const Disturbance& disturbance) {
   const auto cores = [&](double busy_s) {
@@ -95,7 +96,8 @@ result::DeviceTimes device_record(const DeviceTimes& t) {
   if (t.build_ns) out.builds_per_frame = t.builds_per_frame;
   if (!t.clock_mhz.empty()) {
     const measure::TimeStats clock = measure::time_stats(t.clock_mhz, 0);
-    out.clock_mhz = {measured(clock.median), measured(clock.min), measured(std::ranges::max(t.clock_mhz))};
+    out.clock_mhz = {measured(clock.median), measured(clock.min), measured(std::ranges::max(t.clock_mhz)), {}};
+    for (const double mhz : t.clock_mhz) out.clock_mhz->samples.push_back(measured(mhz));
   }
   if (t.shaders.empty()) return out;
   out.shaders.emplace();

@@ -1,0 +1,185 @@
+// What samples pay on a device: the table, sums of a frame, prices of the cost model.
+
+#include "report/tables/reading_table.h"
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "report/comparison_by_hand.h"
+#include "report/results/measured_prices.h"
+#include "report/tables/table.h"
+
+namespace clusterbench::report {
+namespace {
+
+using testing::result_by_hand;
+
+measure::TimeStats rounds_of(double ns) {
+  return {ns, 1.0, ns, ns, {0.99 * ns, 1.01 * ns}, std::vector<double>(9, ns)};
+}
+
+run::WalkReading walk_of(gpu::Walking walking, double read_ns, double exact_ns) {
+  run::WalkReading walk;
+  walk.walking = walking;
+  walk.read_ns = rounds_of(read_ns);
+  walk.cold_ns = rounds_of(2.0 * read_ns);
+  walk.exact_ns = rounds_of(exact_ns);
+  walk.exact_ratio = measure::Ratio{read_ns / exact_ns, {0.99 * read_ns / exact_ns, 1.01 * read_ns / exact_ns}};
+  walk.nothing_ratio = {read_ns / 1000.0, {}};
+  return walk;
+}
+
+run::ReadingResult reading_of(double read_ns, double exact_ns, bool is_software = false) {
+  run::SetReading set;
+  set.work = {2000, 8000, 10000, 20000, 1.5};
+  set.write_ns = rounds_of(500.0);
+  set.nothing_ns = rounds_of(1000.0);
+  set.walks = {walk_of(gpu::Walking::by_lane, read_ns, exact_ns),
+               walk_of(gpu::Walking::by_light, read_ns + 1.0, exact_ns)};
+  return {"Card, driver 1", is_software, 2, 4096.0, run::ReadingResult::ExactLists{"packed", 2048.0}, {set}};
+}
+
+// The cases by hand, whose second is read faster.
+run::Result read_result(bool is_software = false) {
+  run::Result result = result_by_hand();
+  result.cases[0].reading = reading_of(9000.0, 6000.0, is_software);
+  result.cases[1].reading = reading_of(6300.0, 6000.0, is_software);
+  return result;
+}
+
+std::string table_of(const run::Result& result) {
+  return reading_table(test::result_of(testing::json_of(result)));
+}
+
+std::size_t line_with(const std::string& table, const std::string& start) {
+  const std::size_t at = table.find(start);
+  EXPECT_NE(at, std::string::npos) << start << " in\n" << table;
+  return at;
+}
+
+TEST(ReadingTable, has_the_cheapest_reading_of_each_walk_first) {
+  const run::Result result = read_result();
+  const std::string table = table_of(result);
+  EXPECT_NE(table.find("reading on Card, driver 1: hall\n"), std::string::npos) << table;
+  const std::string slow = result.cases[0].assigner_label + " / packed  ",
+                    fast = result.cases[1].assigner_label + " / packed  ";
+  const std::size_t first = line_with(table, fast), second = line_with(table, slow);
+  EXPECT_LT(first, second) << table;
+  EXPECT_NE(table.find("lane     9.00  1.0 %     1.50       9.00     18.0    4.00   5.00   4096"), std::string::npos)
+      << table;
+  EXPECT_LT(second, table.find("  light  ")) << table;
+}
+
+TEST(ReadingTable, is_by_the_time_of_a_frame_where_all_have_it) {
+  run::Result result = read_result();
+  result.config["reading"] = {{"async", 0.0}};
+  result.config["cost"] = {{"upload_gb_per_s", 15.75}};
+  result.cases[0].timing->frame_ns.median = 100.0;
+  result.cases[1].timing->frame_ns.median = 50'000.0;
+  const std::string table = table_of(result);
+  EXPECT_LT(line_with(table, result.cases[0].assigner_label + " / packed  "),
+            line_with(table, result.cases[1].assigner_label + " / packed  "));
+  EXPECT_NE(table.find("Cheapest with its assignment and upload: " + result.cases[0].assigner_label + " / packed, 9.1"),
+            std::string::npos)
+      << table;
+}
+
+TEST(ReadingTable, says_what_exact_lists_would_save_at_most) {
+  const std::string table = table_of(read_result());
+  EXPECT_NE(table.find("would save a frame at most 3.00 us of reading, those of " +
+                       result_by_hand().cases[0].assigner_label + " / packed (x 1.50)"),
+            std::string::npos)
+      << table;
+  run::Result tight = read_result();
+  tight.cases[0].reading = reading_of(6030.0, 6000.0);  // 1.005, and its interval holds 1
+  tight.cases[1].reading = reading_of(5900.0, 6000.0);
+  EXPECT_NE(table_of(tight).find("not known to be read faster than any of these"), std::string::npos);
+}
+
+TEST(ReadingTable, marks_times_of_software_and_ranks_nothing_by_them) {
+  const run::Result result = read_result(true);
+  const std::string table = table_of(result);
+  EXPECT_NE(table.find("these times are a processor's and no GPU's"), std::string::npos) << table;
+  EXPECT_EQ(table.find("would save"), std::string::npos) << table;
+  EXPECT_LT(line_with(table, result.cases[0].assigner_label + " / packed  "),
+            line_with(table, result.cases[1].assigner_label + " / packed  "))
+      << "the order of the plan";
+}
+
+TEST(ReadingTable, warns_of_lights_that_a_device_walked_wrongly) {
+  run::Result result = read_result();
+  result.cases[1].reading->sets[0].differing = 7;
+  EXPECT_NE(table_of(result).find("At 7 samples the device walked other lights"), std::string::npos);
+}
+
+TEST(ReadingTable, is_missing_without_readings_and_its_reason_is_told) {
+  run::Result result = result_by_hand();
+  EXPECT_EQ(table_of(result), "");
+  result.skipped.push_back({"hall/walk/frustum 64px, reading", "there is no Vulkan driver"});
+  const std::string table = render_table(test::result_of(testing::json_of(result)), false);
+  EXPECT_NE(table.find("Nothing was read on a device: there is no Vulkan driver.\n"), std::string::npos) << table;
+  const std::size_t others = result_by_hand().skipped.size();
+  EXPECT_NE(table.find(std::to_string(others) + " combination"), std::string::npos) << "a reading is none";
+}
+
+// --- Prices ---
+
+// Readings of two sets with these prices.
+run::Result priced(double ns_per_light, double ns_per_read, double gb_per_s) {
+  run::Result result = read_result();
+  std::uint64_t seed = 3;
+  for (run::CaseResult& one : result.cases) {
+    one.reading->sets.resize(2, one.reading->sets[0]);
+    one.reading->sets[1].set = measure::SampleSet::fog;
+    for (run::SetReading& set : one.reading->sets) {
+      seed = seed * 29 % 101;
+      set.work = {2000, 2000 * seed, 2000 * (7 + seed * seed % 13), 2000 * 8 * (1 + seed % 5),
+                  1.0 + static_cast<double>(seed % 3)};
+      const double ns = set.work.divergence * (static_cast<double>(set.work.lights) * ns_per_light +
+                                               static_cast<double>(set.work.reads) * ns_per_read +
+                                               static_cast<double>(set.work.read_bytes) / gb_per_s);
+      set.walks[0].read_ns.median = set.nothing_ns.median + ns / 2;  // of one of two frames
+    }
+  }
+  return result;
+}
+
+MeasuredPrices prices_of(const run::Result& result) {
+  return measured_prices(test::result_of(testing::json_of(result)), "readings.json");
+}
+
+std::string refusal_of(const run::Result& result) {
+  try {
+    prices_of(result);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MeasuredPrices, are_those_that_the_readings_were_made_of) {
+  const MeasuredPrices prices = prices_of(priced(0.02, 0.005, 1500.0));
+  EXPECT_NEAR(prices.ns_per_light, 0.02, 1e-5);
+  EXPECT_NEAR(prices.ns_per_read, 0.005, 1e-5);
+  EXPECT_NEAR(prices.read_gb_per_s, 1500.0, 10.0);
+  EXPECT_EQ(prices.readings, 4u);
+  EXPECT_NE(prices.text().find("cost by 4 readings on Card, driver 1: a light 0.02 ns"), std::string::npos)
+      << prices.text();
+}
+
+TEST(MeasuredPrices, are_refused_with_what_is_missing) {
+  EXPECT_NE(refusal_of(result_by_hand()).find("has no readings; --set 'reading={}'"), std::string::npos);
+  EXPECT_NE(refusal_of(read_result(true)).find("computes on the processor"), std::string::npos);
+  EXPECT_NE(refusal_of(read_result()).find("do not tell the prices apart"), std::string::npos);
+  run::Result two = priced(0.02, 0.005, 1500.0);
+  two.cases[1].reading->device = "Another card, driver 2";
+  EXPECT_NE(refusal_of(two).find("2 devices (Another card, driver 2, Card, driver 1)"), std::string::npos)
+      << refusal_of(two);
+  run::Result no_lane = priced(0.02, 0.005, 1500.0);
+  for (run::CaseResult& one : no_lane.cases)
+    for (run::SetReading& set : one.reading->sets) set.walks.erase(set.walks.begin());
+  EXPECT_NE(refusal_of(no_lane).find("no readings with the walk `lane`"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clusterbench::report
