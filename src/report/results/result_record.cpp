@@ -6,9 +6,9 @@
 #include <set>
 
 #include "report/cases/case_costs.h"
-#include "report/cases/device_frames.h"
 #include "report/cases/case_samples.h"
 #include "report/cases/contender.h"
+#include "report/cases/device_frames.h"
 #include "report/cases/nothing_seen.h"
 #include "report/choosing/conclusion.h"
 #include "report/presets/preset_ranking.h"
