@@ -253,13 +253,15 @@ TEST(ShaderStatistics, are_those_of_registers_spills_and_memory_in_any_format) {
       told("Spilled SGPRs", VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_INT64_KHR, i64),
       told("LDS size", VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_FLOAT64_KHR, f64),
       told("Uses scratch", VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_BOOL32_KHR, yes),
+      told("Spill count", VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_UINT64_KHR, u64),
       told("Instruction count", VK_PIPELINE_EXECUTABLE_STATISTIC_FORMAT_UINT64_KHR, u64)};
   std::vector<assign::ShaderStatistic> found;
   add_statistics(all, "cells", found);
   EXPECT_EQ(found, (std::vector<assign::ShaderStatistic>{{"cells", "Register Count", 40.0},
                                                          {"cells", "Spilled SGPRs", -1.0},
                                                          {"cells", "LDS size", 1.5},
-                                                         {"cells", "Uses scratch", 1.0}}));
+                                                         {"cells", "Uses scratch", 1.0},
+                                                         {"cells", "Spill count", 40.0}}));
 }
 #endif
 
