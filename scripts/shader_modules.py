@@ -11,7 +11,8 @@ SHADERS = ROOT / "src" / "gpu" / "shaders"
 VARIANTS = {"plain": [], "to_nearest": ["-DROUNDS_TO_NEAREST"]}  # as cmake/ClusterbenchGpu.cmake
 
 # Shaders on whose arithmetic no list depends, by the beginning of their names.
-DECIDE_NOTHING = {"read_": "they read lists that are made already; their lookup may be off by what tests/gpu/reading_lookup_test.cpp allows"}
+DECIDE_NOTHING = {"read_": "they read lists that are made already; their lookup may be off by what tests/gpu/reading_lookup_test.cpp allows",
+                  "probe_functions": "it finds out how far functions are off whose error is the driver's"}
 
 # Results that are rounded: each driver may contract or reorder them unless NoContraction forbids it.
 ROUNDED = {"OpFAdd", "OpFSub", "OpFMul", "OpVectorTimesScalar", "OpMatrixTimesScalar", "OpVectorTimesMatrix",

@@ -109,7 +109,7 @@ MUTATIONS = [
     Mutation("tile-lights-touching-is-outside", "shaders/tile_lights.comp", "ball.x, -ball.z) > ball.w", "ball.x, -ball.z) >= ball.w",
              unseen="a ball is padded, so that one which just reaches the plane holds no light that does"),
     # --- barriers between commands, padding and sizes on the host ---
-    Mutation("commands-no-barriers", "vulkan/commands.cpp", "  vkCmdPipelineBarrier2(device_.commands, &info);\n}\n\nvoid Commands::mark()", "}\n\nvoid Commands::mark()"),
+    Mutation("commands-no-barriers", "vulkan/commands.cpp", "  vkCmdPipelineBarrier2(device_.commands, &info);\n}\n\nvoid Commands::flush()", "}\n\nvoid Commands::flush()"),
     Mutation("commands-barrier-of-nothing-written", "vulkan/commands.cpp", "memory.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;", "memory.srcAccessMask = 0;"),
     Mutation("commands-barrier-before-copies", "vulkan/commands.cpp", "    barrier();\n    for (const Buffers::Impl::Download", "    for (const Buffers::Impl::Download"),
     Mutation("commands-barrier-before-the-host", "vulkan/commands.cpp", "    vkCmdPipelineBarrier2(device_.commands, &info);\n  }\n  mark();", "  }\n  mark();",

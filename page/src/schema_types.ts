@@ -190,6 +190,16 @@ export type Result = {
     timestamp_bits: number; // Of its clock; 0: it has none [bits, over the clock]
     timestamp_period_ns: number | null; // Between two ticks of its clock [ns, over the clock]
     rounds_to_nearest: boolean; // Whether shaders can ask for it. If not, methods count the error of each step twice, and pad lights by it
+    arithmetic?: {
+      rounding: "to_nearest" | "either_way" | "wrong"; // Of sums and products. either_way: to the next number on either side of the exact result
+      contracts: boolean; // A product and a sum were rounded once, though shaders forbid it
+      reorders: boolean; // A sum of three was not made in its order
+      flushes_denormals: boolean; // Results below the least normal number became 0, which is allowed
+      division_ulp: number | null; // Largest error of a quotient; readings allow for 2.5 [ulp, over the numbers]
+      sqrt_ulp: number | null; // Largest error of a root; readings allow for 4.5 [ulp, over the numbers]
+      log2_ulp: number | null; // Largest error of a logarithm of numbers beyond [0.5, 2]; readings allow for 3 [ulp, over the numbers]
+      log2_error: number | null; // The same of numbers in [0.5, 2], absolute; readings allow for 4.8e-7 [over the numbers]
+    }; // What a probe found, before anything ran, by thousands of numbers whose results the processor knows. Methods do not run where it contradicts what their lists rest on. Absent in older results
   }; // The device of the cases whose method runs on one (assigner.on_device). Absent where there are none
   config: {
     allocation: {
@@ -676,12 +686,43 @@ export type Result = {
     device?: {
       device: string; // Name and driver of the device; times of one device alone compare
       frames_timed: number; // Evenly spaced over the path; all times are means over them [frames, over the path]
+      caches?: "cold" | "warm"; // Of all times here but those of warm. cold: memory of the device is filled before each frame's upload, as all else of an engine's frame does; warm: the same frame again and again. Absent in older results, where caches were as the method before left them
+      launches?: number; // How often the device was opened anew, each time for an equal share of every array of samples, one after the other, in one process. From two on all 95 % intervals are between them, else between rounds [openings, over the case]
       run_ns: Time; // Per frame: the device's work, from the lights to the lists
       upload_ns: Time; // Per frame: bringing the frame's lights to the device
       readback_ns: Time; // Per frame: bringing the lists back, which a renderer does not do
       dispatches: number | null; // Steps of this work that wait for each other, per frame [steps, over the timed frames]
       floor_ns: Time; // Per frame: as many steps that do nothing, of which the last writes as many bytes as the result has
       floor_ratio: number | null; // run_ns by floor_ns: how far the work is from only starting and writing [ratio, over the rounds]
+      repeats?: {
+        upload: number; // Of upload_ns
+        run: number; // Of run_ns
+        floor: number; // Of floor_ns
+      }; // How often a frame's work is repeated in one sample, which is the mean: until it lasts 1,000 periods of the clock and 20 us, if that fits in a submission of 100 ms; in the frame with fewest. Of cold times each has a span of its own. Readbacks are never repeated [repetitions, over one sample of a frame]
+      warm?: {
+        run_ns: Time; // Per frame: as the one beside cold times
+        upload_ns: Time; // Per frame: as the one beside cold times
+        floor_ns: Time; // Per frame: as the one beside cold times
+        floor_ratio: number | null; // As the one beside cold times [ratio, over the rounds]
+        repeats: {
+          upload: number; // Of upload_ns
+          run: number; // Of run_ns
+          floor: number; // Of floor_ns
+        }; // As the ones beside cold times [repetitions, over one sample of a frame]
+      }; // The same frames with warm caches, beside cold times
+      build_ns?: Time; // Per build: the device's work for a changed grid; in no other time. Absent where the host makes the cells
+      builds_per_frame?: number; // As in timing, of build_ns [builds, over the timed frames]
+      clock_mhz?: {
+        median: number | null; // Over the rounds
+        min: number | null; // In the slowest round
+        max: number | null; // In the fastest round
+        samples: Array<number | null>; // Of each round, launch after launch
+      }; // How fast the device ran, by a shader that counts cycles after each round of the method. Absent where its shaders cannot count. Some devices count at a fixed rate [MHz, over the rounds]
+      shaders?: Array<{
+        shader: string; // Of src/gpu/shaders, with its mode if it has one
+        name: string; // As the driver calls it
+        value: number; // In the driver's unit
+      }>; // Registers, spills and memory of the method's shaders. Absent where the driver tells nothing
     }; // Times of a method that runs on a device (a GPU), by the device's own clock. Absent elsewhere, and where nothing is timed or the device has no clock
     reading?: {
       device: string; // Name and driver of the device; times of one device alone compare
@@ -909,7 +950,7 @@ export type FrameCost = {
 
 // A row of the table of figures (`clusterbench list figures`)
 export type FigureWords = {
-  name: "frame_us" | "frame_us.max" | "assign_us" | "convert_us" | "frame_cost_us" | "instructions" | "assign_instructions" | "speedup" | "pair_rate" | "bytes" | "excess" | "missed" | "unlit" | "dropped" | "overshade" | "lights" | "lights_lit" | "lights_seen" | "lights_in_view" | "tests_done" | "fallbacks" | "lights_seen.mean" | "lights_in_view.mean" | "pairs.mean" | "pairs" | "lights_per_cell.mean" | "lights_per_cell.p99" | "longest" | "occupied_fraction" | "index_entries" | "entries_recommended" | "bytes_recommended" | "upload_bytes.mean" | "gpu_cost_us" | "traffic_bytes" | "upload_bytes" | "scratch_bytes" | "true_pairs" | "reported_pairs" | "false_positives" | "miss_ratio" | "deepest_miss" | "undecided" | "needed" | "evaluated" | "read_bytes" | "samples_missed" | "samples_missed_outside" | "lost_irradiance" | "changed_pairs" | "flickers" | "extra_pairs" | "build_us" | "pairs_timed" | "builds_per_frame" | "time_per_pair" | "write_floor" | "floor_ratio" | "build_instructions" | "convert_instructions" | "assign_cycles" | "convert_cycles" | "lights_beyond_grid" | "device_us" | "device_upload_us" | "device_readback_us" | "device_floor" | "reading_us" | "reading_x_exact" | "reading_x_nothing" | "device_frame_us"; // In the table
+  name: "frame_us" | "frame_us.max" | "assign_us" | "convert_us" | "frame_cost_us" | "instructions" | "assign_instructions" | "speedup" | "pair_rate" | "bytes" | "excess" | "missed" | "unlit" | "dropped" | "overshade" | "lights" | "lights_lit" | "lights_seen" | "lights_in_view" | "tests_done" | "fallbacks" | "lights_seen.mean" | "lights_in_view.mean" | "pairs.mean" | "pairs" | "lights_per_cell.mean" | "lights_per_cell.p99" | "longest" | "occupied_fraction" | "index_entries" | "entries_recommended" | "bytes_recommended" | "upload_bytes.mean" | "gpu_cost_us" | "traffic_bytes" | "upload_bytes" | "scratch_bytes" | "true_pairs" | "reported_pairs" | "false_positives" | "miss_ratio" | "deepest_miss" | "undecided" | "needed" | "evaluated" | "read_bytes" | "samples_missed" | "samples_missed_outside" | "lost_irradiance" | "changed_pairs" | "flickers" | "extra_pairs" | "build_us" | "pairs_timed" | "builds_per_frame" | "time_per_pair" | "write_floor" | "floor_ratio" | "build_instructions" | "convert_instructions" | "assign_cycles" | "convert_cycles" | "lights_beyond_grid" | "device_us" | "device_upload_us" | "device_readback_us" | "device_floor" | "device_warm_us" | "device_build_us" | "device_clock_mhz" | "reading_us" | "reading_x_exact" | "reading_x_nothing" | "device_frame_us"; // In the table
   unit: string; // Of its values here
   meaning: string; // As the table has it
 };

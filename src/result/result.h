@@ -62,6 +62,22 @@ struct Machine {
   END_RECORD;
 };
 
+struct DeviceArithmetic {
+  RECORD(DeviceArithmetic);
+  FIELD(std::string, rounding,
+        About("Of sums and products. either_way: to the next number on either side of the exact result")
+            .one_of({"to_nearest", "either_way", "wrong"}));
+  FIELD(bool, contracts, "A product and a sum were rounded once, though shaders forbid it");
+  FIELD(bool, reorders, "A sum of three was not made in its order");
+  FIELD(bool, flushes_denormals, "Results below the least normal number became 0, which is allowed");
+  FIELD(double, division_ulp, "Largest error of a quotient; readings allow for 2.5", "ulp", "the numbers");
+  FIELD(double, sqrt_ulp, "Largest error of a root; readings allow for 4.5", "ulp", "the numbers");
+  FIELD(double, log2_ulp, "Largest error of a logarithm of numbers beyond [0.5, 2]; readings allow for 3", "ulp",
+        "the numbers");
+  FIELD(double, log2_error, "The same of numbers in [0.5, 2], absolute; readings allow for 4.8e-7", "", "the numbers");
+  END_RECORD;
+};
+
 struct Device {
   RECORD(Device);
   FIELD(std::string, name, "Its name, from its driver");
@@ -79,6 +95,10 @@ struct Device {
   FIELD(double, timestamp_period_ns, "Between two ticks of its clock", "ns", "the clock");
   FIELD(bool, rounds_to_nearest,
         "Whether shaders can ask for it. If not, methods count the error of each step twice, and pad lights by it");
+  FIELD(std::optional<DeviceArithmetic>, arithmetic,
+        About("What a probe found, before anything ran, by thousands of numbers whose results the processor knows. "
+              "Methods do not run where it contradicts what their lists rest on. Absent in older results")
+            .late());
   END_RECORD;
 };
 

@@ -54,12 +54,59 @@ struct TimedPairs {
   END_RECORD;
 };
 
+struct DeviceRepeats {
+  RECORD(DeviceRepeats);
+  FIELD(std::uint64_t, upload, About("Of upload_ns").at_least(1));
+  FIELD(std::uint64_t, run, About("Of run_ns").at_least(1));
+  FIELD(std::uint64_t, floor, About("Of floor_ns").at_least(1));
+  END_RECORD;
+};
+
+struct WarmDeviceTimes {
+  RECORD(WarmDeviceTimes);
+  FIELD(Time, run_ns, "Per frame: as the one beside cold times");
+  FIELD(Time, upload_ns, "Per frame: as the one beside cold times");
+  FIELD(Time, floor_ns, "Per frame: as the one beside cold times");
+  FIELD(double, floor_ratio, "As the one beside cold times", "ratio", "the rounds");
+  FIELD(DeviceRepeats, repeats, "As the ones beside cold times", "repetitions", "one sample of a frame");
+  END_RECORD;
+};
+
+struct DeviceClock {
+  RECORD(DeviceClock);
+  FIELD(double, median, "Over the rounds");
+  FIELD(double, min, "In the slowest round");
+  FIELD(double, max, "In the fastest round");
+  FIELD(std::vector<double>, samples, "Of each round, launch after launch");
+  END_RECORD;
+};
+
+struct ShaderStatistic {
+  RECORD(ShaderStatistic);
+  FIELD(std::string, shader, "Of src/gpu/shaders, with its mode if it has one");
+  FIELD(std::string, name, "As the driver calls it");
+  FIELD(double, value, About("In the driver's unit").finite());
+  END_RECORD;
+};
+
 // Of a method that runs on a device, by the device's clock.
 struct DeviceTimes {
   RECORD(DeviceTimes);
   FIELD(std::string, device, "Name and driver of the device; times of one device alone compare");
   FIELD(std::uint64_t, frames_timed, "Evenly spaced over the path; all times are means over them", "frames",
         "the path");
+  FIELD(std::optional<std::string>, caches,
+        About("Of all times here but those of warm. cold: memory of the device is filled before each frame's upload, "
+              "as all else of an engine's frame does; warm: the same frame again and again. Absent in older results, "
+              "where caches were as the method before left them")
+            .one_of({"cold", "warm"})
+            .late());
+  FIELD(std::optional<std::uint64_t>, launches,
+        About("How often the device was opened anew, each time for an equal share of every array of samples, one after "
+              "the other, in one process. From two on all 95 % intervals are between them, else between rounds",
+              "openings", "the case")
+            .at_least(1)
+            .late());
   FIELD(Time, run_ns, "Per frame: the device's work, from the lights to the lists");
   FIELD(Time, upload_ns, "Per frame: bringing the frame's lights to the device");
   FIELD(Time, readback_ns, "Per frame: bringing the lists back, which a renderer does not do");
@@ -68,6 +115,24 @@ struct DeviceTimes {
         "Per frame: as many steps that do nothing, of which the last writes as many bytes as the result has");
   FIELD(double, floor_ratio, "run_ns by floor_ns: how far the work is from only starting and writing", "ratio",
         "the rounds");
+  FIELD(std::optional<DeviceRepeats>, repeats,
+        About("How often a frame's work is repeated in one sample, which is the mean: until it lasts 1,000 periods of "
+              "the clock and 20 us, if that fits in a submission of 100 ms; in the frame with fewest. Of cold times "
+              "each has a span of its own. Readbacks are never repeated",
+              "repetitions", "one sample of a frame")
+            .late());
+  FIELD(std::optional<WarmDeviceTimes>, warm, "The same frames with warm caches, beside cold times");
+  FIELD(std::optional<Time>, build_ns,
+        "Per build: the device's work for a changed grid; in no other time. Absent where the host makes the cells");
+  FIELD(std::optional<double>, builds_per_frame,
+        About("As in timing, of build_ns", "builds", "the timed frames").finite().at_least(0).as_fraction());
+  FIELD(std::optional<DeviceClock>, clock_mhz,
+        "How fast the device ran, by a shader that counts cycles after each round of the method. Absent where its "
+        "shaders cannot count. Some devices count at a fixed rate",
+        "MHz", "the rounds");
+  FIELD(
+      std::optional<std::vector<ShaderStatistic>>, shaders,
+      About("Registers, spills and memory of the method's shaders. Absent where the driver tells nothing").items(1, 0));
   END_RECORD;
 };
 

@@ -6,6 +6,7 @@
 #include "gpu/device/device.h"
 #include "gpu/reading/reading.h"
 #include "run/passes/accuracy_pass.h"
+#include "run/passes/device_pass.h"
 #include "run/timing/cache_sweep.h"
 #include "run/timing/repeated.h"
 #include "run/timing/timed_work.h"
@@ -78,21 +79,25 @@ double sweep_duration_ns() {
   return duration_ns([&] { sweep(); });
 }
 
-// The time of device_pass() for all methods and rounds, from the time of one frame with its floor: the second of two,
-// since shaders are compiled and memory grows in the first.
-double device_ns(const config::Config& config, const GroupPlan& on_device, const PathFrames& path) {
+// The time of device_pass() for all methods, launches and rounds, from one frame of it.
+double device_ns(config::Config config, const GroupPlan& on_device, const PathFrames& path) {
   const auto frames = static_cast<double>(mean_frames(config, path).size());
-  const std::vector<TimedFrame> middle_frame = timed_frames(config, on_device, path, {path.count() / 2});
-  double all = 0.0;
-  for (const Method& method : methods_of(on_device)) {
-    TimedWork work(config, on_device, method, middle_frame);
-    const auto round = [&] {
-      work.assign_frame(0);
-      work.device_floor_ns();
-    };
-    all += duration_ns(round) + frames * config.timing.rounds * duration_ns(round);
-  }
-  return all;
+  const double launches = config.timing.launches, rounds = rounds_per_launch(config.timing, config.timing.launches);
+  const std::atomic<bool> stop{false};
+  config.timing.frames = 1;
+  config.timing.rounds = 2;
+  double round = 0.0, last = 0.0;  // the second round, and when one ended
+  const auto on_round = [&] {
+    const double now = wall_ns();
+    round = now - last;
+    last = now;
+  };
+  const auto pass_ns = [&] { return duration_ns([&] { device_pass(config, on_device, path, 1, on_round, stop); }); };
+  pass_ns();
+  gpu::close_device();
+  const double opening = pass_ns(), again = pass_ns();  // in each launch shaders are compiled
+  const double preparation = std::max(0.0, again - 2.0 * round);
+  return launches * (std::max(0.0, opening - again) + frames * (preparation + rounds * round));
 }
 
 // The time of reading_pass(), roughly: on the host, which counts each walk, and on the device.

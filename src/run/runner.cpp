@@ -125,6 +125,7 @@ class Run {
     out.tool = tool_facts();
     out.machine = machine_facts();
     out.device = device_of(config_, plan_);
+    if (out.device) out.arithmetic = known_arithmetic();
     if (config_.timing.measure) note_beginning(out);
     out.config = config_.resolved;
     out.skipped = plan_.skipped;
@@ -142,6 +143,16 @@ class Run {
   }
 
  private:
+  // None if the device fails at it; what runs on it then says why it fails.
+  static std::optional<gpu::Arithmetic> known_arithmetic() {
+    try {
+      return gpu::arithmetic_of_device();
+    } catch (const gpu::DeviceError&) {
+      gpu::close_device();
+      return std::nullopt;
+    }
+  }
+
   // Facts that times can depend on. Without times a result has no date, so that it is the same every time.
   static void note_beginning(Result& out) {
     out.date = os::utc_now();
@@ -336,9 +347,10 @@ class Run {
   bool time_on_device(const GroupPlan& group, const PathFrames& path, CountedGroup& out) {
     const GroupPlan on_device = device_cases(config_, group);
     if (on_device.cases.empty()) return true;
-    const double per_round = device_cost_of(group) / config_.timing.rounds;
+    const int launches = launcher_ ? config_.timing.launches : 1;
+    const double per_round = device_cost_of(group) / (launches * rounds_per_launch(config_.timing, launches));
     std::vector<std::optional<DeviceTimes>> times = device_pass(
-        config_, on_device, path, [&] { report_progress(group, "time on the device", per_round); }, stop_);
+        config_, on_device, path, launches, [&] { report_progress(group, "time on the device", per_round); }, stop_);
     if (times.empty()) return false;
     auto next = times.begin();
     for (const CasePlan& case_plan : group.cases) {

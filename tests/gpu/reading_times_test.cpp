@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/random.h"
+#include "gpu/device/span_length.h"
 #include "gpu/reading/cost_fit.h"
 #include "gpu/reading/reading.h"
 #include "gpu/reading_scenes.h"

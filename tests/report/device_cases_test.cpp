@@ -9,6 +9,7 @@
 #include "report/comparison_by_hand.h"
 #include "report/results/merge.h"
 #include "report/tables/table.h"
+#include "result/figures/case_figure.h"
 
 namespace clusterbench::report {
 namespace {
@@ -31,8 +32,16 @@ run::Result with_device(double run_ns, gpu::DeviceType type = gpu::DeviceType::d
   const auto time = [](double ns) {
     return measure::TimeStats{ns, 1.0, ns, ns, {0.998 * ns, 1.002 * ns}, std::vector<double>(31, ns)};
   };
-  on_device.device =
-      run::DeviceTimes{"Card", 2, time(run_ns), time(100.0), time(200.0), 4.0, time(500.0), run_ns / 500.0};
+  const auto spans = [&](double ns) {
+    return run::DeviceSpanTimes{time(ns), time(100.0), time(200.0), time(500.0), ns / 500.0, {}};
+  };
+  on_device.device.emplace();
+  on_device.device->device = "Card";
+  on_device.device->frames_timed = 2;
+  on_device.device->launches = 5;
+  on_device.device->dispatches = 4.0;
+  on_device.device->cold = spans(run_ns);
+  on_device.device->warm = spans(0.75 * run_ns);
   result.cases.push_back(on_device);
   result.planned_ids.push_back("device");
   return result;
@@ -56,9 +65,54 @@ TEST(DeviceCases, are_in_a_block_of_their_own_with_times_of_their_own) {
   const std::size_t own = table.find("frustum 64px"), on_card = table.find("on Card: frustum 64px");
   ASSERT_NE(on_card, std::string::npos) << table;
   EXPECT_LT(own, on_card);
-  EXPECT_NE(table.find("device us  x floor  upload  readback", on_card), std::string::npos) << table;
+  EXPECT_NE(table.find("device us  x floor  warm  upload  readback", on_card), std::string::npos) << table;
   EXPECT_EQ(table.substr(0, on_card).find("device us"), std::string::npos) << table;
-  EXPECT_NE(table.find("    gpu-cells       2.00     4.00    0.10      0.20"), std::string::npos) << table;
+  EXPECT_NE(table.find("    gpu-cells       2.00     4.00  1.50    0.10      0.20"), std::string::npos) << table;
+  EXPECT_NE(table.find("from lights to lists, with cold caches (warm: without)"), std::string::npos) << table;
+  EXPECT_EQ(table.find("build: of the cells"), std::string::npos) << table;
+}
+
+TEST(DeviceCases, tell_how_they_were_measured) {
+  run::Result result = with_device(2000.0);
+  run::DeviceTimes& times = *result.cases[2].device;
+  times.cold->repeats = {.upload = 3, .run = 3, .floor = 4};
+  times.build_ns = measure::TimeStats{900.0, 1.0, 900.0, 900.0, {890.0, 910.0}, {900.0}};
+  times.builds_per_frame = 1.0;
+  times.clock_mhz = {1500.0, 1510.0, 1480.0};
+  times.shaders = {{"cells, mode 1", "Register Count", 40.0}};
+  result.arithmetic = gpu::Arithmetic{.rounding = gpu::Rounding::either_way, .division_ulp = 1.5};
+  const Json json = json_of(result), device = json["cases"][2]["device"];
+  EXPECT_EQ(device["caches"], "cold");
+  EXPECT_EQ(device["launches"], 5);
+  EXPECT_EQ(device["repeats"].dump(), R"({"upload":3,"run":3,"floor":4})");
+  EXPECT_EQ(device["warm"]["run_ns"]["median"], 1500.0);
+  EXPECT_EQ(device["build_ns"]["median"], 900.0);
+  EXPECT_EQ(device["clock_mhz"].dump(), R"({"median":1500,"min":1480,"max":1510,"samples":[1500,1510,1480]})");
+  EXPECT_EQ(device["shaders"].dump(), R"([{"shader":"cells, mode 1","name":"Register Count","value":40}])");
+  EXPECT_EQ(json["device"]["arithmetic"]["rounding"], "either_way");
+  EXPECT_EQ(json["device"]["arithmetic"]["division_ulp"], 1.5);
+  EXPECT_EQ(config::schema_violations(config::result_schema(), nlohmann::json::parse(json.dump())),
+            std::vector<std::string>{});
+  const std::string table = render_table(test::result_of(json), false);
+  EXPECT_NE(table.find("build: of the cells, when the grid changes"), std::string::npos) << table;
+  EXPECT_EQ(table.find("warning: the device ran"), std::string::npos) << table;
+}
+
+TEST(DeviceCases, of_a_device_whose_clock_moves_are_doubted) {
+  run::Result result = with_device(2000.0);
+  result.cases[2].device->clock_mhz = {1500.0, 1410.0, 1500.0};
+  const std::string table = render_table(test::result_of(json_of(result)), false);
+  EXPECT_NE(table.find("warning: the device ran at 1410 to 1500 MHz while "), std::string::npos) << table;
+}
+
+TEST(DeviceCases, of_older_versions_are_read) {
+  Json json = json_of(with_device(2000.0));
+  for (const char* late : {"caches", "launches", "repeats", "warm"}) json["cases"][2]["device"].erase(late);
+  const result::Result read = test::result_of(json);
+  EXPECT_FALSE(read.cases[2].device->caches);
+  EXPECT_EQ(read.cases[2].device->run_ns.median, 2000.0);
+  EXPECT_EQ(config::schema_violations(config::result_schema(), nlohmann::json::parse(json.dump())),
+            std::vector<std::string>{});
 }
 
 TEST(DeviceCases, are_told_of_after_the_conclusion_on_the_processor) {
@@ -89,6 +143,9 @@ TEST(DeviceCases, are_compared_by_the_devices_times_on_the_same_device_alone) {
   EXPECT_EQ(compared(base, next, 0.02)["cases"][2]["hint"], "longer");
   Json elsewhere = next;
   elsewhere["cases"][2]["device"]["device"] = "Other card";
+  Json warm = next;
+  warm["cases"][2]["device"]["caches"] = "warm";
+  EXPECT_FALSE(compared(base, warm, 0.02)["cases"][2].contains("hint"));
   const Json comparison = compared(base, elsewhere, 0.02);
   EXPECT_FALSE(comparison["cases"][2].contains("hint"));
   EXPECT_EQ(comparison["cases"][0]["hint"], "none") << "times of the processor are compared all the same";

@@ -164,6 +164,30 @@ TEST_F(History, levels_in_results_of_their_own_miss_none_and_new_ones_are_named)
   EXPECT_EQ(renamed.new_scenes, std::vector<std::string>{"loft"});
 }
 
+TEST_F(History, times_of_a_device_are_a_series_for_each_device_and_each_kind_of_caches) {
+  const auto add_times = [&](const std::string& commit, const std::string& device, bool is_cold) {
+    run::Result result = testing::result_by_hand();
+    result.machine.cpu = "processor of " + commit;
+    run::DeviceTimes times;
+    times.device = device;
+    times.warm.run_ns.median = 2000.0;
+    if (is_cold) times.cold = times.warm;
+    for (run::CaseResult& one : result.cases) one.timing.reset();
+    result.cases[1].device = times;
+    add_to_history(file_, record_of(result, {}), commit);
+  };
+  add_times("a", "Card, driver 1", true);
+  add_times("b", "Card, driver 1", true);
+  add_times("c", "Other card, driver 1", true);
+  add_times("d", "Card, driver 1", false);
+  std::vector<std::pair<std::string, std::size_t>> found;
+  for (const Series& series : series_of(read_history(file_), {}))
+    if (series.figure->exported_as() == "device_time") found.emplace_back(series.machine, series.values.size());
+  EXPECT_EQ(found,
+            (std::vector<std::pair<std::string, std::size_t>>{
+                {"Card, driver 1, cold caches", 2}, {"Other card, driver 1, cold caches", 1}, {"Card, driver 1", 1}}));
+}
+
 TEST_F(History, lines_of_older_versions_leave_the_lights_open) {
   Json older = Json::parse(R"({"history_version": 1, "commit": "a", "name": "by hand", "cpu": "a processor",
     "simd_target": "scalar", "cases": [{"id": "fast", "name": "hall/walk/frustum 64px/aabb/packed",

@@ -80,10 +80,16 @@ assign::AssignerDescriptor all_lights() {
 class OnDevice final : public GivesAll<true> {
  public:
   const assign::DeviceSpans* device_spans() const override { return &spans_; }
+  void repeat_on_device(const assign::DeviceRepeats& repeats) override {
+    is_cold_ = repeats.caches == assign::DeviceRepeats::Caches::cold;
+    spans_.run_ns = is_cold_ ? 2000.0 : 1000.0;
+  }
+  std::optional<double> device_build_ns() override { return is_cold_ ? 70.0 : 7.0; }
 
  private:
   double device_floor_ns() override { return 500.0; }
 
+  bool is_cold_ = false;
   assign::DeviceSpans spans_{100.0, 2000.0, 30.0, 3, 64};
 };
 
@@ -229,11 +235,17 @@ TEST(LightStructures, a_device_tells_its_spans_by_its_own_clock) {
   EXPECT_FALSE(all.of("all-lights", "own").timing) << "the time of a process that waits";
   const std::optional<DeviceTimes>& device = all.of("all-lights", "own").device;
   ASSERT_TRUE(device);
-  EXPECT_EQ(device->upload_ns.samples, (std::vector<double>{100.0, 100.0})) << "two rounds, per frame";
-  EXPECT_EQ(device->run_ns.median, 2000.0);
-  EXPECT_EQ(device->readback_ns.median, 30.0);
+  ASSERT_TRUE(device->is_cold());
+  EXPECT_EQ(device->cold->upload_ns.samples, (std::vector<double>{100.0, 100.0})) << "two rounds, per frame";
+  EXPECT_EQ(device->cold->run_ns.median, 2000.0);
+  EXPECT_EQ(device->cold->readback_ns.median, 30.0);
+  EXPECT_EQ(device->cold->floor_ratio, 4.0);
+  EXPECT_EQ(device->warm.run_ns.samples, (std::vector<double>{1000.0, 1000.0}));
+  EXPECT_EQ(device->warm.floor_ratio, 2.0);
+  EXPECT_EQ(device->build_ns->samples, (std::vector<double>{70.0, 70.0})) << "the cold ones";
   EXPECT_EQ(device->dispatches, 3.0);
-  EXPECT_EQ(device->floor_ratio, 4.0);
+  EXPECT_EQ(device->launches, 1);
+  EXPECT_TRUE(device->clock_mhz.empty());
   EXPECT_FALSE(all.of("aabb", "packed").device);
   EXPECT_TRUE(all.of("aabb", "packed").timing);
 }

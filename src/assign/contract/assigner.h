@@ -6,11 +6,13 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "assign/contract/device_work.h"
 #include "assign/contract/light_structure.h"
 #include "assign/contract/lists.h"
 #include "depth/depth_image.h"
@@ -78,23 +80,6 @@ struct FrameInput {
   const depth::DepthImage* depth = nullptr;
 };
 
-// The time of a device (a GPU) for one frame by its own clock, within the time of the assignment.
-struct DeviceSpans {
-  double upload_ns = 0.0, run_ns = 0.0, readback_ns = 0.0;
-  // Steps of its work that wait for each other, and the bytes of the result that the last of them leave.
-  std::uint32_t dispatches = 0;
-  std::uint64_t result_bytes = 0;
-
-  DeviceSpans& operator+=(const DeviceSpans& more) {
-    upload_ns += more.upload_ns;
-    run_ns += more.run_ns;
-    readback_ns += more.readback_ns;
-    dispatches += more.dispatches;
-    result_bytes += more.result_bytes;
-    return *this;
-  }
-};
-
 class Assigner {
  public:
   virtual ~Assigner() = default;
@@ -113,9 +98,14 @@ class Assigner {
   virtual std::uint64_t fallbacks() const { return 0; }
   // Times of the last assign; null if nothing runs on a device.
   virtual const DeviceSpans* device_spans() const { return nullptr; }
+  virtual void repeat_on_device(const DeviceRepeats&) {}
   // Measures on its device, by the same clock, as many steps as those of the last assign that do nothing, of which the
   // last writes as many bytes as its result has.
   virtual double device_floor_ns() { return 0.0; }
+  // Measures there what the device does of the last build, by doing it again; none if the host does it all.
+  virtual std::optional<double> device_build_ns() { return {}; }
+  // What the device's driver tells of its shaders.
+  virtual std::vector<ShaderStatistic> shader_statistics() const { return {}; }
   // Present size of the scratch memory.
   virtual std::size_t scratch_bytes() const = 0;
 };

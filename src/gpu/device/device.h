@@ -8,7 +8,9 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "assign/contract/device_work.h"
 #include "core/error.h"
 #include "gpu/device/device_facts.h"
 
@@ -35,6 +37,10 @@ class Device {
   const DeviceFacts& facts() const;
   // Compiles src/gpu/shaders/SHADER.comp at the first request.
   Kernel kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode = 0);
+  // What the driver tells of a kernel's use of registers and memory; empty where it tells nothing.
+  std::vector<assign::ShaderStatistic> statistics(Kernel kernel) const;
+  // The size of the memory that Commands::flush() fills, which this makes room for.
+  std::uint64_t reserve_flushed();
   // The reason why this device cannot run that shader; "" if it can.
   std::string obstacle(const std::string& shader) const;
 
@@ -102,8 +108,10 @@ class Commands {
   // Groups are spread over two dimensions beyond 65,535: shaders number them by group_index().
   void dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t groups);
   void barrier();
-  // The time of all steps until now, by the device's clock. Up to 64 in one recording.
-  void mark();
+  // Fills memory that nothing else uses, and waits, so that no cache holds what comes next. No step of the work.
+  void flush();
+  // The time of all steps until now, by the device's clock. Up to 64 in one recording; returns the number of this one.
+  std::uint32_t mark();
   // Steps until now that wait for each other: dispatches and fills between two barriers are one.
   std::uint32_t steps() const { return steps_ + (has_work_ ? 1 : 0); }
   // The first bytes of a buffer, for downloaded() after run().

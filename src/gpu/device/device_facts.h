@@ -36,6 +36,9 @@ struct DeviceFacts {
   // sums, minima and bitwise operations beside these.
   bool has_full_subgroups = false, has_ballots = false, has_subgroup_arithmetic = false;
 
+  bool has_shader_clock = false;         // shaders can count cycles
+  bool tells_shader_statistics = false;  // its driver tells registers and spills
+
   // Its times are those of a processor.
   bool is_software() const { return type == DeviceType::software; }
 };

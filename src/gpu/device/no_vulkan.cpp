@@ -36,6 +36,12 @@ std::string Device::obstacle(const std::string&) const {
 Kernel Device::kernel(const std::string&, std::uint32_t, std::uint32_t) {
   refuse();
 }
+std::vector<assign::ShaderStatistic> Device::statistics(Kernel) const {
+  refuse();
+}
+std::uint64_t Device::reserve_flushed() {
+  refuse();
+}
 
 // None of these can be reached: there is no Device.
 Buffers::Buffers(Device&) {
@@ -56,7 +62,10 @@ void Commands::use(Buffers&) {}
 void Commands::fill(std::uint32_t, std::uint32_t, std::uint64_t) {}
 void Commands::dispatch(Kernel, const Arguments&, std::uint64_t) {}
 void Commands::barrier() {}
-void Commands::mark() {}
+void Commands::flush() {}
+std::uint32_t Commands::mark() {
+  return 0;
+}
 void Commands::download(std::uint32_t, std::uint64_t) {}
 void Commands::run() {}
 double Commands::ns_between(std::uint32_t, std::uint32_t) const {

@@ -7,6 +7,8 @@
 #include "core/arrays.h"
 #include "core/error.h"
 #include "geom/single_precision/box_tests.h"
+#include "gpu/methods/arithmetic_probe.h"
+#include "gpu/methods/repeated_work.h"
 
 namespace clusterbench::gpu {
 namespace {
@@ -44,7 +46,12 @@ std::vector<assign::ParamSpec> device_params() {
 }
 
 std::string no_device(const assign::Params&) {
-  return device_obstacle();
+  if (std::string obstacle = device_obstacle(); !obstacle.empty()) return obstacle;
+  try {
+    return contradiction(arithmetic_of_device(), gpu::device().facts());
+  } catch (const DeviceError& error) {
+    return error.message();
+  }
 }
 
 std::string no_device_for(const char* shader, const assign::Params& params) {
@@ -98,20 +105,46 @@ void DeviceFrame::build_on_host(const grid::Grid& grid, const assign::LightKinds
 
 void DeviceFrame::build_on_device(const grid::Grid& grid, const assign::LightKinds& kinds) {
   const grid::ScreenGrid& screen = grid.screen();
-  std::vector<float> boundaries = screen.tiles.x;
-  boundaries.insert(boundaries.end(), screen.tiles.y.begin(), screen.tiles.y.end());
-  boundaries.insert(boundaries.end(), screen.slices.boundaries.begin(), screen.slices.boundaries.end());
+  boundaries_ = screen.tiles.x;
+  boundaries_.insert(boundaries_.end(), screen.tiles.y.begin(), screen.tiles.y.end());
+  boundaries_.insert(boundaries_.end(), screen.slices.boundaries.begin(), screen.slices.boundaries.end());
   has_cell_balls_ = kinds.spots && test_.tests_cones();
   const std::uint64_t intervals = arguments_.first_slice + arguments_.slices, cells = arguments_.cells;
-  buffers_.reserve(Binding::depths, bytes_of(boundaries), "boundaries of cells");
+  buffers_.reserve(Binding::depths, bytes_of(boundaries_), "boundaries of cells");
   buffers_.reserve(Binding::bounds, intervals * sizeof(assign::Interval), "bounds of cells");
   if (has_cell_balls_) buffers_.reserve(Binding::cell_balls, cells * sizeof(Vec4), "balls around cells");
+  run_build({});
+}
+
+double DeviceFrame::run_build(const assign::DeviceRepeats& repeats) {
   const Kernel bounds = device_->kernel("bounds", k_group, has_cell_balls_ ? 1 : 0);
   Commands commands(*device_, buffers_);
-  upload_all(commands, Binding::depths, boundaries);
-  commands.barrier();
-  commands.dispatch(bounds, arguments_, (cells + k_group - 1) / k_group);
+  RepeatedWork work(commands, {.caches = repeats.caches, .run = repeats.build});
+  work.record([] {},
+              [&] {
+                upload_all(commands, Binding::depths, boundaries_);
+                commands.barrier();
+                commands.dispatch(bounds, arguments_, (std::uint64_t{arguments_.cells} + k_group - 1) / k_group);
+              });
   commands.run();
+  return work.spans().run_ns;
+}
+
+void DeviceFrame::repeat(const assign::DeviceRepeats& repeats) {
+  repeats_ = repeats;
+  if (repeats.caches == assign::DeviceRepeats::Caches::cold) device_->reserve_flushed();
+}
+
+std::optional<double> DeviceFrame::device_build_ns() {
+  if (!is_built_on_device_ || boundaries_.empty()) return std::nullopt;
+  return run_build(repeats_);
+}
+
+std::vector<assign::ShaderStatistic> DeviceFrame::statistics_of(const std::vector<Kernel>& kernels) const {
+  std::vector<assign::ShaderStatistic> all;
+  for (const Kernel kernel : kernels)
+    for (assign::ShaderStatistic& told : device_->statistics(kernel)) all.push_back(std::move(told));
+  return all;
 }
 
 void DeviceFrame::prepare(const view::LightArrays& lights) {
@@ -174,7 +207,7 @@ void DeviceFrame::pack_boxes(const view::LightArrays& lights) {
 }
 
 std::size_t DeviceFrame::host_bytes() const {
-  return bytes_of(balls_, cones_, boxes_) + test_.capacity_bytes();
+  return bytes_of(balls_, cones_, boxes_, boundaries_) + test_.capacity_bytes();
 }
 
 }  // namespace clusterbench::gpu

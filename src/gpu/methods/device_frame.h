@@ -26,6 +26,12 @@ class DeviceFrame {
   std::uint32_t count_of(const view::LightArrays& lights) const {
     return takes_boxes_ ? lights.size() : lights.boxes.first;
   }
+  // How what follows is repeated and timed.
+  void repeat(const assign::DeviceRepeats& repeats);
+  const assign::DeviceRepeats& repeats() const { return repeats_; }
+  // Does what the device did of the last build() again; none if that was only to copy.
+  std::optional<double> device_build_ns();
+  std::vector<assign::ShaderStatistic> statistics_of(const std::vector<Kernel>& kernels) const;
   // Packs a frame's lights, and makes room for them. Before commands are recorded, as all that makes room.
   void prepare(const view::LightArrays& lights);
   // Records the upload of the lights of the last prepare(), and the barrier behind it.
@@ -49,6 +55,7 @@ class DeviceFrame {
   };
   void build_on_host(const grid::Grid& grid, const assign::LightKinds& kinds);
   void build_on_device(const grid::Grid& grid, const assign::LightKinds& kinds);
+  double run_build(const assign::DeviceRepeats& repeats);
   void pack_balls(const view::LightArrays& lights);
   void pack_cones(const view::LightArrays& lights);
   void pack_boxes(const view::LightArrays& lights);
@@ -57,6 +64,8 @@ class DeviceFrame {
   Buffers buffers_;
   assign::LightTest test_;
   bool is_built_on_device_, has_cell_balls_ = false;
+  std::vector<float> boundaries_;  // of the last build_on_device()
+  assign::DeviceRepeats repeats_;
   std::optional<assign::ViewCull> view_;
   std::uint32_t lights_in_view_ = 0;
   bool takes_boxes_ = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "gpu/methods/repeated_work.h"
 
 namespace clusterbench::gpu {
 namespace {
@@ -60,9 +61,19 @@ std::uint32_t DeviceLists::run_all(const view::LightArrays& lights, std::uint32_
   arguments.capacity = capacity_;
   reserve(arguments);
   Commands commands(frame_.device(), buffers());
-  commands.mark();
-  frame_.upload(commands);
-  commands.mark();
+  RepeatedWork work(commands, frame_.repeats());
+  work.record([&] { frame_.upload(commands); }, [&] { record_run(commands, arguments); });
+  commands.download(Binding::begins, (std::uint64_t{arguments.cells} + 1) * k_word);
+  commands.run();
+  spans_ = work.spans();
+  tests_ = tests_of(arguments);
+  const auto begins = commands.downloaded(0);
+  out.begin.assign(begins.begin(), begins.end());
+  spans_.result_bytes = (begins.size() + begins.back()) * std::uint64_t{k_word};
+  return begins.back();
+}
+
+void DeviceLists::record_run(Commands& commands, const FrameArguments& arguments) {
   record_counts(commands, arguments);
   commands.barrier();
   commands.dispatch(sum_blocks_, arguments, groups_for(arguments.cells, k_block));
@@ -70,18 +81,6 @@ std::uint32_t DeviceLists::run_all(const view::LightArrays& lights, std::uint32_
   commands.dispatch(sum_sums_, arguments, 1);
   commands.barrier();
   record_lists(commands, arguments);
-  commands.mark();
-  commands.download(Binding::begins, (std::uint64_t{arguments.cells} + 1) * k_word);
-  commands.run();
-  spans_.upload_ns = commands.ns_between(0, 1);
-  spans_.run_ns = commands.ns_between(1, 2);
-  spans_.readback_ns = commands.ns_between(2, 3);
-  spans_.dispatches = commands.steps();
-  tests_ = tests_of(arguments);
-  const auto begins = commands.downloaded(0);
-  out.begin.assign(begins.begin(), begins.end());
-  spans_.result_bytes = (begins.size() + begins.back()) * std::uint64_t{k_word};
-  return begins.back();
 }
 
 void DeviceLists::read_lists(std::uint32_t entries, assign::Lists& out) {

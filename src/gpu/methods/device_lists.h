@@ -12,8 +12,11 @@ class DeviceLists : public assign::ListAssigner {
   void assign(const assign::FrameInput& input, assign::Lists& out) final;
 
   std::uint64_t tests_done() const final { return tests_; }
+  std::vector<assign::ShaderStatistic> shader_statistics() const final { return frame_.statistics_of(kernels_); }
   const assign::DeviceSpans* device_spans() const final { return &spans_; }
-  double device_floor_ns() final { return floor_.measured_ns(buffers(), spans_.dispatches, spans_.result_bytes); }
+  void repeat_on_device(const assign::DeviceRepeats& repeats) final { frame_.repeat(repeats); }
+  double device_floor_ns() final { return floor_.measured_ns(buffers(), spans_, frame_.repeats()); }
+  std::optional<double> device_build_ns() final { return frame_.device_build_ns(); }
   std::size_t scratch_bytes() const final { return frame_.host_bytes() + frame_.buffers().all_bytes(); }
 
  protected:
@@ -29,11 +32,13 @@ class DeviceLists : public assign::ListAssigner {
 
   DeviceFrame& frame() { return frame_; }
   Buffers& buffers() { return frame_.buffers(); }
-  Kernel kernel(const char* shader, std::uint32_t group_size, Mode mode = Mode::count) {
-    return frame_.device().kernel(shader, group_size, mode);
+  Kernel kernel(const char* shader, std::uint32_t group_size, std::uint32_t mode = Mode::count) {
+    kernels_.push_back(frame_.device().kernel(shader, group_size, mode));
+    return kernels_.back();
   }
 
  private:
+  void record_run(Commands& commands, const FrameArguments& arguments);
   // Returns the number of entries that all lists need. Where that is more than the capacity, their ends are missing.
   std::uint32_t run_all(const view::LightArrays& lights, std::uint32_t capacity, assign::Lists& out);
   std::uint32_t capacity_for(std::uint32_t entries);
@@ -41,6 +46,7 @@ class DeviceLists : public assign::ListAssigner {
 
   DeviceFrame frame_;
   DeviceFloor floor_;
+  std::vector<Kernel> kernels_;
   Kernel sum_blocks_, sum_sums_;
   std::uint32_t capacity_ = 0;  // of all lists
   std::uint64_t tests_ = 0;

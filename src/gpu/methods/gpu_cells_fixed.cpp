@@ -5,6 +5,7 @@
 #include "gpu/methods/device_floor.h"
 #include "gpu/methods/device_frame.h"
 #include "gpu/methods/device_lists.h"
+#include "gpu/methods/repeated_work.h"
 
 namespace clusterbench::gpu {
 namespace {
@@ -37,10 +38,11 @@ class CellsFixed final : public assign::StructureAssigner {
   }
 
   std::uint64_t tests_done() const override { return tests_; }
+  std::vector<assign::ShaderStatistic> shader_statistics() const override { return frame_.statistics_of({fill_}); }
   const assign::DeviceSpans* device_spans() const override { return &spans_; }
-  double device_floor_ns() override {
-    return floor_.measured_ns(frame_.buffers(), spans_.dispatches, spans_.result_bytes);
-  }
+  void repeat_on_device(const assign::DeviceRepeats& repeats) override { frame_.repeat(repeats); }
+  double device_floor_ns() override { return floor_.measured_ns(frame_.buffers(), spans_, frame_.repeats()); }
+  std::optional<double> device_build_ns() override { return frame_.device_build_ns(); }
   std::size_t scratch_bytes() const override { return frame_.host_bytes() + frame_.buffers().all_bytes(); }
 
  private:
@@ -56,21 +58,18 @@ class CellsFixed final : public assign::StructureAssigner {
     const std::uint64_t dropped_bytes = arguments.words * k_word;
     frame_.buffers().reserve(Binding::dropped, dropped_bytes, "bits of dropped lights");
     Commands commands(frame_.device(), frame_.buffers());
-    commands.mark();
-    frame_.upload(commands);
-    commands.mark();
-    commands.fill(Binding::dropped, 0, dropped_bytes);
-    commands.barrier();
-    commands.dispatch(fill_, arguments, groups_for(arguments.cells, k_group));
-    commands.mark();
+    RepeatedWork work(commands, frame_.repeats());
+    work.record([&] { frame_.upload(commands); },
+                [&] {
+                  commands.fill(Binding::dropped, 0, dropped_bytes);
+                  commands.barrier();
+                  commands.dispatch(fill_, arguments, groups_for(arguments.cells, k_group));
+                });
     commands.download(Binding::counts, arguments.cells * k_word);
     commands.download(Binding::lists, entries() * k_word);
     commands.download(Binding::dropped, dropped_bytes);
     commands.run();
-    spans_.upload_ns = commands.ns_between(0, 1);
-    spans_.run_ns = commands.ns_between(1, 2);
-    spans_.readback_ns = commands.ns_between(2, 3);
-    spans_.dispatches = commands.steps();
+    spans_ = work.spans();
     tests_ = std::uint64_t{arguments.cells} * arguments.lights;
     out.take(commands.downloaded(0), commands.downloaded(1), commands.downloaded(2));
     spans_.result_bytes = (out.use().index_entries + arguments.cells) * k_word;

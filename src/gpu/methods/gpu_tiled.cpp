@@ -31,8 +31,8 @@ class TileLists final : public MaskLists {
  public:
   explicit TileLists(const assign::Params& params)
       : MaskLists(params),
-        depths_(device().kernel("tile_depths", k_pixel_group, depth_mode_of(params, device().facts()))),
-        lights_(device().kernel("tile_lights", k_light_group, mode_of(params, device().facts()))) {
+        depths_(kernel("tile_depths", k_pixel_group, depth_mode_of(params, device().facts()))),
+        lights_(kernel("tile_lights", k_light_group, mode_of(params, device().facts()))) {
     frame().take_boxes();
   }
 
@@ -142,7 +142,9 @@ class Tiled final : public assign::AssignerOf<assign::OccupiedLists> {
     tile_lists_.start(grid.screen(), tiles_.screen());
   }
   std::uint64_t tests_done() const override { return tests_; }
+  std::vector<assign::ShaderStatistic> shader_statistics() const override { return tile_lists_.shader_statistics(); }
   const assign::DeviceSpans* device_spans() const override { return &spans_; }
+  void repeat_on_device(const assign::DeviceRepeats& repeats) override { tile_lists_.repeat_on_device(repeats); }
   double device_floor_ns() override { return tile_lists_.device_floor_ns(); }
   std::size_t scratch_bytes() const override {
     return tile_lists_.scratch_bytes() + frame_cells_.capacity_bytes() + bytes_of(lists_.begin, lists_.lights);

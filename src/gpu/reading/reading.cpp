@@ -1,13 +1,11 @@
 #include "gpu/reading/reading.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace clusterbench::gpu {
 namespace {
 
-constexpr double k_least_periods = 1000.0, k_least_ns = 20'000.0;
-constexpr std::uint32_t k_most_marks = 64, k_most_repeats = 10'000;
+constexpr std::uint32_t k_most_marks = 64;
 constexpr std::uint64_t k_reading_group_size = 64;
 
 double median_of(std::vector<double> values) {
@@ -100,7 +98,6 @@ class Turns {
   }
 
   double estimate_of(const PlannedSpan& span) const {
-    constexpr double k_flushed_bytes_per_ns = 20.0;  // slower than most devices
     return span.is_cold ? estimated_ns_[span.task] + static_cast<double>(flushed_) / k_flushed_bytes_per_ns
                         : estimated_ns_[span.task] * (times_[span.task].repeats + 1);
   }
@@ -144,17 +141,6 @@ double ReadingTimes::warm_median_ns() const {
 }
 double ReadingTimes::cold_median_ns() const {
   return median_of(cold_ns);
-}
-
-double least_span_ns(double timestamp_period_ns) {
-  return std::max(k_least_periods * timestamp_period_ns, k_least_ns);
-}
-
-std::uint32_t repeats_for(double reading_ns, double timestamp_period_ns, double longest_ns) {
-  const double least = least_span_ns(timestamp_period_ns), one = std::max(reading_ns, timestamp_period_ns);
-  if (!(one > 0.0)) return 1;
-  const double most = std::max(1.0, std::floor(longest_ns / one));
-  return static_cast<std::uint32_t>(std::clamp(std::ceil(least / one), 1.0, std::min<double>(most, k_most_repeats)));
 }
 
 std::string reading_obstacle() {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/device/span_length.h"
 #include "gpu/reading/reading_structure.h"
 
 namespace clusterbench::gpu {
@@ -30,9 +31,10 @@ struct ReadingPlan {
   int rounds = 9;
   // Filled before each cold reading, so that no cache holds what it reads. Less on software devices, whose caches are
   // the processor's.
-  std::uint64_t flushed_bytes = std::uint64_t{256} << 20, flushed_bytes_of_software = std::uint64_t{32} << 20;
+  std::uint64_t flushed_bytes = k_flushed_bytes, flushed_bytes_of_software = k_flushed_bytes_of_software;
   const std::atomic<bool>* stop = nullptr;  // once true, the rounds until then are returned
-  double longest_submit_ns = 1e8;  // devices are asked to do no more at a time, if they can do one reading in it
+  double longest_submit_ns =
+      k_longest_submit_ns;  // devices are asked to do no more at a time, if they can do one reading in it
 };
 
 // Times of one task, of one reading each; none without a clock.
@@ -45,11 +47,6 @@ struct ReadingTimes {
   double warm_median_ns() const;
   double cold_median_ns() const;
 };
-
-// How often a reading that takes so long is repeated in a span: until it lasts 1,000 periods of the device's clock and
-// 20 us, since some clocks count in steps of many periods; but no longer than `longest_ns`.
-std::uint32_t repeats_for(double reading_ns, double timestamp_period_ns, double longest_ns);
-double least_span_ns(double timestamp_period_ns);
 
 // The tasks take turns: in each round each is read cold and warm, in as few submissions as the plan allows, and another
 // one comes first.

@@ -32,13 +32,14 @@ void Commands::upload(std::uint32_t binding, const void* data, std::uint64_t byt
   if (bytes == 0) return;
   Memory& staging = buffers_.to_device;
   if (buffers_.uploaded + bytes > staging.bytes) {
+    const std::uint64_t outgrown_bytes = staging.bytes;
     if (buffers_.uploaded > 0)
       buffers_.outgrown.push_back(staging);
     else
       device_.free(staging);
     staging = {};
     buffers_.uploaded = 0;
-    staging = device_.allocate(std::max(2 * bytes, std::uint64_t{1} << 16), Place::host_writes);
+    staging = device_.allocate(std::max({2 * bytes, 2 * outgrown_bytes, std::uint64_t{1} << 16}), Place::host_writes);
   }
   std::memcpy(static_cast<std::byte*>(staging.mapped) + buffers_.uploaded, data, bytes);
   const VkBufferCopy copy{buffers_.uploaded, 0, bytes};
@@ -84,10 +85,16 @@ void Commands::barrier() {
   vkCmdPipelineBarrier2(device_.commands, &info);
 }
 
-void Commands::mark() {
+void Commands::flush() {
+  barrier();
+  vkCmdFillBuffer(device_.commands, device_.flushed.buffer, 0, device_.flushed.bytes, 0);
+  barrier();
+}
+
+std::uint32_t Commands::mark() {
   if (device_.facts.timestamp_bits > 0)
     vkCmdWriteTimestamp2(device_.commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, device_.marks, buffers_.mark_count);
-  ++buffers_.mark_count;
+  return buffers_.mark_count++;
 }
 
 void Commands::download(std::uint32_t binding, std::uint64_t bytes) {

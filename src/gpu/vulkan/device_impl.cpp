@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/error.h"
 #include "gpu/device/device_choice.h"
+#include "gpu/device/span_length.h"
 #include "gpu/vulkan/shader_code.h"
 #include "gpu/vulkan/shader_needs.h"
+#include "gpu/vulkan/shader_statistics.h"
 
 namespace clusterbench::gpu {
 
@@ -26,6 +29,21 @@ Kernel Device::kernel(const std::string& shader, std::uint32_t group_size, std::
   return impl_->kernel(shader, group_size, mode);
 }
 
+std::vector<assign::ShaderStatistic> Device::statistics(Kernel kernel) const {
+  const std::lock_guard turn(impl_->turn);
+  return impl_->statistics(kernel);
+}
+
+std::uint64_t Device::reserve_flushed() {
+  const std::lock_guard turn(impl_->turn);
+  Memory& memory = impl_->flushed;
+  if (memory.buffer == VK_NULL_HANDLE) {
+    const std::uint64_t wanted = facts().is_software() ? k_flushed_bytes_of_software : k_flushed_bytes;
+    memory = impl_->allocate(std::min(wanted, facts().max_buffer_bytes) / 4 * 4, Place::device);
+  }
+  return memory.bytes;
+}
+
 Device::Impl::Impl(const std::string& wanted, const DeviceFacts* before) : Impl() {
   const DeviceList list = list_devices();
   const std::size_t index = before != nullptr ? same_device(list, *before) : chosen_device(list, wanted);
@@ -39,6 +57,7 @@ Device::Impl::Impl(const std::string& wanted, const DeviceFacts* before) : Impl(
 Device::Impl::~Impl() {
   if (device == VK_NULL_HANDLE || is_stuck) return;
   vkDeviceWaitIdle(device);
+  free(flushed);
   for (VkPipeline pipeline : pipelines) vkDestroyPipeline(device, pipeline, nullptr);
   vkDestroyPipelineLayout(device, layout, nullptr);
   vkDestroyDescriptorSetLayout(device, bindings, nullptr);
@@ -57,6 +76,21 @@ void Device::Impl::create_device(std::uint32_t queue_family) {
   VkPhysicalDeviceFeatures2 features{};
   features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   features.pNext = &features13;
+  std::vector<const char*> extensions;
+  VkPhysicalDeviceShaderClockFeaturesKHR clock{};
+  clock.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_CLOCK_FEATURES_KHR;
+  clock.shaderSubgroupClock = VK_TRUE;
+  if (facts.has_shader_clock) {
+    extensions.push_back(VK_KHR_SHADER_CLOCK_EXTENSION_NAME);
+    clock.pNext = std::exchange(features.pNext, &clock);
+  }
+  VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR told{};
+  told.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
+  told.pipelineExecutableInfo = VK_TRUE;
+  if (facts.tells_shader_statistics) {
+    extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+    told.pNext = std::exchange(features.pNext, &told);
+  }
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue_info{};
   queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -68,6 +102,8 @@ void Device::Impl::create_device(std::uint32_t queue_family) {
   info.pNext = &features;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue_info;
+  info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   check(vkCreateDevice(physical, &info, nullptr, &device), "vkCreateDevice");
   volkLoadDevice(device);
   vkGetDeviceQueue(device, queue_family, 0, &queue);
@@ -160,11 +196,40 @@ VkPipeline Device::Impl::create_pipeline(const std::string& shader, std::uint32_
   info.stage.pName = "main";
   info.stage.pSpecializationInfo = &constants;
   info.layout = layout;
+  if (facts.tells_shader_statistics) info.flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
   VkPipeline pipeline = VK_NULL_HANDLE;
   const VkResult result = vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
   vkDestroyShaderModule(device, module, nullptr);
   check(result, "vkCreateComputePipelines");
   return pipeline;
+}
+
+std::vector<assign::ShaderStatistic> Device::Impl::statistics(Kernel kernel) const {
+  std::vector<assign::ShaderStatistic> out;
+  if (!facts.tells_shader_statistics) return out;
+  const auto& [shader, group_size, mode] =
+      std::ranges::find(kernels, kernel, [](const auto& entry) { return entry.second; })->first;
+  VkPipelineInfoKHR pipeline{};
+  pipeline.sType = VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR;
+  pipeline.pipeline = pipelines.at(kernel);
+  std::uint32_t executables = 0;
+  check(vkGetPipelineExecutablePropertiesKHR(device, &pipeline, &executables, nullptr),
+        "vkGetPipelineExecutablePropertiesKHR");
+  for (std::uint32_t executable = 0; executable < executables; ++executable) {
+    VkPipelineExecutableInfoKHR info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR;
+    info.pipeline = pipeline.pipeline;
+    info.executableIndex = executable;
+    std::uint32_t count = 0;
+    check(vkGetPipelineExecutableStatisticsKHR(device, &info, &count, nullptr), "vkGetPipelineExecutableStatisticsKHR");
+    VkPipelineExecutableStatisticKHR empty{};
+    empty.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR;
+    std::vector<VkPipelineExecutableStatisticKHR> told(count, empty);
+    check(vkGetPipelineExecutableStatisticsKHR(device, &info, &count, told.data()),
+          "vkGetPipelineExecutableStatisticsKHR");
+    add_statistics(std::span(told).first(count), shader + (mode == 0 ? "" : ", mode " + std::to_string(mode)), out);
+  }
+  return out;
 }
 
 std::uint32_t Device::Impl::memory_type(std::uint32_t allowed, Place place) const {

@@ -30,6 +30,7 @@ struct Device::Impl {
   Memory allocate(std::uint64_t bytes, Place place) const;
   void free(Memory& memory) const;
   Kernel kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode);
+  std::vector<assign::ShaderStatistic> statistics(Kernel kernel) const;
   std::string obstacle(const std::string& shader) const;
 
   static constexpr std::uint32_t k_marks = 66;
@@ -45,6 +46,7 @@ struct Device::Impl {
   VkCommandBuffer commands = VK_NULL_HANDLE;
   VkFence fence = VK_NULL_HANDLE;
   VkQueryPool marks = VK_NULL_HANDLE;
+  Memory flushed;  // no buffer until it is asked for
   VkDescriptorSetLayout bindings = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   std::vector<VkPipeline> pipelines;  // by Kernel

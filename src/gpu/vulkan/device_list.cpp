@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -61,6 +63,32 @@ std::string limit_obstacle(const VkPhysicalDeviceLimits& limits) {
   return "";
 }
 
+bool has_extension(const std::vector<VkExtensionProperties>& all, const char* name) {
+  return std::ranges::any_of(all,
+                             [&](const VkExtensionProperties& one) { return one.extensionName == std::string(name); });
+}
+
+// What is used only where it is there: a clock that shaders read, and what the driver tells of them.
+void add_extras(VkPhysicalDevice device, DeviceFacts& facts) {
+  std::uint32_t count = 0;
+  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), "vkEnumerateDeviceExtensionProperties");
+  std::vector<VkExtensionProperties> all(count);
+  check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, all.data()),
+        "vkEnumerateDeviceExtensionProperties");
+  VkPhysicalDeviceShaderClockFeaturesKHR clock{};
+  clock.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_CLOCK_FEATURES_KHR;
+  VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR told{};
+  told.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
+  VkPhysicalDeviceFeatures2 features{};
+  features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  if (has_extension(all, VK_KHR_SHADER_CLOCK_EXTENSION_NAME)) clock.pNext = std::exchange(features.pNext, &clock);
+  if (has_extension(all, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME))
+    told.pNext = std::exchange(features.pNext, &told);
+  vkGetPhysicalDeviceFeatures2(device, &features);
+  facts.has_shader_clock = clock.shaderSubgroupClock != VK_FALSE;
+  facts.tells_shader_statistics = told.pipelineExecutableInfo != VK_FALSE;
+}
+
 }  // namespace
 
 PhysicalDevice facts_of(VkPhysicalDevice device) {
@@ -110,6 +138,7 @@ PhysicalDevice facts_of(VkPhysicalDevice device) {
   const VkSubgroupFeatureFlags operations = has_subgroups ? properties11.subgroupSupportedOperations : 0;
   facts.has_ballots = (operations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
   facts.has_subgroup_arithmetic = facts.has_ballots && (operations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) != 0;
+  add_extras(device, facts);
   found.queue_family = compute_family(families);
   if (found.queue_family < count) facts.timestamp_bits = families[found.queue_family].timestampValidBits;
   facts.obstacle = found.queue_family == count ? "has no queue that computes" : limit_obstacle(limits);

@@ -21,7 +21,14 @@ using result::Timing;
 
 constexpr double k_wide = 0.1;           // half-width of an interval / its time
 constexpr double k_others_cores = 0.1;   // used by other programs
+constexpr double k_clock_spread = 0.05;  // of a device
 constexpr double k_stolen_cores = 0.02;  // lower, since a guest sees only a part of its host's load
+
+// Of a device's clock: between its slowest and its fastest round / median; 0 where it is not told.
+double clock_spread(const Case& result_case) {
+  const auto* clock = result::part<&Case::device, &result::DeviceTimes::clock_mhz>(result_case);
+  return clock == nullptr ? 0.0 : (clock->max - clock->min) / clock->median;
+}
 
 // 0 without timing.
 double frame_ns(const Case& result_case) {
@@ -94,18 +101,25 @@ void add_machine_warnings(std::vector<std::string>& out, const Doubt& others, co
                   " times while times were measured; let the machine cool, or fix a lower clock");
 }
 
+std::string clock_warning(const Doubt& moving) {
+  const result::DeviceClock& clock = *moving.worst().device->clock_mhz;
+  return "the device ran at " + text("%.0f", clock.min) + text(" to %.0f MHz while ", clock.max) + moving.name() +
+         " was measured; fix its clock, or let it cool (docs/gpu.md)";
+}
+
 }  // namespace
 
 std::vector<std::string> timing_doubts(const std::vector<Case>& cases, const std::string& without_times) {
-  Doubt unknown, wide, two, others, stolen, hot;
+  Doubt unknown, wide, two, others, stolen, hot, moving;
   std::size_t timed = 0;
   for (const Case& result_case : cases) {
-    const double ns = frame_ns(result_case);
-    if (ns <= 0.0) continue;
-    ++timed;
     const auto check = [&](Doubt& doubt, double badness, double most) {
       if (badness > most) doubt.add(result_case, badness);
     };
+    check(moving, clock_spread(result_case), k_clock_spread);
+    const double ns = frame_ns(result_case);
+    if (ns <= 0.0) continue;
+    ++timed;
     const Interval& ci95 = result_case.timing->frame_ns.ci95;
     if (is_known(ci95))
       check(wide, 0.5 * (ci95[1] - ci95[0]) / ns, k_wide);
@@ -121,6 +135,7 @@ std::vector<std::string> timing_doubts(const std::vector<Case>& cases, const std
   if (unknown.is_any()) out.push_back(unknown_warning(unknown, timed));
   if (wide.is_any()) out.push_back(wide_warning(wide, timed));
   if (two.is_any()) out.push_back(modes_warning(two, timed));
+  if (moving.is_any()) out.push_back(clock_warning(moving));
   add_machine_warnings(out, others, stolen, hot, without_times);
   return out;
 }

@@ -72,7 +72,9 @@ std::optional<TimeChange> time_change(const Match& match, bool is_paired) {
 
 bool are_timed(const Match& match) {
   const result::Time *base = compared_time(match.base), *next = compared_time(match.next);
-  const auto device_of = [](const Case& one) { return one.device ? one.device->device : std::string(); };
+  const auto device_of = [](const Case& one) {  // with its caches
+    return one.device ? one.device->device + ", " + one.device->caches.value_or("") : std::string();
+  };
   return device_of(match.base) == device_of(match.next) && base != nullptr && next != nullptr &&
          std::isfinite(base->median) && std::isfinite(next->median);
 }

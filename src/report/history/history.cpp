@@ -41,8 +41,17 @@ std::string counter_of(const result::Result& result) {
 
 bool has_cold_times(const result::Result& result) {
   return std::ranges::any_of(result.cases, [](const result::Case& result_case) {
-    return result_case.timing && result_case.timing->caches == "cold";
+    return (result_case.timing && result_case.timing->caches == "cold") ||
+           (result_case.device && result_case.device->caches == "cold");
   });
+}
+
+// Of the device's times, with its driver. Several only in a merged result.
+std::string devices_of(const result::Result& result) {
+  std::set<std::string> names;
+  for (const result::Case& result_case : result.cases)
+    if (result_case.device) names.insert(result_case.device->device);
+  return joined(std::vector<std::string>(names.begin(), names.end()));
 }
 
 Json history_line(const result::Result& result, const std::string& commit) {
@@ -53,6 +62,7 @@ Json history_line(const result::Result& result, const std::string& commit) {
             {"simd_target", result.tool.simd_target}};
   if (const std::string counter = counter_of(result); !counter.empty()) line["counter"] = counter;
   if (has_cold_times(result)) line["caches"] = "cold";
+  if (const std::string device = devices_of(result); !device.empty()) line["device"] = device;
   line["scenes"] = Json::array();
   for (const result::Scene& scene : result.scenes) {
     Json stored{{"name", scene.name}, {"lights", lights_text(scene)}};
@@ -154,6 +164,7 @@ HistoryEntry parsed(const std::string& line) {
   if (json.contains("scenes"))
     for (const Json& stored : list_in(json, "", "scenes"))
       entry.scenes.push_back(parsed_scene(stored, "/scenes/" + std::to_string(number++)));
+  entry.device = text_or_none(json, "", "device");
   return entry;
 }
 
@@ -195,7 +206,8 @@ const Figure* exported_figure(const std::string& name) {
 std::string origin(const HistoryEntry& entry, const Figure& figure) {
   switch (figure.basis) {
     case Basis::time:
-      return entry.machine + (entry.caches.empty() ? "" : ", " + entry.caches + " caches");
+      return (figure.is_of_device ? entry.device : entry.machine) +
+             (entry.caches.empty() ? "" : ", " + entry.caches + " caches");
     case Basis::instructions:
       return entry.machine + (entry.counter.empty() ? "" : ", " + entry.counter);
     case Basis::count:

@@ -40,6 +40,7 @@ struct HistoryEntry {
   };
   std::vector<Case> cases;
   std::vector<HistoryLights> scenes = {};  // empty in lines of older versions
+  std::string device = {};                 // with its driver, of the device's times; "" without any
 };
 
 // "at 3f2a: the lights of level have changed: 248 points, 52 spots, now 200 points; figures from there on are of other

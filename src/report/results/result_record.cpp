@@ -6,9 +6,9 @@
 #include <set>
 
 #include "report/cases/case_costs.h"
-#include "report/cases/device_frames.h"
 #include "report/cases/case_samples.h"
 #include "report/cases/contender.h"
+#include "report/cases/device_frames.h"
 #include "report/cases/nothing_seen.h"
 #include "report/choosing/conclusion.h"
 #include "report/presets/preset_ranking.h"
@@ -93,6 +93,7 @@ result::Result record_of(const run::Result& result, const std::vector<Case>& ear
   out.tool = run::record_of(result.tool);
   out.machine = run::record_of(result.machine);
   if (result.device) out.device = run::record_of(*result.device);
+  if (out.device && result.arithmetic) out.device->arithmetic = run::record_of(*result.arithmetic);
   out.config = result.config;
   for (const run::SceneResult& scene : result.scenes) out.scenes.push_back(run::record_of(scene));
   out.cases = in_plan_order(result, earlier_cases);

@@ -48,7 +48,8 @@ struct Line {
 // Optional columns: true if some case has the figure.
 struct Extras {
   bool storages = false, times = false, conversions = false, builds = false, instructions = false, samples = false,
-       dropped = false, cold = false, launches = false, costs = false, searched = false, device = false;
+       dropped = false, cold = false, launches = false, costs = false, searched = false, device = false,
+       device_cold = false, device_builds = false;
 };
 
 std::string time_text(const std::optional<double>& us) {
@@ -126,6 +127,8 @@ constexpr Column k_columns[] = {
     {.heading = "instr", .figure = "assign_instructions", .format = short_count, .needed = &Extras::instructions},
     {.heading = "device us", .figure = "device_us", .format = time_text, .needed = &Extras::device},
     {.heading = "x floor", .figure = "device_floor", .format = two_digits, .needed = &Extras::device},
+    {.heading = "warm", .figure = "device_warm_us", .format = time_text, .needed = &Extras::device_cold},
+    {.heading = "build", .figure = "device_build_us", .format = time_text, .needed = &Extras::device_builds},
     {.heading = "upload", .figure = "device_upload_us", .format = time_text, .needed = &Extras::device},
     {.heading = "readback", .figure = "device_readback_us", .format = time_text, .needed = &Extras::device},
     {.heading = "pairs", .own_text = pairs_text},
@@ -221,6 +224,8 @@ Extras extras_of(const std::vector<Case>& cases) {
     extras.searched |= samples_search(result_case) && !ranking_set_names(result_case).empty();
     extras.dropped |= result_case.buffers.overflow.dropped_pairs != 0;
     extras.device |= result_case.device.has_value();
+    extras.device_cold |= result_case.device && result_case.device->warm;
+    extras.device_builds |= result_case.device && result_case.device->build_ns;
   }
   extras.storages = storages.size() > 1;
   return extras;
@@ -229,7 +234,7 @@ Extras extras_of(const std::vector<Case>& cases) {
 // The optional columns of one block: methods on a device have times of their own.
 Extras extras_in_block(Extras extras, const std::vector<const Case*>& cases) {
   if (!runs_on_device(*cases.front())) {
-    extras.device = false;
+    extras.device = extras.device_cold = extras.device_builds = false;
     return extras;
   }
   extras.times = extras.conversions = extras.builds = extras.instructions = extras.costs = false;
@@ -322,10 +327,13 @@ std::string legend(const std::vector<Case>& cases, const Extras& extras, RankBy 
         "model "
         "of it). read: bytes that a\nsample reads to know its lights.\n";
   if (extras.device)
-    out +=
-        "device: the device's work for a frame by its own clock, from lights to lists; x floor: times what as many "
-        "steps take\nthat only write as much; upload, readback: of the frame's lights and lists. These times are not "
-        "compared with the processor's.\n";
+    out += std::string("device: the device's work for a frame by its own clock, from lights to lists") +
+           (extras.device_cold ? ", with cold caches (warm: without)" : "") +
+           "; x floor: times what as many "
+           "steps take\nthat only write as much; upload, readback: of the frame's lights and lists" +
+           (extras.device_builds ? "; build: of the cells, when the grid changes" : "") +
+           ". These times are not "
+           "compared with the processor's.\n";
   return out + "bytes: headers and indices, largest of all frames.\n";
 }
 

@@ -12,6 +12,11 @@ using enum Basis;
 
 constexpr std::string_view k_of_times = " (--no-timing or timing.measure: false leaves times out)";
 constexpr std::string_view k_of_devices = " (only methods that run on a device have it, where times are measured)";
+constexpr std::string_view k_of_cold_devices =
+    " (only methods that run on a device have it, where times with cold caches are measured)";
+constexpr std::string_view k_of_device_builds = " (only methods have it whose cells a device makes: cells = device)";
+constexpr std::string_view k_of_device_clocks =
+    " (only methods that run on a device have it, where its shaders can count cycles)";
 constexpr std::string_view k_of_readings = " (the key reading measures it, on a device, where times are measured)";
 constexpr std::string_view k_of_cells = " (structures without cells have none)";
 constexpr std::string_view k_of_truth =
@@ -519,7 +524,9 @@ constexpr Figure k_figures[] = {
      .interval = part<&Case::device, &DeviceTimes::run_ns, &Time::ci95>,
      .is_in_us = true,
      .none = k_of_devices,
-     .export_name = "device_time"},
+     .export_name = "device_time",
+     .is_kept = true,
+     .is_of_device = true},
     {.name = "device_upload_us",
      .unit = "ns",
      .meaning = "median time to bring a frame's lights to the device by its own clock, in microseconds",
@@ -544,6 +551,31 @@ constexpr Figure k_figures[] = {
      .basis = time,
      .recorded = number<&Case::device, &DeviceTimes::floor_ratio>,
      .none = k_of_devices},
+    {.name = "device_warm_us",
+     .unit = "ns",
+     .meaning = "the same as device_us with warm caches, in microseconds, beside cold times",
+     .basis = time,
+     .recorded = number<&Case::device, &DeviceTimes::warm, &WarmDeviceTimes::run_ns, &Time::median>,
+     .interval = part<&Case::device, &DeviceTimes::warm, &WarmDeviceTimes::run_ns, &Time::ci95>,
+     .is_in_us = true,
+     .none = k_of_cold_devices,
+     .export_name = "device_warm_time"},
+    {.name = "device_build_us",
+     .unit = "ns",
+     .meaning = "median time of a device's work for a changed grid by its own clock, in microseconds",
+     .basis = time,
+     .recorded = number<&Case::device, &DeviceTimes::build_ns, &Time::median>,
+     .interval = part<&Case::device, &DeviceTimes::build_ns, &Time::ci95>,
+     .is_in_us = true,
+     .none = k_of_device_builds,
+     .export_name = "device_build_time"},
+    {.name = "device_clock_mhz",
+     .unit = "MHz",
+     .meaning = "how fast the device ran meanwhile: cycles that a shader counts, median over the rounds",
+     .better = neither,
+     .basis = time,
+     .recorded = number<&Case::device, &DeviceTimes::clock_mhz, &DeviceClock::median>,
+     .none = k_of_device_clocks},
     {.name = "reading_us",
      .unit = "ns",
      .meaning = "median time of a device for all samples of a frame to look up and walk their lights, in microseconds",

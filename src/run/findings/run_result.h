@@ -9,8 +9,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "assign/contract/device_work.h"
 #include "config/config.h"
 #include "gpu/device/device_facts.h"
+#include "gpu/methods/arithmetic_probe.h"
 #include "gpu/reading/cost_fit.h"
 #include "gpu/reading/walking.h"
 #include "measure/lists/buffers.h"
@@ -91,13 +93,26 @@ struct WarmTimes {
 };
 
 // Per frame, by the own clock of the device (a GPU) that a method runs on.
-struct DeviceTimes {
-  std::string device;  // name and driver
-  int frames_timed = 0;
+struct DeviceSpanTimes {
   measure::TimeStats run_ns, upload_ns, readback_ns;
-  double dispatches = 0.0;      // per frame
   measure::TimeStats floor_ns;  // as many steps that do nothing but write as many bytes
   double floor_ratio = 0.0;
+  assign::DeviceRepeats repeats;  // in the frame with fewest
+};
+
+struct DeviceTimes {
+  std::string device;  // name and driver
+  int frames_timed = 0, launches = 1;
+  double dispatches = 0.0;              // per frame
+  std::optional<DeviceSpanTimes> cold;  // if configured
+  DeviceSpanTimes warm;
+  std::optional<measure::TimeStats> build_ns;  // of methods whose device builds
+  double builds_per_frame = 0.0;
+  std::vector<double> clock_mhz;  // of the rounds in which the device told it
+  std::vector<assign::ShaderStatistic> shaders;
+
+  bool is_cold() const { return cold.has_value(); }
+  const DeviceSpanTimes& first() const { return cold ? *cold : warm; }
 };
 
 // One way in which the waves of a device walk the lights of a set's samples. Times are of a frame, with warm caches
@@ -313,7 +328,8 @@ struct Result {
   std::string date, command;  // "" without timing: the result is then the same whenever it is made
   ToolFacts tool;
   MachineFacts machine;
-  std::optional<gpu::DeviceFacts> device;  // if a case runs on it
+  std::optional<gpu::DeviceFacts> device;     // if a case runs on it
+  std::optional<gpu::Arithmetic> arithmetic;  // of the device
   nlohmann::json config;
   std::vector<SceneResult> scenes;
   std::vector<CaseResult> cases;

@@ -1,6 +1,10 @@
 #pragma once
 // Times of methods that run on a device, by the device's own clock: rounds in which they take turns in changing order
-// (method_order() of timing_pass.h), each followed by its floor. In this process, which has the device open.
+// (method_order() of timing_pass.h), each beside its floor. Frames are repeated until a span is long enough
+// (gpu/device/span_length.h).
+//
+// In this process, which opens the device anew for each launch: times of one opening (where buffers lie, how shaders
+// were compiled) have more in common than those of two, as times of one process have on the processor.
 
 #include <atomic>
 #include <functional>
@@ -14,9 +18,11 @@
 namespace clusterbench::run {
 
 // One for each case of the group, whose methods all run on the device, none where it has no clock; empty if stopped
-// before the end. `on_round` is called behind each round.
+// before the end. Nothing else may use the device: it is closed between launches. `on_round` is called behind each
+// round.
 std::vector<std::optional<DeviceTimes>> device_pass(const config::Config& config, const GroupPlan& group,
-                                                    const PathFrames& path, const std::function<void()>& on_round,
+                                                    const PathFrames& path, int launches,
+                                                    const std::function<void()>& on_round,
                                                     const std::atomic<bool>& stop);
 
 }  // namespace clusterbench::run

@@ -124,6 +124,18 @@ result::Tool record_of(const ToolFacts& tool) {
   return {tool.version, tool.git_sha, tool.compiler, tool.flags, tool.build_type, tool.simd_target, tool.libraries};
 }
 
+result::DeviceArithmetic record_of(const gpu::Arithmetic& found) {
+  const char* const roundings[] = {"to_nearest", "either_way", "wrong"};
+  return {roundings[static_cast<std::size_t>(found.rounding)],
+          found.contracts,
+          found.reorders,
+          found.flushes_denormals,
+          result::measured(found.division_ulp),
+          result::measured(found.sqrt_ulp),
+          result::measured(found.log2_ulp),
+          result::measured(found.log2_error)};
+}
+
 result::Device record_of(const gpu::DeviceFacts& device) {
   return {device.name,
           device.driver,
@@ -136,7 +148,8 @@ result::Device record_of(const gpu::DeviceFacts& device) {
           device.subgroup_size,
           device.timestamp_bits,
           device.timestamp_period_ns,
-          device.rounds_to_nearest};
+          device.rounds_to_nearest,
+          std::nullopt};
 }
 
 result::Machine record_of(const MachineFacts& machine) {

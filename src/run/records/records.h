@@ -15,5 +15,6 @@ result::Scene record_of(const SceneResult& scene);
 result::Tool record_of(const ToolFacts& tool);
 result::Machine record_of(const MachineFacts& machine);
 result::Device record_of(const gpu::DeviceFacts& device);
+result::DeviceArithmetic record_of(const gpu::Arithmetic& found);
 
 }  // namespace clusterbench::run

@@ -1,5 +1,7 @@
 // Times and instructions.
 
+#include <algorithm>
+
 #include "run/records/parts.h"
 
 namespace clusterbench::run {
@@ -28,6 +30,10 @@ result::Disturbed disturbed_record(const Disturbance& disturbance) {
     return measured(disturbance.seconds > 0.0 ? busy_s / disturbance.seconds : 0.0);
   };
   return {cores(disturbance.others_s), cores(disturbance.stolen_s), static_cast<std::uint64_t>(disturbance.throttled)};
+}
+
+result::DeviceRepeats repeats_record(const assign::DeviceRepeats& repeats) {
+  return {repeats.upload, repeats.run, repeats.floor};
 }
 
 std::uint64_t instructions(const std::optional<Counted>& part) {
@@ -70,14 +76,34 @@ result::Timing timing_record(const TimingResult& t) {
 }
 
 result::DeviceTimes device_record(const DeviceTimes& t) {
-  return {t.device,
-          static_cast<std::uint64_t>(t.frames_timed),
-          time_record(t.run_ns),
-          time_record(t.upload_ns),
-          time_record(t.readback_ns),
-          result::counted(t.dispatches),
-          time_record(t.floor_ns),
-          measured(t.floor_ratio)};
+  result::DeviceTimes out;
+  out.device = t.device;
+  out.frames_timed = static_cast<std::uint64_t>(t.frames_timed);
+  out.caches = t.is_cold() ? "cold" : "warm";
+  out.launches = static_cast<std::uint64_t>(t.launches);
+  const DeviceSpanTimes& first = t.first();
+  out.run_ns = time_record(first.run_ns);
+  out.upload_ns = time_record(first.upload_ns);
+  out.readback_ns = time_record(first.readback_ns);
+  out.dispatches = result::counted(t.dispatches);
+  out.floor_ns = time_record(first.floor_ns);
+  out.floor_ratio = measured(first.floor_ratio);
+  out.repeats = repeats_record(first.repeats);
+  if (t.is_cold())
+    out.warm = {time_record(t.warm.run_ns), time_record(t.warm.upload_ns), time_record(t.warm.floor_ns),
+                measured(t.warm.floor_ratio), repeats_record(t.warm.repeats)};
+  out.build_ns = time_record(t.build_ns);
+  if (t.build_ns) out.builds_per_frame = t.builds_per_frame;
+  if (!t.clock_mhz.empty()) {
+    const measure::TimeStats clock = measure::time_stats(t.clock_mhz, 0);
+    out.clock_mhz = {measured(clock.median), measured(clock.min), measured(std::ranges::max(t.clock_mhz)), {}};
+    for (const double mhz : t.clock_mhz) out.clock_mhz->samples.push_back(measured(mhz));
+  }
+  if (t.shaders.empty()) return out;
+  out.shaders.emplace();
+  for (const assign::ShaderStatistic& told : t.shaders)
+    out.shaders->push_back({told.shader, told.name, result::counted(told.value)});
+  return out;
 }
 
 result::Count count_record(const CountResult& c) {

@@ -58,6 +58,9 @@ class TimedWork {
   // Of the last frame that was assigned, by the device's own clock. Only of methods that run on a device.
   const assign::DeviceSpans& device_spans() const { return *assigner().device_spans(); }
   double device_floor_ns() const { return assigner().device_floor_ns(); }
+  void repeat_on_device(const assign::DeviceRepeats& repeats) const { assigner().repeat_on_device(repeats); }
+  std::optional<double> device_build_ns() const { return assigner().device_build_ns(); }
+  std::vector<assign::ShaderStatistic> shader_statistics() const { return assigner().shader_statistics(); }
   // Number of builds in an assign() that follows another one.
   std::size_t builds() const;
   // Whether its lists are converted to the storages of its cases; a structure of its own is not.
