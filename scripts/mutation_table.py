@@ -778,7 +778,7 @@ MUTATIONS = [
              "report.FrameCosts.what_is_drawn_has_no_bytes_to_be_best_in",
              "deferred stands on every front, by its 0 bytes of lists"),
     Mutation("merge-of-two-models", "report/results/merge.cpp",
-             '{"allocation", "cost", "rank_by"}', '{"allocation", "allocation", "rank_by"}',
+             '{"allocation", "cost", "rank_by", "reading"}', '{"allocation", "allocation", "rank_by", "reading"}',
              "report.Merge.costs_of_other_models_are_refused_and_the_model_stays_with_the_front_that_it_drew",
              "costs of two models are compared in one result"),
     Mutation("truth-of-the-first-part", "measure/truth/truth_cells.h",

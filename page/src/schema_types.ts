@@ -145,6 +145,12 @@ export type Time = {
 // 95 % interval, [low, high]: of times Student's t between three launches or more, or the bootstrap of six rounds or more of one; null where it is unknown
 export type Interval = [number | null, number | null];
 
+export type DeviceRepeats = {
+  upload: number; // Of upload_ns
+  run: number; // Of run_ns
+  floor: number; // Of floor_ns
+};
+
 export type PerFrame = {
   assign: number; // Instructions of assignment, with the builds that the frames need
   convert?: number; // Instructions of conversion to the storage; absent where a method leaves its own structure
@@ -198,7 +204,7 @@ export type Result = {
       division_ulp: number | null; // Largest error of a quotient; readings allow for 2.5 [ulp, over the numbers]
       sqrt_ulp: number | null; // Largest error of a root; readings allow for 4.5 [ulp, over the numbers]
       log2_ulp: number | null; // Largest error of a logarithm of numbers beyond [0.5, 2]; readings allow for 3 [ulp, over the numbers]
-      log2_error: number | null; // The same of numbers in [0.5, 2], absolute; readings allow for 4.8e-7 [over the numbers]
+      log2_error: number | null; // The same of numbers in [0.5, 2], absolute; readings allow for 4.8e-7 [octaves, over the numbers]
     }; // What a probe found, before anything ran, by thousands of numbers whose results the processor knows. Methods do not run where it contradicts what their lists rest on. Absent in older results
   }; // The device of the cases whose method runs on one (assigner.on_device). Absent where there are none
   config: {
@@ -694,21 +700,13 @@ export type Result = {
       dispatches: number | null; // Steps of this work that wait for each other, per frame [steps, over the timed frames]
       floor_ns: Time; // Per frame: as many steps that do nothing, of which the last writes as many bytes as the result has
       floor_ratio: number | null; // run_ns by floor_ns: how far the work is from only starting and writing [ratio, over the rounds]
-      repeats?: {
-        upload: number; // Of upload_ns
-        run: number; // Of run_ns
-        floor: number; // Of floor_ns
-      }; // How often a frame's work is repeated in one sample, which is the mean: until it lasts 1,000 periods of the clock and 20 us, if that fits in a submission of 100 ms; in the frame with fewest. Of cold times each has a span of its own. Readbacks are never repeated [repetitions, over one sample of a frame]
+      repeats?: DeviceRepeats; // How often a frame's work is repeated in one sample, which is the mean: until it lasts 1,000 periods of the clock and 20 us, if that fits in a submission of 100 ms; in the frame with fewest. Of cold times each has a span of its own. Readbacks are never repeated [repetitions, over one sample of a frame]
       warm?: {
         run_ns: Time; // Per frame: as the one beside cold times
         upload_ns: Time; // Per frame: as the one beside cold times
         floor_ns: Time; // Per frame: as the one beside cold times
         floor_ratio: number | null; // As the one beside cold times [ratio, over the rounds]
-        repeats: {
-          upload: number; // Of upload_ns
-          run: number; // Of run_ns
-          floor: number; // Of floor_ns
-        }; // As the ones beside cold times [repetitions, over one sample of a frame]
+        repeats: DeviceRepeats; // As the ones beside cold times [repetitions, over one sample of a frame]
       }; // The same frames with warm caches, beside cold times
       build_ns?: Time; // Per build: the device's work for a changed grid; in no other time. Absent where the host makes the cells
       builds_per_frame?: number; // As in timing, of build_ns [builds, over the timed frames]
@@ -721,7 +719,7 @@ export type Result = {
       shaders?: Array<{
         shader: string; // Of src/gpu/shaders, with its mode if it has one
         name: string; // As the driver calls it
-        value: number; // In the driver's unit
+        value: number; // As the driver tells it [the driver's, over one shader]
       }>; // Registers, spills and memory of the method's shaders. Absent where the driver tells nothing
     }; // Times of a method that runs on a device (a GPU), by the device's own clock. Absent elsewhere, and where nothing is timed or the device has no clock
     reading?: {
@@ -733,17 +731,17 @@ export type Result = {
         storage: string; // In which they are kept
         bytes: number | null; // Of this structure, mean [B, over the frames that are read]
       }; // The lists of exact_ns: the case's storage filled with exact lists of all lights; `packed` beside a structure of a method's own. Absent where cells are not compared with the truth
-      frame_ns?: number | null; // (1 - config.reading.async) x assignment + upload + reading (the one of set and walk), each a median over its own frames: reading.frames, timing.frames, and all for uploads of the processor. A method on the device: device.run_ns + device.upload_ns; another: timing.frame_ns and buffers.upload_bytes by cost.upload_gb_per_s, and only where config.reading.async is given. Builds for a changed grid and the picture of depths are in none [ns, over one frame]
+      frame_ns?: number | null; // (1 - config.reading.async) x assignment + upload + reading (the one of set and walk), each a median over its own frames: reading.frames, timing.frames, and all for uploads of the processor. A method on the device: device.run_ns + device.upload_ns; another: timing.frame_ns and buffers.upload_bytes by cost.upload_gb_per_s, and only where config.reading.async is given. Assignments are cold where timing.cold asks for it, readings warm. Builds for a changed grid and the picture of depths are in none [ns, over one frame]
       set: string; // Its samples are those of the figures and of frame_ns: the configuration's first
       walk: string; // Likewise; a structure without cells cannot be walked cell by cell, and then has no figures
       sets: Array<{
         set: "volume" | "opaque" | "transparent" | "fog" | "mirror" | "anywhere"; // Whose samples read, as in samples (volume: random points in the whole view)
-        samples: number | null; // Samples per frame, mean [samples, over the frames that are read]
-        lights: number | null; // Lights that a sample walks, mean [lights, over the samples]
+        samples: number; // Samples per frame, mean [samples, over the frames that are read]
+        lights: number; // Lights that a sample walks, mean [lights, over the samples]
         exact_lights?: number | null; // Lights that a sample walks in the exact lists, mean; absent without them [lights, over the samples]
-        reads: number | null; // Elements of the light structure that a sample fetches, mean [elements, over the samples]
-        read_bytes: number | null; // Their bytes, mean [B, over the samples]
-        divergence: number | null; // Of as many invocations as the device's waves have: the sum of their longest lists by that of their mean ones, weighted by lights over the frames. Idle lanes and steps that walk no light are left out [ratio, over the waves]
+        reads: number; // Elements of the light structure that a sample fetches, mean [elements, over the samples]
+        read_bytes: number; // Their bytes, mean [B, over the samples]
+        divergence: number; // Of as many invocations as the device's waves have: the sum of their longest lists by that of their mean ones, weighted by lights over the frames. Idle lanes and steps that walk no light are left out [ratio, over the waves]
         differing: number; // Walks of samples, here and in the exact lists, that met other lights than the structure has, and samples whose cell the device finds farther off than rounding explains. Other than 0: a fault of the driver or of this program, and the times are not to be trusted [walks and samples, over the frames that are read]
         write_ns: Time; // Per frame: each sample writes a word, and reads nothing at all
         nothing_ns: Time; // Per frame: each sample looks up its cell and writes a word made of it, and reads no list. Where samples look up no cell (a hierarchy) it is that of its position

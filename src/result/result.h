@@ -74,7 +74,8 @@ struct DeviceArithmetic {
   FIELD(double, sqrt_ulp, "Largest error of a root; readings allow for 4.5", "ulp", "the numbers");
   FIELD(double, log2_ulp, "Largest error of a logarithm of numbers beyond [0.5, 2]; readings allow for 3", "ulp",
         "the numbers");
-  FIELD(double, log2_error, "The same of numbers in [0.5, 2], absolute; readings allow for 4.8e-7", "", "the numbers");
+  FIELD(double, log2_error, "The same of numbers in [0.5, 2], absolute; readings allow for 4.8e-7", "octaves",
+        "the numbers");
   END_RECORD;
 };
 

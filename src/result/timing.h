@@ -55,6 +55,7 @@ struct TimedPairs {
 };
 
 struct DeviceRepeats {
+  static constexpr const char* k_definition = "device_repeats";
   RECORD(DeviceRepeats);
   FIELD(std::uint64_t, upload, About("Of upload_ns").at_least(1));
   FIELD(std::uint64_t, run, About("Of run_ns").at_least(1));
@@ -85,7 +86,7 @@ struct ShaderStatistic {
   RECORD(ShaderStatistic);
   FIELD(std::string, shader, "Of src/gpu/shaders, with its mode if it has one");
   FIELD(std::string, name, "As the driver calls it");
-  FIELD(double, value, About("In the driver's unit").finite());
+  FIELD(double, value, About("As the driver tells it", "the driver's", "one shader").finite());
   END_RECORD;
 };
 

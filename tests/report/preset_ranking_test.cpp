@@ -147,7 +147,8 @@ TEST(PresetRanking, a_time_on_the_cpu_is_shown_only_of_engines_that_assign_there
   EXPECT_TRUE(line("three-js").ends_with("gpu")) << table;
   EXPECT_TRUE(line("filament").ends_with("50.0")) << table;
   EXPECT_NE(table.find("of engines that assign on the CPU"), std::string::npos) << table;
-  EXPECT_NE(table.find("--device NAME (clusterbench list devices) runs and times shaders that work as the engines' do, as far as `list presets` says: "
+  EXPECT_NE(table.find("--device NAME (clusterbench list devices) runs and times shaders that work as the engines' do, "
+                       "as far as `list presets` says: "
                        "three-js.\n"),
             std::string::npos)
       << table;
