@@ -75,6 +75,32 @@ result::Dump parse_dump(std::string_view text, const std::string& file) {
   }
 }
 
+namespace {
+
+// A JSON file that is no dump. One that is none at all may be a dump whose writer died: it is refused when it is read.
+bool is_other_json(const fs::path& file) {
+  std::error_code none;
+  if (fs::file_size(file, none) > k_most_json_bytes) return false;
+  try {
+    const auto json = read_json<result::Json>(file_text(file), file.string(), JsonComments::allowed);
+    return !json.is_object() || !json.contains("dump_version");
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> files_of(const fs::path& path) {
+  std::vector<std::string> files{path.string()};
+  if (checked_size(path) > k_most_json_bytes) return files;
+  const DumpFile dump{path, parse_dump(file_text(path), path.string()), {}};
+  if (dump.record.buffers)
+    for (const auto& [_, buffer] : *dump.record.buffers) files.push_back(dump.beside(buffer.file).string());
+  if (dump.record.camera.scene) files.push_back(dump.beside(*dump.record.camera.scene).string());
+  return files;
+}
+
 DumpFile read_dump(const fs::path& path) {
   if (const std::uint64_t size = checked_size(path); size > k_most_json_bytes)
     throw Error(path.string(), "",
@@ -92,14 +118,11 @@ std::vector<fs::path> dump_paths(const fs::path& path) {
   std::error_code failed;
   if (!fs::is_directory(path, failed)) return {path};
   std::vector<fs::path> found;
+  std::error_code none;  // of an editor's lock, which links to nothing
   for (const fs::directory_entry& entry : fs::directory_iterator(path, failed))
-    if (entry.path().extension() == ".json" && entry.is_regular_file(failed)) found.push_back(entry.path());
+    if (entry.path().extension() == ".json" && entry.is_regular_file(none)) found.push_back(entry.path());
   if (failed) throw Error(path.string(), "", "cannot be read: " + failed.message());
-  std::erase_if(found, [](const fs::path& file) {
-    std::error_code none;
-    if (fs::file_size(file, none) > k_most_json_bytes) return false;  // refused by name when it is read
-    return file_text(file).find("\"dump_version\"") == std::string::npos;
-  });
+  std::erase_if(found, is_other_json);
   std::ranges::sort(found);
   if (found.empty()) throw Error(path.string(), "", "has no dump in it: no .json file with a dump_version");
   return found;

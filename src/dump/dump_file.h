@@ -26,7 +26,11 @@ DumpFile read_dump(const std::filesystem::path& path);
 // For text from anywhere: the dump without its buffers.
 result::Dump parse_dump(std::string_view text, const std::string& file);
 
-// A file itself; of a folder all files *.json that are dumps, by name. Throws Error for a folder without any.
+// The dump, and the files that it names.
+std::vector<std::string> files_of(const std::filesystem::path& path);
+
+// A file itself; of a folder all files *.json, by name, but those with other JSON. Throws Error for a folder without
+// any.
 std::vector<std::filesystem::path> dump_paths(const std::filesystem::path& path);
 
 // Lists of a dump that are judged together.

@@ -35,13 +35,45 @@ std::vector<double> rounding_shares(const view::Frame& frame, double rounding) {
   return shares;
 }
 
+// Whether a spot's cone still meets the cell once its side is this much further in: moved along its axis. Other lights
+// have no side.
+bool meets_narrowed(const geom::LightVolume& light, const geom::Cell& cell, double in_m) {
+  const auto* spot = std::get_if<geom::SpotVolume>(&light);
+  if (spot == nullptr || in_m == 0.0) return true;
+  const double sine = std::sin(spot->half_angle_rad);
+  if (!(sine > 0.0) || !std::isfinite(in_m / sine)) return false;
+  geom::SpotVolume narrowed = *spot;
+  narrowed.apex.position += glm::normalize(spot->direction) * (in_m / sine);
+  return geom::filter_meets(geom::LightVolume(narrowed), cell) != geom::Verdict::no;
+}
+
+// How far a light reaches into a cell, as a share of its range: from its end, for a spot from the side of its cone
+// where that is less. Exact only above `above`.
+double reach_of(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light,
+                double above) {
+  const double from_end = 1.0 - measure::relative_distance(frame, grid, cell, light, 1.0 - above);
+  const geom::LightVolume volume = view::volume_of(frame.lights[light], grid::space_of(grid, frame));
+  const double range_m = geom::range_of(volume);
+  const geom::Cell of_grid = grid.cell(cell);
+  if (from_end <= above || std::isinf(range_m) || meets_narrowed(volume, of_grid, from_end * range_m)) return from_end;
+  double low = 0.0, high = from_end;
+  constexpr int k_halvings = 40;
+  for (int i = 0; i < k_halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (meets_narrowed(volume, of_grid, middle * range_m) ? low : high) = middle;
+  }
+  return low;
+}
+
 bool reaches_beyond(const view::Frame& frame, const grid::Grid& grid, std::uint32_t cell, std::uint32_t light,
                     double share) {
   if (share >= 1.0) return false;
   const geom::LightVolume volume = view::volume_of(frame.lights[light], grid::space_of(grid, frame));
   if (std::isinf(geom::range_of(volume))) return true;
-  return geom::filter_meets(geom::with_range(volume, geom::range_of(volume) * (1.0 - share)), grid.cell(cell)) !=
-         geom::Verdict::no;
+  const geom::Cell of_grid = grid.cell(cell);
+  return geom::filter_meets(geom::with_range(volume, geom::range_of(volume) * (1.0 - share)), of_grid) !=
+             geom::Verdict::no &&
+         meets_narrowed(volume, of_grid, share * geom::range_of(volume));
 }
 
 bool is_deeper(const LostPair& a, const LostPair& b) {
@@ -75,8 +107,7 @@ LostLights find_lost(const view::Frame& frame, const grid::Grid& grid, const ass
       LostPair pair{cell, light, 0.0, !reaches_beyond(frame, grid, cell, light, shares[light])};
       out.within_rounding += pair.is_within_rounding ? 1 : 0;
       const bool is_full = out.deepest.size() == LostLights::k_most_kept;
-      const double below = is_full ? 1.0 - out.deepest.front().reach : 1.0;
-      pair.reach = 1.0 - measure::relative_distance(frame, grid, cell, light, below);
+      pair.reach = reach_of(frame, grid, cell, light, is_full ? out.deepest.front().reach : 0.0);
       keep_deepest(out.deepest, pair);
     });
     out.false_positives += listed.of(cell).size() - found;

@@ -38,17 +38,20 @@ std::vector<std::uint32_t> source_cells(const grid::Grid& grid, const layout::Ce
 
 struct CameraChange {
   const char* text;
-  bool is_transposed, is_turned;
+  bool is_transposed = false, is_turned = false, has_other_depth = false;
 };
-constexpr CameraChange k_changes[] = {{"camera.order: the matrices transposed", true, false},
-                                      {"camera.forward: the other way", false, true},
-                                      {"camera.order and camera.forward: both the other", true, true}};
+constexpr CameraChange k_changes[] = {
+    {.text = "camera.order: the matrices transposed", .is_transposed = true},
+    {.text = "camera.forward: the other way", .is_turned = true},
+    {.text = "camera.order and camera.forward: both the other", .is_transposed = true, .is_turned = true},
+    {.text = "camera.depth: the other of 0..1 and -1..1", .has_other_depth = true}};
 
 // nullopt where the camera has no matrices, or they are none of a camera that way.
 std::optional<DumpFrame> changed_frame(const DumpFile& dump, const CameraChange& change) {
   result::DumpCamera camera = dump.record.camera;
   if (!has_matrices(camera)) return std::nullopt;
   if (change.is_transposed) camera.order = camera.order.value_or("columns") == "columns" ? "rows" : "columns";
+  if (change.has_other_depth) camera.depth = camera.depth.value_or("0..1") == "0..1" ? "-1..1" : "0..1";
   if (change.is_turned) camera.forward = camera.forward.value_or("-z") == "-z" ? "+z" : "-z";
   try {
     return frame_of(dump, camera);
@@ -74,13 +77,19 @@ class BestReading {
         listed_(listed),
         of_tiles_(is_of_tiles(set)),
         most_(wrong / k_times_fewer),
-        true_before_(found.true_pairs - found.lost_pairs) {}
+        true_before_(found.true_pairs - found.lost_pairs),
+        least_true_(found.lost_pairs < wrong ? found.listed_pairs / 2 : 0) {}
 
-  void try_orders(const grid::Grid& grid, const assign::Lists& truth, const char* camera) {
+  // `rows_from_bottom`: where the grid itself depends on the first row, the one that it was made for.
+  void try_orders(const grid::Grid& grid, const assign::Lists& truth, const char* camera,
+                  std::optional<bool> rows_from_bottom) {
     if (truth.cell_count() != listed_.cell_count()) return;
     for (const layout::CellOrder& order : layout::all_orders()) {
+      if (rows_from_bottom && order.is_from_bottom != *rows_from_bottom) continue;
       const std::uint64_t lost = count_lost(truth, listed_, source_cells(grid, given_, order, of_tiles_), most_);
-      if (lost > most_ || truth.pair_count() - lost <= true_before_ || (best_ && lost >= best_->lost_pairs)) continue;
+      const std::uint64_t are_true = truth.pair_count() - std::min<std::uint64_t>(lost, truth.pair_count());
+      if (lost > most_ || are_true <= true_before_ || are_true < least_true_ || (best_ && lost >= best_->lost_pairs))
+        continue;
       best_ = result::OtherReading{order.axes, order.is_from_bottom ? "bottom" : "top",
                                    order.is_from_far ? "far" : "near", camera, lost};
     }
@@ -92,6 +101,8 @@ class BestReading {
   const assign::Lists& listed_;
   bool of_tiles_;
   std::uint64_t most_, true_before_;
+  // Lists that lose nothing are told to be another reading's only where that makes half of them true: they may be long.
+  std::uint64_t least_true_;
   std::optional<result::OtherReading> best_;
 };
 
@@ -104,13 +115,16 @@ std::optional<result::OtherReading> better_reading(const DumpFile& dump, const D
   const std::uint64_t wrong = std::max(found.lost_pairs, are_for_nothing(found) ? found.listed_pairs : 0);
   if (wrong < k_too_few || listed.pair_count() == 0) return std::nullopt;
   BestReading best(dump.record.grid, set, listed, found, wrong);
-  best.try_orders(frame.grid, truth, "");
-  if (const std::optional<grid::Grid> grid = best.best() ? std::nullopt : grid_from_other_row(dump, frame))
-    best.try_orders(*grid, measure::find_truth(frame.frame, *grid, threads).lists, "");
+  const std::optional<grid::Grid> turned = grid_from_other_row(dump, frame);
+  const bool is_from_bottom = order_of(dump.record.grid).is_from_bottom;
+  const std::optional<bool> rows = turned ? std::optional(is_from_bottom) : std::nullopt;
+  best.try_orders(frame.grid, truth, "", rows);
+  if (turned && !best.best())
+    best.try_orders(*turned, measure::find_truth(frame.frame, *turned, threads).lists, "", !is_from_bottom);
   for (const CameraChange& change : k_changes) {
     if (best.best()) break;
     if (const std::optional<DumpFrame> other = changed_frame(dump, change))
-      best.try_orders(other->grid, measure::find_truth(other->frame, other->grid, threads).lists, change.text);
+      best.try_orders(other->grid, measure::find_truth(other->frame, other->grid, threads).lists, change.text, rows);
   }
   return best.best();
 }

@@ -165,12 +165,15 @@ class PackedReader final : public PartReader {
                             number(entries_.count()) + " entries of buffer '" + entries_.buffer().name + "'"});
       return;
     }
+    const std::size_t begin = out.size();
     for (std::uint64_t i = offset; i < offset + *count; ++i)
-      if (!read_entry(i, at, out, faults)) return;
+      if (!read_entry(i, at, begin, out, faults)) return;
   }
 
  private:
-  bool read_entry(std::uint64_t entry, const CellRow& at, std::vector<std::uint32_t>& out, Faults& faults) const {
+  // `begin`: the cell's first light in `out`.
+  bool read_entry(std::uint64_t entry, const CellRow& at, std::size_t begin, std::vector<std::uint32_t>& out,
+                  Faults& faults) const {
     const std::uint64_t value = whole_at(entries_.row(entry), type_), index = value - first_;
     if (!is_runs_) return add(value, first_, entries_, entry, 0, at, out, faults);
     const std::uint64_t more = whole_at(entries_.row(entry) + size_of(type_), type_);
@@ -178,6 +181,12 @@ class PackedReader final : public PartReader {
       faults.add(
           {&entries_.buffer(), entries_.byte_of(entry), value, at.cell,
            "the run of light " + number(value) + " and " + number(more) + " more is not below " + lights_text()});
+      return false;
+    }
+    if (more >= lights_.count - (out.size() - begin)) {
+      faults.add({&entries_.buffer(), entries_.byte_of(entry), value, at.cell,
+                  "with the run of light " + number(value) + " and " + number(more) +
+                      " more the cell has more lights than " + lights_text() + " of its part"});
       return false;
     }
     for (std::uint64_t i = index; i <= index + more; ++i) out.push_back(static_cast<std::uint32_t>(lights_.first + i));

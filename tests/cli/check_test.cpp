@@ -154,6 +154,71 @@ TEST(Check, what_is_bad_in_a_dump_is_one_line_with_file_and_place) {
   EXPECT_EQ(tool("check").err, "clusterbench: DUMP: is required, or --template ENGINE for a dump to fill in\n");
 }
 
+TEST(Check, a_dump_that_is_cut_off_is_never_left_out_of_its_folder_and_other_files_are) {
+  Small small;
+  small.path();
+  const std::string folder = small.folder.path().string();
+  small.folder.write("schema.json", R"({"properties": {"dump_version": {"const": 1}}})");
+  fs::create_symlink(small.folder / "nowhere", small.folder / ".#lock.json");
+  EXPECT_EQ(tool("check --no-methods " + folder).code, 0);
+  for (const char* cut : {"", "{\"dump_ver"}) {
+    const std::string path = small.folder.write("second.json", cut).string();
+    const Outcome outcome = tool("check --no-methods " + folder);
+    EXPECT_EQ(outcome.code, 2) << outcome.out;
+    EXPECT_NE(outcome.err.find("second.json"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(Check, no_output_goes_over_a_dump_or_its_buffers) {
+  Small small;
+  const std::string dump = small.path(), folder = small.folder.path().string();
+  for (const std::string& input : {dump, folder})
+    for (const char* file : {"dump.json", "cells.bin", "lights.bin"}) {
+      const std::string before = file_text(small.folder / file);
+      const Outcome outcome = tool("check -q --no-methods " + input + " --json " + (small.folder / file).string());
+      EXPECT_EQ(outcome.code, 2) << input << " " << file;
+      EXPECT_NE(outcome.err.find("would be lost"), std::string::npos) << outcome.err;
+      EXPECT_EQ(file_text(small.folder / file), before);
+    }
+}
+
+TEST(Check, the_other_convention_of_depth_is_said_where_it_fits) {
+  Small small;
+  // From -1 to 1 the near plane is at 0.1 m; from 0 to 1 it would be at 0.2 m.
+  small.dump["camera"] = Json::parse(R"({"world_to_view": [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1],
+      "projection": [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, -1.002002002002002, -1,  0, 0, -0.2002002002002002, 0],
+      "depth": "-1..1"})");
+  small.dump["grid"] = {{"tiles", {{"count", {1, 1}}}}, {"slices", {{"scheme", "exponential"}, {"count", 24}}}};
+  small.dump["lights"] = {{"listed", Json::array()}};
+  small.dump["lists"] = {{{"layout", "inline"}, {"cells", Json::array()}}};
+  for (int slice = 0; slice < 24; ++slice) {  // a light in the middle of each slice
+    const double depth = 0.1 * std::pow(1000.0, (slice + 0.5) / 24.0);
+    small.dump["lights"]["listed"].push_back({{"position", {0, 0, -depth}}, {"range_m", 0.01 * depth}});
+    small.dump["lists"][0]["cells"].push_back({slice});
+  }
+  EXPECT_EQ(small.check().code, 0) << small.check().out;
+  small.dump["camera"]["depth"] = "0..1";
+  const Outcome other = small.check();
+  EXPECT_EQ(other.code, 1);
+  EXPECT_NE(other.out.find("camera.depth: the other of 0..1 and -1..1"), std::string::npos) << other.out;
+}
+
+TEST(Check, runs_of_more_lights_than_there_are_take_no_memory) {
+  Small small;
+  constexpr std::uint16_t k_lights = 50000;
+  small.dump["lights"]["rows"][0]["count"] = k_lights;
+  small.folder.write("lights.bin", std::string(std::size_t{16} * k_lights, '\0'));
+  small.dump["lists"][0]["layout"] = "runs";
+  small.write<std::uint16_t>("cells.bin", {0, k_lights, 0, 0});
+  std::vector<std::uint16_t> runs;  // each over all lights: 2.5 billion in one cell
+  for (int run = 0; run < k_lights; ++run) runs.insert(runs.end(), {0, k_lights - 1});
+  small.write<std::uint16_t>("indices.bin", runs);
+  const Outcome outcome = small.check();
+  EXPECT_EQ(outcome.code, 1) << outcome.err;
+  EXPECT_NE(outcome.out.find("the cell has more lights than the 50000 lights of its part"), std::string::npos)
+      << outcome.out;
+}
+
 TEST(Check, large_files_are_refused_before_they_are_read) {
   const Small small;
   const fs::path large = small.folder.write("large.json", "{");

@@ -189,6 +189,47 @@ TEST(PlantedFaults, a_light_that_is_lost_within_rounding_is_told_apart) {
   }
 }
 
+// A spot that shines along slices, whose cone enters slice 5 with its side alone.
+TEST(PlantedFaults, a_spot_reaches_in_by_the_side_of_its_cone_and_not_by_its_range) {
+  Made one = made_frame();
+  scene::WorldLight spot =
+      *std::ranges::find_if(one.frame.lights, [](const auto& light) { return light.type == scene::LightType::spot; });
+  const Mat3d to_world = glm::transpose(one.frame.view_space.rotation);
+  const double end = one.grid.screen().slices.boundaries[5];
+  spot.range_m = 1.0;
+  spot.outer_cone_rad = 0.3;
+  for (const auto& [side_m, wanted] : {std::pair(1e-8, "rounding"), std::pair(0.01, "lost")}) {
+    // Its side towards the slice runs along the slice's boundary, this far behind it.
+    spot.position = one.frame.view_space.origin + to_world * Vec3d(0.0, 0.0, -(end + side_m));
+    spot.direction = to_world * Vec3d(std::cos(0.3), 0.0, std::sin(0.3));
+    one.frame.lights = {spot};
+    one.frame.count_types();
+    one.truth = measure::find_truth(one.frame, one.grid, 1).lists;
+    const result::CheckedSet set = verdict_on(dump_of(one, changed(one.truth, [&](auto cell, auto of) -> Moved {
+                                                        if (one.grid.cell_at(cell).z == 5) return std::nullopt;
+                                                        return std::pair(cell, of);
+                                                      })));
+    EXPECT_EQ(set.verdict, wanted) << side_m;
+    ASSERT_FALSE(set.lost.empty());
+    EXPECT_NEAR(set.lost[0].reach_mm, 1000.0 * side_m, 1e-3 + 10.0 * side_m) << side_m;
+  }
+}
+
+TEST(PlantedFaults, long_lists_that_lose_nothing_are_right_in_any_grid) {
+  for (const grid::Tiling tiles : {grid::Tiling{{100, 100}, {0, 0}, 0.0}, grid::Tiling{{0, 0}, {12, 7}, 0.0}}) {
+    const Made made = made_frame(tiles);
+    assign::Lists all{{0}, {}};
+    for (std::uint32_t cell = 0; cell < made.truth.cell_count(); ++cell) {
+      for (std::uint32_t light = 0; light < made.frame.lights.size(); ++light) all.lights.push_back(light);
+      all.begin.push_back(static_cast<std::uint32_t>(all.lights.size()));
+    }
+    const result::CheckedSet set = verdict_on(dump_of(made, all));
+    EXPECT_EQ(set.verdict, "right");
+    EXPECT_FALSE(set.other_reading);
+    EXPECT_GT(set.error->false_positives, 9 * set.error->true_pairs) << "as a list of another camera's frame has";
+  }
+}
+
 TEST(PlantedFaults, a_camera_that_sees_no_light_checks_nothing) {
   Made away = made_frame();
   away.frame.view_space.origin.z += 1000.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <memory>
 
@@ -57,18 +58,24 @@ ExitCode print_template(const CheckFlags& flags) {
 ExitCode check(const CheckFlags& flags) {
   if (!flags.engine.empty()) return print_template(flags);
   if (flags.dumps.empty()) throw Error("", "DUMP", "is required, or --template ENGINE for a dump to fill in");
-  refuse_overwriting({flags.json}, flags.dumps);
+  std::vector<std::filesystem::path> paths;
+  std::vector<std::string> files;
+  for (const std::string& given : flags.dumps)
+    for (const std::filesystem::path& path : dump::dump_paths(given)) {
+      paths.push_back(path);
+      std::ranges::move(dump::files_of(path), std::back_inserter(files));
+    }
+  refuse_overwriting({flags.json}, files);
   LaterOutput output(flags.json, flags.json.empty());
   std::ostream& out = flags.json == "-" ? std::cerr : std::cout;
   result::Check checked;
   checked.check_version = 1;
-  for (const std::string& given : flags.dumps)
-    for (const std::filesystem::path& path : dump::dump_paths(given)) {
-      checked.frames.push_back(dump::judge(dump::read_dump(path), {!flags.no_methods, flags.threads}));
-      if (!flags.quiet)
-        out << printable_lines(dump::check_text(checked.frames.back(), static_cast<std::size_t>(flags.most_lost)))
-            << std::flush;
-    }
+  for (const std::filesystem::path& path : paths) {
+    checked.frames.push_back(dump::judge(dump::read_dump(path), {!flags.no_methods, flags.threads}));
+    if (!flags.quiet)
+      out << printable_lines(dump::check_text(checked.frames.back(), static_cast<std::size_t>(flags.most_lost)))
+          << std::flush;
+  }
   checked.verdict = dump::worst_verdict(checked.frames);
   if (!flags.json.empty()) output.write(result::to_json(checked));
   if (!flags.quiet && checked.frames.size() > 1) out << frames_line(checked.frames);
