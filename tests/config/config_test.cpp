@@ -587,5 +587,29 @@ TEST(Config, a_label_names_only_parameters_that_differ_from_the_default) {
             "fixed(" + fixed.params[0].name + "=7)");
 }
 
+// Three lists of 100 values each.
+TEST(Config, lists_that_multiply_to_too_many_combinations_are_refused_before_they_are_expanded) {
+  std::string list = "[8";
+  for (int i = 9; i < 108; ++i) list += ", " + std::to_string(i);
+  list += "]";
+  const auto refusal = [](const std::string& text) {
+    try {
+      static_cast<void>(parse_config(text, "c.json"));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string most = "lists make 1000000 combinations here; allowed: at most 100000";
+  const std::string grid = R"({"kind": "frustum", "tiles": {"pixels": )" + list + R"(}, "slices": {"count": )" + list;
+  const std::string grids = R"({"scenes": ["a.glb"], "assigners": ["exact"], "grids": [)";
+  const std::string found = refusal(grids + grid + R"(, "far": )" + list + "}}]}");
+  EXPECT_NE(found.find("/grids/0/slices/far: " + most), std::string::npos) << found;
+  const std::string rig =
+      refusal(R"({"scenes": [{"rig": {"lights": )" + list + R"(, "seed": )" + list + R"(, "range": )" + list + "}}]}");
+  EXPECT_NE(rig.find(most), std::string::npos) << rig;
+  EXPECT_NE(rig.find("/scenes/0/rig/"), std::string::npos) << rig;
+}
+
 }  // namespace
 }  // namespace clusterbench::config
