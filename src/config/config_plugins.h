@@ -2,9 +2,12 @@
 // The plug-ins of a configuration. They are loaded before it is read: its methods and their parameters may be theirs.
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "config/config_flags.h"
 #include "config/schema/json_text.h"
+#include "plugin/plugins.h"
 
 namespace clusterbench::config {
 
@@ -12,6 +15,10 @@ namespace clusterbench::config {
 // known then, it looks for acme.so in the folders of CLUSTERBENCH_PLUGIN_PATH, and adds what it finds to the key.
 // Throws Error.
 void load_plugins(JsonText& text, std::span<const FlagValue> flags);
+
+struct Config;
+// Those that a configuration's methods come from, each once.
+std::vector<const plugin::LoadedPlugin*> plugins_of(const Config& config);
 
 // A file of --plugin as it is written into this configuration: relative to its folder.
 std::string plugin_path_for(const std::string& configuration, const std::string& given);

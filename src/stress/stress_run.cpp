@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "assign/contract/method_error.h"
 #include "config/config.h"
 #include "core/error.h"
 #include "core/parallel.h"
@@ -75,6 +76,8 @@ void add_trial(StressCell& cell, const StressMethod& method, const Trial& trial,
     gpu::close_device();
     cell.is_ended = true;
     cell.faults.push_back(trial.label + ": " + error.message() + "; no further trial of this case");
+  } catch (const assign::MethodError& error) {
+    cell.faults.push_back(trial.label + ": " + error.message());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/command_line/commands.h"
+#include "cli/options/plugin_option.h"
 #include "cli/output/output.h"
 #include "cli/output/progress_line.h"
 #include "core/text.h"
@@ -17,6 +18,7 @@ namespace {
 
 struct StressFlags {
   std::string output, cases, methods = ".*", device, failures;
+  std::vector<std::string> plugins;
   stress::StressRequest request;
   bool quiet = false;
 };
@@ -97,6 +99,7 @@ bool takes_device(const std::string& wanted) {
 }
 
 ExitCode stress(const StressFlags& flags) {
+  load_plugins(flags.plugins);
   stress::StressRequest request = flags.request;
   request.cases = Pattern(cases_of(flags), "--cases");
   request.methods = Pattern(flags.methods, "--methods");
@@ -147,6 +150,7 @@ void add_stress(Command& program, Action& action) {
                      "Only hard cases of this name, or that match it as a regular expression (H1 .. H35)");
   command.add_option("--methods", flags->methods,
                      "Only methods whose name has this in it, or matches it as a regular expression");
+  add_plugin_option(command, flags->plugins);
   command.add_option("--device", flags->device,
                      "NAME, UUID or number: also methods that run on a device, on this one, as `clusterbench list "
                      "devices` shows it; without it only those that --methods names, on the best one");
