@@ -54,7 +54,8 @@ std::vector<std::string> named_methods(const Json& document, std::span<const Fla
 void load_named(JsonText& text, std::span<const FlagValue> flags) {
   for (const std::string& name : named_methods(text.value, flags)) {
     const std::string id = name.substr(0, name.find('.'));
-    if (id == name || id.empty() || plugin::find_plugin(id) != nullptr) continue;
+    const bool is_known = assign::find_assigner(name) != nullptr || plugin::find_plugin(id) != nullptr;
+    if (id == name || id.empty() || is_known) continue;
     const fs::path file = plugin::file_on_path(id);
     if (file.empty()) continue;
     load_from(file, "", "", plugin::k_path_variable);
