@@ -92,8 +92,10 @@ void make_and_destroy(const Subject& subject, Findings& findings) {
 }
 
 void keep_apart(const Subject& subject, Findings& findings) {
-  const std::vector<SubjectFrame> frames = frames_for(subject, 2);
+  const std::vector<SubjectFrame> frames = frames_for(subject, 4);
   const stress::StressMethod method = subject.with_defaults();
+  std::vector<assign::Lists> alone;
+  for (const SubjectFrame& frame : frames) alone.push_back(lists_of(subject, frame));
   for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
     assign::AssignerRun first = method.start(), second = method.start();
     first.build(frames[i].grid, frames[i].kinds());
@@ -101,7 +103,7 @@ void keep_apart(const Subject& subject, Findings& findings) {
     first.assign(frames[i].input());
     second.assign(frames[i + 1].input());
     first.assign(frames[i].input());
-    if (first.cell_lists() != lists_of(subject, frames[i]) || second.cell_lists() != lists_of(subject, frames[i + 1]))
+    if (first.cell_lists() != alone[i] || second.cell_lists() != alone[i + 1])
       findings.fault(frames[i].label + ": an instance gives other lists while another one is there");
   }
   findings.detail = frames_text(frames.size());

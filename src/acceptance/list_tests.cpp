@@ -27,7 +27,7 @@ void compare_with_truth(const Subject& subject, const SubjectFrame& frame, const
 }
 
 void list_every_kind(const Subject& subject, Findings& findings) {
-  const std::vector<SubjectFrame> frames = frames_for(subject, 3);
+  const std::vector<SubjectFrame> frames = frames_for(subject, 8);
   for (const grid::Kind kind : subject.method->descriptor.kinds)
     if (std::ranges::none_of(frames, [&](const SubjectFrame& frame) { return frame.grid.kind() == kind; }))
       findings.skipped = std::string("no setting was found on a grid of kind ") + grid::kind_name(kind);
@@ -36,7 +36,7 @@ void list_every_kind(const Subject& subject, Findings& findings) {
 }
 
 void list_no_lights(const Subject& subject, Findings& findings) {
-  const std::vector<SubjectFrame> frames = frames_for(subject, 2);
+  const std::vector<SubjectFrame> frames = frames_for(subject, 4);
   for (const SubjectFrame& frame : frames) {
     const SubjectFrame dark = with_lights(frame, [](std::size_t) { return false; });
     if (const assign::Lists lists = lists_of(subject, dark); lists.pair_count() > 0)
@@ -46,7 +46,7 @@ void list_no_lights(const Subject& subject, Findings& findings) {
 }
 
 void list_one_light(const Subject& subject, Findings& findings) {
-  const std::vector<SubjectFrame> frames = frames_for(subject, 2);
+  const std::vector<SubjectFrame> frames = frames_for(subject, 4);
   std::size_t count = 0;
   for (const SubjectFrame& frame : frames)
     for (std::size_t light = 0; light < frame.frame.lights.size() && light < 8; ++light, ++count) {
@@ -58,7 +58,7 @@ void list_one_light(const Subject& subject, Findings& findings) {
 
 // Moves each light to a place behind the eye, or makes its range 0 or endless.
 void list_odd_lights(const Subject& subject, Findings& findings) {
-  const std::vector<SubjectFrame> frames = frames_for(subject, 2);
+  const std::vector<SubjectFrame> frames = frames_for(subject, 4);
   for (const SubjectFrame& frame : frames)
     for (const double range : {0.0, std::numeric_limits<double>::infinity(), 1e-30}) {
       SubjectFrame odd = with_lights(frame, [](std::size_t i) { return i < 16; });
@@ -73,7 +73,7 @@ void list_odd_lights(const Subject& subject, Findings& findings) {
 
 // Each frame again on the same instance, after another frame, and on a new instance.
 void list_the_same(const Subject& subject, Findings& findings) {
-  const std::vector<SubjectFrame> frames = frames_for(subject, 2);
+  const std::vector<SubjectFrame> frames = frames_for(subject, 4);
   const stress::StressMethod method = subject.with_defaults();
   for (const SubjectFrame& frame : frames) {
     const SubjectFrame half = with_lights(frame, [](std::size_t i) { return i % 2 == 0; });
@@ -92,7 +92,7 @@ void list_the_same(const Subject& subject, Findings& findings) {
 }
 
 void follow_grids(const Subject& subject, Findings& findings) {
-  const std::vector<SubjectFrame> frames = frames_for(subject, 3);
+  const std::vector<SubjectFrame> frames = frames_for(subject, 8);
   assign::AssignerRun run = subject.with_defaults().start();
   for (int round = 0; round < 2; ++round)
     for (const SubjectFrame& frame : frames) {

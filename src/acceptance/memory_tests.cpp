@@ -85,7 +85,7 @@ class GuardedCall {
 
 void stay_within_arrays(const Subject& subject, Findings& findings) {
   os::report_guards();
-  const std::vector<SubjectFrame> frames = frames_for(subject, 3);
+  const std::vector<SubjectFrame> frames = frames_for(subject, 8);
   for (const SubjectFrame& frame : frames)
     for (const Guard guard : {Guard::behind, Guard::before}) {
       GuardedCall guarded(subject, frame, guard);
@@ -126,7 +126,7 @@ void grow(const Subject& subject, const SubjectFrame& frame, Findings& findings)
 
 void ask_for_room(const Subject& subject, Findings& findings) {
   os::report_guards();
-  const std::vector<SubjectFrame> frames = frames_for(subject, 3);
+  const std::vector<SubjectFrame> frames = frames_for(subject, 8);
   for (const SubjectFrame& frame : frames) grow(subject, frame, findings);
   findings.detail = frames_text(frames.size());
 }

@@ -15,6 +15,10 @@
 #include "plugin/exported_method.h"
 #include "plugin/plugin_by_hand.h"
 
+namespace clusterbench::assign {
+extern const AssignerDescriptor cell_spheres_descriptor;  // of CONTRIBUTING.md
+}  // namespace clusterbench::assign
+
 namespace clusterbench::plugin::testing {
 namespace {
 
@@ -66,6 +70,30 @@ TEST(EveryMethodThroughTheInterface, gives_the_same_lists) {
       }
   }
   EXPECT_GT(compared, 100u);
+}
+
+// The same file as one of the program's own methods, and as a method of a plug-in.
+TEST(ExampleOfContributing, is_a_method_and_a_plugin) {
+  const assign::AssignerDescriptor& own = assign::cell_spheres_descriptor;
+  const assign::AssignerRegistration registered(own);
+  const ExportedMethod exported(own);
+  const OneMethod one(exported.table());
+  const PluginFacts facts = read_plugin("one.so", &one.plugin);
+  const assign::AssignerDescriptor foreign = runnable(facts.methods[0]);
+  for (const Setting& setting : settings_for(own, 21)) {
+    const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
+    assign::AssignerRun here(registered.descriptor(), assign::Params(own.params), assign::Answer::lists),
+        there(foreign, assign::Params(foreign.params), assign::Answer::lists);
+    for (assign::AssignerRun* run : {&here, &there}) {
+      run->build(setting.grid);
+      run->assign(setting.input(lights));
+    }
+    EXPECT_GT(here.filled_lists()->pair_count(), 0u) << setting.name;
+    EXPECT_EQ(*here.filled_lists(), *there.filled_lists()) << setting.name;
+    const std::vector<std::string> faults =
+        assign::testing::contract_faults(foreign, assign::Params(foreign.params), setting);
+    EXPECT_TRUE(faults.empty()) << setting.name << ": " << joined(faults, "; ");
+  }
 }
 
 TEST(EveryMethodThroughTheInterface, keeps_the_contract_of_methods) {

@@ -29,3 +29,10 @@ add_library(plugin_interface_in_c STATIC ${CMAKE_CURRENT_SOURCE_DIR}/plugin/inte
 set_target_properties(plugin_interface_in_c PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF)
 target_include_directories(plugin_interface_in_c PRIVATE ${PROJECT_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR})
 target_compile_options(plugin_interface_in_c PRIVATE -Wall -Wextra -Wpedantic -Wshadow $<$<BOOL:${CLUSTERBENCH_WERROR}>:-Werror>)
+
+# The method that CONTRIBUTING.md writes out, which test_plugin runs both ways.
+set(CONTRIBUTING_EXAMPLE ${CMAKE_CURRENT_BINARY_DIR}/contributing_example.cpp)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+add_custom_command(OUTPUT ${CONTRIBUTING_EXAMPLE}
+  COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test_contributing_example.py --write ${CONTRIBUTING_EXAMPLE}
+  DEPENDS ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md ${CMAKE_CURRENT_SOURCE_DIR}/test_contributing_example.py VERBATIM)

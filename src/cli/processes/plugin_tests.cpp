@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <iostream>
+#include <random>
 
 #include "acceptance/acceptance_test.h"
 #include "core/error.h"
@@ -16,8 +17,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Before the line of an answer: a plug-in may print lines, too.
-constexpr std::string_view k_answer = "clusterbench plugin check: ";
+// Before the line of an answer, since a plug-in may print lines, too: a word that it cannot know.
+std::string answer_mark() {
+  std::random_device random;
+  constexpr std::size_t k_digits = 16;
+  return sha256_hex(std::to_string(random()) + "." + std::to_string(random())).substr(0, k_digits);
+}
 
 const plugin::LoadedPlugin& loaded(const PluginCheckRequest& request) {
   const plugin::PluginName name = plugin::plugin_name(request.file);
@@ -64,7 +69,8 @@ struct Answer {
 
 Answer answer_of(const PluginCheckRequest& request, const std::string& asked, double seconds,
                  const std::atomic<bool>& stop) {
-  os::Conversation child({os::k_this_program, "plugin", "check", std::string(k_serve_test) + "=" + asked,
+  const std::string mark = answer_mark();
+  os::Conversation child({os::k_this_program, "plugin", "check", std::string(k_serve_test) + "=" + mark + "/" + asked,
                           "--seed=" + std::to_string(request.seed), "--seconds=" + std::to_string(request.seconds),
                           "--", request.file});
   const auto begin = std::chrono::steady_clock::now();
@@ -75,8 +81,8 @@ Answer answer_of(const PluginCheckRequest& request, const std::string& asked, do
         spent < seconds ? child.receive_line(line, seconds - spent, stop) : os::Conversation::Received::timeout;
     answer.is_stopped = received == os::Conversation::Received::stop;
     answer.is_late = received == os::Conversation::Received::timeout;
-    if (received == os::Conversation::Received::line && line.starts_with(k_answer))
-      if (Json json = json_or_discarded<Json>(line.substr(k_answer.size())); json.is_object())
+    if (received == os::Conversation::Received::line && line.starts_with(mark))
+      if (Json json = json_or_discarded<Json>(line.substr(mark.size())); json.is_object())
         answer.json = std::move(json);
     if (received != os::Conversation::Received::line || answer.json) break;
   }
@@ -131,12 +137,15 @@ std::optional<result::PluginTest> tested(const PluginCheckRequest& request, cons
   return result::PluginTest{method, test, "crashed", {ending_text(answer.ending)}, ""};
 }
 
-void serve_test(const PluginCheckRequest& request, const std::string& asked) {
-  const std::size_t slash = asked.rfind('/');
-  const Json answer = asked == k_description
-                          ? to_json(description_here(request))
-                          : result::to_json(test_here(request, asked.substr(0, slash), asked.substr(slash + 1)));
-  std::cout << "\n" << k_answer << answer.dump() << std::endl;
+void serve_test(const PluginCheckRequest& request, const std::string& given) {
+  const std::size_t first = given.find('/'), last = given.rfind('/');
+  if (first == std::string::npos) throw Error("", k_serve_test, "takes MARK/METHOD/TEST", ExitCode::internal);
+  const std::string asked = given.substr(first + 1);
+  const Json answer =
+      asked == k_description
+          ? to_json(description_here(request))
+          : result::to_json(test_here(request, given.substr(first + 1, last - first - 1), given.substr(last + 1)));
+  std::cout << "\n" << given.substr(0, first) << answer.dump() << std::endl;
 }
 
 }  // namespace clusterbench::cli
