@@ -111,7 +111,8 @@ void report_guards() {
 }
 
 std::size_t heap_in_use() {
-  return ::mallinfo2().uordblks;
+  const struct mallinfo2 facts = ::mallinfo2();
+  return facts.uordblks + facts.hblkhd;
 }
 
 }  // namespace clusterbench::os

@@ -43,6 +43,7 @@ class PluginMethod final : public assign::ListAssigner {
   clusterbench_error error_{};
   clusterbench_grid grid_{};
   clusterbench_lists last_{};
+  std::uint64_t unused_ = 0;  // the most room that it has asked for and not filled
   void* instance_ = nullptr;
 };
 
