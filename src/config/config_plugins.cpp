@@ -65,13 +65,17 @@ void load_named(JsonText& text, std::span<const FlagValue> flags) {
 
 }  // namespace
 
-void load_plugins(JsonText& text, std::span<const FlagValue> flags) {
-  load_listed(text);
+void load_plugins(std::span<const FlagValue> flags) {
   for (const FlagValue& flag : flags) {
     if (flag.name != "--plugin") continue;
     const plugin::PluginName name = plugin::plugin_name(flag.value);
     load_from(name.file, name.id, "", flag.shown());
   }
+}
+
+void load_plugins(JsonText& text, std::span<const FlagValue> flags) {
+  load_listed(text);
+  load_plugins(flags);
   load_named(text, flags);
 }
 

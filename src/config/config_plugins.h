@@ -11,6 +11,8 @@
 
 namespace clusterbench::config {
 
+// Loads those of --plugin. Throws Error.
+void load_plugins(std::span<const FlagValue> flags);
 // Loads those of the key `plugins` and of --plugin. Of a method that has a plug-in's name ("acme.tiles") and is not
 // known then, it looks for acme.so in the folders of CLUSTERBENCH_PLUGIN_PATH, and adds what it finds to the key.
 // Throws Error.

@@ -1,5 +1,5 @@
-/* A plug-in in C99: a light is listed in the cells whose bounding box its ball touches, in frustum grids. Every light against
- * every cell. */
+/* A plug-in in C99: a light is listed in the cells whose bounding box its ball touches, in frustum grids. Every light
+ * against every cell. */
 
 #include "clusterbench_plugin.h"
 
@@ -15,8 +15,12 @@ typedef struct instance {
   box* boxes;
 } instance;
 
-static float least(float a, float b) { return a < b ? a : b; }
-static float most(float a, float b) { return a > b ? a : b; }
+static float least(float a, float b) {
+  return a < b ? a : b;
+}
+static float most(float a, float b) {
+  return a > b ? a : b;
+}
 
 /* The box around the part of a tile between two depths: its corners are products of slopes and depths. */
 static box box_of(const clusterbench_grid* grid, uint32_t column, uint32_t row, uint32_t slice) {
@@ -28,15 +32,16 @@ static box box_of(const clusterbench_grid* grid, uint32_t column, uint32_t row, 
   return out;
 }
 
-static clusterbench_status create(const clusterbench_method* method, const clusterbench_value* values, uint32_t value_count,
-                                  void** made, clusterbench_error* error) {
+static clusterbench_status create(const clusterbench_method* method, const clusterbench_value* values,
+                                  uint32_t value_count, void** made, clusterbench_error* error) {
   const clusterbench_status known = clusterbench_check_values(method, values, value_count, error);
   if (known != CLUSTERBENCH_OK) return known;
   *made = calloc(1, sizeof(instance));
   return *made == NULL ? CLUSTERBENCH_OUT_OF_MEMORY : CLUSTERBENCH_OK;
 }
 
-static clusterbench_status build(void* given, const clusterbench_grid* grid, uint32_t light_types, clusterbench_error* error) {
+static clusterbench_status build(void* given, const clusterbench_grid* grid, uint32_t light_types,
+                                 clusterbench_error* error) {
   instance* self = given;
   box* boxes = realloc(self->boxes, grid->cell_count * sizeof(box));
   uint32_t cell = 0, column, row, slice;
@@ -61,8 +66,9 @@ static int touches(const box* b, const float center[3], float radius) {
   return sum <= radius * radius;
 }
 
-/* Roundings, in units of 2^-24 of a light's reach: 2 of the numbers that are given, 1 of a box's coordinate and 1 of a difference on each
- * axis, which makes less than 4 of their length, and less than 2 of squares, sums and the comparison: 8. */
+/* Roundings, in units of 2^-24 of a light's reach: 2 of the numbers that are given, 1 of a box's coordinate and 1 of a
+ * difference on each axis, which makes less than 4 of their length, and less than 2 of squares, sums and the
+ * comparison: 8. */
 static clusterbench_status assign(void* given, const clusterbench_frame* frame, const clusterbench_lights* lights,
                                   clusterbench_lists* out, clusterbench_error* error) {
   const float k_padding = 8.0f / 16777216.0f;
@@ -111,8 +117,14 @@ const clusterbench_plugin* clusterbench_plugin_entry(const clusterbench_host* ho
                                              assign,
                                              destroy};
   static const clusterbench_method* const methods[] = {&method};
-  static const clusterbench_plugin plugin = {
-      sizeof(clusterbench_plugin), CLUSTERBENCH_PLUGIN_MAJOR, CLUSTERBENCH_PLUGIN_MINOR, 1, "in-c", "An example in C", "1.0", methods};
+  static const clusterbench_plugin plugin = {sizeof(clusterbench_plugin),
+                                             CLUSTERBENCH_PLUGIN_MAJOR,
+                                             CLUSTERBENCH_PLUGIN_MINOR,
+                                             1,
+                                             "in-c",
+                                             "An example in C",
+                                             "1.0",
+                                             methods};
   (void)host;
   return &plugin;
 }

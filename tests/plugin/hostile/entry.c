@@ -30,5 +30,7 @@ const clusterbench_plugin* clusterbench_plugin_entry(const clusterbench_host* ho
 }
 #else
 int nothing_of_that_name(void);
-int nothing_of_that_name(void) { return 1; }
+int nothing_of_that_name(void) {
+  return 1;
+}
 #endif

@@ -1,5 +1,6 @@
 // Methods that do what none may do, one each, and otherwise nothing. They run only where they are named.
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -31,6 +32,14 @@ class Empty : public sdk::Method {
   }
   virtual void misbehave(const clusterbench_frame&, const clusterbench_lights&, clusterbench_lists&) {}
 };
+
+// Lists the first light in the first cell, whether there is one or not.
+void list_first(clusterbench_lists& out) {
+  if (out.capacity < 1) throw sdk::More{1};
+  std::fill_n(out.begin + 1, out.cell_count, 1u);
+  out.lights[0] = 0;
+  out.count = 1;
+}
 
 // CLUSTERBENCH_HOSTILE(Class, name, summary, body): what assign() does beside leaving empty lists.
 #define CLUSTERBENCH_HOSTILE(Class, name, summary, ...)                    \
@@ -68,6 +77,7 @@ CLUSTERBENCH_HOSTILE(NoIndex, "no-index", "lists a light that does not exist", {
   out.lights[0] = sdk::light_count(lights);
   out.count = 1;
 })
+CLUSTERBENCH_HOSTILE(Ghost, "ghost", "always lists the first light", list_first(out);)
 CLUSTERBENCH_HOSTILE(Greedy, "greedy", "always asks for more room", throw sdk::More{out.capacity + 1};)
 CLUSTERBENCH_HOSTILE(Late, "late", "wants more room than it needs, and writes without", {
   if (out.capacity == 0 && sdk::light_count(lights) > 0) out.lights[0] = 0;
@@ -98,17 +108,43 @@ class Shares : public Empty {
   ~Shares() override { --instances; }
   static sdk::Description description() { return named("shares", "lists depend on other instances"); }
   void misbehave(const clusterbench_frame&, const clusterbench_lights& lights, clusterbench_lists& out) override {
-    if (sdk::light_count(lights) == 0 || instances < 2) return;
-    if (out.capacity < 1) throw sdk::More{1};
-    std::fill_n(out.begin + 1, out.cell_count, 1u);
-    out.lights[0] = 0;
-    out.count = 1;
+    if (sdk::light_count(lights) > 0 && instances > 1) list_first(out);
   }
 
  private:
   static int instances;
 };
 int Shares::instances = 0;
+
+// The same, for calls at the same time.
+class Races : public Empty {
+ public:
+  explicit Races(const sdk::Values&) {}
+  static sdk::Description description() { return named("races", "lists depend on other threads"); }
+  void misbehave(const clusterbench_frame&, const clusterbench_lights& lights, clusterbench_lists& out) override {
+    const int others = inside++;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    --inside;
+    if (sdk::light_count(lights) > 0 && others > 0) list_first(out);
+  }
+
+ private:
+  static std::atomic<int> inside;
+};
+std::atomic<int> Races::inside = 0;
+
+class CountsBuilds : public Empty {
+ public:
+  explicit CountsBuilds(const sdk::Values&) {}
+  static sdk::Description description() { return named("counts-builds", "lists depend on how often it was built"); }
+  void build(const clusterbench_grid&, std::uint32_t) override { ++builds_; }
+  void misbehave(const clusterbench_frame&, const clusterbench_lights& lights, clusterbench_lists& out) override {
+    if (sdk::light_count(lights) > 0 && builds_ > 1) list_first(out);
+  }
+
+ private:
+  int builds_ = 0;
+};
 
 class Leaks : public Empty {
  public:
@@ -154,4 +190,4 @@ class Good : public Empty {
 
 CLUSTERBENCH_PLUGIN("hostile", "What no plug-in may do", "1.0", Good, Crashes, Aborts, Exits, Hangs, Throws,
                     ThrowsOther, Prints, WritesBehind, WritesInput, ReadsBehind, ReadsBefore, NoIndex, Greedy, Late,
-                    Remembers, Shares, Leaks, Loses, Picky)
+                    Remembers, Shares, Leaks, Loses, Picky, Ghost, Races, CountsBuilds)
