@@ -116,7 +116,7 @@ void PluginMethod::assign(const assign::FrameInput& input, assign::Lists& out) {
 }
 
 void PluginMethod::check(const assign::Lists& lists, const view::LightRanges& ranges) const {
-  const std::string fault = assign::lists_fault(lists, grid_.cell_count, ranges);
+  const std::string fault = assign::lists_fault(lists, grid_.cell_count, ranges, checked_);
   if (!fault.empty()) fail("left lists that are none: " + fault);
 }
 

@@ -43,7 +43,8 @@ class PluginMethod final : public assign::ListAssigner {
   clusterbench_error error_{};
   clusterbench_grid grid_{};
   clusterbench_lists last_{};
-  std::uint64_t unused_ = 0;  // the most room that it has asked for and not filled
+  mutable std::vector<std::uint32_t> checked_;  // of check()
+  std::uint64_t unused_ = 0;                    // the most room that it has asked for and not filled
   void* instance_ = nullptr;
 };
 

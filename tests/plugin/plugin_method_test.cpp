@@ -174,6 +174,12 @@ const Broken k_broken[] = {
        out.begin[2] = 1;
        return CLUSTERBENCH_OK;
      }},
+    {"a list that ends behind the indices (cell 0)",
+     [](const auto&, auto& out, auto&) -> clusterbench_status {
+       list_in_first({0, 1}, out);
+       out.begin[1] = 1u << 30;
+       return CLUSTERBENCH_OK;
+     }},
     {"its lists begin at 1 and end at 2",
      [](const auto&, auto& out, auto&) -> clusterbench_status {
        list_in_first({0, 1}, out);
@@ -221,7 +227,7 @@ TEST(PluginMethod, what_breaks_the_interface_is_its_fault_and_says_so) {
   for (const Broken& broken : k_broken) {
     const std::string fault = fault_of(broken.work);
     EXPECT_NE(fault.find(broken.says), std::string::npos) << broken.says << "\n" << fault;
-    EXPECT_TRUE(fault.starts_with("hand.so: hand.cells: ")) << fault;
+    EXPECT_TRUE(fault.starts_with("one.so: hand.cells: ")) << fault;
   }
 }
 
