@@ -1,13 +1,12 @@
 #include "cli/processes/plugin_tests.h"
 
-#include <chrono>
-#include <iostream>
-#include <random>
+#include <cstdio>
 
 #include "acceptance/acceptance_test.h"
 #include "core/error.h"
 #include "core/json_document.h"
 #include "core/text.h"
+#include "os/own_output.h"
 #include "os/process.h"
 #include "plugin/plugins.h"
 #include "run/records/records.h"
@@ -16,13 +15,6 @@ namespace clusterbench::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Before the line of an answer, since a plug-in may print lines, too: a word that it cannot know.
-std::string answer_mark() {
-  std::random_device random;
-  constexpr std::size_t k_digits = 16;
-  return sha256_hex(std::to_string(random()) + "." + std::to_string(random())).substr(0, k_digits);
-}
 
 const plugin::LoadedPlugin& loaded(const PluginCheckRequest& request) {
   const plugin::PluginName name = plugin::plugin_name(request.file);
@@ -69,23 +61,16 @@ struct Answer {
 
 Answer answer_of(const PluginCheckRequest& request, const std::string& asked, double seconds,
                  const std::atomic<bool>& stop) {
-  const std::string mark = answer_mark();
-  os::Conversation child({os::k_this_program, "plugin", "check", std::string(k_serve_test) + "=" + mark + "/" + asked,
+  os::Conversation child({os::k_this_program, "plugin", "check", std::string(k_serve_test) + "=" + asked,
                           "--seed=" + std::to_string(request.seed), "--seconds=" + std::to_string(request.seconds),
                           "--", request.file});
-  const auto begin = std::chrono::steady_clock::now();
   Answer answer;
-  for (std::string line;;) {
-    const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    const os::Conversation::Received received =
-        spent < seconds ? child.receive_line(line, seconds - spent, stop) : os::Conversation::Received::timeout;
-    answer.is_stopped = received == os::Conversation::Received::stop;
-    answer.is_late = received == os::Conversation::Received::timeout;
-    if (received == os::Conversation::Received::line && line.starts_with(mark))
-      if (Json json = json_or_discarded<Json>(line.substr(mark.size())); json.is_object())
-        answer.json = std::move(json);
-    if (received != os::Conversation::Received::line || answer.json) break;
-  }
+  std::string line;
+  const os::Conversation::Received received = child.receive_line(line, seconds, stop);
+  answer.is_stopped = received == os::Conversation::Received::stop;
+  answer.is_late = received == os::Conversation::Received::timeout;
+  if (received == os::Conversation::Received::line)
+    if (Json json = json_or_discarded<Json>(line); json.is_object()) answer.json = std::move(json);
   answer.ending = child.end();
   return answer;
 }
@@ -137,15 +122,13 @@ std::optional<result::PluginTest> tested(const PluginCheckRequest& request, cons
   return result::PluginTest{method, test, "crashed", {ending_text(answer.ending)}, ""};
 }
 
-void serve_test(const PluginCheckRequest& request, const std::string& given) {
-  const std::size_t first = given.find('/'), last = given.rfind('/');
-  if (first == std::string::npos) throw Error("", k_serve_test, "takes MARK/METHOD/TEST", ExitCode::internal);
-  const std::string asked = given.substr(first + 1);
-  const Json answer =
-      asked == k_description
-          ? to_json(description_here(request))
-          : result::to_json(test_here(request, given.substr(first + 1, last - first - 1), given.substr(last + 1)));
-  std::cout << "\n" << given.substr(0, first) << answer.dump() << std::endl;
+void serve_test(const PluginCheckRequest& request, const std::string& asked) {
+  const os::OwnOutput output;
+  const std::size_t slash = asked.rfind('/');
+  const Json answer = asked == k_description
+                          ? to_json(description_here(request))
+                          : result::to_json(test_here(request, asked.substr(0, slash), asked.substr(slash + 1)));
+  output.write_line(answer.dump());
 }
 
 }  // namespace clusterbench::cli

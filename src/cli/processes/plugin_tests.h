@@ -19,8 +19,8 @@ struct PluginCheckRequest {
   bool in_process = false;
 };
 
-// The hidden option by which the other process is asked for a test, as MARK/METHOD/TEST; or for the description of the
-// plug-in, as MARK/description. Its answer is a line that begins with the mark.
+// The hidden option by which the other process is asked for a test, as METHOD/TEST; or for the description of the
+// plug-in. It answers with a line of JSON.
 inline constexpr const char* k_serve_test = "--serve-test";
 inline constexpr const char* k_description = "description";
 
@@ -37,6 +37,6 @@ std::optional<result::PluginTest> tested(const PluginCheckRequest& request, cons
                                          const std::string& test, const std::atomic<bool>& stop);
 
 // The other process: does what `asked` says.
-void serve_test(const PluginCheckRequest& request, const std::string& given);
+void serve_test(const PluginCheckRequest& request, const std::string& asked);
 
 }  // namespace clusterbench::cli
