@@ -75,6 +75,20 @@ TEST(PluginRun, examples_in_c_and_cpp_list_alike) {
   EXPECT_EQ(result["plugins"].size(), 2u);
 }
 
+// The method of CONTRIBUTING.md as it stands there; a box around a cell is tighter than a sphere around a flat one, and
+// looser around others.
+TEST(PluginRun, the_example_of_contributing_is_a_plugin_too) {
+  const Folder folder;
+  const Json result = plugin_result(
+      folder, plugin_run("--plugin " + plugin_file("contributing") + " --assigner contributing.cell-spheres,aabb"));
+  const Json &spheres = case_of_method(result, "contributing.cell-spheres")["error"],
+             &boxes = case_of_method(result, "aabb")["error"];
+  EXPECT_EQ(spheres["true_pairs"], boxes["true_pairs"]);
+  EXPECT_EQ(spheres["false_negatives"], 0);
+  EXPECT_NE(spheres["false_positives"], boxes["false_positives"]);
+  EXPECT_EQ(tool("plugin check " + plugin_file("contributing") + " -q --seconds 0.3").code, 0);
+}
+
 TEST(PluginRun, a_result_without_plugins_says_nothing_of_them) {
   const Folder folder;
   EXPECT_FALSE(plugin_result(folder, plugin_run("--assigner aabb")).contains("plugins"));

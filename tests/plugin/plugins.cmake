@@ -37,3 +37,21 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_custom_command(OUTPUT ${CONTRIBUTING_EXAMPLE}
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/test_contributing_example.py --write ${CONTRIBUTING_EXAMPLE}
   DEPENDS ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md ${CMAKE_CURRENT_SOURCE_DIR}/test_contributing_example.py VERBATIM)
+
+# And as a plug-in, with those files of the program that it needs; what these need and it does not call is left out.
+file(GLOB EXAMPLE_NEEDS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/grid/*.cpp ${PROJECT_SOURCE_DIR}/src/view/frame.cpp
+  ${PROJECT_SOURCE_DIR}/src/core/error.cpp ${PROJECT_SOURCE_DIR}/src/core/memory.cpp ${PROJECT_SOURCE_DIR}/src/core/text.cpp
+  ${PROJECT_SOURCE_DIR}/src/depth/depth_image.cpp ${PROJECT_SOURCE_DIR}/src/geom/*/bounding_volumes.cpp
+  ${PROJECT_SOURCE_DIR}/src/geom/*/disk_tangents.cpp ${PROJECT_SOURCE_DIR}/src/geom/*/touch_tests.cpp
+  ${PROJECT_SOURCE_DIR}/src/assign/bounds/cell_bounds.cpp ${PROJECT_SOURCE_DIR}/src/assign/contract/light_test.cpp
+  ${PROJECT_SOURCE_DIR}/src/assign/contract/lists.cpp ${PROJECT_SOURCE_DIR}/src/assign/contract/params.cpp
+  ${PROJECT_SOURCE_DIR}/src/plugin/exported_method.cpp ${PROJECT_SOURCE_DIR}/src/plugin/views.cpp)
+add_library(plugin_contributing MODULE ${CONTRIBUTING_EXAMPLE} ${CMAKE_CURRENT_SOURCE_DIR}/plugin/examples/contributing_plugin.cpp
+  ${EXAMPLE_NEEDS})
+set_target_properties(plugin_contributing PROPERTIES PREFIX "" SUFFIX ".so" OUTPUT_NAME contributing
+  LIBRARY_OUTPUT_DIRECTORY ${PLUGIN_FOLDER} CXX_VISIBILITY_PRESET hidden)
+target_compile_options(plugin_contributing PRIVATE -ffp-contract=off -ffunction-sections -fdata-sections)
+target_include_directories(plugin_contributing PRIVATE ${PROJECT_SOURCE_DIR}/src)
+target_link_libraries(plugin_contributing PRIVATE glm::glm)
+target_link_options(plugin_contributing PRIVATE -Wl,--gc-sections -Wl,--no-undefined)
+list(APPEND TEST_PLUGINS plugin_contributing)
