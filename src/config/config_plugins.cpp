@@ -89,6 +89,11 @@ std::vector<const plugin::LoadedPlugin*> plugins_of(const Config& config) {
   return all;
 }
 
+void name_plugins(const Config& config, nlohmann::ordered_json& written) {
+  written.erase("plugins");
+  for (const plugin::LoadedPlugin* loaded : plugins_of(config)) written["plugins"].push_back(loaded->text());
+}
+
 std::string plugin_path_for(const std::string& configuration, const std::string& given) {
   if (configuration.empty() || is_stream_name(configuration)) return given;
   plugin::PluginName name = plugin::plugin_name(given);

@@ -1,6 +1,7 @@
 #pragma once
 // The plug-ins of a configuration. They are loaded before it is read: its methods and their parameters may be theirs.
 
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ void load_plugins(JsonText& text, std::span<const FlagValue> flags);
 struct Config;
 // Those that a configuration's methods come from, each once.
 std::vector<const plugin::LoadedPlugin*> plugins_of(const Config& config);
+
+// Sets the key `plugins` of a configuration that is written for another folder, if methods of `config` need it.
+void name_plugins(const Config& config, nlohmann::ordered_json& written);
 
 // A file of --plugin as it is written into this configuration: relative to its folder.
 std::string plugin_path_for(const std::string& configuration, const std::string& given);

@@ -59,7 +59,6 @@ std::string why_unavailable(const MethodFacts& method) {
 
 struct Registered {
   LoadedPlugin plugin;
-  std::string given_id;
   std::deque<assign::AssignerRegistration> methods;
 };
 
@@ -110,13 +109,17 @@ PluginName plugin_name(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+std::string LoadedPlugin::text() const {
+  return PluginName{given_id, file.string()}.text();
+}
+
 const LoadedPlugin& load_plugin(const fs::path& given, const std::string& id) {
   const fs::path file = absolute_path(given);
   const std::string sha256 = sha256_hex(content_of_library(file));
   if (const Registered* before = same_file(file)) {
     if (before->plugin.sha256 != sha256)
       throw Error(file.string(), "", "has changed since it was loaded; start the program again");
-    if (before->given_id != id)
+    if (before->plugin.given_id != id)
       throw Error(file.string(), "",
                   "is loaded already, with the id '" + before->plugin.facts.id + "'; a copy of it can have another");
     return before->plugin;
@@ -126,8 +129,7 @@ const LoadedPlugin& load_plugin(const fs::path& given, const std::string& id) {
     throw Error(file.string(), "",
                 "has the id '" + facts.id + "', and so has " + other->file.string() + "; ID=FILE gives it another");
   Registered& added = loaded().emplace_back();
-  added.given_id = id;
-  added.plugin = {file, sha256, std::move(facts)};
+  added.plugin = {file, sha256, std::move(facts), id};
   for (const MethodFacts& method : added.plugin.facts.methods)
     added.methods.emplace_back(runnable(method, file.string()));
   return added.plugin;

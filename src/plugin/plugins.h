@@ -13,6 +13,10 @@ struct LoadedPlugin {
   std::filesystem::path file;  // absolute
   std::string sha256;          // of the file
   PluginFacts facts;
+  std::string given_id;  // by which a user named it; "": its own
+
+  // As configurations in any folder name it: "/build/acme.so", "old=/build/acme.so".
+  std::string text() const;
 };
 
 // A plug-in as users name it: FILE, or ID=FILE to have its methods named ID.METHOD, so that two builds of it run side

@@ -62,7 +62,7 @@ std::vector<std::string> options_with(const std::string& type, const std::string
 constexpr const char* k_commands[] = {"run",          "compare",     "size",           "report", "export",
                                       "history show", "history add", "scene info",     "stress", "merge",
                                       "list",         "validate",    "scene generate", "schema", "completion",
-                                      "worst-case",   "recommend",   "light-map",      "check"};
+                                      "worst-case",   "recommend",   "light-map",      "check",  "plugin check"};
 
 TEST(CommandLine, no_option_takes_what_is_not_a_finite_number) {
   int options = 0;

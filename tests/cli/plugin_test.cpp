@@ -294,6 +294,17 @@ TEST(PluginStress, checks_methods_of_plugins) {
   const Outcome right =
       tool("stress --plugin " + plugin_file("example") + " --methods '^example' --random 40 --seed 3 -q -o /dev/null");
   EXPECT_EQ(right.code, 0) << right.err;
+  const Folder folder;
+  const Outcome written =
+      tool("stress --plugin " + plugin_file("hostile") +
+           " --methods 'hostile.loses$' --random 40 -q -o /dev/null --failures " + folder.path().string());
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.path()))
+    if (entry.path().extension() == ".json") {  // runs as it stands, and fails
+      const Outcome again = tool("run " + entry.path().string() + " -q -o /dev/null");
+      EXPECT_EQ(again.code, 1) << again.err;
+      EXPECT_TRUE(mentions(again.err, "hostile.loses")) << again.err;
+    }
+  EXPECT_FALSE(fs::is_empty(folder.path())) << written.err;
   const Outcome wrong =
       tool("stress --plugin " + plugin_file("hostile") + " --methods 'hostile.loses$' --random 40 -q -o /dev/null");
   EXPECT_EQ(wrong.code, 1);
