@@ -38,7 +38,8 @@ void write_replay(const fs::path& folder, const std::string& name, const Trial& 
   OrderedJson plugins = OrderedJson::array();
   for (const StressMethod& method : methods)
     if (const plugin::LoadedPlugin* loaded = plugin::find_plugin(method.assigner->plugin))
-      if (std::ranges::find(plugins, loaded->text()) == plugins.end()) plugins.push_back(loaded->text());
+      if (const OrderedJson file = loaded->text(); std::ranges::find(plugins, file) == plugins.end())
+        plugins.push_back(file);
   OrderedJson scene{{"path", name + ".gltf"}};
   if (has_boxes(trial)) scene["boxes"] = true;
   OrderedJson config{{"name", name},
