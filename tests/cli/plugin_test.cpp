@@ -129,12 +129,15 @@ TEST(PluginRun, the_key_is_relative_to_the_configuration_and_parameters_are_axes
 TEST(PluginRun, a_method_that_is_named_is_looked_for_in_the_folders_of_the_variable) {
   const Folder folder;
   const std::string arguments = plugin_run("--assigner 'example.*'");
-  setenv("CLUSTERBENCH_PLUGIN_PATH", ("/no-such-folder:" + plugin_folder()).c_str(), 1);
+  fs::create_directory(folder / "plugins");
+  for (const char* name : {"example", "in-c", "version-2"})
+    fs::copy_file(plugin_file(name), folder / ("plugins/" + std::string(name) + ".so"));
+  setenv("CLUSTERBENCH_PLUGIN_PATH", ("/no-such-folder:" + (folder / "plugins").string()).c_str(), 1);
   const Json result = plugin_result(folder, arguments);
   const Outcome listed = tool("list assigners --json");
   unsetenv("CLUSTERBENCH_PLUGIN_PATH");
   EXPECT_EQ(case_of_method(result, "example.cell-boxes")["error"]["false_negatives"], 0);
-  EXPECT_EQ(result["config"]["plugins"], Json({plugin_file("example")}));
+  EXPECT_EQ(result["config"]["plugins"], Json({(folder / "plugins/example.so").string()}));
   EXPECT_TRUE(mentions(listed.out, "\"in-c.cell-boxes\"")) << listed.out;
   EXPECT_TRUE(mentions(listed.err, "version-2.so: is made for version 2.0 of the interface")) << listed.err;
   EXPECT_EQ(tool(arguments).code, 2);
@@ -231,8 +234,8 @@ TEST(PluginBuilds, do_not_merge_into_one_result) {
                     c = (folder / "c.json").string();
   const std::string method = " --assigner example.cell-boxes -q -o ";
   ASSERT_EQ(tool(plugin_run("--plugin " + plugin_file("example") + method + a)).code, 0);
-  ASSERT_EQ(tool(plugin_run("--slices 4 --plugin " + other_build(folder).string() + method + b)).code, 0);
-  ASSERT_EQ(tool(plugin_run("--slices 4 --plugin " + plugin_file("example") + method + c)).code, 0);
+  ASSERT_EQ(tool(plugin_run("--set seed=2 --plugin " + other_build(folder).string() + method + b)).code, 0);
+  ASSERT_EQ(tool(plugin_run("--set seed=2 --plugin " + plugin_file("example") + method + c)).code, 0);
   const Outcome refused = tool("merge " + a + " " + b);
   EXPECT_EQ(refused.code, 2);
   EXPECT_TRUE(mentions(refused.err, "/plugins: has plug-in 'example'")) << refused.err;
