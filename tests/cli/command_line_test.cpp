@@ -39,7 +39,8 @@ TEST(CommandLine, what_is_unknown_or_missing_is_told_in_one_line_with_the_neares
       {"run", "run: INPUT is required; see `clusterbench run --help`"},
       {"schema confg",
        "schema: WHICH: no 'confg' (did you mean 'config'?); there are: config, result, comparison, "
-       "ratios, recommendation, stress, worst-case, size, light-map, dump, check; see `clusterbench schema --help`"},
+       "ratios, recommendation, stress, worst-case, size, light-map, dump, check, plugin-check; see `clusterbench "
+       "schema --help`"},
   };
   for (const auto& [line, message] : rows) {
     const Outcome done = tool(line);
