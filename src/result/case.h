@@ -42,8 +42,10 @@ struct Failure {
   FIELD(std::string, kind,
         About("Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of "
               "an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration. wrong_readings: a device "
-              "walked other lights than the structure has (reading)")
-            .one_of({"lost_pairs", "extra_pairs", "lost_at_samples", "dropped_pairs", "wrong_readings"}));
+              "walked other lights than the structure has (reading). crashed, timed_out, out_of_memory, failed: of a "
+              "plug-in, after the case was measured, as in broken")
+            .one_of({"lost_pairs", "extra_pairs", "lost_at_samples", "dropped_pairs", "wrong_readings", "crashed",
+                     "timed_out", "out_of_memory", "failed"}));
   FIELD(std::string, text, "The same for people, without the case's name");
   END_RECORD;
 };

@@ -1,6 +1,7 @@
 #pragma once
 // A result: the output of `clusterbench run`.
 
+#include "result/broken_case.h"
 #include "result/case.h"
 
 namespace clusterbench::result {
@@ -365,6 +366,10 @@ struct Result {
         "config.rank_by is frame_cost, in cost and bytes. What draws lights has no lists, so its bytes count as "
         "unknown. Only cases that are eligible, and none that samples search");
   FIELD(std::vector<Skipped>, skipped, "Combinations that cannot be");
+  FIELD(std::optional<std::vector<BrokenCase>>, broken,
+        About("Cases of plug-ins that were not measured to the end: the plug-in crashed, hung, took too much memory or "
+              "failed. Each fails the run. Absent where there are none")
+            .items(1, 0));
   FIELD(std::optional<std::vector<Preset>>, presets,
         "What is known of the presets that cases are of, as `clusterbench list presets` tells it; absent without any");
   FIELD(std::optional<std::vector<PresetRanking>>, preset_rankings,

@@ -8,9 +8,11 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "gpu/device/device.h"
+#include "os/call_notes.h"
 #include "os/machine.h"
 #include "run/case_result.h"
 #include "run/cases/path_frames.h"
+#include "run/findings/broken_cases.h"
 #include "run/findings/gate.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/details_pass.h"
@@ -232,6 +234,8 @@ class Run {
   }
 
   void report_progress(const GroupPlan& group, const char* stage, double cost) {
+    os::note_group(group.cases.front().id);
+    os::note_pass(stage);
     progress_.cost_done += cost;
     const std::string& name = group.cases.front().name;
     progress_.doing = name.substr(0, name.find('/', name.find('/', name.find('/') + 1) + 1)) + ": " + stage;
@@ -252,6 +256,9 @@ class Run {
       gpu::close_device();
       progress_.cost_done = done_before;
       run_apart(group, error.message(), out);
+    } catch (const assign::MethodError& error) {
+      progress_.cost_done = done_before;
+      run_without_broken(group, error, out);
     } catch (const Error& error) {
       throw Error(error.file(), name_of_group_ + (error.where().empty() ? "" : ": " + error.where()), error.message(),
                   error.code());
@@ -281,6 +288,32 @@ class Run {
       out.skipped.push_back({case_plan.name, reason, false, case_plan.preset});
     progress_.cases_done += group.cases.size();
     if (listener_.on_progress) listener_.on_progress(progress_);
+  }
+
+  // After a failure of a plug-in: its cases are broken, and the others of the group are measured again.
+  void run_without_broken(const GroupPlan& group, const assign::MethodError& error, Result& out) {
+    const std::uint64_t label = os::last_call().label;
+    const auto is_of_method = [&](const CasePlan& case_plan) {
+      return method_of(config_, case_plan).name == error.method();
+    };
+    const auto has_label = [&](const CasePlan& case_plan) { return label_of(case_plan.method()) == label; };
+    const bool is_known =
+        std::ranges::any_of(group.cases, [&](const CasePlan& one) { return has_label(one) && is_of_method(one); });
+    GroupPlan rest = group;
+    std::erase_if(rest.cases, [&](const CasePlan& one) { return is_of_method(one) && (!is_known || has_label(one)); });
+    for (const CasePlan& one : group.cases)
+      if (std::ranges::find(rest.cases, one.id, &CasePlan::id) == rest.cases.end())
+        add_broken(one, breakdown_of(error, method_of(config_, one).plugin), out);
+    if (rest.cases.size() == group.cases.size()) throw assign::MethodError(error);
+    progress_.cost_total -= cost_of_all(group);
+    if (!rest.cases.empty()) progress_.cost_total += cost_of_all(rest);
+    run_group(rest, out);
+  }
+
+  void add_broken(const CasePlan& case_plan, const Breakdown& breakdown, Result& out) {
+    out.broken.push_back(broken_case(config_, plan_, case_plan, breakdown));
+    ++progress_.cases_done;
+    if (listener_.on_broken) listener_.on_broken(out.broken.back());
   }
 
   double waiting_cost() const {
@@ -372,7 +405,21 @@ class Run {
   }
 
   void time_waiting(Result& out) {
-    if (waiting_.empty()) return;
+    while (!waiting_.empty()) {
+      std::size_t timed = 0;
+      try {
+        return time_waiting(out, timed);
+      } catch (const assign::MethodError& error) {
+        const GroupPlan group = waiting_[timed].group;
+        progress_.cost_done -= cost_of_all(group) - timing_cost_of(group);
+        waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(timed));
+        run_without_broken(group, error, out);
+      }
+    }
+  }
+
+  // `timed`: the group that a launch measures.
+  void time_waiting(Result& out, std::size_t& timed) {
     std::vector<GroupToTime> groups;
     for (const CountedGroup& counted_group : waiting_)
       groups.push_back({&counted_group.timed, fullest_frames(counted_group.timed, counted_group.counted)});
@@ -381,6 +428,7 @@ class Run {
     for (int launch = 0; launch < launches; ++launch) {
       const std::string stage = "time, launch " + std::to_string(launch + 1) + " of " + std::to_string(launches);
       std::vector<GroupSamples> measured = launcher_(groups, launch, rounds, [&](std::size_t group) {
+        timed = group;
         report_progress(*groups[group].group, stage.c_str(), timing_cost_of(*groups[group].group) / launches);
       });
       if (stop_ || measured.size() != groups.size()) return;

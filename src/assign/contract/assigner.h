@@ -180,6 +180,8 @@ struct AssignerDescriptor {
   std::unique_ptr<StructureAssigner> (*make_own)(const Params& params) = nullptr;
   // The reason why it cannot run on this machine, "" if it can. Null: it always can.
   std::string (*unavailable)(const Params& params) = nullptr;
+  // The plug-in that it comes from; "" for the program's own.
+  std::string plugin{};
 
   bool takes(grid::Kind kind) const;
   bool answers(Answer answer) const;

@@ -16,7 +16,9 @@
 #include "config/config.h"
 #include "core/file_text.h"
 #include "core/text.h"
+#include "os/rereadable_inputs.h"
 #include "os/stop_signals.h"
+#include "os/temporary_folder.h"
 #include "run/cases/plan.h"
 
 namespace clusterbench::cli {
@@ -66,8 +68,7 @@ ExitCode serve_run(const RunFlags& flags) {
   return ExitCode::ok;
 }
 
-ExitCode run(const RunFlags& flags) {
-  if (flags.serves_launch || !flags.count_dumps.empty()) return serve_run(flags);
+std::optional<ExitCode> run_part(const RunFlags& flags) {
   const config::Config config = read_config(flags);
   const CountWay way = count_way(flags.count);
   run::Plan plan = run::make_plan(config, flags.filter);
@@ -85,6 +86,29 @@ ExitCode run(const RunFlags& flags) {
   }
   if (!flags.baseline.binary.empty()) check_baseline(flags);
   return measure(flags, config, plan, way, exports);
+}
+
+// A run of its own methods alone is one process. With plug-ins it is several, which share the inputs, and, without a
+// result file, a journal in a folder of their own.
+ExitCode run(RunFlags& flags) {
+  if (flags.serves_launch || !flags.count_dumps.empty()) return serve_run(flags);
+  if (flags.rounds_server != 0 || !names_plugins(flags.inputs)) return *run_part(flags);
+  if (flags.dry_run || !flags.dump_folder.empty())
+    return run_guarded_once(flags.guard, ExitCode::gate_failed, [&] { return *run_part(flags); });
+  const os::RereadableInputs inputs(flags.inputs.paths);
+  std::optional<os::TemporaryFolder> folder;
+  std::optional<LaterOutput> output;  // a pipe stays open from the first part to the last one
+  if (is_stream(flags.output) && !flags.guard.is_in_process) {
+    folder.emplace();
+    output.emplace(flags.output, is_for_reading(flags.output));
+  }
+  return run_guarded(
+      flags.guard, [&] { inputs.rewind(); },
+      [&](const GuardedPart& part) {
+        flags.part = part;
+        if (folder) flags.part.result_file = (*folder / "result.json").string();
+        return run_part(flags);
+      });
 }
 
 }  // namespace

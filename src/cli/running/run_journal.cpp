@@ -46,12 +46,16 @@ std::vector<std::string> finished_ids(const RunFlags& flags, const config::Confi
   return report::finished_ids(flags.output, journal_header(flags, config, plan));
 }
 
-RunJournal::RunJournal(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
+RunJournal::RunJournal(const RunFlags& flags, const config::Config& config, const run::Plan& plan)
+    : is_kept_(has_journal(flags)) {
   constexpr std::uint64_t k_bytes_per_case = 24 << 10;
-  if (!has_journal(flags)) return;
+  const std::string file = is_kept_ ? flags.output : flags.part.result_file;
+  if (file.empty()) return;
+  const bool goes_on = flags.part.number > 0;
   const std::uint64_t per_case = k_bytes_per_case + (config.details ? config.details->max_bytes : 0);
-  journal_ = std::make_unique<report::Journal>(flags.output, journal_header(flags, config, plan), flags.resume,
+  journal_ = std::make_unique<report::Journal>(file, journal_header(flags, config, plan), flags.resume || goes_on,
                                                per_case * plan.case_count());
+  if (goes_on) return;
   if (flags.resume && journal_->is_empty())
     print_message("--resume begins anew: nothing that an interrupted run has measured is in " +
                   journal_->partial_path().string());
@@ -68,8 +72,12 @@ std::vector<std::string> RunJournal::earlier_ids() const {
   return journal_ ? journal_->earlier_ids() : std::vector<std::string>{};
 }
 
+std::vector<result::BrokenCase> RunJournal::earlier_broken() const {
+  return journal_ ? journal_->earlier_broken() : std::vector<result::BrokenCase>{};
+}
+
 std::string RunJournal::saved_cases_text() const {
-  if (!journal_ || journal_->is_empty()) return "";
+  if (!is_kept_ || journal_->is_empty()) return "";
   return "; what was measured is in " + journal_->partial_path().string() + ", --resume goes on";
 }
 
@@ -78,7 +86,7 @@ Error RunJournal::with_saved_cases(const Error& error) const {
 }
 
 ExitCode RunJournal::interrupted() const {
-  if (!journal_)
+  if (!is_kept_)
     print_message(
         "interrupted; nothing is kept without a file: -o FILE keeps each case as it is finished, and then --resume "
         "goes on");

@@ -76,6 +76,15 @@ void add_skipped(std::vector<result::Skipped>& all, const std::vector<result::Sk
       all.push_back(skip);
 }
 
+// A case that broke in one part and was measured in another is in the result by its figures, and fails.
+void add_broken(result::Result& all, const result::Result& part) {
+  if (!part.broken) return;
+  if (!all.broken) all.broken.emplace();
+  for (const result::BrokenCase& broken : *part.broken)
+    if (std::ranges::find(*all.broken, broken.id, &result::BrokenCase::id) == all.broken->end())
+      all.broken->push_back(broken);
+}
+
 Json merged_config(const std::vector<NamedPart>& parts) {
   const Json& first = parts.front().result.config;
   Json all = Json::array();
@@ -133,6 +142,7 @@ result::Result merged(const std::vector<NamedPart>& parts) {
     for (const result::Scene& scene : part.result.scenes) scenes.add(scene, part.file, true);
     for (const result::Case& result_case : part.result.cases) cases.add(result_case, part.file, false);
     add_skipped(out.skipped, part.result.skipped);
+    add_broken(out, part.result);
     if (part.result.failed) failed.insert(failed.end(), part.result.failed->begin(), part.result.failed->end());
   }
   out.pareto_front = fronts(out.scenes, out.cases, first);

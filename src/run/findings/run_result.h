@@ -30,6 +30,7 @@
 #include "measure/statistics/time_statistics.h"
 #include "measure/truth/list_errors.h"
 #include "os/processor.h"
+#include "result/broken_case.h"
 #include "run/cases/plan.h"
 #include "run/counters/instruction_counter.h"
 #include "run/findings/fit_meter.h"
@@ -334,7 +335,8 @@ struct Result {
   std::vector<SceneResult> scenes;
   std::vector<CaseResult> cases;
   std::vector<Skipped> skipped;
-  std::vector<std::string> planned_ids;  // of all cases of the plan, in its order
+  std::vector<result::BrokenCase> broken;  // that this process found
+  std::vector<std::string> planned_ids;    // of all cases of the plan, in its order
 };
 
 }  // namespace clusterbench::run

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/memory.h"
+#include "os/call_notes.h"
 
 namespace clusterbench::run {
 
@@ -51,6 +52,7 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
       pre_cull_(&frames.front().culls->path.of(method)),
       most_lights_(frames.front().culls->max_lights_of(method)) {
   const std::size_t all_frames = frames.size() + (extra == nullptr ? 0 : 1);
+  os::note_label(label_of(method));
   const config::MethodRequest& request = config.assigners[method.assigner];
   const assign::AssignerDescriptor& descriptor = *assign::find_assigner(request.name);
   if (method.answer == assign::Answer::lists) {
