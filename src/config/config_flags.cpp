@@ -4,6 +4,7 @@
 #include <array>
 #include <regex>
 
+#include "config/config_plugins.h"
 #include "config/presets/assigner_names.h"
 #include "config/presets/preset_library.h"
 #include "config/schema/documents.h"
@@ -64,6 +65,7 @@ class FlaggedConfig {
  public:
   explicit FlaggedConfig(JsonText& text) : text_(text) {}
 
+  const std::string& file() const { return text_.file; }
   Json& root() { return text_.value; }
   Json& operator[](const char* key) { return text_.value[key]; }
   void mark(const std::string& pointer, const FlagValue& flag) { text_.flags[pointer] = flag.shown(); }
@@ -218,6 +220,15 @@ void choose_assigners(FlaggedConfig& document, const FlagValue& flag) {
   document.mark("/assigners", flag);
 }
 
+// It is loaded already.
+void add_plugin(FlaggedConfig& document, const FlagValue& flag) {
+  const Json path = plugin_path_for(document.file(), flag.value);
+  Json& plugins = document["plugins"];
+  if (std::find(plugins.begin(), plugins.end(), path) != plugins.end()) return;
+  document.mark(child_pointer("/plugins", plugins.size()), flag);
+  plugins.push_back(path);
+}
+
 void choose_presets(FlaggedConfig& document, const FlagValue& flag) {
   document["presets"] = named_presets(split(flag.value), "", flag.shown());
   document.mark("/presets", flag);
@@ -334,6 +345,7 @@ constexpr FlagRow k_rows[] = {
     {{"--viewport", "WxH[,WxH]: image sizes in pixels, as 1920x1080"}, choose_viewports},
     {{"--assigner", "NAME[,NAME]: only these assigners; * and ? stand for any letters, as in '*-fast'"},
      choose_assigners},
+    {{"--plugin", "FILE, repeatable: a plug-in, whose methods can then be named (docs/plugins.md)", true}, add_plugin},
     {{"--preset",
       "NAME[,NAME]: clusterings as engines have them, alone or beside the configuration's own; see `list presets`"},
      choose_presets},

@@ -3,6 +3,7 @@
 // assigners/ that defines its descriptor, and one line in registry.inc; or an AssignerRegistration.
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -115,6 +116,9 @@ class ListAssigner : public Assigner {
  public:
   // Does not allocate in a steady state (as many pairs as before or fewer). Timed as the assignment.
   virtual void assign(const FrameInput& input, Lists& out) = 0;
+  // Of a method that nobody here has tested (a plug-in's): throws MethodError for lists of the last assign, with lights
+  // of these types, that break the rules of Lists, before anything reads them. Not timed.
+  virtual void check(const Lists&, const view::LightRanges&) const {}
 };
 
 // A method that makes its own light structure. Derive it from AssignerOf.
@@ -176,10 +180,10 @@ struct AssignerDescriptor {
   bool on_device = false;
   std::vector<ParamSpec> params;
   // The forms of its result, one or both; null: not available in this form.
-  std::unique_ptr<ListAssigner> (*make)(const Params& params) = nullptr;
-  std::unique_ptr<StructureAssigner> (*make_own)(const Params& params) = nullptr;
+  std::function<std::unique_ptr<ListAssigner>(const Params& params)> make = nullptr;
+  std::function<std::unique_ptr<StructureAssigner>(const Params& params)> make_own = nullptr;
   // The reason why it cannot run on this machine, "" if it can. Null: it always can.
-  std::string (*unavailable)(const Params& params) = nullptr;
+  std::function<std::string(const Params& params)> unavailable = nullptr;
   // The plug-in that it comes from; "" for the program's own.
   std::string plugin{};
 

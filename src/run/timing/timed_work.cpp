@@ -80,6 +80,8 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
   }
   if (extra_ != nullptr) assign_frame(frames.size());
   assign();
+  check();
+  if (extra_ != nullptr) check_frame(frames.size());
 }
 
 std::vector<std::size_t> TimedWork::frames_of_stores(std::size_t all_frames) {
@@ -139,6 +141,14 @@ void TimedWork::assign_frame(std::size_t frame) {
     lists_assigner_->assign(input, lists_[frame]);
   else
     structure_assigner_->assign(input, *structures_[frame]);
+}
+
+void TimedWork::check_frame(std::size_t frame) const {
+  if (lists_assigner_) lists_assigner_->check(lists_[frame], lights(frame));
+}
+
+void TimedWork::check() const {
+  for (std::size_t i = 0; i < frames_.size(); ++i) check_frame(i);
 }
 
 std::size_t TimedWork::builds() const {

@@ -1,0 +1,19 @@
+#pragma once
+// The plug-ins of a configuration. They are loaded before it is read: its methods and their parameters may be theirs.
+
+#include <span>
+
+#include "config/config_flags.h"
+#include "config/schema/json_text.h"
+
+namespace clusterbench::config {
+
+// Loads those of the key `plugins` and of --plugin. Of a method that has a plug-in's name ("acme.tiles") and is not
+// known then, it looks for acme.so in the folders of CLUSTERBENCH_PLUGIN_PATH, and adds what it finds to the key.
+// Throws Error.
+void load_plugins(JsonText& text, std::span<const FlagValue> flags);
+
+// A file of --plugin as it is written into this configuration: relative to its folder.
+std::string plugin_path_for(const std::string& configuration, const std::string& given);
+
+}  // namespace clusterbench::config
