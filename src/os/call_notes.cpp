@@ -91,6 +91,9 @@ ForeignCall::~ForeignCall() {
 }
 
 std::uint32_t note_code(std::string_view name) {
+  const std::uint32_t known = std::min<std::uint32_t>(g_page->codes, NotesPage::k_codes - 1);
+  for (std::uint32_t index = 0; index < known; ++index)
+    if (g_page->names[index].text() == name) return index;
   const std::uint32_t index = std::min<std::uint32_t>(g_page->codes.fetch_add(1), NotesPage::k_codes - 1);
   g_page->names[index].set(index + 1 < NotesPage::k_codes ? name : "one of more than 32 plug-ins");
   return index;

@@ -47,17 +47,19 @@ std::vector<clusterbench_value> values_of(std::span<const assign::ParamSpec> spe
 }
 
 PluginMethod::PluginMethod(const MethodFacts& facts, std::string file, const assign::Params& params)
-    : facts_(facts), file_(std::move(file)) {
+    : facts_(facts), file_(std::move(file)), caller_{os::note_code(facts.descriptor.plugin), os::noted_label()} {
   error_ = {sizeof error_, static_cast<std::uint32_t>(text_.size()), text_.data()};
   create(params);
 }
 
 PluginMethod::~PluginMethod() {
+  const os::ForeignCall call(caller_, os::CallStep::destroy);
   facts_.table.destroy(instance_);
 }
 
 void PluginMethod::create(const assign::Params& params) {
   const std::vector<clusterbench_value> values = values_of(facts_.descriptor.params, params);
+  const os::ForeignCall call(caller_, os::CallStep::create);
   expect(facts_.table.create(facts_.own, values.data(), static_cast<std::uint32_t>(values.size()), &instance_, &error_),
          "create()");
 }
@@ -75,12 +77,14 @@ void PluginMethod::expect(clusterbench_status status, const char* doing) const {
 void PluginMethod::build(const grid::Grid& grid, const assign::LightKinds& kinds) {
   grid_ = view_of(grid);
   text_.front() = '\0';
+  const os::ForeignCall call(caller_, os::CallStep::build);
   expect(facts_.table.build(instance_, &grid_, light_types_of(kinds), &error_), "build()");
 }
 
 bool PluginMethod::fill(const clusterbench_frame& frame, const clusterbench_lights& lights, assign::Lists& out) {
   last_ = {sizeof last_, grid_.cell_count, out.begin.data(), out.lights.data(), out.lights.size(), 0, 0, 0, 0};
   text_.front() = '\0';
+  const os::ForeignCall call(caller_, os::CallStep::assign, frame_);
   const clusterbench_status status = facts_.table.assign(instance_, &frame, &lights, &last_, &error_);
   if (status == CLUSTERBENCH_MORE) return false;
   expect(status, "assign()");
@@ -91,6 +95,7 @@ bool PluginMethod::fill(const clusterbench_frame& frame, const clusterbench_ligh
 }
 
 void PluginMethod::assign(const assign::FrameInput& input, assign::Lists& out) {
+  frame_ = input.frame.index;
   const clusterbench_frame frame = view_of(input.frame, input.depth);
   const clusterbench_lights lights = view_of(input.lights);
   const std::uint64_t most = most_pairs(grid_, input.lights);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "assign/contract/assigner.h"
+#include "os/call_notes.h"
 #include "plugin/read_plugin.h"
 
 namespace clusterbench::plugin {
@@ -43,6 +44,8 @@ class PluginMethod final : public assign::ListAssigner {
   clusterbench_error error_{};
   clusterbench_grid grid_{};
   clusterbench_lists last_{};
+  os::Caller caller_;
+  int frame_ = -1;  // that is assigned
   void* instance_ = nullptr;
 };
 

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/text.h"
+#include "os/call_notes.h"
 #include "os/shared_library.h"
 #include "plugin/plugin_method.h"
 
@@ -43,6 +44,7 @@ std::string content_of_library(const fs::path& file) {
 }
 
 PluginFacts facts_of(const fs::path& file) {
+  const os::ForeignCall call({os::note_code(file.filename().string()), 0}, os::CallStep::load);
   const os::SharedLibrary library(file);
   using Entry = const clusterbench_plugin* (*)(const clusterbench_host*);
   const auto entry = reinterpret_cast<Entry>(library.symbol(k_entry));

@@ -10,12 +10,14 @@
 #include <chrono>
 #include <cmath>
 
+#include "assign/contract/method_error.h"
 #include "core/error.h"
 #include "geom/light_meets_cell.h"
 #include "geom/shapes/light_volume.h"
 #include "geom/shapes/verdict.h"
 #include "gpu/device/device.h"
 #include "measure/truth/truth.h"
+#include "os/call_notes.h"
 #include "stress/contact.h"
 #include "stress/stress_run.h"
 
@@ -383,8 +385,11 @@ SearchResult search_for_losses(const StressMethod& method, const StressRequest& 
     }
     on_progress(result.tries);
   };
+  os::note_setting("--cases '^H31$' --seed " + std::to_string(request.seed) + ", method " + method.label);
   while (!is_over(result.tries) && result.fault.empty()) try {
       climb_once();
+    } catch (const assign::MethodError& error) {
+      result.fault = error.message();
     } catch (const gpu::DeviceError& error) {
       result.fault = error.message();
     }

@@ -16,6 +16,7 @@
 #include "config/config.h"
 #include "core/file_text.h"
 #include "core/text.h"
+#include "os/call_notes.h"
 #include "os/rereadable_inputs.h"
 #include "os/stop_signals.h"
 #include "os/temporary_folder.h"
@@ -68,8 +69,18 @@ ExitCode serve_run(const RunFlags& flags) {
   return ExitCode::ok;
 }
 
+// names_plugins() does not look into a pipe.
+void refuse_unguarded(const RunFlags& flags, const config::Config& config) {
+  const bool is_guarded = os::is_guarded() || flags.guard.is_in_process || flags.rounds_server != 0;
+  if (is_guarded || !config.resolved.contains("plugins") || config.resolved["plugins"].empty()) return;
+  throw Error(config.file.string(), "/plugins",
+              "cannot be taken from a configuration that comes through a pipe; save it to a file, or name them by "
+              "--plugin");
+}
+
 std::optional<ExitCode> run_part(const RunFlags& flags) {
   const config::Config config = read_config(flags);
+  refuse_unguarded(flags, config);
   const CountWay way = count_way(flags.count);
   run::Plan plan = run::make_plan(config, flags.filter);
   if (flags.rounds_server != 0) return serve(flags, config, plan);

@@ -8,7 +8,10 @@
 
 #include "cli/output/output.h"
 #include "core/error.h"
+#include "core/file_text.h"
+#include "core/json_document.h"
 #include "core/text.h"
+#include "plugin/plugins.h"
 #include "report/documents/result_file.h"
 #include "report/results/measured_prices.h"
 #include "run/scene_facts.h"
@@ -50,8 +53,25 @@ std::vector<config::FlagValue> flag_values(const RunInputs& inputs) {
   return all;
 }
 
-bool names_plugins(const RunInputs& /*inputs*/) {
-  return std::getenv("CLUSTERBENCH_TRY_GUARD") != nullptr;  // TODO until `plugin` is merged
+namespace {
+
+bool is_of_plugins(const config::FlagValue& flag) {
+  return flag.name == "--plugin" || (flag.name == "--set" && flag.value.starts_with("plugins"));
+}
+
+bool has_plugins(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none) || is_stream_name(path) || is_scene(path)) return false;
+  const auto config = json_or_discarded<nlohmann::json>(file_text(path), JsonComments::allowed);
+  return config.is_object() && config.contains("plugins") && !config["plugins"].empty();
+}
+
+}  // namespace
+
+bool names_plugins(const RunInputs& inputs) {
+  const char* folders = std::getenv(plugin::k_path_variable);
+  return std::ranges::any_of(flag_values(inputs), is_of_plugins) || (folders != nullptr && *folders != '\0') ||
+         std::ranges::any_of(inputs.paths, has_plugins);
 }
 
 bool is_scene(const std::string& path) {

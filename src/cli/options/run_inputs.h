@@ -28,7 +28,8 @@ void add_config_options(Command& command, RunInputs& inputs, const std::vector<s
 // The flags that were given, in the order of config_flags().
 std::vector<config::FlagValue> flag_values(const RunInputs& inputs);
 
-// Whether the command may load plug-ins: --plugin, the configuration's key `plugins`, or the path variable name some.
+// Whether the command may load plug-ins: by --plugin, --set, the path variable, or a configuration's key `plugins`. A
+// configuration that comes through a pipe is not looked into.
 bool names_plugins(const RunInputs& inputs);
 
 bool is_scene(const std::string& path);  // by its extension or its content (scene/gltf_document/exporters.h)
