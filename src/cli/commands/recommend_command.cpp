@@ -8,6 +8,7 @@
 
 #include "assign/contract/assigner.h"
 #include "cli/command_line/commands.h"
+#include "cli/options/guarded_command.h"
 #include "cli/options/run_inputs.h"
 #include "cli/output/duration.h"
 #include "cli/output/output.h"
@@ -40,6 +41,7 @@ constexpr double k_no_limit = -1.0;
 
 struct RecommendFlags {
   RunInputs inputs;
+  GuardFlags guard;
   std::string output, written, objective, within = "5%", filter;
   std::vector<double> most = std::vector<double>(report::objective_figures().size(), k_no_limit);  // by figure
   int runners_up = 5, written_runners_up = 0;
@@ -347,9 +349,12 @@ void add_recommend(Command& program, Action& action) {
                   "Only candidates whose cases' names have this in them, or match it as a regular expression")
       .may_be_empty();
   add_config_options(command, flags->inputs);
+  add_guard_options(command, flags->guard);
   command.add_flag("--no-timing", flags->no_timing, "Nothing is timed; the answer is then the same on every machine");
   command.add_flag("-q,--quiet", flags->quiet, "No progress; warnings stay");
-  command.when_named([flags, &action] { action = [flags] { return recommend(*flags); }; });
+  command.when_named([flags, &action] {
+    action = [flags] { return guarded_if_needed(flags->inputs, flags->guard, [&] { return recommend(*flags); }); };
+  });
 }
 
 }  // namespace clusterbench::cli

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "core/text.h"
-#include "report/cases/columns.h"
 #include "os/stop_signals.h"
 #include "os/terminal.h"
+#include "report/cases/columns.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -128,6 +128,10 @@ ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::fun
   if (stop) return os::stopped_exit_code();
   const Casualty casualty = casualty_of(*end, flags);
   refuse(casualty, casualty.call.step == os::CallStep::load ? ExitCode::usage : code);
+}
+
+ExitCode guarded_if_needed(const RunInputs& inputs, const GuardFlags& flags, const std::function<ExitCode()>& command) {
+  return names_plugins(inputs) ? run_guarded_once(flags, ExitCode::gate_failed, command) : command();
 }
 
 }  // namespace clusterbench::cli

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/command_line/command.h"
+#include "cli/options/run_inputs.h"
 #include "core/error.h"
 #include "os/guarded_process.h"
 
@@ -45,5 +46,8 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
 
 // The same for a command of one part: if it dies, throws Error with the reason, and `code`.
 ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::function<ExitCode()>& command);
+
+// The same for a command with these inputs, if they name plug-ins; else it stays in this process.
+ExitCode guarded_if_needed(const RunInputs& inputs, const GuardFlags& flags, const std::function<ExitCode()>& command);
 
 }  // namespace clusterbench::cli
