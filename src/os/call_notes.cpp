@@ -24,6 +24,8 @@ NotesPage* g_page = &g_own_page;
 int g_file = -1;
 std::string g_joined;  // NOLINT(cert-err58-cpp): an empty string throws nothing
 
+constexpr auto k_relaxed = std::memory_order_relaxed;
+
 thread_local ThreadNotes* t_notes = nullptr;
 thread_local std::uint64_t t_label = 0;
 
@@ -73,21 +75,35 @@ const char* name_of(CallStep step) {
 }
 
 ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) {
-  constexpr auto k_any = std::memory_order_relaxed;
   ThreadNotes& notes = thread_notes();
-  notes.code.store(caller.code, k_any);
-  notes.label.store(caller.label, k_any);
-  notes.step.store(static_cast<std::uint32_t>(step), k_any);
-  notes.frame.store(frame, k_any);
-  if (notes.resident_before.load(k_any) == 0) notes.resident_before = resident_bytes(::getpid());
-  g_page->last_thread.store(static_cast<int>(&notes - g_page->threads.data()), k_any);
-  g_page->has_called.store(true, k_any);
-  notes.begun.store(notes.begun.load(k_any) + 1, std::memory_order_release);
+  if (step == CallStep::destroy) {
+    label_before_ = notes.label;
+    code_before_ = notes.code;
+    step_before_ = notes.step;
+    frame_before_ = notes.frame;
+  }
+  notes.code.store(caller.code, k_relaxed);
+  notes.label.store(caller.label, k_relaxed);
+  notes.step.store(static_cast<std::uint32_t>(step), k_relaxed);
+  notes.frame.store(frame, k_relaxed);
+  if (notes.resident_before.load(k_relaxed) == 0) notes.resident_before = resident_bytes(::getpid());
+  g_page->last_thread.store(static_cast<int>(&notes - g_page->threads.data()), k_relaxed);
+  g_page->has_called.store(true, k_relaxed);
+  notes.begun.store(notes.begun.load(k_relaxed) + 1, std::memory_order_release);
 }
 
 ForeignCall::~ForeignCall() {
   ThreadNotes& notes = thread_notes();
-  notes.ended.store(notes.ended.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  notes.ended.store(notes.ended.load(k_relaxed) + 1, std::memory_order_release);
+  if (notes.step.load(k_relaxed) != static_cast<std::uint32_t>(CallStep::destroy)) return;
+  notes.label = label_before_;
+  notes.code = code_before_;
+  notes.step = step_before_;
+  notes.frame = frame_before_;
+}
+
+void note_frame(int frame) {
+  if (t_notes != nullptr) t_notes->frame = frame;
 }
 
 std::uint32_t note_code(std::string_view name) {

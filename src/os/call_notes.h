@@ -26,6 +26,12 @@ class ForeignCall {
   ~ForeignCall();
   ForeignCall(const ForeignCall&) = delete;
   ForeignCall& operator=(const ForeignCall&) = delete;
+
+ private:
+  // Destroying is what errors lead to: once it has returned, the call before it is the last one again.
+  std::uint64_t label_before_ = 0;
+  std::uint32_t code_before_ = 0, step_before_ = 0;
+  int frame_before_ = -1;
 };
 
 // Gives foreign code a number. All after the 32nd have one number in common. Texts in notes are cut to 100 bytes.
@@ -47,6 +53,9 @@ struct LastCall {
   std::string pass;
 };
 LastCall last_call();
+
+// The frame that a check after the calls is about, in place of that of the last call.
+void note_frame(int frame);
 
 // Whether a guard reads the notes.
 bool is_guarded();

@@ -167,7 +167,6 @@ GuardedEnd watched(pid_t copy, const Guard::Limits& limits, const std::atomic<bo
 }  // namespace
 
 Guard::Guard(const Limits& limits) : limits_(limits) {
-  stop_on_signals();
   share_notes().message.set("");
 }
 

@@ -44,7 +44,8 @@ class Guard {
   explicit Guard(const Limits& limits);
 
   // Makes a copy of this process. Returns nothing in the copy, which goes on, and in this process the end of the copy.
-  // Once `stop` is true the copy gets the same signal; the one that a terminal sends to both does not reach it.
+  // `stop`: of stop_on_signals(). Once it is true the copy gets the same signal; the one that a terminal sends to both
+  // does not reach it.
   std::optional<GuardedEnd> run(const std::atomic<bool>& stop);
 
   // Text that an earlier copy left with leave_message(); cut to 1000 bytes.

@@ -233,9 +233,14 @@ class Run {
            reading_cost_of(group) + timing_cost_of(group);
   }
 
-  void report_progress(const GroupPlan& group, const char* stage, double cost) {
+  // For whoever has to tell in which work a plug-in broke down.
+  static void note(const GroupPlan& group, const char* stage) {
     os::note_group(group.cases.front().id);
     os::note_pass(stage);
+  }
+
+  void report_progress(const GroupPlan& group, const char* stage, double cost) {
+    note(group, stage);
     progress_.cost_done += cost;
     const std::string& name = group.cases.front().name;
     progress_.doing = name.substr(0, name.find('/', name.find('/', name.find('/') + 1) + 1)) + ": " + stage;
@@ -324,6 +329,7 @@ class Run {
 
   void count_group(GroupPlan group, Result& out) {
     name_of_group_ = group.cases.front().name;
+    note(group, "truth and counts");
     const SceneData& data = plan_.scenes[group.scene];
     const PathFrames path = run::path_of(config_, plan_, group);
     const grid::GridSpec& spec = config_.grids[group.grid];
@@ -354,6 +360,7 @@ class Run {
     }
     if (config_.stability) {
       const double cost = stability_cost_of(group);
+      note(group, "stability");
       counted_group.stabilities = stability_pass(
           config_, group, path, [&](double share) { report_progress(group, "stability", cost * share); }, stop_);
       if (counted_group.stabilities.empty()) return;
@@ -396,6 +403,7 @@ class Run {
   void time_here(CountedGroup& counted_group, const PathFrames& path, Result& out) {
     const LaunchRequest request{0, config_.timing.rounds, fullest_frames(counted_group.timed, counted_group.counted)};
     const double per_round = timing_cost_of(counted_group.group) / request.rounds;
+    note(counted_group.group, "time");
     const GroupSamples samples = measure_launch(
         config_, counted_group.timed, path, request,
         [&](int) { report_progress(counted_group.group, "time", per_round); }, stop_);

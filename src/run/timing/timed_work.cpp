@@ -144,6 +144,7 @@ void TimedWork::assign_frame(std::size_t frame) {
 }
 
 void TimedWork::check_frame(std::size_t frame) const {
+  os::note_frame(path_frame(frame));
   if (lists_assigner_) lists_assigner_->check(lists_[frame], lights(frame));
 }
 
