@@ -64,11 +64,11 @@ set(CLUSTERBENCH_ABOVE "")
 # Layers that leave the long work to others and whose code is not timed, but for the files of run that CMakeLists.txt names.
 # With -Og they build in half the time that -O3 takes, and as fast as with -O0; reading and writing a result takes half as
 # long again as with -O1 (0.7 MB: 0.1 s).
-set(CLUSTERBENCH_UNTIMED_LAYERS os result layout gpu config dump run pictures stress search report cli)
+set(CLUSTERBENCH_UNTIMED_LAYERS os result layout gpu config dump run pictures stress acceptance search report cli)
 
 # Layers that spend no time of their own. Sanitized code takes long to build where it is optimised, and longest where it
 # is written for many vectors; so only the other layers are, a little.
-set(CLUSTERBENCH_COLD_LAYERS os result layout gpu config dump run pictures stress search report cli)
+set(CLUSTERBENCH_COLD_LAYERS os result layout gpu config dump run pictures stress acceptance search report cli)
 set(CLUSTERBENCH_COLD_OPTIONS "")
 if(CLUSTERBENCH_SANITIZE)
   set(CLUSTERBENCH_COLD_OPTIONS -O0)

@@ -165,6 +165,14 @@ export type Result = {
   date?: string; // When the run began: UTC, ISO 8601. Absent where nothing is timed, so that such results are the same whenever they are made
   command?: string; // The command line. Absent where nothing is timed
   tool: Tool; // The program that measured
+  plugins?: Array<{
+    id: string; // First part of the names of its methods: ID.METHOD
+    name: string; // For people
+    version: string; // Its own
+    file: string; // Its name, without its folder
+    sha256: string; // Hash of the file: another one is another build
+    interface_version: string; // That it was made for, as 1.0
+  }>; // Shared libraries that cases' methods come from. Absent without any
   machine: {
     cpu: string; // The processor's name
     family?: string; // The vendor's number, on ARM the implementer's; absent if unknown

@@ -89,13 +89,12 @@ enum {
 
 /* What a method is, as bits. Those that a program does not know are ignored. */
 enum {
-  CLUSTERBENCH_CONSERVATIVE =
-      1,                  /* lists every light in every cell that it reaches; one that is missing fails the run */
-  CLUSTERBENCH_EXACT = 2, /* and in no other cell */
+  CLUSTERBENCH_CONSERVATIVE = 1, /* lists every light in every cell that it reaches; one that is missing fails the run.
+                                    Not for methods that leave out what no visible surface needs */
+  CLUSTERBENCH_EXACT = 2,        /* and in no other cell */
   CLUSTERBENCH_ORTHOGRAPHIC = 4, /* takes orthographic cameras, too */
   CLUSTERBENCH_ALL_PAIRS = 8,    /* tests every light against every cell: slow, for comparison */
-  CLUSTERBENCH_BY_NAME = 16,     /* runs only where it is named */
-  CLUSTERBENCH_AT_SURFACES = 32  /* needs depth, and lists only lights of the visible surfaces */
+  CLUSTERBENCH_BY_NAME = 16      /* runs only where it is named */
 };
 
 enum {

@@ -45,7 +45,9 @@ class PluginMethod final : public assign::ListAssigner {
   clusterbench_grid grid_{};
   clusterbench_lists last_{};
   os::Caller caller_;
-  int frame_ = -1;  // that is assigned
+  int frame_ = -1;                              // that is assigned
+  mutable std::vector<std::uint32_t> checked_;  // of check()
+  std::uint64_t unused_ = 0;                    // the most room that it has asked for and not filled
   void* instance_ = nullptr;
 };
 

@@ -43,14 +43,14 @@ std::string content_of_library(const fs::path& file) {
   return content;
 }
 
-PluginFacts facts_of(const fs::path& file) {
+PluginFacts facts_of(const fs::path& file, const std::string& id) {
   const os::ForeignCall call({os::note_code(file.filename().string()), 0}, os::CallStep::load);
   const os::SharedLibrary library(file);
   using Entry = const clusterbench_plugin* (*)(const clusterbench_host*);
   const auto entry = reinterpret_cast<Entry>(library.symbol(k_entry));
   if (entry == nullptr)
     throw Error(file.string(), "", std::string("is no plug-in: it exports no function ") + k_entry + "()");
-  return read_plugin(file.string(), entry(&host()));
+  return read_plugin(file.string(), entry(&host()), id);
 }
 
 std::string why_unavailable(const MethodFacts& method) {
@@ -61,6 +61,7 @@ std::string why_unavailable(const MethodFacts& method) {
 
 struct Registered {
   LoadedPlugin plugin;
+  std::string given_id;
   std::deque<assign::AssignerRegistration> methods;
 };
 
@@ -105,18 +106,29 @@ std::vector<fs::path> folders_on_path() {
 
 }  // namespace
 
-const LoadedPlugin& load_plugin(const fs::path& given) {
+PluginName plugin_name(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || !is_name(std::string_view(text).substr(0, equals))) return {"", text};
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+const LoadedPlugin& load_plugin(const fs::path& given, const std::string& id) {
   const fs::path file = absolute_path(given);
   const std::string sha256 = sha256_hex(content_of_library(file));
   if (const Registered* before = same_file(file)) {
     if (before->plugin.sha256 != sha256)
       throw Error(file.string(), "", "has changed since it was loaded; start the program again");
+    if (before->given_id != id)
+      throw Error(file.string(), "",
+                  "is loaded already, with the id '" + before->plugin.facts.id + "'; a copy of it can have another");
     return before->plugin;
   }
-  PluginFacts facts = facts_of(file);
+  PluginFacts facts = facts_of(file, id);
   if (const LoadedPlugin* other = find_plugin(facts.id))
-    throw Error(file.string(), "", "has the id '" + facts.id + "', and so has " + other->file.string());
+    throw Error(file.string(), "",
+                "has the id '" + facts.id + "', and so has " + other->file.string() + "; ID=FILE gives it another");
   Registered& added = loaded().emplace_back();
+  added.given_id = id;
   added.plugin = {file, sha256, std::move(facts)};
   for (const MethodFacts& method : added.plugin.facts.methods)
     added.methods.emplace_back(runnable(method, file.string()));
@@ -132,7 +144,7 @@ const LoadedPlugin* find_plugin(const std::string& id) {
 PluginFacts describe_plugin(const fs::path& given) {
   const fs::path file = absolute_path(given);
   content_of_library(file);
-  return facts_of(file);
+  return facts_of(file, "");
 }
 
 fs::path file_on_path(const std::string& id) {

@@ -15,10 +15,20 @@ struct LoadedPlugin {
   PluginFacts facts;
 };
 
+// A plug-in as users name it: FILE, or ID=FILE to have its methods named ID.METHOD, so that two builds of it run side
+// by side. A file whose own name begins so is named with its folder ("./a=b.so").
+struct PluginName {
+  std::string id;  // "": its own
+  std::string file;
+
+  std::string text() const { return id.empty() ? file : id + "=" + file; }
+};
+PluginName plugin_name(const std::string& text);
+
 // Loads a plug-in's file, unless it is loaded already, and registers its methods. Not while methods run. Throws Error,
-// which names the file and says what is wrong: it is missing, no shared library, no plug-in, of another version; it has
-// the id of another file; it has changed since it was loaded.
-const LoadedPlugin& load_plugin(const std::filesystem::path& file);
+// which names the file and says what is wrong: it is missing, no shared library, no plug-in, of another version;
+// another file has its id; it has changed since it was loaded, or was loaded with another id. `id`: "" for its own.
+const LoadedPlugin& load_plugin(const std::filesystem::path& file, const std::string& id = "");
 
 // The loaded plug-in with this id; null if there is none.
 const LoadedPlugin* find_plugin(const std::string& id);

@@ -51,10 +51,15 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-std::string name_of(const char* given, std::string_view others, const Place& place) {
-  const std::string name = text_of(given, k_longest_name, place);
+bool is_name_with(std::string_view name, std::string_view others) {
   const auto is_allowed = [&](char c) { return is_letter(c) || is_digit(c) || others.find(c) != others.npos; };
-  if (!is_letter(name.front()) || !std::ranges::all_of(name, is_allowed))
+  return !name.empty() && name.size() <= k_longest_name && is_letter(name.front()) &&
+         std::ranges::all_of(name, is_allowed);
+}
+
+std::string name_of(const char* given, std::string_view others, const Place& place) {
+  std::string name = text_of(given, k_longest_name, place);
+  if (!is_name_with(name, others))
     place.fail("is '" + name + "'; takes lower-case letters, digits and " + (others.size() > 1 ? "'-', '_'" : "'-'") +
                ", beginning with a letter");
   return name;
@@ -146,9 +151,7 @@ void read_bits(const clusterbench_method& given, const Place& place, assign::Ass
   out.orthographic = has(given.flags, CLUSTERBENCH_ORTHOGRAPHIC);
   out.all_pairs = has(given.flags, CLUSTERBENCH_ALL_PAIRS);
   out.by_name = has(given.flags, CLUSTERBENCH_BY_NAME);
-  out.at_surfaces = has(given.flags, CLUSTERBENCH_AT_SURFACES);
   if (out.exact && !out.conservative) place.fail("says that it is exact, but not that it is conservative");
-  if (out.at_surfaces && !out.needs.depth) place.fail("says CLUSTERBENCH_AT_SURFACES without CLUSTERBENCH_NEEDS_DEPTH");
 }
 
 void check_functions(const clusterbench_method& given, const Place& place) {
@@ -197,7 +200,11 @@ std::string version_text(std::uint32_t major, std::uint32_t minor) {
 
 }  // namespace
 
-PluginFacts read_plugin(const std::string& file, const clusterbench_plugin* given) {
+bool is_name(std::string_view text) {
+  return is_name_with(text, "-");
+}
+
+PluginFacts read_plugin(const std::string& file, const clusterbench_plugin* given, const std::string& id) {
   const Place place{file, ""};
   if (given == nullptr) place.fail("does not work with this program: clusterbench_plugin_entry() returned no plug-in");
   if (given->struct_size < offsetof(clusterbench_plugin, method_count))
@@ -210,6 +217,7 @@ PluginFacts read_plugin(const std::string& file, const clusterbench_plugin* give
   PluginFacts out;
   out.minor = known.minor;
   out.id = name_of(known.id, "-", place.at("id"));
+  if (!id.empty()) out.id = id;
   out.name = text_of(known.name, k_longest_text, place.at("name"));
   out.version = text_of(known.version, k_longest_name, place.at("version"));
   if (known.method_count == 0 || known.method_count > k_most_methods)

@@ -23,8 +23,11 @@ struct PluginFacts {
   std::vector<MethodFacts> methods;
 };
 
-// `file`: for messages. Throws Error for a plug-in of another major version, and with the place of any member that is
-// not as clusterbench_plugin.h says.
-PluginFacts read_plugin(const std::string& file, const clusterbench_plugin* given);
+// `file`: for messages. `id`: in place of its own in the names of methods; "" for its own. Throws Error for a plug-in
+// of another major version, and with the place of any member that is not as clusterbench_plugin.h says.
+PluginFacts read_plugin(const std::string& file, const clusterbench_plugin* given, const std::string& id = "");
+
+// May a plug-in, or a method, be named so: lower-case letters, digits and '-', beginning with a letter, at most 64?
+bool is_name(std::string_view text);
 
 }  // namespace clusterbench::plugin

@@ -104,6 +104,17 @@ struct Device {
   END_RECORD;
 };
 
+struct Plugin {
+  RECORD(Plugin);
+  FIELD(std::string, id, "First part of the names of its methods: ID.METHOD");
+  FIELD(std::string, name, "For people");
+  FIELD(std::string, version, "Its own");
+  FIELD(std::string, file, "Its name, without its folder");
+  FIELD(std::string, sha256, "Hash of the file: another one is another build");
+  FIELD(std::string, interface_version, "That it was made for, as 1.0");
+  END_RECORD;
+};
+
 struct SceneLights {
   RECORD(SceneLights);
   FIELD(std::uint64_t, point, "Point lights");
@@ -353,6 +364,8 @@ struct Result {
         "they are made");
   FIELD(std::optional<std::string>, command, "The command line. Absent where nothing is timed");
   FIELD(Tool, tool, "The program that measured");
+  FIELD(std::optional<std::vector<Plugin>>, plugins,
+        About("Shared libraries that cases' methods come from. Absent without any").items(1, 0));
   FIELD(Machine, machine, "Where it was measured");
   FIELD(std::optional<Device>, device,
         "The device of the cases whose method runs on one (assigner.on_device). Absent where there are none");

@@ -4,6 +4,7 @@
 #include <random>
 #include <set>
 
+#include "config/config_plugins.h"
 #include "config/presets/preset_library.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -125,6 +126,7 @@ class Run {
     Result out;
     out.config_name = config_.name;
     out.tool = tool_facts();
+    out.plugins = config::plugins_of(config_);
     out.machine = machine_facts();
     out.device = device_of(config_, plan_);
     if (out.device) out.arithmetic = known_arithmetic();

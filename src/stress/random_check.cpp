@@ -176,17 +176,19 @@ class SettingCheck {
   void run_methods() {
     for (const StressMethod& method : methods_) {
       if (!is_checked(method)) continue;
-      if (method.assigner->needs.depth) {  // its cells are not the grid's
+      if (method.assigner->needs.depth && method.answer == assign::Answer::structure) {  // its cells are not the grid's
         check_occupied(method);
         continue;
       }
       Answer answer{&method, {}};
       try {
         assign::AssignerRun run = method.start();
+        const depth::DepthImage depths = depths_for(*method.assigner, frame_);
+        const assign::FrameInput input = input_of(frame_, lights_, depths);
         run.build(grid_);
-        run.assign({frame_, lights_});
+        run.assign(input);
         answer.lists = run.cell_lists();
-        run.assign({frame_, lights_});
+        run.assign(input);
         const assign::Lists& filled = run.filled_lists() ? *run.filled_lists() : answer.lists;
         if (!assign::lists_fault(filled, grid_.cell_count(), lights_).empty()) {
           add(FaultKind::lists, method.label, "what it gave are no lists", 0, 0);

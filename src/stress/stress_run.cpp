@@ -74,13 +74,12 @@ void add_trial(StressCell& cell, const StressMethod& method, const Trial& trial,
   os::note_setting("--cases '^" + cell.hard_case + "$', method " + method.label + ", " + trial.label);
   try {
     add_lists(cell, method, trial, at);
-  } catch (const assign::MethodError& error) {
-    cell.is_ended = true;
-    cell.faults.push_back(trial.label + ": " + error.message() + "; no further trial of this case");
   } catch (const gpu::DeviceError& error) {
     gpu::close_device();
     cell.is_ended = true;
     cell.faults.push_back(trial.label + ": " + error.message() + "; no further trial of this case");
+  } catch (const assign::MethodError& error) {
+    cell.faults.push_back(trial.label + ": " + error.message());
   }
 }
 

@@ -15,6 +15,7 @@
 #include "cli/output/progress_line.h"
 #include "cli/processes/launches.h"
 #include "config/config.h"
+#include "config/config_plugins.h"
 #include "config/presets/preset_library.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
@@ -112,6 +113,7 @@ void refuse_devices(const config::Config& config) {
 
 // `ignored`: receives the keys that are left out.
 config::Config read_input(const RecommendFlags& flags, std::string& ignored) {
+  config::load_plugins(flag_values(flags.inputs));  // their methods are candidates, too
   nlohmann::json defaults = search::recommend_space();
   defaults["samples"] = {{"opaque", {{"divisor", 16}}}};
   config::Config config = read_inputs(flags.inputs, {}, defaults);

@@ -1,4 +1,5 @@
-// `clusterbench schema config|result|comparison|ratios|recommendation|stress|worst-case|size|light-map|dump|check` and
+// `clusterbench schema
+// config|result|comparison|ratios|recommendation|stress|worst-case|size|light-map|dump|check|plugin-check` and
 // `clusterbench validate FILE...`.
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <iostream>
 
 #include "cli/command_line/commands.h"
+#include "cli/options/plugin_option.h"
 #include "cli/output/output.h"
 #include "config/config.h"
 #include "config/schema/documents.h"
@@ -24,7 +26,7 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) print_message(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
-  for (const char* part : {"case", "block", "answer", "frame", "structure", "scene", "list"}) {
+  for (const char* part : {"case", "block", "answer", "frame", "structure", "scene", "list", "test"}) {
     const std::string parts = std::string(part) + "s";
     if (!document.contains(parts)) continue;
     std::cout << path << ": valid, " << row.title << " with " << number_of(document[parts].size(), part) << "\n";
@@ -55,13 +57,17 @@ void add_schema(Command& program, Action& action) {
   for (const config::DocumentRow& row : config::document_rows()) names.emplace_back(row.name);
   auto name = std::make_shared<std::string>();
   command
-      .add_option("WHICH", *name,
-                  "Of a configuration, or of what run, compare --json, ratio --json, recommend, stress, worst-case, "
-                  "size --format json, light-map or check --json write, or of a dump that check reads")
+      .add_option(
+          "WHICH", *name,
+          "Of a configuration, or of what run, compare --json, ratio --json, recommend, stress, worst-case, "
+          "size --format json, light-map, check --json or plugin check --json write, or of a dump that check reads")
       .required()
       .one_of(names);
-  command.when_named([name, &action] {
-    action = [name] {
+  auto plugins = std::make_shared<std::vector<std::string>>();
+  add_plugin_option(command, *plugins);
+  command.when_named([name, plugins, &action] {
+    action = [name, plugins] {
+      load_plugins(*plugins);
       const auto rows = config::document_rows();
       const config::DocumentRow& row = *std::ranges::find(rows, *name, &config::DocumentRow::name);
       const bool is_result = row.document == config::Document::result;  // in the order of its fields
@@ -78,7 +84,7 @@ void add_validate(Command& program, Action& action) {
   command
       .add_option("FILE", *paths,
                   "Configurations, results, comparisons, ratios, recommendations, results of stress, worst-case and "
-                  "light-map")
+                  "light-map, checks of plug-ins")
       .required();
   command.when_named([paths, &action] {
     action = [paths] {

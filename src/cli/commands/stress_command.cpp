@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "cli/command_line/commands.h"
+#include "cli/options/guarded_command.h"
+#include "cli/options/plugin_option.h"
 #include "cli/output/output.h"
 #include "cli/output/progress_line.h"
 #include "core/text.h"
@@ -17,6 +19,8 @@ namespace {
 
 struct StressFlags {
   std::string output, cases, methods = ".*", device, failures;
+  std::vector<std::string> plugins;
+  GuardFlags guard;
   stress::StressRequest request;
   bool quiet = false;
 };
@@ -97,6 +101,7 @@ bool takes_device(const std::string& wanted) {
 }
 
 ExitCode stress(const StressFlags& flags) {
+  load_plugins(flags.plugins);
   stress::StressRequest request = flags.request;
   request.cases = Pattern(cases_of(flags), "--cases");
   request.methods = Pattern(flags.methods, "--methods");
@@ -135,6 +140,13 @@ ExitCode stress(const StressFlags& flags) {
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 
+// A crash of a plug-in is a fault that was found.
+ExitCode guarded_stress(const StressFlags& flags) {
+  const bool has_plugins = !flags.plugins.empty() || has_plugin_path();
+  return has_plugins ? run_guarded_once(flags.guard, ExitCode::gate_failed, [&] { return stress(flags); })
+                     : stress(flags);
+}
+
 }  // namespace
 
 void add_stress(Command& program, Action& action) {
@@ -147,6 +159,8 @@ void add_stress(Command& program, Action& action) {
                      "Only hard cases of this name, or that match it as a regular expression (H1 .. H35)");
   command.add_option("--methods", flags->methods,
                      "Only methods whose name has this in it, or matches it as a regular expression");
+  add_plugin_option(command, flags->plugins);
+  add_guard_options(command, flags->guard);
   command.add_option("--device", flags->device,
                      "NAME, UUID or number: also methods that run on a device, on this one, as `clusterbench list "
                      "devices` shows it; without it only those that --methods names, on the best one");
@@ -167,7 +181,7 @@ void add_stress(Command& program, Action& action) {
   command.add_option("--threads", flags->request.threads, "Threads; results do not depend on them").range(1, 1024);
   command.add_option("--failures", flags->failures, "Folder for every loss or fault as a scene and a configuration");
   command.add_flag("-q,--quiet", flags->quiet, "No progress and no table");
-  command.when_named([flags, &action] { action = [flags] { return stress(*flags); }; });
+  command.when_named([flags, &action] { action = [flags] { return guarded_stress(*flags); }; });
 }
 
 }  // namespace clusterbench::cli

@@ -68,9 +68,13 @@ bool has_plugins(const std::string& path) {
 
 }  // namespace
 
-bool names_plugins(const RunInputs& inputs) {
+bool has_plugin_path() {
   const char* folders = std::getenv(plugin::k_path_variable);
-  return std::ranges::any_of(flag_values(inputs), is_of_plugins) || (folders != nullptr && *folders != '\0') ||
+  return folders != nullptr && *folders != '\0';
+}
+
+bool names_plugins(const RunInputs& inputs) {
+  return std::ranges::any_of(flag_values(inputs), is_of_plugins) || has_plugin_path() ||
          std::ranges::any_of(inputs.paths, has_plugins);
 }
 

@@ -1,6 +1,7 @@
 #include "cli/running/run_journal.h"
 
 #include "cli/output/output.h"
+#include "config/config_plugins.h"
 #include "os/stop_signals.h"
 #include "run/records/records.h"
 #include "run/runner.h"
@@ -26,6 +27,8 @@ Json journal_header(const RunFlags& flags, const config::Config& config, const r
   for (const run::SceneData& data : plan.scenes) scenes.push_back(data.contents_sha256());
   Json header{{"version", tool.version}, {"git_sha", tool.git_sha}, {"flags", tool.flags},
               {"scenes", scenes},        {"filter", flags.filter},  {"config", measured_config(config)}};
+  for (const plugin::LoadedPlugin* loaded : config::plugins_of(config))
+    header["plugins"][loaded->facts.id] = loaded->sha256;
   if (!flags.count.empty()) header["count"] = flags.count;
   if (const std::optional<gpu::DeviceFacts> device = run::device_of(config, plan))
     header["device"] = {{"name", device->name}, {"driver", device->driver}, {"uuid", device->uuid}};

@@ -127,8 +127,8 @@ Comparison compare_results(const Result& base, const Result& next, double thresh
                  .threshold = threshold,
                  .data = is_paired ? "paired" : "separate",
                  .time = is_paired ? "assign" : "frame",
-                 .base = {is_paired ? next.baseline->tool : base.tool},
-                 .next = {next.tool},
+                 .base = {is_paired ? next.baseline->tool : base.tool, base.plugins},
+                 .next = {next.tool, next.plugins},
                  .left_out = omitted.parts};
   const bool is_same_program = is_paired && next.baseline->is_same_program.value_or(false);
   if (is_same_program) out.is_same_program = true;

@@ -136,15 +136,20 @@ result::Result merged(const std::vector<NamedPart>& parts) {
   out.config = merged_config(parts);
   std::vector<std::string> failed;
   Union<result::Scene> scenes(out.scenes, "scenes", &result::Scene::name, "name");
+  std::vector<result::Plugin> all_plugins;
+  Union<result::Plugin> plugins(all_plugins, "plugins", &result::Plugin::id, "plug-in");
   Union<result::Case> cases(out.cases, "cases", &result::Case::id, "id");
   for (const NamedPart& part : parts) {
     check_origin(parts.front(), part);
+    for (const result::Plugin& plugin : part.result.plugins.value_or(std::vector<result::Plugin>()))
+      plugins.add(plugin, part.file, true);
     for (const result::Scene& scene : part.result.scenes) scenes.add(scene, part.file, true);
     for (const result::Case& result_case : part.result.cases) cases.add(result_case, part.file, false);
     add_skipped(out.skipped, part.result.skipped);
     add_broken(out, part.result);
     if (part.result.failed) failed.insert(failed.end(), part.result.failed->begin(), part.result.failed->end());
   }
+  if (!all_plugins.empty()) out.plugins = std::move(all_plugins);
   out.pareto_front = fronts(out.scenes, out.cases, first);
   add_presets(out, first);
   out.conclusions = conclusions_of(out, first);

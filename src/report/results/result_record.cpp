@@ -111,6 +111,10 @@ result::Result record_of(const run::Result& result, const std::vector<Case>& ear
   out.date = known(result.date);
   out.command = known(result.command);
   out.tool = run::record_of(result.tool);
+  for (const plugin::LoadedPlugin* loaded : result.plugins) {
+    if (!out.plugins) out.plugins.emplace();
+    out.plugins->push_back(run::record_of(*loaded));
+  }
   out.machine = run::record_of(result.machine);
   if (result.device) out.device = run::record_of(*result.device);
   if (out.device && result.arithmetic) out.device->arithmetic = run::record_of(*result.arithmetic);

@@ -8,6 +8,7 @@ namespace clusterbench::result {
 struct ComparedProgram {
   RECORD(ComparedProgram);
   FIELD(Tool, tool, "As results have it");
+  FIELD(std::optional<std::vector<Plugin>>, plugins, "As results have them; absent without any");
   END_RECORD;
 };
 

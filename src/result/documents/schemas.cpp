@@ -3,6 +3,7 @@
 #include "result/documents/dump.h"
 #include "result/documents/light_map.h"
 #include "result/documents/page.h"
+#include "result/documents/plugin_check.h"
 #include "result/documents/ratios.h"
 #include "result/documents/recommendation.h"
 #include "result/documents/size.h"
@@ -18,6 +19,7 @@ template const Type& type_of<Comparison>();
 template const Type& type_of<Dump>();
 template const Type& type_of<LightMaps>();
 template const Type& type_of<PageData>();
+template const Type& type_of<PluginCheck>();
 template const Type& type_of<Ratios>();
 template const Type& type_of<Recommendation>();
 template const Type& type_of<Size>();
@@ -57,6 +59,12 @@ std::vector<const char*> figure_names() {
 
 Json page_schema() {
   return schema_of<PageData>("clusterbench page", "The data of a page that `clusterbench report` writes.");
+}
+
+Json plugin_check_schema() {
+  return schema_of<PluginCheck>("clusterbench plugin check",
+                                "What `clusterbench plugin check PLUGIN --json FILE` writes: whether the methods of a "
+                                "plug-in keep their contract, test by test.");
 }
 
 Json ratios_schema() {

@@ -30,6 +30,7 @@
 #include "measure/statistics/time_statistics.h"
 #include "measure/truth/list_errors.h"
 #include "os/processor.h"
+#include "plugin/plugins.h"
 #include "result/broken_case.h"
 #include "run/cases/plan.h"
 #include "run/counters/instruction_counter.h"
@@ -328,6 +329,7 @@ struct Result {
   std::string config_name;
   std::string date, command;  // "" without timing: the result is then the same whenever it is made
   ToolFacts tool;
+  std::vector<const plugin::LoadedPlugin*> plugins;  // of the configuration's methods
   MachineFacts machine;
   std::optional<gpu::DeviceFacts> device;     // if a case runs on it
   std::optional<gpu::Arithmetic> arithmetic;  // of the device

@@ -124,6 +124,13 @@ result::Tool record_of(const ToolFacts& tool) {
   return {tool.version, tool.git_sha, tool.compiler, tool.flags, tool.build_type, tool.simd_target, tool.libraries};
 }
 
+result::Plugin record_of(const plugin::LoadedPlugin& loaded) {
+  const plugin::PluginFacts& facts = loaded.facts;
+  return {facts.id,      facts.name,
+          facts.version, loaded.file.filename().string(),
+          loaded.sha256, std::to_string(CLUSTERBENCH_PLUGIN_MAJOR) + "." + std::to_string(facts.minor)};
+}
+
 result::DeviceArithmetic record_of(const gpu::Arithmetic& found) {
   const char* const roundings[] = {"to_nearest", "either_way", "wrong"};
   return {roundings[static_cast<std::size_t>(found.rounding)],
