@@ -324,6 +324,50 @@ TEST(GuardedRun, that_crashed_is_a_regression_of_one_that_did_not) {
   EXPECT_EQ(tool("compare " + good.out + " " + good.out).code, 0);
 }
 
+TEST(GuardedRun, beside_another_program_loses_the_comparison_of_the_case_at_which_one_of_them_crashes) {
+  GuardedPlace place;
+  const Outcome done =
+      place.run({R"(, "fault": "segv", "at": "rounds")"},
+                "--baseline-launches 2 --baseline-most-launches 2 --baseline-binary " + test::program());
+  EXPECT_EQ(done.code, 1) << done.err;
+  const Json result = place.result();
+  ASSERT_EQ(result["cases"].size(), 3u);
+  const Json lost = case_of(result, "guard.faulty");
+  ASSERT_EQ(lost["failures"].size(), 1u);
+  EXPECT_EQ(lost["failures"][0]["kind"], "crashed");
+  EXPECT_EQ(lost["failures"][0]["text"].get<std::string>().find("not compared: "), 0u);
+  EXPECT_FALSE(lost["timing"].contains("baseline"));
+  EXPECT_TRUE(case_of(result, "aabb")["timing"].contains("baseline"));
+}
+
+TEST(GuardedRun, is_merged_and_shown_with_its_broken_case) {
+  GuardedPlace place;
+  const std::vector<std::string> faults{R"(, "fault": "segv", "call": 2)"};
+  ASSERT_EQ(place.run(faults, "--no-timing --filter faulty").code, 1);
+  EXPECT_EQ(place.result()["cases"].size(), 0u);
+  const std::string rest = (place.folder / "rest.json").string(), all = (place.folder / "all.json").string();
+  ASSERT_EQ(tool("run -q --no-timing --filter 'aabb|bounds' " + place.config(faults) + " -o " + rest).code, 0);
+  EXPECT_EQ(tool("merge " + place.out + " " + rest + " -o " + all).code, 0);
+  const Json merged = Json::parse(file_text(all));
+  EXPECT_EQ(merged["cases"].size(), 2u);
+  ASSERT_EQ(merged["broken"], place.result()["broken"]);
+  const std::string reason = merged["broken"][0]["reason"];
+  const Outcome shown = tool("report " + all + " -o " + (place.folder / "all.html").string());
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_NE(file_text(place.folder / "all.html").find(reason), std::string::npos);
+}
+
+TEST(GuardedRun, of_stress_tells_the_setting_at_which_the_plug_in_crashed) {
+  const Outcome random =
+      tool("stress -q --random 3 --seed 7 --threads 1 --methods faulty --plugin " + plugin_file("faulty_always"));
+  EXPECT_EQ(random.code, 1) << random.err;
+  EXPECT_EQ(random.err, "clusterbench: the plug-in always crashed (SIGSEGV) in assign; with --random 1 --seed 7\n");
+  const Outcome hard =
+      tool("stress -q --cases '^H1$' --threads 1 --methods faulty --tries 0 --plugin " + plugin_file("faulty_always"));
+  EXPECT_EQ(hard.code, 1) << hard.err;
+  EXPECT_NE(hard.err.find("; with --cases '^H1$', method always.faulty"), std::string::npos) << hard.err;
+}
+
 TEST(GuardedRun, told_in_a_process_of_the_user_takes_no_other) {
   GuardedPlace place;
   const Outcome crashed = place.run({R"(, "fault": "segv")"}, "--plugin-in-process");

@@ -4,11 +4,18 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "clusterbench_plugin.hpp"
+
+#ifndef FAULT
+#define FAULT "none"
+#define ID "guard"
+#endif
 
 namespace sdk = clusterbench::sdk;
 
@@ -56,6 +63,11 @@ void commit(const std::string& fault) {
   }
 }
 
+bool is_beside_another_program() {
+  std::ifstream in("/proc/self/cmdline");
+  return std::string(std::istreambuf_iterator<char>(in), {}).find("--rounds-server") != std::string::npos;
+}
+
 // Breaks down as the process ends.
 struct AtUnloading {
   ~AtUnloading() { commit(g_fault_at_unloading); }
@@ -70,10 +82,11 @@ class Faulty : public sdk::Method {
     out.source = "a test";
     out.flags = CLUSTERBENCH_CONSERVATIVE | CLUSTERBENCH_ORTHOGRAPHIC | CLUSTERBENCH_BY_NAME;
     out.parameters = {
-        sdk::text("fault", "none",
+        sdk::text("fault", FAULT,
                   {"none", "segv", "fpe", "ill", "abort", "exit", "throw", "hang", "eat", "overflow", "twice"})
             .says("how it breaks down"),
-        sdk::text("at", "assign", {"create", "build", "assign", "destroy", "unload"}).says("in which function"),
+        sdk::text("at", "assign", {"create", "build", "assign", "destroy", "unload", "rounds"})
+            .says("in which function; rounds: in assign(), beside another program"),
         sdk::number("call", 1.0, 1.0, 1e9).whole().says("in which of its calls of assign()"),
         sdk::number("nap", 0.0, 0.0, 1000.0).in("ms").says("how long each assign() sleeps")};
     return out;
@@ -97,6 +110,7 @@ class Faulty : public sdk::Method {
     if (nap_ms_ > 0.0) std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(nap_ms_));
     if (at_ == "unload") g_fault_at_unloading = fault_;
     if (++calls_ == call_) commit_at("assign");
+    if (at_ == "rounds" && is_beside_another_program()) commit(fault_);
     const std::uint32_t count = sdk::light_count(lights);
     const std::uint64_t all = std::uint64_t{count} * cell_count_;
     if (all > out.capacity) throw sdk::More{all};
@@ -122,4 +136,4 @@ class Faulty : public sdk::Method {
 
 }  // namespace
 
-CLUSTERBENCH_PLUGIN("guard", "A method that breaks down", "1.0", Faulty)
+CLUSTERBENCH_PLUGIN(ID, "A method that breaks down", "1.0", Faulty)
