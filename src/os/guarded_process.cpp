@@ -27,7 +27,7 @@ using WatchClock = std::chrono::steady_clock;
 // Watches the calls of a copy for those that last too long or take too much.
 class CallWatch {
  public:
-  explicit CallWatch(const Guard::Limits& limits) : limits_(limits) {}
+  explicit CallWatch(const ProcessGuard::Limits& limits) : limits_(limits) {}
 
   std::optional<GuardedEnd::How> look(double seconds) {
     const NotesPage& page = notes_page();
@@ -64,7 +64,7 @@ class CallWatch {
     return ending_s_ > limits_.call_s ? std::optional(GuardedEnd::How::timed_out) : std::nullopt;
   }
 
-  const Guard::Limits& limits_;
+  const ProcessGuard::Limits& limits_;
   std::array<Seen, NotesPage::k_threads> seen_{};
   int thread_ = -1;
   double ending_s_ = 0.0;
@@ -137,7 +137,7 @@ void end_now(pid_t copy) {
   }
 }
 
-GuardedEnd watched(pid_t copy, const Guard::Limits& limits, const std::atomic<bool>& stop) {
+GuardedEnd watched(pid_t copy, const ProcessGuard::Limits& limits, const std::atomic<bool>& stop) {
   constexpr int k_least_wait_ms = 1, k_most_wait_ms = 50;  // so that little time is taken from what is measured
   constexpr double k_most_step_s = 0.1;                    // both processes can be suspended meanwhile
   CallWatch watch(limits);
@@ -166,11 +166,11 @@ GuardedEnd watched(pid_t copy, const Guard::Limits& limits, const std::atomic<bo
 
 }  // namespace
 
-Guard::Guard(const Limits& limits) : limits_(limits) {
+ProcessGuard::ProcessGuard(const Limits& limits) : limits_(limits) {
   share_notes().message.set("");
 }
 
-std::optional<GuardedEnd> Guard::run(const std::atomic<bool>& stop) {
+std::optional<GuardedEnd> ProcessGuard::run(const std::atomic<bool>& stop) {
   clear_notes(notes_page());
   std::cout << std::flush;
   std::cerr << std::flush;
@@ -184,7 +184,7 @@ std::optional<GuardedEnd> Guard::run(const std::atomic<bool>& stop) {
   return std::nullopt;
 }
 
-std::string Guard::message() const {
+std::string ProcessGuard::message() const {
   return notes_page().message.text();
 }
 

@@ -33,7 +33,7 @@ struct GuardedEnd {
   bool is_call_running = false;
 };
 
-class Guard {
+class ProcessGuard {
  public:
   struct Limits {
     double call_s = 60.0;                                 // of one call, and of the end of the process
@@ -41,7 +41,7 @@ class Guard {
   };
 
   // Call it while this process has one thread. Throws Error.
-  explicit Guard(const Limits& limits);
+  explicit ProcessGuard(const Limits& limits);
 
   // Makes a copy of this process. Returns nothing in the copy, which goes on, and in this process the end of the copy.
   // `stop`: of stop_on_signals(). Once it is true the copy gets the same signal; the one that a terminal sends to both

@@ -24,7 +24,7 @@ const std::atomic<bool> k_never{false};
 
 // The end of a guarded process that does this.
 template <class Work>
-GuardedEnd end_after(Guard& guard, const Work& work, const std::atomic<bool>& stop = k_never) {
+GuardedEnd end_after(ProcessGuard& guard, const Work& work, const std::atomic<bool>& stop = k_never) {
   const std::optional<GuardedEnd> end = guard.run(stop);
   if (end) return *end;
   work();
@@ -42,7 +42,7 @@ Caller caller_of(const char* name, std::uint64_t label = 0) {
 }
 
 TEST(GuardedProcess, that_crashes_is_told_with_the_call_in_which_it_did) {
-  Guard guard({});
+  ProcessGuard guard({});
   const GuardedEnd end = end_after(guard, [] {
     note_group("1234-5");
     note_pass("time");
@@ -62,7 +62,7 @@ TEST(GuardedProcess, that_crashes_is_told_with_the_call_in_which_it_did) {
 }
 
 TEST(GuardedProcess, that_crashes_after_a_call_is_told_with_the_last_one) {
-  Guard guard({});
+  ProcessGuard guard({});
   const GuardedEnd end = end_after(guard, [] {
     { const ForeignCall call(caller_of("first"), CallStep::build); }
     { const ForeignCall call(caller_of("second"), CallStep::assign, 3); }
@@ -76,12 +76,12 @@ TEST(GuardedProcess, that_crashes_after_a_call_is_told_with_the_last_one) {
 }
 
 TEST(GuardedProcess, without_a_call_has_none_to_blame) {
-  Guard guard({});
+  ProcessGuard guard({});
   EXPECT_FALSE(end_after(guard, [] { die_by(SIGSEGV); }).call);
 }
 
 TEST(GuardedProcess, of_several_threads_tells_the_call_of_the_one_that_crashed) {
-  Guard guard({});
+  ProcessGuard guard({});
   const GuardedEnd end = end_after(guard, [] {
     std::atomic<int> waiting{0};
     std::vector<std::jthread> threads;
@@ -103,7 +103,7 @@ TEST(GuardedProcess, of_several_threads_tells_the_call_of_the_one_that_crashed) 
 }
 
 TEST(GuardedProcess, that_foreign_code_ends_by_exit_has_not_ended_by_itself) {
-  Guard guard({});
+  ProcessGuard guard({});
   const GuardedEnd end = end_after(guard, [] {
     const ForeignCall call(caller_of("acme"), CallStep::create);
     std::_Exit(0);
@@ -115,7 +115,7 @@ TEST(GuardedProcess, that_foreign_code_ends_by_exit_has_not_ended_by_itself) {
 }
 
 TEST(GuardedProcess, that_does_not_return_from_a_call_is_ended) {
-  Guard guard({0.3, 1u << 30});
+  ProcessGuard guard({0.3, 1u << 30});
   const GuardedEnd end = end_after(guard, [] {
     const ForeignCall call(caller_of("acme"), CallStep::build);
     for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
@@ -126,7 +126,7 @@ TEST(GuardedProcess, that_does_not_return_from_a_call_is_ended) {
 }
 
 TEST(GuardedProcess, with_many_calls_may_take_longer_than_one_call_may) {
-  Guard guard({0.3, 1u << 30});
+  ProcessGuard guard({0.3, 1u << 30});
   const GuardedEnd end = end_after(guard, [] {
     const Caller acme = caller_of("acme");
     for (int i = 0; i < 10; ++i) {
@@ -143,7 +143,7 @@ TEST(GuardedProcess, with_many_calls_may_take_longer_than_one_call_may) {
 
 TEST(GuardedProcess, that_takes_more_memory_than_it_may_is_ended) {
   constexpr std::size_t k_mib = 1 << 20;
-  Guard guard({60.0, 100 * k_mib});
+  ProcessGuard guard({60.0, 100 * k_mib});
   const GuardedEnd end = end_after(guard, [] {
     const ForeignCall call(caller_of("acme"), CallStep::assign, 1);
     std::vector<std::vector<char>> all;
@@ -160,7 +160,7 @@ TEST(GuardedProcess, that_takes_more_memory_than_it_may_is_ended) {
 
 TEST(GuardedProcess, takes_as_much_memory_as_it_likes_beside_calls) {
   constexpr std::size_t k_mib = 1 << 20;
-  Guard guard({60.0, 50 * k_mib});
+  ProcessGuard guard({60.0, 50 * k_mib});
   const GuardedEnd end = end_after(guard, [] {
     { const ForeignCall call(caller_of("acme"), CallStep::create); }
     const std::vector<char> own(std::size_t{200} << 20, 'x');
@@ -171,7 +171,7 @@ TEST(GuardedProcess, takes_as_much_memory_as_it_likes_beside_calls) {
 }
 
 TEST(GuardedProcess, that_crashes_as_it_ends_has_measured_nothing_worse_than_that) {
-  Guard guard({});
+  ProcessGuard guard({});
   const GuardedEnd measured = end_after(guard, [] {
     { const ForeignCall call(caller_of("acme", 9), CallStep::assign, 4); }
     note_measured();
@@ -191,7 +191,7 @@ TEST(GuardedProcess, that_crashes_as_it_ends_has_measured_nothing_worse_than_tha
 }
 
 TEST(GuardedProcess, that_hangs_as_it_ends_is_ended) {
-  Guard guard({0.3, 1u << 30});
+  ProcessGuard guard({0.3, 1u << 30});
   const GuardedEnd end = end_after(guard, [] {
     { const ForeignCall call(caller_of("acme"), CallStep::assign, 4); }
     note_measured();
@@ -203,7 +203,7 @@ TEST(GuardedProcess, that_hangs_as_it_ends_is_ended) {
 }
 
 TEST(GuardedProcess, leaves_a_message_for_the_next_one) {
-  Guard guard({});
+  ProcessGuard guard({});
   end_after(guard, [] {
     leave_message("load 3");
     die_by(SIGSEGV);
@@ -214,7 +214,7 @@ TEST(GuardedProcess, leaves_a_message_for_the_next_one) {
 }
 
 TEST(GuardedProcess, blames_the_call_in_which_a_process_that_it_started_crashed) {
-  Guard guard({});
+  ProcessGuard guard({});
   const GuardedEnd end = end_after(guard, [] {
     const std::string notes = path_of_notes();
     int status = 0;
@@ -235,7 +235,7 @@ TEST(GuardedProcess, blames_the_call_in_which_a_process_that_it_started_crashed)
 }
 
 TEST(CallNotes, of_many_codes_and_long_names_stay_in_their_room) {
-  Guard guard({});
+  ProcessGuard guard({});
   const GuardedEnd end = end_after(guard, [] {
     for (int i = 0; i < 100; ++i) note_code(std::string(1000, 'x'));
     note_group(std::string(5000, 'g'));

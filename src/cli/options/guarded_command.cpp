@@ -51,7 +51,7 @@ void clear_line() {
   if (os::terminal(os::StandardStream::error).interactive) std::cerr << "\r\033[K" << std::flush;
 }
 
-os::Guard::Limits limits_of(const GuardFlags& flags) {
+os::ProcessGuard::Limits limits_of(const GuardFlags& flags) {
   return {flags.timeout_s, static_cast<std::uint64_t>(flags.memory_mib) << 20};
 }
 
@@ -95,7 +95,7 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
                      const std::function<std::optional<ExitCode>(const GuardedPart& part)>& part) {
   if (flags.is_in_process) return *part({});
   const std::atomic<bool>& stop = os::stop_on_signals();
-  os::Guard guard(limits_of(flags));
+  os::ProcessGuard guard(limits_of(flags));
   std::set<std::pair<std::string, std::uint64_t>> broken;  // group and method
   GuardedPart next;
   next.can_go_on = true;
@@ -120,7 +120,7 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
 ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::function<ExitCode()>& command) {
   if (flags.is_in_process) return command();
   const std::atomic<bool>& stop = os::stop_on_signals();
-  os::Guard guard(limits_of(flags));
+  os::ProcessGuard guard(limits_of(flags));
   const std::optional<os::GuardedEnd> end = guard.run(stop);
   if (!end) return ended([&]() -> std::optional<ExitCode> { return command(); });
   if (end->how == How::done) return static_cast<ExitCode>(end->exit_code);
