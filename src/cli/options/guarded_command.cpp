@@ -71,6 +71,11 @@ ExitCode ended(const std::function<std::optional<ExitCode>()>& part) {
   }
 }
 
+// A plug-in that cannot be loaded is an input that cannot be taken.
+ExitCode code_of(const Casualty& casualty, ExitCode other) {
+  return casualty.call.step == os::CallStep::load ? ExitCode::usage : other;
+}
+
 [[noreturn]] void refuse(const Casualty& casualty, ExitCode code) {
   const std::string setting = casualty.call.setting.empty() ? "" : "; with " + casualty.call.setting;
   throw Error("", "", casualty.reason + setting, code);
@@ -110,7 +115,7 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
     clear_line();
     if (stop) return os::stopped_exit_code();
     next.casualty = casualty_of(*end, flags);
-    if (next.casualty->call.group.empty()) refuse(*next.casualty, ExitCode::usage);
+    if (next.casualty->call.group.empty()) refuse(*next.casualty, code_of(*next.casualty, ExitCode::gate_failed));
     // A method is called no more in the group that it broke down in.
     const bool is_new = broken.emplace(next.casualty->call.group, next.casualty->call.label).second;
     if (!is_new) refuse(*next.casualty, ExitCode::internal);
@@ -127,7 +132,7 @@ ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::fun
   clear_line();
   if (stop) return os::stopped_exit_code();
   const Casualty casualty = casualty_of(*end, flags);
-  refuse(casualty, casualty.call.step == os::CallStep::load ? ExitCode::usage : code);
+  refuse(casualty, code_of(casualty, code));
 }
 
 ExitCode guarded_if_needed(const RunInputs& inputs, const GuardFlags& flags, const std::function<ExitCode()>& command) {
