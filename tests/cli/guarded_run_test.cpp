@@ -357,6 +357,8 @@ TEST(GuardedRun, is_merged_and_shown_with_its_broken_case) {
   const Outcome shown = tool("report " + all + " -o " + (place.folder / "all.html").string());
   EXPECT_EQ(shown.code, 0) << shown.err;
   EXPECT_NE(file_text(place.folder / "all.html").find(reason), std::string::npos);
+  const Outcome exported = tool("export " + all + " --format markdown");
+  EXPECT_NE(exported.out.find(reason), std::string::npos) << exported.out << exported.err;
 }
 
 TEST(GuardedRun, of_stress_tells_the_setting_at_which_the_plug_in_crashed) {
