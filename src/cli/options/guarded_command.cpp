@@ -15,7 +15,9 @@ namespace {
 using How = os::GuardedEnd::How;
 
 std::string death_text(const os::GuardedEnd& end) {
-  if (end.signal != 0) return "crashed (" + os::signal_name(end.signal) + ")";
+  const std::string signal = os::signal_name(end.signal);
+  if (signal == "SIGKILL") return "was killed (SIGKILL), as where memory runs out,";
+  if (end.signal != 0) return "crashed (" + signal + ")";
   return "ended the process (exit code " + std::to_string(end.died_with_code) + ")";
 }
 
