@@ -314,7 +314,7 @@ export type Result = {
     samples_search?: boolean; // true: the case is a light structure that each sample searches for its lights (a hierarchy, masks of bits) in place of reading a list. What that reads is counted and priced by config.cost, and no GPU has measured it: such a case stands on no front. Absent: it is none
     preset?: string; // The preset that the case is of (`clusterbench list presets`); absent for the configuration's own clusterings
     failures: Array<{
-      kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs" | "wrong_readings"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration. wrong_readings: a device walked other lights than the structure has (reading)
+      kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs" | "wrong_readings" | "crashed" | "timed_out" | "out_of_memory" | "failed"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration. wrong_readings: a device walked other lights than the structure has (reading). crashed, timed_out, out_of_memory, failed: of a plug-in, after the case was measured, as in broken
       text: string; // The same for people, without the case's name
     }>; // Why the case fails the run; empty: it passes
     warnings: Array<{
@@ -856,6 +856,22 @@ export type Result = {
     reason: string; // Why, as text
     preset?: string; // That it is of; absent for the configuration's own clusterings
   }>; // Combinations that cannot be
+  broken?: Array<{
+    id: string; // As of a case
+    settings: string; // As of a case
+    name: string; // As of a case
+    scene: string; // Name of one of scenes
+    camera: string; // As of a case
+    preset?: string; // As of a case; absent for the configuration's own clusterings
+    method: string; // Name of the assigner
+    plugin: string; // The plug-in that the method is of
+    kind: "crashed" | "timed_out" | "out_of_memory" | "failed"; // crashed: its process ended, by a signal or since the plug-in ended it. timed_out: a call did not return within --plugin-timeout. out_of_memory: the process took more than --plugin-memory. failed: the plug-in said so, or its lists are none
+    reason: string; // The same for people, without the case's name
+    step: "load" | "create" | "build" | "assign" | "query" | "destroy" | "unload"; // The call in which, or after which, it happened. unload: as the process ended
+    frame?: number; // Of the camera's path; absent where the call is of none [index, over the path]
+    pass?: string; // The work that the call was part of, as text; absent where it is unknown
+    signal?: string; // That ended the process, as SIGSEGV; absent where none did
+  }>; // Cases of plug-ins that were not measured to the end: the plug-in crashed, hung, took too much memory or failed. Each fails the run. Absent where there are none
   presets?: Array<{
     name: string; // As a case's preset
     engine: string; // Whose scheme it is

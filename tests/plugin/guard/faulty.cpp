@@ -14,6 +14,8 @@
 
 #ifndef FAULT
 #define FAULT "none"
+#define PLACES \
+  { "create", "build", "assign", "destroy", "unload", "rounds" }
 #define ID "guard"
 #endif
 
@@ -85,8 +87,7 @@ class Faulty : public sdk::Method {
         sdk::text("fault", FAULT,
                   {"none", "segv", "fpe", "ill", "abort", "exit", "throw", "hang", "eat", "overflow", "twice"})
             .says("how it breaks down"),
-        sdk::text("at", "assign", {"create", "build", "assign", "destroy", "unload", "rounds"})
-            .says("in which function; rounds: in assign(), beside another program"),
+        sdk::text("at", "assign", PLACES).says("in which function; rounds: in assign(), beside another program"),
         sdk::number("call", 1.0, 1.0, 1e9).whole().says("in which of its calls of assign()"),
         sdk::number("nap", 0.0, 0.0, 1000.0).in("ms").says("how long each assign() sleeps")};
     return out;
