@@ -366,7 +366,8 @@ TEST(GuardedRun, of_stress_tells_the_setting_at_which_the_plug_in_crashed) {
   const Outcome random =
       tool("stress -q --random 3 --seed 7 --threads 1 --methods faulty --plugin " + plugin_file("faulty_always"));
   EXPECT_EQ(random.code, 1) << random.err;
-  EXPECT_EQ(random.err, "clusterbench: the plug-in always crashed (SIGSEGV) in assign; with --random 1 --seed 7\n");
+  EXPECT_EQ(random.err,
+            "clusterbench: the plug-in always crashed (SIGSEGV) in assign, frame 0; with --random 1 --seed 7\n");
   const Outcome hard =
       tool("stress -q --cases '^H1$' --threads 1 --methods faulty --tries 0 --plugin " + plugin_file("faulty_always"));
   EXPECT_EQ(hard.code, 1) << hard.err;
