@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <regex>
 
 #include "config/presets/assigner_names.h"
@@ -9,6 +10,7 @@
 #include "config/schema/documents.h"
 #include "core/error.h"
 #include "core/json_document.h"
+#include "gpu/user_shaders/shader_method.h"
 
 namespace clusterbench::config {
 namespace {
@@ -66,6 +68,7 @@ class FlaggedConfig {
 
   Json& root() { return text_.value; }
   Json& operator[](const char* key) { return text_.value[key]; }
+  const std::string& file() const { return text_.file; }
   void mark(const std::string& pointer, const FlagValue& flag) { text_.flags[pointer] = flag.shown(); }
 
   // Sets the values that `steps` lead to from `at`, whose pointer is `pointer`. A step is a key, the index of an entry,
@@ -265,6 +268,20 @@ void set_device(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"device"}, flag, flag.value);
 }
 
+// Paths of the command line are of the working directory, those of the configuration of its folder.
+void add_shader(FlaggedConfig& document, const FlagValue& flag) {
+  namespace fs = std::filesystem;
+  gpu::add_shader_method(flag.value);  // now, so that patterns of --assigner find it
+  const fs::path folder = fs::path(document.file()).parent_path();
+  std::error_code failed;
+  const fs::path beside = folder.empty() ? fs::path(flag.value) : fs::proximate(flag.value, folder, failed);
+  Json& shaders = document["shaders"];
+  const std::string name = beside.empty() ? flag.value : beside.string();
+  if (std::ranges::find(shaders, name) != shaders.end()) return;
+  document.mark(child_pointer("/shaders", shaders.size()), flag);
+  shaders.push_back(name);
+}
+
 // Decodes a step of a JSON pointer (RFC 6901): ~1 is a slash, ~0 a tilde.
 std::string unescaped(const std::string& step, const FlagValue& flag) {
   std::string out;
@@ -332,6 +349,9 @@ constexpr FlagRow k_rows[] = {
     {{"--scheme", "NAME[,NAME]: how it is cut: exponential, exponential-first, linear, ...; docs/grids-and-lookups.md"},
      choose_scheme},
     {{"--viewport", "WxH[,WxH]: image sizes in pixels, as 1920x1080"}, choose_viewports},
+    {{"--shader",
+      "FILE, repeatable: your own compute shaders as a method (docs/shaders.md), measured beside the others", true},
+     add_shader},
     {{"--assigner", "NAME[,NAME]: only these assigners; * and ? stand for any letters, as in '*-fast'"},
      choose_assigners},
     {{"--preset",

@@ -9,6 +9,7 @@
 #include "config/schema/schema_reader.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "gpu/user_shaders/shader_method.h"
 
 namespace clusterbench::config {
 namespace {
@@ -70,6 +71,30 @@ Json without_globs(const Json& list, const JsonText& text) {
   return out;
 }
 
+std::filesystem::path beside_config(const std::string& name, const JsonText& text) {
+  return std::filesystem::path(text.file).parent_path() / name;
+}
+
+// Puts methods of files into the registry, and returns their names. The schema reads what is wrong with the list.
+std::vector<std::string> add_shaders(const JsonText& text) {
+  std::vector<std::string> names;
+  if (!text.value.is_object() || !text.value.contains("shaders") || !text.value["shaders"].is_array()) return names;
+  for (const Json& file : text.value["shaders"])
+    if (file.is_string() && !file.get_ref<const std::string&>().empty())
+      names.push_back(gpu::add_shader_method(beside_config(file.get<std::string>(), text)).name);
+  return names;
+}
+
+// They run wherever methods of the configuration's own do.
+Json with_shaders(Json assigners, const std::vector<std::string>& shaders) {
+  for (const std::string& name : shaders)
+    if (std::ranges::none_of(assigners, [&](const Json& entry) {
+          return entry == name || (entry.is_object() && entry["name"] == name);
+        }))
+      assigners.push_back(name);
+  return assigners;
+}
+
 constexpr const char* k_own_keys[] = {"grids", "assigners", "storages"};
 
 }  // namespace
@@ -83,6 +108,7 @@ void drop_own_clusterings(Json& document) {
 }
 
 Json filled(const JsonText& text) {
+  const std::vector<std::string> shaders = add_shaders(text);
   const Json schema = config_schema();
   Json document = read_by_schema(schema, long_form(text.value, text), text);
   if (document.contains("viewport")) {
@@ -92,14 +118,18 @@ Json filled(const JsonText& text) {
   document.erase("$schema");
   if (document["name"].get_ref<const std::string&>().empty())
     document["name"] = printable(std::filesystem::path(text.file).stem().string());
-  document["assigners"] = without_globs(document["assigners"], text);
+  document["assigners"] = with_shaders(without_globs(document["assigners"], text), shaders);
   document = read_by_schema(schema, long_form(document, text), text);
   if (document.value("as_shipped", false) && !document.contains("presets"))
     throw Error(text.file, text.where("/as_shipped"), "found true without presets; allowed beside presets only");
   if (!document.contains("presets")) return document;
   const auto entries = document["presets"].get<std::vector<std::string>>();
   document["presets"] = named_presets(entries, text.file, text.where("/presets"));
-  if (!names_own_clusterings(text.value)) drop_own_clusterings(document);
+  if (names_own_clusterings(text.value)) return document;
+  if (!shaders.empty())
+    throw Error(text.file, text.where("/shaders"),
+                "runs nowhere: beside presets alone there is no grid of your own; name one (--grid frustum, or grids)");
+  drop_own_clusterings(document);
   return document;
 }
 

@@ -3,6 +3,7 @@
 // assigners/ that defines its descriptor, and one line in registry.inc; or an AssignerRegistration.
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -146,6 +147,11 @@ struct Needs {
   bool depth = false;  // the depths of the picture's pixels
 };
 
+// The file that a method which is not built in was read from, and SHA-256 of all of its files.
+struct Origin {
+  std::string file, sha256;
+};
+
 // A method as data: all other code knows a method only through this.
 struct AssignerDescriptor {
   std::string name;
@@ -176,10 +182,12 @@ struct AssignerDescriptor {
   bool on_device = false;
   std::vector<ParamSpec> params;
   // The forms of its result, one or both; null: not available in this form.
-  std::unique_ptr<ListAssigner> (*make)(const Params& params) = nullptr;
-  std::unique_ptr<StructureAssigner> (*make_own)(const Params& params) = nullptr;
+  std::function<std::unique_ptr<ListAssigner>(const Params& params)> make{};
+  std::function<std::unique_ptr<StructureAssigner>(const Params& params)> make_own{};
   // The reason why it cannot run on this machine, "" if it can. Null: it always can.
-  std::string (*unavailable)(const Params& params) = nullptr;
+  std::function<std::string(const Params& params)> unavailable{};
+  // Of a method that is not built in.
+  std::optional<Origin> origin{};
 
   bool takes(grid::Kind kind) const;
   bool answers(Answer answer) const;

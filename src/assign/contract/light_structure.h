@@ -25,6 +25,7 @@ struct StructureUse {
   std::vector<std::uint32_t> dropped_lights;  // ascending, each once
   std::uint64_t fallback_cells =
       0;  // overflow: cells whose samples loop over all lights of the frame in place of their list
+  std::uint64_t repeated_pairs = 0;  // a light in a list where it is already: left out of lists, and never of bytes
 };
 
 // The largest size for any frame of this grid and rig.

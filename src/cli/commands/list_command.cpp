@@ -12,6 +12,7 @@
 #include "config/presets/preset_library.h"
 #include "cull/pre_cull_spec.h"
 #include "gpu/device/device_facts.h"
+#include "gpu/user_shaders/shader_method.h"
 #include "report/history/history.h"
 #include "result/figures/figure_table.h"
 #include "run/records/records.h"
@@ -324,8 +325,11 @@ void add_list(Command& program, Action& action) {
                   "Only these: assigners, storages, grids, pre_culls, scenes, presets, figures or devices")
       .one_of({std::begin(k_sections), std::end(k_sections)});
   command.add_flag("--json", *as_json, "As JSON");
-  command.when_named([as_json, section, &action] {
-    action = [as_json, section] {
+  auto shaders = std::make_shared<std::vector<std::string>>();
+  command.add_option("--shader", *shaders, "FILE, repeatable: also your own compute shaders as a method");
+  command.when_named([as_json, section, shaders, &action] {
+    action = [as_json, section, shaders] {
+      for (const std::string& shader : *shaders) gpu::add_shader_method(shader);
       Json all = everything();
       if (*section == k_devices) all[k_devices] = devices();
       if (*as_json)

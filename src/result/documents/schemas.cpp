@@ -5,6 +5,7 @@
 #include "result/documents/page.h"
 #include "result/documents/ratios.h"
 #include "result/documents/recommendation.h"
+#include "result/documents/shader.h"
 #include "result/documents/size.h"
 #include "result/documents/stress.h"
 #include "result/documents/worst_case.h"
@@ -20,6 +21,7 @@ template const Type& type_of<LightMaps>();
 template const Type& type_of<PageData>();
 template const Type& type_of<Ratios>();
 template const Type& type_of<Recommendation>();
+template const Type& type_of<ShaderMethod>();
 template const Type& type_of<Size>();
 template const Type& type_of<Stress>();
 template const Type& type_of<WorstCase>();
@@ -69,6 +71,43 @@ Json recommendation_schema() {
   return schema_of<Recommendation>("clusterbench recommendation",
                                    "What `clusterbench recommend -o FILE` writes: of each scene and viewport the "
                                    "candidate with the least objective among those that break no constraint.");
+}
+
+namespace {
+
+// The same schema, where a whole number may also be a formula.
+void allow_formulas(Json& schema) {
+  if (schema.is_object() && schema.value("type", Json()) == "integer") {
+    const Json formula{{"type", "string"}, {"x-formula", true}};
+    Json number = schema, outer = Json::object();
+    for (const char* key : {"description", "x-unit"})
+      if (number.contains(key)) {
+        outer[key] = number[key];
+        number.erase(key);
+      }
+    outer["anyOf"] = Json::array({number, formula});
+    schema = outer;
+    return;
+  }
+  if (schema.is_structured())
+    for (Json& member : schema) allow_formulas(member);
+}
+
+}  // namespace
+
+Json shader_schema() {
+  Json schema = schema_of<ShaderMethod>("clusterbench shader",
+                                        "What `--shader FILE` reads: compute shaders of a user as a method, with their "
+                                        "buffers, dispatches and the lists that they leave.");
+  const Json dump = dump_schema();
+  Json part = dump["definitions"]["lists"], field = dump["definitions"]["field"];
+  allow_formulas(part);
+  allow_formulas(field);
+  schema["definitions"]["lists"] = part;
+  schema["definitions"]["field"] = field;
+  schema["properties"]["$schema"] = {{"type", "string"}, {"description", "For editors"}};
+  schema["properties"]["lists"]["items"] = {{"$ref", "#/definitions/lists"}};
+  return schema;
 }
 
 Json size_schema() {

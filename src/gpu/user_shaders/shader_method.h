@@ -1,0 +1,19 @@
+#pragma once
+// A user's shaders as a method: the registry knows it like those that are built in.
+
+#include <memory>
+
+#include "assign/contract/assigner.h"
+#include "gpu/user_shaders/shader_file.h"
+
+namespace clusterbench::gpu {
+
+assign::AssignerDescriptor descriptor_of(std::shared_ptr<const ShaderFile> file);
+
+// Reads the file and adds its method to the registry, unless the same file was added before; then its descriptor as it
+// was. Throws Error (file, JSON pointer), also where another method has the name.
+const assign::AssignerDescriptor& add_shader_method(const std::filesystem::path& path);
+// Takes all of them out of the registry again; for tests. No configuration may be in use.
+void remove_shader_methods();
+
+}  // namespace clusterbench::gpu
