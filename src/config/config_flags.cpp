@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <regex>
 
+#include "config/config_shaders.h"
 #include "config/presets/assigner_names.h"
 #include "config/presets/preset_library.h"
 #include "config/schema/documents.h"
@@ -268,18 +268,13 @@ void set_device(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"device"}, flag, flag.value);
 }
 
-// Paths of the command line are of the working directory, those of the configuration of its folder.
 void add_shader(FlaggedConfig& document, const FlagValue& flag) {
-  namespace fs = std::filesystem;
   gpu::add_shader_method(flag.value);  // now, so that patterns of --assigner find it
-  const fs::path folder = fs::path(document.file()).parent_path();
-  std::error_code failed;
-  const fs::path beside = folder.empty() ? fs::path(flag.value) : fs::proximate(flag.value, folder, failed);
+  const std::string path = shader_path_for(document.file(), flag.value);
   Json& shaders = document["shaders"];
-  const std::string name = beside.empty() ? flag.value : beside.string();
-  if (std::ranges::find(shaders, name) != shaders.end()) return;
+  if (std::find(shaders.begin(), shaders.end(), path) != shaders.end()) return;
   document.mark(child_pointer("/shaders", shaders.size()), flag);
-  shaders.push_back(name);
+  shaders.push_back(path);
 }
 
 // Decodes a step of a JSON pointer (RFC 6901): ~1 is a slash, ~0 a tilde.

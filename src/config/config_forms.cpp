@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "config/config_shaders.h"
 #include "config/presets/assigner_names.h"
 #include "config/presets/preset_library.h"
 #include "config/schema/documents.h"
 #include "config/schema/schema_reader.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "gpu/user_shaders/shader_method.h"
 
 namespace clusterbench::config {
 namespace {
@@ -69,30 +69,6 @@ Json without_globs(const Json& list, const JsonText& text) {
       if (!is_named(list, name) && !is_named(out, name)) out.push_back(name);
   }
   return out;
-}
-
-std::filesystem::path beside_config(const std::string& name, const JsonText& text) {
-  return std::filesystem::path(text.file).parent_path() / name;
-}
-
-// Puts methods of files into the registry, and returns their names. The schema reads what is wrong with the list.
-std::vector<std::string> add_shaders(const JsonText& text) {
-  std::vector<std::string> names;
-  if (!text.value.is_object() || !text.value.contains("shaders") || !text.value["shaders"].is_array()) return names;
-  for (const Json& file : text.value["shaders"])
-    if (file.is_string() && !file.get_ref<const std::string&>().empty())
-      names.push_back(gpu::add_shader_method(beside_config(file.get<std::string>(), text)).name);
-  return names;
-}
-
-// They run wherever methods of the configuration's own do.
-Json with_shaders(Json assigners, const std::vector<std::string>& shaders) {
-  for (const std::string& name : shaders)
-    if (std::ranges::none_of(assigners, [&](const Json& entry) {
-          return entry == name || (entry.is_object() && entry["name"] == name);
-        }))
-      assigners.push_back(name);
-  return assigners;
 }
 
 constexpr const char* k_own_keys[] = {"grids", "assigners", "storages"};

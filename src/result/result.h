@@ -297,6 +297,7 @@ struct Skipped {
   FIELD(std::string, name, "As of a case, as far as all of the skipped combinations share it");
   FIELD(std::string, reason, "Why, as text");
   FIELD(std::optional<std::string>, preset, "That it is of; absent for the configuration's own clusterings");
+  FIELD(std::optional<bool>, failed, "true: it ran, what it left cannot be right, and the run fails with it");
   END_RECORD;
 };
 

@@ -248,10 +248,13 @@ class Run {
     const double done_before = progress_.cost_done;
     try {
       count_group(group, out);
+    } catch (const gpu::ShaderFault& fault) {
+      progress_.cost_done = done_before;
+      run_apart(group, fault.message(), true, out);
     } catch (const gpu::DeviceError& error) {
       gpu::close_device();
       progress_.cost_done = done_before;
-      run_apart(group, error.message(), out);
+      run_apart(group, error.message(), false, out);
     } catch (const Error& error) {
       throw Error(error.file(), name_of_group_ + (error.where().empty() ? "" : ": " + error.where()), error.message(),
                   error.code());
@@ -260,7 +263,7 @@ class Run {
 
   // After a failure of the device: the group without its cases, then each method on the device alone. One that fails
   // alone is skipped.
-  void run_apart(const GroupPlan& group, const std::string& reason, Result& out) {
+  void run_apart(const GroupPlan& group, const std::string& reason, bool is_fault, Result& out) {
     std::vector<GroupPlan> parts(1, processor_cases(config_, group));
     const GroupPlan on_device = device_cases(config_, group);
     for (const Method& method : methods_of(on_device)) {
@@ -278,7 +281,7 @@ class Run {
     }
     progress_.cost_total -= cost_of_all(group);
     for (const CasePlan& case_plan : group.cases)
-      out.skipped.push_back({case_plan.name, reason, false, case_plan.preset});
+      out.skipped.push_back({case_plan.name, reason, false, case_plan.preset, is_fault});
     progress_.cases_done += group.cases.size();
     if (listener_.on_progress) listener_.on_progress(progress_);
   }

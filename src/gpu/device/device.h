@@ -23,6 +23,13 @@ class DeviceError : public Error {
   explicit DeviceError(std::string message) : Error("", "device", std::move(message)) {}
 };
 
+// What a user's shader left cannot be read. The device is as well as before; the fault is the shader's, and fails the
+// run.
+class ShaderFault : public DeviceError {
+ public:
+  using DeviceError::DeviceError;
+};
+
 // A compute pipeline: a shader with the size of its groups and its mode (both specialization constants).
 using Kernel = std::uint32_t;
 

@@ -480,9 +480,10 @@ class ShaderAssigner final : public assign::StructureAssigner {
     const std::string at = "cell (" + std::to_string(cell % cells.x) + ", " + std::to_string(cell / cells.x % cells.y) +
                            ", " + std::to_string(cell / cells.x / cells.y) + ")";
     const std::uint64_t more = faults.count - faults.twice - 1;
-    refuse("/lists", "buffer '" + (first.buffer == nullptr ? "" : first.buffer->name) + "', byte " +
-                         std::to_string(first.byte) + ", " + at + ": " + first.message +
-                         (more > 0 ? "; " + number_of(more, "value") + " more cannot be right" : ""));
+    throw ShaderFault(file_->path.string() + ": /lists: buffer '" +
+                      (first.buffer == nullptr ? "" : first.buffer->name) + "', byte " + std::to_string(first.byte) +
+                      ", " + at + ": " + first.message +
+                      (more > 0 ? "; " + number_of(more, "value") + " more cannot be right" : ""));
   }
 
   std::shared_ptr<const ShaderFile> file_;

@@ -17,44 +17,50 @@ namespace {
 constexpr std::uint32_t k_magic = 0x07230203u, k_magic_swapped = 0x03022307u, k_newest_version = 0x00010600u;
 constexpr std::size_t k_header = 5;
 
-enum Op : std::uint32_t {
-  name = 5,
-  entry_point = 15,
-  execution_mode = 16,
-  capability = 17,
-  type_bool = 20,
-  type_int = 21,
-  type_float = 22,
-  type_vector = 23,
-  type_matrix = 24,
-  type_array = 28,
-  type_runtime_array = 29,
-  type_struct = 30,
-  type_pointer = 32,
-  constant = 43,
-  constant_composite = 44,
-  spec_constant_true = 48,
-  spec_constant_false = 49,
-  spec_constant = 50,
-  spec_constant_composite = 51,
-  variable = 59,
-  decorate = 71,
-  member_decorate = 72,
-  execution_mode_id = 331
+struct Op {
+  enum : std::uint32_t {
+    name = 5,
+    entry_point = 15,
+    execution_mode = 16,
+    capability = 17,
+    type_bool = 20,
+    type_int = 21,
+    type_float = 22,
+    type_vector = 23,
+    type_matrix = 24,
+    type_array = 28,
+    type_runtime_array = 29,
+    type_struct = 30,
+    type_pointer = 32,
+    constant = 43,
+    constant_composite = 44,
+    spec_constant_true = 48,
+    spec_constant_false = 49,
+    spec_constant = 50,
+    spec_constant_composite = 51,
+    variable = 59,
+    decorate = 71,
+    member_decorate = 72,
+    execution_mode_id = 331
+  };
 };
-enum Decoration : std::uint32_t {
-  spec_id = 1,
-  block = 2,
-  buffer_block = 3,
-  array_stride = 6,
-  matrix_stride = 7,
-  built_in = 11,
-  binding_number = 33,
-  descriptor_set = 34,
-  offset = 35
+struct Decoration {
+  enum : std::uint32_t {
+    spec_id = 1,
+    block = 2,
+    buffer_block = 3,
+    array_stride = 6,
+    matrix_stride = 7,
+    built_in = 11,
+    binding_number = 33,
+    descriptor_set = 34,
+    offset = 35
+  };
 };
 constexpr std::uint32_t k_compute = 5, k_local_size = 17, k_local_size_id = 38, k_workgroup_size = 25;
-enum Storage : std::uint32_t { uniform_constant = 0, uniform = 2, push_constant = 9, storage_buffer = 12 };
+struct Storage {
+  enum : std::uint32_t { uniform_constant = 0, uniform = 2, push_constant = 9, storage_buffer = 12 };
+};
 
 struct Capability {
   std::uint32_t number;

@@ -102,7 +102,8 @@ result::Result record_of(const run::Result& result, const std::vector<Case>& ear
   add_device_frames(out.cases, out.config);
   out.pareto_front = fronts(out.scenes, out.cases, out);
   for (const run::Skipped& skipped : result.skipped)
-    out.skipped.push_back({skipped.name, skipped.reason, known(skipped.preset)});
+    out.skipped.push_back(
+        {skipped.name, skipped.reason, known(skipped.preset), skipped.has_failed ? std::optional(true) : std::nullopt});
   add_presets(out, out);
   out.conclusions = conclusions_of(out, out);
   conclude_failures(out, {});

@@ -14,6 +14,7 @@ struct Skipped {
   std::string name, reason;
   bool is_other_kind = false;  // the method does not support this kind of grid
   std::string preset = {};     // "" for the configuration's own clusterings
+  bool has_failed = false;     // it ran, and the run fails with it
 };
 
 struct Plan {

@@ -264,7 +264,15 @@ struct Failure {
 
 // A fact that a reader must know, which does not fail the run.
 struct Warning {
-  enum class Kind : std::uint8_t { dropped_pairs, unlit, undecided, lost_pairs, unchecked, too_many_lights };
+  enum class Kind : std::uint8_t {
+    dropped_pairs,
+    unlit,
+    undecided,
+    lost_pairs,
+    unchecked,
+    too_many_lights,
+    repeated_lights
+  };
   Kind kind = Kind::dropped_pairs;
   std::string text;  // without the case's name
 };
@@ -311,13 +319,14 @@ struct CaseResult {
   std::vector<ShadowCullResult> shadow_culls;        // of lists, one per way; empty if not requested
   std::optional<SharedFrustaResult> shared_frusta;   // if requested
   std::optional<TimingResult> timing;
-  bool on_device = false;                // the method runs on a device
-  std::optional<DeviceTimes> device;     // its times, in place of `timing`
-  std::optional<ReadingResult> reading;  // if requested
-  std::string unread;                    // why there is none though it was requested
-  std::optional<CountResult> count;      // if requested
-  std::optional<Details> details;        // with cells, if requested
-  std::vector<Failure> failures;         // run/findings/gate.h
+  bool on_device = false;                  // the method runs on a device
+  std::string origin_file, origin_sha256;  // of a method that is not built in
+  std::optional<DeviceTimes> device;       // its times, in place of `timing`
+  std::optional<ReadingResult> reading;    // if requested
+  std::string unread;                      // why there is none though it was requested
+  std::optional<CountResult> count;        // if requested
+  std::optional<Details> details;          // with cells, if requested
+  std::vector<Failure> failures;           // run/findings/gate.h
 };
 
 // Cells of the case's grid in a frame.

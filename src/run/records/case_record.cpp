@@ -16,8 +16,14 @@ std::optional<std::string> known(const std::string& text) {
 }
 
 result::Method method_record(const CaseResult& found) {
-  return {found.assigner,     found.assigner_label, result::Json(found.assigner_params),
-          found.conservative, found.exact,          found.on_device ? std::optional(true) : std::nullopt};
+  return {found.assigner,
+          found.assigner_label,
+          result::Json(found.assigner_params),
+          found.conservative,
+          found.exact,
+          found.on_device ? std::optional(true) : std::nullopt,
+          known(found.origin_file),
+          known(found.origin_sha256)};
 }
 
 // Whether samples search a structure of the method's own.
