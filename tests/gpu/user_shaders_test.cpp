@@ -134,7 +134,7 @@ TEST_F(DeviceUserShaders, that_append_list_the_same_in_any_order) {
     }
     ++settings;
   }
-  EXPECT_GT(settings, 2u);
+  EXPECT_GT(settings, 1u);
 }
 
 TEST_F(DeviceUserShaders, whose_buffer_is_full_have_what_they_drop_counted) {
@@ -159,7 +159,9 @@ TEST_F(DeviceUserShaders, leave_the_same_lists_however_often_their_work_is_repea
     const assign::AssignerDescriptor& row = shader_of(name);
     Setting setting = settings_of(row).front();
     const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
-    const auto method = row.make_own(Params(row.params));
+    std::map<std::string, assign::ParamValue> values;
+    if (name == std::string("append")) values["per_cell"] = 1000.0;  // what is dropped would be another light each time
+    const auto method = row.make_own(Params(row.params, values));
     const auto structure = method->make_structure();
     method->build(setting.grid, assign::kinds_of(lights));
     method->assign(setting.input(lights), *structure);

@@ -1,5 +1,6 @@
-// `clusterbench schema config|result|comparison|ratios|recommendation|stress|worst-case|size|light-map|dump|check` and
-// `clusterbench validate FILE...`.
+// `clusterbench schema
+// config|result|comparison|ratios|recommendation|stress|worst-case|size|light-map|dump|check|shader` and `clusterbench
+// validate FILE...`.
 
 #include <algorithm>
 #include <fstream>
@@ -13,6 +14,7 @@
 #include "core/file_text.h"
 #include "core/json_document.h"
 #include "core/text.h"
+#include "gpu/user_shaders/shader_method.h"
 #include "result/result.h"
 #include "run/cases/plan.h"
 
@@ -41,9 +43,21 @@ ExitCode validate_config(const std::string& path) {
   return ExitCode::ok;
 }
 
+// With its modules, and held against the device that is there.
+ExitCode validate_shader(const std::string& path) {
+  const gpu::ShaderFile file = gpu::read_shader_file(path);
+  const std::string obstacle = gpu::shader_obstacle(file);
+  std::cout << path << ": valid, method '" << file.record.name << "' with " << std::to_string(file.record.passes.size())
+            << (file.record.passes.size() == 1 ? " pass, " : " passes, ")
+            << number_of(file.record.buffers.size(), "buffer")
+            << (obstacle.empty() ? "" : "; it cannot run here: " + printable(obstacle)) << "\n";
+  return ExitCode::ok;
+}
+
 ExitCode validate(const std::string& path) {
   const nlohmann::json document = json_or_discarded<nlohmann::json>(file_text(path), JsonComments::allowed);
   const config::DocumentRow& row = config::row_of(config::document_of(document));
+  if (row.document == config::Document::shader) return validate_shader(path);
   return row.document == config::Document::config ? validate_config(path) : validate_written(path, document, row);
 }
 
@@ -57,7 +71,8 @@ void add_schema(Command& program, Action& action) {
   command
       .add_option("WHICH", *name,
                   "Of a configuration, or of what run, compare --json, ratio --json, recommend, stress, worst-case, "
-                  "size --format json, light-map or check --json write, or of a dump that check reads")
+                  "size --format json, light-map or check --json write, or of a dump that check reads, or of a method "
+                  "of --shader")
       .required()
       .one_of(names);
   command.when_named([name, &action] {
@@ -72,12 +87,13 @@ void add_schema(Command& program, Action& action) {
 }
 
 void add_validate(Command& program, Action& action) {
-  Command command =
-      program.add_command("validate", "Check configurations and what clusterbench wrote, without running anything");
+  Command command = program.add_command(
+      "validate", "Check configurations, methods of --shader and what clusterbench wrote, without running anything");
   auto paths = std::make_shared<std::vector<std::string>>();
   command
       .add_option("FILE", *paths,
-                  "Configurations, results, comparisons, ratios, recommendations, results of stress, worst-case and "
+                  "Configurations, methods of --shader, results, comparisons, ratios, recommendations, results of "
+                  "stress, worst-case and "
                   "light-map")
       .required();
   command.when_named([paths, &action] {

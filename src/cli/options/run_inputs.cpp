@@ -9,6 +9,7 @@
 #include "cli/output/output.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "gpu/user_shaders/shader_file.h"
 #include "report/documents/result_file.h"
 #include "report/results/measured_prices.h"
 #include "run/scene_facts.h"
@@ -97,6 +98,9 @@ std::vector<std::string> files_of(const RunInputs& inputs, const config::Config&
   std::vector<std::string> files = inputs.paths;
   for (const config::SceneRequest& scene : config.scenes)
     if (!scene.path.empty()) std::ranges::move(files_of_scene(scene.path), std::back_inserter(files));
+  for (const config::MethodRequest& method : config.assigners)
+    if (const auto& origin = assign::find_assigner(method.name)->origin)
+      std::ranges::move(gpu::files_of_shader(origin->file), std::back_inserter(files));
   files.push_back(config.limits.baseline.string());
   return files;
 }

@@ -27,6 +27,9 @@ Json journal_header(const RunFlags& flags, const config::Config& config, const r
   Json header{{"version", tool.version}, {"git_sha", tool.git_sha}, {"flags", tool.flags},
               {"scenes", scenes},        {"filter", flags.filter},  {"config", measured_config(config)}};
   if (!flags.count.empty()) header["count"] = flags.count;
+  for (const config::MethodRequest& method : config.assigners)
+    if (const auto& origin = assign::find_assigner(method.name)->origin)
+      header["methods"][method.name] = origin->sha256;
   if (const std::optional<gpu::DeviceFacts> device = run::device_of(config, plan))
     header["device"] = {{"name", device->name}, {"driver", device->driver}, {"uuid", device->uuid}};
   return header;

@@ -287,20 +287,30 @@ void replace_formulas(const result::Type& type, Json& value, const NumberOf& num
   }
 }
 
-void read_modules(ShaderFile& file, Sha256& digest) {
+void read_modules(ShaderFile& file, Sha256& digest, const BytesOfModule& bytes_of) {
   for (std::size_t i = 0; i < file.record.passes.size(); ++i) {
     const std::string& name = file.record.passes[i].module;
     if (file.modules.contains(name)) continue;
-    const fs::path path = file.path.parent_path() / name;
-    std::error_code none;
-    if (!fs::exists(path, none))
-      throw Error(
-          file.path.string(), "/passes/" + std::to_string(i) + "/module",
-          "names " + path.string() +
-              ", which does not exist; it is made by glslangValidator -V --target-env vulkan1.3 X.comp -o X.spv");
-    const std::string bytes = small_file(path, k_most_module_bytes);
+    const std::string bytes = bytes_of(name, "/passes/" + std::to_string(i) + "/module");
     digest.add(bytes);
-    file.modules.emplace(name, read_module(std::as_bytes(std::span(bytes)), path.string()));
+    file.modules.emplace(name, read_module(std::as_bytes(std::span(bytes)), (file.path.parent_path() / name).string()));
+  }
+}
+
+ShaderMethod parse_shader_method(std::string_view text, const std::string& file) {
+  const auto json = read_json<Json>(text, file, JsonComments::allowed);
+  if (!json.is_object() || !json.contains("shader_version"))
+    throw Error(file, "/shader_version", "is missing: this is no method of shaders (see `clusterbench schema shader`)");
+  try {
+    if (json["shader_version"] != 1)
+      throw Error("", "/shader_version", "is " + json["shader_version"].dump() + "; this version reads 1");
+    Json plain = json;
+    plain.erase("$schema");
+    auto method = result::from_json<ShaderMethod>(plain);
+    result::check_values(method);
+    return method;
+  } catch (const Error& error) {
+    throw Error(file, error.where(), error.message(), error.code());
   }
 }
 
@@ -326,31 +336,13 @@ result::DumpLists lists_of(const Json& part, const NumberOf& number, const std::
   return lists;
 }
 
-ShaderMethod parse_shader_method(std::string_view text, const std::string& file) {
-  const auto json = read_json<Json>(text, file, JsonComments::allowed);
-  if (!json.is_object() || !json.contains("shader_version"))
-    throw Error(file, "/shader_version", "is missing: this is no method of shaders (see `clusterbench schema shader`)");
-  try {
-    if (json["shader_version"] != 1)
-      throw Error("", "/shader_version", "is " + json["shader_version"].dump() + "; this version reads 1");
-    Json plain = json;
-    plain.erase("$schema");
-    auto method = result::from_json<ShaderMethod>(plain);
-    result::check_values(method);
-    return method;
-  } catch (const Error& error) {
-    throw Error(file, error.where(), error.message(), error.code());
-  }
-}
-
-ShaderFile read_shader_file(const fs::path& path) {
+ShaderFile make_shader_file(const fs::path& path, std::string_view text, const BytesOfModule& bytes_of) {
   ShaderFile file;
   file.path = path;
-  const std::string text = small_file(path, k_most_json_bytes);
   file.record = parse_shader_method(text, path.string());
   Sha256 digest;
   digest.add(text);
-  read_modules(file, digest);
+  read_modules(file, digest, bytes_of);
   file.sha256 = digest.hex();
   try {
     MethodCheck(file).check();
@@ -358,6 +350,19 @@ ShaderFile read_shader_file(const fs::path& path) {
     throw Error(path.string(), error.where(), error.message(), error.code());
   }
   return file;
+}
+
+ShaderFile read_shader_file(const fs::path& path) {
+  return make_shader_file(path, small_file(path, k_most_json_bytes),
+                          [&](const std::string& name, const std::string& where) {
+                            const fs::path module = path.parent_path() / name;
+                            std::error_code none;
+                            if (fs::exists(module, none)) return small_file(module, k_most_module_bytes);
+                            throw Error(path.string(), where,
+                                        "names " + module.string() +
+                                            ", which does not exist; it is made by glslangValidator -V --target-env "
+                                            "vulkan1.3 X.comp -o X.spv");
+                          });
 }
 
 std::vector<std::string> files_of_shader(const fs::path& path) {

@@ -3,6 +3,7 @@
 // frame.
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,8 +28,9 @@ struct ShaderFile {
 
 // The JSON has at most 1 MiB, a module 16 MiB. Throws Error (file, JSON pointer or byte).
 ShaderFile read_shader_file(const std::filesystem::path& path);
-// The same of text, for tests and fuzzers: modules are read beside `path`.
-result::ShaderMethod parse_shader_method(std::string_view text, const std::string& file);
+// The same of a text. `bytes_of`: of a module by its name, which stands at this place in the text.
+using BytesOfModule = std::function<std::string(const std::string& name, const std::string& where)>;
+ShaderFile make_shader_file(const std::filesystem::path& path, std::string_view text, const BytesOfModule& bytes_of);
 
 // The files that it names, itself first.
 std::vector<std::string> files_of_shader(const std::filesystem::path& path);

@@ -55,17 +55,6 @@ std::string module_obstacle(const DeviceFacts& facts, const SpirvModule& module,
   return "";
 }
 
-std::string obstacle_of(const ShaderFile& file) {
-  if (std::string none = device_obstacle(); !none.empty()) return none;
-  try {
-    for (const auto& [name, module] : file.modules)
-      if (std::string reason = module_obstacle(gpu::device().facts(), module, name); !reason.empty()) return reason;
-    return "";
-  } catch (const DeviceError& error) {
-    return error.message();
-  }
-}
-
 // A pass, ready to be dispatched for one frame.
 struct ReadyPass {
   const Program* program = nullptr;
@@ -475,15 +464,22 @@ class ShaderAssigner final : public assign::StructureAssigner {
   }
 
   [[noreturn]] void refuse_faults(const layout::Faults& faults, Vec3i cells) const {
-    const layout::Fault& first = *std::ranges::find(faults.first, false, &layout::Fault::is_twice);
-    const auto cell = static_cast<int>(first.cell);
-    const std::string at = "cell (" + std::to_string(cell % cells.x) + ", " + std::to_string(cell / cells.x % cells.y) +
-                           ", " + std::to_string(cell / cells.x / cells.y) + ")";
-    const std::uint64_t more = faults.count - faults.twice - 1;
-    throw ShaderFault(file_->path.string() + ": /lists: buffer '" +
-                      (first.buffer == nullptr ? "" : first.buffer->name) + "', byte " + std::to_string(first.byte) +
-                      ", " + at + ": " + first.message +
-                      (more > 0 ? "; " + number_of(more, "value") + " more cannot be right" : ""));
+    const std::uint64_t all = faults.count - faults.twice;
+    const auto first = std::ranges::find(faults.first, false, &layout::Fault::is_twice);
+    // Those that are kept may all be lights that are twice.
+    std::string text = number_of(all, "value") + " cannot be right, beside lights that are twice in a list";
+    if (first != faults.first.end()) {
+      text = fault_text(*first, cells);
+      if (all > 1) text += "; " + number_of(all - 1, "value") + " more cannot be right";
+    }
+    throw ShaderFault(file_->path.string() + ": /lists: " + text);
+  }
+  static std::string fault_text(const layout::Fault& fault, Vec3i cells) {
+    const auto cell = static_cast<int>(fault.cell);
+    const Vec3i at{cell % cells.x, cell / cells.x % cells.y, cell / cells.x / cells.y};
+    return "buffer '" + (fault.buffer == nullptr ? "" : fault.buffer->name) + "', byte " + std::to_string(fault.byte) +
+           ", cell (" + std::to_string(at.x) + ", " + std::to_string(at.y) + ", " + std::to_string(at.z) +
+           "): " + fault.message;
   }
 
   std::shared_ptr<const ShaderFile> file_;
@@ -557,7 +553,7 @@ assign::AssignerDescriptor descriptor_of(std::shared_ptr<const ShaderFile> file)
   out.make_own = [file](const assign::Params& params) -> std::unique_ptr<assign::StructureAssigner> {
     return std::make_unique<ShaderAssigner>(file, params);
   };
-  out.unavailable = [file](const assign::Params&) { return obstacle_of(*file); };
+  out.unavailable = [file](const assign::Params&) { return shader_obstacle(*file); };
   return out;
 }
 
@@ -574,6 +570,17 @@ const assign::AssignerDescriptor& add_shader_method(const std::filesystem::path&
   use_robust_buffers();
   all.push_back({whole, std::make_unique<assign::AssignerRegistration>(descriptor_of(file))});
   return all.back().registration->descriptor();
+}
+
+std::string shader_obstacle(const ShaderFile& file) {
+  if (std::string none = device_obstacle(); !none.empty()) return none;
+  try {
+    for (const auto& [name, module] : file.modules)
+      if (std::string reason = module_obstacle(gpu::device().facts(), module, name); !reason.empty()) return reason;
+    return "";
+  } catch (const DeviceError& error) {
+    return error.message();
+  }
 }
 
 void remove_shader_methods() {

@@ -291,14 +291,24 @@ class ModuleReader {
   void finish() {
     for (const auto& [id, is_word] : specialized_)
       if (const auto as = decoration(id, Decoration::spec_id)) {
-        out_.constants.push_back({*as, is_word});
+        add_constant({*as, is_word});
         if (const auto found = out_.numbers.find(id); found != out_.numbers.end()) found->second.specialized_as = *as;
       }
     for (const Variable& one : variables_) add(one);
+    std::ranges::sort(out_.bindings, {}, [](const ModuleBinding& one) { return std::pair(one.set, one.binding); });
     // A constant that is the size of groups stands for that of each entry.
     for (const auto& [id, parts] : composites_)
       if (decoration(id, Decoration::built_in) == k_workgroup_size && parts.size() == 3)
         for (ModuleEntry& entry : out_.entries) std::copy_n(parts.begin(), 3, entry.size_ids.begin());
+  }
+
+  // Several constants may have one id.
+  void add_constant(ModuleConstant constant) {
+    const auto found = std::ranges::find(out_.constants, constant.id, &ModuleConstant::id);
+    if (found == out_.constants.end())
+      out_.constants.push_back(constant);
+    else
+      found->is_word = found->is_word && constant.is_word;
   }
 
   struct Variable {
