@@ -218,6 +218,17 @@ class Examples(unittest.TestCase):
             self.assertEqual(recommend.returncode, 2)
             self.assertIn("runs on a device, whose times do not compare", recommend.stderr)
 
+    def test_slices_of_its_own_skip_other_grids_before_the_run(self):
+        with Folder() as folder:
+            cut = {"kind": "frustum", "tiles": {"pixels": 60}, "slices": {"scheme": "exponential", "count": 4}}
+            linear = {"kind": "frustum", "tiles": {"pixels": 64}, "slices": {"scheme": "linear", "count": 4}}
+            result, done = folder.run(configuration(grids=[GRID, linear, cut], viewport=[320, 192]), "--shader", f"{SHADERS}/tutorial.json", "--no-timing")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([case["assigner"]["name"] for case in result["cases"]], ["brute-force", "tutorial-loop", "brute-force", "brute-force"])
+        self.assertEqual([one["reason"] for one in result["skipped"]], ["tutorial-loop has exponential slices; those of this grid are others",
+                                                                            "tutorial-loop has tiles of equal size; the last ones of this grid are cut off"])
+        self.assertNotIn("was not measured", done.stderr)
+
     def test_readings_and_launches(self):
         with Folder() as folder:
             document = configuration(reading={"rounds": 2, "divisor": 4})

@@ -186,6 +186,8 @@ struct AssignerDescriptor {
   std::function<std::unique_ptr<StructureAssigner>(const Params& params)> make_own{};
   // The reason why it cannot run on this machine, "" if it can. Null: it always can.
   std::function<std::string(const Params& params)> unavailable{};
+  // The reason why it cannot run on a grid of its kinds, "" if it can. Null: it can on all.
+  std::function<std::string(const grid::Grid& grid)> unfit{};
   // Of a method that is not built in.
   std::optional<Origin> origin{};
 

@@ -55,6 +55,35 @@ std::string module_obstacle(const DeviceFacts& facts, const SpirvModule& module,
   return "";
 }
 
+// Does it compute slices of its own that are not those of the grid? Single precision is off by less than this.
+std::string slices_obstacle(const result::ShaderMethod& method, const grid::Grid& grid) {
+  constexpr double k_rounding = 1e-5;
+  const std::string wanted = method.slices.value_or("any");
+  if (wanted == "any") return "";
+  const std::vector<float>& ends = grid.screen().slices.boundaries;
+  const auto count = static_cast<double>(ends.size() - 1);
+  const auto first = static_cast<double>(ends.front()), last = static_cast<double>(ends.back());
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const double share = static_cast<double>(i) / count;
+    const double expected = wanted == "linear" ? first + (last - first) * share : first * std::pow(last / first, share);
+    if (std::abs(expected - static_cast<double>(ends[i])) > k_rounding * std::abs(expected))
+      return method.name + " has " + wanted + " slices; those of this grid are others";
+  }
+  return "";
+}
+
+std::string tiles_obstacle(const result::ShaderMethod& method, const grid::Grid& grid) {
+  const grid::Tiles& tiles = grid.screen().tiles;
+  if (method.tiles.value_or("any") == "any" || tiles.pixels.x == 0) return "";
+  if (tiles.viewport.x % tiles.pixels.x == 0 && tiles.viewport.y % tiles.pixels.y == 0) return "";
+  return method.name + " has tiles of equal size; the last ones of this grid are cut off";
+}
+
+std::string grid_obstacle(const result::ShaderMethod& method, const grid::Grid& grid) {
+  const std::string reason = tiles_obstacle(method, grid);
+  return reason.empty() ? slices_obstacle(method, grid) : reason;
+}
+
 // A pass, ready to be dispatched for one frame.
 struct ReadyPass {
   const Program* program = nullptr;
@@ -85,7 +114,7 @@ class ShaderAssigner final : public assign::StructureAssigner {
   void build(const grid::Grid& grid, const assign::LightKinds&) override {
     grid_ = &grid;
     is_new_ = true;
-    check_slices(grid.screen());
+    check_grid(grid);
   }
 
   void assign(const assign::FrameInput& input, assign::LightStructure& out) override {
@@ -133,20 +162,10 @@ class ShaderAssigner final : public assign::StructureAssigner {
 
   // --- The grid ---
 
-  void check_slices(const grid::ScreenGrid& grid) const {
-    const std::string wanted = record().slices.value_or("any");
-    if (wanted == "any") return;
-    const std::vector<float>& ends = grid.slices.boundaries;
-    const auto count = static_cast<double>(ends.size() - 1);
-    const auto first = static_cast<double>(ends.front()), last = static_cast<double>(ends.back());
-    constexpr double k_rounding = 1e-5;
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      const double share = static_cast<double>(i) / count;
-      const double expected =
-          wanted == "linear" ? first + (last - first) * share : first * std::pow(last / first, share);
-      if (std::abs(expected - static_cast<double>(ends[i])) <= k_rounding * std::abs(expected)) continue;
-      throw DeviceError(file_->path.string() + ": /slices: are " + wanted + "; those of this grid are not");
-    }
+  // Slices that follow a frame's lights may fit in one frame and not in the next.
+  void check_grid(const grid::Grid& grid) const {
+    if (const std::string reason = grid_obstacle(record(), grid); !reason.empty())
+      throw DeviceError(file_->path.string() + ": " + reason);
   }
 
   // --- A frame ---
@@ -553,6 +572,7 @@ assign::AssignerDescriptor descriptor_of(std::shared_ptr<const ShaderFile> file)
   out.make_own = [file](const assign::Params& params) -> std::unique_ptr<assign::StructureAssigner> {
     return std::make_unique<ShaderAssigner>(file, params);
   };
+  out.unfit = [file](const grid::Grid& grid) { return grid_obstacle(file->record, grid); };
   out.unavailable = [file](const assign::Params&) { return shader_obstacle(*file); };
   return out;
 }

@@ -153,6 +153,9 @@ struct ShaderMethod {
   FIELD(std::optional<bool>, spots, "It takes spots, if only as balls of their range; absent: true");
   FIELD(std::optional<std::vector<std::string>>, grids,
         About("Kinds of grid; absent: frustum alone").one_of({"frustum", "distance"}).items(1, 2));
+  FIELD(std::optional<std::string>, tiles,
+        About("even: it takes all tiles for equally large; a grid whose last ones are cut off is skipped. absent: any")
+            .one_of({"any", "even"}));
   FIELD(std::optional<std::string>, slices,
         About("Those that it computes itself: boundaries near * (far / near)^(k / n), or evenly spaced; a grid with "
               "others is skipped. absent: any")

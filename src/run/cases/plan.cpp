@@ -117,6 +117,7 @@ class Expansion {
     std::string impossible =
         method_obstacle(method, kind, data, data.paths[group.camera].shots.front().projection.orthographic);
     if (impossible.empty()) impossible = limit_obstacle(assigner, config_.limits, first);
+    if (impossible.empty()) impossible = fit_obstacle(assigner, first);
     if (!impossible.empty()) {
       skip(branch.known, impossible, !assigner.takes(kind));
       return;
