@@ -354,6 +354,8 @@ class Faults(unittest.TestCase):
         self.ended(changed(METHOD, passes__0__constants=[{"id": 5, "is": "4096"}]), "has groups of 4096 x 1 x 1 invocations; .* allows",
                    source=LOOP.replace("local_size_x = 64", "local_size_x_id = 5"))
         self.ended(METHOD, "lacks, the capability|push constants", source=LOOP.replace("uint lights; }", "uint lights; uint more[100]; }"))
+        shared = LOOP.replace("void main() {", "shared uint much[1 << 20];\nvoid main() { much[gl_LocalInvocationIndex] = 1;")
+        self.ended(METHOD, "has .* bytes for a group to share; mine.spv takes 4194304", source=shared)
         big = LOOP.replace("readonly buffer Boundaries { float boundaries[]; }", "readonly buffer Boundaries { float boundaries[4096]; }")
         self.ended(METHOD, "/passes/0/bindings/1: mine.spv reads 16384 bytes there; buffer 'boundaries' has", source=big)
 

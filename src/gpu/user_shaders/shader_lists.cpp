@@ -82,29 +82,34 @@ std::vector<assign::BufferNeed> ShaderLists::buffers() const {
 std::vector<ShaderBufferUse> buffer_use(const result::DumpLists& lists, std::uint64_t rows, std::uint64_t entries,
                                         const std::vector<layout::Buffer>& buffers) {
   std::vector<ShaderBufferUse> out;
-  if (lists.rows) {
-    const char* name = lists.layout == "linked" ? "heads" : lists.layout.starts_with("bits") ? "words" : "headers";
-    if (lists.layout == "fixed" && lists.entries && !lists.entries->buffer) name = "cells";
-    const bool is_index = !lists.layout.starts_with("bits") && name != std::string("cells");
-    out.push_back({name, lists.rows->stride, rows, rows, is_index});
+  const bool is_fixed = lists.layout == "fixed", is_bits = lists.layout.starts_with("bits");
+  const auto add_lists = [&](const char* name, std::uint64_t element_bytes, std::uint64_t used, std::uint64_t room) {
+    out.push_back({name, element_bytes, used, room, false, std::min(entries, room), room});
+  };
+  if (is_bits && lists.rows) {
+    const std::uint64_t word = size_of_type(lists.word.value_or("u32")), words = rows * lists.rows->stride / word;
+    out.push_back({"words", word, words, words, false, words, words});
+  } else if (is_fixed && lists.rows && lists.entries && !lists.entries->buffer) {
+    out.push_back({"cells", lists.rows->stride, rows, rows, false, entries, rows * lists.per_cell.value_or(0)});
+  } else if (lists.rows) {
+    out.push_back({lists.layout == "linked" ? "heads" : "headers", lists.rows->stride, rows, rows, true, 0, 0});
   }
   if (lists.entries && lists.entries->buffer) {
-    const std::uint64_t stride =
-        lists.entries->stride.value_or(size_of_type(lists.entries->type) * (lists.layout == "runs" ? 2 : 1));
-    const std::uint64_t room = lists.layout == "fixed"
+    const bool is_runs = lists.layout == "runs";
+    const std::uint64_t stride = lists.entries->stride.value_or(size_of_type(lists.entries->type) * (is_runs ? 2 : 1)),
+                        room = is_fixed
                                    ? rows * lists.per_cell.value_or(0)
                                    : room_in(buffers, *lists.entries->buffer, lists.entries->at.value_or(0), stride);
-    out.push_back({lists.layout == "runs" ? "runs" : "indices", stride,
-                   lists.layout == "fixed" ? room : std::min(entries, room), room, false});
+    add_lists(is_runs ? "runs" : "indices", stride, is_fixed ? room : std::min(entries, room), room);
   }
   if (lists.nodes) {
     const std::uint64_t room = room_in(buffers, lists.nodes->buffer, lists.nodes->at.value_or(0), lists.nodes->stride);
-    out.push_back({"nodes", lists.nodes->stride, std::min(entries, room), room, false});
+    add_lists("nodes", lists.nodes->stride, std::min(entries, room), room);
   }
   if (lists.ranges) {
     const layout::Buffer* buffer = find_buffer(buffers, lists.ranges->buffer);
     const std::uint64_t bytes = buffer == nullptr ? 0 : buffer->bytes.size();
-    out.push_back({"ranges", 1, bytes, bytes, true});
+    out.push_back({"ranges", 1, bytes, bytes, true, 0, 0});
   }
   return out;
 }

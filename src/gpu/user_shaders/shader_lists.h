@@ -16,6 +16,7 @@ struct ShaderBufferUse {
   const char* name;  // "indices", "headers"
   std::uint64_t element_bytes = 0, used = 0, room = 0;
   bool is_header = false;
+  std::uint64_t entries = 0, entry_room = 0;  // of lists, unless it has headers alone
 };
 
 class ShaderLists final : public assign::LightStructure {

@@ -41,6 +41,9 @@ std::string module_obstacle(const DeviceFacts& facts, const SpirvModule& module,
   if (module.argument_bytes > facts.max_argument_bytes)
     return facts.name + " takes " + number_of(facts.max_argument_bytes, "byte") + " of push constants; " + name +
            " has " + std::to_string(module.argument_bytes);
+  if (module.shared_bytes > facts.shared_bytes)
+    return facts.name + " has " + number_of(facts.shared_bytes, "byte") + " for a group to share; " + name + " takes " +
+           std::to_string(module.shared_bytes);
   std::uint64_t storage = 0, uniform = 0;
   for (const ModuleBinding& binding : module.bindings) {
     (binding.kind == ModuleBinding::Kind::uniform ? uniform : storage) += 1;
@@ -361,7 +364,7 @@ class ShaderAssigner final : public assign::StructureAssigner {
     for (std::size_t axis = 0; axis < given.size(); ++axis) {
       const std::string at = where + (pass.groups ? "/groups/" : "/invocations/") + std::to_string(axis);
       const std::uint64_t count = amount_of(given[axis], values.number(), at),
-                          groups = (count + size[axis] - 1) / size[axis];
+                          groups = count / size[axis] + (count % size[axis] == 0 ? 0 : 1);
       if (groups > device_->facts().max_groups[axis])
         refuse(at, "makes " + number_of(groups, "group") + "; " + device_->facts().name + " allows " +
                        std::to_string(device_->facts().max_groups[axis]) + " along this axis");
@@ -461,7 +464,6 @@ class ShaderAssigner final : public assign::StructureAssigner {
     layout::Decoded decoded = layout::decode(parts, read_, shape);
     if (!decoded.faults.are_readable()) refuse_faults(decoded.faults, shape.cells);
     contents.repeated_pairs = decoded.faults.twice;
-    contents.entries = decoded.lists.pair_count();
     contents.lists = std::move(decoded.lists);
     for (const layout::ListPart& part : parts) add_use(part, contents);
     spans_.result_bytes = 0;
@@ -474,11 +476,13 @@ class ShaderAssigner final : public assign::StructureAssigner {
     const bool is_of_tiles = part.lists.per_tile.value_or(false) || part.lists.layout.starts_with("bits_and");
     return is_of_tiles ? tiles : tiles * static_cast<std::uint64_t>(cells.z);
   }
+  // An entry is a light index, a node or a word of bits.
   void add_use(const layout::ListPart& part, ShaderLists::Contents& contents) const {
-    for (const ShaderBufferUse& use : buffer_use(part.lists, rows_of(part), contents.entries, read_)) {
+    for (const ShaderBufferUse& use : buffer_use(part.lists, rows_of(part), contents.lists.pair_count(), read_)) {
       contents.buffers.push_back(use);
-      if (!use.is_header)
-        contents.entry_room += use.name == std::string("cells") ? use.room * part.lists.per_cell.value_or(1) : use.room;
+      if (use.is_header) continue;
+      contents.entries += use.entries;
+      contents.entry_room += use.entry_room;
     }
   }
 

@@ -59,7 +59,7 @@ struct Decoration {
 };
 constexpr std::uint32_t k_compute = 5, k_local_size = 17, k_local_size_id = 38, k_workgroup_size = 25;
 struct Storage {
-  enum : std::uint32_t { uniform_constant = 0, uniform = 2, push_constant = 9, storage_buffer = 12 };
+  enum : std::uint32_t { uniform_constant = 0, uniform = 2, workgroup = 4, push_constant = 9, storage_buffer = 12 };
 };
 
 struct Capability {
@@ -233,13 +233,25 @@ class ModuleReader {
     return found == types_.end() ? nullptr : &found->second;
   }
 
-  std::uint64_t bytes_of(std::uint32_t id, int depth = 0) const {
+  // Each type is measured once, however many others have it; one that has itself has no size.
+  using Sizes = std::map<std::uint32_t, std::uint64_t>;
+  template <class Measure>
+  static std::uint64_t measured(Sizes& sizes, std::uint32_t id, int depth, Measure measure) {
     constexpr int k_deepest_type = 32;
     constexpr std::uint64_t k_most_bytes = std::uint64_t{1} << 40;
+    const auto [found, is_new] = sizes.try_emplace(id, 0);
+    if (!is_new || depth > k_deepest_type) return found->second;
+    return sizes[id] = std::min<std::uint64_t>(k_most_bytes, measure());
+  }
+
+  std::uint64_t bytes_of(std::uint32_t id, int depth = 0) {
     const TypeOf* of = type(id);
-    if (of == nullptr || depth > k_deepest_type) return 0;
-    const auto operand = [&](std::size_t i) { return i < of->operands.size() ? of->operands[i] : 0; };
-    switch (of->op) {
+    if (of == nullptr) return 0;
+    return measured(sizes_, id, depth, [&] { return bytes_of_type(id, *of, depth); });
+  }
+  std::uint64_t bytes_of_type(std::uint32_t id, const TypeOf& of, int depth) {
+    const auto operand = [&](std::size_t i) { return i < of.operands.size() ? of.operands[i] : 0; };
+    switch (of.op) {
       case Op::type_bool:
         return 4;
       case Op::type_int:
@@ -247,23 +259,23 @@ class ModuleReader {
         return operand(0) / 8;
       case Op::type_vector:
       case Op::type_matrix:
-        return std::min(k_most_bytes, bytes_of(operand(0), depth + 1) * operand(1));
+        return bytes_of(operand(0), depth + 1) * operand(1);
       case Op::type_array:
-        return std::min(k_most_bytes, array_bytes(id, operand(0), number(operand(1)), depth));
+        return array_bytes(id, operand(0), number(operand(1)), depth);
       case Op::type_runtime_array:
         return array_bytes(id, operand(0), 1, depth);
       case Op::type_struct:
-        return struct_bytes(id, *of, depth);
+        return struct_bytes(id, of, depth);
       default:
         return 0;
     }
   }
   // The last element has no padding.
-  std::uint64_t array_bytes(std::uint32_t id, std::uint32_t element, std::uint64_t count, int depth) const {
+  std::uint64_t array_bytes(std::uint32_t id, std::uint32_t element, std::uint64_t count, int depth) {
     const std::uint64_t size = bytes_of(element, depth + 1);
     return count == 0 ? 0 : (count - 1) * decoration(id, Decoration::array_stride).value_or(0) + size;
   }
-  std::uint64_t struct_bytes(std::uint32_t id, const TypeOf& of, int depth) const {
+  std::uint64_t struct_bytes(std::uint32_t id, const TypeOf& of, int depth) {
     std::uint64_t end = 0;
     const auto members = members_.find(id);
     for (std::uint32_t i = 0; i < of.operands.size(); ++i) {
@@ -278,10 +290,24 @@ class ModuleReader {
     }
     return end;
   }
-  std::uint64_t matrix_bytes(std::uint32_t id, std::uint64_t step) const {
+  std::uint64_t matrix_bytes(std::uint32_t id, std::uint64_t step) {
     const TypeOf* of = type(id);
     if (of == nullptr || of->op != Op::type_matrix || of->operands.size() < 2 || of->operands[1] == 0) return 0;
     return (of->operands[1] - 1) * step + bytes_of(of->operands[0], 1);
+  }
+  // Without strides and offsets, which memory of a group has not.
+  std::uint64_t dense_bytes_of(std::uint32_t id, int depth = 0) {
+    const TypeOf* of = type(id);
+    if (of == nullptr) return 0;
+    return measured(dense_sizes_, id, depth, [&] { return dense_bytes_of_type(id, *of, depth); });
+  }
+  std::uint64_t dense_bytes_of_type(std::uint32_t id, const TypeOf& of, int depth) {
+    if (of.op == Op::type_array && of.operands.size() > 1)
+      return dense_bytes_of(of.operands[0], depth + 1) * number(of.operands[1]);
+    if (of.op != Op::type_struct) return bytes_of(id, depth);
+    std::uint64_t sum = 0;
+    for (const std::uint32_t member : of.operands) sum += dense_bytes_of(member, depth + 1);
+    return sum;
   }
   std::uint64_t number(std::uint32_t id) const {
     const auto found = out_.numbers.find(id);
@@ -323,6 +349,10 @@ class ModuleReader {
       out_.argument_bytes = std::max(out_.argument_bytes, bytes_of(pointed));
       return;
     }
+    if (one.storage == Storage::workgroup) {
+      out_.shared_bytes += dense_bytes_of(pointed);
+      return;
+    }
     if (one.storage != Storage::uniform && one.storage != Storage::storage_buffer &&
         one.storage != Storage::uniform_constant)
       return;
@@ -355,6 +385,7 @@ class ModuleReader {
   std::map<std::uint32_t, std::vector<std::uint32_t>> composites_;
   std::vector<std::pair<std::uint32_t, bool>> specialized_;
   std::vector<Variable> variables_;
+  Sizes sizes_, dense_sizes_;
 };
 
 void check_beginning(std::span<const std::byte> bytes, const std::string& file) {

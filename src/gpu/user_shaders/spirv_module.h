@@ -41,6 +41,7 @@ struct SpirvModule {
   std::vector<ModuleConstant> constants;  // that can be specialized
   std::vector<std::uint32_t> capabilities;
   std::uint64_t argument_bytes = 0;  // of push constants
+  std::uint64_t shared_bytes = 0;    // of a group, with the module's own constants
 
   // Of an entry, with constants by id in place of the module's own; nullopt where a size is computed.
   std::optional<std::array<std::uint32_t, 3>> group_size(const ModuleEntry& entry,
