@@ -244,6 +244,11 @@ class ModuleReader {
     return sizes[id] = std::min<std::uint64_t>(k_most_bytes, measure());
   }
 
+  static std::uint64_t product(std::uint64_t a, std::uint64_t b) {
+    constexpr std::uint64_t k_most = std::uint64_t{1} << 40;
+    return b == 0 || a <= k_most / b ? a * b : k_most;
+  }
+
   std::uint64_t bytes_of(std::uint32_t id, int depth = 0) {
     const TypeOf* of = type(id);
     if (of == nullptr) return 0;
@@ -259,7 +264,7 @@ class ModuleReader {
         return operand(0) / 8;
       case Op::type_vector:
       case Op::type_matrix:
-        return bytes_of(operand(0), depth + 1) * operand(1);
+        return product(bytes_of(operand(0), depth + 1), operand(1));
       case Op::type_array:
         return array_bytes(id, operand(0), number(operand(1)), depth);
       case Op::type_runtime_array:
@@ -273,7 +278,7 @@ class ModuleReader {
   // The last element has no padding.
   std::uint64_t array_bytes(std::uint32_t id, std::uint32_t element, std::uint64_t count, int depth) {
     const std::uint64_t size = bytes_of(element, depth + 1);
-    return count == 0 ? 0 : (count - 1) * decoration(id, Decoration::array_stride).value_or(0) + size;
+    return count == 0 ? 0 : product(count - 1, decoration(id, Decoration::array_stride).value_or(0)) + size;
   }
   std::uint64_t struct_bytes(std::uint32_t id, const TypeOf& of, int depth) {
     std::uint64_t end = 0;
@@ -303,7 +308,7 @@ class ModuleReader {
   }
   std::uint64_t dense_bytes_of_type(std::uint32_t id, const TypeOf& of, int depth) {
     if (of.op == Op::type_array && of.operands.size() > 1)
-      return dense_bytes_of(of.operands[0], depth + 1) * number(of.operands[1]);
+      return product(dense_bytes_of(of.operands[0], depth + 1), number(of.operands[1]));
     if (of.op != Op::type_struct) return bytes_of(id, depth);
     std::uint64_t sum = 0;
     for (const std::uint32_t member : of.operands) sum += dense_bytes_of(member, depth + 1);
