@@ -218,6 +218,17 @@ class Examples(unittest.TestCase):
             self.assertEqual(recommend.returncode, 2)
             self.assertIn("runs on a device, whose times do not compare", recommend.stderr)
 
+    def test_validate_reads_all_of_it(self):
+        for name in ("tutorial", "append"):
+            done = subprocess.run([PROGRAM, "validate", f"{SHADERS}/{name}.json"], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRegex(done.stdout, r"valid, method '.*' with \d pass(es)?, \d buffers$")
+        with Folder() as folder:
+            path = folder.method(changed(METHOD, passes__0__entry="none"))
+            done = subprocess.run([PROGRAM, "validate", path], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("/passes/0/entry: is 'none'", done.stderr)
+
     def test_slices_of_its_own_skip_other_grids_before_the_run(self):
         with Folder() as folder:
             cut = {"kind": "frustum", "tiles": {"pixels": 60}, "slices": {"scheme": "exponential", "count": 4}}
