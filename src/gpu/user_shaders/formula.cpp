@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t k_longest_formula = 1000;
 constexpr int k_deepest_formula = 64;
-constexpr double k_most = 0x1p53;
+constexpr double k_most_amount = 0x1p53;
 
 std::string value_text(double value) {
   char text[40];
@@ -166,7 +166,7 @@ std::uint64_t amount_of(const result::Json& given, const NumberOf& number, const
     throw Error("", where, "is " + given.dump() + "; allowed: a whole number from 0, or a formula");
   const auto formula = given.get<std::string>();
   const double value = number_of_formula(formula, number, where);
-  if (value < 0.0 || value > k_most || std::floor(value) != value)
+  if (value < 0.0 || value > k_most_amount || std::floor(value) != value)
     throw Error("", where,
                 "'" + formula + "' is " + value_text(value) + " here; allowed: a whole number from 0 to 2^53");
   return static_cast<std::uint64_t>(value);

@@ -245,8 +245,8 @@ class ModuleReader {
   }
 
   static std::uint64_t product(std::uint64_t a, std::uint64_t b) {
-    constexpr std::uint64_t k_most = std::uint64_t{1} << 40;
-    return b == 0 || a <= k_most / b ? a * b : k_most;
+    constexpr std::uint64_t k_largest_size = std::uint64_t{1} << 40;
+    return b == 0 || a <= k_largest_size / b ? a * b : k_largest_size;
   }
 
   std::uint64_t bytes_of(std::uint32_t id, int depth = 0) {
