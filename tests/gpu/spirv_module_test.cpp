@@ -21,7 +21,7 @@ std::string module_bytes(const char* name) {
 SpirvModule module_of(const std::string& bytes) {
   return read_module(std::as_bytes(std::span(bytes)), "x.spv");
 }
-std::string refusal_of(const std::string& bytes) {
+std::string refusal_of_module(const std::string& bytes) {
   try {
     module_of(bytes);
   } catch (const Error& error) {
@@ -72,20 +72,20 @@ TEST(SpirvModules, that_are_none_are_refused_in_one_sentence) {
   std::string newer = good;
   newer[5] = 7;
   newer[6] = 1;
-  EXPECT_NE(refusal_of("").find("is no SPIR-V: 0 bytes"), std::string::npos);
-  EXPECT_NE(refusal_of(good.substr(0, good.size() - 1)).find("is no SPIR-V"), std::string::npos);
-  EXPECT_NE(refusal_of("#version 450\nvoid main() {}\n").find("is GLSL"), std::string::npos);
-  EXPECT_NE(refusal_of(std::string(64, 'x')).find("begins with 03 02 23 07"), std::string::npos);
-  EXPECT_NE(refusal_of(swapped).find("other byte order"), std::string::npos);
-  EXPECT_NE(refusal_of(newer).find("version 1.7"), std::string::npos);
-  EXPECT_EQ(refusal_of(good), "");
+  EXPECT_NE(refusal_of_module("").find("is no SPIR-V: 0 bytes"), std::string::npos);
+  EXPECT_NE(refusal_of_module(good.substr(0, good.size() - 1)).find("is no SPIR-V"), std::string::npos);
+  EXPECT_NE(refusal_of_module("#version 450\nvoid main() {}\n").find("is GLSL"), std::string::npos);
+  EXPECT_NE(refusal_of_module(std::string(64, 'x')).find("begins with 03 02 23 07"), std::string::npos);
+  EXPECT_NE(refusal_of_module(swapped).find("other byte order"), std::string::npos);
+  EXPECT_NE(refusal_of_module(newer).find("version 1.7"), std::string::npos);
+  EXPECT_EQ(refusal_of_module(good), "");
 }
 
 TEST(SpirvModules, that_are_cut_off_anywhere_are_refused) {
   const std::string good = module_bytes("append");
   std::size_t refused = 0, words = 0;
   for (std::size_t size = 20; size < good.size(); size += 4, ++words)
-    refused += refusal_of(good.substr(0, size)).empty() ? 0 : 1;
+    refused += refusal_of_module(good.substr(0, size)).empty() ? 0 : 1;
   EXPECT_GT(refused, words / 2);  // all, where the build has SPIRV-Tools
 }
 
@@ -106,7 +106,7 @@ TEST(SpirvModules, with_types_that_grow_without_end_are_measured_at_once) {
   add(32, {102, 9, 59});
   add(59, {102, 103, 9});
   const std::string bytes(reinterpret_cast<const char*>(words.data()), words.size() * 4);
-  refusal_of(bytes);  // by the rules, where the build knows them
+  refusal_of_module(bytes);  // by the rules, where the build knows them
 }
 
 TEST(SpirvModules, with_words_changed_by_chance_never_end_the_process) {
@@ -121,7 +121,7 @@ TEST(SpirvModules, with_words_changed_by_chance_never_end_the_process) {
       const std::size_t at = 4 * (1 + random() % (good.size() / 4 - 1));
       std::memcpy(changed.data() + at, &word, 4);
     }
-    refused += refusal_of(changed).empty() ? 0 : 1;
+    refused += refusal_of_module(changed).empty() ? 0 : 1;
   }
   EXPECT_GT(refused, tries / 4);
 }

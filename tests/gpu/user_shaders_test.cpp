@@ -155,7 +155,7 @@ TEST_F(DeviceUserShaders, whose_buffer_is_full_have_what_they_drop_counted) {
 }
 
 TEST_F(DeviceUserShaders, leave_the_same_lists_however_often_their_work_is_repeated) {
-  using Caches = assign::DeviceRepeats::Caches;
+  using Repeats = assign::DeviceRepeats;
   for (const char* name : {"tutorial", "append"}) {
     const assign::AssignerDescriptor& row = shader_of(name);
     Setting setting = settings_of(row).front();
@@ -167,7 +167,7 @@ TEST_F(DeviceUserShaders, leave_the_same_lists_however_often_their_work_is_repea
     method->build(setting.grid, assign::kinds_of(lights));
     method->assign(setting.input(lights), *structure);
     const Lists once = structure->expanded();
-    for (const Caches caches : {Caches::warm, Caches::cold}) {
+    for (const Repeats::Caches caches : {Repeats::Caches::warm, Repeats::Caches::cold}) {
       method->repeat_on_device({.caches = caches, .upload = 3, .run = 5, .floor = 2, .build = 2});
       method->assign(setting.input(lights), *structure);
       EXPECT_EQ(structure->expanded(), once) << name;
