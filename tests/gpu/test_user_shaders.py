@@ -218,6 +218,20 @@ class Examples(unittest.TestCase):
             self.assertEqual(recommend.returncode, 2)
             self.assertIn("runs on a device, whose times do not compare", recommend.stderr)
 
+    def test_wrong_words_about_the_tutorial_lose_lights(self):
+        with open(f"{SHADERS}/tutorial.json") as file:
+            record = json.load(file)
+        for change in ({"cells": {}}, {"cells": {"axes": "yxz", "first_row": "bottom"}}, {"cells__first_slice": "far"},
+                       {"camera": {"forward": "+z"}}, {"lights__space": "view"}, {"camera__order": "rows"},
+                       {"lights__rows__0__fields__1__is": "range-inverse"}):
+            with self.subTest(change), Folder() as folder:
+                for name in ("tutorial_bounds.spv", "tutorial_cull.spv"):
+                    shutil.copy(f"{SHADERS}/{name}", folder.path)
+                own = folder.file("mine.json", json.dumps(changed(record, **change)))
+                result, done = folder.run(configuration(grids=[TUTORIAL_GRID]), "--shader", own, "--no-timing")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertGreater(case_of(result, "tutorial-loop")["error"]["miss_ratio"], 0.1)
+
     def test_validate_reads_all_of_it(self):
         for name in ("tutorial", "append"):
             done = subprocess.run([PROGRAM, "validate", f"{SHADERS}/{name}.json"], capture_output=True, text=True)
