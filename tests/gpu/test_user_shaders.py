@@ -153,7 +153,7 @@ class Examples(unittest.TestCase):
                 results.append(result)
             for one, other in zip(*(result["cases"] for result in results)):
                 for key in ("occupancy", "error", "buffers"):
-                    self.assertEqual(one[key], other[key], one["name"])
+                    self.assertEqual(one[key], other[key], f"{one['name']}: glslangValidator -V --target-env vulkan1.3 -g0 X.comp -o X.spv")
 
     def test_tutorial_lists_what_the_twin_of_its_preset_lists(self):
         with Folder() as folder:
@@ -459,6 +459,25 @@ LAYOUTS = {
 
 
 class Layouts(unittest.TestCase):
+    def test_parts_are_united(self):
+        """Even lights in one fixed list, odd ones in another."""
+        body = """uint counts[2] = {0, 0};
+  for (uint light = 0; light < frame.lights; ++light) {
+    uint part = light % 2;
+    if (touches(light, cell) && counts[part] < 99) lists[cell * 200 + part * 100 + 1 + counts[part]++] = light;
+  }
+  lists[cell * 200] = counts[0];
+  lists[cell * 200 + 100] = counts[1];"""
+        half = {"layout": "fixed", "per_cell": 99, "rows": {"buffer": "lists", "stride": 800}, "counts": [{"at": 0, "type": "u32"}],
+                "entries": {"at": 4, "type": "u32"}}
+        with Folder() as folder:
+            result, done = folder.run(configuration(reading={"rounds": 2, "divisor": 4}), "--shader",
+                                      folder.method({**METHOD, "lists": [half, changed(half, counts__0__at=400, entries__at=404)]}, body))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        mine = case_of(result, "mine")
+        self.assertEqual(mine["error"]["false_negatives"], 0)
+        self.assertEqual(mine["reading"]["sets"][0]["differing"], 0)
+
     def test_other_layouts_have_the_same_lists(self):
         for layout, (body, change) in LAYOUTS.items():
             with self.subTest(layout), Folder() as folder:

@@ -21,7 +21,7 @@ struct ShaderBufferUse {
 
 class ShaderLists final : public assign::LightStructure {
  public:
-  // `layout`: of the lists' first part, in whose storage samples read; `per_cell`: of `fixed`.
+  // `layout`: in whose storage samples read.
   ShaderLists(const std::string& layout, std::uint32_t index_bits);
 
   struct Contents {

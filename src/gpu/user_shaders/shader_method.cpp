@@ -111,7 +111,10 @@ class ShaderAssigner final : public assign::StructureAssigner {
     const bool has_type = first.contains("entries") && first["entries"].contains("type");
     const std::uint32_t bits =
         has_type ? 8 * static_cast<std::uint32_t>(bytes_of_number(first["entries"]["type"].get<std::string>())) : 32;
-    return std::make_unique<ShaderLists>(first["layout"].get<std::string>(), std::min(bits, 32u));
+    // Parts together may have more lights in a cell than there is room for in one of them.
+    const bool has_parts = record().lists.size() > 1;
+    return std::make_unique<ShaderLists>(has_parts ? "packed" : first["layout"].get<std::string>(),
+                                         std::min(bits, 32u));
   }
 
   void build(const grid::Grid& grid, const assign::LightKinds&) override {
