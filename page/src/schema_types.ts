@@ -301,6 +301,8 @@ export type Result = {
       conservative: boolean; // Never misses a true pair; a miss fails the run. False on packed lights that are not inflated
       exact: boolean; // Conservative, and lists nothing that is not true
       on_device?: boolean; // true: it runs on the result's device, whose clock times it (device); there is no timing. Absent: it runs on the processor
+      file?: string; // Of a method that is not built in: the name of its file
+      sha256?: string; // And of all of its files together. No part of the case's id, so that two versions compare
     }; // The method that fills the lists
     storage: string; // What the lists are kept in; own: the assigner leaves a light structure of its own, without lists
     samples_search?: boolean; // true: the case is a light structure that each sample searches for its lights (a hierarchy, masks of bits) in place of reading a list. What that reads is counted and priced by config.cost, and no GPU has measured it: such a case stands on no front. Absent: it is none
@@ -310,7 +312,7 @@ export type Result = {
       text: string; // The same for people, without the case's name
     }>; // Why the case fails the run; empty: it passes
     warnings: Array<{
-      kind: "dropped_pairs" | "unlit" | "undecided" | "lost_pairs" | "unchecked" | "too_many_lights"; // dropped_pairs: the storage was full. unlit: more than 0.001 of the lights that samples need are not given. undecided: pairs that exact arithmetic left open. lost_pairs: of a method that is not conservative. unchecked: no truth to hold the lists against. too_many_lights: frames have more lights than a limit lets in
+      kind: "dropped_pairs" | "unlit" | "undecided" | "lost_pairs" | "unchecked" | "too_many_lights" | "repeated_lights"; // dropped_pairs: the storage was full. unlit: more than 0.001 of the lights that samples need are not given. undecided: pairs that exact arithmetic left open. lost_pairs: of a method that is not conservative. unchecked: no truth to hold the lists against. too_many_lights: frames have more lights than a limit lets in. repeated_lights: lights are twice in a list
       text: string; // The same for people, without the case's name
     }>; // What to know about the case before believing its figures, beside its failures
     loses_lights: boolean; // Whether a shader lacks lights: pairs that are not listed or were dropped, lights that samples of a structure without cells miss, or more than 0.001 of those that visible surfaces need; without samples of surfaces, of those that random points in the view need
@@ -375,6 +377,7 @@ export type Result = {
         frames: number; // In which pairs were dropped [frames, over all frames]
         lights: number[]; // Indices of those that were dropped anywhere [light index, over all frames]
       }; // What a full storage loses
+      repeated_pairs?: number; // Of a user's shader: a light in a list where it is already, and would be added again; absent: none [pairs, over all frames]
       scratch_bytes: number; // The assigner's own memory, the most it held [bytes, over all frames]
       worst_frame: number; // That made the high-water mark [frame, over the path]
       traffic_bytes?: {
@@ -847,6 +850,7 @@ export type Result = {
     name: string; // As of a case, as far as all of the skipped combinations share it
     reason: string; // Why, as text
     preset?: string; // That it is of; absent for the configuration's own clusterings
+    failed?: boolean; // true: it ran, what it left cannot be right, and the run fails with it
   }>; // Combinations that cannot be
   presets?: Array<{
     name: string; // As a case's preset

@@ -66,13 +66,13 @@ TEST_F(Shaders, of_flags_are_written_relative_to_the_configuration) {
 }
 
 TEST_F(Shaders, are_refused_where_nothing_would_run_them_or_nothing_is_there) {
+  EXPECT_NE(refusal_of(R"(, "assigners": ["append"])").find("append"), std::string::npos);
   EXPECT_NE(refusal_of(R"(, "presets": ["daveh355"], "shaders": ["shaders/append.json"])").find("runs nowhere"),
             std::string::npos);
   EXPECT_NE(refusal_of(R"(, "shaders": ["shaders/none.json"])").find("configs/shaders/none.json: does not exist"),
             std::string::npos);
   EXPECT_NE(refusal_of(R"(, "shaders": "shaders/append.json")").find("/shaders: found"), std::string::npos);
   EXPECT_NE(refusal_of(R"(, "shaders": [1])").find("/shaders/0: found 1"), std::string::npos);
-  EXPECT_NE(refusal_of(R"(, "assigners": ["append"])").find("append"), std::string::npos);
 }
 
 TEST_F(Shaders, of_the_examples_fulfil_their_schema_and_others_do_not) {

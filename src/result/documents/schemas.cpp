@@ -100,11 +100,11 @@ Json shader_schema() {
                                         "What `--shader FILE` reads: compute shaders of a user as a method, with their "
                                         "buffers, dispatches and the lists that they leave.");
   const Json dump = dump_schema();
-  Json part = dump["definitions"]["lists"], field = dump["definitions"]["field"];
-  allow_formulas(part);
-  allow_formulas(field);
-  schema["definitions"]["lists"] = part;
-  schema["definitions"]["field"] = field;
+  for (const char* name : {"lists", "rows", "field"}) {
+    Json part = dump["definitions"][name];
+    allow_formulas(part);
+    schema["definitions"][name] = part;
+  }
   schema["properties"]["$schema"] = {{"type", "string"}, {"description", "For editors"}};
   schema["properties"]["lists"]["items"] = {{"$ref", "#/definitions/lists"}};
   return schema;
