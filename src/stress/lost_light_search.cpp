@@ -217,8 +217,10 @@ class Climb {
     grid_ = grid_of(trial_, frame_);
     space_ = grid::space_of(grid_, frame_);
     far_m_ = world.near_m * world.far_ratio;
-    run_.build(grid_);
+    if (fits()) run_.build(grid_);
   }
+
+  bool fits() const { return stress::fits(method_, grid_); }
 
   void start(std::size_t population, SplitMix64& random) {
     touches_.clear();
@@ -372,8 +374,9 @@ SearchResult search_for_losses(const StressMethod& method, const StressRequest& 
     const World next =
         random.below(3) == 0 ? random_world(random, *method.assigner) : mutated(world, random, *method.assigner);
     Climb climb(method, next, ladder);
-    climb.start(k_population, random);
     result.tries += k_population;
+    if (!climb.fits()) return on_progress(result.tries);
+    climb.start(k_population, random);
     for (int generation = 0; generation < k_generations && !is_over(result.tries); ++generation)
       result.tries += climb.step(random);
     climb.collect(result);

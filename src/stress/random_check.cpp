@@ -158,7 +158,7 @@ class SettingCheck {
   };
 
   bool is_checked(const StressMethod& method) const {
-    return method.conservative && !method.assigner->naive && supports_trial(method, trial_);
+    return method.conservative && !method.assigner->naive && supports_trial(method, trial_) && fits(method, grid_);
   }
 
   std::uint64_t pair_count() const { return std::uint64_t{grid_.cell_count()} * frame_.lights.size(); }
@@ -511,6 +511,10 @@ std::string reference_of(const std::string& label) {
   const std::string ending = "-fast";
   const std::size_t at = label.find(ending);
   return at == std::string::npos ? "" : label.substr(0, at) + label.substr(at + ending.size());
+}
+
+bool fits(const StressMethod& method, const grid::Grid& grid) {
+  return !method.assigner->unfit || method.assigner->unfit(grid).empty();
 }
 
 bool supports_trial(const StressMethod& method, const Trial& trial) {

@@ -62,6 +62,7 @@ void add_lists(StressCell& cell, const StressMethod& method, const Trial& trial,
 }
 
 void add_trial(StressCell& cell, const StressMethod& method, const Trial& trial, const Prepared& at) {
+  if (at.refusal.empty() && !fits(method, at.grid)) return;
   ++cell.trials;
   if (!at.refusal.empty()) {
     ++cell.refused;

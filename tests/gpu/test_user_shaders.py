@@ -209,6 +209,9 @@ class Examples(unittest.TestCase):
                                     capture_output=True, text=True)
             self.assertEqual(stress.returncode, 0, stress.stderr)
             self.assertIn('"append"', stress.stdout)
+            stress = subprocess.run([PROGRAM, "stress", "--shader", f"{SHADERS}/tutorial.json", "--cases", "H5|H6", "--tries", "200", "-q"],
+                                    capture_output=True, text=True)
+            self.assertEqual(stress.returncode, 0, f"grids that it cannot have are no fault: {stress.stderr}")
             size = subprocess.run([PROGRAM, "size", f"{CHECKOUT}/scenes/mix.glb", "--shader", own, "--assigner", "append",
                                    "--grid", "frustum", "--tiles", "64", "--slices", "8", "--set", "scenes.*.frames=2"],
                                   capture_output=True, text=True)
