@@ -69,7 +69,7 @@ const Broken k_broken[] = {
      "cost, "
      "details, device, grids, jitter, limits, lookup, name, pre_cull, precision, presets, rank_by, reading, samples, "
      "scenes, "
-     "seed, "
+     "seed, shaders, "
      "shading, "
      "shadow_cull, shadow_frusta, stability, "
      "storages, "
