@@ -498,8 +498,9 @@ class Layouts(unittest.TestCase):
         source = source.replace("vec3 apart = lights[light].xyz - clamp(lights[light].xyz,", "vec3 center = CENTER;\n  vec3 apart = center - clamp(center,")
         for camera, center in (({}, "(view * vec4(lights[light].xyz, 1)).xyz"),
                                ({"order": "rows"}, "(vec4(lights[light].xyz, 1) * view).xyz"),
-                               ({"forward": "+z"}, "(view * vec4(lights[light].xyz, 1)).xyz * vec3(1, 1, -1)")):
-            record = changed(METHOD, camera=camera, lights__space="world",
+                               ({"forward": "+z"}, "(view * vec4(lights[light].xyz, 1)).xyz * vec3(1, 1, -1)"),
+                               ({"forward": "+z"}, "lights[light].xyz * vec3(1, 1, -1) /* turned */ + 0 * view[0].xyz")):
+            record = changed(METHOD, camera=camera, lights__space="view" if "turned" in center else "world",
                              buffers__view={"bytes": 64, "values": [{"at": 0, "type": "f32", "is": "world_to_view"}]})
             record["passes"][0]["bindings"].append({"binding": 3, "buffer": "view"})
             with self.subTest(camera), Folder() as folder:
