@@ -492,6 +492,35 @@ class Layouts(unittest.TestCase):
                 self.assertEqual(mine["error"]["false_negatives"], 0)
                 self.assertLess(abs(mine["occupancy"]["pairs"]["mean"] / twin["occupancy"]["pairs"]["mean"] - 1), 1e-3)
 
+    def test_spots_have_an_axis_a_cone_and_a_type(self):
+        """A light is listed only if all that is told of it fits together, and no light is lost."""
+        told = LOOP.replace("layout(push_constant)", """struct Told { vec3 axis; float cosine; float sine, radians; uint type, index; float squared, inverse; };
+layout(std430, set = 0, binding = 3) readonly buffer More { Told told[]; };
+bool fits(uint light) {
+  Told one = told[light];
+  float range = lights[light].w;
+  bool shared_part = one.index == light && abs(one.squared - range * range) <= 1e-3 * one.squared && abs(one.inverse * range - 1) < 1e-3;
+  bool is_spot = light >= 225;
+  if (!is_spot) return shared_part && one.type == 0 && one.axis == vec3(0) && one.cosine == -1;
+  return shared_part && one.type == 1 && abs(length(one.axis) - 1) < 1e-3 && one.cosine >= 0 && one.cosine < 1 &&
+         abs(one.sine - sin(one.radians)) < 1e-3 && abs(one.cosine - cos(one.radians)) < 1e-3;
+}
+layout(push_constant)""")
+        body = COUNTED.replace("COUNT", "count").replace("touches(light, cell)", "fits(light) && touches(light, cell)")
+        fields = [{"at": 0, "type": "f32", "is": "direction"}, {"at": 12, "type": "f32", "is": "cone-cosine"},
+                  {"at": 16, "type": "f32", "is": "cone-sine"}, {"at": 20, "type": "f32", "is": "cone-radians"},
+                  {"at": 24, "type": "u32", "is": "type"}, {"at": 28, "type": "u32", "is": "index"},
+                  {"at": 32, "type": "f32", "is": "range-squared"}, {"at": 36, "type": "f32", "is": "range-inverse"}]
+        record = changed(METHOD, buffers__more={"bytes": "lights * 48"})
+        record["lights"]["rows"].append({"buffer": "more", "stride": 48, "fields": fields})
+        record["passes"][0]["bindings"].append({"binding": 3, "buffer": "more"})
+        for name, lost in (("direction", False), ("position", True)):
+            record["lights"]["rows"][1]["fields"][0]["is"] = name
+            with self.subTest(name), Folder() as folder:
+                result, done = folder.run(configuration(), "--shader", folder.method(record, body, told), "--no-timing")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(case_of(result, "mine")["error"]["false_negatives"] > 0, lost)
+
     def test_conventions_of_space_order_and_depth(self):
         """World-space lights turned by the view matrix: by rows and looking along +z it is the same frame."""
         source = LOOP.replace("uint lights; } frame;", "uint lights; } frame;\nlayout(std140, set = 0, binding = 3) uniform View { mat4 view; };")
