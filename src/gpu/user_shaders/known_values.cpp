@@ -123,7 +123,8 @@ FrameValues::FrameValues(const result::ShaderMethod& method, const assign::Param
   values_["lights"] = {static_cast<double>(count)};
   values_["points"] = {static_cast<double>(lights.points.count)};
   values_["spots"] = {static_cast<double>(lights.spots.count)};
-  values_["light_words"] = {static_cast<double>((count + 31) / 32)};
+  const std::uint32_t words = (count + 31) / 32;
+  values_["light_words"] = {static_cast<double>(words)};
   const view::Projection& projection = frame.projection;
   values_["near"] = {projection.near_m};
   values_["far"] = {projection.far_m};

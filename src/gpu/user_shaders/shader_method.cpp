@@ -560,7 +560,7 @@ std::deque<Added>& added_methods() {
 
 }  // namespace
 
-assign::AssignerDescriptor descriptor_of(std::shared_ptr<const ShaderFile> file) {
+assign::AssignerDescriptor descriptor_of(const std::shared_ptr<const ShaderFile>& file) {
   const result::ShaderMethod& method = file->record;
   assign::AssignerDescriptor out;
   out.name = method.name;

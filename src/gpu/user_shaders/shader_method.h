@@ -8,7 +8,7 @@
 
 namespace clusterbench::gpu {
 
-assign::AssignerDescriptor descriptor_of(std::shared_ptr<const ShaderFile> file);
+assign::AssignerDescriptor descriptor_of(const std::shared_ptr<const ShaderFile>& file);
 
 // Reads the file and adds its method to the registry, unless the same file was added before; then its descriptor as it
 // was. Throws Error (file, JSON pointer), also where another method has the name.
