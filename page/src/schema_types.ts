@@ -970,3 +970,112 @@ export type PageData = {
   sample_sets: Record<string, string>; // Words for the sets of samples
   pictures: Picture[]; // Of --images
 };
+
+// The data of a page that `clusterbench check` writes.
+export type CheckPage = {
+  command: string; // That makes the page again
+  verdict: string; // As `check --json` has it
+  frames: Array<{
+    checked: {
+      dump: string; // Its file
+      name: string; // Of the dump
+      engine: string; // Of the dump; empty: it does not say
+      points: number; // Point lights [lights]
+      spots: number; // Spot lights [lights]
+      grid_kind: string; // Of the grid
+      cells: Cell; // Numbers of columns, rows and slices
+      sets: Array<{
+        name: string; // Of the set
+        verdict: "unreadable" | "misread" | "lost" | "twice" | "empty" | "rounding" | "right"; // unreadable: no lists; misread: other_reading fits far better; lost: a light is missing where it shines, beyond rounding; twice: none is, and one is twice in a list; empty: no light reaches a cell, so nothing was checked; rounding: one is missing within rounding; right: nothing of all that
+        reading: {
+          fault_count: number; // Values that cannot be right
+          faults: Array<{
+            buffer: string; // Where it is; empty: in the dump itself
+            byte: number; // First byte of the value, in the buffer's file [bytes]
+            value: number; // What was read there
+            cell: Cell; // Whose list was read: column from the left, row from the top, slice from the near end
+            message: string; // What is wrong, in a sentence
+          }>; // The first of them
+          twice_count: number; // Entries of a light that its list has already [pairs]
+          twice: Array<{
+            buffer: string; // Where it is; empty: in the dump itself
+            byte: number; // First byte of the value, in the buffer's file [bytes]
+            value: number; // What was read there
+            cell: Cell; // Whose list was read: column from the left, row from the top, slice from the near end
+            message: string; // What is wrong, in a sentence
+          }>; // The first of them, each at the later entry
+          likely_reading: string | null; // Another description under which nothing is wrong; null: none was found
+        }; // The buffers
+        bytes: number; // Of all buffers that its lists are read from [bytes]
+        longest_list: number; // Most lights in a cell [lights]
+        longest_cell: [number, number, number] | null; // The first cell with so many; null: all are empty
+        error: {
+          true_pairs: number; // Pairs of a cell and a light that share a point [pairs]
+          listed_pairs: number; // Pairs in the lists [pairs]
+          false_positives: number; // Listed pairs that are not true [pairs]
+          lost_pairs: number; // True pairs that are not listed [pairs]
+          lost_within_rounding: number; // Of these, those that `rounding` of the dump allows for [pairs]
+          lost_lights: number; // Lights that a cell has lost, each once [lights]
+          absent_lights: number; // Lights that reach a cell and are in no list at all [lights]
+          undecided: number; // Pairs that exact arithmetic could not decide; counted as true [pairs]
+          deepest_mm: number | null; // How far the most deeply lost light reaches into its cell; null: the range has no end [mm]
+          deepest_percent: number; // The same in percent of the range [percent]
+        } | null; // Against the exact lists; null where lists could not be read
+        lost: Array<{
+          light: number; // By its index in the dump
+          cell: Cell; // Column from the left, row from the top, slice from the near end
+          row: number; // Number of the cell in the dump's own order
+          from_m: number; // Where the cell begins: depth, distance, or z in a world grid [m]
+          to_m: number; // Where it ends [m]
+          reach_mm: number | null; // How far the light reaches into the cell; null: its range has no end [mm]
+          reach_percent: number; // The same in percent of the range [percent]
+          is_within_rounding: boolean; // Whether `rounding` of the dump allows for it
+        }>; // The most deeply lost first, at most 1000
+        other_reading: {
+          axes: string; // As grid.axes of the dump
+          first_row: string; // As grid.first_row
+          first_slice: string; // As grid.first_slice
+          camera: string; // What differs in the camera; empty: nothing
+          lists: string; // What differs in the description of the lists; empty: nothing
+          lost_pairs: number; // That it would lose [pairs]
+        } | null; // Which is likelier than the dump's; null: none is
+      }>; // In the order of the dump
+      methods: Array<{
+        name: string; // As in `clusterbench list`
+        listed_pairs: number; // Pairs in its lists [pairs]
+        false_positives: number; // Of them not true [pairs]
+        lost_pairs: number; // True pairs that it does not list [pairs]
+        packed_bytes: number; // Of its lists as `packed` [bytes]
+      }>; // On the same frame; empty with --no-methods
+      methods_left_out: string[]; // Of those that were asked for: would take too long on this frame
+    }; // Its verdict
+    grid: {
+      shape: "slopes" | "shells" | "box"; // slopes: x / depth, y / depth, depth; shells: the same with the distance; box: x, y, z of view space or of the world
+      x: Array<number | null>; // Planes of columns, ascending
+      y: Array<number | null>; // Planes of rows, descending where row 0 is at the top
+      z: Array<number | null>; // Ends of slices, ascending; of a box in view space minus depth, descending
+      rotation: [Vector, Vector, Vector]; // Of a box: view space = rotation (point - origin)
+      origin: Vector; // See rotation
+    }; // Its cells
+    sides: [number | null, number | null, number | null, number | null]; // Left, right, bottom, top of the picture at depth 1, or in metres
+    orthographic: boolean; // Of the camera
+    lights: Array<{
+      index: number; // In the dump
+      position: Vector; // In view space, which looks along -z
+      range_m: number | null; // null: no end [m]
+      direction?: Vector; // Of a spot
+      half_angle_rad?: number; // Of a spot [radians]
+    }>; // Those that the lists of its cells name
+    sets: Array<{
+      name: string; // Of the set
+      cells: Array<{
+        index: number; // x fastest, from the top, from the near end
+        reach_percent: number; // Of its deepest lost light, of its range [percent]
+        listed: number[]; // Lights in the engine's list
+        lost: number[]; // Lights that reach the cell and are not listed
+        excess: number[]; // Listed lights that do not reach the cell
+      }>; // Those of the most deeply lost pairs, the deepest first
+      cells_left_out: number; // Further ones of these pairs, which have no room in the page
+    }>; // In the order of the dump; those that could not be read have no cells
+  }>; // In the order of the command line
+};

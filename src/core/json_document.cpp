@@ -1,6 +1,7 @@
 #include "core/json_document.h"
 
 #include <algorithm>
+#include <set>
 #include <vector>
 
 #include "core/memory.h"
@@ -65,7 +66,80 @@ class Counter {
   std::vector<Open> open_;
 };
 
+// As part of a JSON pointer (RFC 6901).
+std::string escaped_token(const std::string& name) {
+  std::string out;
+  for (const char c : name)
+    if (c == '~' || c == '/')
+      out.append(c == '~' ? "~0" : "~1");
+    else
+      out.push_back(c);
+  return out;
+}
+
+// Follows a document's names. Each handler returns false to end the reading.
+class MemberNames final : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  const std::optional<std::string>& repeated() const { return repeated_; }
+
+  bool null() override { return value(); }
+  bool boolean(bool) override { return value(); }
+  bool number_integer(number_integer_t) override { return value(); }
+  bool number_unsigned(number_unsigned_t) override { return value(); }
+  bool number_float(number_float_t, const string_t&) override { return value(); }
+  bool string(string_t&) override { return value(); }
+  bool binary(binary_t&) override { return value(); }
+  bool start_object(std::size_t) override { return start(true); }
+  bool start_array(std::size_t) override { return start(false); }
+  bool end_object() override { return end(); }
+  bool end_array() override { return end(); }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override { return false; }
+
+  bool key(string_t& name) override {
+    Level& level = levels_.back();
+    level.name = name;
+    if (level.names.insert(name).second) return true;
+    repeated_.emplace();
+    for (const Level& above : levels_) {
+      repeated_->push_back('/');
+      repeated_->append(above.is_object ? escaped_token(above.name) : std::to_string(above.index));
+    }
+    return false;
+  }
+
+ private:
+  struct Level {
+    bool is_object = false;
+    std::size_t index = 0;
+    std::string name{};
+    std::set<std::string> names{};
+  };
+
+  bool value() {
+    if (!levels_.empty()) ++levels_.back().index;
+    return true;
+  }
+  bool start(bool is_object) {
+    levels_.push_back({is_object});
+    return true;
+  }
+  bool end() {
+    levels_.pop_back();
+    return value();
+  }
+
+  std::vector<Level> levels_;
+  std::optional<std::string> repeated_;
+};
+
 }  // namespace
+
+std::optional<std::string> repeated_member(std::string_view text, JsonComments comments) {
+  MemberNames names;
+  nlohmann::json::sax_parse(text, &names, nlohmann::json::input_format_t::json, true,
+                            comments == JsonComments::allowed);
+  return names.repeated();
+}
 
 std::optional<JsonFault> json_excess(std::string_view text, JsonComments comments, std::size_t most_members) {
   return Counter(text, comments, most_members).excess();

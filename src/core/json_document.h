@@ -49,6 +49,9 @@ JsonFault number_fault(std::string_view text, const std::string& message);
 
 }  // namespace json_detail
 
+// JSON pointer of the first member whose name its object has already; nullopt without one, and for what is no JSON.
+std::optional<std::string> repeated_member(std::string_view text, JsonComments comments);
+
 // The document, or why it is none.
 template <class Json>
 std::optional<JsonFault> parse_json(std::string_view text, Json& out, JsonComments comments = JsonComments::refused) {

@@ -64,6 +64,8 @@ result::Dump parse_dump(std::string_view text, const std::string& file) {
   const auto json = read_json<result::Json>(text, file, JsonComments::allowed);
   if (!json.is_object() || !json.contains("dump_version"))
     throw Error(file, "/dump_version", "is missing: this is no dump (see `clusterbench schema dump`)");
+  if (const auto repeated = repeated_member(text, JsonComments::allowed))
+    throw Error(file, *repeated, "stands there twice; allowed: once");
   try {
     if (json["dump_version"] != 1)
       throw Error("", "/dump_version", "is " + json["dump_version"].dump() + "; this version reads 1");

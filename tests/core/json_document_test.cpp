@@ -56,6 +56,15 @@ TEST(JsonDocument, an_object_whose_members_are_looked_for_one_by_one_has_a_limit
   EXPECT_EQ(refusal<Sorted>(object + "}"), "accepted");
 }
 
+TEST(JsonDocument, a_member_that_stands_there_twice_is_named) {
+  const auto repeated = [](const char* text) { return repeated_member(text, JsonComments::allowed).value_or("none"); };
+  EXPECT_EQ(repeated(R"({"a": 1, "b": {"a": 1}, "c": [{"a": 1}, {"a": 2}]})"), "none");
+  EXPECT_EQ(repeated(R"({"a": 1, /* "a": 3 */ "a": 2})"), "/a");
+  EXPECT_EQ(repeated(R"({"list": [0, [], {"x": {}}, {"b": 1, "y/~": {"c": 1, "c": 1}}]})"), "/list/3/y~1~0/c");
+  EXPECT_EQ(repeated(R"({"a": 1, "a")"), "/a") << "though it is no JSON";
+  EXPECT_EQ(repeated("{"), "none");
+}
+
 TEST(JsonDocument, what_is_no_json_is_said_with_its_byte) {
   EXPECT_EQ(refusal<Ordered>("[1, 2").find("f: byte 5: is not JSON: syntax error"), 0U) << refusal<Ordered>("[1, 2");
   EXPECT_EQ(refusal<Sorted>("[1e999]"), "f: byte 1: has a number that is larger than double precision can hold: 1e999");

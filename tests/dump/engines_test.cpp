@@ -119,7 +119,7 @@ Judged judged(const Json& json, std::vector<layout::Buffer> buffers, const std::
   const layout::CellOrder order = order_of(dump.record.grid);
   for (layout::Buffer& buffer : write(layout::in_order(listed, frame.grid.cells(), order), frame, order).buffers)
     dump.buffers.push_back(std::move(buffer));
-  out.checked = judge(dump, {.with_methods = false});
+  out.checked = judge(dump, {});
   out.text = check_text(out.checked, 3);
   return out;
 }

@@ -78,9 +78,11 @@ ExitCode run(const RunFlags& flags) {
     return ExitCode::ok;
   }
   if (!flags.dump_folder.empty()) {
-    const std::size_t written = write_dumps(config, plan, flags.dump_folder, flags.dump_frames);
+    const WrittenDumps written = write_dumps(config, plan, flags.dump_folder, flags.dump_frames);
+    for (const std::string& line : written.left_out) print_message(printable(line));
     if (!flags.quiet)
-      print_message(number_of(written, "dump") + " written; `clusterbench check " + flags.dump_folder + "` reads them");
+      print_message(number_of(written.count, "dump") + " written; `clusterbench check " + flags.dump_folder +
+                    "` reads them");
     return ExitCode::ok;
   }
   if (!flags.baseline.binary.empty()) check_baseline(flags);

@@ -1,4 +1,5 @@
 #include "result/documents/check.h"
+#include "result/documents/check_page.h"
 #include "result/documents/comparison.h"
 #include "result/documents/dump.h"
 #include "result/documents/light_map.h"
@@ -14,6 +15,7 @@ namespace clusterbench::result {
 
 // Here once: each instance lists the fields of all records below it.
 template const Type& type_of<Check>();
+template const Type& type_of<CheckPage>();
 template const Type& type_of<Comparison>();
 template const Type& type_of<Dump>();
 template const Type& type_of<LightMaps>();
@@ -28,6 +30,10 @@ Json check_schema() {
   return schema_of<Check>("clusterbench check",
                           "What `clusterbench check DUMP --json FILE` writes: light lists of any program, held against "
                           "the exact ones.");
+}
+
+Json check_page_schema() {
+  return schema_of<CheckPage>("clusterbench check page", "The data of a page that `clusterbench check` writes.");
 }
 
 Json comparison_schema() {
