@@ -1051,13 +1051,13 @@ export type CheckPage = {
     }; // Its verdict
     grid: {
       shape: "slopes" | "shells" | "box"; // slopes: x / depth, y / depth, depth; shells: the same with the distance; box: x, y, z of view space or of the world
-      x: Array<number | null>; // Planes of columns, ascending
-      y: Array<number | null>; // Planes of rows, descending where row 0 is at the top
-      z: Array<number | null>; // Ends of slices, ascending; of a box in view space minus depth, descending
+      x: number[]; // Planes of columns, ascending
+      y: number[]; // Planes of rows, descending where row 0 is at the top
+      z: number[]; // Ends of slices, ascending; of a box in view space minus depth, descending
       rotation: [Vector, Vector, Vector]; // Of a box: view space = rotation (point - origin)
       origin: Vector; // See rotation
     }; // Its cells
-    sides: [number | null, number | null, number | null, number | null]; // Left, right, bottom, top of the picture at depth 1, or in metres
+    sides: [number, number, number, number]; // Left, right, bottom, top of the picture at depth 1, or in metres
     orthographic: boolean; // Of the camera
     lights: Array<{
       index: number; // In the dump
