@@ -222,11 +222,20 @@ class OpenCapture:
         self.rd, self.path = rd, path
 
     def __enter__(self):
+        if not self.path.is_file():
+            raise Refused(f"{self.path}: does not exist")
+        self.rd.InitialiseReplay(self.rd.GlobalEnvironment(), [])
+        self.file = self.rd.OpenCaptureFile()
+        self.controller = None
+        try:
+            self.open()
+            return Capture(self.rd, self.controller)
+        except BaseException:
+            self.__exit__()  # a process whose replay is not shut down may never end
+            raise
+
+    def open(self):
         rd, path = self.rd, self.path
-        if not path.is_file():
-            raise Refused(f"{path}: does not exist")
-        rd.InitialiseReplay(rd.GlobalEnvironment(), [])
-        self.file = rd.OpenCaptureFile()
         opened = self.file.OpenFile(str(path), "", None)
         if opened != rd.ResultCode.Succeeded:
             raise Refused(f"{path}: is no capture that this RenderDoc opens: {opened}")
@@ -234,11 +243,12 @@ class OpenCapture:
             raise Refused(f"{path}: cannot be replayed here: it is of {self.file.DriverName()} on another machine or driver")
         result, self.controller = self.file.OpenCapture(rd.ReplayOptions(), None)
         if result != rd.ResultCode.Succeeded:
+            self.controller = None
             raise Refused(f"{path}: cannot be replayed here: {result}")
-        return Capture(rd, self.controller)
 
     def __exit__(self, *_):
-        self.controller.Shutdown()
+        if self.controller is not None:
+            self.controller.Shutdown()
         self.file.Shutdown()
         self.rd.ShutdownReplay()
 

@@ -111,8 +111,7 @@ Gpu open_gpu() {
 std::uint32_t host_memory(const Gpu& gpu, std::uint32_t allowed) {
   VkPhysicalDeviceMemoryProperties memory;
   vkGetPhysicalDeviceMemoryProperties(gpu.physical, &memory);
-  constexpr VkMemoryPropertyFlags k_wanted =
-      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  constexpr VkMemoryPropertyFlags k_wanted = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
     if ((allowed >> i & 1) != 0 && (memory.memoryTypes[i].propertyFlags & k_wanted) == k_wanted) return i;
   std::exit(1);
@@ -143,7 +142,8 @@ Buffer make_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage, 
   return out;
 }
 
-// A ring of lights before and around the eye, as tests/scripts/test_renderdoc.py does not know them: it reads them back.
+// A ring of lights before and around the eye, as tests/scripts/test_renderdoc.py does not know them: it reads them
+// back.
 void write_lights(void* bytes) {
   std::uint32_t state = 7;
   const auto drawn = [&state](float lo, float hi) {

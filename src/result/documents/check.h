@@ -64,7 +64,8 @@ struct LostInCell {
 
 struct OtherReading {
   static About about() {
-    return About("Another order of cells, another camera or another description of lists, which loses far fewer lights");
+    return About(
+        "Another order of cells, another camera or another description of lists, which loses far fewer lights");
   }
   RECORD(OtherReading);
   FIELD(std::string, axes, "As grid.axes of the dump");
