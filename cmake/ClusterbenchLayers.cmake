@@ -1,4 +1,5 @@
-# clusterbench_layer(NAME [LINK libs...]): the static library src/NAME, which sees every layer declared before it.
+# clusterbench_layer(NAME [ONLY files...] [EXCEPT files...] [LINK libs...]): the static library src/NAME, which sees every layer
+# declared before it.
 # clusterbench_program(NAME [LINK libs...]): the same for src/NAME, with src/NAME/main.cpp as the `clusterbench` binary.
 add_library(clusterbench_flags INTERFACE)
 target_compile_options(clusterbench_flags INTERFACE
@@ -77,8 +78,13 @@ endif()
 set(CLUSTERBENCH_UNITED_LAYERS scene ${CLUSTERBENCH_COLD_LAYERS})
 
 macro(clusterbench_layer NAME)
-  cmake_parse_arguments(LAYER "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(LAYER "" "" "ONLY;EXCEPT;LINK" ${ARGN})
   file(GLOB_RECURSE LAYER_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/*.cpp)
+  if(LAYER_ONLY)
+    list(TRANSFORM LAYER_ONLY PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/ OUTPUT_VARIABLE LAYER_SOURCES)
+  endif()
+  list(TRANSFORM LAYER_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/)
+  list(REMOVE_ITEM LAYER_SOURCES ${LAYER_EXCEPT})
   list(FILTER LAYER_SOURCES EXCLUDE REGEX "/main\\.cpp$")
   add_library(cb_${NAME} STATIC ${LAYER_SOURCES})
   set_target_properties(cb_${NAME} PROPERTIES LINKER_LANGUAGE CXX)

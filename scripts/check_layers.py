@@ -10,7 +10,7 @@ import re
 import sys
 
 # A file includes only its own layer and those before it.
-LAYERS = ["core", "os", "result", "geom", "scene", "view", "depth", "grid", "cull", "assign", "layout", "gpu", "measure", "config", "dump", "run", "pictures", "stress",
+LAYERS = ["core", "os", "result", "geom", "scene", "view", "depth", "grid", "cull", "assign", "library", "layout", "gpu", "measure", "config", "dump", "run", "pictures", "stress",
           "search", "report", "cli"]
 
 # The same for the folders of a layer. Those that stand side by side do not include each other. ".": the files beside the

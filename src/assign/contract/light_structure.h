@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "assign/contract/lists.h"
@@ -78,7 +79,12 @@ class LightStructure {
   virtual std::uint32_t index_bits() const = 0;  // of an entry
   // The bytes of its buffers in the current frame, as many as use() counts: a copy, not timed. None where shaders do
   // not read it.
-  virtual std::optional<ShaderBuffers> shader_buffers() const { return std::nullopt; }
+  virtual std::optional<ShaderBuffers> shader_buffers() const {
+    ShaderBuffers out;
+    return fill_shader_buffers(out) ? std::optional(std::move(out)) : std::nullopt;
+  }
+  // The same into buffers whose memory is reused; false where shaders do not read it. Structures override this one.
+  virtual bool fill_shader_buffers(ShaderBuffers&) const { return false; }
 
   // Do a sample's lights depend on its cell alone: of the grid, or of occupied_cells()?
   virtual bool has_cells() const = 0;
