@@ -145,7 +145,8 @@ struct Settings {
   std::string_view method = "exact-fast";  // of methods()
   std::span<const Parameter> method_parameters{};
   // Writes the lists into buffers as a shader reads them: of storages(). Empty: no buffers. Methods that leave a
-  // structure of their own (z-binning, bvh, tiled and others) take none, and always have buffers.
+  // structure of their own (z-binning, bvh, tiled and others) take none; their structure is in buffers() if shaders can
+  // read it as it is (not tile-slices, deferred and babylon's).
   std::string_view storage = {};
   std::span<const Parameter> storage_parameters{};
   // Threads that share a frame, 1 to 256; above 1 only for exact-fast. The lists do not depend on them.

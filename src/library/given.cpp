@@ -150,8 +150,8 @@ void set_ball(const char* kind, std::size_t index, const float (&position)[3], f
     refuse(name_of(kind, index, "position"), "is " + text_of(position) +
                                                  "; allowed: up to 1e15 m from the origin along "
                                                  "each axis");
-  if (!(out.range_m >= 0.0))
-    refuse(name_of(kind, index, "range"), "is " + short_number(out.range_m) + "; allowed: 0 or more");
+  if (!(range >= 0.0f))
+    refuse(name_of(kind, index, "range"), "is " + short_number(static_cast<double>(range)) + "; allowed: 0 or more");
 }
 
 void set_spot(std::size_t index, const SpotLight& spot, scene::WorldLight& out) {

@@ -123,7 +123,6 @@ struct LightLists::State {
   grid::Grid grid;
   assign::LightKinds kinds{false, false};
   view::LightRanges stored;  // lights that the storage was started for
-  bool knows_sizes = false;  // of the buffers' elements
   std::uint64_t builds = 0;
 
   view::Frame frame;
@@ -131,7 +130,6 @@ struct LightLists::State {
   depth::DepthImage depths;
   assign::Lists lists;
   assign::ShaderBuffers shader;
-  std::vector<std::uint32_t> element_bytes;
   std::vector<Buffer> buffers;
   std::string problem;
   const char* short_problem = "";  // where there is no memory for a text
@@ -248,7 +246,6 @@ void LightLists::State::build(const grid::GridInputs& now, const assign::LightKi
   kinds = wanted;
   assigner().build(grid, kinds);
   ++builds;
-  knows_sizes = false;
   stored = {};
   if (storage) storage->start(grid, frame.ranges());
   stored = frame.ranges();
@@ -257,7 +254,6 @@ void LightLists::State::build(const grid::GridInputs& now, const assign::LightKi
 
 void LightLists::State::prepare_storage() {
   if (are_equal(stored, frame.ranges())) return;
-  knows_sizes = false;
   if (storage) storage->start(grid, frame.ranges());
   stored = frame.ranges();
 }
@@ -276,15 +272,9 @@ void LightLists::State::assign() {
 
 void LightLists::State::show_buffers() {
   if (structure() == nullptr || !structure()->fill_shader_buffers(shader)) return;
-  if (!knows_sizes) {
-    element_bytes.clear();
-    for (const assign::BufferNeed& need : structure()->buffers()) element_bytes.push_back(need.element_bytes);
-    knows_sizes = true;
-  }
   buffers.clear();
-  for (std::size_t i = 0; i < shader.buffers.size(); ++i)
-    buffers.push_back(
-        {shader.buffers[i].name, i < element_bytes.size() ? element_bytes[i] : 1, shader.buffers[i].bytes});
+  for (const assign::ShaderBuffers::Buffer& buffer : shader.buffers)
+    buffers.push_back({buffer.name, buffer.element_bytes, buffer.bytes});
 }
 
 // After a failure in any step; the next frame builds.
@@ -340,6 +330,7 @@ std::int64_t LightLists::cell_at(float pixel_x, float pixel_y, float depth) cons
   const bool is_point = std::isfinite(pixel_x) && std::isfinite(pixel_y) && std::isfinite(depth);
   if (!is_point || !state_ || !state_->inputs) return -1;
   const view::Frame& frame = state_->frame;
+  if (!frame.projection.orthographic && !(depth > 0.0f)) return -1;  // behind the eye
   const view::PictureRay ray = view::picture_ray(frame, {static_cast<double>(pixel_x), static_cast<double>(pixel_y)});
   const Vec3d at = ray.at(static_cast<double>(depth));
   const Mat3d& rotation = frame.view_space.rotation;

@@ -84,7 +84,8 @@ void set_pose(const Matrix& m, double forward, View& out) {
 const char* fault_of_projection(const Matrix& m, double forward, bool is_orthographic) {
   const double w = is_orthographic ? m.at(3, 3) : m.at(3, 2);
   if (w == 0.0) return "projection: its last row is 0, so it projects nothing";
-  if (std::abs(m.at(3, 0)) + std::abs(m.at(3, 1)) > 1e-6 * std::abs(w) || (!is_orthographic && m.at(3, 3) != 0.0))
+  const double others = std::abs(m.at(3, 0)) + std::abs(m.at(3, 1)) + (is_orthographic ? 0.0 : std::abs(m.at(3, 3)));
+  if (others > 1e-6 || std::abs(std::abs(w) - 1.0) > 1e-6)
     return "projection: its last row is none of (0, 0, 1, 0), (0, 0, -1, 0) and (0, 0, 0, 1), as if the other "
            "Conventions::order were meant";
   if (!is_orthographic && w * forward < 0.0)

@@ -378,7 +378,7 @@ class LightHierarchy final : public LightStructure {
       groups.insert(groups.end(), tree.groups().begin(), tree.groups().end());
       order.insert(order.end(), tree.order().begin(), tree.order().end());
     }
-    shader.add("boxes", std::span<const Group>(groups));
+    shader.add("boxes", std::span<const Group>(groups), k_box_bytes);
     shader.add("order", std::span<const std::uint32_t>(order));
     return true;
   }

@@ -28,6 +28,7 @@ enum class LookedUp : std::uint8_t { cell, tile, position };
 struct ShaderBuffers {
   struct Buffer {
     const char* name;
+    std::uint32_t element_bytes;  // of a light index, a header, a word, as in BufferNeed
     std::vector<std::byte> bytes;
   };
 
@@ -65,8 +66,8 @@ struct ShaderBuffers {
     *this = std::move(description);
   }
   template <class T>
-  void add(const char* name, std::span<const T> data) {
-    Buffer& added = buffers.emplace_back(Buffer{name, {}});
+  void add(const char* name, std::span<const T> data, std::uint32_t element_bytes = sizeof(T)) {
+    Buffer& added = buffers.emplace_back(Buffer{name, element_bytes, {}});
     if (buffers.size() <= former.size()) added.bytes = std::move(former[buffers.size() - 1].bytes);
     added.bytes.resize(data.size_bytes());
     if (!data.empty()) std::memcpy(added.bytes.data(), data.data(), data.size_bytes());

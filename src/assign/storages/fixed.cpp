@@ -94,7 +94,7 @@ Reads FixedLists::reads_of_cell(std::uint32_t cell) const {
 
 bool FixedLists::fill_shader_buffers(ShaderBuffers& shader) const {
   shader.begin_again({.walk = Walk::fixed, .index_bytes = indices_.bits() / 8, .per_cell = form_.cap});
-  shader.add("indices", indices_.bytes(std::size_t{cell_count_} * form_.cap));
+  shader.add("indices", indices_.bytes(std::size_t{cell_count_} * form_.cap), indices_.bits() / 8);
   if (form_.has_counts)
     shader.add("counts", std::span<const std::uint32_t>(counts_));
   else

@@ -130,8 +130,8 @@ class Packed final : public Storage {
       add_header(header_at(header), words);
       words.resize((header + std::size_t{1}) * shader.header_words);
     }
-    shader.add("indices", indices_.bytes(entries_));
-    shader.add("headers", std::span<const std::uint32_t>(words));
+    shader.add("indices", indices_.bytes(entries_), bits_ / 8);
+    shader.add("headers", std::span<const std::uint32_t>(words), header_size());
     if (is_sparse_) shader.add("header_blocks", std::span<const Block>(blocks_));
     return true;
   }

@@ -87,8 +87,8 @@ class Runs final : public Storage {
     std::vector<std::uint32_t>& words = shader.words;
     words.clear();
     for (const Header& header : headers_) add_header(header, words);
-    shader.add("runs", indices_.bytes(2 * static_cast<std::size_t>(count_)));
-    shader.add("headers", std::span<const std::uint32_t>(words));
+    shader.add("runs", indices_.bytes(2 * static_cast<std::size_t>(count_)), run_bytes());
+    shader.add("headers", std::span<const std::uint32_t>(words), header_size());
     return true;
   }
   std::uint32_t cell_count() const override { return static_cast<std::uint32_t>(headers_.size()); }
