@@ -1,12 +1,12 @@
 # Every third-party library, found once. Each has one home layer (scripts/check_layers.py holds the table).
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
-find_package(Boost 1.74 REQUIRED)
 find_package(HWY REQUIRED)
 if(CLUSTERBENCH_LIBRARY_ONLY)
   return() # the library needs no other ones
 endif()
 find_package(glm REQUIRED)
+find_package(Boost 1.74 REQUIRED)
 find_package(TBB REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_path(RE2_INCLUDE re2/re2.h REQUIRED)

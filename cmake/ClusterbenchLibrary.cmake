@@ -1,5 +1,6 @@
 # The library that engines link: the layers down to assign without scenes, JSON, files and ray casting, and the façade src/library, in
-# one archive. It needs Highway; its threads are those of the standard library. docs/embedding.md is its page.
+# one archive. It needs Highway alone: its threads are those of the standard library, and where nothing else is built
+# (CLUSTERBENCH_LIBRARY_ONLY) its vectors and exact numbers are our own. docs/embedding.md is its page.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 

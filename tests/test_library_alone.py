@@ -13,18 +13,18 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-HIDDEN = ["TBB", "OpenSSL", "glm", "nlohmann_json", "CLI11", "embree", "PNG", "NLopt", "meshoptimizer", "draco", "GTest", "Vulkan",
+HIDDEN = ["TBB", "OpenSSL", "glm", "Boost", "nlohmann_json", "CLI11", "embree", "PNG", "NLopt", "meshoptimizer", "draco", "GTest", "Vulkan",
           "benchmark", "Python3"]
-ALLOWED = ("hwy/", "boost/multiprecision/", "xmmintrin.h")
+ALLOWED = ("hwy/",)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Compiled: small files that include much.
 COMPILED = ["core/text.cpp", "core/own_threads.cpp", "scene/boxes.cpp", "view/frame.cpp", "depth/depth_image.cpp",
             "geom/shapes/rational_cell.cpp", "grid/grid.cpp", "assign/contract/registry.cpp", "library/light_lists.cpp"]
 
 
-def code_without_glm(text):
-    """What the compiler sees of vec.h."""
-    return re.sub(r"#else\n.*?#endif", "", text, flags=re.DOTALL) if "CLUSTERBENCH_OWN_VECTORS" in text else text
+def compiled_code(text):
+    """What the compiler sees of headers that have GLM or Boost otherwise."""
+    return re.sub(r"#else\n.*?#endif", "", text, flags=re.DOTALL) if "#if CLUSTERBENCH_OWN_" in text else text
 
 
 def foreign_includes(sources):
@@ -34,7 +34,7 @@ def foreign_includes(sources):
         if path in seen:
             continue
         seen.add(path)
-        for kind, name in INCLUDE.findall(code_without_glm(path.read_text())):
+        for kind, name in INCLUDE.findall(compiled_code(path.read_text())):
             if kind == '"':
                 open_files.append(ROOT / "src" / name)
             elif ("/" in name or name.endswith((".h", ".hpp"))) and not name.startswith(ALLOWED):
