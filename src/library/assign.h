@@ -202,7 +202,7 @@ class LightLists {
   // lights, or pairs of cell and light, than ever before. A new viewport or projection, and the first spot or box, cost
   // a build of the grid. After a failure there are no lists, and the next frame is as any other.
   [[nodiscard]] bool update(const View& view, const Lights& lights) noexcept;
-  // Why the last start() or update() returned false; "" if it did not.
+  // Why the last start() or update() returned false; "" if it did not. data() ends with a 0.
   std::string_view error() const noexcept;
 
   Cells cells() const noexcept;

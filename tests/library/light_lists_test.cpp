@@ -369,8 +369,9 @@ TEST(LightLists, look_up_cells_as_the_grid_does_and_a_shader_would) {
       const std::int64_t cell = lists.cell_at(x, y, depth);
       inside += cell >= 0;
       const bool is_shown = x >= 0 && x <= 1280 && y >= 0 && y <= 720;
-      if (made.kind() == grid::Kind::frustum)
+      if (made.kind() == grid::Kind::frustum) {
         EXPECT_EQ(cell >= 0, is_shown && depth > 0.0f && depth <= made.screen().slices.boundaries.back());
+      }
       EXPECT_FALSE(cell >= 0 && depth <= 0.0f);
       if (cell < 0 || depth < 0.1f) continue;
       const Vec3d at = view::picture_ray(program, {x, y}).at(depth);
