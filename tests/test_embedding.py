@@ -18,7 +18,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 OTHERS = ["TBB", "OpenSSL", "glm", "Boost", "nlohmann_json", "CLI11", "embree", "PNG", "NLopt", "meshoptimizer", "draco", "GTest"]
 # Flags of the engine's own code.
-FLAGS = [["-std=c++20", "-O2"], ["-std=c++23", "-O0", "-fno-exceptions", "-fno-rtti"], ["-std=gnu++20", "-O3", "-ffast-math"],
+FLAGS = [["-std=c++20", "-O2"], ["-std=c++2b", "-O0", "-fno-exceptions", "-fno-rtti"], ["-std=gnu++20", "-O3", "-ffast-math", "-march=native"],
          ["-std=c++20", "-D_GLIBCXX_DEBUG", "-D_GLIBCXX_ASSERTIONS"]]
 HEADERS_HERE = {"include/clusterbench/assign.h", "include/clusterbench_plugin.h", "include/clusterbench_plugin.hpp"}
 # Columns, rows, slices, slicing of print_lists, and the same as flags of the program.
@@ -100,8 +100,7 @@ def program_dumps(program, folder, points, spots):
     """Camera, viewport and lists of each grid and method, as the program writes them."""
     write_scene(folder / "level.gltf", points, spots)
     config = {"scenes": [{"path": "level.gltf", "frames": 1}], "viewport": [1280, 720], "grids": [grid[-1] for grid in GRIDS],
-              "assigners": ["brute-force", "exact-fast", "distance"], "storages": [{"name": "packed", "index_bits": "16"}],
-              "timing": {"enabled": False}}
+              "assigners": ["brute-force", "exact-fast", "distance"], "storages": [{"name": "packed", "index_bits": "16"}]}
     (folder / "config.json").write_text(json.dumps(config))
     run([program, "run", "config.json", "--no-timing", "-q", "-o", "result.json", "--write-dump", "dumps"], cwd=folder)
     dumps = {}
