@@ -143,6 +143,7 @@ def check_lists(engine, dumps, points, spots, threads):
 
 def main():
     cmake, build, program, cxx = sys.argv[1:]
+    program = os.path.abspath(program)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         prefix = installed_tree(cmake, build, folder)
