@@ -1,6 +1,6 @@
 #pragma once
 // Floating point with a fixed number of bits, for where the library for engines is built without Boost (wide_float.h).
-// A result is off by less than one unit in the last place; the exponent has 64 bits.
+// Results are rounded to nearest, ties to even; the exponent has 64 bits.
 
 #include <algorithm>
 #include <array>
@@ -40,28 +40,33 @@ class Float {
     exponent_ = exponent;
     digits_[k_limbs - 1] = static_cast<Limb>(std::ldexp(part, 64));
   }
-  // Cut off after the last bit.
   explicit Float(const Integer& value) : is_negative_(value.sign() < 0) {
     if (value.sign() == 0) return;
     kind_ = Kind::number;
     exponent_ = value.bits();
-    const Integer top = value.bits() > bits ? value >> (value.bits() - bits) : value << (bits - value.bits());
+    const unsigned below = value.bits() > bits ? value.bits() - bits : 0;
+    const Integer top = below > 0 ? value >> below : value << (bits - value.bits());
     std::copy(top.limbs().begin(), top.limbs().end(), digits_.begin());
+    if (below > 0) round((value >> (below - 1)).zeros() == 0, value.zeros() + 1 < below);
   }
   template <unsigned others>
-  requires(others != bits) explicit Float(const Float<others>& other)
-      : kind_(static_cast<Kind>(other.kind_)), is_negative_(other.is_negative_), exponent_(other.exponent_) {
-    constexpr std::size_t k_others = others / k_limb_bits, k_shared = k_others < k_limbs ? k_others : k_limbs;
-    std::copy_n(other.digits_.end() - k_shared, k_shared, digits_.end() - k_shared);
+  requires(others != bits) explicit Float(const Float<others>& other) {
+    if (other.kind_ == Float<others>::Kind::number) {
+      *this = made(other.digits_, other.exponent_, other.is_negative_, false);
+    } else {
+      kind_ = static_cast<Kind>(other.kind_);
+      is_negative_ = other.is_negative_;
+    }
   }
 
   explicit operator double() const {
     if (kind_ == Kind::nan) return std::numeric_limits<double>::quiet_NaN();
     double size = kind_ == Kind::zero ? 0.0 : std::numeric_limits<double>::infinity();
-    if (kind_ == Kind::number && exponent_ <= 2000)
-      size = exponent_ < -2000
-                 ? 0.0
-                 : std::ldexp(static_cast<double>(digits_[k_limbs - 1]), static_cast<int>(exponent_) - 64);
+    if (kind_ == Kind::number && exponent_ <= 2000) {
+      const bool has_more = std::any_of(digits_.begin(), digits_.end() - 1, [](Limb limb) { return limb != 0; });
+      const Limb top = digits_[k_limbs - 1] | (has_more ? 1 : 0);  // 11 bits more than a double has
+      size = exponent_ < -2000 ? 0.0 : std::ldexp(static_cast<double>(top), static_cast<int>(exponent_) - 64);
+    }
     return is_negative_ ? -size : size;
   }
   // Towards 0; for a number.
@@ -164,7 +169,11 @@ class Float {
       carried = static_cast<Limb>(total >> k_limb_bits) & 1;
     }
     wide.back() = adds ? carried : 0;
-    return made(wide, a.exponent_ + k_limb_bits, a.is_negative_);
+    // What lies below the guard: a little more than this sum, or a little less than this difference.
+    const bool has_more = b.has_bits_below(static_cast<unsigned>(distance));
+    if (has_more && !adds)
+      for (std::size_t i = 0; wide[i]-- == 0;) ++i;
+    return made(wide, a.exponent_ + k_limb_bits, a.is_negative_, has_more);
   }
 
   // Limb i of {guard, digits} moved down.
@@ -176,9 +185,29 @@ class Float {
     return part == 0 ? low : low >> part | high << (k_limb_bits - part);
   }
 
+  // Of {guard, digits}, moved down by so much.
+  bool has_bits_below(unsigned distance) const {
+    if (distance <= k_limb_bits) return false;
+    const unsigned lost = distance - k_limb_bits;  // of the digits
+    for (std::size_t i = 0; i < k_limbs && i * k_limb_bits < lost; ++i) {
+      const unsigned here = lost - static_cast<unsigned>(i) * k_limb_bits;
+      if ((here >= k_limb_bits ? digits_[i] : digits_[i] << (k_limb_bits - here)) != 0) return true;
+    }
+    return false;
+  }
+
+  // By the first bit that is cut off, and whether there are others behind it.
+  void round(bool half, bool has_more) {
+    if (!half || (!has_more && (digits_[0] & 1) == 0)) return;
+    for (Limb& limb : digits_)
+      if (++limb != 0) return;
+    digits_[k_limbs - 1] = Limb{1} << (k_limb_bits - 1);
+    ++exponent_;
+  }
+
   // The top bits of a whole number whose highest possible bit has this exponent.
   template <std::size_t size>
-  static Float made(const std::array<Limb, size>& wide, std::int64_t exponent, bool is_negative) {
+  static Float made(const std::array<Limb, size>& wide, std::int64_t exponent, bool is_negative, bool has_more) {
     std::size_t top = size;
     while (top > 0 && wide[top - 1] == 0) --top;
     if (top == 0) return {};
@@ -187,10 +216,16 @@ class Float {
     out.kind_ = Kind::number;
     out.is_negative_ = is_negative;
     out.exponent_ = exponent - static_cast<std::int64_t>((size - top) * k_limb_bits + zeros);
-    for (std::size_t i = 0; i < k_limbs && i < top; ++i) {
+    // Limb i from the top, after the zeros.
+    const auto limb = [&](std::size_t i) {
+      if (i >= top) return Limb{0};
       const Limb high = wide[top - 1 - i], low = i + 2 <= top ? wide[top - 2 - i] : 0;
-      out.digits_[k_limbs - 1 - i] = zeros == 0 ? high : high << zeros | low >> (k_limb_bits - zeros);
-    }
+      return zeros == 0 ? high : high << zeros | low >> (k_limb_bits - zeros);
+    };
+    for (std::size_t i = 0; i < k_limbs; ++i) out.digits_[k_limbs - 1 - i] = limb(i);
+    const Limb next = limb(k_limbs);
+    for (std::size_t i = k_limbs + 1; i < top && !has_more; ++i) has_more = limb(i) != 0;
+    out.round(next >> (k_limb_bits - 1) != 0, has_more || next << 1 != 0);
     return out;
   }
 
@@ -212,7 +247,7 @@ class Float {
       }
       wide[j + k_limbs] = carried;
     }
-    return made(wide, exponent_ + b.exponent_, is_negative);
+    return made(wide, exponent_ + b.exponent_, is_negative, false);
   }
 
   Float over(const Float& b) const {
@@ -223,8 +258,11 @@ class Float {
     if (kind_ == Kind::infinite || b.kind_ == Kind::zero) return infinity().with_sign(is_negative);
     const Integer dividend(Limbs(digits_.begin(), digits_.end()), false),
         divisor(Limbs(b.digits_.begin(), b.digits_.end()), false);
-    Float out((dividend << (bits + 1)) / divisor);
-    out.exponent_ += exponent_ - b.exponent_ - static_cast<std::int64_t>(bits) - 1;
+    // Two bits more than needed, and one that says whether there is a rest.
+    const Integer moved = dividend << (bits + 2), quotient = moved / divisor;
+    const bool has_rest = !(quotient * divisor == moved);
+    Float out((quotient << 1) + (has_rest ? 1 : 0));
+    out.exponent_ += exponent_ - b.exponent_ - static_cast<std::int64_t>(bits) - 3;
     out.is_negative_ = is_negative;
     return out;
   }
