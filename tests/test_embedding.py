@@ -20,7 +20,7 @@ OTHERS = ["TBB", "OpenSSL", "glm", "Boost", "nlohmann_json", "CLI11", "embree", 
 # Flags of the engine's own code.
 FLAGS = [["-std=c++20", "-O2"], ["-std=c++2b", "-O0", "-fno-exceptions", "-fno-rtti"], ["-std=gnu++20", "-O3", "-ffast-math", "-march=native"],
          ["-std=c++20", "-D_GLIBCXX_DEBUG", "-D_GLIBCXX_ASSERTIONS"]]
-HEADERS_HERE = {"include/clusterbench/assign.h", "include/clusterbench_plugin.h", "include/clusterbench_plugin.hpp"}
+PLUGIN_HEADERS = [name for name in ("clusterbench_plugin.h", "clusterbench_plugin.hpp") if (ROOT / "src" / "plugin" / name).exists()]
 # Columns, rows, slices, slicing of print_lists, and the same as flags of the program.
 GRIDS = [(16, 9, 24, 1, 0, {"kind": "frustum", "tiles": {"count": [16, 9]}, "slices": {"scheme": "exponential", "count": 24}}),
          (31, 5, 12, 2, 0, {"kind": "frustum", "tiles": {"count": [31, 5]}, "slices": {"scheme": "exponential-first", "count": 12}}),
@@ -45,7 +45,7 @@ def installed_tree(cmake, build, folder):
     first.rename(moved)
     names = {str(path.relative_to(moved)) for path in moved.rglob("*") if path.is_file()}
     headers = {name for name in names if name.startswith("include/")}
-    assert "include/clusterbench/assign.h" in headers and headers <= HEADERS_HERE, headers
+    assert headers == {"include/clusterbench/assign.h"} | {f"include/{name}" for name in PLUGIN_HEADERS}, headers
     for name in names - headers:
         assert name.endswith((".a", ".cmake", ".pc")), names
         assert name.endswith(".a") or str(folder) not in (moved / name).read_text(), f"{name} names the folder of the installation"
@@ -63,6 +63,31 @@ def check_example_by_cmake(cmake, cxx, prefix, folder):
     run([cmake, "--build", project / "build"])
     printed = run([project / "build" / "engine"])
     assert printed == blocks["text"], f"docs/embedding.md says\n{blocks['text']}and it prints\n{printed}"
+
+
+def check_plugin_target(cmake, cxx, prefix, folder):
+    """clusterbench::plugin gives the headers, and asks for no library."""
+    project = folder / "plugin"
+    project.mkdir()
+    (project / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.25)\nproject(plugin LANGUAGES CXX)\nfind_package(clusterbench 0.1 REQUIRED)\n"
+        "add_library(plugin MODULE plugin.cpp)\ntarget_link_libraries(plugin PRIVATE clusterbench::plugin)\n")
+    (project / "plugin.cpp").write_text("".join(f'#include "{name}"\n' for name in PLUGIN_HEADERS))
+    run([cmake, "-G", "Unix Makefiles", "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={prefix}",
+         f"-DCMAKE_CXX_COMPILER={cxx}"])
+    run([cmake, "--build", project / "build"])
+    linked = (project / "build" / "CMakeFiles" / "plugin.dir" / "link.txt").read_text()
+    assert "clusterbench_assign" not in linked and "hwy" not in linked, linked
+
+
+def check_version(cmake, prefix, folder):
+    """A later minor version is refused by CMake."""
+    project = folder / "later"
+    project.mkdir()
+    (project / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(later NONE)\nfind_package(clusterbench 0.2 REQUIRED)\n")
+    done = subprocess.run([cmake, "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={prefix}"], capture_output=True,
+                          text=True, check=False)
+    assert done.returncode != 0 and 'requested version "0.2"' in done.stderr, done.stderr
 
 
 def built_by_pkg_config(cxx, flags, prefix, source, out):
@@ -148,6 +173,8 @@ def main():
         folder = pathlib.Path(name)
         prefix = installed_tree(cmake, build, folder)
         check_example_by_cmake(cmake, cxx, prefix, folder)
+        check_plugin_target(cmake, cxx, prefix, folder)
+        check_version(cmake, prefix, folder)
         points, spots = lights(1200)
         dumps = program_dumps(program, folder, points, spots)
         compilers = [cxx] + [other for other in ("clang++-14", "clang++") if shutil.which(other)][:1]
