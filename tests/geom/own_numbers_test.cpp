@@ -6,6 +6,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "core/random.h"
+#include "effort.h"
 #include "geom/numbers/own_float.h"
 #include "geom/numbers/own_rational.h"
 
@@ -36,7 +37,7 @@ Integer drawn(SplitMix64& random, std::size_t limbs) {
 
 TEST(OwnInteger, computes_as_Boost_does) {
   SplitMix64 random(3);
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::tries(20000); ++i) {
     const Integer a = drawn(random, 12), b = drawn(random, 6);
     const mp::cpp_int c = of_boost(a), d = of_boost(b);
     ASSERT_EQ(of_boost(a + b), c + d);
@@ -79,7 +80,7 @@ double drawn_double(SplitMix64& random) {
 
 TEST(OwnRational, computes_as_Boost_does_also_where_fractions_become_long) {
   SplitMix64 random(5);
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < test::tries(300); ++round) {
     Rational a(drawn_double(random));
     mp::cpp_rational b = of_boost(a);
     for (int step = 0; step < 30; ++step) {
@@ -141,7 +142,7 @@ TYPED_TEST(OwnFloats, round_to_nearest) {
     const Wide error = abs(in_boost<Wide>(made) - exact);
     ASSERT_LE(error, ldexp(Wide(abs(exact)), -static_cast<int>(TypeParam::k_bits))) << name;
   };
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < test::tries(1000); ++i) {
     // Quotients have all of their bits; some are close to each other, so that their difference has few.
     Own a = Own(random.between(-2.0, 2.0)) / Own(random.between(0.5, 3.0));
     Own b = Own(random.between(-2.0, 2.0)) / Own(random.between(0.5, 3.0));
