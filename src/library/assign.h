@@ -200,8 +200,8 @@ class LightLists {
   [[nodiscard]] bool start(const Settings& settings) noexcept;
   // Every frame. Allocates nothing while viewport, projection and kinds of lights stay the same and there are not more
   // lights, or pairs of cell and light, than ever before (but for the exact decision of a light that touches a cell to
-  // within rounding). A new viewport or projection, and the first spot or box, cost a build of the grid. After a failure
-  // there are no lists, and the next frame is as any other.
+  // within rounding). A new viewport or projection, and the first spot or box, cost a build of the grid. After a
+  // failure there are no lists, and the next frame is as any other.
   [[nodiscard]] bool update(const View& view, const Lights& lights) noexcept;
   // Why the last start() or update() returned false; "" if it did not. data() ends with a 0.
   std::string_view error() const noexcept;
