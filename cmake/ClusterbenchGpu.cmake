@@ -3,10 +3,18 @@
 find_path(VULKAN_INCLUDE vulkan/vulkan_core.h)
 find_path(VOLK_INCLUDE volk.h)
 find_program(GLSLANG glslangValidator)
+# Checks the modules of users; without it only their structure is read.
+find_path(SPIRV_TOOLS_INCLUDE spirv-tools/libspirv.hpp)
+find_library(SPIRV_TOOLS SPIRV-Tools)
 
 function(clusterbench_gpu TARGET)
   set(FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/src/gpu)
   get_target_property(SOURCES ${TARGET} SOURCES)
+  if(SPIRV_TOOLS_INCLUDE AND SPIRV_TOOLS)
+    target_compile_definitions(${TARGET} PRIVATE CLUSTERBENCH_WITH_SPIRV_TOOLS=1)
+    target_include_directories(${TARGET} SYSTEM PRIVATE ${SPIRV_TOOLS_INCLUDE})
+    target_link_libraries(${TARGET} PRIVATE ${SPIRV_TOOLS})
+  endif()
   set(MISSING "")
   if(NOT VULKAN_INCLUDE)
     list(APPEND MISSING "the headers of Vulkan (Debian: libvulkan-dev)")

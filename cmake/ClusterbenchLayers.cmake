@@ -1,4 +1,5 @@
-# clusterbench_layer(NAME [LINK libs...]): the static library src/NAME, which sees every layer declared before it.
+# clusterbench_layer(NAME [ONLY files...] [EXCEPT files...] [LINK libs...]): the static library src/NAME, which sees every layer
+# declared before it.
 # clusterbench_program(NAME [LINK libs...]): the same for src/NAME, with src/NAME/main.cpp as the `clusterbench` binary.
 add_library(clusterbench_flags INTERFACE)
 target_compile_options(clusterbench_flags INTERFACE
@@ -16,7 +17,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND BUILD_MEMORY_MIB GREATER 1500)
   target_compile_options(clusterbench_flags INTERFACE --param=ggc-min-heapsize=700000)
 endif()
 target_include_directories(clusterbench_flags INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}/src)
-target_link_libraries(clusterbench_flags INTERFACE glm::glm Threads::Threads)
+target_link_libraries(clusterbench_flags INTERFACE Threads::Threads)
+if(CLUSTERBENCH_LIBRARY_ONLY)
+  target_compile_definitions(clusterbench_flags INTERFACE CLUSTERBENCH_OWN_VECTORS=1 CLUSTERBENCH_OWN_NUMBERS=1)
+else()
+  target_link_libraries(clusterbench_flags INTERFACE glm::glm)
+endif()
 if(CLUSTERBENCH_SANITIZE)
   target_compile_options(clusterbench_flags INTERFACE
     -fsanitize=${CLUSTERBENCH_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
@@ -55,8 +61,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_library(clusterbench_precompiled OBJECT EXCLUDE_FROM_ALL ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp)
   target_link_libraries(clusterbench_precompiled PRIVATE clusterbench_flags)
   target_compile_options(clusterbench_precompiled PRIVATE -fpch-preprocess)
+  set(GLM_HEADERS "")
+  if(NOT CLUSTERBENCH_LIBRARY_ONLY)
+    set(GLM_HEADERS <glm/glm.hpp>)
+  endif()
   target_precompile_headers(clusterbench_precompiled PRIVATE <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map>
-    <memory> <optional> <span> <string> <string_view> <utility> <variant> <vector> <glm/glm.hpp>)
+    <memory> <optional> <span> <string> <string_view> <utility> <variant> <vector> ${GLM_HEADERS})
 endif()
 
 set(CLUSTERBENCH_ABOVE "")
@@ -64,11 +74,11 @@ set(CLUSTERBENCH_ABOVE "")
 # Layers that leave the long work to others and whose code is not timed, but for the files of run that CMakeLists.txt names.
 # With -Og they build in half the time that -O3 takes, and as fast as with -O0; reading and writing a result takes half as
 # long again as with -O1 (0.7 MB: 0.1 s).
-set(CLUSTERBENCH_UNTIMED_LAYERS os result layout gpu config dump run pictures stress search report cli)
+set(CLUSTERBENCH_UNTIMED_LAYERS os result layout gpu config dump run pictures stress acceptance search report cli)
 
 # Layers that spend no time of their own. Sanitized code takes long to build where it is optimised, and longest where it
 # is written for many vectors; so only the other layers are, a little.
-set(CLUSTERBENCH_COLD_LAYERS os result layout gpu config dump run pictures stress search report cli)
+set(CLUSTERBENCH_COLD_LAYERS os result layout gpu config dump run pictures stress acceptance search report cli)
 set(CLUSTERBENCH_COLD_OPTIONS "")
 if(CLUSTERBENCH_SANITIZE)
   set(CLUSTERBENCH_COLD_OPTIONS -O0)
@@ -77,8 +87,13 @@ endif()
 set(CLUSTERBENCH_UNITED_LAYERS scene ${CLUSTERBENCH_COLD_LAYERS})
 
 macro(clusterbench_layer NAME)
-  cmake_parse_arguments(LAYER "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(LAYER "" "" "ONLY;EXCEPT;LINK" ${ARGN})
   file(GLOB_RECURSE LAYER_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/*.cpp)
+  if(LAYER_ONLY)
+    list(TRANSFORM LAYER_ONLY PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/ OUTPUT_VARIABLE LAYER_SOURCES)
+  endif()
+  list(TRANSFORM LAYER_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/src/${NAME}/)
+  list(REMOVE_ITEM LAYER_SOURCES ${LAYER_EXCEPT})
   list(FILTER LAYER_SOURCES EXCLUDE REGEX "/main\\.cpp$")
   add_library(cb_${NAME} STATIC ${LAYER_SOURCES})
   set_target_properties(cb_${NAME} PROPERTIES LINKER_LANGUAGE CXX)

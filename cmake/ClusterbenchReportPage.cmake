@@ -1,4 +1,4 @@
-# clusterbench_report_page(TARGET): bundles page/ into the pages that `clusterbench report` and `history show` fill in,
+# clusterbench_report_page(TARGET): bundles page/ into the pages that `clusterbench report`, `history show` and `check` fill in,
 # and adds them to the target. Needs Node.js and npm, and brings page/node_modules up to its lock file. Where that cannot be,
 # the build leaves the pages out, says so here, and the commands say what was missing.
 function(clusterbench_report_page TARGET)
@@ -9,20 +9,21 @@ function(clusterbench_report_page TARGET)
   clusterbench_report_modules(${PAGE} OBSTACLE)
   set(CLUSTERBENCH_NO_PAGE "${OBSTACLE}" PARENT_SCOPE)
   if(OBSTACLE)
-    message(STATUS "Leaving out the pages of `clusterbench report` and `history show`: ${OBSTACLE}")
+    message(STATUS "Leaving out the pages of `clusterbench report`, `history show` and `check`: ${OBSTACLE}")
     file(CONFIGURE OUTPUT ${EMBEDDED} CONTENT "#include \"report/page/page_template.h\"
 
 namespace clusterbench::report {
 
 std::string_view page_template() { return {}; }
 std::string_view history_template() { return {}; }
+std::string_view check_template() { return {}; }
 std::string_view page_obstacle() { return R\"__(@OBSTACLE@)__\"; }
 
 }  // namespace clusterbench::report
 " @ONLY)
   else()
     file(GLOB_RECURSE SOURCES CONFIGURE_DEPENDS ${PAGE}/src/*.ts ${PAGE}/src/*.css ${PAGE}/src/*.html)
-    add_custom_command(OUTPUT ${EMBEDDED} BYPRODUCTS ${FOLDER}/template.html ${FOLDER}/history.html
+    add_custom_command(OUTPUT ${EMBEDDED} BYPRODUCTS ${FOLDER}/template.html ${FOLDER}/history.html ${FOLDER}/check.html
       COMMAND ${NODE} ${PAGE}/build.mjs ${FOLDER}
       DEPENDS ${SOURCES} ${PAGE}/build.mjs ${PAGE}/package-lock.json
       COMMENT "Bundling the pages")

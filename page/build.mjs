@@ -1,5 +1,5 @@
-// Bundles src/ into FOLDER/template.html (of reports) and FOLDER/history.html, each one file that may load nothing, and
-// FOLDER/page_template.cpp, which holds both: node build.mjs FOLDER.
+// Bundles src/ into FOLDER/template.html (of reports), FOLDER/history.html and FOLDER/check.html, each one file that may load nothing, and
+// FOLDER/page_template.cpp, which holds all: node build.mjs FOLDER.
 
 import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -84,11 +84,11 @@ const text = (name, template) => `std::string_view ${name}() {
   return {k_template, sizeof k_template - 1};
 }
 `;
-const cpp = (report, history) => `#include "report/page/page_template.h"
+const cpp = (report, history, check) => `#include "report/page/page_template.h"
 
 namespace clusterbench::report {
 
-${text("page_template", report)}${text("history_template", history)}std::string_view page_obstacle() { return {}; }
+${text("page_template", report)}${text("history_template", history)}${text("check_template", check)}std::string_view page_obstacle() { return {}; }
 
 }  // namespace clusterbench::report
 `;
@@ -111,8 +111,13 @@ async function templateOf(entry) {
   return template;
 }
 
-const [report, history] = [await templateOf("src/main.ts"), await templateOf("src/history.ts")];
+const [report, history, check] = [
+  await templateOf("src/main.ts"),
+  await templateOf("src/history.ts"),
+  await templateOf("src/check.ts"),
+];
 if (!existsSync(folder)) mkdirSync(folder, { recursive: true });
 writeFileSync(join(folder, "template.html"), report);
 writeFileSync(join(folder, "history.html"), history);
-writeFileSync(join(folder, "page_template.cpp"), cpp(report, history));
+writeFileSync(join(folder, "check.html"), check);
+writeFileSync(join(folder, "page_template.cpp"), cpp(report, history, check));

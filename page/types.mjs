@@ -9,7 +9,9 @@ import { fileURLToPath } from "node:url";
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 const printed = (program, ...words) => JSON.parse(execFileSync(program, words, { encoding: "utf8" }));
 const schema = printed(process.env.CLUSTERBENCH ?? here("../build/release/clusterbench"), "schema", "result");
-const page = printed(process.env.PAGE_SCHEMA ?? here("../build/release/tests/page_schema"));
+const pageSchema = process.env.PAGE_SCHEMA ?? here("../build/release/tests/page_schema");
+const page = printed(pageSchema);
+const check = printed(pageSchema, "check");
 const into = here("src/schema_types.ts");
 
 const nameOf = (definition) => definition.replace(/(^|_)(\w)/g, (_match, _before, letter) => letter.toUpperCase());
@@ -51,7 +53,14 @@ function typeOf(part, indent = "") {
 }
 
 const { result: _described, ...ofPage } = page.definitions;
-const parts = { ...schema.definitions, result: schema, ...ofPage, page_data: page };
+const parts = {
+  ...schema.definitions,
+  result: schema,
+  ...ofPage,
+  page_data: page,
+  ...check.definitions,
+  check_page: check,
+};
 const types = Object.entries(parts).map(
   ([name, part]) =>
     `${part.description ? `// ${part.description}\n` : ""}export type ${nameOf(name)} = ${typeOf(part)};\n`,

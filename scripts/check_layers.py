@@ -10,7 +10,7 @@ import re
 import sys
 
 # A file includes only its own layer and those before it.
-LAYERS = ["core", "os", "result", "geom", "scene", "view", "depth", "grid", "cull", "assign", "layout", "gpu", "measure", "config", "dump", "run", "pictures", "stress",
+LAYERS = ["core", "os", "result", "geom", "scene", "view", "depth", "grid", "cull", "assign", "library", "plugin", "layout", "gpu", "measure", "config", "dump", "run", "pictures", "stress", "acceptance",
           "search", "report", "cli"]
 
 # The same for the folders of a layer. Those that stand side by side do not include each other. ".": the files beside the
@@ -22,7 +22,7 @@ FOLDERS = {
     "scene": [["."], ["gltf_document"], ["gltf_scene", "writers"], ["generators"]],
     "assign": [["contract", "simd"], ["lists"], ["grid_cull"], ["rows"], ["cone"], ["pipeline"], ["bounds"],
                ["box_grid", "depth_bins", "distance", "exact", "raster", "storages"], ["occupied"], ["assigners"]],
-    "gpu": [["device"], ["vulkan"], ["methods", "reading"]],
+    "gpu": [["device"], ["vulkan"], ["methods", "reading"], ["user_shaders"]],
     "measure": [["truth", "statistics"], ["lists", "samples"], ["shadows", "light_maps"]],
     "config": [["schema"], ["presets"]],
     "run": [["cases"], ["timing"], ["counters"], ["findings"], ["passes", "records"]],
@@ -47,6 +47,7 @@ HOMES = {
     "png.h": ["pictures"],
     "volk.h": ["gpu"],
     "vulkan/": ["gpu"],
+    "spirv-tools/": ["gpu"],
     "valijson/": ["config"],
     "nlopt": ["search"],
     "valgrind/": ["run"],
@@ -63,6 +64,8 @@ HOMES = {
     "termios.h": ["os"],
     "dirent.h": ["os"],
     "spawn.h": ["os"],
+    "dlfcn.h": ["os"],
+    "elf.h": ["os"],
     "sys/": ["os"],
     "linux/": ["os"],
 }

@@ -9,5 +9,6 @@ namespace clusterbench::test {
 std::string source_dir();      // the root of the checkout
 std::string program();         // clusterbench
 std::string slowed_program();  // clusterbench_slowed, whose assignment takes longer
+std::string plugin_folder();   // the plug-ins of tests/plugin
 
 }  // namespace clusterbench::test

@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Does the assigner that CONTRIBUTING.md writes out compile? tests/test_contributing_example.py COMPILER [FLAG...]"""
+"""Does the assigner that CONTRIBUTING.md writes out compile? tests/test_contributing_example.py COMPILER [FLAG...]
+
+--write FILE writes it there instead, for tests that run it.
+"""
 import pathlib
 import re
 import subprocess
@@ -14,6 +17,9 @@ def main():
     found = re.search(r"This is all of `src/(\S+\.cpp)`:\n\n```cpp\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
     if not found:
         sys.exit("CONTRIBUTING.md has no example under 'This is all of `src/...cpp`:'")
+    if sys.argv[1] == "--write":
+        pathlib.Path(sys.argv[2]).write_text(found[2], encoding="utf-8")
+        return
     with tempfile.TemporaryDirectory() as folder:
         source = pathlib.Path(folder) / pathlib.Path(found[1]).name
         source.write_text(found[2], encoding="utf-8")

@@ -165,6 +165,14 @@ export type Result = {
   date?: string; // When the run began: UTC, ISO 8601. Absent where nothing is timed, so that such results are the same whenever they are made
   command?: string; // The command line. Absent where nothing is timed
   tool: Tool; // The program that measured
+  plugins?: Array<{
+    id: string; // First part of the names of its methods: ID.METHOD
+    name: string; // For people
+    version: string; // Its own
+    file: string; // Its name, without its folder
+    sha256: string; // Hash of the file: another one is another build
+    interface_version: string; // That it was made for, as 1.0
+  }>; // Shared libraries that cases' methods come from. Absent without any
   machine: {
     cpu: string; // The processor's name
     family?: string; // The vendor's number, on ARM the implementer's; absent if unknown
@@ -301,16 +309,18 @@ export type Result = {
       conservative: boolean; // Never misses a true pair; a miss fails the run. False on packed lights that are not inflated
       exact: boolean; // Conservative, and lists nothing that is not true
       on_device?: boolean; // true: it runs on the result's device, whose clock times it (device); there is no timing. Absent: it runs on the processor
+      file?: string; // Of a method that is not built in: the name of its file
+      sha256?: string; // And of all of its files together. No part of the case's id, so that two versions compare
     }; // The method that fills the lists
     storage: string; // What the lists are kept in; own: the assigner leaves a light structure of its own, without lists
     samples_search?: boolean; // true: the case is a light structure that each sample searches for its lights (a hierarchy, masks of bits) in place of reading a list. What that reads is counted and priced by config.cost, and no GPU has measured it: such a case stands on no front. Absent: it is none
     preset?: string; // The preset that the case is of (`clusterbench list presets`); absent for the configuration's own clusterings
     failures: Array<{
-      kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs" | "wrong_readings"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration. wrong_readings: a device walked other lights than the structure has (reading)
+      kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs" | "wrong_readings" | "crashed" | "timed_out" | "out_of_memory" | "failed"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration. wrong_readings: a device walked other lights than the structure has (reading). crashed, timed_out, out_of_memory, failed: of a plug-in, after the case was measured, as in broken
       text: string; // The same for people, without the case's name
     }>; // Why the case fails the run; empty: it passes
     warnings: Array<{
-      kind: "dropped_pairs" | "unlit" | "undecided" | "lost_pairs" | "unchecked" | "too_many_lights"; // dropped_pairs: the storage was full. unlit: more than 0.001 of the lights that samples need are not given. undecided: pairs that exact arithmetic left open. lost_pairs: of a method that is not conservative. unchecked: no truth to hold the lists against. too_many_lights: frames have more lights than a limit lets in
+      kind: "dropped_pairs" | "unlit" | "undecided" | "lost_pairs" | "unchecked" | "too_many_lights" | "repeated_lights"; // dropped_pairs: the storage was full. unlit: more than 0.001 of the lights that samples need are not given. undecided: pairs that exact arithmetic left open. lost_pairs: of a method that is not conservative. unchecked: no truth to hold the lists against. too_many_lights: frames have more lights than a limit lets in. repeated_lights: lights are twice in a list
       text: string; // The same for people, without the case's name
     }>; // What to know about the case before believing its figures, beside its failures
     loses_lights: boolean; // Whether a shader lacks lights: pairs that are not listed or were dropped, lights that samples of a structure without cells miss, or more than 0.001 of those that visible surfaces need; without samples of surfaces, of those that random points in the view need
@@ -375,6 +385,7 @@ export type Result = {
         frames: number; // In which pairs were dropped [frames, over all frames]
         lights: number[]; // Indices of those that were dropped anywhere [light index, over all frames]
       }; // What a full storage loses
+      repeated_pairs?: number; // Of a user's shader: a light in a list where it is already, and would be added again; absent: none [pairs, over all frames]
       scratch_bytes: number; // The assigner's own memory, the most it held [bytes, over all frames]
       worst_frame: number; // That made the high-water mark [frame, over the path]
       traffic_bytes?: {
@@ -848,6 +859,22 @@ export type Result = {
     reason: string; // Why, as text
     preset?: string; // That it is of; absent for the configuration's own clusterings
   }>; // Combinations that cannot be
+  broken?: Array<{
+    id: string; // As of a case
+    settings: string; // As of a case
+    name: string; // As of a case
+    scene: string; // Name of one of scenes
+    camera: string; // As of a case
+    preset?: string; // As of a case; absent for the configuration's own clusterings
+    method: string; // Name of the assigner
+    plugin?: string; // The plug-in that the method is of; absent for one of --shader
+    kind: "crashed" | "timed_out" | "out_of_memory" | "failed"; // crashed: its process ended, by a signal or since the plug-in ended it. timed_out: a call did not return within --plugin-timeout. out_of_memory: the process took more than --plugin-memory. failed: the plug-in said so, or what it or a shader left cannot be light lists
+    reason: string; // The same for people, without the case's name
+    step: "load" | "create" | "build" | "assign" | "query" | "destroy" | "unload"; // The call in which, or after which, it happened. unload: as the process ended
+    frame?: number; // Of the camera's path; absent where the call is of none [index, over the path]
+    pass?: string; // The work that the call was part of, as text; absent where it is unknown
+    signal?: string; // That ended the process, as SIGSEGV; absent where none did
+  }>; // Cases of plug-ins that were not measured to the end: the plug-in crashed, hung, took too much memory or failed. Each fails the run. Absent where there are none
   presets?: Array<{
     name: string; // As a case's preset
     engine: string; // Whose scheme it is
@@ -969,4 +996,113 @@ export type PageData = {
   figures: FigureWords[]; // All rows of the table of figures
   sample_sets: Record<string, string>; // Words for the sets of samples
   pictures: Picture[]; // Of --images
+};
+
+// The data of a page that `clusterbench check` writes.
+export type CheckPage = {
+  command: string; // That makes the page again
+  verdict: string; // As `check --json` has it
+  frames: Array<{
+    checked: {
+      dump: string; // Its file
+      name: string; // Of the dump
+      engine: string; // Of the dump; empty: it does not say
+      points: number; // Point lights [lights]
+      spots: number; // Spot lights [lights]
+      grid_kind: string; // Of the grid
+      cells: Cell; // Numbers of columns, rows and slices
+      sets: Array<{
+        name: string; // Of the set
+        verdict: "unreadable" | "misread" | "lost" | "twice" | "empty" | "rounding" | "right"; // unreadable: no lists; misread: other_reading fits far better; lost: a light is missing where it shines, beyond rounding; twice: none is, and one is twice in a list; empty: no light reaches a cell, so nothing was checked; rounding: one is missing within rounding; right: nothing of all that
+        reading: {
+          fault_count: number; // Values that cannot be right
+          faults: Array<{
+            buffer: string; // Where it is; empty: in the dump itself
+            byte: number; // First byte of the value, in the buffer's file [bytes]
+            value: number; // What was read there
+            cell: Cell; // Whose list was read: column from the left, row from the top, slice from the near end
+            message: string; // What is wrong, in a sentence
+          }>; // The first of them
+          twice_count: number; // Entries of a light that its list has already [pairs]
+          twice: Array<{
+            buffer: string; // Where it is; empty: in the dump itself
+            byte: number; // First byte of the value, in the buffer's file [bytes]
+            value: number; // What was read there
+            cell: Cell; // Whose list was read: column from the left, row from the top, slice from the near end
+            message: string; // What is wrong, in a sentence
+          }>; // The first of them, each at the later entry
+          likely_reading: string | null; // Another description under which nothing is wrong; null: none was found
+        }; // The buffers
+        bytes: number; // Of all buffers that its lists are read from [bytes]
+        longest_list: number; // Most lights in a cell [lights]
+        longest_cell: [number, number, number] | null; // The first cell with so many; null: all are empty
+        error: {
+          true_pairs: number; // Pairs of a cell and a light that share a point [pairs]
+          listed_pairs: number; // Pairs in the lists [pairs]
+          false_positives: number; // Listed pairs that are not true [pairs]
+          lost_pairs: number; // True pairs that are not listed [pairs]
+          lost_within_rounding: number; // Of these, those that `rounding` of the dump allows for [pairs]
+          lost_lights: number; // Lights that a cell has lost, each once [lights]
+          absent_lights: number; // Lights that reach a cell and are in no list at all [lights]
+          undecided: number; // Pairs that exact arithmetic could not decide; counted as true [pairs]
+          deepest_mm: number | null; // How far the most deeply lost light reaches into its cell; null: the range has no end [mm]
+          deepest_percent: number; // The same in percent of the range [percent]
+        } | null; // Against the exact lists; null where lists could not be read
+        lost: Array<{
+          light: number; // By its index in the dump
+          cell: Cell; // Column from the left, row from the top, slice from the near end
+          row: number; // Number of the cell in the dump's own order
+          from_m: number; // Where the cell begins: depth, distance, or z in a world grid [m]
+          to_m: number; // Where it ends [m]
+          reach_mm: number | null; // How far the light reaches into the cell; null: its range has no end [mm]
+          reach_percent: number; // The same in percent of the range [percent]
+          is_within_rounding: boolean; // Whether `rounding` of the dump allows for it
+        }>; // The most deeply lost first, at most 1000
+        other_reading: {
+          axes: string; // As grid.axes of the dump
+          first_row: string; // As grid.first_row
+          first_slice: string; // As grid.first_slice
+          camera: string; // What differs in the camera; empty: nothing
+          lists: string; // What differs in the description of the lists; empty: nothing
+          lost_pairs: number; // That it would lose [pairs]
+        } | null; // Which is likelier than the dump's; null: none is
+      }>; // In the order of the dump
+      methods: Array<{
+        name: string; // As in `clusterbench list`
+        listed_pairs: number; // Pairs in its lists [pairs]
+        false_positives: number; // Of them not true [pairs]
+        lost_pairs: number; // True pairs that it does not list [pairs]
+        packed_bytes: number; // Of its lists as `packed` [bytes]
+      }>; // On the same frame; empty with --no-methods
+      methods_left_out: string[]; // Of those that were asked for: would take too long on this frame
+    }; // Its verdict
+    grid: {
+      shape: "slopes" | "shells" | "box"; // slopes: x / depth, y / depth, depth; shells: the same with the distance; box: x, y, z of view space or of the world
+      x: number[]; // Planes of columns, ascending
+      y: number[]; // Planes of rows, descending where row 0 is at the top
+      z: number[]; // Ends of slices, ascending; of a box in view space minus depth, descending
+      rotation: [Vector, Vector, Vector]; // Of a box: view space = rotation (point - origin)
+      origin: Vector; // See rotation
+    }; // Its cells
+    sides: [number, number, number, number]; // Left, right, bottom, top of the picture at depth 1, or in metres
+    orthographic: boolean; // Of the camera
+    lights: Array<{
+      index: number; // In the dump
+      position: Vector; // In view space, which looks along -z
+      range_m: number | null; // null: no end [m]
+      direction?: Vector; // Of a spot
+      half_angle_rad?: number; // Of a spot [radians]
+    }>; // Those that the lists of its cells name
+    sets: Array<{
+      name: string; // Of the set
+      cells: Array<{
+        index: number; // x fastest, from the top, from the near end
+        reach_percent: number; // Of its deepest lost light, of its range [percent]
+        listed: number[]; // Lights in the engine's list
+        lost: number[]; // Lights that reach the cell and are not listed
+        excess: number[]; // Listed lights that do not reach the cell
+      }>; // Those of the most deeply lost pairs, the deepest first
+      cells_left_out: number; // Further ones of these pairs, which have no room in the page
+    }>; // In the order of the dump; those that could not be read have no cells
+  }>; // In the order of the command line
 };

@@ -30,7 +30,7 @@ function configView(run: Run): HTMLElement {
 }
 
 function runView(run: Run, isAlone: boolean): HTMLElement {
-  const { tool, machine, scenes, cases, name, date, command } = run.result;
+  const { tool, plugins = [], machine, scenes, cases, name, date, command } = run.result;
   const libraries = Object.entries(tool.libraries)
     .map((library) => library.join(" "))
     .join(", ");
@@ -66,6 +66,10 @@ function runView(run: Run, isAlone: boolean): HTMLElement {
       ["load", machine.load ? `${machine.load.begin} before the run, ${machine.load.end} after` : "unknown"],
       ["measured", [date, command].filter(Boolean).join(", ") || "without times, so it does not say when"],
       ["clusterbench", `${tool.version}, commit ${tool.git_sha}`],
+      ...plugins.map(({ id, version, file, sha256 }): [string, string] => [
+        `plug-in ${id}`,
+        `${version}, ${file}, SHA-256 ${sha256.slice(0, 12)}`,
+      ]),
       ["compiler", `${tool.compiler} ${tool.flags}`],
       ["instruction set", tool.simd_target],
       ["build", tool.build_type],

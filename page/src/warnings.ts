@@ -19,6 +19,10 @@ const failures: Record<FailureKind, string> = {
   lost_at_samples: "lost lights at samples in spite of being conservative",
   dropped_pairs: "dropped more pairs than the configuration allows",
   wrong_readings: "were read wrongly on the device",
+  crashed: "were measured before their plug-in crashed as it was unloaded",
+  timed_out: "were measured before their plug-in hung as it was unloaded",
+  out_of_memory: "were measured before their plug-in took too much memory as it was unloaded",
+  failed: "were measured before their plug-in failed",
 };
 
 function counted(cases: Case[], what: string): string {
@@ -34,6 +38,15 @@ function failuresOf(cases: Case[]): Warning[] {
     const some = cases.filter(({ raw }) => raw.failures.some((failure) => failure.kind === kind));
     return some.length ? [{ isFailure: true, text: counted(some, what) }] : [];
   });
+}
+
+// Cases without figures, which no other section shows.
+function brokenOf({ label, result }: Run, isAlone: boolean): Warning[] {
+  const name = isAlone ? "" : `${label}: `;
+  return (result.broken ?? []).map((broken) => ({
+    isFailure: true,
+    text: `${name}${broken.name} was not measured to the end: ${broken.reason}.`,
+  }));
 }
 
 const doubts: Record<WarningKind, string> = {
@@ -108,6 +121,7 @@ function runWarnings({ label, result, doubts: ofTimes }: Run, isAlone: boolean):
 export function warningsOf(model: Model): Warning[] {
   return [
     ...failuresOf(model.cases),
+    ...model.runs.flatMap((run) => brokenOf(run, model.runs.length === 1)),
     ...doubtsOf(model.cases),
     ...model.runs.flatMap((run) => runWarnings(run, model.runs.length === 1)),
   ];

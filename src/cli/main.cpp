@@ -1,6 +1,7 @@
 // clusterbench: measures clustered light assignment. The only file that catches errors and decides the exit code.
 
 #include <exception>
+#include <new>
 
 #include "cli/command_line/commands.h"
 #include "cli/output/output.h"
@@ -19,6 +20,9 @@ int main(int argc, char** argv) {
     // one line, even if names contain line breaks
     clusterbench::cli::print_message(clusterbench::printable(error.what()));
     return static_cast<int>(error.code());
+  } catch (const std::bad_alloc&) {
+    clusterbench::cli::print_message("out of memory; measure fewer lights, cells or cases at once");
+    return static_cast<int>(ExitCode::internal);
   } catch (const std::exception& error) {
     clusterbench::cli::print_message(std::string("internal error: ") + error.what());
     return static_cast<int>(ExitCode::internal);

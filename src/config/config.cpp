@@ -6,6 +6,7 @@
 #include "config/config_clusterings.h"
 #include "config/config_forms.h"
 #include "config/config_grids.h"
+#include "config/config_plugins.h"
 #include "config/config_scenes.h"
 #include "config/config_unset.h"
 #include "core/error.h"
@@ -111,6 +112,7 @@ void check_grids_of_flags(bool has_presets, bool names_own, std::span<const Flag
 // clustering.
 Config read_changed(JsonText text, std::span<const FlagValue> flags, const Json& defaults,
                     const GridChange& preset_grid) {
+  load_plugins(text, flags);
   const GridsFrom grids = text.value.contains("grids") ? GridsFrom::file : GridsFrom::defaults;
   const bool names_own = names_own_clusterings(text.value);
   const UnsetDefaults unset(text, flags);

@@ -48,12 +48,12 @@ template <class SpecsOf>
 std::vector<MethodRequest> methods(const Json& list, const char* key, const JsonText& text, SpecsOf specs_of) {
   std::vector<MethodRequest> out;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    for (const Json& object : expand_all_axes(list[i])) {
+    const std::string pointer = std::string("/") + key;
+    for (const Json& object : expand_all_axes(list[i], text, child_pointer(pointer, i))) {
       MethodRequest request = method(object, specs_of(object["name"].get<std::string>()));
       const bool twice = std::any_of(out.begin(), out.end(), [&](const MethodRequest& earlier) {
         return earlier.name == request.name && earlier.params.values() == request.params.values();
       });
-      const std::string pointer = std::string("/") + key;
       const bool as_written = text.value.contains(key) && text.value[key].size() == list.size();  // not from a pattern
       if (twice)
         throw Error(text.file, text.where(as_written ? child_pointer(pointer, i) : pointer),

@@ -4,11 +4,14 @@
 #include <array>
 #include <regex>
 
+#include "config/config_plugins.h"
+#include "config/config_shaders.h"
 #include "config/presets/assigner_names.h"
 #include "config/presets/preset_library.h"
 #include "config/schema/documents.h"
 #include "core/error.h"
 #include "core/json_document.h"
+#include "gpu/user_shaders/shader_method.h"
 
 namespace clusterbench::config {
 namespace {
@@ -64,6 +67,7 @@ class FlaggedConfig {
  public:
   explicit FlaggedConfig(JsonText& text) : text_(text) {}
 
+  const std::string& file() const { return text_.file; }
   Json& root() { return text_.value; }
   Json& operator[](const char* key) { return text_.value[key]; }
   void mark(const std::string& pointer, const FlagValue& flag) { text_.flags[pointer] = flag.shown(); }
@@ -218,6 +222,15 @@ void choose_assigners(FlaggedConfig& document, const FlagValue& flag) {
   document.mark("/assigners", flag);
 }
 
+// It is loaded already.
+void add_plugin(FlaggedConfig& document, const FlagValue& flag) {
+  const Json path = plugin_path_for(document.file(), flag.value);
+  Json& plugins = document["plugins"];
+  if (std::find(plugins.begin(), plugins.end(), path) != plugins.end()) return;
+  document.mark(child_pointer("/plugins", plugins.size()), flag);
+  plugins.push_back(path);
+}
+
 void choose_presets(FlaggedConfig& document, const FlagValue& flag) {
   document["presets"] = named_presets(split(flag.value), "", flag.shown());
   document.mark("/presets", flag);
@@ -263,6 +276,15 @@ void set_threads(FlaggedConfig& document, const FlagValue& flag) {
 
 void set_device(FlaggedConfig& document, const FlagValue& flag) {
   set_key(document, {"device"}, flag, flag.value);
+}
+
+void add_shader(FlaggedConfig& document, const FlagValue& flag) {
+  gpu::add_shader_method(flag.value);  // now, so that patterns of --assigner find it
+  const std::string path = shader_path_for(document.file(), flag.value);
+  Json& shaders = document["shaders"];
+  if (std::find(shaders.begin(), shaders.end(), path) != shaders.end()) return;
+  document.mark(child_pointer("/shaders", shaders.size()), flag);
+  shaders.push_back(path);
 }
 
 // Decodes a step of a JSON pointer (RFC 6901): ~1 is a slash, ~0 a tilde.
@@ -332,8 +354,13 @@ constexpr FlagRow k_rows[] = {
     {{"--scheme", "NAME[,NAME]: how it is cut: exponential, exponential-first, linear, ...; docs/grids-and-lookups.md"},
      choose_scheme},
     {{"--viewport", "WxH[,WxH]: image sizes in pixels, as 1920x1080"}, choose_viewports},
+    {{"--shader",
+      "FILE, repeatable: your own compute shaders as a method (docs/shaders.md), measured beside the others", true},
+     add_shader},
     {{"--assigner", "NAME[,NAME]: only these assigners; * and ? stand for any letters, as in '*-fast'"},
      choose_assigners},
+    {{"--plugin", "[ID=]FILE, repeatable: a plug-in, whose methods can then be named (docs/plugins.md)", true},
+     add_plugin},
     {{"--preset",
       "NAME[,NAME]: clusterings as engines have them, alone or beside the configuration's own; see `list presets`"},
      choose_presets},

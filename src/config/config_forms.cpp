@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "config/config_shaders.h"
 #include "config/presets/assigner_names.h"
 #include "config/presets/preset_library.h"
 #include "config/schema/documents.h"
@@ -83,6 +84,7 @@ void drop_own_clusterings(Json& document) {
 }
 
 Json filled(const JsonText& text) {
+  const std::vector<std::string> shaders = add_shaders(text);
   const Json schema = config_schema();
   Json document = read_by_schema(schema, long_form(text.value, text), text);
   if (document.contains("viewport")) {
@@ -92,14 +94,18 @@ Json filled(const JsonText& text) {
   document.erase("$schema");
   if (document["name"].get_ref<const std::string&>().empty())
     document["name"] = printable(std::filesystem::path(text.file).stem().string());
-  document["assigners"] = without_globs(document["assigners"], text);
+  document["assigners"] = with_shaders(without_globs(document["assigners"], text), shaders);
   document = read_by_schema(schema, long_form(document, text), text);
   if (document.value("as_shipped", false) && !document.contains("presets"))
     throw Error(text.file, text.where("/as_shipped"), "found true without presets; allowed beside presets only");
   if (!document.contains("presets")) return document;
   const auto entries = document["presets"].get<std::vector<std::string>>();
   document["presets"] = named_presets(entries, text.file, text.where("/presets"));
-  if (!names_own_clusterings(text.value)) drop_own_clusterings(document);
+  if (names_own_clusterings(text.value)) return document;
+  if (!shaders.empty())
+    throw Error(text.file, text.where("/shaders"),
+                "runs nowhere: beside presets alone there is no grid of your own; name one (--grid frustum, or grids)");
+  drop_own_clusterings(document);
   return document;
 }
 

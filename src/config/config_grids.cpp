@@ -1,6 +1,7 @@
 #include "config/config_grids.h"
 
 #include <algorithm>
+#include <set>
 
 #include "assign/contract/assigner.h"
 #include "config/grid_json.h"
@@ -45,15 +46,40 @@ constexpr Axis k_axes[] = {{"/tiles/pixels", 1},
                            {"/follow", 0},
                            {"/cell_size", 1}};
 
+// Error ("", pointer) if lists multiply to more.
+void check_combinations(std::uint64_t count, const std::string& pointer) {
+  if (count > k_most_combinations)
+    throw Error("", pointer,
+                "lists make " + std::to_string(count) + " combinations here; allowed: at most " +
+                    std::to_string(k_most_combinations) + ", so shorten one or write several configurations");
+}
+
+// Errors of `call` with their place in the text; `pointer`: the place of its object.
+template <class Call>
+auto placed(const JsonText& text, const std::string& pointer, Call call) {
+  try {
+    return call();
+  } catch (const Error& error) {
+    throw Error(text.file, text.where(pointer + error.where()), error.message());
+  }
+}
+
 int nesting(const Json& value) {
   return value.is_array() && !value.empty() ? 1 + nesting(value.front()) : 0;
 }
 
+bool is_list(const Json& object, const Json::json_pointer& axis, int depth) {
+  return object.contains(axis) && nesting(object[axis]) > depth;
+}
+
 // Copies of each object of `all`, with each value of the list of the axis.
 std::vector<Json> expand_axis(const std::vector<Json>& all, const Json::json_pointer& axis, int depth) {
+  std::uint64_t count = 0;
+  for (const Json& object : all) count += is_list(object, axis, depth) ? object[axis].size() : 1;
+  check_combinations(count, axis.to_string());
   std::vector<Json> out;
   for (const Json& object : all) {
-    if (!object.contains(axis) || nesting(object[axis]) <= depth) {
+    if (!is_list(object, axis, depth)) {
       out.push_back(object);
       continue;
     }
@@ -106,9 +132,10 @@ std::vector<Json> expanded(const Json& grid) {
   std::vector<Json> all{grid};
   for (const Axis& axis : k_axes) all = expand_axis(all, Json::json_pointer(axis.pointer), axis.depth);
   std::vector<Json> out;
+  std::set<Json> different;
   for (Json& single : all) {
     drop_unused(single);
-    if (std::find(out.begin(), out.end(), single) == out.end()) out.push_back(std::move(single));
+    if (different.insert(single).second) out.push_back(std::move(single));
   }
   return out;
 }
@@ -189,19 +216,23 @@ void check_boxes(const Json& grid, const std::string& pointer, const JsonText& t
 
 }  // namespace
 
-std::vector<Json> expand_all_axes(const Json& object, const std::set<std::string>& triples) {
+std::vector<Json> expand_all_axes(const Json& object, const JsonText& text, const std::string& pointer,
+                                  const std::set<std::string>& triples) {
   std::vector<Json> all{object};
-  for (const auto& [key, value] : object.items())
-    all = expand_axis(all, Json::json_pointer(child_pointer("", key)), triples.contains(key) ? 1 : 0);
+  placed(text, pointer, [&] {
+    for (const auto& [key, value] : object.items())
+      all = expand_axis(all, Json::json_pointer(child_pointer("", key)), triples.contains(key) ? 1 : 0);
+  });
   return all;
 }
 
 std::vector<grid::GridSpec> grid_specs(const Json& grids, const JsonText& text) {
   std::vector<grid::GridSpec> out;
-  std::vector<Json> earlier;
+  std::set<Json> earlier;
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const std::string pointer = child_pointer("/grids", i);
-    const std::vector<Json> singles = expanded(grids[i]);
+    const std::vector<Json> singles = placed(text, pointer, [&] { return expanded(grids[i]); });
+    placed(text, "/grids", [&] { check_combinations(out.size() + singles.size(), ""); });
     if (singles.size() == 1) {
       if (singles[0].contains("slices")) check_slices(singles[0]["slices"], pointer + "/slices", text);
       if (singles[0].contains("cells")) check_boxes(singles[0], pointer, text);
@@ -209,9 +240,8 @@ std::vector<grid::GridSpec> grid_specs(const Json& grids, const JsonText& text) 
     }
     for (const Json& single : singles) {
       if (single.contains("react")) check_method_of_reaction(single, pointer, text);
-      if (std::find(earlier.begin(), earlier.end(), single) != earlier.end())
+      if (!earlier.insert(single).second)
         throw Error(text.file, text.where(pointer), "this grid stands here twice: " + single.dump());
-      earlier.push_back(single);
       out.push_back(grid_spec(single));
     }
   }
@@ -219,7 +249,7 @@ std::vector<grid::GridSpec> grid_specs(const Json& grids, const JsonText& text) 
 }
 
 Json usable_default_grids(const Json& grids) {
-  std::vector<Json> earlier;
+  std::set<Json> earlier;
   Json out = Json::array();
   for (const Json& grid : grids) {
     bool is_changed = false;
@@ -230,10 +260,9 @@ Json usable_default_grids(const Json& grids) {
         drop_unused(single);
         is_changed = true;
       }
-      const bool is_repeated = std::find(earlier.begin(), earlier.end(), single) != earlier.end();
+      const bool is_repeated = !earlier.insert(single).second;
       is_changed = is_changed || is_repeated;
       if (is_repeated) continue;
-      earlier.push_back(single);
       kept.push_back(single);
     }
     if (!is_changed) kept = Json::array({grid});

@@ -76,9 +76,10 @@ fs::path folder_of(const std::string& file) {
 }
 
 // Expands a rig's axes into their product. `rig` has its defaults filled in.
-std::vector<scene::RigSpec> rig_specs(const Json& rig) {
+std::vector<scene::RigSpec> rig_specs(const Json& rig, const JsonText& text, const std::string& pointer) {
   std::vector<scene::RigSpec> specs;
-  for (const Json& sized : expand_all_axes(rig, {"size"})) specs.push_back(read_keys<scene::RigSpec>(sized));
+  for (const Json& sized : expand_all_axes(rig, text, pointer, {"size"}))
+    specs.push_back(read_keys<scene::RigSpec>(sized));
   return specs;
 }
 
@@ -113,7 +114,7 @@ void add_scenes(const Json& scene, const std::string& pointer, const JsonText& t
   if (request.boxes && keys.rig)
     throw Error(text.file, text.where(pointer + "/boxes"), "a rig has no boxes; a scene from a file may have some");
   if (keys.rig) {
-    for (const scene::RigSpec& rig : rig_specs(*keys.rig)) {
+    for (const scene::RigSpec& rig : rig_specs(*keys.rig, text, pointer + "/rig")) {
       request.rig = rig;
       out.push_back(request);
     }

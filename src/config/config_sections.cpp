@@ -59,8 +59,8 @@ std::vector<PrecisionRequest> precisions(const Json& document, const JsonText& t
   const Json& list = document["precision"];
   std::vector<PrecisionRequest> out;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string where = text.where(child_pointer("/precision", i));
-    for (const Json& object : expand_all_axes(list[i])) {
+    const std::string pointer = child_pointer("/precision", i), where = text.where(pointer);
+    for (const Json& object : expand_all_axes(list[i], text, pointer)) {
       const auto request = read_keys<PrecisionRequest>(object);
       if (request.inflate && !request.is_lossy())
         throw Error(text.file, where,
@@ -77,7 +77,7 @@ std::vector<PrecisionRequest> precisions(const Json& document, const JsonText& t
 std::vector<ShadowCullRequest> shadow_culls(const Json& document, const JsonText& text) {
   std::vector<ShadowCullRequest> out;
   if (!document.contains("shadow_cull")) return out;
-  for (const Json& object : expand_all_axes(document["shadow_cull"])) {
+  for (const Json& object : expand_all_axes(document["shadow_cull"], text, "/shadow_cull")) {
     const auto request = read_keys<ShadowCullRequest>(object);
     if (std::ranges::find(out, request) != out.end())
       throw Error(text.file, text.where("/shadow_cull"), "has a list with the same value twice");

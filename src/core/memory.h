@@ -3,6 +3,10 @@
 // that no machine can hold must be rejected with its numbers before it is allocated, instead of ending the process.
 
 #include <cstdint>
+#include <new>
+#include <string>
+
+#include "core/error.h"
 
 namespace clusterbench {
 
@@ -16,6 +20,16 @@ void set_memory_limit(std::uint64_t bytes);
 // in the plural: "pairs of light lists". `remedy`: advice for fewer entries.
 void check_memory(const char* name, std::uint64_t entries, std::uint64_t entry_bytes,
                   const char* remedy = "use fewer lights or cells");
+
+// The result of `read`. Throws Error, which names the file, where this machine has too little memory for it.
+template <class Read>
+auto within_memory(const std::string& file, Read read) {
+  try {
+    return read();
+  } catch (const std::bad_alloc&) {
+    throw Error(file, "", "needs more memory than this process can get", ExitCode::internal);
+  }
+}
 
 // Sets the limit until its end: for tests.
 class MemoryLimitScope {

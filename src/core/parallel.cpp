@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "core/shared_threads.h"
+
 #ifdef CLUSTERBENCH_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
 #endif
@@ -59,13 +61,15 @@ struct ThreadPool::Arena {
 };
 
 ThreadPool::ThreadPool(int threads) : threads_(threads) {
-  if (threads > 1) arena_ = std::make_unique<Arena>(Arena{oneapi::tbb::task_arena(workers(threads))});
+  if (threads > 1 && shared_threads() == nullptr)
+    arena_ = std::make_unique<Arena>(Arena{oneapi::tbb::task_arena(workers(threads))});
 }
 ThreadPool::~ThreadPool() = default;
 ThreadPool::ThreadPool(ThreadPool&&) noexcept = default;
 ThreadPool& ThreadPool::operator=(ThreadPool&&) noexcept = default;
 
 void ThreadPool::each(std::size_t count, const std::function<void(std::size_t i)>& work) {
+  if (shared_threads() != nullptr && threads_ > 1) return shared_threads()->each(count, work);
   if (!arena_) {
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;

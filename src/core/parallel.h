@@ -8,11 +8,12 @@
 namespace clusterbench {
 
 // Calls work(begin, end) over disjoint ranges that cover [0, count), on at most `threads` threads (1: the caller's own,
-// in order). The work of different ranges must not touch the same data.
+// in order). The work of different ranges must not touch the same data. What work throws, this throws.
 void parallel_ranges(std::size_t count, int threads,
                      const std::function<void(std::size_t begin, std::size_t end)>& work);
 
-// Persistent threads for short work that is repeated often.
+// Persistent threads for short work that is repeated often. parallel.cpp makes them of oneTBB, for the program;
+// own_threads.cpp of std::thread, for the library, which needs no other one.
 class ThreadPool {
  public:
   explicit ThreadPool(int threads);
@@ -21,7 +22,8 @@ class ThreadPool {
   ThreadPool& operator=(ThreadPool&&) noexcept;
 
   int threads() const { return threads_; }
-  // Calls work(i) for 0 <= i < count, each once, on any thread.
+  // Calls work(i) for 0 <= i < count, each once, on any thread, and returns after all of them. What work throws, this
+  // throws.
   void each(std::size_t count, const std::function<void(std::size_t i)>& work);
 
  private:

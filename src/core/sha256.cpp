@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "core/text.h"
+
 namespace clusterbench {
 
 struct Sha256::State {
@@ -34,6 +36,12 @@ std::string Sha256::hex() {
     text += k_digits[digest[i] & 15];
   }
   return text;
+}
+
+std::string sha256_hex(std::string_view bytes) {
+  Sha256 sum;
+  sum.add(bytes);
+  return sum.hex();
 }
 
 }  // namespace clusterbench

@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "dump/judge.h"
+#include "dump/lost_lights.h"
 
 namespace clusterbench::dump {
 namespace {
@@ -23,29 +24,53 @@ std::string cell_text(const result::CellIndex& cell) {
   return "(" + number(cell[0]) + ", " + number(cell[1]) + ", " + number(cell[2]) + ")";
 }
 
-// "0.0314 mm", "12.3 mm", "1.57 m"
-std::string length_text(double mm) {
-  if (!std::isfinite(mm)) return "all of its endless range";
-  return mm >= 1000.0 ? format("%.3g m", mm / 1000.0) : format("%.3g mm", mm);
+// With this many significant digits, or all those before the point, and without an exponent: "0.0314", "12.3", "1570".
+std::string significant(double value, int digits = 3) {
+  constexpr double k_least = 0.001;
+  if (value > 0.0 && value < k_least) return "below 0.001";
+  int decimals = digits - 1;
+  for (double size = std::abs(value); size >= 10.0 && decimals > 0; size /= 10.0) --decimals;
+  for (double size = std::abs(value); size > 0.0 && size < 1.0; size *= 10.0) ++decimals;
+  std::string text = format(("%." + std::to_string(decimals) + "f").c_str(), value);
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
 }
 
-std::string faults_text(const result::ListReading& reading) {
+// "0.0314 mm", "12.3 mm", "1.57 m"
+std::string length_text(double mm) {
+  constexpr double k_shown_as_a_metre = 999.5;
+  if (!std::isfinite(mm)) return "all of its endless range";
+  return mm >= k_shown_as_a_metre ? significant(mm / 1000.0) + " m" : significant(mm) + " mm";
+}
+
+std::string faults_text(const std::vector<result::ReadingFault>& faults, std::uint64_t count) {
   std::string out;
   constexpr std::size_t k_most_shown = 3;
-  const std::size_t shown = std::min(k_most_shown, reading.faults.size());
-  for (const result::ReadingFault& fault : std::span(reading.faults).first(shown)) {
+  const std::size_t shown = std::min(k_most_shown, faults.size());
+  for (const result::ReadingFault& fault : std::span(faults).first(shown)) {
     out += "    ";
-    if (!fault.buffer.empty()) out += "buffer '" + fault.buffer + "', byte " + number(fault.byte) + ": ";
-    out += fault.message + ", in cell " + cell_text(fault.cell) + "\n";
+    if (!fault.buffer.empty()) out += "buffer '" + printable(fault.buffer) + "', byte " + number(fault.byte) + ": ";
+    out += printable(fault.message) + ", in cell " + cell_text(fault.cell) + "\n";
   }
-  if (reading.fault_count > shown) out += "    and " + number(reading.fault_count - shown) + " more\n";
+  if (count > shown) out += "    and " + number(count - shown) + " more\n";
   return out;
+}
+
+std::string twice_text(std::uint64_t count) {
+  return number_of(count, "pair") + " of a cell and a light " + (count == 1 ? "is" : "are") + " twice in " +
+         (count == 1 ? "its list" : "their lists");
 }
 
 std::string other_text(const result::CheckedSet& set) {
   const result::OtherReading& other = *set.other_reading;
-  std::string out = "  Probably it is the description: with grid.axes '" + other.axes + "', first_row '" +
-                    other.first_row + "', first_slice '" + other.first_slice + "'";
+  std::string out = "  Probably it is the description: with ";
+  if (other.lists.empty())
+    out +=
+        "grid.axes '" + other.axes + "', first_row '" + other.first_row + "', first_slice '" + other.first_slice + "'";
+  else
+    out += other.lists;
   if (!other.camera.empty()) out += " and " + other.camera;
   if (set.error->lost_pairs == 0)
     return out + " the listed pairs are true, and " + number_of(other.lost_pairs, "pair") + " would be lost.\n";
@@ -59,8 +84,8 @@ std::string lost_text(const result::CheckedSet& set, std::size_t most, bool is_w
   for (std::size_t i = 0; i < shown; ++i) {
     const result::LostInCell& lost = set.lost[i];
     out += "    light " + number(lost.light) + ", cell " + cell_text(lost.cell) + " (number " + number(lost.row) +
-           (is_world ? ", z " : ", depth ") + format("%.4g", lost.from_m) + " to " + format("%.4g", lost.to_m) +
-           " m): reaches in by " + length_text(lost.reach_mm) + ", " + format("%.3g", lost.reach_percent) +
+           (is_world ? ", z " : ", depth ") + significant(lost.from_m, 4) + " to " + significant(lost.to_m, 4) +
+           " m): reaches in by " + length_text(lost.reach_mm) + ", " + significant(lost.reach_percent) +
            " % of its range" + (lost.is_within_rounding ? ", within rounding" : "") + "\n";
   }
   if (set.error->lost_pairs > shown) out += "    and " + number(set.error->lost_pairs - shown) + " more\n";
@@ -86,31 +111,46 @@ std::string verdict_text(const result::CheckedSet& set) {
   if (set.verdict == "misread" && set.error->lost_pairs == 0)
     return "no light is lost, but " + number(set.error->false_positives) + " of " + number(set.error->listed_pairs) +
            " listed pairs are not true";
-  if (set.verdict == "twice") return number_of(set.reading.fault_count, "light") + " twice in a list";
+  if (set.verdict == "twice") return twice_text(set.reading.twice_count);
   const result::ListErrors& error = *set.error;
   const std::uint64_t beyond = error.lost_pairs - error.lost_within_rounding;
   if (set.verdict == "rounding")
     return number_of(error.lost_pairs, "pair") + " lost, all within rounding; the deepest reaches in by " +
-           length_text(error.deepest_mm);
+           length_text(error.deepest_mm) + " (rounding explains " + length_text(1000.0 * k_most_rounding_m) + " and " +
+           significant(100.0 * k_most_rounding_share) + " % of the range at the most)";
   std::string out = "LOST: " + number_of(beyond, "pair") + " of a cell and a light";
   if (error.lost_within_rounding > 0) out += ", and " + number(error.lost_within_rounding) + " within rounding";
   out += " (" + number_of(error.lost_lights, "light");
   if (error.absent_lights > 0) out += ", " + number(error.absent_lights) + " in no list at all";
   return out + "); the deepest reaches in by " + length_text(error.deepest_mm) + ", " +
-         format("%.3g", error.deepest_percent) + " % of its range";
+         significant(error.deepest_percent) + " % of its range";
+}
+
+// What is wrong with the entries themselves.
+std::string reading_text(const result::CheckedSet& set) {
+  const result::ListReading& reading = set.reading;
+  std::string out = faults_text(reading.faults, reading.fault_count);
+  if (set.verdict == "unreadable")
+    out += reading.likely_reading ? "    " + *reading.likely_reading + "\n"
+                                  : std::string("    none of the readings that were tried is without faults\n");
+  if (reading.twice_count > 0 && set.verdict != "twice") out += "    " + twice_text(reading.twice_count) + ":\n";
+  return out + faults_text(reading.twice, reading.twice_count);
 }
 
 std::string set_text(const result::CheckedSet& set, std::size_t most, bool is_world) {
   std::string out;
   if (set.other_reading) out += other_text(set);
-  out += "  " + set.name + ": " + verdict_text(set) + "\n" + faults_text(set.reading);
-  if (set.verdict == "unreadable")
-    out += set.reading.likely_reading ? "    " + *set.reading.likely_reading + "\n"
-                                      : std::string("    none of the readings that were tried is without faults\n");
+  out += "  " + printable(set.name) + ": " + verdict_text(set) + "\n" + reading_text(set);
   if (set.error) out += lost_text(set, most, is_world) + errors_text(set);
   out += "    " + number_of(set.bytes, "byte") + ", longest list " + number(set.longest_list);
   if (set.longest_cell) out += " in cell " + cell_text(*set.longest_cell);
   return out + "\n";
+}
+
+std::string left_out_text(const std::vector<std::string>& methods) {
+  if (methods.empty()) return "";
+  return "  methods of clusterbench left out, since this frame has more than " + number(k_most_quick_steps) +
+         " cells and true pairs: " + joined(methods) + " (--methods all, or names)\n";
 }
 
 std::string methods_text(const std::vector<result::CheckedMethod>& methods) {
@@ -132,12 +172,12 @@ std::string methods_text(const std::vector<result::CheckedMethod>& methods) {
 }  // namespace
 
 std::string check_text(const result::CheckedDump& checked, std::size_t most) {
-  std::string out = checked.name + (checked.engine.empty() ? "" : " (" + checked.engine + ")") + ": " +
-                    checked.grid_kind + " grid of " + number(checked.cells[0]) + " x " + number(checked.cells[1]) +
-                    " x " + number(checked.cells[2]) + " cells, " + number_of(checked.points, "point light") + " and " +
-                    number_of(checked.spots, "spot light") + "\n";
+  std::string out = printable(checked.name) + (checked.engine.empty() ? "" : " (" + printable(checked.engine) + ")") +
+                    ": " + checked.grid_kind + " grid of " + number(checked.cells[0]) + " x " +
+                    number(checked.cells[1]) + " x " + number(checked.cells[2]) + " cells, " +
+                    number_of(checked.points, "point light") + " and " + number_of(checked.spots, "spot light") + "\n";
   for (const result::CheckedSet& set : checked.sets) out += set_text(set, most, checked.grid_kind == "world");
-  return out + methods_text(checked.methods);
+  return out + methods_text(checked.methods) + left_out_text(checked.methods_left_out);
 }
 
 }  // namespace clusterbench::dump

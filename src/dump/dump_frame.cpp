@@ -90,6 +90,12 @@ DumpFrame made_frame(const DumpFile& dump, const result::DumpCamera& camera) {
 
 }  // namespace
 
+assign::Lists DumpFrame::in_frame(assign::Lists lists) const {
+  for (std::uint32_t& light : lists.lights) light = frame_index[light];
+  assign::make_ascending(lists);
+  return lists;
+}
+
 DumpFrame frame_of(const DumpFile& dump) {
   return frame_of(dump, dump.record.camera);
 }

@@ -18,6 +18,8 @@ struct DumpFrame {
   layout::Shape shape(const layout::CellOrder& order) const {
     return {grid.cells(), order, static_cast<std::uint32_t>(frame_index.size())};
   }
+  // Lists of the dump's lights as lists of the frame's, ascending.
+  assign::Lists in_frame(assign::Lists lists) const;
 };
 
 // Throws Error (file, JSON pointer or byte) for whatever makes no frame: NaN in a light, a singular matrix, slices that

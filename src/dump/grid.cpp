@@ -3,17 +3,19 @@
 
 #include "core/error.h"
 #include "dump/dump_frame.h"
+#include "geom/shapes/domain.h"
 
 namespace clusterbench::dump {
 namespace {
 
 constexpr const char* k_slices = "/grid/slices";
 
-// Where f(depth) has a value.
-double depth_of(const std::string& function, double value) {
-  if (function == "log2") return std::exp2(value);
-  if (function == "ln") return std::exp(value);
-  return value;
+// Where f(depth * depth_scale + depth_offset) has a value.
+double depth_of(const result::DumpFormula& formula, double value) {
+  const double inner = formula.function == "log2" ? std::exp2(value)
+                       : formula.function == "ln" ? std::exp(value)
+                                                  : value;
+  return (inner - formula.depth_offset.value_or(0.0)) / formula.depth_scale.value_or(1.0);
 }
 
 // Slices as a shader's formula gives them. What it gives below slice 0 belongs to slice 0, which then begins at the
@@ -22,7 +24,7 @@ std::vector<double> formula_boundaries(const result::DumpFormula& formula, std::
                                        const view::Projection& projection) {
   std::vector<double> out;
   for (std::int64_t i = 0; i <= count; ++i)
-    out.push_back(depth_of(formula.function, (static_cast<double>(i) - formula.bias) / formula.scale));
+    out.push_back(depth_of(formula, (static_cast<double>(i) - formula.bias) / formula.scale));
   if (!projection.orthographic) out.front() = std::max(out.front(), 0.0);
   if (projection.near_m < out[1]) out.front() = std::min(out.front(), projection.near_m);
   if (formula.far_m) out.back() = *formula.far_m;
@@ -105,10 +107,38 @@ void count_rows_from_bottom(grid::ScreenGrid& screen, const grid::Tiling& tiling
   std::ranges::transform(from_bottom.rbegin(), from_bottom.rend(), screen.tiles.y.begin(), [](float y) { return -y; });
 }
 
+std::vector<float> planes_along(const std::vector<double>& given, double origin_m, const char* axis) {
+  const std::string pointer = std::string("/grid/planes/") + axis;
+  std::vector<float> out;
+  for (const double plane_m : given) {
+    out.push_back(static_cast<float>(plane_m));
+    if (!geom::is_in_domain(origin_m + plane_m) || !std::isfinite(out.back()))
+      throw Error("", pointer, "has " + grid::number_name(plane_m) + " m, which takes it beyond 1e15 m");
+    if (out.size() > 1 && !(out[out.size() - 2] < out.back()))
+      throw Error("", pointer, "does not ascend in single precision at " + grid::number_name(plane_m) + " m");
+  }
+  return out;
+}
+
+grid::Grid grid_of_planes(const result::DumpGrid& given) {
+  if (given.cells || given.bounds || given.tiles || given.slices)
+    throw Error("", "/grid/planes", "stands beside cells, bounds, tiles or slices; allowed: alone");
+  const result::DumpPlanes& planes = *given.planes;
+  grid::WorldGrid world;
+  for (int i = 0; i < 3; ++i) world.origin[i] = planes.origin_m[static_cast<std::size_t>(i)];
+  world.x = planes_along(planes.x_m, world.origin.x, "x_m");
+  world.y = planes_along(planes.y_m, world.origin.y, "y_m");
+  world.z = planes_along(planes.z_m, world.origin.z, "z_m");
+  constexpr double k_most_cells = 1e9;
+  const Vec3d cells(world.counts());
+  if (cells.x * cells.y * cells.z > k_most_cells) throw Error("", "/grid/planes", "give more than 10^9 cells");
+  return {std::move(world)};
+}
+
 grid::GridSpec world_spec(const result::DumpGrid& given) {
   grid::GridSpec spec;
   spec.kind = grid::Kind::world;
-  if (!given.cells) throw Error("", "/grid/cells", "is missing: a world grid needs it");
+  if (!given.cells) throw Error("", "/grid/cells", "is missing: a world grid needs it, or planes");
   if (!given.bounds) throw Error("", "/grid/bounds", "is missing: a world grid needs it");
   if (given.tiles || given.slices)
     throw Error("", given.tiles ? "/grid/tiles" : k_slices, "has no meaning in a world grid");
@@ -133,10 +163,15 @@ grid::Grid grid_of(const result::DumpGrid& given, const view::Frame& frame) {
   const std::string kind = given.kind.value_or("frustum");
   grid::GridSpec spec;
   if (kind == "world") {
+    if (given.planes) return grid_of_planes(given);
     spec = world_spec(given);
   } else {
-    if (given.cells || given.bounds)
-      throw Error("", given.cells ? "/grid/cells" : "/grid/bounds", "is of world grids only");
+    if (given.cells || given.bounds || given.planes)
+      throw Error("",
+                  given.cells    ? "/grid/cells"
+                  : given.bounds ? "/grid/bounds"
+                                 : "/grid/planes",
+                  "is of world grids only");
     spec.kind = kind == "distance" ? grid::Kind::distance : grid::Kind::frustum;
     spec.tiles = tiling_of(given);
     spec.slices = slicing_of(given.slices, frame.projection);

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "assign/contract/assigner_run.h"
-#include "assign/contract/storage.h"
 #include "core/error.h"
 #include "dump/lost_lights.h"
 #include "dump/other_orders.h"
@@ -23,31 +21,31 @@ result::CellIndex cell_index(Vec3i at) {
 }
 
 // Ends of a cell along depth, distance, or z.
-result::Pair extent_of(const grid::Grid& grid, std::uint32_t cell) {
+result::Pair extent_of(const grid::Grid& grid, std::uint32_t cell, double metres_per_unit) {
   const auto z = static_cast<std::size_t>(grid.cell_at(cell).z);
   if (!grid.has_tiles()) {
     const auto& planes = grid.world().z;
     const double origin = grid.world().origin.z;
-    return {{origin + static_cast<double>(planes[z]), origin + static_cast<double>(planes[z + 1])}};
+    return {{metres_per_unit * (origin + static_cast<double>(planes[z])),
+             metres_per_unit * (origin + static_cast<double>(planes[z + 1]))}};
   }
   const auto& boundaries = grid.screen().slices.boundaries;
-  return {{static_cast<double>(boundaries[z]), static_cast<double>(boundaries[z + 1])}};
-}
-
-// Of a light whose range has no end: not finite.
-double reach_mm(const view::Frame& frame, const LostPair& pair) {
-  return 1000.0 * pair.reach * frame.lights[pair.light].range_m;
+  return {
+      {metres_per_unit * static_cast<double>(boundaries[z]), metres_per_unit * static_cast<double>(boundaries[z + 1])}};
 }
 
 class SetJudge {
  public:
-  SetJudge(const DumpFile& dump, const DumpFrame& frame, const measure::Truth& truth, int threads)
+  SetJudge(const DumpFile& dump, const DumpFrame& frame, const measure::Truth& truth, const JudgeOptions& options)
       : dump_(dump),
         frame_(frame),
         truth_(truth),
         order_(order_of(dump.record.grid)),
         shape_(frame.shape(order_)),
-        threads_(threads) {}
+        metres_per_unit_(dump.record.metres_per_unit.value_or(1.0)),
+        threads_(options.threads),
+        page_(options.page),
+        page_room_(options.page_room) {}
 
   result::CheckedSet judge(const ListSet& set) const {
     result::CheckedSet out;
@@ -55,15 +53,17 @@ class SetJudge {
     layout::Decoded decoded = layout::decode(set.parts, dump_.buffers, shape_);
     out.bytes = layout::bytes_of(set.parts, dump_.buffers);
     add_reading(set, decoded, out);
-    const assign::Lists listed = in_frame(std::move(decoded.lists));
+    const assign::Lists listed = frame_.in_frame(std::move(decoded.lists));
     add_longest(listed, out);
+    if (page_ != nullptr) page_->sets.push_back({set.name, {}, 0});
     if (!decoded.faults.are_readable()) {
       out.verdict = "unreadable";
       return out;
     }
-    const LostLights lost =
-        find_lost(frame_.frame, frame_.grid, truth_.lists, listed, dump_.record.rounding.value_or(k_default_rounding));
+    const LostLights lost = find_lost(frame_.frame, frame_.grid, truth_.lists, listed,
+                                      {dump_.record.rounding.value_or(k_default_rounding), metres_per_unit_});
     add_errors(lost, out);
+    if (page_ != nullptr) page_->sets.back() = page_set(set.name, frame_, truth_.lists, listed, lost, *page_room_);
     const bool is_beyond = lost.lost_pairs > lost.within_rounding;
     out.verdict = is_beyond                  ? "lost"
                   : decoded.faults.twice > 0 ? "twice"
@@ -79,21 +79,24 @@ class SetJudge {
   }
 
  private:
-  // Lights of the dump to those of the frame.
-  assign::Lists in_frame(assign::Lists lists) const {
-    for (std::uint32_t& light : lists.lights) light = frame_.frame_index[light];
-    assign::make_ascending(lists);
-    return lists;
+  result::ReadingFault fault_record(const layout::Fault& fault) const {
+    return {fault.buffer == nullptr ? "" : fault.buffer->name, fault.byte, fault.value,
+            cell_index(frame_.grid.cell_at(fault.cell)), fault.message};
   }
 
   void add_reading(const ListSet& set, const layout::Decoded& decoded, result::CheckedSet& out) const {
     out.reading.fault_count = decoded.faults.count;
-    for (const layout::Fault& fault : decoded.faults.first)
-      out.reading.faults.push_back({fault.buffer == nullptr ? "" : fault.buffer->name, fault.byte, fault.value,
-                                    cell_index(frame_.grid.cell_at(fault.cell)), fault.message});
+    out.reading.twice_count = decoded.faults.twice;
+    for (const layout::Fault& fault : decoded.faults.first) out.reading.faults.push_back(fault_record(fault));
+    for (const layout::Fault& fault : decoded.faults.first_twice) out.reading.twice.push_back(fault_record(fault));
     if (decoded.faults.are_readable()) return;
     if (const auto likely = layout::likely_reading(set.parts, dump_.buffers, shape_))
       out.reading.likely_reading = *likely;
+  }
+
+  // Of a light whose range has no end: not finite.
+  double reach_mm(const LostPair& pair) const {
+    return 1000.0 * metres_per_unit_ * pair.reach * frame_.frame.lights[pair.light].range_m;
   }
 
   void add_longest(const assign::Lists& listed, result::CheckedSet& out) const {
@@ -114,14 +117,14 @@ class SetJudge {
     error.undecided = truth_.undecided;
     error.deepest_mm = error.deepest_percent = 0.0;
     if (!lost.deepest.empty()) {
-      error.deepest_mm = reach_mm(frame_.frame, lost.deepest.front());
+      error.deepest_mm = reach_mm(lost.deepest.front());
       error.deepest_percent = 100.0 * lost.deepest.front().reach;
     }
     for (const LostPair& pair : lost.deepest) {
       const Vec3i at = frame_.grid.cell_at(pair.cell);
-      const auto [from, to] = extent_of(frame_.grid, pair.cell);
+      const auto [from, to] = extent_of(frame_.grid, pair.cell, metres_per_unit_);
       out.lost.push_back({frame_.dump_index[pair.light], cell_index(at), order_.cell(at, frame_.grid.cells()), from, to,
-                          reach_mm(frame_.frame, pair), 100.0 * pair.reach, pair.is_within_rounding});
+                          reach_mm(pair), 100.0 * pair.reach, pair.is_within_rounding});
     }
   }
 
@@ -130,43 +133,11 @@ class SetJudge {
   const measure::Truth& truth_;
   layout::CellOrder order_;
   layout::Shape shape_;
+  double metres_per_unit_;
   int threads_;
+  result::CheckPageFrame* page_;
+  std::size_t* page_room_;
 };
-
-// Methods that fill lists of this grid on this machine's processor, without trying all pairs.
-bool is_compared(const assign::AssignerDescriptor& method, const assign::Params& params, const DumpFrame& frame) {
-  constexpr int k_has_a_faster_form = 2;  // with the same lists
-  return method.is_default() && assign::slowness_of(method.name) != k_has_a_faster_form && !method.all_pairs &&
-         !method.on_device && method.takes(frame.grid.kind()) && method.answers(assign::Answer::lists) &&
-         (method.orthographic || !frame.frame.projection.orthographic) &&
-         assign::unavailability(method, params).empty();
-}
-
-std::uint64_t packed_bytes(const assign::Lists& lists, const DumpFrame& frame) {
-  const assign::StorageDescriptor& packed = *assign::find_storage("packed");
-  const auto storage = packed.make(assign::Params(packed.params));
-  storage->start(lists.cell_count(), frame.frame.ranges());
-  storage->store(lists);
-  const assign::StructureUse use = storage->use();
-  return use.index_bytes + use.header_bytes;
-}
-
-std::vector<result::CheckedMethod> checked_methods(const DumpFrame& frame, const assign::Lists& truth) {
-  std::vector<result::CheckedMethod> out;
-  const view::LightArrays lights = view::lights_in(frame.frame, grid::space_of(frame.grid, frame.frame));
-  for (const assign::AssignerDescriptor* method : assign::assigner_descriptors()) {
-    const assign::Params params(method->params);
-    if (!is_compared(*method, params, frame)) continue;
-    assign::AssignerRun run(*method, params, assign::Answer::lists);
-    run.build(frame.grid, assign::kinds_of(lights));
-    run.assign({frame.frame, lights});
-    const assign::Lists& listed = run.cell_lists();
-    const LostLights lost = find_lost(frame.frame, frame.grid, truth, listed, 0.0);
-    out.push_back(
-        {method->name, listed.pair_count(), lost.false_positives, lost.lost_pairs, packed_bytes(listed, frame)});
-  }
-  return out;
-}
 
 constexpr std::array k_verdicts = {"right", "rounding", "empty",     "twice",
                                    "lost",  "misread",  "unreadable"};  // from good to bad
@@ -182,9 +153,15 @@ result::CheckedDump judged(const DumpFile& dump, const JudgeOptions& options) {
   out.grid_kind = grid::kind_name(frame.grid.kind());
   out.cells = cell_index(frame.grid.cells());
   const measure::Truth truth = measure::find_truth(frame.frame, frame.grid, options.threads);
-  const SetJudge judge(dump, frame, truth, options.threads);
+  if (options.page != nullptr) *options.page = page_frame(frame, dump.record.metres_per_unit.value_or(1.0));
+  const SetJudge judge(dump, frame, truth, options);
   for (const ListSet& set : list_sets(dump.record)) out.sets.push_back(judge.judge(set));
-  if (options.with_methods) out.methods = checked_methods(frame, truth.lists);
+  add_methods(frame, truth.lists, options.methods, out);
+  if (options.page != nullptr) {
+    add_lights(frame, dump.record.metres_per_unit.value_or(1.0), *options.page);
+    options.page->checked = out;
+    for (result::CheckedSet& set : options.page->checked.sets) set.lost.clear();  // they are in the cells
+  }
   return out;
 }
 

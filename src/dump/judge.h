@@ -2,13 +2,17 @@
 // Lists of a dump against the exact ones.
 
 #include "dump/dump_frame.h"
+#include "dump/our_methods.h"
+#include "dump/page_frame.h"
 #include "result/documents/check.h"
 
 namespace clusterbench::dump {
 
 struct JudgeOptions {
-  bool with_methods = true;
+  MethodChoice methods{};
   int threads = 1;
+  result::CheckPageFrame* page = nullptr;  // filled where it is asked for
+  std::size_t* page_room = nullptr;        // with it: see page_set()
 };
 
 // Reads the lists, compares them with the truth, and tries the other orders of cells and the other conventions of

@@ -24,14 +24,17 @@ std::size_t each_lost(std::span<const std::uint32_t> wanted, std::span<const std
 }
 
 // What single precision may do to a light, as a share of its range.
-std::vector<double> rounding_shares(const view::Frame& frame, double rounding) {
+double rounding_share(const view::Frame& frame, const scene::WorldLight& light, const Rounding& rounding) {
+  if (!(light.range_m > 0.0) || !std::isfinite(light.range_m)) return 0.0;
+  const Vec3d p = frame.view_space.rotation * (light.position - frame.view_space.origin);
+  const double size_m = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + light.range_m;
+  const double most_m = k_most_rounding_m / rounding.metres_per_unit;
+  return std::min(std::min(rounding.roundoffs * 0x1p-24 * size_m, most_m) / light.range_m, k_most_rounding_share);
+}
+
+std::vector<double> rounding_shares(const view::Frame& frame, const Rounding& rounding) {
   std::vector<double> shares;
-  for (const scene::WorldLight& light : frame.lights) {
-    const Vec3d p = frame.view_space.rotation * (light.position - frame.view_space.origin);
-    const double reach = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + light.range_m;
-    shares.push_back(light.range_m > 0.0 && std::isfinite(light.range_m) ? rounding * 0x1p-24 * reach / light.range_m
-                                                                         : 0.0);
-  }
+  for (const scene::WorldLight& light : frame.lights) shares.push_back(rounding_share(frame, light, rounding));
   return shares;
 }
 
@@ -95,7 +98,7 @@ void keep_deepest(std::vector<LostPair>& kept, const LostPair& pair) {
 }  // namespace
 
 LostLights find_lost(const view::Frame& frame, const grid::Grid& grid, const assign::Lists& truth,
-                     const assign::Lists& listed, double rounding) {
+                     const assign::Lists& listed, const Rounding& rounding) {
   LostLights out;
   const std::vector<double> shares = rounding_shares(frame, rounding);
   std::vector<bool> is_lost(frame.lights.size(), false), is_listed(frame.lights.size(), false);
@@ -123,10 +126,10 @@ LostLights find_lost(const view::Frame& frame, const grid::Grid& grid, const ass
 }
 
 std::uint64_t count_lost(const assign::Lists& truth, const assign::Lists& listed,
-                         const std::vector<std::uint32_t>& from, std::uint64_t most) {
+                         const std::function<std::uint32_t(std::uint32_t cell)>& source, std::uint64_t most) {
   std::uint64_t lost = 0;
   for (std::uint32_t cell = 0; cell < truth.cell_count() && lost <= most; ++cell)
-    each_lost(truth.of(cell), listed.of(from[cell]), [&lost](std::uint32_t) { ++lost; });
+    if (!truth.of(cell).empty()) each_lost(truth.of(cell), listed.of(source(cell)), [&lost](std::uint32_t) { ++lost; });
   return lost;
 }
 

@@ -2,6 +2,7 @@
 // Lost lights: pairs of a cell and a light that are true and not listed, and how far the light reaches into the cell.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "measure/truth/truth.h"
@@ -27,12 +28,20 @@ inline bool are_for_nothing(const LostLights& found) {
   return found.false_positives > found.listed_pairs / 10 * 9;
 }
 
-// `rounding`: roundoffs that are allowed for. Both lists ascend.
-LostLights find_lost(const view::Frame& frame, const grid::Grid& grid, const assign::Lists& truth,
-                     const assign::Lists& listed, double rounding);
+// No rounding of an engine explains more than this, whatever a dump allows for: of a light's range, and in metres.
+inline constexpr double k_most_rounding_share = 0.01, k_most_rounding_m = 0.1;
 
-// Only their number, where the list of cell c is that of cell from[c]. Stops above `most`.
+// Roundoffs that are allowed for, up to these two limits.
+struct Rounding {
+  double roundoffs = 0.0, metres_per_unit = 1.0;
+};
+
+// Both lists ascend.
+LostLights find_lost(const view::Frame& frame, const grid::Grid& grid, const assign::Lists& truth,
+                     const assign::Lists& listed, const Rounding& rounding);
+
+// Only their number, where the list of cell c is that of cell source(c). Stops above `most`.
 std::uint64_t count_lost(const assign::Lists& truth, const assign::Lists& listed,
-                         const std::vector<std::uint32_t>& from, std::uint64_t most);
+                         const std::function<std::uint32_t(std::uint32_t cell)>& source, std::uint64_t most);
 
 }  // namespace clusterbench::dump

@@ -17,23 +17,12 @@ bool is_of_tiles(const ListSet& set) {
   });
 }
 
-// The number of the list that a program in this order reads for a cell.
-std::uint64_t list_number(const layout::CellOrder& order, Vec3i at, Vec3i cells, bool of_tiles) {
-  if (!of_tiles) return order.cell(at, cells);
-  const auto tiles = static_cast<std::uint64_t>(cells.x) * static_cast<std::uint64_t>(cells.y);
-  return order.slice(at.z, cells) * tiles + order.tile(at, cells);
-}
-
-// For each cell of the grid, the cell whose list another order of the same buffers gives it.
-std::vector<std::uint32_t> source_cells(const grid::Grid& grid, const layout::CellOrder& given,
-                                        const layout::CellOrder& other, bool of_tiles) {
-  const Vec3i cells = grid.cells();
-  std::vector<std::uint32_t> cell_of_list(grid.cell_count()), out(grid.cell_count());
-  for (std::uint32_t cell = 0; cell < out.size(); ++cell)
-    cell_of_list[list_number(given, grid.cell_at(cell), cells, of_tiles)] = cell;
-  for (std::uint32_t cell = 0; cell < out.size(); ++cell)
-    out[cell] = cell_of_list[list_number(other, grid.cell_at(cell), cells, of_tiles)];
-  return out;
+// The cell of `given` whose list a program in another order reads for a cell.
+Vec3i source_cell(const layout::CellOrder& given, const layout::CellOrder& other, Vec3i at, Vec3i cells,
+                  bool of_tiles) {
+  if (!of_tiles) return given.cell_at(other.cell(at, cells), cells);
+  const auto z = static_cast<int>(given.slice(static_cast<int>(other.slice(at.z, cells)), cells));  // its own inverse
+  return given.tile_at(other.tile(at, cells), z, cells);
 }
 
 struct CameraChange {
@@ -71,40 +60,71 @@ std::optional<grid::Grid> grid_from_other_row(const DumpFile& dump, const DumpFr
 
 class BestReading {
  public:
-  BestReading(const result::DumpGrid& given, const ListSet& set, const assign::Lists& listed, const LostLights& found,
-              std::uint64_t wrong)
+  BestReading(const result::DumpGrid& given, const ListSet& set, const LostLights& found, std::uint64_t wrong)
       : given_(order_of(given)),
-        listed_(listed),
         of_tiles_(is_of_tiles(set)),
         most_(wrong / k_times_fewer),
         true_before_(found.true_pairs - found.lost_pairs),
+        listed_before_(found.listed_pairs),
         least_true_(found.lost_pairs < wrong ? found.listed_pairs / 2 : 0) {}
 
   // `rows_from_bottom`: where the grid itself depends on the first row, the one that it was made for.
-  void try_orders(const grid::Grid& grid, const assign::Lists& truth, const char* camera,
+  void try_orders(const grid::Grid& grid, const assign::Lists& truth, const assign::Lists& listed, const char* camera,
                   std::optional<bool> rows_from_bottom) {
-    if (truth.cell_count() != listed_.cell_count()) return;
+    if (truth.cell_count() != listed.cell_count()) return;
+    const Vec3i cells = grid.cells();
     for (const layout::CellOrder& order : layout::all_orders()) {
       if (rows_from_bottom && order.is_from_bottom != *rows_from_bottom) continue;
-      const std::uint64_t lost = count_lost(truth, listed_, source_cells(grid, given_, order, of_tiles_), most_);
-      const std::uint64_t are_true = truth.pair_count() - std::min<std::uint64_t>(lost, truth.pair_count());
-      if (lost > most_ || are_true <= true_before_ || are_true < least_true_ || (best_ && lost >= best_->lost_pairs))
-        continue;
-      best_ = result::OtherReading{order.axes, order.is_from_bottom ? "bottom" : "top",
-                                   order.is_from_far ? "far" : "near", camera, lost};
+      const auto source = [&](std::uint32_t cell) {
+        return grid::cell_index(source_cell(given_, order, grid.cell_at(cell), cells, of_tiles_), cells);
+      };
+      take(count_lost(truth, listed, source, most_), truth,
+           {order.axes, row_name(order), slice_name(order), camera, "", 0});
     }
+  }
+  // Lists that are read another way, in the dump's own order.
+  void try_lists(const assign::Lists& truth, const assign::Lists& listed, const std::string& change) {
+    const std::uint64_t lost = count_lost(
+        truth, listed, [](std::uint32_t cell) { return cell; }, most_);
+    const auto are_true = static_cast<double>(truth.pair_count() - std::min<std::uint64_t>(lost, truth.pair_count()));
+    // Numbers without meaning that make long lists lose nothing, too.
+    if (are_true * static_cast<double>(listed_before_) <
+        static_cast<double>(true_before_) * static_cast<double>(listed.pair_count()))
+      return;
+    take(lost, truth, {given_.axes, row_name(given_), slice_name(given_), "", change, 0});
   }
   const std::optional<result::OtherReading>& best() const { return best_; }
 
  private:
+  static const char* row_name(const layout::CellOrder& order) { return order.is_from_bottom ? "bottom" : "top"; }
+  static const char* slice_name(const layout::CellOrder& order) { return order.is_from_far ? "far" : "near"; }
+
+  void take(std::uint64_t lost, const assign::Lists& truth, result::OtherReading reading) {
+    const std::uint64_t are_true = truth.pair_count() - std::min<std::uint64_t>(lost, truth.pair_count());
+    if (lost > most_ || are_true <= true_before_ || are_true < least_true_ || (best_ && lost >= best_->lost_pairs))
+      return;
+    reading.lost_pairs = lost;
+    best_ = std::move(reading);
+  }
+
   layout::CellOrder given_;
-  const assign::Lists& listed_;
   bool of_tiles_;
-  std::uint64_t most_, true_before_;
+  std::uint64_t most_, true_before_, listed_before_;
   // Lists that lose nothing are told to be another reading's only where that makes half of them true: they may be long.
   std::uint64_t least_true_;
   std::optional<result::OtherReading> best_;
 };
+
+void try_descriptions(const DumpFile& dump, const DumpFrame& frame, const ListSet& set, const assign::Lists& truth,
+                      BestReading& best) {
+  const layout::Shape shape = frame.shape(order_of(dump.record.grid));
+  for (const layout::OtherDescription& other : layout::other_descriptions(set.parts)) try {
+      layout::Decoded decoded = layout::decode(other.parts, dump.buffers, shape);
+      const assign::Lists listed = frame.in_frame(std::move(decoded.lists));
+      if (decoded.faults.are_readable()) best.try_lists(truth, listed, other.change);
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): this description does not fit the buffers
+    }
+}
 
 }  // namespace
 
@@ -114,17 +134,19 @@ std::optional<result::OtherReading> better_reading(const DumpFile& dump, const D
   constexpr std::uint64_t k_too_few = 10;  // to say so
   const std::uint64_t wrong = std::max(found.lost_pairs, are_for_nothing(found) ? found.listed_pairs : 0);
   if (wrong < k_too_few || listed.pair_count() == 0) return std::nullopt;
-  BestReading best(dump.record.grid, set, listed, found, wrong);
+  BestReading best(dump.record.grid, set, found, wrong);
   const std::optional<grid::Grid> turned = grid_from_other_row(dump, frame);
   const bool is_from_bottom = order_of(dump.record.grid).is_from_bottom;
   const std::optional<bool> rows = turned ? std::optional(is_from_bottom) : std::nullopt;
-  best.try_orders(frame.grid, truth, "", rows);
+  best.try_orders(frame.grid, truth, listed, "", rows);
   if (turned && !best.best())
-    best.try_orders(*turned, measure::find_truth(frame.frame, *turned, threads).lists, "", !is_from_bottom);
+    best.try_orders(*turned, measure::find_truth(frame.frame, *turned, threads).lists, listed, "", !is_from_bottom);
+  if (!best.best()) try_descriptions(dump, frame, set, truth, best);
   for (const CameraChange& change : k_changes) {
     if (best.best()) break;
     if (const std::optional<DumpFrame> other = changed_frame(dump, change))
-      best.try_orders(other->grid, measure::find_truth(other->frame, other->grid, threads).lists, change.text, rows);
+      best.try_orders(other->grid, measure::find_truth(other->frame, other->grid, threads).lists, listed, change.text,
+                      rows);
   }
   return best.best();
 }

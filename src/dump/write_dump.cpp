@@ -24,20 +24,34 @@ result::DumpCamera camera_record(const view::Frame& frame) {
   return out;
 }
 
-result::DumpGrid grid_record(const grid::Grid& grid, const layout::CellOrder& order) {
-  if (!grid.has_tiles())
-    throw Error("", "--write-dump",
-                std::string("writes frustum and distance grids; found one of kind ") + grid::kind_name(grid.kind()));
-  result::DumpGrid out;
-  const grid::ScreenGrid& screen = grid.screen();
-  out.kind = grid::kind_name(grid.kind());
+std::vector<double> doubles(const std::vector<float>& numbers) {
+  return {numbers.begin(), numbers.end()};
+}
+
+void add_screen(const grid::ScreenGrid& screen, result::DumpGrid& out) {
   result::DumpTiles& tiles = out.tiles.emplace();
   if (screen.tiles.pixels.x > 0)
     tiles.pixels = result::Size2{screen.tiles.pixels.x, screen.tiles.pixels.y};
   else
     tiles.count = result::Size2{screen.tiles.count.x, screen.tiles.count.y};
-  std::vector<double>& ends = out.slices.emplace().boundaries_m.emplace();
-  for (const float boundary : screen.slices.boundaries) ends.push_back(static_cast<double>(boundary));
+  out.slices.emplace().boundaries_m = doubles(screen.slices.boundaries);
+}
+
+// By its planes, since those of a grid that follows the camera are no equal parts of their bounds to the bit.
+void add_world(const grid::WorldGrid& world, result::DumpGrid& out) {
+  out.planes = result::DumpPlanes{
+      {world.origin.x, world.origin.y, world.origin.z}, doubles(world.x), doubles(world.y), doubles(world.z)};
+}
+
+result::DumpGrid grid_record(const grid::Grid& grid, const layout::CellOrder& order) {
+  result::DumpGrid out;
+  out.kind = grid::kind_name(grid.kind());
+  if (grid.has_tiles())
+    add_screen(grid.screen(), out);
+  else if (grid.kind() == grid::Kind::world)
+    add_world(grid.world(), out);
+  else
+    throw Error("", "--write-dump", "dumps have no words for grids of kind " + *out.kind);
   out.axes = order.axes;
   out.first_row = order.is_from_bottom ? "bottom" : "top";
   out.first_slice = order.is_from_far ? "far" : "near";
@@ -60,7 +74,7 @@ layout::Buffer light_buffer(const view::Frame& frame) {
 }
 
 result::DumpLights light_record(const view::Frame& frame) {
-  if (frame.boxes > 0) throw Error("", "--write-dump", "writes points and spots; the scene has boxes");
+  if (frame.boxes > 0) throw Error("", "--write-dump", "dumps have no words for boxes, which the scene has");
   result::DumpLightRows points{"lights", {}, k_light_bytes, frame.points, {0, "f64", {}}, {24, "f64", {}}, {}, {},
                                {},       {}};
   result::DumpLightRows spots = points;

@@ -82,9 +82,4 @@ GridInputs cascades_inputs(const GridSpec&, const FrameReach&) {
   return {};
 }
 
-std::string cascades_grid_name(const GridSpec& spec) {
-  return "cascades " + std::to_string(spec.levels) + " x " + cells_name(spec.cells) + " of " +
-         number_name(spec.finest_m);
-}
-
 }  // namespace clusterbench::grid

@@ -50,6 +50,5 @@ inline geom::Cell CascadesGrid::cell(Vec3i at) const {
 // Throws Error (where = configuration key) for an impossible grid.
 CascadesGrid make_cascades_grid(const GridSpec& spec, const GridInputs& inputs);
 GridInputs cascades_inputs(const GridSpec& spec, const FrameReach& from);
-std::string cascades_grid_name(const GridSpec& spec);
 
 }  // namespace clusterbench::grid

@@ -16,7 +16,6 @@ struct KindRow {
   std::span<const char* const> keys;  // of a request, in the order in which they are written
   Grid (*make)(const GridSpec& spec, const GridInputs& inputs);
   GridInputs (*inputs)(const GridSpec& spec, const FrameReach& from);
-  std::string (*name_of)(const GridSpec& spec);
 };
 
 template <auto make>
@@ -30,10 +29,10 @@ constexpr const char* k_world_keys[] = {"cells", "bounds", "follow", "cell_size"
 
 // In the order of Kind.
 constexpr KindRow k_kinds[k_kind_count] = {
-    {"frustum", k_screen_keys, made<make_screen_grid>, screen_inputs, screen_grid_name},
-    {"distance", k_screen_keys, made<make_screen_grid>, screen_inputs, screen_grid_name},
-    {"cascades", k_cascades_keys, made<make_cascades_grid>, cascades_inputs, cascades_grid_name},
-    {"world", k_world_keys, made<make_world_grid>, world_inputs, world_grid_name},
+    {"frustum", k_screen_keys, made<make_screen_grid>, screen_inputs},
+    {"distance", k_screen_keys, made<make_screen_grid>, screen_inputs},
+    {"cascades", k_cascades_keys, made<make_cascades_grid>, cascades_inputs},
+    {"world", k_world_keys, made<make_world_grid>, world_inputs},
 };
 
 const KindRow& row_of(Kind kind) {
@@ -53,10 +52,6 @@ const char* kind_name(Kind kind) {
 
 std::span<const char* const> kind_keys(Kind kind) {
   return row_of(kind).keys;
-}
-
-std::string GridSpec::name() const {
-  return row_of(kind).name_of(*this);
 }
 
 const char* name_of(Follow follow) {

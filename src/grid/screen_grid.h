@@ -42,6 +42,5 @@ inline geom::Cell ScreenGrid::cell(Vec3i at) const {
 // Throws Error (where = configuration key) for a grid that is impossible in this projection.
 ScreenGrid make_screen_grid(const GridSpec& spec, const GridInputs& inputs);
 GridInputs screen_inputs(const GridSpec& spec, const FrameReach& from);
-std::string screen_grid_name(const GridSpec& spec);
 
 }  // namespace clusterbench::grid

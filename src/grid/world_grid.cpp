@@ -118,17 +118,4 @@ GridInputs world_inputs(const GridSpec& spec, const FrameReach& from) {
   return inputs;
 }
 
-std::string world_grid_name(const GridSpec& spec) {
-  std::string text = "world " + cells_name(spec.cells);
-  if (spec.has_bounds)
-    for (int axis = 0; axis < 3; ++axis)
-      text += " " + number_name(spec.bounds_lo_m[axis]) + ".." + number_name(spec.bounds_hi_m[axis]);
-  if (spec.follow == Follow::nothing) return text;
-  text += std::string(" follows ") + name_of(spec.follow);
-  if (spec.follow != Follow::camera) return text;
-  for (int axis = 0; axis < 3; ++axis)
-    text += (axis == 0 ? " " : "x") + (spec.follows_camera(axis) ? number_name(spec.cell_size_m[axis]) : "*");
-  return text + "m";
-}
-
 }  // namespace clusterbench::grid

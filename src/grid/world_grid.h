@@ -39,6 +39,5 @@ inline geom::Cell WorldGrid::cell(Vec3i at) const {
 // Throws Error (where = configuration key) for an impossible grid.
 WorldGrid make_world_grid(const GridSpec& spec, const GridInputs& inputs);
 GridInputs world_inputs(const GridSpec& spec, const FrameReach& from);
-std::string world_grid_name(const GridSpec& spec);
 
 }  // namespace clusterbench::grid

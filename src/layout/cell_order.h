@@ -22,6 +22,15 @@ struct CellOrder {
     return static_cast<std::uint64_t>(is_from_far ? cells.z - 1 - z : z);
   }
 
+  // The cell of a number.
+  Vec3i cell_at(std::uint64_t cell, Vec3i cells) const { return at(cell, cells, true); }
+  // The cell in slice z (from the near end) whose tile has this number.
+  Vec3i tile_at(std::uint64_t tile, int z, Vec3i cells) const {
+    Vec3i out = at(tile, cells, false);
+    out.z = z;
+    return out;
+  }
+
   friend bool operator==(const CellOrder&, const CellOrder&) = default;
 
  private:
@@ -35,6 +44,19 @@ struct CellOrder {
       out += static_cast<std::uint64_t>(at[i]) * step;
       step *= static_cast<std::uint64_t>(cells[i]);
     }
+    return out;
+  }
+
+  Vec3i at(std::uint64_t number, Vec3i cells, bool with_slices) const {
+    Vec3i out{0};
+    for (const char axis : axes) {
+      const int i = axis - 'x';
+      if (i == 2 && !with_slices) continue;
+      out[i] = static_cast<int>(number % static_cast<std::uint64_t>(cells[i]));
+      number /= static_cast<std::uint64_t>(cells[i]);
+    }
+    if (is_from_bottom) out.y = cells.y - 1 - out.y;
+    if (is_from_far && with_slices) out.z = cells.z - 1 - out.z;
     return out;
   }
 };

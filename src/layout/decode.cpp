@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -41,6 +42,28 @@ struct PartLights {
   }
 };
 
+// An entry of a list, as it lies in its buffer.
+struct Place {
+  const Buffer* buffer = nullptr;  // null: in the dump itself
+  std::uint64_t byte = 0, value = 0;
+};
+
+// The lists as they grow, and where the entries of one list are if that is asked for.
+class ListSink {
+ public:
+  explicit ListSink(std::vector<std::uint32_t>& lights, std::vector<Place>* places = nullptr)
+      : lights_(lights), places_(places) {}
+  std::size_t size() const { return lights_.size(); }
+  void add(std::uint64_t light, const Place& place) {
+    lights_.push_back(static_cast<std::uint32_t>(light));
+    if (places_ != nullptr) places_->push_back(place);
+  }
+
+ private:
+  std::vector<std::uint32_t>& lights_;
+  std::vector<Place>* places_;
+};
+
 // Where a list is read.
 struct CellRow {
   std::uint32_t cell = 0;
@@ -56,19 +79,20 @@ class PartReader {
   PartReader& operator=(const PartReader&) = delete;
 
   // Appends lights of the dump.
-  virtual void read(const CellRow& at, std::vector<std::uint32_t>& out, Faults& faults) const = 0;
+  virtual void read(const CellRow& at, ListSink& out, Faults& faults) const = 0;
 
  protected:
   std::string lights_text() const { return "the " + number_of(lights_.count, "light"); }
 
   // False if there is no such light. `first`: the value that means light 0.
   bool add(std::uint64_t value, std::uint64_t first, const Rows& rows, std::uint64_t row, std::uint64_t at,
-           const CellRow& cell, std::vector<std::uint32_t>& out, Faults& faults) const {
+           const CellRow& cell, ListSink& out, Faults& faults) const {
+    const Place place{&rows.buffer(), rows.byte_of(row) + at, value};
     if (value >= first && value - first < lights_.count) {
-      out.push_back(static_cast<std::uint32_t>(lights_.first + (value - first)));
+      out.add(lights_.first + (value - first), place);
       return true;
     }
-    faults.add({&rows.buffer(), rows.byte_of(row) + at, value, cell.cell, index_fault(value, first)});
+    faults.add({place.buffer, place.byte, value, cell.cell, index_fault(value, first)});
     return false;
   }
   std::string index_fault(std::uint64_t value, std::uint64_t first) const {
@@ -151,7 +175,7 @@ class PackedReader final : public PartReader {
     offset_unit_ = part.lists.offset_is.value_or("entries") == "bytes" ? entries_.stride() : 1;
   }
 
-  void read(const CellRow& at, std::vector<std::uint32_t>& out, Faults& faults) const override {
+  void read(const CellRow& at, ListSink& out, Faults& faults) const override {
     const std::optional<std::uint64_t> count =
         count_in(counts_, rows_, at, lights_.count, lights_text() + " of its part", faults);
     if (!count || *count == 0) return;
@@ -172,8 +196,7 @@ class PackedReader final : public PartReader {
 
  private:
   // `begin`: the cell's first light in `out`.
-  bool read_entry(std::uint64_t entry, const CellRow& at, std::size_t begin, std::vector<std::uint32_t>& out,
-                  Faults& faults) const {
+  bool read_entry(std::uint64_t entry, const CellRow& at, std::size_t begin, ListSink& out, Faults& faults) const {
     const std::uint64_t value = whole_at(entries_.row(entry), type_), index = value - first_;
     if (!is_runs_) return add(value, first_, entries_, entry, 0, at, out, faults);
     const std::uint64_t more = whole_at(entries_.row(entry) + size_of(type_), type_);
@@ -189,7 +212,8 @@ class PackedReader final : public PartReader {
                       " more the cell has more lights than " + lights_text() + " of its part"});
       return false;
     }
-    for (std::uint64_t i = index; i <= index + more; ++i) out.push_back(static_cast<std::uint32_t>(lights_.first + i));
+    for (std::uint64_t i = index; i <= index + more; ++i)
+      out.add(lights_.first + i, {&entries_.buffer(), entries_.byte_of(entry), value});
     return true;
   }
 
@@ -237,7 +261,7 @@ class FixedReader final : public PartReader {
     entries_ = rows_ = cell_rows(reader, part, rows, std::max(end_of(counts_), entry_at_ + list_bytes));
   }
 
-  void read(const CellRow& at, std::vector<std::uint32_t>& out, Faults& faults) const override {
+  void read(const CellRow& at, ListSink& out, Faults& faults) const override {
     std::uint64_t count = per_cell_;
     if (!counts_.empty()) {
       const auto given = count_in(counts_, rows_, at, per_cell_, "per_cell, " + number(per_cell_), faults);
@@ -315,14 +339,18 @@ class LightRangesReader {
 class BitsReader final : public PartReader {
  public:
   BitsReader(const ListPart& part, const BufferReader& reader, const Shape& shape)
-      : PartReader(part, shape), word_(number_type(part.lists.word.value_or("u32"))) {
+      : PartReader(part, shape),
+        word_(number_type(part.lists.word.value_or("u32"))),
+        first_bit_(part.lists.first_bit.value_or(0)),
+        has_others_(part.lists.first_bit.has_value()) {
     const std::uint64_t width = 8 * size_of(word_);
-    words_ = (lights_.count + width - 1) / width;
-    const std::uint64_t bytes = words_ * size_of(word_);
     const result::DumpRows& given = needed(part.lists.rows, part, "rows");
-    if (bytes > given.stride)
+    words_ = first_bit_ / width + (first_bit_ % width + lights_.count + width - 1) / width;
+    const std::uint64_t bytes = words_ * size_of(word_);
+    if (first_bit_ / 8 > given.stride || bytes > given.stride)
       throw Error("", part.pointer + "/rows/stride",
-                  "is " + number(given.stride) + "; bits of " + number_of(lights_.count, "light") + " take " +
+                  "is " + number(given.stride) + "; bits of " + number_of(lights_.count, "light") +
+                      (has_others_ ? " from bit " + number(first_bit_) + " on" : std::string("")) + " take " +
                       number(bytes) + " bytes");
     ListPart tiles = part;
     if (part.lists.layout != "bits") tiles.lists.per_tile = true;
@@ -330,7 +358,7 @@ class BitsReader final : public PartReader {
     if (part.lists.layout != "bits") ranges_.emplace(tiles, reader, shape, bytes);
   }
 
-  void read(const CellRow& at, std::vector<std::uint32_t>& out, Faults& faults) const override {
+  void read(const CellRow& at, ListSink& out, Faults& faults) const override {
     LightRangesReader::Range range{0, k_no_whole};
     if (ranges_) {
       const auto found = ranges_->range(at, lights_.count, faults);
@@ -343,7 +371,9 @@ class BitsReader final : public PartReader {
       std::uint64_t bits = whole_at(rows_.row(at.row) + w * size_of(word_), word_);
       if (own != nullptr) bits &= whole_at(own + w * size_of(word_), word_);
       for (; bits != 0; bits &= bits - 1) {
-        const std::uint64_t light = w * width + static_cast<std::uint64_t>(std::countr_zero(bits));
+        const std::uint64_t bit = w * width + static_cast<std::uint64_t>(std::countr_zero(bits));
+        if (has_others_ && (bit < first_bit_ || bit - first_bit_ >= lights_.count)) continue;
+        const std::uint64_t light = bit - first_bit_;
         const bool is_in_range = light >= range.first && light < range.end;
         if (is_in_range && !add(light, 0, rows_, at.row, w * size_of(word_), at, out, faults)) return;
       }
@@ -352,7 +382,8 @@ class BitsReader final : public PartReader {
 
  private:
   NumberType word_;
-  std::uint64_t words_ = 0;
+  std::uint64_t first_bit_, words_ = 0;
+  bool has_others_;  // bits that are no lights
   Rows rows_;
   std::optional<LightRangesReader> ranges_;
 };
@@ -378,7 +409,7 @@ class LinkedReader final : public PartReader {
     next_end_ = nodes.end.value_or(all_bits(next_));
   }
 
-  void read(const CellRow& at, std::vector<std::uint32_t>& out, Faults& faults) const override {
+  void read(const CellRow& at, ListSink& out, Faults& faults) const override {
     std::uint64_t node = head_.whole(rows_.row(at.row));
     if (node == head_end_) return;
     std::uint64_t byte = rows_.byte_of(at.row) + head_.at;
@@ -417,10 +448,10 @@ class InlineReader final : public PartReader {
                   "has " + number_of(cells_.size(), "list") + "; the grid has " + number_of(rows, "cell"));
   }
 
-  void read(const CellRow& at, std::vector<std::uint32_t>& out, Faults& faults) const override {
+  void read(const CellRow& at, ListSink& out, Faults& faults) const override {
     for (const std::uint64_t light : cells_[at.row]) {
       if (light < lights_.count) {
-        out.push_back(static_cast<std::uint32_t>(lights_.first + light));
+        out.add(lights_.first + light, {nullptr, 0, light});
         continue;
       }
       faults.add({nullptr, 0, light, at.cell, "index " + number(light) + " is not below " + lights_text()});
@@ -441,14 +472,19 @@ std::unique_ptr<PartReader> make_reader(const ListPart& part, const BufferReader
   return std::make_unique<BitsReader>(part, reader, shape);
 }
 
-// Sorts the list that begins at `begin`, keeps each light once, and names the first that was there twice.
-void tidy(std::vector<std::uint32_t>& lights, std::size_t begin, std::uint32_t cell, Faults& faults) {
+// Sorts the list that begins at `begin` and keeps each light once. Returns how many entries that removes.
+std::size_t tidy(std::vector<std::uint32_t>& lights, std::size_t begin) {
   const auto from = lights.begin() + static_cast<std::ptrdiff_t>(begin);
   if (!std::is_sorted(from, lights.end())) std::sort(from, lights.end());
-  const auto twice = std::adjacent_find(from, lights.end());
-  if (twice == lights.end()) return;
-  faults.add({nullptr, 0, *twice, cell, "light " + number(*twice) + " is twice in its list", true});
-  lights.erase(std::unique(from, lights.end()), lights.end());
+  const auto end = std::unique(from, lights.end());
+  const auto removed = static_cast<std::size_t>(lights.end() - end);
+  lights.erase(end, lights.end());
+  return removed;
+}
+
+std::string place_text(const Place& place) {
+  return place.buffer == nullptr ? std::string("")
+                                 : ", first at byte " + number(place.byte) + " of buffer '" + place.buffer->name + "'";
 }
 
 void check_pairs(std::size_t pairs, const std::string& pointer) {
@@ -460,39 +496,81 @@ void check_pairs(std::size_t pairs, const std::string& pointer) {
 
 }  // namespace
 
+namespace {
+
+// The lists of all parts, cell by cell.
+class Decoder {
+ public:
+  Decoder(std::span<const ListPart> parts, std::span<const Buffer> buffers, const Shape& shape)
+      : parts_(parts), shape_(shape) {
+    const BufferReader reader(buffers);
+    for (const ListPart& part : parts) readers_.push_back(make_reader(part, reader, shape));
+  }
+
+  void read_cell(std::uint32_t cell, Vec3i at) {
+    std::vector<std::uint32_t>& lights = out_.lists.lights;
+    const std::uint64_t unreadable = out_.faults.count;
+    ListSink sink(lights);
+    read_parts(cell, at, sink, out_.faults);
+    const std::size_t removed = tidy(lights, out_.lists.begin.back());
+    if (removed > 0 && out_.faults.count == unreadable) add_twice(cell, at, removed);
+    check_pairs(lights.size(), parts_.front().pointer);
+    out_.lists.begin.push_back(static_cast<std::uint32_t>(lights.size()));
+  }
+  Decoded& out() { return out_; }
+
+ private:
+  void read_parts(std::uint32_t cell, Vec3i at, ListSink& sink, Faults& faults) const {
+    const std::uint64_t tile = shape_.order.tile(at, shape_.cells);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const DumpLists& lists = parts_[i].lists;
+      const bool is_of_tiles = lists.per_tile.value_or(false) || lists.layout.starts_with("bits_and");
+      const CellRow row{cell, is_of_tiles ? tile : shape_.order.cell(at, shape_.cells), tile,
+                        shape_.order.slice(at.z, shape_.cells)};
+      readers_[i]->read(row, sink, faults);
+    }
+  }
+
+  // Reads the list again, now with the places of its entries.
+  void add_twice(std::uint32_t cell, Vec3i at, std::size_t entries) {
+    Faults& faults = out_.faults;
+    faults.twice += entries;
+    if (faults.first_twice.size() >= Faults::k_most_kept) return;
+    std::vector<std::uint32_t> lights;
+    std::vector<Place> places;
+    ListSink sink(lights, &places);
+    Faults none;
+    read_parts(cell, at, sink, none);
+    std::map<std::uint32_t, Place> first;
+    for (std::size_t i = 0; i < lights.size() && faults.first_twice.size() < Faults::k_most_kept; ++i) {
+      const auto [earlier, is_new] = first.emplace(lights[i], places[i]);
+      if (is_new) continue;
+      faults.first_twice.push_back(
+          {places[i].buffer, places[i].byte, places[i].value, cell,
+           "light " + number(lights[i]) + " is twice in its list" + place_text(earlier->second)});
+    }
+  }
+
+  std::span<const ListPart> parts_;
+  const Shape& shape_;
+  std::vector<std::unique_ptr<PartReader>> readers_;
+  Decoded out_;
+};
+
+}  // namespace
+
 Decoded decode(std::span<const ListPart> parts, std::span<const Buffer> buffers, const Shape& shape) {
-  const BufferReader reader(buffers);
-  std::vector<std::unique_ptr<PartReader>> readers;
-  for (const ListPart& part : parts) readers.push_back(make_reader(part, reader, shape));
+  Decoder decoder(parts, buffers, shape);
   const std::uint64_t cells = static_cast<std::uint64_t>(shape.cells.x) * static_cast<std::uint64_t>(shape.cells.y) *
                               static_cast<std::uint64_t>(shape.cells.z);
   check_memory("lists of cells", cells + 1, sizeof(std::uint32_t));
-  Decoded out;
-  std::vector<std::uint32_t>& lights = out.lists.lights;
-  out.lists.begin.reserve(cells + 1);
-  out.lists.begin.push_back(0);
-  Vec3i at{0};
-  for (std::uint32_t cell = 0; cell < cells; ++cell) {
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const DumpLists& lists = parts[i].lists;
-      const bool is_of_tiles = lists.per_tile.value_or(false) || lists.layout.starts_with("bits_and");
-      const std::uint64_t tile = shape.order.tile(at, shape.cells);
-      const CellRow row{cell, is_of_tiles ? tile : shape.order.cell(at, shape.cells), tile,
-                        shape.order.slice(at.z, shape.cells)};
-      readers[i]->read(row, lights, out.faults);
-    }
-    tidy(lights, out.lists.begin.back(), cell, out.faults);
-    check_pairs(lights.size(), parts.front().pointer);
-    out.lists.begin.push_back(static_cast<std::uint32_t>(lights.size()));
-    if (++at.x == shape.cells.x) {
-      at.x = 0;
-      if (++at.y == shape.cells.y) {
-        at.y = 0;
-        ++at.z;
-      }
-    }
-  }
-  return out;
+  decoder.out().lists.begin.reserve(cells + 1);
+  decoder.out().lists.begin.push_back(0);
+  std::uint32_t cell = 0;
+  for (int z = 0; z < shape.cells.z; ++z)
+    for (int y = 0; y < shape.cells.y; ++y)
+      for (int x = 0; x < shape.cells.x; ++x) decoder.read_cell(cell++, {x, y, z});
+  return std::move(decoder.out());
 }
 
 std::uint64_t bytes_of(std::span<const ListPart> parts, std::span<const Buffer> buffers) {

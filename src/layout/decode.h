@@ -33,17 +33,18 @@ struct Fault {
   std::uint64_t value = 0;
   std::uint32_t cell = 0;  // numbered as the grid's
   std::string message;     // "index 412 is not below the 300 lights"
-  bool is_twice = false;   // a light that is twice in its list, which is readable all the same
 };
 
 struct Faults {
   static constexpr std::size_t k_most_kept = 8;
-  std::uint64_t count = 0, twice = 0;  // all; of them lights that are twice in their list
+  std::uint64_t count = 0;
   std::vector<Fault> first;
+  // Entries of lights that their list has already: such lists can be read. Only of cells without another fault.
+  std::uint64_t twice = 0;
+  std::vector<Fault> first_twice;
 
-  bool are_readable() const { return count == twice; }
+  bool are_readable() const { return count == 0; }
   void add(Fault fault) {
-    twice += fault.is_twice ? 1 : 0;
     if (count++ < k_most_kept) first.push_back(std::move(fault));
   }
 };
@@ -58,8 +59,16 @@ struct Decoded {
 // the limit on memory allows.
 Decoded decode(std::span<const ListPart> parts, std::span<const Buffer> buffers, const Shape& shape);
 
+// A description one step away from the given one.
+struct OtherDescription {
+  std::string change;  // "entries as u16"
+  std::vector<ListPart> parts;
+};
+// In the order in which they are believed.
+std::vector<OtherDescription> other_descriptions(std::span<const ListPart> parts);
+
 // Another description under which nothing is wrong, as a sentence: "with entries as u16 all 812 indices are below 300".
-// The nearest to the given one; nullopt if none of those that are tried fits.
+// The first of other_descriptions(); nullopt if none of them fits.
 std::optional<std::string> likely_reading(std::span<const ListPart> parts, std::span<const Buffer> buffers,
                                           const Shape& shape);
 

@@ -41,10 +41,20 @@ bool swap_offset_and_count(DumpLists& lists, const std::string&) {
   return true;
 }
 
+bool set_offset_type(DumpLists& lists, const std::string& type) {
+  if (!lists.offset || lists.offset->type == type) return false;
+  lists.offset->type = type;
+  return true;
+}
+
 bool set_count_type(DumpLists& lists, const std::string& type) {
   if (!lists.counts) return false;
-  for (result::DumpField& count : *lists.counts) count.type = type;
-  return true;
+  bool is_other = false;
+  for (result::DumpField& count : *lists.counts) {
+    is_other |= count.type != type;
+    count.type = type;
+  }
+  return is_other;
 }
 
 bool change_last(DumpLists& lists, const std::string&) {
@@ -65,6 +75,28 @@ bool move_entries(DumpLists& lists, const std::string& value) {
   return true;
 }
 
+// By its distance to the one before; false where there is no room.
+bool move_earlier(std::optional<std::uint64_t>& at, std::uint64_t stride) {
+  if (stride == 0 || at.value_or(0) < stride) return false;
+  *at -= stride;
+  return true;
+}
+
+bool move_entries_earlier(DumpLists& lists, const std::string&) {
+  if (!lists.entries) return false;
+  const std::uint64_t size = size_of(number_type(lists.entries->type)) * (lists.layout == "runs" ? 2 : 1);
+  return move_earlier(lists.entries->at, lists.entries->stride.value_or(size));
+}
+
+bool move_rows_earlier(DumpLists& lists, const std::string&) {
+  return lists.rows && move_earlier(lists.rows->at, lists.rows->stride);
+}
+
+bool move_words_earlier(DumpLists& lists, const std::string&) {
+  return lists.rows && lists.layout.starts_with("bits") &&
+         move_earlier(lists.rows->at, size_of(number_type(lists.word.value_or("u32"))));
+}
+
 // In the order in which they are believed.
 std::vector<Change> changes() {
   std::vector<Change> all;
@@ -74,26 +106,37 @@ std::vector<Change> changes() {
   all.push_back({"the other unit of offsets (offset_is)", change_offset_unit});
   all.push_back({"offset and count swapped", swap_offset_and_count});
   for (const char* type : {"u16", "u8", "u32"}) all.push_back({std::string("counts as ") + type, set_count_type, type});
+  for (const char* type : {"u32", "u16"}) all.push_back({std::string("offsets as ") + type, set_offset_type, type});
   all.push_back({"the other meaning of the end of a range (ranges.last_is)", change_last});
   all.push_back({"first and last of ranges swapped", swap_first_and_last});
   for (const char* bytes : {"4", "8", "16"})
     all.push_back({std::string("entries ") + bytes + " bytes later (entries.at)", move_entries, bytes});
+  all.push_back({"entries one earlier (entries.at)", move_entries_earlier});
+  all.push_back({"rows one earlier (rows.at)", move_rows_earlier});
+  all.push_back({"words of bits one earlier (rows.at)", move_words_earlier});
   return all;
 }
 
 }  // namespace
 
-std::optional<std::string> likely_reading(std::span<const ListPart> parts, std::span<const Buffer> buffers,
-                                          const Shape& shape) {
+std::vector<OtherDescription> other_descriptions(std::span<const ListPart> parts) {
+  std::vector<OtherDescription> out;
   for (const Change& change : changes()) {
     std::vector<ListPart> changed(parts.begin(), parts.end());
     bool applies = false;
     for (ListPart& part : changed) applies |= change.make(part.lists, change.value);
-    if (!applies) continue;
+    if (applies) out.push_back({change.text, std::move(changed)});
+  }
+  return out;
+}
+
+std::optional<std::string> likely_reading(std::span<const ListPart> parts, std::span<const Buffer> buffers,
+                                          const Shape& shape) {
+  for (const OtherDescription& other : other_descriptions(parts)) {
     try {
-      const Decoded decoded = decode(changed, buffers, shape);
-      if (decoded.faults.count == 0 && decoded.lists.pair_count() > 0)
-        return "with " + change.text + " all " + std::to_string(decoded.lists.pair_count()) + " indices are below " +
+      const Decoded decoded = decode(other.parts, buffers, shape);
+      if (decoded.faults.count == 0 && decoded.faults.twice == 0 && decoded.lists.pair_count() > 0)
+        return "with " + other.change + " all " + std::to_string(decoded.lists.pair_count()) + " indices are below " +
                std::to_string(shape.lights);
     } catch (const Error&) {  // NOLINT(bugprone-empty-catch): this description does not fit the buffers
     }

@@ -116,7 +116,11 @@ void LockedFile::check_room(std::uint64_t bytes) const {
   const off_t size = ::lseek(file_, 0, SEEK_END);
   const int failed = ::posix_fallocate(file_, size, static_cast<off_t>(bytes));
   const bool restored = ::ftruncate(file_, size) == 0;
-  if (failed == ENOSPC || failed == EDQUOT || failed == EFBIG || !restored)
+  if (failed == EFBIG)
+    throw Error(path_.string(), "",
+                "no file may have the " + std::to_string(bytes >> 10) + " KiB that the result takes (ulimit -f)",
+                ExitCode::internal);
+  if (failed == ENOSPC || failed == EDQUOT || !restored)
     throw Error(path_.string(), "", "no room on the disk for a result of about " + std::to_string(bytes >> 10) + " KiB",
                 ExitCode::internal);
 }

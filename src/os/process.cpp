@@ -83,10 +83,10 @@ Ending wait_for(pid_t pid, const MemoryFile& errors) {
   if (WIFSIGNALED(status)) {
     const int number = WTERMSIG(status);
     const std::string name = number == SIGKILL ? "killed, as where memory runs out" : ::strsignal(number);
-    return {"signal " + std::to_string(number) + " (" + name + ")", -1, errors.tail()};
+    return {"signal " + std::to_string(number) + " (" + name + ")", -1, status, errors.tail()};
   }
   const int code = WEXITSTATUS(status);
-  return {code == 0 ? "" : "exit code " + std::to_string(code), code, errors.tail()};
+  return {code == 0 ? "" : "exit code " + std::to_string(code), code, status, errors.tail()};
 }
 
 // Does not wait for it; it can still be waited for.
@@ -128,7 +128,7 @@ class Child {
   }
 
   Ending end() {
-    if (started_.error != 0) return {start_error_text(started_.error), -1, ""};
+    if (started_.error != 0) return {start_error_text(started_.error), -1, -1, ""};
     has_ended_ = true;
     return wait_for(started_.pid, errors_);
   }

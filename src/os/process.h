@@ -34,6 +34,7 @@ class MemoryFile {
 struct Ending {
   std::string how;         // "" if it ended well; else "exit code 3", "signal 11 (...)", "cannot be started: ..."
   int exit_code = -1;      // if it has one
+  int wait_status = -1;    // as waitpid() tells it; -1: it never ran
   std::string error_tail;  // the end of its standard error
 };
 

@@ -6,26 +6,48 @@
 namespace clusterbench::os {
 namespace {
 
-// The only global state: a signal handler can access nothing else.
+// Global, since a signal handler can access nothing else.
 std::atomic<bool> g_stop{false};
 std::atomic<int> g_signal{0};
+std::atomic<int> g_sender{0};  // whose signals count; 0: all
 
 ExitCode code_of(int number) {
   return number == SIGINT ? ExitCode::sigint : ExitCode::interrupted;
 }
 
-void on_signal(int number) {
+void on_signal(int number, siginfo_t* info, void* /*context*/) {
+  if (g_sender != 0 && info->si_pid != g_sender) return;
   g_signal = number;
   if (g_stop.exchange(true)) std::_Exit(static_cast<int>(code_of(number)));  // the second time: at once
+}
+
+void handle(int number) {
+  struct sigaction action {};
+  action.sa_sigaction = on_signal;
+  action.sa_flags = SA_SIGINFO | SA_RESTART;
+  sigaction(number, &action, nullptr);
+}
+
+bool is_ignored(int number) {
+  struct sigaction action {};
+  return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
 }  // namespace
 
 const std::atomic<bool>& stop_on_signals() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // ignored under `nohup`
+  handle(SIGINT);
+  handle(SIGTERM);
+  if (!is_ignored(SIGHUP)) handle(SIGHUP);  // ignored under `nohup`
   return g_stop;
+}
+
+void stop_on_signals_of(int process) {
+  g_sender = process;
+}
+
+int stop_signal() {
+  return g_signal;
 }
 
 ExitCode stopped_exit_code() {

@@ -11,6 +11,12 @@ namespace clusterbench::os {
 // stays ignored.
 const std::atomic<bool>& stop_on_signals();
 
+// From here on only signals of this process count: those that a terminal sends to a whole group of processes do not.
+void stop_on_signals_of(int process);
+
+// The signal that stopped this process; 0: none did.
+int stop_signal();
+
 // sigint for SIGINT, interrupted for others.
 ExitCode stopped_exit_code();
 

@@ -1,6 +1,7 @@
 #include "os/temporary_folder.h"
 
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "core/error.h"
 
@@ -26,11 +27,12 @@ TemporaryFolder::TemporaryFolder() {
   std::string name = (fs::path(parent_folder()) / "clusterbench.XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) throw Error(name, "", errno_text("no folder can be made") + k_advice);
   path_ = name;
+  owner_ = ::getpid();
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
-  fs::remove_all(path_, ignored);
+  if (::getpid() == owner_) fs::remove_all(path_, ignored);
 }
 
 }  // namespace clusterbench::os

@@ -17,6 +17,7 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+  int owner_ = 0;  // a process that the owner forks does not remove it
 };
 
 }  // namespace clusterbench::os

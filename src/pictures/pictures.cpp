@@ -109,10 +109,12 @@ class Drawing {
     return own_depths_[scene] ? &*own_depths_[scene] : nullptr;
   }
 
-  // A structure that is cut to the depths of visible surfaces has no answer for a plane.
+  // Not a case in which a plug-in broke down. A structure that is cut to the depths of visible surfaces has no answer
+  // for a plane.
   bool can_picture(const Group& group, const run::CasePlan& case_plan) const {
-    const bool needs_depth = assign::find_assigner(config_.assigners[case_plan.assigner].name)->needs.depth;
-    if (!needs_depth || !is_on_plane(group)) return true;
+    const assign::AssignerDescriptor& method = run::method_of(config_, case_plan);
+    if (!method.plugin.empty() && !longest_.contains(case_plan.id)) return false;
+    if (!method.needs.depth || !is_on_plane(group)) return true;
     if (listener_.on_skipped)
       listener_.on_skipped(case_plan.name, "its lists are those of visible surfaces: no picture of a plane");
     return false;

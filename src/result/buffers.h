@@ -126,6 +126,9 @@ struct Buffers {
   FIELD(MeanMax, used_share, "Entries that a frame uses, of index_entries.recommended", "share of 1", "all frames",
         Compares::follows);
   FIELD(Overflow, overflow, "What a full storage loses");
+  FIELD(std::optional<std::uint64_t>, repeated_pairs,
+        "Of a user's shader: a light in a list where it is already, and would be added again; absent: none", "pairs",
+        "all frames");
   FIELD(std::uint64_t, scratch_bytes, "The assigner's own memory, the most it held", "bytes", "all frames");
   FIELD(std::uint64_t, worst_frame, "That made the high-water mark", "frame", "the path", Compares::follows);
   FIELD(std::optional<FrameBytes>, traffic_bytes,

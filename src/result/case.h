@@ -34,6 +34,9 @@ struct Method {
       std::optional<bool>, on_device,
       "true: it runs on the result's device, whose clock times it (device); there is no timing. Absent: it runs on the "
       "processor");
+  FIELD(std::optional<std::string>, file, "Of a method that is not built in: the name of its file", Compares::skipped);
+  FIELD(std::optional<std::string>, sha256,
+        "And of all of its files together. No part of the case's id, so that two versions compare", Compares::skipped);
   END_RECORD;
 };
 
@@ -42,8 +45,10 @@ struct Failure {
   FIELD(std::string, kind,
         About("Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of "
               "an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration. wrong_readings: a device "
-              "walked other lights than the structure has (reading)")
-            .one_of({"lost_pairs", "extra_pairs", "lost_at_samples", "dropped_pairs", "wrong_readings"}));
+              "walked other lights than the structure has (reading). crashed, timed_out, out_of_memory, failed: of a "
+              "plug-in, after the case was measured, as in broken")
+            .one_of({"lost_pairs", "extra_pairs", "lost_at_samples", "dropped_pairs", "wrong_readings", "crashed",
+                     "timed_out", "out_of_memory", "failed"}));
   FIELD(std::string, text, "The same for people, without the case's name");
   END_RECORD;
 };
@@ -54,8 +59,9 @@ struct Warning {
         About("dropped_pairs: the storage was full. unlit: more than 0.001 of the lights that samples need are not "
               "given. undecided: pairs that exact arithmetic left open. lost_pairs: of a method that is not "
               "conservative. unchecked: no truth to hold the lists against. too_many_lights: frames have more lights "
-              "than a limit lets in")
-            .one_of({"dropped_pairs", "unlit", "undecided", "lost_pairs", "unchecked", "too_many_lights"}));
+              "than a limit lets in. repeated_lights: lights are twice in a list")
+            .one_of({"dropped_pairs", "unlit", "undecided", "lost_pairs", "unchecked", "too_many_lights",
+                     "repeated_lights"}));
   FIELD(std::string, text, "The same for people, without the case's name", "", "", Compares::unjudged);
   END_RECORD;
 };

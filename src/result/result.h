@@ -1,6 +1,7 @@
 #pragma once
 // A result: the output of `clusterbench run`.
 
+#include "result/broken_case.h"
 #include "result/case.h"
 
 namespace clusterbench::result {
@@ -100,6 +101,17 @@ struct Device {
         About("What a probe found, before anything ran, by thousands of numbers whose results the processor knows. "
               "Methods do not run where it contradicts what their lists rest on. Absent in older results")
             .late());
+  END_RECORD;
+};
+
+struct Plugin {
+  RECORD(Plugin);
+  FIELD(std::string, id, "First part of the names of its methods: ID.METHOD");
+  FIELD(std::string, name, "For people");
+  FIELD(std::string, version, "Its own");
+  FIELD(std::string, file, "Its name, without its folder");
+  FIELD(std::string, sha256, "Hash of the file: another one is another build");
+  FIELD(std::string, interface_version, "That it was made for, as 1.0");
   END_RECORD;
 };
 
@@ -352,6 +364,8 @@ struct Result {
         "they are made");
   FIELD(std::optional<std::string>, command, "The command line. Absent where nothing is timed");
   FIELD(Tool, tool, "The program that measured");
+  FIELD(std::optional<std::vector<Plugin>>, plugins,
+        About("Shared libraries that cases' methods come from. Absent without any").items(1, 0));
   FIELD(Machine, machine, "Where it was measured");
   FIELD(std::optional<Device>, device,
         "The device of the cases whose method runs on one (assigner.on_device). Absent where there are none");
@@ -365,6 +379,10 @@ struct Result {
         "config.rank_by is frame_cost, in cost and bytes. What draws lights has no lists, so its bytes count as "
         "unknown. Only cases that are eligible, and none that samples search");
   FIELD(std::vector<Skipped>, skipped, "Combinations that cannot be");
+  FIELD(std::optional<std::vector<BrokenCase>>, broken,
+        About("Cases of plug-ins that were not measured to the end: the plug-in crashed, hung, took too much memory or "
+              "failed. Each fails the run. Absent where there are none")
+            .items(1, 0));
   FIELD(std::optional<std::vector<Preset>>, presets,
         "What is known of the presets that cases are of, as `clusterbench list presets` tells it; absent without any");
   FIELD(std::optional<std::vector<PresetRanking>>, preset_rankings,

@@ -1,6 +1,7 @@
 #include "run/case_result.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "run/cases/impossible_cases.h"
 #include "run/findings/gate.h"
@@ -66,6 +67,10 @@ CaseResult case_result(const config::Config& config, const Plan& whole, const Ca
   out.assigner_params = params_to_json(assigner.params);
   const config::PrecisionRequest& precision = config.precisions[plan.precision];
   out.on_device = descriptor.on_device;
+  if (descriptor.origin) {
+    out.origin_file = std::filesystem::path(descriptor.origin->file).filename().string();
+    out.origin_sha256 = descriptor.origin->sha256;
+  }
   out.conservative =
       assign::is_conservative(descriptor, assigner.params) && (precision.inflate || !precision.is_lossy());
   if (!counted.losses.empty())

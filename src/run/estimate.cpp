@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "assign/contract/method_error.h"
 #include "gpu/device/device.h"
 #include "gpu/reading/reading.h"
+#include "os/call_notes.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/device_pass.h"
 #include "run/timing/cache_sweep.h"
@@ -115,6 +117,8 @@ double reading_ns(const config::Config& config, const GroupPlan& group, const Pa
 
 GroupCost cost_of_group(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
                         const EstimateLimits& limits) {
+  os::note_group(group.cases.front().id);
+  os::note_pass("estimate of the duration");
   const PathFrames path = path_of(config, plan, group);
   const int steps = config.stability ? config.stability->steps : 0;
   GroupCost cost{.counting_ns = counting_ns(config, plan.scenes[group.scene], group, path, path.count() + steps)};
@@ -126,7 +130,7 @@ GroupCost cost_of_group(const config::Config& config, const Plan& plan, const Gr
   return cost;
 }
 
-// If a device fails, that of the cases without one: the run itself says why the others are skipped.
+// If a device fails, that of the cases without one; if a plug-in does, none: the run itself says what has failed.
 GroupCost cost_of_what_runs(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
                             const EstimateLimits& limits) {
   try {
@@ -135,6 +139,8 @@ GroupCost cost_of_what_runs(const config::Config& config, const Plan& plan, cons
     gpu::close_device();
     const GroupPlan others = processor_cases(config, group);
     return others.cases.empty() ? GroupCost{} : cost_of_group(config, plan, others, sweep_ns, limits);
+  } catch (const assign::MethodError&) {
+    return {};
   }
 }
 

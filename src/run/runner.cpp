@@ -4,13 +4,16 @@
 #include <random>
 #include <set>
 
+#include "config/config_plugins.h"
 #include "config/presets/preset_library.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "gpu/device/device.h"
+#include "os/call_notes.h"
 #include "os/machine.h"
 #include "run/case_result.h"
 #include "run/cases/path_frames.h"
+#include "run/findings/broken_cases.h"
 #include "run/findings/gate.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/details_pass.h"
@@ -123,6 +126,7 @@ class Run {
     Result out;
     out.config_name = config_.name;
     out.tool = tool_facts();
+    out.plugins = config::plugins_of(config_);
     out.machine = machine_facts();
     out.device = device_of(config_, plan_);
     if (out.device) out.arithmetic = known_arithmetic();
@@ -231,7 +235,14 @@ class Run {
            reading_cost_of(group) + timing_cost_of(group);
   }
 
+  // For whoever has to tell in which work a plug-in broke down.
+  static void note(const GroupPlan& group, const char* stage) {
+    os::note_group(group.cases.front().id);
+    os::note_pass(stage);
+  }
+
   void report_progress(const GroupPlan& group, const char* stage, double cost) {
+    note(group, stage);
     progress_.cost_done += cost;
     const std::string& name = group.cases.front().name;
     progress_.doing = name.substr(0, name.find('/', name.find('/', name.find('/') + 1) + 1)) + ": " + stage;
@@ -248,10 +259,16 @@ class Run {
     const double done_before = progress_.cost_done;
     try {
       count_group(group, out);
+    } catch (const gpu::ShaderFault& fault) {
+      progress_.cost_done = done_before;
+      run_apart(group, fault.message(), true, out);
     } catch (const gpu::DeviceError& error) {
       gpu::close_device();
       progress_.cost_done = done_before;
-      run_apart(group, error.message(), out);
+      run_apart(group, error.message(), false, out);
+    } catch (const assign::MethodError& error) {
+      progress_.cost_done = done_before;
+      run_without_broken(group, error, out);
     } catch (const Error& error) {
       throw Error(error.file(), name_of_group_ + (error.where().empty() ? "" : ": " + error.where()), error.message(),
                   error.code());
@@ -260,7 +277,7 @@ class Run {
 
   // After a failure of the device: the group without its cases, then each method on the device alone. One that fails
   // alone is skipped.
-  void run_apart(const GroupPlan& group, const std::string& reason, Result& out) {
+  void run_apart(const GroupPlan& group, const std::string& reason, bool is_fault, Result& out) {
     std::vector<GroupPlan> parts(1, processor_cases(config_, group));
     const GroupPlan on_device = device_cases(config_, group);
     for (const Method& method : methods_of(on_device)) {
@@ -277,10 +294,40 @@ class Run {
       return;
     }
     progress_.cost_total -= cost_of_all(group);
-    for (const CasePlan& case_plan : group.cases)
-      out.skipped.push_back({case_plan.name, reason, false, case_plan.preset});
-    progress_.cases_done += group.cases.size();
+    for (const CasePlan& case_plan : group.cases) {
+      if (is_fault)
+        add_broken(case_plan, {"failed", reason, os::CallStep::assign, -1, "", ""}, out);
+      else
+        out.skipped.push_back({case_plan.name, reason, false, case_plan.preset});
+    }
+    if (!is_fault) progress_.cases_done += group.cases.size();
     if (listener_.on_progress) listener_.on_progress(progress_);
+  }
+
+  // After a failure of a plug-in: its cases are broken, and the others of the group are measured again.
+  void run_without_broken(const GroupPlan& group, const assign::MethodError& error, Result& out) {
+    const std::uint64_t label = os::last_call().label;
+    const auto is_of_method = [&](const CasePlan& case_plan) {
+      return method_of(config_, case_plan).name == error.method();
+    };
+    const auto has_label = [&](const CasePlan& case_plan) { return label_of(case_plan.method()) == label; };
+    const bool is_known =
+        std::ranges::any_of(group.cases, [&](const CasePlan& one) { return has_label(one) && is_of_method(one); });
+    GroupPlan rest = group;
+    std::erase_if(rest.cases, [&](const CasePlan& one) { return is_of_method(one) && (!is_known || has_label(one)); });
+    for (const CasePlan& one : group.cases)
+      if (std::ranges::find(rest.cases, one.id, &CasePlan::id) == rest.cases.end())
+        add_broken(one, breakdown_of(error, method_of(config_, one).plugin), out);
+    if (rest.cases.size() == group.cases.size()) throw assign::MethodError(error);
+    progress_.cost_total -= cost_of_all(group);
+    if (!rest.cases.empty()) progress_.cost_total += cost_of_all(rest);
+    run_group(rest, out);
+  }
+
+  void add_broken(const CasePlan& case_plan, const Breakdown& breakdown, Result& out) {
+    out.broken.push_back(broken_case(config_, plan_, case_plan, breakdown));
+    ++progress_.cases_done;
+    if (listener_.on_broken) listener_.on_broken(out.broken.back());
   }
 
   double waiting_cost() const {
@@ -291,6 +338,7 @@ class Run {
 
   void count_group(GroupPlan group, Result& out) {
     name_of_group_ = group.cases.front().name;
+    note(group, "truth and counts");
     const SceneData& data = plan_.scenes[group.scene];
     const PathFrames path = run::path_of(config_, plan_, group);
     const grid::GridSpec& spec = config_.grids[group.grid];
@@ -321,6 +369,7 @@ class Run {
     }
     if (config_.stability) {
       const double cost = stability_cost_of(group);
+      note(group, "stability");
       counted_group.stabilities = stability_pass(
           config_, group, path, [&](double share) { report_progress(group, "stability", cost * share); }, stop_);
       if (counted_group.stabilities.empty()) return;
@@ -363,6 +412,7 @@ class Run {
   void time_here(CountedGroup& counted_group, const PathFrames& path, Result& out) {
     const LaunchRequest request{0, config_.timing.rounds, fullest_frames(counted_group.timed, counted_group.counted)};
     const double per_round = timing_cost_of(counted_group.group) / request.rounds;
+    note(counted_group.group, "time");
     const GroupSamples samples = measure_launch(
         config_, counted_group.timed, path, request,
         [&](int) { report_progress(counted_group.group, "time", per_round); }, stop_);
@@ -372,7 +422,21 @@ class Run {
   }
 
   void time_waiting(Result& out) {
-    if (waiting_.empty()) return;
+    while (!waiting_.empty()) {
+      std::size_t timed = 0;
+      try {
+        return time_waiting(out, timed);
+      } catch (const assign::MethodError& error) {
+        const GroupPlan group = waiting_[timed].group;
+        progress_.cost_done -= cost_of_all(group) - timing_cost_of(group);
+        waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(timed));
+        run_without_broken(group, error, out);
+      }
+    }
+  }
+
+  // `timed`: the group that a launch measures.
+  void time_waiting(Result& out, std::size_t& timed) {
     std::vector<GroupToTime> groups;
     for (const CountedGroup& counted_group : waiting_)
       groups.push_back({&counted_group.timed, fullest_frames(counted_group.timed, counted_group.counted)});
@@ -381,6 +445,7 @@ class Run {
     for (int launch = 0; launch < launches; ++launch) {
       const std::string stage = "time, launch " + std::to_string(launch + 1) + " of " + std::to_string(launches);
       std::vector<GroupSamples> measured = launcher_(groups, launch, rounds, [&](std::size_t group) {
+        timed = group;
         report_progress(*groups[group].group, stage.c_str(), timing_cost_of(*groups[group].group) / launches);
       });
       if (stop_ || measured.size() != groups.size()) return;

@@ -39,6 +39,7 @@ struct Listener {
   std::function<void(const Progress&)> on_progress;
   std::function<void(const SceneResult&)> on_scene;
   std::function<void(const CaseResult&)> on_case;  // after every case, its group's timing included
+  std::function<void(const result::BrokenCase&)> on_broken;
 };
 
 // A group whose lists have been counted, to be timed.
@@ -48,7 +49,8 @@ struct GroupToTime {
 };
 
 // One launch: another process of this program times groups of one scene, `rounds` rounds each. Returns samples in the
-// order of the groups; fewer once `stop` is true. `on_group` is called before each group.
+// order of the groups; fewer once `stop` is true. `on_group` is called before each group. Throws assign::MethodError
+// for a method of a plug-in that fails there.
 using Launcher = std::function<std::vector<GroupSamples>(std::span<const GroupToTime> groups, int launch, int rounds,
                                                          const std::function<void(std::size_t group)>& on_group)>;
 

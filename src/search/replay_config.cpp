@@ -1,5 +1,6 @@
 #include "search/replay_config.h"
 
+#include "config/config_plugins.h"
 #include "config/grid_json.h"
 #include "config/pre_cull_json.h"
 #include "core/error.h"
@@ -31,6 +32,7 @@ OrderedJson replay_config(const config::Config& config, const run::CasePlan& cas
       {OrderedJson{{"path", scene}, {"frames", "keys"}, {"camera_fit", fits_height ? "vertical" : "contain"}}});
   out["viewports"] = OrderedJson::array({OrderedJson::array({viewport.x, viewport.y})});
   for (const char* key : {"presets", "as_shipped"}) out.erase(key);
+  config::name_plugins(config, out);
   out["grids"] = OrderedJson::array({config::grid_request(config.grids[case_plan.grid])});
   out["assigners"] = OrderedJson::array({method_json(config.assigners[case_plan.assigner])});
   if (case_plan.storage) out["storages"] = OrderedJson::array({method_json(config.storages[*case_plan.storage])});

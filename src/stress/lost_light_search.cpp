@@ -10,12 +10,14 @@
 #include <chrono>
 #include <cmath>
 
+#include "assign/contract/method_error.h"
 #include "core/error.h"
 #include "geom/light_meets_cell.h"
 #include "geom/shapes/light_volume.h"
 #include "geom/shapes/verdict.h"
 #include "gpu/device/device.h"
 #include "measure/truth/truth.h"
+#include "os/call_notes.h"
 #include "stress/contact.h"
 #include "stress/stress_run.h"
 
@@ -217,8 +219,10 @@ class Climb {
     grid_ = grid_of(trial_, frame_);
     space_ = grid::space_of(grid_, frame_);
     far_m_ = world.near_m * world.far_ratio;
-    run_.build(grid_);
+    if (fits()) run_.build(grid_);
   }
+
+  bool fits() const { return stress::fits(method_, grid_); }
 
   void start(std::size_t population, SplitMix64& random) {
     touches_.clear();
@@ -372,8 +376,9 @@ SearchResult search_for_losses(const StressMethod& method, const StressRequest& 
     const World next =
         random.below(3) == 0 ? random_world(random, *method.assigner) : mutated(world, random, *method.assigner);
     Climb climb(method, next, ladder);
-    climb.start(k_population, random);
     result.tries += k_population;
+    if (!climb.fits()) return on_progress(result.tries);
+    climb.start(k_population, random);
     for (int generation = 0; generation < k_generations && !is_over(result.tries); ++generation)
       result.tries += climb.step(random);
     climb.collect(result);
@@ -383,8 +388,11 @@ SearchResult search_for_losses(const StressMethod& method, const StressRequest& 
     }
     on_progress(result.tries);
   };
+  os::note_setting("--cases '^H31$' --seed " + std::to_string(request.seed) + ", method " + method.label);
   while (!is_over(result.tries) && result.fault.empty()) try {
       climb_once();
+    } catch (const assign::MethodError& error) {
+      result.fault = error.message();
     } catch (const gpu::DeviceError& error) {
       result.fault = error.message();
     }

@@ -158,7 +158,7 @@ class SettingCheck {
   };
 
   bool is_checked(const StressMethod& method) const {
-    return method.conservative && !method.assigner->naive && supports_trial(method, trial_);
+    return method.conservative && !method.assigner->naive && supports_trial(method, trial_) && fits(method, grid_);
   }
 
   std::uint64_t pair_count() const { return std::uint64_t{grid_.cell_count()} * frame_.lights.size(); }
@@ -176,17 +176,19 @@ class SettingCheck {
   void run_methods() {
     for (const StressMethod& method : methods_) {
       if (!is_checked(method)) continue;
-      if (method.assigner->needs.depth) {  // its cells are not the grid's
+      if (method.assigner->needs.depth && method.answer == assign::Answer::structure) {  // its cells are not the grid's
         check_occupied(method);
         continue;
       }
       Answer answer{&method, {}};
       try {
         assign::AssignerRun run = method.start();
+        const depth::DepthImage depths = depths_for(*method.assigner, frame_);
+        const assign::FrameInput input = input_of(frame_, lights_, depths);
         run.build(grid_);
-        run.assign({frame_, lights_});
+        run.assign(input);
         answer.lists = run.cell_lists();
-        run.assign({frame_, lights_});
+        run.assign(input);
         const assign::Lists& filled = run.filled_lists() ? *run.filled_lists() : answer.lists;
         if (!assign::lists_fault(filled, grid_.cell_count(), lights_).empty()) {
           add(FaultKind::lists, method.label, "what it gave are no lists", 0, 0);
@@ -511,6 +513,10 @@ std::string reference_of(const std::string& label) {
   const std::string ending = "-fast";
   const std::size_t at = label.find(ending);
   return at == std::string::npos ? "" : label.substr(0, at) + label.substr(at + ending.size());
+}
+
+bool fits(const StressMethod& method, const grid::Grid& grid) {
+  return !method.assigner->unfit || method.assigner->unfit(grid).empty();
 }
 
 bool supports_trial(const StressMethod& method, const Trial& trial) {

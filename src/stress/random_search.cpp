@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "gpu/device/device.h"
+#include "os/call_notes.h"
 #include "stress/random_setting.h"
 #include "stress/stress_run.h"
 
@@ -74,6 +75,7 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
     std::vector<std::optional<SettingReport>> reports(count);
     threads.each(count, [&](std::size_t i) {
       if (stop) return;
+      os::note_setting("--random 1 --seed " + std::to_string(request.seed + first + i));
       trials[i] = random_setting(request.seed + first + i);
       reports[i] = check_setting(trials[i], methods);
     });

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <mutex>
 
+#include "assign/contract/method_error.h"
 #include "config/config.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "gpu/device/device.h"
 #include "measure/truth/list_errors.h"
+#include "os/call_notes.h"
 
 namespace clusterbench::stress {
 namespace {
@@ -62,6 +64,7 @@ void add_lists(StressCell& cell, const StressMethod& method, const Trial& trial,
 }
 
 void add_trial(StressCell& cell, const StressMethod& method, const Trial& trial, const Prepared& at) {
+  if (at.refusal.empty() && !fits(method, at.grid)) return;
   ++cell.trials;
   if (!at.refusal.empty()) {
     ++cell.refused;
@@ -69,12 +72,15 @@ void add_trial(StressCell& cell, const StressMethod& method, const Trial& trial,
     return;
   }
   if (trial.is_refused) return cell.faults.push_back(trial.label + ": should have been refused");
+  os::note_setting("--cases '^" + cell.hard_case + "$', method " + method.label + ", " + trial.label);
   try {
     add_lists(cell, method, trial, at);
   } catch (const gpu::DeviceError& error) {
     gpu::close_device();
     cell.is_ended = true;
     cell.faults.push_back(trial.label + ": " + error.message() + "; no further trial of this case");
+  } catch (const assign::MethodError& error) {
+    cell.faults.push_back(trial.label + ": " + error.message());
   }
 }
 

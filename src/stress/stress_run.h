@@ -30,6 +30,8 @@ std::vector<StressMethod> stress_methods();
 // The label of the method whose lists a fast one's must equal; empty if it is no SIMD variant.
 std::string reference_of(const std::string& label);
 bool supports_trial(const StressMethod& method, const Trial& trial);
+// Whether it can run on this grid of a trial that it supports.
+bool fits(const StressMethod& method, const grid::Grid& grid);
 
 struct StressRequest {
   std::uint64_t seed = 1;

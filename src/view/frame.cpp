@@ -11,21 +11,9 @@
 #include "geom/shapes/domain.h"
 #include "geom/shapes/light_volume.h"
 #include "geom/single_precision/bounding_volumes.h"
-#include "scene/domain_check.h"
 
 namespace clusterbench::view {
 namespace {
-
-void check_picture(const Projection& projection) {
-  const double widest = std::max(
-      {std::abs(projection.left), std::abs(projection.right), std::abs(projection.bottom), std::abs(projection.top)});
-  const double most = projection.orthographic ? geom::k_farthest_m : geom::k_steepest_slope;
-  if (widest <= most) return;
-  throw Error("", "camera",
-              projection.orthographic
-                  ? "shows a picture of more than 1e15 m, half its width or height"
-                  : "shows more than 89.9994 degrees to one side (a slope of 1e5): its field of view is too wide");
-}
 
 void add_axis(LightArrays& out, const Mat3d& rotation, const scene::WorldLight& light) {
   const Vec3d axis = rotation * light.direction;
@@ -61,19 +49,18 @@ double cropped_width(const scene::CameraProjection& projection, Vec2i viewport) 
   return width - shown > shown / viewport.x ? width : 0.0;
 }
 
-// The rectangle moved against the picture.
-Projection jittered(Projection projection, Vec2d jitter_px, Vec2i viewport) {
-  if (jitter_px == Vec2d(0.0)) return projection;
-  const double right = jitter_px.x * (projection.right - projection.left) / viewport.x;
-  const double down = jitter_px.y * (projection.top - projection.bottom) / viewport.y;
-  projection.left -= right;
-  projection.right -= right;
-  projection.bottom += down;
-  projection.top += down;
-  return projection;
-}
-
 }  // namespace
+
+void check_projection(const Projection& projection) {
+  const double widest = std::max(
+      {std::abs(projection.left), std::abs(projection.right), std::abs(projection.bottom), std::abs(projection.top)});
+  const double most = projection.orthographic ? geom::k_farthest_m : geom::k_steepest_slope;
+  if (widest <= most) return;
+  throw Error("", "camera",
+              projection.orthographic
+                  ? "shows a picture of more than 1e15 m, half its width or height"
+                  : "shows more than 89.9994 degrees to one side (a slope of 1e5): its field of view is too wide");
+}
 
 std::string fit_warning(const scene::CameraProjection& projection, Vec2i viewport) {
   const double width = cropped_width(projection, viewport);
@@ -151,6 +138,12 @@ geom::LightVolume volume_of(const scene::WorldLight& light, const Space& space) 
   return geom::BallVolume{source, light.range_m};
 }
 
+void LightArrays::forget() {
+  for (std::vector<float>* numbers : {&x, &y, &z, &radius, &reach, &axis_x, &axis_y, &axis_z, &cos_angle, &sin_angle})
+    numbers->clear();
+  half_axes.clear();
+}
+
 void Frame::count_types() {
   const auto count = [this](scene::LightType type) {
     return static_cast<std::uint32_t>(std::ranges::count(lights, type, &scene::WorldLight::type));
@@ -167,23 +160,14 @@ PictureRay picture_ray(const Frame& frame, const Vec2d& pixel) {
   return {{0.0, 0.0, 0.0}, {across, up, -1.0}};
 }
 
-Frame make_frame(const scene::Scene& scene, const scene::Shot& shot, int index, Vec2i viewport) {
-  scene::check_domain(scene, "", shot);
-  Frame frame;
-  frame.index = index;
-  frame.time_s = shot.time_s;
-  frame.viewport = viewport;
-  frame.projection = jittered(make_projection(shot.projection, viewport), shot.jitter_px, viewport);
-  check_picture(frame.projection);
-  frame.view_space = {shot.pose.eye, shot.pose.view_from_world};
-  frame.lights = scene::world_lights(scene, shot.time_s);
-  scene::check_domain(scene, frame.lights, shot.time_s);
-  frame.count_types();
-  return frame;
-}
-
 LightArrays lights_in(const Frame& frame, const Space& space) {
   LightArrays out;
+  fill_lights_in(frame, space, out);
+  return out;
+}
+
+void fill_lights_in(const Frame& frame, const Space& space, LightArrays& out) {
+  out.forget();
   static_cast<LightRanges&>(out) = frame.ranges();
   out.source = frame.lights;
   out.space = space;
@@ -198,7 +182,6 @@ LightArrays lights_in(const Frame& frame, const Space& space) {
     if (light.type == scene::LightType::spot) add_axis(out, space.rotation, light);
     if (light.type == scene::LightType::box) add_half_axes(out, space.rotation, light);
   }
-  return out;
 }
 
 }  // namespace clusterbench::view

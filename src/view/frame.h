@@ -23,6 +23,9 @@ struct Projection {
   friend bool operator==(const Projection&, const Projection&) = default;
 };
 
+// Throws Error (where: "camera") for a picture that shows more than the domain allows (geom/shapes/domain.h).
+void check_projection(const Projection& projection);
+
 // Pixels are square. The vertical extent is the projection's and the horizontal one follows from the viewport's aspect
 // ratio, unless that would cut half a pixel or more off the sides of the camera's rectangle and projection.fit is
 // `contain`: then the horizontal extent is the projection's and the vertical one follows. Or the projection has all
@@ -81,6 +84,8 @@ struct LightArrays : LightRanges {
   std::span<const scene::WorldLight> source;
   Space space;
 
+  // Removes all lights; the arrays keep their memory.
+  void forget();
   bool is_empty(std::uint32_t light) const { return !(radius[light] > 0.0f); }
   // The radius increased by a number of roundoffs: units of 2^-24 of its reach. 0: unchanged.
   float padded_radius(std::uint32_t light, float roundoffs) const;
@@ -128,5 +133,7 @@ inline constexpr float k_given_roundoffs = 2.0f;
 
 // The frame's lights in a space: the difference to the origin is computed in double, then rounded once.
 LightArrays lights_in(const Frame& frame, const Space& space);
+// The same into arrays whose memory is reused.
+void fill_lights_in(const Frame& frame, const Space& space, LightArrays& out);
 
 }  // namespace clusterbench::view

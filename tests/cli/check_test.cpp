@@ -173,13 +173,14 @@ TEST(Check, no_output_goes_over_a_dump_or_its_buffers) {
   Small small;
   const std::string dump = small.path(), folder = small.folder.path().string();
   for (const std::string& input : {dump, folder})
-    for (const char* file : {"dump.json", "cells.bin", "lights.bin"}) {
-      const std::string before = file_text(small.folder / file);
-      const Outcome outcome = tool("check -q --no-methods " + input + " --json " + (small.folder / file).string());
-      EXPECT_EQ(outcome.code, 2) << input << " " << file;
-      EXPECT_NE(outcome.err.find("would be lost"), std::string::npos) << outcome.err;
-      EXPECT_EQ(file_text(small.folder / file), before);
-    }
+    for (const char* file : {"dump.json", "cells.bin", "lights.bin"})
+      for (const char* flag : {" --json ", " --page "}) {
+        const std::string before = file_text(small.folder / file);
+        const Outcome outcome = tool("check -q --no-methods " + input + flag + (small.folder / file).string());
+        EXPECT_EQ(outcome.code, 2) << input << " " << file;
+        EXPECT_NE(outcome.err.find("would be lost"), std::string::npos) << outcome.err;
+        EXPECT_EQ(file_text(small.folder / file), before);
+      }
 }
 
 TEST(Check, the_other_convention_of_depth_is_said_where_it_fits) {
@@ -249,6 +250,88 @@ TEST(Check, the_lists_of_a_run_come_back_right_in_every_storage) {
     for (const Json& method : frame["methods"]) EXPECT_EQ(method["lost_pairs"], 0) << method["name"];
     EXPECT_GE(frame["methods"].size(), 5u);
   }
+}
+
+TEST(Check, the_lists_of_world_grids_come_back_right_and_grids_without_words_stop_no_others) {
+  const Folder folder;
+  const std::string dumps = (folder / "dumps").string();
+  const std::string config = folder
+                                 .write("grids.json", R"({"scenes": [")" + source_file("scenes/street.glb") + R"("],
+      "assigners": ["exact-fast", "world-grid-fast", "cascades-fast"],
+      "grids": [{"kind": "cascades"}, {"kind": "frustum", "tiles": {"count": [8, 6]}, "slices": {"count": 6}},
+                {"kind": "world", "cells": [12, 4, 12]},
+                {"kind": "world", "cells": [9, 3, 8], "follow": "camera", "cell_size": [3.3, null, 3.1]}]})")
+                                 .string();
+  const Outcome written = tool("run " + config + " --dump-frames 2 --write-dump " + dumps);
+  ASSERT_EQ(written.code, 0) << written.err;
+  EXPECT_NE(written.err.find("6 dumps written"), std::string::npos) << written.err;
+  EXPECT_NE(written.err.find("no dump: dumps have no words for grids of kind cascades"), std::string::npos)
+      << written.err;
+  const Outcome done = tool("check --no-methods " + dumps + " --json " + (folder / "out.json").string());
+  EXPECT_EQ(done.code, 0) << done.out << done.err;
+  const Json found = Json::parse(file_text(folder / "out.json"));
+  ASSERT_EQ(found["frames"].size(), 6u);
+  std::size_t of_world = 0;
+  for (const Json& frame : found["frames"]) {
+    EXPECT_EQ(frame["sets"][0]["verdict"], "right") << frame["name"];
+    of_world += frame["grid_kind"] == "world";
+  }
+  EXPECT_EQ(of_world, 4u);
+  const Outcome none = tool("run " + config + " --filter cascades --write-dump " + (folder / "none").string());
+  EXPECT_EQ(none.code, 2) << none.err;
+  EXPECT_NE(none.err.find("--write-dump: has written no dump; "), std::string::npos) << none.err;
+}
+
+TEST(Check, methods_are_those_that_are_asked_for) {
+  const Small small;
+  const std::string json = (small.folder / "out.json").string();
+  const auto names = [&](const std::string& flags) {
+    EXPECT_EQ(small.check(flags + " --json " + json).code, 0);
+    std::vector<std::string> out;
+    const Json found = Json::parse(file_text(json));
+    for (const Json& method : found["frames"][0]["methods"]) out.push_back(method["name"]);
+    return out;
+  };
+  EXPECT_EQ(names("--methods none"), std::vector<std::string>{});
+  EXPECT_EQ(names("--methods exact,aabb-fast"), (std::vector<std::string>{"exact", "aabb-fast"}));
+  EXPECT_EQ(names("--methods all"), names(""));
+  const std::pair<const char*, const char*> bad[] = {
+      {"--methods exct", "--methods: found 'exct' (did you mean 'exact'?), allowed: none, quick, all, or names"},
+      {"--methods world-grid", "--methods: names 'world-grid', which makes no lists of this dump's grid"},
+      {"--methods tiled", "--methods: names 'tiled', which makes no lists of this dump's grid"},
+      {"--methods all --no-methods", "--no-methods: stands beside --methods; allowed: one of the two"}};
+  for (const auto& [flags, wanted] : bad) {
+    const Outcome refused = small.check(flags);
+    EXPECT_EQ(refused.code, 2) << flags;
+    EXPECT_NE(refused.err.find(wanted), std::string::npos) << refused.err;
+  }
+}
+
+TEST(Check, names_of_a_dump_reach_no_terminal_as_they_are) {
+  Small small;
+  small.dump["name"] = "frame\n  lists: right: no light is lost\n\x1b]0;title\x07";
+  small.dump["engine"] = "\x1b[31mred";
+  small.dump["lists"][0]["set"] = "a\nb";
+  small.write<std::uint16_t>("indices.bin", {0, 7});
+  for (const std::string& text : {small.check().out, small.check("--json -").out, small.check("--json -").err}) {
+    EXPECT_EQ(text.find('\x1b'), std::string::npos) << text;
+    EXPECT_EQ(text.find("frame\n"), std::string::npos) << text;
+    EXPECT_EQ(text.find("a\nb"), std::string::npos) << text;
+  }
+  small.dump["lists"][0]["rows"]["buffer"] = "x\ny\x1b[2J";
+  const Outcome refused = small.check();
+  EXPECT_EQ(std::ranges::count(refused.err, '\n'), 1) << refused.err;
+  EXPECT_EQ(refused.err.find('\x1b'), std::string::npos);
+}
+
+TEST(Check, a_member_that_stands_twice_in_a_dump_is_refused) {
+  Small small;
+  std::string text = file_text(small.path());
+  text.replace(text.find("\"count\":1,"), 10, "\"count\":1,\"count\":1,");
+  const Outcome refused = tool("check " + small.folder.write("dump.json", text).string());
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("is the key \"count\" for the second time in its object"), std::string::npos)
+      << refused.err;
 }
 
 TEST(Check, the_smallest_dump_of_the_document_is_one) {

@@ -39,7 +39,9 @@ TEST(CommandLine, what_is_unknown_or_missing_is_told_in_one_line_with_the_neares
       {"run", "run: INPUT is required; see `clusterbench run --help`"},
       {"schema confg",
        "schema: WHICH: no 'confg' (did you mean 'config'?); there are: config, result, comparison, "
-       "ratios, recommendation, stress, worst-case, size, light-map, dump, check; see `clusterbench schema --help`"},
+       "ratios, recommendation, stress, worst-case, size, light-map, dump, check, plugin-check, shader; see "
+       "`clusterbench "
+       "schema --help`"},
   };
   for (const auto& [line, message] : rows) {
     const Outcome done = tool(line);
@@ -62,7 +64,7 @@ std::vector<std::string> options_with(const std::string& type, const std::string
 constexpr const char* k_commands[] = {"run",          "compare",     "size",           "report", "export",
                                       "history show", "history add", "scene info",     "stress", "merge",
                                       "list",         "validate",    "scene generate", "schema", "completion",
-                                      "worst-case",   "recommend",   "light-map",      "check"};
+                                      "worst-case",   "recommend",   "light-map",      "check",  "plugin check"};
 
 TEST(CommandLine, no_option_takes_what_is_not_a_finite_number) {
   int options = 0;

@@ -106,9 +106,9 @@ TEST(ConfigKeys, of_every_section_are_those_of_the_schema) {
 
 TEST(ConfigKeys, of_the_top_level_are_members_or_have_a_reader_of_their_own) {
   KeyNames all = names_of(result::type_of<Sections>());
-  for (const char* name :
-       {"$schema", "name", "scenes", "viewport", "viewports", "grids", "assigners", "storages", "presets", "as_shipped",
-        "precision", "pre_cull", "jitter", "shading", "samples", "shadow_cull", "cost", "rank_by"})
+  for (const char* name : {"$schema",  "name",    "scenes",     "viewport",    "viewports", "grids",     "assigners",
+                           "storages", "presets", "as_shipped", "plugins",     "shaders",   "precision", "pre_cull",
+                           "jitter",   "shading", "samples",    "shadow_cull", "cost",      "rank_by"})
     EXPECT_TRUE(all.insert(name).second) << name;
   EXPECT_EQ(all, names_in(config_schema()["properties"]));
   for (const result::Field& field : result::type_of<Sections>().fields) {

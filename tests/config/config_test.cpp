@@ -67,9 +67,10 @@ const Broken k_broken[] = {
      "3:3 /thread: unknown key 'thread' (did you mean 'threads'?), allowed: $schema, accuracy, allocation, as_shipped, "
      "assigners, "
      "cost, "
-     "details, device, grids, jitter, limits, lookup, name, pre_cull, precision, presets, rank_by, reading, samples, "
+     "details, device, grids, jitter, limits, lookup, name, plugins, pre_cull, precision, presets, rank_by, reading, "
+     "samples, "
      "scenes, "
-     "seed, "
+     "seed, shaders, "
      "shading, "
      "shadow_cull, shadow_frusta, stability, "
      "storages, "
@@ -486,7 +487,8 @@ TEST(Config, the_committed_configurations_are_valid_for_reader_and_schema_and_na
   std::size_t configurations = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(test::source_dir() + "/configs")) {
     const fs::path folder = entry.path().parent_path().filename();
-    if (entry.path().extension() != ".json" || folder == "presets" || folder == "dumps") continue;
+    if (entry.path().extension() != ".json" || folder == "presets" || folder == "dumps" || folder == "shaders")
+      continue;
     ++configurations;
     const fs::path& path = entry.path();
     const Config config = load_config(path);
@@ -585,6 +587,30 @@ TEST(Config, a_label_names_only_parameters_that_differ_from_the_default) {
   const nlohmann::json storage{{"name", "fixed"}, {fixed.params[0].name, 7}};
   EXPECT_EQ(parsed(R"(, "storages": [)" + storage.dump() + "]").storages[0].label(),
             "fixed(" + fixed.params[0].name + "=7)");
+}
+
+// Three lists of 100 values each.
+TEST(Config, lists_that_multiply_to_too_many_combinations_are_refused_before_they_are_expanded) {
+  std::string list = "[8";
+  for (int i = 9; i < 108; ++i) list += ", " + std::to_string(i);
+  list += "]";
+  const auto refusal = [](const std::string& text) {
+    try {
+      static_cast<void>(parse_config(text, "c.json"));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string most = "lists make 1000000 combinations here; allowed: at most 100000";
+  const std::string grid = R"({"kind": "frustum", "tiles": {"pixels": )" + list + R"(}, "slices": {"count": )" + list;
+  const std::string grids = R"({"scenes": ["a.glb"], "assigners": ["exact"], "grids": [)";
+  const std::string found = refusal(grids + grid + R"(, "far": )" + list + "}}]}");
+  EXPECT_NE(found.find("/grids/0/slices/far: " + most), std::string::npos) << found;
+  const std::string rig =
+      refusal(R"({"scenes": [{"rig": {"lights": )" + list + R"(, "seed": )" + list + R"(, "range": )" + list + "}}]}");
+  EXPECT_NE(rig.find(most), std::string::npos) << rig;
+  EXPECT_NE(rig.find("/scenes/0/rig/"), std::string::npos) << rig;
 }
 
 }  // namespace

@@ -63,5 +63,26 @@ TEST(JsonDocument, what_is_no_json_is_said_with_its_byte) {
   EXPECT_TRUE(json_or_discarded<Ordered>(nested(300)).is_discarded());
 }
 
+TEST(JsonDocument, a_key_stands_once_in_an_object) {
+  EXPECT_EQ(refusal<Ordered>(R"({"a": 1, "b": {"a": 2}, "a": 3})"),
+            R"(f: byte 24: is the key "a" for the second time in its object)");
+  EXPECT_EQ(refusal<Sorted>(R"([{"a": 1}, {"b": ":", "c": {"d": [{"e": 1, "e": 1}]}}])"),
+            R"(f: byte 43: is the key "e" for the second time in its object)");
+  EXPECT_EQ(refusal<Sorted>(R"({"a": 1, "\u0061": 2})"),
+            "f: byte 0: has an object with a key twice, in different spellings");
+  EXPECT_EQ(refusal<Sorted>(R"({/* "a": 1 */ "a": 2, // "a": 3
+                                "b": "\"a\": 4"})",
+                            JsonComments::allowed),
+            "accepted");
+  EXPECT_EQ(refusal<Ordered>(R"([{"a": 1}, {"a": 1}, {"b": {"a": 1}, "a": "a"}])"), "accepted");
+}
+
+TEST(JsonDocument, no_text_stands_behind_a_nul_byte) {
+  using namespace std::string_literals;
+  EXPECT_EQ(refusal<Sorted>("[1]\0[2]"s), "f: byte 3: is a NUL byte with more text behind it");
+  EXPECT_EQ(refusal<Sorted>("[1] \0\0 \0x"s), "f: byte 4: is a NUL byte with more text behind it");
+  EXPECT_EQ(refusal<Sorted>("[1]\0\0\0"s), "accepted");
+}
+
 }  // namespace
 }  // namespace clusterbench

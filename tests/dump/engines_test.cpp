@@ -14,6 +14,7 @@
 #include "dump/made_dump.h"
 #include "layout/encoders.h"
 #include "measure/truth/list_errors.h"
+#include "view/number_formats.h"
 
 namespace clusterbench::dump {
 namespace {
@@ -48,7 +49,8 @@ void fill_camera(Json& dump, Vec2i viewport) {
   Mat4d projection(0.0);
   projection[0][0] = 1.5 / aspect;
   projection[1][1] = camera.contains("clip_y") ? -1.5 : 1.5;
-  projection[2] = {0.0, 0.0, -a, -1.0};
+  const double forward = camera["forward"] == "+z" ? 1.0 : -1.0;
+  projection[2] = {0.0, 0.0, forward * a, forward};
   projection[3][2] = (at_near - a) * near;
   camera["projection"] = numbers(projection);
   camera["far_m"] = far;
@@ -102,26 +104,35 @@ struct Judged {
   std::string text;
 };
 
-// The lists of a method on the dump's frame, in the engine's layout.
-Judged judged(const Json& json, std::vector<layout::Buffer> buffers, const std::string& method, const Write& write) {
+using Make = std::function<assign::Lists(const DumpFrame&)>;
+
+// Lists of the frame's lights, in the engine's layout.
+Judged judged(const Json& json, std::vector<layout::Buffer> buffers, const Make& make, const Write& write) {
   DumpFile dump{"engine.json", parse_dump(json.dump(), "engine.json"), std::move(buffers)};
   const DumpFrame frame = frame_of(dump);
-  const assign::AssignerDescriptor* row = assign::find_assigner(method);
-  assign::AssignerRun run(*row, assign::Params(row->params), assign::Answer::lists);
-  const view::LightArrays lights = view::lights_in(frame.frame, grid::space_of(frame.grid, frame.frame));
-  run.build(frame.grid, assign::kinds_of(lights));
-  run.assign({frame.frame, lights});
+  assign::Lists listed = make(frame);
   Judged out;
-  measure::add_frame(out.counted, frame.frame, frame.grid, measure::find_truth(frame.frame, frame.grid, 1),
-                     run.cell_lists());
-  assign::Lists listed = run.cell_lists();
+  measure::add_frame(out.counted, frame.frame, frame.grid, measure::find_truth(frame.frame, frame.grid, 1), listed);
   for (std::uint32_t& light : listed.lights) light = frame.dump_index[light];
   const layout::CellOrder order = order_of(dump.record.grid);
   for (layout::Buffer& buffer : write(layout::in_order(listed, frame.grid.cells(), order), frame, order).buffers)
     dump.buffers.push_back(std::move(buffer));
-  out.checked = judge(dump, {.with_methods = false});
+  out.checked = judge(dump, {});
   out.text = check_text(out.checked, 3);
   return out;
+}
+
+// Those of a method of ours.
+Judged judged(const Json& json, std::vector<layout::Buffer> buffers, const std::string& method, const Write& write) {
+  const auto made = [&](const DumpFrame& frame) {
+    const assign::AssignerDescriptor* row = assign::find_assigner(method);
+    assign::AssignerRun run(*row, assign::Params(row->params), assign::Answer::lists);
+    const view::LightArrays lights = view::lights_in(frame.frame, grid::space_of(frame.grid, frame.frame));
+    run.build(frame.grid, assign::kinds_of(lights));
+    run.assign({frame.frame, lights});
+    return run.cell_lists();
+  };
+  return judged(json, std::move(buffers), Make(made), write);
 }
 
 void expect_counts(const Judged& judged, const char* engine) {
@@ -359,8 +370,167 @@ TEST(Engines, lists_of_unity_are_judged_in_their_tiles_and_bins) {
   EXPECT_GT(found.counted.true_pairs, 1000u);
 }
 
+// Of a tile, in clip space.
+struct WickedCorner {
+  float x, y;
+};
+
+// lightCullingCS.hlsl: a ball against the four planes of a tile and the ends of its depth, in view space along +z.
+struct WickedBall {
+  Vec3f center{0.0f};
+  float radius = 0.0f;
+
+  bool touches(const Json& projection, WickedCorner lo, WickedCorner hi, float near, float far) const {
+    const float x_scale = projection[0], y_scale = projection[5];
+    const auto outside = [&](float x, float y, float z) {  // of the plane through the eye with this inner normal
+      return (x * center.x + y * center.y + z * center.z) / std::sqrt(x * x + y * y + z * z) < -radius;
+    };
+    if (center.z + radius < near || center.z - radius > far) return false;
+    return !outside(1.0f, 0.0f, -lo.x / x_scale) && !outside(-1.0f, 0.0f, hi.x / x_scale) &&
+           !outside(0.0f, 1.0f, -lo.y / y_scale) && !outside(0.0f, -1.0f, hi.y / y_scale);
+  }
+};
+
+// wiRenderer.cpp: a spot by the ball through its apex of radius R / (2 cos^2).
+WickedBall wicked_ball(const Lamp& lamp) {
+  Vec3d center = lamp.position;
+  double radius = lamp.range_m;
+  if (lamp.half_angle_rad > 0.0) {
+    radius = 0.5 * lamp.range_m / std::pow(std::cos(lamp.half_angle_rad), 2.0);
+    center += radius * lamp.direction;
+  }
+  return {{static_cast<float>(center.x), static_cast<float>(center.y - 2.0), static_cast<float>(-center.z)},
+          static_cast<float>(radius)};
+}
+
+// ShaderEntity: 64 bytes; its world is left-handed.
+layout::Buffer wicked_entities(const std::vector<Lamp>& all) {
+  layout::Buffer out{"entities", "entities.bin", 0, {}};
+  std::size_t row = 0;
+  for (const Lamp& lamp : all) {
+    const bool is_spot = lamp.half_angle_rad > 0.0;
+    const float position[] = {static_cast<float>(lamp.position.x), static_cast<float>(lamp.position.y),
+                              static_cast<float>(-lamp.position.z)};
+    for (std::size_t i = 0; i < 3; ++i) layout::testing::put(out.bytes, row + 4 * i, position[i]);
+    layout::testing::put(out.bytes, row + 12, static_cast<std::uint8_t>(is_spot ? 2 : 1));
+    const auto put_half = [&](std::size_t at, double value) {
+      layout::testing::put(out.bytes, row + at, view::half_of(static_cast<float>(value)));
+    };
+    put_half(14, lamp.range_m);
+    put_half(16, -lamp.direction.x), put_half(18, -lamp.direction.y), put_half(20, lamp.direction.z);
+    put_half(22, is_spot ? std::cos(lamp.half_angle_rad) : 0.0);
+    layout::testing::put(out.bytes, row + 60, 0u);
+    row += 64;
+  }
+  return out;
+}
+
+// With a half-precision range that is not above the one of the ball.
+std::vector<Lamp> wicked_lamps() {
+  std::vector<Lamp> all = lamps(0.3);
+  for (Lamp& lamp : all) lamp.range_m = std::floor(lamp.range_m * 64.0) / 64.0;
+  return all;
+}
+
+constexpr std::uint32_t k_wicked_decals = 37;  // so that lights begin in the middle of a word
+
+Judged wicked_without(std::optional<std::uint32_t> forgotten) {
+  Json json = template_of("wicked");
+  fill_camera(json, {1280, 720});
+  constexpr std::uint32_t k_tiles = 40 * 23;
+  json["grid"]["slices"]["boundaries_m"] = {0.5, 60.0};
+  json["lists"][0]["rows"]["at"] = 32 * k_tiles;
+  json["lists"][0]["first_bit"] = k_wicked_decals;
+  const std::vector<Lamp> all = wicked_lamps();
+  json["lights"]["rows"][0]["count"] = all.size();
+  const Json projection = json["camera"]["projection"];
+  const Make culled = [&](const DumpFrame& frame) {
+    assign::Lists out{{0}, {}};
+    for (int y = 0; y < 23; ++y)
+      for (int x = 0; x < 40; ++x) {
+        const auto clip = [](float pixel, float size) { return 2.0f * pixel / size - 1.0f; };
+        const WickedCorner lo{clip(32.0f * static_cast<float>(x), 1280.0f),
+                              -clip(32.0f * static_cast<float>(y + 1), 720.0f)};
+        const WickedCorner hi{clip(32.0f * static_cast<float>(x + 1), 1280.0f),
+                              -clip(32.0f * static_cast<float>(y), 720.0f)};
+        for (std::uint32_t light = 0; light < all.size(); ++light) {
+          const std::uint32_t of_dump = frame.dump_index[light];
+          if (of_dump != forgotten && wicked_ball(all[of_dump]).touches(projection, lo, hi, 0.5f, 60.0f))
+            out.lights.push_back(light);
+        }
+        out.begin.push_back(static_cast<std::uint32_t>(out.lights.size()));
+      }
+    return out;
+  };
+  return judged(json, {wicked_entities(all)}, culled,
+                [&](const assign::Lists& lists, const DumpFrame&, const layout::CellOrder&) {
+                  layout::Described out;
+                  out.buffers = {{"tiles", "tiles.bin", 0, {}}};
+                  for (std::uint32_t tile = 0; tile < k_tiles; ++tile) {
+                    std::uint32_t words[8] = {~0u, 0x1fu, 0, 0, 0, 0, 0, 0x8000'0000u};  // decals, and a force field
+                    for (const std::uint32_t light : lists.of(tile))
+                      words[(light + k_wicked_decals) / 32] |= 1u << (light + k_wicked_decals) % 32;
+                    for (std::size_t w = 0; w < 8; ++w)
+                      layout::testing::put(out.buffers[0].bytes, 32 * std::size_t{k_tiles + tile} + 4 * w, words[w]);
+                  }
+                  return out;
+                });
+}
+
+TEST(Engines, lists_of_wicked_for_transparent_surfaces_are_right_and_a_forgotten_light_is_found) {
+  const Judged found = wicked_without(std::nullopt);
+  expect_counts(found, "wicked");
+  EXPECT_GT(found.checked.spots, 30u);
+  EXPECT_EQ(found.checked.sets[0].verdict, "right") << found.text;
+  EXPECT_GT(found.counted.false_positives, found.counted.true_pairs / 10) << "balls around cones";
+  const std::vector<Lamp> all = wicked_lamps();
+  const auto ahead = std::ranges::find_if(all, [](const Lamp& lamp) {
+    return lamp.half_angle_rad == 0.0 && lamp.position.z < -15.0 && std::abs(lamp.position.x) < 5.0;
+  });
+  ASSERT_NE(ahead, all.end());
+  const auto forgotten = static_cast<std::uint32_t>(ahead - all.begin());
+  const Judged lost = wicked_without(forgotten);
+  expect_counts(lost, "wicked");
+  EXPECT_EQ(lost.checked.sets[0].verdict, "lost") << lost.text;
+  EXPECT_EQ(lost.checked.sets[0].lost.at(0).light, forgotten);
+}
+
+TEST(Engines, lists_of_unreal_are_judged_in_their_own_units_and_layout) {
+  Json json = template_of("unreal");
+  fill_camera(json, {1280, 720});
+  // The same camera and lamps in centimetres and a left-handed world.
+  json["camera"]["world_to_view"][13] = -200.0;
+  json["camera"]["far_m"] = 6000.0;
+  json["camera"]["projection"][14] = 100.0 * json["camera"]["projection"][14].get<double>();
+  list_lights(json, lamps(0.3));
+  for (Json& light : json["lights"]["listed"]) {
+    for (Json& number : light["position"]) number = 100.0 * number.get<double>();
+    light["position"][2] = -light["position"][2].get<double>();
+    light["range_m"] = 100.0 * light["range_m"].get<double>();
+    if (light.contains("direction")) light["direction"][2] = -light["direction"][2].get<double>();
+  }
+  for (const char* method : {"aabb", "exact"}) {
+    const Judged found =
+        judged(json, {}, method, [](const assign::Lists& lists, const DumpFrame&, const layout::CellOrder&) {
+          layout::Described out;
+          out.buffers = {{"grid", "grid.bin", 0, {}}, {"data", "data.bin", 0, {}}};
+          for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+            layout::testing::put(out.buffers[0].bytes, 8 * std::size_t{cell},
+                                 static_cast<std::uint32_t>(lists.of(cell).size()));
+            layout::testing::put(out.buffers[0].bytes, 8 * std::size_t{cell} + 4, lists.begin[cell]);
+          }
+          for (std::size_t i = 0; i < lists.lights.size(); ++i)
+            layout::testing::put(out.buffers[1].bytes, 2 * i, static_cast<std::uint16_t>(lists.lights[i]));
+          return out;
+        });
+    expect_counts(found, method);
+    EXPECT_EQ(found.checked.sets[0].verdict, "right") << found.text;
+    EXPECT_EQ(found.checked.cells, (result::CellIndex{20, 12, 32}));
+  }
+}
+
 TEST(Engines, every_template_says_what_is_to_be_filled_in_and_is_a_dump_once_it_is) {
-  EXPECT_GE(dump_templates().size(), 8u);
+  EXPECT_GE(dump_templates().size(), 10u);
   for (const DumpTemplate& row : dump_templates()) {
     try {
       parse_dump(row.text, "template.json");

@@ -57,6 +57,11 @@ TEST(DumpGrid, a_formula_gives_the_slices_of_its_scheme) {
   EXPECT_EQ(log2[3], 2.0f);
   EXPECT_EQ(log2[4], 9.0f);
   EXPECT_LE(log2[0], 0.1f) << "slice 0 begins at the near plane";
+  // Unreal: slice = log2(depth * B + O) * S.
+  const std::vector<float> unreal = boundaries(
+      R"({"count": 6, "formula": {"function": "log2", "depth_scale": 0.5, "depth_offset": 0.75, "scale": 2, "bias": 0}})");
+  for (std::size_t i = 1; i < 7; ++i)
+    EXPECT_FLOAT_EQ(std::log2(unreal[i] * 0.5f + 0.75f) * 2.0f, static_cast<float>(i));
   EXPECT_EQ(boundaries(R"({"count": 4, "formula": {"function": "linear", "scale": 0.02, "bias": 0}})"),
             (std::vector<float>{0.0f, 50.0f, 100.0f, 150.0f, 200.0f}));
 }
@@ -78,6 +83,31 @@ TEST(DumpGrid, without_slices_there_is_one_to_the_far_plane) {
   frame.projection.far_m = INFINITY;
   EXPECT_THROW(grid_of(grid_with(R"({"tiles": {"count": [4, 3]}})"), frame), Error);
   EXPECT_THROW(boundaries(R"({"scheme": "linear", "count": 4})", frame), Error);
+}
+
+TEST(DumpGrid, a_world_grid_may_give_its_planes) {
+  const char* uneven = R"({"kind": "world", "planes": {"origin_m": [1e6, 0, -5], "x_m": [-1, 0, 4], "y_m": [0, 2],
+                           "z_m": [-3, -2.5, 0, 1]}})";
+  const grid::Grid grid = grid_of(grid_with(uneven), frame_720());
+  EXPECT_EQ(grid.cells(), Vec3i(2, 1, 3));
+  EXPECT_EQ(grid.world().origin, Vec3d(1e6, 0.0, -5.0));
+  EXPECT_EQ(grid.world().z, (std::vector<float>{-3.0f, -2.5f, 0.0f, 1.0f}));
+  const std::pair<const char*, const char*> rows[] = {
+      {R"({"kind": "world", "planes": {"origin_m": [0, 0, 0], "x_m": [0, 1], "y_m": [0, 0], "z_m": [0, 1]}})",
+       "/grid/planes/y_m: does not ascend in single precision at 0 m"},
+      {R"({"kind": "world", "planes": {"origin_m": [1e15, 0, 0], "x_m": [0, 1e14], "y_m": [0, 1], "z_m": [0, 1]}})",
+       "/grid/planes/x_m: has 1e+14 m, which takes it beyond 1e15 m"},
+      {R"({"kind": "world", "cells": [1, 1, 1], "planes": {"origin_m": [0, 0, 0], "x_m": [0, 1], "y_m": [0, 1],
+           "z_m": [0, 1]}})",
+       "/grid/planes: stands beside cells, bounds, tiles or slices; allowed: alone"},
+      {R"({"tiles": {"count": [1, 1]}, "planes": {"origin_m": [0, 0, 0], "x_m": [0, 1], "y_m": [0, 1], "z_m": [0, 1]}})",
+       "/grid/planes: is of world grids only"}};
+  for (const auto& [json, wanted] : rows) try {
+      grid_of(grid_with(json), frame_720());
+      ADD_FAILURE() << wanted;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.where() + ": " + error.message(), wanted);
+    }
 }
 
 }  // namespace

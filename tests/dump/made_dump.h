@@ -52,7 +52,7 @@ inline DumpFile dump_of(const Made& made, const assign::Lists& lists, const layo
 }
 
 inline result::CheckedSet verdict_on(const DumpFile& dump) {
-  return judge(dump, {.with_methods = false}).sets.front();
+  return judge(dump, {}).sets.front();
 }
 
 // Each pair through change(cell, light), which gives the pair's new cell and light; nullopt removes it.

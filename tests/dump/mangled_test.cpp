@@ -52,7 +52,7 @@ TEST(MangledDumps, are_judged_or_refused_with_a_place) {
         const std::string mangled = random.unit() < 0.8 ? with_other_number(text, random) : text;
         const DumpFile dump{"made.json", parse_dump(mangled, "made.json"), std::move(buffers)};
         if (frame_of(dump).grid.cell_count() > 20000) continue;
-        EXPECT_FALSE(check_text(judge(dump, {.with_methods = false}), 5).empty());
+        EXPECT_FALSE(check_text(judge(dump, {}), 5).empty());
         ++judged;
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::usage) << error.what();

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <set>
 
 #include "dump/made_dump.h"
 
@@ -124,7 +125,7 @@ TEST(PlantedFaults, a_wrong_order_of_cells_is_said_before_its_losses) {
     dump.record.grid.axes.reset();
     dump.record.grid.first_row.reset();
     dump.record.grid.first_slice.reset();
-    const result::CheckedDump checked = judge(dump, {.with_methods = false});
+    const result::CheckedDump checked = judge(dump, {});
     const result::CheckedSet& set = checked.sets.front();
     ASSERT_TRUE(set.other_reading) << real.axes;
     EXPECT_EQ(set.verdict, "misread");
@@ -236,24 +237,212 @@ TEST(PlantedFaults, a_camera_that_sees_no_light_checks_nothing) {
   away.frame.view_space.rotation = Mat3d(Vec3d(-1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, -1));
   away.truth = measure::find_truth(away.frame, away.grid, 1).lists;
   ASSERT_EQ(away.truth.pair_count(), 0u);
-  const result::CheckedDump empty = judge(dump_of(away, away.truth), {.with_methods = false});
+  const result::CheckedDump empty = judge(dump_of(away, away.truth), {});
   EXPECT_EQ(empty.sets[0].verdict, "empty");
   EXPECT_EQ(worst_verdict({empty}), "empty");
-  const result::CheckedDump right = judge(dump_of(made(), made().truth), {.with_methods = false});
+  const result::CheckedDump right = judge(dump_of(made(), made().truth), {});
   EXPECT_EQ(worst_verdict({right, empty}), "right") << "one of many frames may see none";
-  EXPECT_EQ(judge(dump_of(away, made().truth), {.with_methods = false}).sets[0].verdict, "empty");
-  EXPECT_EQ(worst_verdict({right, judge(dump_of(away, made().truth), {.with_methods = false})}), "empty");
+  EXPECT_EQ(judge(dump_of(away, made().truth), {}).sets[0].verdict, "empty");
+  EXPECT_EQ(worst_verdict({right, judge(dump_of(away, made().truth), {})}), "empty");
 }
 
-TEST(PlantedFaults, a_light_twice_in_a_list_is_told_and_lists_are_judged_all_the_same) {
+// A set of the exact lists twice.
+DumpFile doubled() {
   DumpFile dump = dump_of(made(), made().truth);
   dump.record.lists.push_back(dump.record.lists.front());
+  return dump;
+}
+
+TEST(PlantedFaults, lights_twice_in_a_list_are_told_and_lists_are_judged_all_the_same) {
+  DumpFile dump = doubled();
   const result::CheckedSet set = verdict_on(dump);
   EXPECT_EQ(set.verdict, "twice");
   EXPECT_EQ(set.error->lost_pairs, 0u);
-  EXPECT_GT(set.reading.fault_count, 0u);
+  EXPECT_EQ(set.reading.fault_count, 0u);
+  EXPECT_EQ(set.reading.twice_count, made().truth.pair_count());
+  ASSERT_FALSE(set.reading.twice.empty());
+  EXPECT_EQ(set.reading.twice[0].buffer, "indices");
   dump.record.lists.back().set = "transparent";
   EXPECT_EQ(verdict_on(dump).verdict, "right") << "sets are judged apart";
+}
+
+TEST(PlantedFaults, lights_twice_hide_neither_a_lost_light_nor_an_index_that_cannot_be) {
+  DumpFile lost = doubled();
+  layout::Buffer& headers = *std::ranges::find(lost.buffers, "headers", &layout::Buffer::name);
+  std::size_t cell = 0;
+  while (made().truth.of(static_cast<std::uint32_t>(cell)).size() < 3) ++cell;
+  for (std::size_t byte = 4; byte < 8; ++byte) headers.bytes[8 * cell + byte] = std::byte{0};  // both counts
+  const result::CheckedDump checked = judge(lost, {});
+  EXPECT_EQ(checked.sets[0].verdict, "lost");
+  EXPECT_NE(check_text(checked, 3).find("pairs of a cell and a light are twice in their lists:\n"), std::string::npos)
+      << check_text(checked, 3);
+
+  DumpFile wrong = doubled();
+  layout::Buffer& indices = *std::ranges::find(wrong.buffers, "indices", &layout::Buffer::name);
+  indices.bytes.back() = std::byte{0xff};
+  const result::CheckedSet set = verdict_on(wrong);
+  EXPECT_EQ(set.verdict, "unreadable");
+  EXPECT_EQ(set.reading.fault_count, 2u) << "once for each part";
+  ASSERT_FALSE(set.reading.faults.empty());
+  EXPECT_EQ(set.reading.faults[0].buffer, "indices");
+}
+
+TEST(PlantedFaults, a_wrong_width_that_can_be_read_is_told_as_such) {
+  DumpFile dump = dump_of(made(), made().truth);
+  result::DumpEntries& entries = *dump.record.lists[0].entries;
+  ASSERT_EQ(entries.type, "u8");
+  std::vector<std::byte>& indices = std::ranges::find(dump.buffers, "indices", &layout::Buffer::name)->bytes;
+  std::vector<std::byte> wide(4 * indices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) wide[4 * i] = indices[i];
+  indices = wide;
+  entries.type = "u32";
+  EXPECT_EQ(verdict_on(dump).verdict, "right");
+  for (const char* wrong : {"u16", "u8"}) {
+    entries.type = wrong;  // every other index is 0, or three of four
+    const result::CheckedDump checked = judge(dump, {});
+    const result::CheckedSet& set = checked.sets[0];
+    EXPECT_EQ(set.verdict, "misread") << wrong;
+    ASSERT_TRUE(set.other_reading) << wrong;
+    EXPECT_EQ(set.other_reading->lists, "entries as u32");
+    EXPECT_EQ(set.other_reading->lost_pairs, 0u);
+    const std::string text = check_text(checked, 3);
+    EXPECT_NE(text.find("Probably it is the description: with entries as u32, 0 pairs would be lost in place of "),
+              std::string::npos)
+        << text;
+  }
+}
+
+TEST(PlantedFaults, no_dump_makes_a_deep_loss_one_of_rounding) {
+  DumpFile dump = dump_of(made(), changed(made().truth, [](auto cell, auto light) -> Moved {
+                            if (light == made().truth.lights[0]) return std::nullopt;
+                            return std::pair(cell, light);
+                          }));
+  for (const double rounding : {32.0, 1048576.0}) {
+    dump.record.rounding = rounding;
+    const result::CheckedSet set = verdict_on(dump);
+    EXPECT_EQ(set.verdict, "lost") << rounding;
+    for (const result::LostInCell& lost : set.lost)
+      EXPECT_EQ(lost.is_within_rounding && (lost.reach_mm > 100.0 || lost.reach_percent > 1.0), false) << lost.reach_mm;
+  }
+}
+
+// The most that rounding may explain: of a light of 4 m it is 1 % of the range, of one of 40 m it is 0.1 m.
+TEST(PlantedFaults, what_rounding_may_explain_has_two_bounds) {
+  Made one = made_frame();
+  one.frame.lights.resize(1);
+  one.frame.count_types();
+  const double end = one.grid.screen().slices.boundaries[5];
+  const Vec3d ahead = -glm::transpose(one.frame.view_space.rotation)[2];
+  for (const auto& [range_m, beyond_m, wanted] :
+       {std::tuple(4.0, 0.039, "rounding"), std::tuple(4.0, 0.041, "lost"), std::tuple(40.0, 0.099, "rounding"),
+        std::tuple(40.0, 0.101, "lost")}) {
+    one.frame.lights[0].range_m = range_m;
+    one.frame.lights[0].position = one.frame.view_space.origin + (end - range_m + beyond_m) * ahead;
+    one.truth = measure::find_truth(one.frame, one.grid, 1).lists;
+    DumpFile dump = dump_of(one, changed(one.truth, [&](auto cell, auto of) -> Moved {
+                              if (one.grid.cell_at(cell).z == 5) return std::nullopt;
+                              return std::pair(cell, of);
+                            }));
+    dump.record.rounding = 1048576.0;
+    EXPECT_EQ(verdict_on(dump).verdict, wanted) << range_m << " " << beyond_m;
+  }
+}
+
+// A dump in another unit: what is lost is told in metres.
+TEST(PlantedFaults, lengths_of_a_dump_in_centimetres_are_told_in_metres) {
+  Made scaled = made_frame();
+  const auto lost_of = [](const Made& frame) {
+    return changed(frame.truth, [&](auto cell, auto light) -> Moved {
+      if (light == frame.truth.lights[0]) return std::nullopt;
+      return std::pair(cell, light);
+    });
+  };
+  const result::CheckedSet metres = verdict_on(dump_of(scaled, lost_of(scaled)));
+  scaled.frame.view_space.origin *= 100.0;
+  scaled.frame.projection.near_m *= 100.0;
+  scaled.frame.projection.far_m *= 100.0;
+  for (scene::WorldLight& light : scaled.frame.lights) light.position *= 100.0, light.range_m *= 100.0;
+  for (float& end : std::get<grid::ScreenGrid>(scaled.grid.shape).slices.boundaries) end *= 100.0f;
+  DumpFile dump = dump_of(scaled, lost_of(scaled));
+  dump.record.metres_per_unit = 0.01;
+  const result::CheckedSet centimetres = verdict_on(dump);
+  ASSERT_EQ(centimetres.lost.size(), metres.lost.size());
+  EXPECT_NEAR(centimetres.lost[0].reach_mm, metres.lost[0].reach_mm, 1e-3);
+  EXPECT_NEAR(centimetres.lost[0].to_m, metres.lost[0].to_m, 1e-4);
+  EXPECT_NEAR(centimetres.error->deepest_mm, metres.error->deepest_mm, 1e-3);
+}
+
+TEST(CheckPage, has_the_lists_of_the_cells_that_lose_lights) {
+  const Deepest deepest = deepest_pair();
+  const auto here = made().truth.of(deepest.cell);
+  Moved moved;  // of another cell, listed in this one
+  const DumpFile dump =
+      dump_of(made(), changed(made().truth, [&](auto cell, auto light) -> Moved {
+                if (cell == deepest.cell && light == deepest.light) return std::nullopt;
+                if (!moved && !std::ranges::binary_search(here, light)) moved = {cell, light};
+                return moved == std::pair(cell, light) ? std::pair(deepest.cell, light) : std::pair(cell, light);
+              }));
+  result::CheckPageFrame page;
+  std::size_t room = k_most_page_entries;
+  const result::CheckedDump checked = judge(dump, {.page = &page, .page_room = &room});
+  EXPECT_EQ(page.checked.sets[0].error->lost_pairs, checked.sets[0].error->lost_pairs);
+  ASSERT_EQ(page.sets.size(), 1u);
+  EXPECT_EQ(page.grid.shape, "slopes");
+  EXPECT_EQ(page.grid.x.size(), 13u);
+  EXPECT_EQ(page.grid.z.size(), 11u);
+  std::set<std::uint64_t> named;
+  std::size_t lost = 0;
+  for (const result::CheckPageCell& cell : page.sets[0].cells) {
+    std::set<std::uint64_t> exact(cell.listed.begin(), cell.listed.end());
+    for (const std::uint64_t light : cell.excess) EXPECT_EQ(exact.erase(light), 1u);
+    for (const std::uint64_t light : cell.lost) EXPECT_TRUE(exact.insert(light).second);
+    const auto truth = made().truth.of(static_cast<std::uint32_t>(cell.index));
+    EXPECT_TRUE(std::ranges::equal(exact, truth));
+    named.insert(cell.listed.begin(), cell.listed.end());
+    named.insert(cell.lost.begin(), cell.lost.end());
+    lost += cell.lost.size();
+  }
+  EXPECT_EQ(lost, checked.sets[0].error->lost_pairs);
+  EXPECT_EQ(page.sets[0].cells[0].index, deepest.cell);
+  ASSERT_EQ(page.lights.size(), named.size());
+  for (const result::CheckPageLight& light : page.lights) {
+    const Vec3d seen =
+        made().frame.view_space.rotation * (made().frame.lights[light.index].position - made().frame.view_space.origin);
+    EXPECT_NEAR(light.position[2], seen.z, 1e-9);
+    EXPECT_EQ(light.direction.has_value(), made().frame.ranges().is_spot(static_cast<std::uint32_t>(light.index)));
+  }
+  EXPECT_LT(room, k_most_page_entries);
+  room = 0;
+  judge(dump, {.page = &page, .page_room = &room});
+  EXPECT_TRUE(page.sets[0].cells.empty());
+  EXPECT_EQ(page.sets[0].cells_left_out, 2u);
+}
+
+TEST(OurMethods, are_left_out_and_named_where_they_would_take_long) {
+  DumpFile dump = dump_of(made(), made().truth);
+  const result::CheckedDump quick = judge(dump, {.methods = method_choice("quick")});
+  EXPECT_GE(quick.methods.size(), 5u);
+  EXPECT_TRUE(quick.methods_left_out.empty());
+  // Five million cells, all empty.
+  dump.record.grid.tiles->count = {160, 90};
+  dump.record.grid.slices = result::DumpSlices{};
+  dump.record.grid.slices->scheme = "linear";
+  dump.record.grid.slices->count = 350;
+  dump.record.grid.slices->far_m = 50.0;
+  dump.record.lists = {{}};
+  dump.record.lists[0].layout = "bits";
+  dump.record.lists[0].per_tile = true;
+  dump.record.lists[0].rows = result::DumpRows{"tiles", {}, 28};
+  dump.buffers.push_back({"tiles", "", 0, std::vector<std::byte>(std::size_t{28} * 160 * 90)});
+  const result::CheckedDump large = judge(dump, {.methods = method_choice("quick")});
+  EXPECT_TRUE(large.methods.empty());
+  EXPECT_EQ(large.methods_left_out.size(), quick.methods.size());
+  const std::string text = check_text(large, 0);
+  EXPECT_NE(text.find("methods of clusterbench left out"), std::string::npos) << text;
+  EXPECT_NE(text.find("exact-fast"), std::string::npos) << text;
+  const result::CheckedDump named = judge(dump, {.methods = method_choice("exact-fast")});
+  ASSERT_EQ(named.methods.size(), 1u);
+  EXPECT_EQ(named.methods[0].listed_pairs, named.sets[0].error->true_pairs);
 }
 
 }  // namespace

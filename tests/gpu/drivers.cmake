@@ -99,10 +99,10 @@ if(NOT CLUSTERBENCH_SANITIZE)
   clusterbench_add_device_tests(lavapipe_reversed "${LAVAPIPE}" mesa-vulkan-drivers
     "DeviceCommands.s*:DeviceMethods.have*:DeviceSizes.of_any*:DeviceOwnLists.*:DeviceCells.*" CLUSTERBENCH_SWAPPED_SHADERS=${REVERSED})
   clusterbench_add_device_tests(lavapipe_sync "${LAVAPIPE}" mesa-vulkan-drivers
-    "DeviceCommands.*:DeviceMethods.keep*:DeviceSizes.of_lists*:DeviceOwnLists.*:DeviceCells.*:DeviceReading*-*find_the_lights_of_every*" CLUSTERBENCH_VULKAN_VALIDATION=sync)
+    "DeviceCommands.*:DeviceMethods.keep*:DeviceSizes.of_lists*:DeviceOwnLists.*:DeviceCells.*:DeviceUserShaders.*:DeviceReading*-*find_the_lights_of_every*" CLUSTERBENCH_VULKAN_VALIDATION=sync)
   clusterbench_add_device_tests(lavapipe_bounds "${LAVAPIPE}" mesa-vulkan-drivers
     "DeviceCommands.*:DeviceSizes.of_any*:DeviceSizes.of_lists*:DeviceSizes.of_more*:DeviceOwnLists.of_tiles_know*:\
-DeviceOwnLists.of_fixed_length_f*:DeviceReadingLookups.*:DeviceReadingWalks.differ*" CLUSTERBENCH_VULKAN_VALIDATION=gpu)
+DeviceOwnLists.of_fixed_length_f*:DeviceUserShaders.leave*:DeviceReadingLookups.*:DeviceReadingWalks.differ*" CLUSTERBENCH_VULKAN_VALIDATION=gpu)
   clusterbench_add_device_tests(lavapipe_core "${LAVAPIPE}" mesa-vulkan-drivers "DeviceFaults.*"
     CLUSTERBENCH_VULKAN_VALIDATION=core)
 endif()
@@ -142,6 +142,20 @@ if(NOT CLUSTERBENCH_SANITIZE)
                $<TARGET_FILE:clusterbench> ${PROJECT_SOURCE_DIR}/scenes)
       set_tests_properties(gpu.${MODE}_readings PROPERTIES ENVIRONMENT "VK_DRIVER_FILES=${DRIVER};VK_ICD_FILENAMES=${DRIVER}"
         TIMEOUT 600 SKIP_RETURN_CODE 77)
+    endif()
+  endforeach()
+endif()
+
+# Shaders of users, through the program.
+if(NOT CLUSTERBENCH_SANITIZE)
+  foreach(MODE lavapipe swiftshader)
+    string(TOUPPER ${MODE} DRIVER)
+    if(${DRIVER})
+      list(GET ${DRIVER} 0 DRIVER)
+      add_test(NAME gpu.${MODE}_user_shaders COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/gpu/test_user_shaders.py
+               $<TARGET_FILE:clusterbench> ${PROJECT_SOURCE_DIR})
+      set_tests_properties(gpu.${MODE}_user_shaders PROPERTIES
+        ENVIRONMENT "VK_DRIVER_FILES=${DRIVER};VK_ICD_FILENAMES=${DRIVER};LP_NUM_THREADS=2" TIMEOUT 600 SKIP_RETURN_CODE 77)
     endif()
   endforeach()
 endif()

@@ -18,6 +18,17 @@ std::string order_name(const CellOrder& order) {
   return order.axes + (order.is_from_bottom ? " from the bottom" : "") + (order.is_from_far ? " from the far end" : "");
 }
 
+TEST(CellOrder, the_cell_of_a_number_is_the_one_that_has_it) {
+  for (const CellOrder& order : all_orders())
+    for (int z = 0; z < k_cells.z; ++z)
+      for (int y = 0; y < k_cells.y; ++y)
+        for (int x = 0; x < k_cells.x; ++x) {
+          const Vec3i at{x, y, z};
+          EXPECT_EQ(order.cell_at(order.cell(at, k_cells), k_cells), at) << order_name(order);
+          EXPECT_EQ(order.tile_at(order.tile(at, k_cells), z, k_cells), at) << order_name(order);
+        }
+}
+
 TEST(Decode, the_lists_of_every_storage_in_every_order_are_those_that_were_stored) {
   const assign::Lists lists = random_lists(k_cells, k_lights, 0.2, 1);
   const std::pair<const char*, std::map<std::string, assign::ParamValue>> storages[] = {
@@ -101,9 +112,7 @@ TEST(Decode, a_value_that_cannot_be_right_is_named_with_its_byte) {
       {"count", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 0, 0x0b); }, 0, 11,
        "count 11 is above the 10 lights of its part"},
       {"offset", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 0, 0x00010002); }, 0, 1,
-       "offset 1 and count 2 end beyond the 2 entries of buffer 'records'"},
-      {"twice", [](Described& d) { put<std::uint8_t>(d.buffers[1].bytes, 1, 3); }, 0, 3,
-       "light 3 is twice in its list"}};
+       "offset 1 and count 2 end beyond the 2 entries of buffer 'records'"}};
   for (const FaultRow& row : packed_rows) {
     Described described = filament(lists);
     row.plant(described);
@@ -112,7 +121,7 @@ TEST(Decode, a_value_that_cannot_be_right_is_named_with_its_byte) {
     EXPECT_EQ(faults.first[0].message, row.message);
     EXPECT_EQ(faults.first[0].byte, row.byte) << row.name;
     EXPECT_EQ(faults.first[0].value, row.value) << row.name;
-    EXPECT_EQ(faults.are_readable(), std::string(row.name) == "twice");
+    EXPECT_FALSE(faults.are_readable());
   }
   const FaultRow linked_rows[] = {
       {"circle", [](Described& d) { put<std::uint32_t>(d.buffers[0].bytes, 4, 1); }, 12, 0,
@@ -128,6 +137,52 @@ TEST(Decode, a_value_that_cannot_be_right_is_named_with_its_byte) {
   }
 }
 
+TEST(Decode, lights_that_are_twice_in_a_list_are_counted_and_named_with_their_bytes) {
+  const assign::Lists lists{{0, 4, 6}, {3, 5, 6, 7, 0, 1}};
+  const Shape shape{Vec3i(2, 1, 1), {}, 10};
+  Described records = filament(lists);
+  for (const std::size_t byte : {1u, 3u}) put<std::uint8_t>(records.buffers[1].bytes, byte, 3);
+  const Decoded found = decoded(records, shape);
+  EXPECT_TRUE(found.faults.are_readable());
+  EXPECT_EQ(found.lists, (assign::Lists{{0, 2, 4}, {3, 6, 0, 1}})) << "each light once";
+  EXPECT_EQ(found.faults.twice, 2u) << "entries, not cells";
+  ASSERT_EQ(found.faults.first_twice.size(), 2u);
+  EXPECT_EQ(found.faults.first_twice[0].byte, 1u);
+  EXPECT_EQ(found.faults.first_twice[1].byte, 3u);
+  EXPECT_EQ(found.faults.first_twice[0].value, 3u);
+  EXPECT_EQ(found.faults.first_twice[0].message, "light 3 is twice in its list, first at byte 0 of buffer 'records'");
+
+  // Entries of two parts, of a row of bytes, and of a JSON file.
+  const Described once = filament(lists);
+  const Described again = tutorial(lists, 4);
+  std::vector<Buffer> both = once.buffers;
+  both.push_back(again.buffers[0]);
+  const ListPart parts[] = {{once.lists, "/lists/0"}, {again.lists, "/lists/1"}};
+  const Faults faults = decode(parts, both, shape).faults;
+  EXPECT_EQ(faults.twice, 6u);
+  EXPECT_EQ(faults.first_twice[4].buffer->name, "clusters");
+  EXPECT_EQ(faults.first_twice[4].byte, 52u + 36u);
+  Described in_file = in_json(lists);
+  in_file.lists.cells->back() = {1, 1};
+  EXPECT_EQ(decoded(in_file, shape).faults.first_twice.at(0).message, "light 1 is twice in its list");
+}
+
+TEST(Decode, lights_that_are_twice_do_not_hide_values_that_cannot_be_right) {
+  assign::Lists lists{{0}, {}};
+  for (std::uint32_t cell = 0; cell < 20; ++cell) {
+    lists.lights.insert(lists.lights.end(), {4, 4});
+    lists.begin.push_back(static_cast<std::uint32_t>(lists.lights.size()));
+  }
+  Described described = filament(lists);
+  put<std::uint8_t>(described.buffers[1].bytes, 39, 12);  // in the last cell
+  const Faults faults = decoded(described, {Vec3i(20, 1, 1), {}, 10}).faults;
+  EXPECT_EQ(faults.twice, 19u);
+  EXPECT_EQ(faults.first_twice.size(), Faults::k_most_kept);
+  EXPECT_EQ(faults.count, 1u);
+  ASSERT_EQ(faults.first.size(), 1u);
+  EXPECT_EQ(faults.first[0].byte, 39u);
+}
+
 TEST(Decode, bits_of_lights_that_do_not_exist_and_ranges_beyond_them_are_faults) {
   Described bits = stored("bitfield", {}, {{0, 1}, {3}}, {10, 0});
   put<std::uint32_t>(bits.buffers[0].bytes, 0, 1u << 10);
@@ -138,6 +193,43 @@ TEST(Decode, bits_of_lights_that_do_not_exist_and_ranges_beyond_them_are_faults)
   ASSERT_EQ(faults.count, 2u);
   EXPECT_EQ(faults.first[0].byte, 10u);
   EXPECT_EQ(faults.first[0].message, "the range of lights 3 to 11 is not below the 10 lights");
+}
+
+std::string refusal_of_bits(const Described& described) {
+  try {
+    decoded(described, {k_cells, {}, k_lights});
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST(Decode, bits_of_other_things_before_and_after_those_of_lights_are_passed_over) {
+  const assign::Lists lists = random_lists(k_cells, k_lights, 0.3, 7);
+  for (const std::uint32_t first : {0u, 5u, 32u, 61u}) {
+    Described bits;
+    bits.buffers = {{"words", "words.bin", 0, {}}};
+    bits.lists.layout = "bits";
+    bits.lists.rows = result::DumpRows{"words", {}, 20};
+    bits.lists.first_bit = first;
+    for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell) {
+      std::vector<bool> row(160, true);  // all other things are there
+      for (std::uint32_t light = 0; light < k_lights; ++light)
+        row[first + light] = std::ranges::binary_search(lists.of(cell), light);
+      for (std::uint32_t bit = 0; bit < 160; ++bit) {
+        const std::size_t at = 20 * std::size_t{cell} + bit / 8;
+        if (bit % 8 == 0) put<std::uint8_t>(bits.buffers[0].bytes, at, 0);
+        if (row[bit]) bits.buffers[0].bytes[at] |= std::byte{1} << bit % 8;
+      }
+    }
+    const Decoded found = decoded(bits, {k_cells, {}, k_lights});
+    EXPECT_EQ(found.lists, lists) << first;
+    EXPECT_EQ(found.faults.count, 0u);
+    bits.lists.first_bit = 100;
+    EXPECT_EQ(refusal_of_bits(bits), "/lists/0/rows/stride: is 20; bits of 70 lights from bit 100 on take 24 bytes");
+    bits.lists.first_bit = ~std::uint64_t{0};
+    EXPECT_NE(refusal_of_bits(bits), "");
+  }
 }
 
 TEST(Decode, the_likeliest_other_reading_is_found) {

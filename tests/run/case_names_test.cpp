@@ -80,5 +80,14 @@ TEST(CaseNames, choices_that_were_called_otherwise_are_found_by_both_names) {
   EXPECT_EQ(current_name("a(spot=ball)/b/c/exact/packed"), "a(spot=ball)/b/c/exact/packed") << "a scene's name";
 }
 
+TEST(UniqueNames, take_the_smallest_suffix_that_is_free) {
+  UniqueNames names;
+  EXPECT_EQ(names.add("a"), "a");
+  EXPECT_EQ(names.add("a-3"), "a-3");
+  EXPECT_EQ(names.add("a"), "a-2");
+  EXPECT_EQ(names.add("a"), "a-4");
+  EXPECT_EQ(names.add("a-3"), "a-3-2");
+}
+
 }  // namespace
 }  // namespace clusterbench::run

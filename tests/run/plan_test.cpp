@@ -263,5 +263,22 @@ TEST_F(MakePlan, a_filter_selects_by_name_and_says_when_it_selects_nothing) {
   EXPECT_TRUE(message("nothing").starts_with("--filter: 'nothing' matches none of ")) << message("nothing");
 }
 
+TEST_F(MakePlan, more_cases_than_a_result_can_have_are_refused) {
+  write_scene("hall.gltf");
+  std::string counts = "[2";
+  for (int i = 3; i < 2002; ++i) counts += ", " + std::to_string(i);
+  const std::string rest = R"(, "grids": [{"kind": "frustum", "tiles": {"count": [1, 1]}, "slices": {"count": )" +
+                           counts +
+                           R"(]}}], "assigners": [{"name": "exact-fast", "threads": [1, 2, 3, 4, 5, 6, 7, 8]}],
+      "storages": ["packed", "fixed", "bitfield", "linked", {"name": "packed", "index_bits": ["8", "16", "32"]}],
+      "precision": ["float32", "half"])";
+  try {
+    static_cast<void>(plan(R"(["hall.gltf"])", rest));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("make more than 100000 cases"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace clusterbench::run

@@ -366,8 +366,8 @@ class LightHierarchy final : public LightStructure {
     return {{"boxes", k_box_bytes, boxes, limit().index_entries, k_width},
             {"order", sizeof(std::uint32_t), lights, ranges.size()}};
   }
-  std::optional<ShaderBuffers> shader_buffers() const override {
-    ShaderBuffers shader{.walk = Walk::hierarchy, .looked_up = LookedUp::position};
+  bool fill_shader_buffers(ShaderBuffers& shader) const override {
+    shader.begin_again({.walk = Walk::hierarchy, .looked_up = LookedUp::position});
     std::vector<Group> groups;
     std::vector<std::uint32_t> order;
     for (const Tree& tree : trees.of_type) {
@@ -378,9 +378,9 @@ class LightHierarchy final : public LightStructure {
       groups.insert(groups.end(), tree.groups().begin(), tree.groups().end());
       order.insert(order.end(), tree.order().begin(), tree.order().end());
     }
-    shader.add("boxes", std::span<const Group>(groups));
+    shader.add("boxes", std::span<const Group>(groups), k_box_bytes);
     shader.add("order", std::span<const std::uint32_t>(order));
-    return shader;
+    return true;
   }
   std::uint32_t index_bits() const override { return 8 * k_box_bytes; }
   bool has_cells() const override { return false; }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "assign/cone/bounding_spheres.h"
 #include "assign/contract/assigner.h"
@@ -87,10 +88,11 @@ class ExactFast final : public ListAssigner {
   // Each part finds its own lists; then all lists are copied to their final place.
   void find_in_parts(const ExactFrame& frame, Lists& out) {
     cut_into_parts();
-    thread_pool_.each(parts_.size(), [&](std::size_t i) {
+    const auto find_part = [&](std::size_t i) {
       Part& part = parts_[i];
       part.slices.find(frame, part.first, part.last, part.lists);
-    });
+    };
+    thread_pool_.each(parts_.size(), std::cref(find_part));
     starts_.assign(1, 0);
     std::uint64_t pairs = 0;
     for (const Part& part : parts_) {
@@ -104,7 +106,7 @@ class ExactFast final : public ListAssigner {
     out.lights.resize(pairs);
     out.begin.back() = starts_.back();
     const std::size_t slice_cells = grid_->cell_count() / static_cast<std::size_t>(planes_.slices);
-    thread_pool_.each(parts_.size(), [&](std::size_t i) {
+    const auto move_part = [&](std::size_t i) {
       const Part& part = parts_[i];
       const std::size_t first_cell = static_cast<std::size_t>(part.first) * slice_cells;
       std::transform(part.lists.begin.begin(), part.lists.begin.end() - 1,
@@ -112,7 +114,9 @@ class ExactFast final : public ListAssigner {
                      [&](std::uint32_t begin) { return begin + starts_[i]; });
       std::copy(part.lists.lights.begin(), part.lists.lights.end(),
                 out.lights.begin() + static_cast<std::ptrdiff_t>(starts_[i]));
-    });
+    };
+    thread_pool_.each(parts_.size(),
+                      std::cref(move_part));  // a copy would be too large for a std::function without memory
   }
 
   // Each part gets about equally many balls and cells.

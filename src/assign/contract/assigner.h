@@ -3,6 +3,7 @@
 // assigners/ that defines its descriptor, and one line in registry.inc; or an AssignerRegistration.
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -115,6 +116,9 @@ class ListAssigner : public Assigner {
  public:
   // Does not allocate in a steady state (as many pairs as before or fewer). Timed as the assignment.
   virtual void assign(const FrameInput& input, Lists& out) = 0;
+  // Of a method that nobody here has tested (a plug-in's): throws MethodError for lists of the last assign, with lights
+  // of these types, that break the rules of Lists, before anything reads them. Not timed.
+  virtual void check(const Lists&, const view::LightRanges&) const {}
 };
 
 // A method that makes its own light structure. Derive it from AssignerOf.
@@ -144,6 +148,11 @@ enum class Answer : std::uint8_t { lists, structure };
 // boxes or the structure of the frame before would each be one more member, here and in FrameInput.
 struct Needs {
   bool depth = false;  // the depths of the picture's pixels
+};
+
+// The file that a method which is not built in was read from, and SHA-256 of all of its files.
+struct Origin {
+  std::string file, sha256;
 };
 
 // A method as data: all other code knows a method only through this.
@@ -176,10 +185,16 @@ struct AssignerDescriptor {
   bool on_device = false;
   std::vector<ParamSpec> params;
   // The forms of its result, one or both; null: not available in this form.
-  std::unique_ptr<ListAssigner> (*make)(const Params& params) = nullptr;
-  std::unique_ptr<StructureAssigner> (*make_own)(const Params& params) = nullptr;
+  std::function<std::unique_ptr<ListAssigner>(const Params& params)> make = nullptr;
+  std::function<std::unique_ptr<StructureAssigner>(const Params& params)> make_own = nullptr;
   // The reason why it cannot run on this machine, "" if it can. Null: it always can.
-  std::string (*unavailable)(const Params& params) = nullptr;
+  std::function<std::string(const Params& params)> unavailable = nullptr;
+  // The reason why it cannot run on a grid of its kinds, "" if it can. Null: it can on all.
+  std::function<std::string(const grid::Grid& grid)> unfit = nullptr;
+  // The plug-in that it comes from; "" for the program's own.
+  std::string plugin{};
+  // Of a method that is not built in.
+  std::optional<Origin> origin{};
 
   bool takes(grid::Kind kind) const;
   bool answers(Answer answer) const;

@@ -17,10 +17,12 @@ Assigner& AssignerRun::assigner() const {
 }
 
 void AssignerRun::assign(const FrameInput& input) {
-  if (lists_assigner_)
+  if (lists_assigner_) {
     lists_assigner_->assign(input, lists_);
-  else
+    lists_assigner_->check(lists_, input.lights);
+  } else {
     structure_assigner_->assign(input, *structure_);
+  }
 }
 
 const Lists& AssignerRun::cell_lists() const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "assign/contract/lists.h"
@@ -25,6 +26,7 @@ struct StructureUse {
   std::vector<std::uint32_t> dropped_lights;  // ascending, each once
   std::uint64_t fallback_cells =
       0;  // overflow: cells whose samples loop over all lights of the frame in place of their list
+  std::uint64_t repeated_pairs = 0;  // a light in a list where it is already: left out of lists, and never of bytes
 };
 
 // The largest size for any frame of this grid and rig.
@@ -78,7 +80,12 @@ class LightStructure {
   virtual std::uint32_t index_bits() const = 0;  // of an entry
   // The bytes of its buffers in the current frame, as many as use() counts: a copy, not timed. None where shaders do
   // not read it.
-  virtual std::optional<ShaderBuffers> shader_buffers() const { return std::nullopt; }
+  virtual std::optional<ShaderBuffers> shader_buffers() const {
+    ShaderBuffers out;
+    return fill_shader_buffers(out) ? std::optional(std::move(out)) : std::nullopt;
+  }
+  // The same into buffers whose memory is reused; false where shaders do not read it. Structures override this one.
+  virtual bool fill_shader_buffers(ShaderBuffers&) const { return false; }
 
   // Do a sample's lights depend on its cell alone: of the grid, or of occupied_cells()?
   virtual bool has_cells() const = 0;

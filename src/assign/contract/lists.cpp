@@ -26,19 +26,25 @@ std::uint32_t Lists::fullest_cell() const {
 }
 
 std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view::LightRanges& ranges) {
+  std::vector<std::uint32_t> scratch;
+  return lists_fault(lists, cell_count, ranges, scratch);
+}
+
+std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view::LightRanges& ranges,
+                        std::vector<std::uint32_t>& listed_in) {
   if (lists.begin.size() != cell_count + std::size_t{1}) return "not one list per cell";
   if (lists.begin.front() != 0 || lists.begin.back() != lists.lights.size()) return "lists do not cover the indices";
-  std::vector<std::uint32_t> listed_in(ranges.size(), cell_count);
+  listed_in.assign(ranges.size(), cell_count);
   for (std::uint32_t cell = 0; cell < cell_count; ++cell) {
-    const std::string where = " (cell " + std::to_string(cell) + ")";
-    if (lists.begin[cell] > lists.begin[cell + 1]) return "a list of negative length" + where;
+    const auto here = [cell](const char* fault) { return fault + (" (cell " + std::to_string(cell) + ")"); };
+    if (lists.begin[cell] > lists.begin[cell + 1]) return here("a list of negative length");
+    if (lists.begin[cell + 1] > lists.lights.size()) return here("a list that ends behind the indices");
     std::size_t type = 0;
     for (const std::uint32_t light : lists.of(cell)) {
-      if (light >= listed_in.size()) return "a light that does not exist" + where;
-      if (listed_in[light] == cell) return "lights not each once" + where;
+      if (light >= listed_in.size()) return here("a light that does not exist");
+      if (listed_in[light] == cell) return here("lights not each once");
       listed_in[light] = cell;
-      if (ranges.type_of(light) < type)
-        return std::string(type == 1 ? "a point light behind spots" : "a light behind boxes") + where;
+      if (ranges.type_of(light) < type) return here(type == 1 ? "a point light behind spots" : "a light behind boxes");
       type = ranges.type_of(light);
     }
   }

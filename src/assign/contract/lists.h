@@ -29,6 +29,9 @@ struct Lists {
 // The reason why these are not valid lists for this number of cells and these lights, as a sentence; "" if they are
 // valid.
 std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view::LightRanges& ranges);
+// The same in memory that is kept: it does not allocate for as many lights as before or fewer.
+std::string lists_fault(const Lists& lists, std::uint32_t cell_count, const view::LightRanges& ranges,
+                        std::vector<std::uint32_t>& scratch);
 
 // Does every list ascend, as merges and binary searches need? And a function that sorts them.
 bool are_ascending(const Lists& lists);

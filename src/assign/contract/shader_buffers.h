@@ -6,6 +6,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace clusterbench::assign {
@@ -27,6 +28,7 @@ enum class LookedUp : std::uint8_t { cell, tile, position };
 struct ShaderBuffers {
   struct Buffer {
     const char* name;
+    std::uint32_t element_bytes;  // of a light index, a header, a word, as in BufferNeed
     std::vector<std::byte> bytes;
   };
 
@@ -52,9 +54,21 @@ struct ShaderBuffers {
   };
   std::vector<Tree> trees{};
 
+  std::vector<Buffer> former{};        // memory for those that are added
+  std::vector<std::uint32_t> words{};  // memory for who fills a buffer word by word
+
+  // Becomes these, without buffers. Those that are added get the memory of the former ones, in their order.
+  void begin_again(ShaderBuffers description) {
+    description.former = std::move(buffers);
+    description.buffers = std::move(former);
+    description.buffers.clear();
+    description.words = std::move(words);
+    *this = std::move(description);
+  }
   template <class T>
-  void add(const char* name, std::span<const T> data) {
-    Buffer& added = buffers.emplace_back(Buffer{name, {}});
+  void add(const char* name, std::span<const T> data, std::uint32_t element_bytes = sizeof(T)) {
+    Buffer& added = buffers.emplace_back(Buffer{name, element_bytes, {}});
+    if (buffers.size() <= former.size()) added.bytes = std::move(former[buffers.size() - 1].bytes);
     added.bytes.resize(data.size_bytes());
     if (!data.empty()) std::memcpy(added.bytes.data(), data.data(), data.size_bytes());
   }

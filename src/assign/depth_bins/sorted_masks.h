@@ -138,12 +138,12 @@ class SortedMasks final : public LightStructure {
     return all;
   }
 
-  std::optional<ShaderBuffers> shader_buffers() const override {
-    ShaderBuffers shader{.walk = Walk::masks,
-                         .per_cell = words_,
-                         .rank_bytes = range_bytes() / (2 * static_cast<std::uint32_t>(view::k_punctual_types)),
-                         .has_range_per_cell = ranges_of == RangesOf::cells,
-                         .has_bin_masks = form_.has_bin_masks};
+  bool fill_shader_buffers(ShaderBuffers& shader) const override {
+    shader.begin_again({.walk = Walk::masks,
+                        .per_cell = words_,
+                        .rank_bytes = range_bytes() / (2 * static_cast<std::uint32_t>(view::k_punctual_types)),
+                        .has_range_per_cell = ranges_of == RangesOf::cells,
+                        .has_bin_masks = form_.has_bin_masks});
     shader.add("masks", std::span<const std::uint32_t>(masks_));
     std::visit(
         [&shader](const auto& ranges) {
@@ -152,7 +152,7 @@ class SortedMasks final : public LightStructure {
         ranges_);
     shader.add("order", std::span<const std::uint32_t>(order_));
     if (form_.has_bin_masks) shader.add("bin_masks", std::span<const std::uint32_t>(bin_masks_));
-    return shader;
+    return true;
   }
   std::uint32_t index_bits() const override { return k_bits; }
   bool has_cells() const override { return true; }

@@ -73,10 +73,10 @@ Reads OccupiedLists::reads_at(const grid::Sample& sample, grid::Log2 way) const 
   return cell < 0 ? Reads{} : packed_->reads_of_cell(static_cast<std::uint32_t>(cell));
 }
 
-std::optional<ShaderBuffers> OccupiedLists::shader_buffers() const {
-  std::optional<ShaderBuffers> shader = packed_->shader_buffers();
-  if (!has_slices(bounds_)) shader->looked_up = LookedUp::tile;
-  return shader;
+bool OccupiedLists::fill_shader_buffers(ShaderBuffers& shader) const {
+  packed_->fill_shader_buffers(shader);
+  if (!has_slices(bounds_)) shader.looked_up = LookedUp::tile;
+  return true;
 }
 
 grid::OccupiedCells OccupiedLists::occupied_cells() const {

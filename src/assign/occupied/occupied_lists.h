@@ -43,7 +43,7 @@ class OccupiedLists final : public LightStructure {
   StructureUse use() const override { return packed_->use(); }
   StructureLimit limit() const override { return packed_->limit(); }
   std::vector<BufferNeed> buffers() const override { return packed_->buffers(); }
-  std::optional<ShaderBuffers> shader_buffers() const override;
+  bool fill_shader_buffers(ShaderBuffers& shader) const override;
   std::uint32_t index_bits() const override { return packed_->index_bits(); }
   bool has_cells() const override { return true; }
   bool has_occupied_cells() const override { return true; }

@@ -44,10 +44,10 @@ class Bitfield final : public Storage {
   // All words of the cell; up to 32 lights fit into a single one.
   Reads reads_of_cell(std::uint32_t) const override { return Reads::of(words_per_cell_, sizeof(std::uint32_t)); }
 
-  std::optional<ShaderBuffers> shader_buffers() const override {
-    ShaderBuffers shader{.walk = Walk::bitfield, .per_cell = words_per_cell_};
+  bool fill_shader_buffers(ShaderBuffers& shader) const override {
+    shader.begin_again({.walk = Walk::bitfield, .per_cell = words_per_cell_});
     shader.add("words", std::span<const std::uint32_t>(words_));
-    return shader;
+    return true;
   }
   std::uint32_t cell_count() const override { return cell_count_; }
 

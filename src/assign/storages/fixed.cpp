@@ -92,14 +92,14 @@ Reads FixedLists::reads_of_cell(std::uint32_t cell) const {
   return Reads::of(form_.has_counts ? 1 : 0, sizeof(std::uint32_t)) + Reads::of(lights + end_mark, indices_.bits() / 8);
 }
 
-std::optional<ShaderBuffers> FixedLists::shader_buffers() const {
-  ShaderBuffers shader{.walk = Walk::fixed, .index_bytes = indices_.bits() / 8, .per_cell = form_.cap};
-  shader.add("indices", indices_.bytes(std::size_t{cell_count_} * form_.cap));
+bool FixedLists::fill_shader_buffers(ShaderBuffers& shader) const {
+  shader.begin_again({.walk = Walk::fixed, .index_bytes = indices_.bits() / 8, .per_cell = form_.cap});
+  shader.add("indices", indices_.bytes(std::size_t{cell_count_} * form_.cap), indices_.bits() / 8);
   if (form_.has_counts)
     shader.add("counts", std::span<const std::uint32_t>(counts_));
   else
     shader.end_mark = lights_;
-  return shader;
+  return true;
 }
 
 std::uint32_t FixedLists::length_of(std::uint32_t cell) const {

@@ -36,7 +36,7 @@ class FixedLists final : public Storage {
   std::vector<BufferNeed> buffers() const override;
   void read_cell(std::uint32_t cell, std::vector<std::uint32_t>& out) const override;
   Reads reads_of_cell(std::uint32_t cell) const override;
-  std::optional<ShaderBuffers> shader_buffers() const override;
+  bool fill_shader_buffers(ShaderBuffers& shader) const override;
   std::uint32_t cell_count() const override { return cell_count_; }
   std::uint32_t index_bits() const override { return indices_.bits(); }
 

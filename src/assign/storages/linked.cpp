@@ -69,11 +69,11 @@ class Linked final : public Storage {
     return Reads::of(1, sizeof(std::uint32_t)) + Reads::of(nodes, sizeof(Node));
   }
 
-  std::optional<ShaderBuffers> shader_buffers() const override {
-    ShaderBuffers shader{.walk = Walk::linked};
+  bool fill_shader_buffers(ShaderBuffers& shader) const override {
+    shader.begin_again({.walk = Walk::linked});
     shader.add("nodes", std::span<const Node>(nodes_).first(used_));
     shader.add("heads", std::span<const std::uint32_t>(heads_));
-    return shader;
+    return true;
   }
   std::uint32_t cell_count() const override { return static_cast<std::uint32_t>(heads_.size()); }
 

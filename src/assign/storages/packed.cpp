@@ -117,22 +117,23 @@ class Packed final : public Storage {
     return block + Reads::of(1, header_size()) + Reads::of(lights, bits_ / 8);
   }
 
-  std::optional<ShaderBuffers> shader_buffers() const override {
-    ShaderBuffers shader{.walk = Walk::packed,
-                         .index_bytes = bits_ / 8,
-                         .header_words = header_size() / 4,
-                         .has_wide_counts = is_wide_,
-                         .has_boxes = has_boxes(),
-                         .is_sparse = is_sparse_};
-    std::vector<std::uint32_t> words;
+  bool fill_shader_buffers(ShaderBuffers& shader) const override {
+    shader.begin_again({.walk = Walk::packed,
+                        .index_bytes = bits_ / 8,
+                        .header_words = header_size() / 4,
+                        .has_wide_counts = is_wide_,
+                        .has_boxes = has_boxes(),
+                        .is_sparse = is_sparse_});
+    std::vector<std::uint32_t>& words = shader.words;
+    words.clear();
     for (std::uint32_t header = 0; header < header_count_; ++header) {
       add_header(header_at(header), words);
       words.resize((header + std::size_t{1}) * shader.header_words);
     }
-    shader.add("indices", indices_.bytes(entries_));
-    shader.add("headers", std::span<const std::uint32_t>(words));
+    shader.add("indices", indices_.bytes(entries_), bits_ / 8);
+    shader.add("headers", std::span<const std::uint32_t>(words), header_size());
     if (is_sparse_) shader.add("header_blocks", std::span<const Block>(blocks_));
-    return shader;
+    return true;
   }
   std::uint32_t cell_count() const override { return cell_count_; }
 

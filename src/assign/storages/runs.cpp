@@ -78,17 +78,18 @@ class Runs final : public Storage {
     const Header& header = headers_[cell];
     return Reads::of(1, header_size()) + Reads::of(header.all(), run_bytes());
   }
-  std::optional<ShaderBuffers> shader_buffers() const override {
-    ShaderBuffers shader{.walk = Walk::runs,
-                         .index_bytes = bits_ / 8,
-                         .header_words = header_size() / 4,
-                         .has_wide_counts = is_wide_,
-                         .has_boxes = !lights_.boxes.empty()};
-    std::vector<std::uint32_t> words;
+  bool fill_shader_buffers(ShaderBuffers& shader) const override {
+    shader.begin_again({.walk = Walk::runs,
+                        .index_bytes = bits_ / 8,
+                        .header_words = header_size() / 4,
+                        .has_wide_counts = is_wide_,
+                        .has_boxes = !lights_.boxes.empty()});
+    std::vector<std::uint32_t>& words = shader.words;
+    words.clear();
     for (const Header& header : headers_) add_header(header, words);
-    shader.add("runs", indices_.bytes(2 * static_cast<std::size_t>(count_)));
-    shader.add("headers", std::span<const std::uint32_t>(words));
-    return shader;
+    shader.add("runs", indices_.bytes(2 * static_cast<std::size_t>(count_)), run_bytes());
+    shader.add("headers", std::span<const std::uint32_t>(words), header_size());
+    return true;
   }
   std::uint32_t cell_count() const override { return static_cast<std::uint32_t>(headers_.size()); }
   std::uint32_t index_bits() const override { return 2 * bits_; }

@@ -258,9 +258,9 @@ int run_command_line(int argc, char** argv) {
   Command program(&app);
   Action action;
   for (const auto add :
-       {add_run,      add_compare, add_ratio,  add_size,       add_worst_case, add_recommend, add_light_map,
-        add_check,    add_report,  add_export, add_scene,      add_stress,     add_list,      add_schema,
-        add_validate, add_history, add_merge,  add_completion, add_man,        add_version})
+       {add_run,    add_compare,  add_ratio,   add_size,   add_worst_case, add_recommend, add_light_map,
+        add_check,  add_plugin,   add_report,  add_export, add_scene,      add_stress,    add_list,
+        add_schema, add_validate, add_history, add_merge,  add_completion, add_man,       add_version})
     add(program, action);
   try {
     app.parse(argc, argv);

@@ -105,6 +105,7 @@ constexpr WordsRow k_words[] = {
     {"light-map", "--resolution", anything},
     {"recommend", "--preset", preset_words},
     {"size", "--preset", preset_words},
+    {"plugin check", "--method", anything},
     {"scene generate", "NAME", generators},
     {"history add", "--commit", anything},
 };

@@ -20,6 +20,7 @@ void add_stress(Command& program, Action& action);
 void add_worst_case(Command& program, Action& action);
 void add_light_map(Command& program, Action& action);
 void add_check(Command& program, Action& action);
+void add_plugin(Command& program, Action& action);
 void add_list(Command& program, Action& action);
 void add_schema(Command& program, Action& action);
 void add_validate(Command& program, Action& action);

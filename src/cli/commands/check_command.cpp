@@ -11,13 +11,14 @@
 #include "core/text.h"
 #include "dump/dump_template.h"
 #include "dump/judge.h"
+#include "report/page/page.h"
 
 namespace clusterbench::cli {
 namespace {
 
 struct CheckFlags {
   std::vector<std::string> dumps;
-  std::string json, engine;
+  std::string json, page, engine, methods = "quick";
   int most_lost = 10, threads = 1;
   bool no_methods = false, allow_rounding = false, quiet = false;
 };
@@ -55,29 +56,66 @@ ExitCode print_template(const CheckFlags& flags) {
   return ExitCode::ok;
 }
 
-ExitCode check(const CheckFlags& flags) {
-  if (!flags.engine.empty()) return print_template(flags);
-  if (flags.dumps.empty()) throw Error("", "DUMP", "is required, or --template ENGINE for a dump to fill in");
-  std::vector<std::filesystem::path> paths;
-  std::vector<std::string> files;
+std::string made_page(const CheckFlags& flags, const std::string& verdict, result::CheckPage page) {
+  std::vector<std::string> words{"clusterbench", "check"};
+  words.insert(words.end(), flags.dumps.begin(), flags.dumps.end());
+  words.insert(words.end(), {"--page", flags.page});
+  page.command = shell_command(words);
+  page.verdict = verdict;
+  return report::check_page(page);
+}
+
+dump::MethodChoice chosen_methods(const CheckFlags& flags) {
+  if (!flags.no_methods) return dump::method_choice(flags.methods);
+  if (flags.methods != CheckFlags{}.methods)
+    throw Error("", "--no-methods", "stands beside --methods; allowed: one of the two");
+  return {};
+}
+
+struct CheckInputs {
+  std::vector<std::filesystem::path> dumps;
+  std::vector<std::string> files;  // all that are read
+};
+
+CheckInputs inputs_of(const CheckFlags& flags) {
+  CheckInputs out;
   for (const std::string& given : flags.dumps)
     for (const std::filesystem::path& path : dump::dump_paths(given)) {
-      paths.push_back(path);
-      std::ranges::move(dump::files_of(path), std::back_inserter(files));
+      out.dumps.push_back(path);
+      std::ranges::move(dump::files_of(path), std::back_inserter(out.files));
     }
-  refuse_overwriting({flags.json}, files);
-  LaterOutput output(flags.json, flags.json.empty());
-  std::ostream& out = flags.json == "-" ? std::cerr : std::cout;
+  return out;
+}
+
+// Fills the frames of `page` if one is asked for.
+result::Check judge_all(const CheckFlags& flags, const CheckInputs& inputs, result::CheckPage& page,
+                        std::ostream& out) {
+  const dump::MethodChoice methods = chosen_methods(flags);
+  std::size_t page_room = dump::k_most_page_entries;
   result::Check checked;
   checked.check_version = 1;
-  for (const std::filesystem::path& path : paths) {
-    checked.frames.push_back(dump::judge(dump::read_dump(path), {!flags.no_methods, flags.threads}));
+  for (const std::filesystem::path& path : inputs.dumps) {
+    result::CheckPageFrame* page_frame = flags.page.empty() ? nullptr : &page.frames.emplace_back();
+    checked.frames.push_back(dump::judge(dump::read_dump(path), {methods, flags.threads, page_frame, &page_room}));
     if (!flags.quiet)
       out << printable_lines(dump::check_text(checked.frames.back(), static_cast<std::size_t>(flags.most_lost)))
           << std::flush;
   }
   checked.verdict = dump::worst_verdict(checked.frames);
+  return checked;
+}
+
+ExitCode check(const CheckFlags& flags) {
+  if (!flags.engine.empty()) return print_template(flags);
+  if (flags.dumps.empty()) throw Error("", "DUMP", "is required, or --template ENGINE for a dump to fill in");
+  const CheckInputs inputs = inputs_of(flags);
+  refuse_overwriting({flags.json, flags.page}, inputs.files);
+  LaterOutput output(flags.json, flags.json.empty()), page_output(flags.page, flags.page.empty());
+  std::ostream& out = flags.json == "-" || flags.page == "-" ? std::cerr : std::cout;
+  result::CheckPage page;
+  const result::Check checked = judge_all(flags, inputs, page, out);
   if (!flags.json.empty()) output.write(result::to_json(checked));
+  if (!flags.page.empty()) page_output.write_text(made_page(flags, checked.verdict, std::move(page)));
   if (!flags.quiet && checked.frames.size() > 1) out << frames_line(checked.frames);
   if (!flags.quiet) out << last_line(checked.verdict, flags.allow_rounding) << "\n";
   const bool is_right = checked.verdict == "right" || (flags.allow_rounding && checked.verdict == "rounding");
@@ -96,9 +134,16 @@ void add_check(Command& program, Action& action) {
       .add_option("--template", flags->engine, "Print a dump of an engine to fill in: camera, files, numbers of lights")
       .one_of(engines);
   command.add_option("--json", flags->json, "Write the verdict as JSON to this file; -: standard output");
+  command.add_option("--page", flags->page, "Write a page (.html) with the cells that lose lights in space");
   command.add_option("--most-lost", flags->most_lost, "Lost lights that are named").range(0, 1000).shows_standard();
-  command.add_flag("--allow-rounding", flags->allow_rounding, "Lights that are lost within rounding do not fail");
-  command.add_flag("--no-methods", flags->no_methods, "Without the methods of clusterbench on the same frame");
+  command.add_flag("--allow-rounding", flags->allow_rounding,
+                   "Lights that are lost within rounding (0.1 m and 1 % of their range at the most) do not fail");
+  command
+      .add_option("--methods", flags->methods,
+                  "Methods of clusterbench on the same frame: quick (if they take a few seconds), all, none, or names "
+                  "with commas")
+      .shows_standard();
+  command.add_flag("--no-methods", flags->no_methods, "As --methods none");
   command.add_option("--threads", flags->threads, "Threads; results do not depend on it")
       .range(1, 1024)
       .shows_standard();

@@ -9,9 +9,13 @@
 #include "assign/contract/assigner.h"
 #include "assign/contract/storage.h"
 #include "cli/command_line/commands.h"
+#include "cli/options/plugin_option.h"
+#include "cli/output/output.h"
 #include "config/presets/preset_library.h"
 #include "cull/pre_cull_spec.h"
 #include "gpu/device/device_facts.h"
+#include "gpu/user_shaders/shader_method.h"
+#include "plugin/plugins.h"
 #include "report/history/history.h"
 #include "result/figures/figure_table.h"
 #include "run/records/records.h"
@@ -51,19 +55,33 @@ Json to_json(const assign::AssignerDescriptor& assigner) {
   if (assigner.needs.depth) needs.push_back("depth");
   if (assigner.answers(assign::Answer::lists)) answers.push_back("lists");
   if (assigner.answers(assign::Answer::structure)) answers.push_back("structure");
-  return Json{{"name", assigner.name},
-              {"summary", assigner.summary},
-              {"source", assigner.source},
-              {"grids", kinds},
-              {"lights", lights},
-              {"needs", needs},
-              {"answers", answers},
-              {"conservative", assigner.conservative},
-              {"exact", assigner.exact},
-              {"naive", assigner.naive},
-              {"on_device", assigner.on_device},
-              {"orthographic", assigner.orthographic},
-              {"params", to_json(assigner.params)}};
+  Json out{{"name", assigner.name},
+           {"summary", assigner.summary},
+           {"source", assigner.source},
+           {"grids", kinds},
+           {"lights", lights},
+           {"needs", needs},
+           {"answers", answers},
+           {"conservative", assigner.conservative},
+           {"exact", assigner.exact},
+           {"naive", assigner.naive},
+           {"on_device", assigner.on_device},
+           {"orthographic", assigner.orthographic},
+           {"params", to_json(assigner.params)}};
+  if (!assigner.plugin.empty()) out["plugin"] = assigner.plugin;
+  return out;
+}
+
+// Also those in the folders of the path variable. One that cannot be loaded hides no other one.
+void load_all_plugins(const std::vector<std::string>& given) {
+  load_plugins(given);
+  for (const std::filesystem::path& file : plugin::files_on_path()) {
+    try {
+      plugin::load_plugin(file);
+    } catch (const Error& error) {
+      print_message(std::string("warning: ") + plugin::k_path_variable + ": " + error.what());
+    }
+  }
 }
 
 // Tiles that depend on the viewport are those of 1920 x 1080 pixels.
@@ -324,8 +342,14 @@ void add_list(Command& program, Action& action) {
                   "Only these: assigners, storages, grids, pre_culls, scenes, presets, figures or devices")
       .one_of({std::begin(k_sections), std::end(k_sections)});
   command.add_flag("--json", *as_json, "As JSON");
-  command.when_named([as_json, section, &action] {
-    action = [as_json, section] {
+  auto plugins = std::make_shared<std::vector<std::string>>();
+  add_plugin_option(command, *plugins);
+  auto shaders = std::make_shared<std::vector<std::string>>();
+  command.add_option("--shader", *shaders, "FILE, repeatable: also your own compute shaders as a method");
+  command.when_named([as_json, section, plugins, shaders, &action] {
+    action = [as_json, section, plugins, shaders] {
+      load_all_plugins(*plugins);
+      for (const std::string& shader : *shaders) gpu::add_shader_method(shader);
       Json all = everything();
       if (*section == k_devices) all[k_devices] = devices();
       if (*as_json)

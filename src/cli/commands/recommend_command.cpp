@@ -8,12 +8,14 @@
 
 #include "assign/contract/assigner.h"
 #include "cli/command_line/commands.h"
+#include "cli/options/guarded_command.h"
 #include "cli/options/run_inputs.h"
 #include "cli/output/duration.h"
 #include "cli/output/output.h"
 #include "cli/output/progress_line.h"
 #include "cli/processes/launches.h"
 #include "config/config.h"
+#include "config/config_plugins.h"
 #include "config/presets/preset_library.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
@@ -40,6 +42,7 @@ constexpr double k_no_limit = -1.0;
 
 struct RecommendFlags {
   RunInputs inputs;
+  GuardFlags guard;
   std::string output, written, objective, within = "5%", filter;
   std::vector<double> most = std::vector<double>(report::objective_figures().size(), k_no_limit);  // by figure
   int runners_up = 5, written_runners_up = 0;
@@ -110,6 +113,7 @@ void refuse_devices(const config::Config& config) {
 
 // `ignored`: receives the keys that are left out.
 config::Config read_input(const RecommendFlags& flags, std::string& ignored) {
+  config::load_plugins(flag_values(flags.inputs));  // their methods are candidates, too
   nlohmann::json defaults = search::recommend_space();
   defaults["samples"] = {{"opaque", {{"divisor", 16}}}};
   config::Config config = read_inputs(flags.inputs, {}, defaults);
@@ -347,9 +351,12 @@ void add_recommend(Command& program, Action& action) {
                   "Only candidates whose cases' names have this in them, or match it as a regular expression")
       .may_be_empty();
   add_config_options(command, flags->inputs);
+  add_guard_options(command, flags->guard);
   command.add_flag("--no-timing", flags->no_timing, "Nothing is timed; the answer is then the same on every machine");
   command.add_flag("-q,--quiet", flags->quiet, "No progress; warnings stay");
-  command.when_named([flags, &action] { action = [flags] { return recommend(*flags); }; });
+  command.when_named([flags, &action] {
+    action = [flags] { return guarded_if_needed(flags->inputs, flags->guard, [&] { return recommend(*flags); }); };
+  });
 }
 
 }  // namespace clusterbench::cli

@@ -16,7 +16,10 @@
 #include "config/config.h"
 #include "core/file_text.h"
 #include "core/text.h"
+#include "os/call_notes.h"
+#include "os/rereadable_inputs.h"
 #include "os/stop_signals.h"
+#include "os/temporary_folder.h"
 #include "run/cases/plan.h"
 
 namespace clusterbench::cli {
@@ -66,9 +69,18 @@ ExitCode serve_run(const RunFlags& flags) {
   return ExitCode::ok;
 }
 
-ExitCode run(const RunFlags& flags) {
-  if (flags.serves_launch || !flags.count_dumps.empty()) return serve_run(flags);
+// names_plugins() does not look into a pipe.
+void refuse_unguarded(const RunFlags& flags, const config::Config& config) {
+  const bool is_guarded = os::is_guarded() || flags.guard.is_in_process || flags.rounds_server != 0;
+  if (is_guarded || !config.resolved.contains("plugins") || config.resolved["plugins"].empty()) return;
+  throw Error(config.file.string(), "/plugins",
+              "cannot be taken from a configuration that comes through a pipe; save it to a file, or name them by "
+              "--plugin");
+}
+
+std::optional<ExitCode> run_part(const RunFlags& flags) {
   const config::Config config = read_config(flags);
+  refuse_unguarded(flags, config);
   const CountWay way = count_way(flags.count);
   run::Plan plan = run::make_plan(config, flags.filter);
   if (flags.rounds_server != 0) return serve(flags, config, plan);
@@ -78,13 +90,38 @@ ExitCode run(const RunFlags& flags) {
     return ExitCode::ok;
   }
   if (!flags.dump_folder.empty()) {
-    const std::size_t written = write_dumps(config, plan, flags.dump_folder, flags.dump_frames);
+    const WrittenDumps written = write_dumps(config, plan, flags.dump_folder, flags.dump_frames);
+    for (const std::string& line : written.left_out) print_message(printable(line));
     if (!flags.quiet)
-      print_message(number_of(written, "dump") + " written; `clusterbench check " + flags.dump_folder + "` reads them");
+      print_message(number_of(written.count, "dump") + " written; `clusterbench check " + flags.dump_folder +
+                    "` reads them");
     return ExitCode::ok;
   }
   if (!flags.baseline.binary.empty()) check_baseline(flags);
   return measure(flags, config, plan, way, exports);
+}
+
+// A run of its own methods alone is one process. With plug-ins it is several, which share the inputs, and, without a
+// result file, a journal in a folder of their own.
+ExitCode run(RunFlags& flags) {
+  if (flags.serves_launch || !flags.count_dumps.empty()) return serve_run(flags);
+  if (flags.rounds_server != 0 || !names_plugins(flags.inputs)) return *run_part(flags);
+  if (flags.dry_run || !flags.dump_folder.empty())
+    return run_guarded_once(flags.guard, ExitCode::gate_failed, [&] { return *run_part(flags); });
+  const os::RereadableInputs inputs(flags.inputs.paths);
+  std::optional<os::TemporaryFolder> folder;
+  std::optional<LaterOutput> output;  // a pipe stays open from the first part to the last one
+  if (is_stream(flags.output) && !flags.guard.is_in_process) {
+    folder.emplace();
+    output.emplace(flags.output, is_for_reading(flags.output));
+  }
+  return run_guarded(
+      flags.guard, [&] { inputs.rewind(); },
+      [&](const GuardedPart& part) {
+        flags.part = part;
+        if (folder) flags.part.result_file = (*folder / "result.json").string();
+        return run_part(flags);
+      });
 }
 
 }  // namespace

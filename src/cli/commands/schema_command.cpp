@@ -1,4 +1,6 @@
-// `clusterbench schema config|result|comparison|ratios|recommendation|stress|worst-case|size|light-map|dump|check` and
+// `clusterbench schema
+// `clusterbench schema
+// config|result|comparison|ratios|recommendation|stress|worst-case|size|light-map|dump|check|plugin-check|shader` and
 // `clusterbench validate FILE...`.
 
 #include <algorithm>
@@ -6,6 +8,7 @@
 #include <iostream>
 
 #include "cli/command_line/commands.h"
+#include "cli/options/plugin_option.h"
 #include "cli/output/output.h"
 #include "config/config.h"
 #include "config/schema/documents.h"
@@ -13,6 +16,7 @@
 #include "core/file_text.h"
 #include "core/json_document.h"
 #include "core/text.h"
+#include "gpu/user_shaders/shader_method.h"
 #include "result/result.h"
 #include "run/cases/plan.h"
 
@@ -24,7 +28,7 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) print_message(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
-  for (const char* part : {"case", "block", "answer", "frame", "structure", "scene", "list"}) {
+  for (const char* part : {"case", "block", "answer", "frame", "structure", "scene", "list", "test"}) {
     const std::string parts = std::string(part) + "s";
     if (!document.contains(parts)) continue;
     std::cout << path << ": valid, " << row.title << " with " << number_of(document[parts].size(), part) << "\n";
@@ -41,9 +45,21 @@ ExitCode validate_config(const std::string& path) {
   return ExitCode::ok;
 }
 
+// With its modules, and held against the device that is there.
+ExitCode validate_shader(const std::string& path) {
+  const gpu::ShaderFile file = gpu::read_shader_file(path);
+  const std::string obstacle = gpu::shader_obstacle(file);
+  std::cout << path << ": valid, method '" << file.record.name << "' with " << std::to_string(file.record.passes.size())
+            << (file.record.passes.size() == 1 ? " pass, " : " passes, ")
+            << number_of(file.record.buffers.size(), "buffer")
+            << (obstacle.empty() ? "" : "; it cannot run here: " + printable(obstacle)) << "\n";
+  return ExitCode::ok;
+}
+
 ExitCode validate(const std::string& path) {
   const nlohmann::json document = json_or_discarded<nlohmann::json>(file_text(path), JsonComments::allowed);
   const config::DocumentRow& row = config::row_of(config::document_of(document));
+  if (row.document == config::Document::shader) return validate_shader(path);
   return row.document == config::Document::config ? validate_config(path) : validate_written(path, document, row);
 }
 
@@ -55,13 +71,18 @@ void add_schema(Command& program, Action& action) {
   for (const config::DocumentRow& row : config::document_rows()) names.emplace_back(row.name);
   auto name = std::make_shared<std::string>();
   command
-      .add_option("WHICH", *name,
-                  "Of a configuration, or of what run, compare --json, ratio --json, recommend, stress, worst-case, "
-                  "size --format json, light-map or check --json write, or of a dump that check reads")
+      .add_option(
+          "WHICH", *name,
+          "Of a configuration, or of what run, compare --json, ratio --json, recommend, stress, worst-case, "
+          "size --format json, light-map, check --json or plugin check --json write, or of a dump that check reads, or "
+          "of a method of --shader")
       .required()
       .one_of(names);
-  command.when_named([name, &action] {
-    action = [name] {
+  auto plugins = std::make_shared<std::vector<std::string>>();
+  add_plugin_option(command, *plugins);
+  command.when_named([name, plugins, &action] {
+    action = [name, plugins] {
+      load_plugins(*plugins);
       const auto rows = config::document_rows();
       const config::DocumentRow& row = *std::ranges::find(rows, *name, &config::DocumentRow::name);
       const bool is_result = row.document == config::Document::result;  // in the order of its fields
@@ -72,13 +93,13 @@ void add_schema(Command& program, Action& action) {
 }
 
 void add_validate(Command& program, Action& action) {
-  Command command =
-      program.add_command("validate", "Check configurations and what clusterbench wrote, without running anything");
+  Command command = program.add_command(
+      "validate", "Check configurations, methods of --shader and what clusterbench wrote, without running anything");
   auto paths = std::make_shared<std::vector<std::string>>();
   command
       .add_option("FILE", *paths,
-                  "Configurations, results, comparisons, ratios, recommendations, results of stress, worst-case and "
-                  "light-map")
+                  "Configurations, methods of --shader, results, comparisons, ratios, recommendations, results of "
+                  "stress, worst-case and light-map, checks of plug-ins")
       .required();
   command.when_named([paths, &action] {
     action = [paths] {

@@ -10,6 +10,7 @@
 
 #include "cli/command_line/commands.h"
 #include "cli/options/gates.h"
+#include "cli/options/guarded_command.h"
 #include "cli/options/run_inputs.h"
 #include "cli/options/search_options.h"
 #include "cli/output/output.h"
@@ -35,6 +36,7 @@ using Json = nlohmann::ordered_json;
 
 struct SizeFlags {
   RunInputs inputs;
+  GuardFlags guard;
   report::SizeRequest request;
   double margin = 0.0, warn_at = 0.0;  // 0: from the configuration
   bool worst_case = false;
@@ -242,9 +244,12 @@ void add_size(Command& program, Action& action) {
   add_effort_options(command, flags->search, &worst_case);
   add_space_options(command, flags->search, &worst_case);
   add_config_options(command, flags->inputs, {"--rounds", "--launches", k_cost_from});
+  add_guard_options(command, flags->guard);
   command.add_flag("--allow-no-lights", flags->allows_no_lights, "Does not fail where no light is ever in view");
   command.add_flag("-q,--quiet", flags->quiet, "No progress; warnings stay");
-  command.when_named([flags, &action] { action = [flags] { return size(*flags); }; });
+  command.when_named([flags, &action] {
+    action = [flags] { return guarded_if_needed(flags->inputs, flags->guard, [&] { return size(*flags); }); };
+  });
 }
 
 }  // namespace clusterbench::cli

@@ -5,10 +5,13 @@
 #include <memory>
 
 #include "cli/command_line/commands.h"
+#include "cli/options/guarded_command.h"
+#include "cli/options/plugin_option.h"
 #include "cli/output/output.h"
 #include "cli/output/progress_line.h"
 #include "core/text.h"
 #include "gpu/device/device.h"
+#include "gpu/user_shaders/shader_method.h"
 #include "os/stop_signals.h"
 #include "report/searches/stress_report.h"
 
@@ -16,7 +19,9 @@ namespace clusterbench::cli {
 namespace {
 
 struct StressFlags {
-  std::string output, cases, methods = ".*", device, failures;
+  std::string output, cases, methods, device, failures;
+  std::vector<std::string> plugins, shaders;
+  GuardFlags guard;
   stress::StressRequest request;
   bool quiet = false;
 };
@@ -96,10 +101,21 @@ bool takes_device(const std::string& wanted) {
   return !wanted.empty();
 }
 
+// Without a name all methods, or those of --shader alone.
+std::string methods_of(const StressFlags& flags) {
+  std::string own;
+  for (const std::string& shader : flags.shaders)
+    own += (own.empty() ? "^(" : "|") + gpu::add_shader_method(shader).name;
+  if (!flags.methods.empty()) return flags.methods;
+  return own.empty() ? ".*" : own + ")$";
+}
+
 ExitCode stress(const StressFlags& flags) {
+  load_plugins(flags.plugins);
   stress::StressRequest request = flags.request;
+  const std::string methods = methods_of(flags);
   request.cases = Pattern(cases_of(flags), "--cases");
-  request.methods = Pattern(flags.methods, "--methods");
+  request.methods = Pattern(methods, "--methods");
   request.takes_device = takes_device(flags.device);
   LaterOutput output(flags.output, is_for_reading(flags.output));
   const std::atomic<bool>& stop = os::stop_on_signals();
@@ -115,8 +131,7 @@ ExitCode stress(const StressFlags& flags) {
   };
   const stress::StressResult result = stress::run_stress(request, listener, stop);
   progress.clear();
-  if (result.methods.empty())
-    throw Error("", "--methods", "'" + flags.methods + "' names none" + pattern_hint(flags.methods));
+  if (result.methods.empty()) throw Error("", "--methods", "'" + methods + "' names none" + pattern_hint(methods));
   if (!result.interrupted && result.cases.empty() && result.searches.empty() &&
       (!result.random || !flags.cases.empty()))
     throw Error("", "--cases",
@@ -135,6 +150,13 @@ ExitCode stress(const StressFlags& flags) {
   return failures.empty() ? ExitCode::ok : ExitCode::gate_failed;
 }
 
+// A crash of a plug-in is a fault that was found.
+ExitCode guarded_stress(const StressFlags& flags) {
+  const bool has_plugins = !flags.plugins.empty() || has_plugin_path();
+  return has_plugins ? run_guarded_once(flags.guard, ExitCode::gate_failed, [&] { return stress(flags); })
+                     : stress(flags);
+}
+
 }  // namespace
 
 void add_stress(Command& program, Action& action) {
@@ -147,6 +169,11 @@ void add_stress(Command& program, Action& action) {
                      "Only hard cases of this name, or that match it as a regular expression (H1 .. H35)");
   command.add_option("--methods", flags->methods,
                      "Only methods whose name has this in it, or matches it as a regular expression");
+  add_plugin_option(command, flags->plugins);
+  add_guard_options(command, flags->guard);
+  command.add_option("--shader", flags->shaders,
+                     "FILE, repeatable: your own compute shaders as a method (docs/shaders.md); without --methods only "
+                     "these");
   command.add_option("--device", flags->device,
                      "NAME, UUID or number: also methods that run on a device, on this one, as `clusterbench list "
                      "devices` shows it; without it only those that --methods names, on the best one");
@@ -167,7 +194,7 @@ void add_stress(Command& program, Action& action) {
   command.add_option("--threads", flags->request.threads, "Threads; results do not depend on them").range(1, 1024);
   command.add_option("--failures", flags->failures, "Folder for every loss or fault as a scene and a configuration");
   command.add_flag("-q,--quiet", flags->quiet, "No progress and no table");
-  command.when_named([flags, &action] { action = [flags] { return stress(*flags); }; });
+  command.when_named([flags, &action] { action = [flags] { return guarded_stress(*flags); }; });
 }
 
 }  // namespace clusterbench::cli

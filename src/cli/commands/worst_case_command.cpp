@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/command_line/commands.h"
+#include "cli/options/guarded_command.h"
 #include "cli/options/run_inputs.h"
 #include "cli/options/search_options.h"
 #include "cli/output/duration.h"
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 
 struct WorstCaseFlags {
   RunInputs inputs;
+  GuardFlags guard;
   std::string output, path, filter, measure = "entries";
   SearchFlags search;
   bool quiet = false;
@@ -155,8 +157,11 @@ void add_worst_case(Command& program, Action& action) {
       .shows_standard();
   add_space_options(command, flags->search);
   add_config_options(command, flags->inputs, {"--rounds", "--launches", "--fail-if", k_cost_from});
+  add_guard_options(command, flags->guard);
   command.add_flag("-q,--quiet", flags->quiet, "No progress and no text");
-  command.when_named([flags, &action] { action = [flags] { return worst_case(*flags); }; });
+  command.when_named([flags, &action] {
+    action = [flags] { return guarded_if_needed(flags->inputs, flags->guard, [&] { return worst_case(*flags); }); };
+  });
 }
 
 }  // namespace clusterbench::cli

@@ -8,7 +8,11 @@
 
 #include "cli/output/output.h"
 #include "core/error.h"
+#include "core/file_text.h"
+#include "core/json_document.h"
 #include "core/text.h"
+#include "gpu/user_shaders/shader_file.h"
+#include "plugin/plugins.h"
 #include "report/documents/result_file.h"
 #include "report/results/measured_prices.h"
 #include "run/scene_facts.h"
@@ -48,6 +52,31 @@ std::vector<config::FlagValue> flag_values(const RunInputs& inputs) {
   }
   if (inputs.are_as_shipped) all.push_back({"--set", "as_shipped=true"});
   return all;
+}
+
+namespace {
+
+bool is_of_plugins(const config::FlagValue& flag) {
+  return flag.name == "--plugin" || (flag.name == "--set" && flag.value.starts_with("plugins"));
+}
+
+bool has_plugins(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none) || is_stream_name(path) || is_scene(path)) return false;
+  const auto config = json_or_discarded<nlohmann::json>(file_text(path), JsonComments::allowed);
+  return config.is_object() && config.contains("plugins") && !config["plugins"].empty();
+}
+
+}  // namespace
+
+bool has_plugin_path() {
+  const char* folders = std::getenv(plugin::k_path_variable);
+  return folders != nullptr && *folders != '\0';
+}
+
+bool names_plugins(const RunInputs& inputs) {
+  return std::ranges::any_of(flag_values(inputs), is_of_plugins) || has_plugin_path() ||
+         std::ranges::any_of(inputs.paths, has_plugins);
 }
 
 bool is_scene(const std::string& path) {
@@ -97,6 +126,9 @@ std::vector<std::string> files_of(const RunInputs& inputs, const config::Config&
   std::vector<std::string> files = inputs.paths;
   for (const config::SceneRequest& scene : config.scenes)
     if (!scene.path.empty()) std::ranges::move(files_of_scene(scene.path), std::back_inserter(files));
+  for (const config::MethodRequest& method : config.assigners)
+    if (const auto& origin = assign::find_assigner(method.name)->origin)
+      std::ranges::move(gpu::files_of_shader(origin->file), std::back_inserter(files));
   files.push_back(config.limits.baseline.string());
   return files;
 }

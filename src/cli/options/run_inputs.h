@@ -28,6 +28,12 @@ void add_config_options(Command& command, RunInputs& inputs, const std::vector<s
 // The flags that were given, in the order of config_flags().
 std::vector<config::FlagValue> flag_values(const RunInputs& inputs);
 
+// Whether the command may load plug-ins: by --plugin, --set, the path variable, or a configuration's key `plugins`. A
+// configuration that comes through a pipe is not looked into.
+bool names_plugins(const RunInputs& inputs);
+// Whether the path variable names folders of plug-ins.
+bool has_plugin_path();
+
 bool is_scene(const std::string& path);  // by its extension or its content (scene/gltf_document/exporters.h)
 
 // `first`: flags that apply before those of the command line. `defaults`: replaces the schema's defaults. Throws Error.

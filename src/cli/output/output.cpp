@@ -91,4 +91,8 @@ void LaterOutput::write(const nlohmann::ordered_json& result) {
   if (file_) file_->write(report::compact_json(result));
 }
 
+void LaterOutput::write_text(const std::string& text) {
+  if (file_) file_->write(text);
+}
+
 }  // namespace clusterbench::cli

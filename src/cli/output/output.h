@@ -37,6 +37,7 @@ class LaterOutput {
   // Throws Error if nothing can be written there. `is_none`: nothing is written.
   explicit LaterOutput(const std::string& output, bool is_none = false);
   void write(const nlohmann::ordered_json& result);
+  void write_text(const std::string& text);
 
  private:
   std::unique_ptr<os::OutputFile> file_;

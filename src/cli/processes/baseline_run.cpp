@@ -49,6 +49,51 @@ bool are_same_bytes(const fs::path& a, const fs::path& b) {
   return file_text(a) == file_text(b);
 }
 
+// The cases that are measured: not those that broke.
+run::Plan plan_of_measured(const run::Plan& plan, const result::Result& result) {
+  run::Plan out;
+  out.groups = plan.groups;
+  for (run::GroupPlan& group : out.groups)
+    std::erase_if(group.cases, [&](const run::CasePlan& one) {
+      return std::ranges::find(result.cases, one.id, &result::Case::id) == result.cases.end();
+    });
+  return out;
+}
+
+// After the end of a program at a case of a plug-in: takes the cases of the same method out of the plan, and fails them
+// in the result. False if the case is of no plug-in: then all of the comparison is lost.
+bool go_on_without(const ProgramEnded& end, const config::Config& config, run::Plan& plan, result::Result& result) {
+  for (run::GroupPlan& group : plan.groups) {
+    const auto ended = std::ranges::find(group.cases, end.case_id(), &run::CasePlan::id);
+    if (ended == group.cases.end()) continue;
+    if (run::method_of(config, *ended).plugin.empty()) return false;
+    const run::Method method = ended->method();
+    for (result::Case& one : result.cases) {
+      const auto planned = std::ranges::find(group.cases, one.id, &run::CasePlan::id);
+      if (planned == group.cases.end() || planned->method() != method) continue;
+      one.failures.push_back(
+          {end.has_timed_out() ? "timed_out" : "crashed", std::string("not compared: ") + end.what()});
+      one.eligible = false;
+    }
+    std::erase_if(group.cases, [&](const run::CasePlan& one) { return one.method() == method; });
+    return true;
+  }
+  return false;
+}
+
+std::map<std::string, run::PairedCase> measured_beside(const config::Config& config, run::Plan plan,
+                                                       const run::PairedRequest& request, const run::PairedStart& both,
+                                                       const run::OnPairedRound& on_round, result::Result& result) {
+  while (plan.case_count() > 0) {
+    try {
+      return run::measure_paired(plan, request, both, on_round);
+    } catch (const ProgramEnded& end) {
+      if (!go_on_without(end, config, plan, result)) throw;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 void probe_baseline(const BaselineRequest& request, const std::vector<std::string>& arguments,
@@ -71,8 +116,8 @@ void measure_beside(const BaselineRequest& request, const std::vector<std::strin
                               },
                               [&] { return start(os::k_this_program); }};
   try {
-    const std::map<std::string, run::PairedCase> measured =
-        run::measure_paired(plan, paired_request(request, config), both, on_round);
+    const std::map<std::string, run::PairedCase> measured = measured_beside(
+        config, plan_of_measured(plan, result), paired_request(request, config), both, on_round, result);
     report::add_baseline(result, tool_in(tool, request.binary), measured);
     if (are_same_bytes(other, os::k_this_program)) result.baseline->is_same_program = true;
   } catch (const nlohmann::json::exception& error) {

@@ -23,8 +23,8 @@ void probe_baseline(const BaselineRequest& request, const std::vector<std::strin
                     const std::atomic<bool>& stop);
 
 // Starts both programs with `arguments`, from which this program made its plan, and adds the measurements to the
-// result. Throws Error if the other program cannot do it, breaks down or hangs; with os::stopped_exit_code() once
-// `stop` is true.
+// result. Throws Error if the other program cannot do it, breaks down or hangs, but if one of them does so at a case of
+// a plug-in, that case fails; with os::stopped_exit_code() once `stop` is true.
 void measure_beside(const BaselineRequest& request, const std::vector<std::string>& arguments,
                     const config::Config& config, const run::Plan& plan, const run::OnPairedRound& on_round,
                     const std::atomic<bool>& stop, result::Result& result);

@@ -9,6 +9,7 @@
 #include "cli/processes/handover.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "os/call_notes.h"
 #include "os/file_access.h"
 #include "os/process.h"
 #include "os/temporary_folder.h"
@@ -97,6 +98,7 @@ run::Counts count_under_callgrind(const CountTask& task, const OnCase& on_case, 
         on_case(id);
       },
       stop);
+  if (!stop && !ending.how.empty()) os::end_with_call(ending.wait_status);
   if (!stop && !ending.how.empty())
     throw Error("", k_callgrind, "the run under valgrind failed (" + ending.how + "): " + ending.error_tail);
   return counts;

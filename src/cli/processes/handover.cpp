@@ -2,9 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/config_plugins.h"
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/json_document.h"
+#include "os/call_notes.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -34,12 +36,19 @@ std::string handover_line(const config::Config& config, const run::Plan& plan, s
     scenes.push_back({{"scene_index", i},
                       {"path", path_for_others(config.scenes[i].path)},
                       {"sha256", plan.scenes[i].contents_sha256()}});
-  return Json{{"config", config.resolved}, {"scenes", scenes}}.dump();
+  Json plugins = Json::object();
+  for (const plugin::LoadedPlugin* loaded : config::plugins_of(config)) plugins[loaded->facts.id] = loaded->sha256;
+  return Json{{"config", config.resolved}, {"scenes", scenes}, {"plugins", plugins}, {"notes", os::path_of_notes()}}
+      .dump();
 }
 
 ReceivedRun received_run(const std::string& line, const std::string& file) {
   const Json given = read_json<Json>(line, file);
+  if (const std::string notes = given.value("notes", ""); !notes.empty()) os::join_notes(notes);
   ReceivedRun run{config::parse_config(given["config"].dump(), file == k_no_file ? "" : file), {}};
+  for (const plugin::LoadedPlugin* loaded : config::plugins_of(run.config))
+    if (given["plugins"].value(loaded->facts.id, "") != loaded->sha256)
+      throw Error(loaded->file.string(), "", "has changed since the run began; run again");
   std::vector<config::SceneRequest> scenes;
   for (const Json& scene : given["scenes"]) {
     scenes.push_back(run.config.scenes.at(scene["scene_index"].get<std::size_t>()));

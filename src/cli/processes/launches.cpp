@@ -6,9 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "assign/contract/method_error.h"
 #include "cli/processes/handover.h"
 #include "core/error.h"
 #include "core/json_document.h"
+#include "os/call_notes.h"
 #include "os/process.h"
 #include "run/passes/timing_pass.h"
 
@@ -21,6 +23,7 @@ using run::MethodSamples;
 using run::StoreSamples;
 
 constexpr const char* k_ready = "ready";
+constexpr const char* k_method_error = "method_error";
 
 Json to_json(const StoreSamples& store) {
   return {{"warm_ns", store.warm_ns},
@@ -105,6 +108,22 @@ GroupSamples measured(const config::Config& config, const run::Plan& plan, const
       stop);
 }
 
+Json to_json(const assign::MethodError& error) {
+  return {{"file", error.file()}, {"method", error.method()}, {"message", error.message()}};
+}
+
+assign::MethodError method_error(const Json& json) {
+  return {json.at("file"), json.at("method"), json.at("message")};
+}
+
+Json answer_to(const config::Config& config, const run::Plan& plan, const std::string& request) {
+  try {
+    return to_json(measured(config, plan, Json::parse(request)));
+  } catch (const assign::MethodError& error) {
+    return {{k_method_error, to_json(error)}};
+  }
+}
+
 Json request_for(const run::GroupToTime& group, int launch, int rounds) {
   Json ids = Json::array();
   for (const run::CasePlan& case_plan : group.group->cases) ids.push_back(case_plan.id);
@@ -127,6 +146,7 @@ class Launch {
     const std::optional<std::string> line = next_line();
     if (!line) return std::nullopt;
     Json read = json_or_discarded<Json>(*line);
+    if (read.is_object() && read.contains(k_method_error)) throw method_error(read[k_method_error]);
     if (!read.is_object()) fail("answered '" + line->substr(0, 100) + "'");
     return read;
   }
@@ -142,6 +162,7 @@ class Launch {
     for (int i = 0; i < 20 && !stop_; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (stop_) return std::nullopt;
     const os::Ending ending = child_.end();
+    os::end_with_call(ending.wait_status);
     const bool refuses = ending.exit_code == static_cast<int>(ExitCode::usage);
     fail("ended" + (ending.how.empty() ? "" : " (" + ending.how + ")"), refuses ? ExitCode::usage : ExitCode::internal);
   }
@@ -173,8 +194,7 @@ run::GroupPlan group_to_measure(const run::Plan& plan, const std::vector<std::st
 
 void serve_launch(const config::Config& config, const run::Plan& plan) {
   std::cout << k_ready << std::endl;
-  for (std::string line; std::getline(std::cin, line);)
-    std::cout << to_json(measured(config, plan, Json::parse(line))).dump() << std::endl;
+  for (std::string line; std::getline(std::cin, line);) std::cout << answer_to(config, plan, line).dump() << std::endl;
 }
 
 run::Launcher make_launcher(const config::Config& config, const run::Plan& plan, report::Journal* journal,

@@ -62,10 +62,20 @@ RemoteProgram::RemoteProgram(const std::vector<std::string>& command, double tim
   greet();
 }
 
-void RemoteProgram::fail(const std::string& problem) {
+void RemoteProgram::fail(const std::string& problem) const {
   if (stop_) throw Error(name_, "", "interrupted", os::stopped_exit_code());
   const std::string errors = child_.error_tail();
   throw Error(name_, "--baseline-binary", problem + (errors.empty() ? "" : ": " + errors));
+}
+
+// A request is "measure ID", "frame ID NUMBER" or the like.
+void RemoteProgram::fail_at(const std::string& request, const std::string& problem, bool has_timed_out) const {
+  if (stop_ || tool_.is_null()) fail(problem);
+  std::istringstream words(request);
+  std::string verb, id;
+  words >> verb >> id;
+  const std::string errors = child_.error_tail();
+  throw ProgramEnded(name_, problem + (errors.empty() ? "" : ": " + errors), id, has_timed_out);
 }
 
 void RemoteProgram::greet() {
@@ -91,12 +101,15 @@ Json RemoteProgram::answer(const std::string& request) {
     case os::Conversation::Received::stop:
       fail("interrupted");
     case os::Conversation::Received::timeout:
-      fail("gave no answer to '" + request + "' in " + std::to_string(std::lround(timeout_s_)) + " s");
+      fail_at(request, "gave no answer to '" + request + "' in " + std::to_string(std::lround(timeout_s_)) + " s",
+              true);
     case os::Conversation::Received::end: {
       const std::string ending = child_.end().how;
       const std::string how = ending.empty() ? "" : " (" + ending + ")";
-      fail(tool_.is_null() ? "is no clusterbench that can be measured beside this one; it ended at once" + how
-                           : "ended" + how + " at '" + request + "'");
+      fail_at(request,
+              tool_.is_null() ? "is no clusterbench that can be measured beside this one; it ended at once" + how
+                              : "ended" + how + " at '" + request + "'",
+              false);
     }
   }
   Json read = json_or_discarded<Json>(line);

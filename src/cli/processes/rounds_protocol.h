@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "os/process.h"
 #include "run/cases/plan.h"
 #include "run/timing/paired_rounds.h"
@@ -20,6 +21,20 @@ inline constexpr int k_rounds_protocol = 1;
 
 // Sends the greeting, then answers requests from standard input on standard output, until the input ends.
 void serve_rounds(const config::Config& config, const run::Plan& plan);
+
+// A program that ended, or gave no answer, when it was asked about a case.
+class ProgramEnded : public Error {
+ public:
+  ProgramEnded(const std::string& program, const std::string& problem, std::string case_id, bool has_timed_out)
+      : Error(program, "--baseline-binary", problem), case_id_(std::move(case_id)), has_timed_out_(has_timed_out) {}
+
+  const std::string& case_id() const { return case_id_; }
+  bool has_timed_out() const { return has_timed_out_; }
+
+ private:
+  std::string case_id_;
+  bool has_timed_out_;
+};
 
 // Another program that serves rounds. Throws Error if it cannot be started, does not know the protocol, dies, gives no
 // answer for `timeout_s`, or answers nonsense; with os::stopped_exit_code() once `stop` is true.
@@ -39,7 +54,8 @@ class RemoteProgram : public run::Program {
   nlohmann::ordered_json answer_of(const std::string& request);
   nlohmann::ordered_json answer(const std::string& request);
   void greet();
-  [[noreturn]] void fail(const std::string& problem);
+  [[noreturn]] void fail(const std::string& problem) const;
+  [[noreturn]] void fail_at(const std::string& request, const std::string& problem, bool has_timed_out) const;
 
   std::string name_;
   double timeout_s_;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <iostream>
+#include <map>
+#include <set>
+#include <string>
 
 #include "cli/output/duration.h"
 #include "cli/output/output.h"
@@ -21,17 +24,18 @@ void print_skipped(const std::vector<run::Skipped>& skipped) {
     std::uint64_t others = 0;
   };
   std::vector<Line> lines;
+  std::map<std::string, std::size_t> line_of_reason;
   std::uint64_t other_kinds = 0;
   for (const run::Skipped& skipped_case : skipped) {
     if (skipped_case.is_other_kind) {
       ++other_kinds;
       continue;
     }
-    const auto line = std::ranges::find(lines, skipped_case.reason, &Line::reason);
-    if (line != lines.end())
-      ++line->others;
-    else
+    const auto [line, is_new] = line_of_reason.try_emplace(skipped_case.reason, lines.size());
+    if (is_new)
       lines.push_back({skipped_case.reason, skipped_case.name});
+    else
+      ++lines[line->second].others;
   }
   for (const Line& line : lines)
     std::cout << "skipped  " << printable(line.first)
@@ -44,8 +48,9 @@ void print_skipped(const std::vector<run::Skipped>& skipped) {
 
 // The plan without the cases that an interrupted run has finished.
 run::Plan plan_left(run::Plan plan, const std::vector<std::string>& done) {
+  const std::set<std::string> finished(done.begin(), done.end());
   for (run::GroupPlan& group : plan.groups)
-    std::erase_if(group.cases, [&](const run::CasePlan& one) { return std::ranges::find(done, one.id) != done.end(); });
+    std::erase_if(group.cases, [&](const run::CasePlan& one) { return finished.contains(one.id); });
   std::erase_if(plan.groups, [](const run::GroupPlan& group) { return group.cases.empty(); });
   return plan;
 }

@@ -8,6 +8,7 @@
 #include "cli/output/output.h"
 #include "cli/output/progress_line.h"
 #include "cli/processes/launches.h"
+#include "cli/running/broken_cases.h"
 #include "cli/running/printed_result.h"
 #include "cli/running/run_journal.h"
 #include "cli/running/verdicts.h"
@@ -66,12 +67,21 @@ std::vector<std::string> inputs_kept(const RunFlags& flags, const config::Config
   return inputs;
 }
 
+bool is_left(const run::Plan& plan, const std::vector<std::string>& done) {
+  return !ids_left(plan, done).empty();
+}
+
 run::Listener make_listener(ProgressLine& progress, report::Journal* journal, std::size_t earlier, std::size_t total) {
   run::Listener listener;
   listener.on_progress = [&progress](const run::Progress& now) { progress.show(now); };
   listener.on_case = [&progress, journal, number = earlier, total](const run::CaseResult& done) mutable {
     if (journal != nullptr) journal->add_case(run::record_of(done));
     progress.case_done(done, ++number, total);
+  };
+  listener.on_broken = [&progress, journal](const result::BrokenCase& broken) {
+    if (journal != nullptr) journal->add_broken(broken);
+    progress.clear();
+    print_broken(broken.name, broken.reason);
   };
   return listener;
 }
@@ -92,27 +102,42 @@ class MeasuredRun {
     if (!flags.images.folder.empty()) images_.emplace(flags.images, config, plan, inputs_);
   }
 
-  ExitCode measure(CountWay way) {
+  std::optional<ExitCode> measure(CountWay way) {
     const std::atomic<bool>& stop = os::stop_on_signals();  // before there is anything to save
     const RunJournal journal(flags_, config_, plan_);
+    const std::vector<result::BrokenCase> broken = broken_so_far(flags_, config_, plan_, journal);
+    const std::vector<std::string> done = ids_done(journal, broken);
+    const bool measures = is_left(plan_, done);
     run::Counts counts;
-    if (way != CountWay::none) {
-      counts = counted(way, journal, stop);
+    if (way != CountWay::none && measures) {
+      counts = counted(way, done, stop);
       if (stop) return journal.interrupted();
     }
     ProgressLine progress(screen_, flags_.quiet);
-    run::Result fresh = measured(counts, journal, progress, stop);
+    run::Result fresh = measured(counts, journal, done, progress, stop);
     if (stop) return journal.interrupted();
+    if (flags_.part.can_go_on && measures) {
+      // Plug-ins are unloaded as this process ends, which is part of what they are measured by.
+      os::leave_message(timing_facts(flags_.part.message, fresh));
+      return std::nullopt;
+    }
+    if (flags_.part.can_go_on) set_timing_facts(flags_.part.message, fresh);
     if (!fresh.date.empty()) fresh.command = command_line();
-    result::Result result = report::record_of(fresh, journal.earlier_cases());
+    result::Result result = report::record_of(fresh, journal.earlier_cases(), broken);
     if (!flags_.baseline.binary.empty() && !add_baseline(journal, progress, stop, result)) return journal.interrupted();
     return concluded(journal, stop, result);
   }
 
  private:
+  static std::vector<std::string> ids_done(const RunJournal& journal, const std::vector<result::BrokenCase>& broken) {
+    std::vector<std::string> ids = journal.earlier_ids();
+    for (const result::BrokenCase& one : broken) ids.push_back(one.id);
+    return ids;
+  }
+
   // Counting comes first: errors are reported at once, and no timed work runs at the same time.
-  run::Counts counted(CountWay way, const RunJournal& journal, const std::atomic<bool>& stop) const {
-    const CountTask task{config_, plan_, ids_left(plan_, journal.earlier_ids())};
+  run::Counts counted(CountWay way, const std::vector<std::string>& done, const std::atomic<bool>& stop) const {
+    const CountTask task{config_, plan_, ids_left(plan_, done)};
     ProgressLine progress(screen_, flags_.quiet);
     run::Progress now;
     now.cases_total = task.ids.size();
@@ -130,14 +155,13 @@ class MeasuredRun {
     return counts;
   }
 
-  run::Result measured(const run::Counts& counts, const RunJournal& journal, ProgressLine& progress,
-                       const std::atomic<bool>& stop) const {
-    const std::vector<std::string> earlier = journal.earlier_ids();
+  run::Result measured(const run::Counts& counts, const RunJournal& journal, const std::vector<std::string>& earlier,
+                       ProgressLine& progress, const std::atomic<bool>& stop) const {
     const run::Launcher launcher =
         config_.timing.launches > 1 ? make_launcher(config_, plan_, journal.file(), stop) : run::Launcher{};
     const run::Listener listener = make_listener(progress, journal.file(), earlier.size(), plan_.case_count());
     std::vector<run::GroupCost> costs;
-    if (!flags_.quiet) {
+    if (!flags_.quiet && flags_.part.number == 0) {
       costs = run::estimated_costs(config_, plan_);
       print_duration(config_, plan_, costs);
     }
@@ -175,7 +199,7 @@ class MeasuredRun {
   // Writes all files and prints the result.
   ExitCode concluded(const RunJournal& journal, const std::atomic<bool>& stop, result::Result& result) {
     const Verdicts verdicts = verdicts_of(flags_.baseline, gates_, result);
-    if (journal.file() != nullptr)
+    if (journal.is_kept())
       journal.file()->finish(result);
     else
       output_.write(result::to_json(result));
@@ -187,7 +211,7 @@ class MeasuredRun {
     }
     const ExitCode code = report_verdicts(verdicts, result);
     if (!flags_.quiet) print_conclusion(flags_, result);
-    if (!result.cases.empty()) return code;
+    if (!result.cases.empty() || result.broken) return code;
     print_message("no case was measured to the end");  // a device ended them all
     return ExitCode::usage;
   }
@@ -215,8 +239,8 @@ std::vector<std::string> plan_arguments(const RunFlags& flags) {
   return arguments;
 }
 
-ExitCode measure(const RunFlags& flags, const config::Config& config, const run::Plan& plan, CountWay way,
-                 const std::vector<ExportTarget>& exports) {
+std::optional<ExitCode> measure(const RunFlags& flags, const config::Config& config, const run::Plan& plan,
+                                CountWay way, const std::vector<ExportTarget>& exports) {
   return MeasuredRun(flags, config, plan, exports).measure(way);
 }
 

@@ -46,6 +46,7 @@ void add_run_options(Command& command, RunFlags& flags) {
   command.add_flag("--count{auto}", flags.count,
                    "Count instructions, too: --count=perf (hardware), =callgrind (valgrind), or what works");
   command.add_option("--count-dumps", flags.count_dumps, "").hidden();
+  add_guard_options(command, flags.guard);
   add_baseline_options(command, flags.baseline);
   add_gate_options(command, flags.gates);
   command.add_option("--rounds-server", flags.rounds_server, "").hidden();

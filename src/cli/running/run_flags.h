@@ -8,6 +8,7 @@
 
 #include "cli/command_line/command.h"
 #include "cli/options/gates.h"
+#include "cli/options/guarded_command.h"
 #include "cli/options/picture_files.h"
 #include "cli/options/run_inputs.h"
 #include "cli/processes/baseline_run.h"
@@ -19,6 +20,9 @@ struct RunFlags {
   std::string output, filter, count;
   std::vector<std::string> exports;
   bool resume = false, dry_run = false, no_timing = false, quiet = false;
+
+  GuardFlags guard;
+  GuardedPart part;  // of a run with plug-ins
 
   BaselineRequest baseline;
   GateFlags gates;

@@ -1,6 +1,7 @@
 #include "cli/running/run_journal.h"
 
 #include "cli/output/output.h"
+#include "config/config_plugins.h"
 #include "os/stop_signals.h"
 #include "run/records/records.h"
 #include "run/runner.h"
@@ -26,7 +27,12 @@ Json journal_header(const RunFlags& flags, const config::Config& config, const r
   for (const run::SceneData& data : plan.scenes) scenes.push_back(data.contents_sha256());
   Json header{{"version", tool.version}, {"git_sha", tool.git_sha}, {"flags", tool.flags},
               {"scenes", scenes},        {"filter", flags.filter},  {"config", measured_config(config)}};
+  for (const plugin::LoadedPlugin* loaded : config::plugins_of(config))
+    header["plugins"][loaded->facts.id] = loaded->sha256;
   if (!flags.count.empty()) header["count"] = flags.count;
+  for (const config::MethodRequest& method : config.assigners)
+    if (const auto& origin = assign::find_assigner(method.name)->origin)
+      header["methods"][method.name] = origin->sha256;
   if (const std::optional<gpu::DeviceFacts> device = run::device_of(config, plan))
     header["device"] = {{"name", device->name}, {"driver", device->driver}, {"uuid", device->uuid}};
   return header;
@@ -46,12 +52,16 @@ std::vector<std::string> finished_ids(const RunFlags& flags, const config::Confi
   return report::finished_ids(flags.output, journal_header(flags, config, plan));
 }
 
-RunJournal::RunJournal(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
+RunJournal::RunJournal(const RunFlags& flags, const config::Config& config, const run::Plan& plan)
+    : is_kept_(has_journal(flags)) {
   constexpr std::uint64_t k_bytes_per_case = 24 << 10;
-  if (!has_journal(flags)) return;
+  const std::string file = is_kept_ ? flags.output : flags.part.result_file;
+  if (file.empty()) return;
+  const bool goes_on = flags.part.number > 0;
   const std::uint64_t per_case = k_bytes_per_case + (config.details ? config.details->max_bytes : 0);
-  journal_ = std::make_unique<report::Journal>(flags.output, journal_header(flags, config, plan), flags.resume,
+  journal_ = std::make_unique<report::Journal>(file, journal_header(flags, config, plan), flags.resume || goes_on,
                                                per_case * plan.case_count());
+  if (goes_on) return;
   if (flags.resume && journal_->is_empty())
     print_message("--resume begins anew: nothing that an interrupted run has measured is in " +
                   journal_->partial_path().string());
@@ -68,8 +78,12 @@ std::vector<std::string> RunJournal::earlier_ids() const {
   return journal_ ? journal_->earlier_ids() : std::vector<std::string>{};
 }
 
+std::vector<result::BrokenCase> RunJournal::earlier_broken() const {
+  return journal_ ? journal_->earlier_broken() : std::vector<result::BrokenCase>{};
+}
+
 std::string RunJournal::saved_cases_text() const {
-  if (!journal_ || journal_->is_empty()) return "";
+  if (!is_kept_ || journal_->is_empty()) return "";
   return "; what was measured is in " + journal_->partial_path().string() + ", --resume goes on";
 }
 
@@ -78,7 +92,7 @@ Error RunJournal::with_saved_cases(const Error& error) const {
 }
 
 ExitCode RunJournal::interrupted() const {
-  if (!journal_)
+  if (!is_kept_)
     print_message(
         "interrupted; nothing is kept without a file: -o FILE keeps each case as it is finished, and then --resume "
         "goes on");

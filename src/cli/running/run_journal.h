@@ -18,7 +18,8 @@ namespace clusterbench::cli {
 // Throws Error if the output is no file, and for a journal of another run.
 std::vector<std::string> finished_ids(const RunFlags& flags, const config::Config& config, const run::Plan& plan);
 
-// Of this run. There is no file if the output is a device or a pipe, which get the result at the end.
+// Of this run. If the output is a device or a pipe, which get the result at the end, there is no file, or, of a run
+// with plug-ins, one in a folder that goes with the run.
 class RunJournal {
  public:
   // Starts the file, or with --resume continues it, and prints which file of an earlier run it continues or moves
@@ -26,10 +27,14 @@ class RunJournal {
   RunJournal(const RunFlags& flags, const config::Config& config, const run::Plan& plan);
 
   report::Journal* file() const { return journal_.get(); }  // nullptr: there is none
+  // Whether it is beside the result's file, where it stays after an interruption.
+  bool is_kept() const { return is_kept_; }
 
   // The cases of an interrupted run that this run continues.
   std::vector<result::Case> earlier_cases() const;
   std::vector<std::string> earlier_ids() const;
+  // And those that broke in it.
+  std::vector<result::BrokenCase> earlier_broken() const;
 
   // The same error; its message also names the file with the finished cases.
   Error with_saved_cases(const Error& error) const;
@@ -40,6 +45,7 @@ class RunJournal {
   std::string saved_cases_text() const;
 
   std::unique_ptr<report::Journal> journal_;
+  bool is_kept_ = false;
 };
 
 }  // namespace clusterbench::cli

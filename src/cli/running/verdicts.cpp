@@ -42,6 +42,8 @@ ExitCode report_verdicts(const Verdicts& verdicts, const result::Result& result)
   if (verdicts.comparison) {
     std::cerr << printable_lines(report::comparison_text(*verdicts.comparison));
     code = report::outcome(*verdicts.comparison, false);
+    // where a plug-in broke down in all cases
+    if (code == ExitCode::nothing_comparable && !report::gate_failures(result).empty()) code = ExitCode::gate_failed;
   } else {
     code = report_gates(result);
   }

@@ -2,7 +2,8 @@
 
 #include <filesystem>
 
-#include "cli/output/output.h"
+#include "core/error.h"
+#include "core/text.h"
 #include "dump/write_dump.h"
 #include "pictures/file_names.h"
 #include "run/cases/frame_lights.h"
@@ -43,40 +44,71 @@ std::string dump_name(const std::string& case_name, int frame) {
   return name + "_frame-" + std::to_string(frame);
 }
 
-}  // namespace
+// Writes the cases of a plan, and says which have no dump.
+class DumpWriter {
+ public:
+  DumpWriter(const config::Config& config, const std::string& folder) : config_(config), folder_(folder) {}
 
-std::size_t write_dumps(const config::Config& config, const run::Plan& plan, const std::string& folder, int frames) {
-  std::filesystem::create_directories(folder);
-  std::size_t written = 0;
-  for (const run::GroupPlan& group : plan.groups) {
-    const run::PathFrames path = run::path_of(config, plan, group);
-    const run::PathCulls culls(config, group, path);
-    run::GridOfFrames grids(config.grids[group.grid]);
+  void write_group(const run::Plan& plan, const run::GroupPlan& group, int frames) {
+    const run::PathFrames path = run::path_of(config_, plan, group);
+    const run::PathCulls culls(config_, group, path);
+    run::GridOfFrames grids(config_.grids[group.grid]);
     for (const int index : run::evenly_spaced(frames, path.count())) {
       const view::Frame frame = path.frame(index);
       grids.update(path, frame);
-      const run::FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(grids.grid(), frame)));
-      const auto depths = run::depths_for(config, group, path, frame);
+      const run::FrameLights lights(config_.precisions, view::lights_in(frame, grid::space_of(grids.grid(), frame)));
+      const auto depths = run::depths_for(config_, group, path, frame);
       for (const run::CasePlan& case_plan : group.cases) {
-        const run::Method method = case_plan.method();
-        run::CulledRun run(config, method, culls.of(method));
+        run::CulledRun run(config_, case_plan.method(), culls.of(case_plan.method()));
         if (!run.has_cells() || run.has_occupied_cells()) {
-          print_message(case_plan.name + ": no dump: its structure has no lists of the grid's cells");
+          leave_out(case_plan.name, "its structure has no lists of the grid's cells");
           continue;
         }
-        const view::LightArrays& packed = lights.in_precision(method.precision);
+        const view::LightArrays& packed = lights.in_precision(case_plan.method().precision);
         run.build(grids.grid(), assign::kinds_of(packed));
         run.assign(frame, packed, depths.get());
-        dump::MadeDump made = dump::make_dump(
-            frame, grids.grid(), described_lists(config, case_plan, run.cell_lists(), grids.grid(), frame.ranges()));
-        made.record.name = case_plan.name + ", frame " + std::to_string(frame.index);
-        made.record.engine = "clusterbench";
-        dump::write_dump(std::move(made), folder, dump_name(case_plan.name, frame.index));
-        ++written;
+        write_case(case_plan, frame, grids.grid(), run.cell_lists());
       }
     }
   }
-  return written;
+  const WrittenDumps& written() const { return written_; }
+
+ private:
+  void leave_out(const std::string& case_name, const std::string& reason) {
+    add_once(case_name + ": no dump: " + reason, written_.left_out);
+  }
+
+  void write_case(const run::CasePlan& plan, const view::Frame& frame, const grid::Grid& grid,
+                  const assign::Lists& lists) {
+    std::optional<dump::MadeDump> made;
+    try {
+      made = dump::make_dump(frame, grid, described_lists(config_, plan, lists, grid, frame.ranges()));
+    } catch (const Error& error) {
+      return leave_out(plan.name, error.message());
+    }
+    made->record.name = plan.name + ", frame " + std::to_string(frame.index);
+    made->record.engine = "clusterbench";
+    dump::write_dump(std::move(*made), folder_, dump_name(plan.name, frame.index));
+    ++written_.count;
+  }
+
+  const config::Config& config_;
+  const std::string& folder_;
+  WrittenDumps written_;
+};
+
+}  // namespace
+
+WrittenDumps write_dumps(const config::Config& config, const run::Plan& plan, const std::string& folder, int frames) {
+  std::filesystem::create_directories(folder);
+  DumpWriter writer(config, folder);
+  for (const run::GroupPlan& group : plan.groups) writer.write_group(plan, group, frames);
+  if (writer.written().count == 0)
+    throw Error(
+        "", "--write-dump",
+        "has written no dump" + (writer.written().left_out.empty() ? std::string(": the plan has no cases")
+                                                                   : "; " + joined(writer.written().left_out, "; ")));
+  return writer.written();
 }
 
 }  // namespace clusterbench::cli

@@ -2,12 +2,19 @@
 // `clusterbench run --write-dump FOLDER`: the lists of a plan's cases as dumps for `clusterbench check`.
 
 #include <string>
+#include <vector>
 
 #include "run/cases/plan.h"
 
 namespace clusterbench::cli {
 
-// `frames`: of each case, evenly spaced on its path. Returns how many dumps were written. Throws Error.
-std::size_t write_dumps(const config::Config& config, const run::Plan& plan, const std::string& folder, int frames);
+struct WrittenDumps {
+  std::size_t count = 0;
+  std::vector<std::string> left_out;  // cases with the reason, each once
+};
+
+// `frames`: of each case, evenly spaced on its path. Throws Error if a file cannot be written, and if no case has lists
+// that a dump describes.
+WrittenDumps write_dumps(const config::Config& config, const run::Plan& plan, const std::string& folder, int frames);
 
 }  // namespace clusterbench::cli

@@ -14,8 +14,10 @@
 #include "result/documents/comparison.h"
 #include "result/documents/dump.h"
 #include "result/documents/light_map.h"
+#include "result/documents/plugin_check.h"
 #include "result/documents/ratios.h"
 #include "result/documents/recommendation.h"
+#include "result/documents/shader.h"
 #include "result/documents/size.h"
 #include "result/documents/stress.h"
 #include "result/documents/worst_case.h"
@@ -134,7 +136,7 @@ Json result_schema() {
 }
 
 std::span<const DocumentRow> document_rows() {
-  static const std::array<DocumentRow, 11> rows{{
+  static const std::array<DocumentRow, 13> rows{{
       {Document::config, "config", "a configuration", config_schema},
       {Document::result, "result", "a result of `clusterbench run`", result_schema},
       {Document::comparison, "comparison", "a comparison of `clusterbench compare`",
@@ -148,14 +150,18 @@ std::span<const DocumentRow> document_rows() {
       {Document::light_map, "light-map", "light maps of `clusterbench light-map`", json_of<result::light_map_schema>},
       {Document::dump, "dump", "a dump for `clusterbench check`", json_of<result::dump_schema>},
       {Document::check, "check", "a verdict of `clusterbench check`", json_of<result::check_schema>},
+      {Document::plugin_check, "plugin-check", "a verdict of `clusterbench plugin check`",
+       json_of<result::plugin_check_schema>},
+      {Document::shader, "shader", "a method of --shader", json_of<result::shader_schema>},
   }};
   return rows;
 }
 
 void check_version(const std::string& path, const Json& document, const DocumentRow& row) {
   const Json schema = row.schema();
-  for (const char* key : {"schema_version", "comparison_version", "ratios_version", "recommendation_version",
-                          "size_version", "light_map_version", "dump_version", "check_version"}) {
+  for (const char* key :
+       {"schema_version", "comparison_version", "ratios_version", "recommendation_version", "size_version",
+        "light_map_version", "dump_version", "check_version", "plugin_check_version", "shader_version"}) {
     if (!document.contains(key) || !schema["properties"].contains(key)) continue;
     const Json &found = document[key], &wanted = schema["properties"][key]["const"];
     if (found == wanted) continue;

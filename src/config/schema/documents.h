@@ -18,7 +18,9 @@ enum class Document {
   size,
   light_map,
   dump,
-  check
+  check,
+  plugin_check,
+  shader
 };
 
 struct DocumentRow {
@@ -42,6 +44,8 @@ Document document_of(const Json& value) {
   if (value.contains("light_map_version")) return Document::light_map;
   if (value.contains("dump_version")) return Document::dump;
   if (value.contains("check_version")) return Document::check;
+  if (value.contains("plugin_check_version")) return Document::plugin_check;
+  if (value.contains("shader_version")) return Document::shader;
   if (!value.contains("schema_version") || !value.contains("cases")) return Document::config;
   return value.contains("kind") && value["kind"] == "stress" ? Document::stress : Document::result;
 }

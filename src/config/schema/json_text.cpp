@@ -125,7 +125,8 @@ class Scanner {
 
 nlohmann::json parsed(const std::string& text, const std::string& file) {
   nlohmann::json value;
-  if (const std::optional<JsonFault> fault = parse_json(text, value, JsonComments::allowed))
+  const std::optional<JsonFault> fault = parse_json(text, value, JsonComments::allowed);
+  if (fault && !fault->is_repeated_key)  // the reader of positions names both keys
     throw Error(file, to_text(position_of(text, fault->byte), ""), fault->message);
   return value;
 }

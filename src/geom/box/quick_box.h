@@ -2,7 +2,6 @@
 // An oriented box in double precision: a filter that decides most cells and points.
 
 #include <array>
-#include <glm/geometric.hpp>
 
 #include "geom/shapes/light_volume.h"
 #include "geom/shapes/vec.h"

@@ -1,16 +1,26 @@
 #pragma once
-// Exact numbers: floats, doubles, and results of + - * / on them.
+// Exact numbers: floats, doubles, and results of + - * / on them. They are Boost's; where the library for engines is
+// built without Boost, its own (CLUSTERBENCH_OWN_NUMBERS).
 
+#if CLUSTERBENCH_OWN_NUMBERS
+#include "geom/numbers/own_rational.h"
+#else
 #include <boost/multiprecision/cpp_int.hpp>
+#endif
 
 #include "geom/numbers/point3.h"
 #include "geom/numbers/square_roots.h"
 
 namespace clusterbench::geom {
 
+#if CLUSTERBENCH_OWN_NUMBERS
+using own_numbers::Integer;
+using own_numbers::Rational;
+#else
 using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
 using Rational =
     boost::multiprecision::number<boost::multiprecision::cpp_rational::backend_type, boost::multiprecision::et_off>;
+#endif
 using RationalPoint = Point3<Rational>;
 
 // value: finite.

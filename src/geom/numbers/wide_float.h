@@ -1,7 +1,11 @@
 #pragma once
 // Floating point with 256, 1024 and 3072 bits, for the search of evidence that is then proven in exact numbers.
 
+#if CLUSTERBENCH_OWN_NUMBERS
+#include "geom/numbers/own_float.h"
+#else
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#endif
 #include <cmath>
 
 #include "geom/numbers/point3.h"
@@ -10,10 +14,15 @@
 
 namespace clusterbench::geom {
 
+#if CLUSTERBENCH_OWN_NUMBERS
+template <unsigned bits>
+using FloatOf = own_numbers::Float<bits>;
+#else
 template <unsigned bits>
 using FloatOf =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<bits, boost::multiprecision::digit_base_2>,
                                   boost::multiprecision::et_off>;
+#endif
 
 using Float256 = FloatOf<256>;
 using Float1024 = FloatOf<1024>;

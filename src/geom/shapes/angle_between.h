@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "geom/shapes/vec.h"
 

@@ -1,7 +1,6 @@
 #include "geom/shapes/plane_side.h"
 
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "geom/numbers/dyadic.h"
 #include "geom/numbers/point3.h"

@@ -3,6 +3,7 @@
 // Device::Impl (gpu/vulkan).
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -22,6 +23,13 @@ class DeviceError : public Error {
   explicit DeviceError(std::string message) : Error("", "device", std::move(message)) {}
 };
 
+// What a user's shader left cannot be read. The device is as well as before; the fault is the shader's, and fails the
+// run.
+class ShaderFault : public DeviceError {
+ public:
+  using DeviceError::DeviceError;
+};
+
 // A compute pipeline: a shader with the size of its groups and its mode (both specialization constants).
 using Kernel = std::uint32_t;
 
@@ -29,7 +37,7 @@ class Device {
  public:
   // The device that chosen_device() or, where a device was open before, same_device() takes. Throws Error with the
   // reason if there is none.
-  explicit Device(const std::string& wanted, const DeviceFacts* before = nullptr);
+  explicit Device(const std::string& wanted, const DeviceFacts* before = nullptr, bool has_robust_buffers = false);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -59,6 +67,9 @@ void close_device();
 // The device of this process: opened at the first call, and closed by use_device() and close_device() alone. All
 // methods and threads of a run share it. Throws Error with the reason if there is none.
 Device& device();
+// From the next device() on, reads and writes beyond buffers are harmless in all shaders, where this cannot be asked of
+// single ones (DeviceFacts::has_pipeline_robustness). It may cost time.
+void use_robust_buffers();
 // The reason why device() throws; "" if it does not.
 std::string device_obstacle();
 
@@ -83,6 +94,7 @@ class Buffers {
 
   struct Impl;
   Impl& impl() { return *impl_; }
+  const Impl& impl() const { return *impl_; }
 
  private:
   std::unique_ptr<Impl> impl_;
@@ -96,6 +108,8 @@ struct Arguments {
 // Commands that are recorded, then run once. Steps within a dispatch run in any order; what a later step reads of an
 // earlier one needs a barrier() between them. Threads take turns: from the constructor to the end of run() the device
 // belongs to this recording.
+class Program;
+
 class Commands {
  public:
   Commands(Device& device, Buffers& buffers);
@@ -107,6 +121,8 @@ class Commands {
   void use(Buffers& buffers);
   // Groups are spread over two dimensions beyond 65,535: shaders number them by group_index().
   void dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t groups);
+  // `arguments`: as many bytes as the program has. Kernels that follow in this recording see no buffers.
+  void dispatch(const Program& program, std::span<const std::byte> arguments, std::array<std::uint32_t, 3> groups);
   void barrier();
   // Fills memory that nothing else uses, and waits, so that no cache holds what comes next. No step of the work.
   void flush();

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "gpu/device/device.h"
+#include "gpu/device/program.h"
 
 #ifndef CLUSTERBENCH_GPU_OBSTACLE
 #define CLUSTERBENCH_GPU_OBSTACLE "this clusterbench was built without Vulkan"
@@ -18,12 +19,13 @@ namespace {
 
 struct Device::Impl {};
 struct Buffers::Impl {};
+struct Program::Impl {};
 
 DeviceList list_devices() {
   return {{}, CLUSTERBENCH_GPU_OBSTACLE};
 }
 
-Device::Device(const std::string&, const DeviceFacts*) {
+Device::Device(const std::string&, const DeviceFacts*, bool) {
   refuse();
 }
 Device::~Device() = default;
@@ -56,11 +58,20 @@ void Buffers::borrow(std::uint32_t, const Buffers&) {}
 std::uint64_t Buffers::all_bytes() const {
   return 0;
 }
+Program::Program(Device&, const ProgramCode&) {
+  refuse();
+}
+Program::~Program() = default;
+void Program::bind(const Buffers&, std::span<const std::uint64_t>) {}
+std::vector<assign::ShaderStatistic> Program::statistics() const {
+  return {};
+}
 Commands::Commands(Device& device, Buffers& buffers) : device_(device.impl()), buffers_(buffers.impl()) {}
 void Commands::upload(std::uint32_t, const void*, std::uint64_t) {}
 void Commands::use(Buffers&) {}
 void Commands::fill(std::uint32_t, std::uint32_t, std::uint64_t) {}
 void Commands::dispatch(Kernel, const Arguments&, std::uint64_t) {}
+void Commands::dispatch(const Program&, std::span<const std::byte>, std::array<std::uint32_t, 3>) {}
 void Commands::barrier() {}
 void Commands::flush() {}
 std::uint32_t Commands::mark() {

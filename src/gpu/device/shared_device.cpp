@@ -14,6 +14,7 @@ struct Shared {
   std::optional<DeviceFacts> before;  // of the first device that these words named
   std::unique_ptr<Device> device;
   std::string obstacle;
+  bool has_robust_buffers = false;
 };
 
 // Never destroyed: at the end of the process the threads of some drivers have ended before its statics are destroyed.
@@ -26,7 +27,7 @@ Shared& shared() {
 Device& opened(Shared& now) {
   if (now.device) return *now.device;
   try {
-    now.device = std::make_unique<Device>(now.wanted, now.before ? &*now.before : nullptr);
+    now.device = std::make_unique<Device>(now.wanted, now.before ? &*now.before : nullptr, now.has_robust_buffers);
     now.before = now.device->facts();
   } catch (const DeviceError&) {
     throw;
@@ -46,6 +47,12 @@ void use_device(const std::string& wanted) {
   now.before.reset();
   now.device.reset();
   now.obstacle.clear();
+}
+
+void use_robust_buffers() {
+  Shared& now = shared();
+  const std::lock_guard turn(now.busy);
+  now.has_robust_buffers = true;
 }
 
 void close_device() {

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "gpu/vulkan/device_impl.h"
+#include "gpu/vulkan/program_impl.h"
 
 namespace clusterbench::gpu {
 namespace {
@@ -67,6 +68,20 @@ void Commands::dispatch(Kernel kernel, const Arguments& arguments, std::uint64_t
                      arguments.words.data());
   vkCmdDispatch(device_.commands, static_cast<std::uint32_t>(in_a_row),
                 static_cast<std::uint32_t>((groups + in_a_row - 1) / in_a_row), 1);
+}
+
+void Commands::dispatch(const Program& program, std::span<const std::byte> arguments,
+                        std::array<std::uint32_t, 3> groups) {
+  if (groups[0] == 0 || groups[1] == 0 || groups[2] == 0) return;
+  has_work_ = true;
+  const Program::Impl& of = program.impl();
+  vkCmdBindPipeline(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, of.pipeline);
+  vkCmdBindDescriptorSets(device_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, of.layout, 0,
+                          static_cast<std::uint32_t>(of.sets.size()), of.sets.data(), 0, nullptr);
+  if (!arguments.empty())
+    vkCmdPushConstants(device_.commands, of.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                       static_cast<std::uint32_t>(arguments.size()), arguments.data());
+  vkCmdDispatch(device_.commands, groups[0], groups[1], groups[2]);
 }
 
 void Commands::barrier() {

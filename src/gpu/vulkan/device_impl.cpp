@@ -8,12 +8,14 @@
 #include "gpu/device/device_choice.h"
 #include "gpu/device/span_length.h"
 #include "gpu/vulkan/shader_code.h"
+#include "gpu/vulkan/shader_features.h"
 #include "gpu/vulkan/shader_needs.h"
 #include "gpu/vulkan/shader_statistics.h"
 
 namespace clusterbench::gpu {
 
-Device::Device(const std::string& wanted, const DeviceFacts* before) : impl_(std::make_unique<Impl>(wanted, before)) {}
+Device::Device(const std::string& wanted, const DeviceFacts* before, bool has_robust_buffers)
+    : impl_(std::make_unique<Impl>(wanted, before, has_robust_buffers)) {}
 Device::~Device() = default;
 
 const DeviceFacts& Device::facts() const {
@@ -44,13 +46,13 @@ std::uint64_t Device::reserve_flushed() {
   return memory.bytes;
 }
 
-Device::Impl::Impl(const std::string& wanted, const DeviceFacts* before) : Impl() {
+Device::Impl::Impl(const std::string& wanted, const DeviceFacts* before, bool has_robust_buffers) : Impl() {
   const DeviceList list = list_devices();
   const std::size_t index = before != nullptr ? same_device(list, *before) : chosen_device(list, wanted);
   physical = physical_devices().at(index);
   PhysicalDevice found = facts_of(physical);
   facts = std::move(found.facts);
-  create_device(found.queue_family);
+  create_device(found.queue_family, has_robust_buffers);
   create_layout();
 }
 
@@ -67,7 +69,8 @@ Device::Impl::~Impl() {
   vkDestroyDevice(device, nullptr);
 }
 
-void Device::Impl::create_device(std::uint32_t queue_family) {
+void Device::Impl::create_device(std::uint32_t queue_family, bool has_robust_buffers) {
+  ShaderFeatures optional(physical);
   VkPhysicalDeviceVulkan13Features features13{};
   features13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
   features13.synchronization2 = VK_TRUE;
@@ -75,8 +78,18 @@ void Device::Impl::create_device(std::uint32_t queue_family) {
   features13.subgroupSizeControl = features13.computeFullSubgroups = facts.has_full_subgroups ? VK_TRUE : VK_FALSE;
   VkPhysicalDeviceFeatures2 features{};
   features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+  features.features = optional.base.features;
+  features.features.robustBufferAccess = has_robust_buffers && !facts.has_pipeline_robustness ? VK_TRUE : VK_FALSE;
+  features13.pNext = &optional.features11;
   features.pNext = &features13;
   std::vector<const char*> extensions;
+  VkPhysicalDevicePipelineRobustnessFeaturesEXT robustness{};
+  robustness.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_ROBUSTNESS_FEATURES_EXT;
+  robustness.pipelineRobustness = VK_TRUE;
+  if (facts.has_pipeline_robustness) {
+    extensions.push_back(VK_EXT_PIPELINE_ROBUSTNESS_EXTENSION_NAME);
+    robustness.pNext = std::exchange(features.pNext, &robustness);
+  }
   VkPhysicalDeviceShaderClockFeaturesKHR clock{};
   clock.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_CLOCK_FEATURES_KHR;
   clock.shaderSubgroupClock = VK_TRUE;
@@ -205,13 +218,17 @@ VkPipeline Device::Impl::create_pipeline(const std::string& shader, std::uint32_
 }
 
 std::vector<assign::ShaderStatistic> Device::Impl::statistics(Kernel kernel) const {
-  std::vector<assign::ShaderStatistic> out;
-  if (!facts.tells_shader_statistics) return out;
   const auto& [shader, group_size, mode] =
       std::ranges::find(kernels, kernel, [](const auto& entry) { return entry.second; })->first;
+  return statistics_of(pipelines.at(kernel), shader + (mode == 0 ? "" : ", mode " + std::to_string(mode)));
+}
+
+std::vector<assign::ShaderStatistic> Device::Impl::statistics_of(VkPipeline of, const std::string& shader) const {
+  std::vector<assign::ShaderStatistic> out;
+  if (!facts.tells_shader_statistics) return out;
   VkPipelineInfoKHR pipeline{};
   pipeline.sType = VK_STRUCTURE_TYPE_PIPELINE_INFO_KHR;
-  pipeline.pipeline = pipelines.at(kernel);
+  pipeline.pipeline = of;
   std::uint32_t executables = 0;
   check(vkGetPipelineExecutablePropertiesKHR(device, &pipeline, &executables, nullptr),
         "vkGetPipelineExecutablePropertiesKHR");
@@ -227,7 +244,7 @@ std::vector<assign::ShaderStatistic> Device::Impl::statistics(Kernel kernel) con
     std::vector<VkPipelineExecutableStatisticKHR> told(count, empty);
     check(vkGetPipelineExecutableStatisticsKHR(device, &info, &count, told.data()),
           "vkGetPipelineExecutableStatisticsKHR");
-    add_statistics(std::span(told).first(count), shader + (mode == 0 ? "" : ", mode " + std::to_string(mode)), out);
+    add_statistics(std::span(told).first(count), shader, out);
   }
   return out;
 }
@@ -251,7 +268,7 @@ Memory Device::Impl::allocate(std::uint64_t bytes, Place place) const {
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = made.bytes;
   info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  if (place == Place::device) info.usage |= VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+  if (place == Place::device) info.usage |= VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
   try {
     check(vkCreateBuffer(device, &info, nullptr, &made.buffer), "vkCreateBuffer");
     VkMemoryRequirements needs{};

@@ -22,7 +22,7 @@ struct Memory {
 enum class Place : std::uint8_t { device, host_writes, host_reads };
 
 struct Device::Impl {
-  Impl(const std::string& wanted, const DeviceFacts* before);
+  Impl(const std::string& wanted, const DeviceFacts* before, bool has_robust_buffers);
   ~Impl();
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
@@ -31,6 +31,8 @@ struct Device::Impl {
   void free(Memory& memory) const;
   Kernel kernel(const std::string& shader, std::uint32_t group_size, std::uint32_t mode);
   std::vector<assign::ShaderStatistic> statistics(Kernel kernel) const;
+  // Of a pipeline; `shader`: what the statistics are of.
+  std::vector<assign::ShaderStatistic> statistics_of(VkPipeline pipeline, const std::string& shader) const;
   std::string obstacle(const std::string& shader) const;
 
   static constexpr std::uint32_t k_marks = 66;
@@ -54,7 +56,7 @@ struct Device::Impl {
 
  private:
   Impl() = default;  // what is complete is destroyed, however far the constructor after it comes
-  void create_device(std::uint32_t queue_family);
+  void create_device(std::uint32_t queue_family, bool has_robust_buffers);
   void create_layout();
   VkPipeline create_pipeline(const std::string& shader, std::uint32_t group_size, std::uint32_t mode) const;
   std::uint32_t memory_type(std::uint32_t allowed, Place place) const;

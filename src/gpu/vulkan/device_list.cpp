@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "gpu/device/device.h"
+#include "gpu/vulkan/shader_features.h"
 #include "gpu/vulkan/vulkan.h"
 
 namespace clusterbench::gpu {
@@ -84,7 +85,12 @@ void add_extras(VkPhysicalDevice device, DeviceFacts& facts) {
   if (has_extension(all, VK_KHR_SHADER_CLOCK_EXTENSION_NAME)) clock.pNext = std::exchange(features.pNext, &clock);
   if (has_extension(all, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME))
     told.pNext = std::exchange(features.pNext, &told);
+  VkPhysicalDevicePipelineRobustnessFeaturesEXT robustness{};
+  robustness.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_ROBUSTNESS_FEATURES_EXT;
+  if (has_extension(all, VK_EXT_PIPELINE_ROBUSTNESS_EXTENSION_NAME))
+    robustness.pNext = std::exchange(features.pNext, &robustness);
   vkGetPhysicalDeviceFeatures2(device, &features);
+  facts.has_pipeline_robustness = robustness.pipelineRobustness != VK_FALSE;
   facts.has_shader_clock = clock.shaderSubgroupClock != VK_FALSE;
   facts.tells_shader_statistics = told.pipelineExecutableInfo != VK_FALSE;
 }
@@ -129,6 +135,13 @@ PhysicalDevice facts_of(VkPhysicalDevice device) {
   facts.max_buffer_bytes = limits.maxStorageBufferRange;
   facts.max_group_size = limits.maxComputeWorkGroupInvocations;
   facts.shared_bytes = limits.maxComputeSharedMemorySize;
+  std::ranges::copy(limits.maxComputeWorkGroupSize, facts.max_group_sizes.begin());
+  std::ranges::copy(limits.maxComputeWorkGroupCount, facts.max_groups.begin());
+  facts.max_argument_bytes = limits.maxPushConstantsSize;
+  facts.max_sets = limits.maxBoundDescriptorSets;
+  facts.max_storage_buffers = limits.maxPerStageDescriptorStorageBuffers;
+  facts.max_uniform_buffers = limits.maxPerStageDescriptorUniformBuffers;
+  facts.max_uniform_bytes = limits.maxUniformBufferRange;
   facts.subgroup_size = properties11.subgroupSize;
   facts.timestamp_period_ns = static_cast<double>(limits.timestampPeriod);
   facts.rounds_to_nearest =
@@ -138,6 +151,13 @@ PhysicalDevice facts_of(VkPhysicalDevice device) {
   const VkSubgroupFeatureFlags operations = has_subgroups ? properties11.subgroupSupportedOperations : 0;
   facts.has_ballots = (operations & VK_SUBGROUP_FEATURE_BALLOT_BIT) != 0;
   facts.has_subgroup_arithmetic = facts.has_ballots && (operations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) != 0;
+  facts.capabilities = ShaderFeatures(device).capabilities(operations);
+  if (properties12.shaderDenormPreserveFloat32 != 0) facts.capabilities.push_back(4464);
+  if (properties12.shaderDenormFlushToZeroFloat32 != 0) facts.capabilities.push_back(4465);
+  if (properties12.shaderSignedZeroInfNanPreserveFloat32 != 0) facts.capabilities.push_back(4466);
+  if (properties12.shaderRoundingModeRTEFloat32 != 0) facts.capabilities.push_back(4467);
+  if (properties12.shaderRoundingModeRTZFloat32 != 0) facts.capabilities.push_back(4468);
+  std::ranges::sort(facts.capabilities);
   add_extras(device, facts);
   found.queue_family = compute_family(families);
   if (found.queue_family < count) facts.timestamp_bits = families[found.queue_family].timestampValidBits;

@@ -36,6 +36,7 @@ void BufferMeter::add_frame(int frame, const assign::LightStructure& structure, 
   raise(laid_out_entries_, use.index_bytes * 8 / structure.index_bits());
   sum_.dropped_pairs += use.dropped_pairs;
   sum_.overflowing_cells += use.overflowing_cells;
+  sum_.repeated_pairs += use.repeated_pairs;
   if (use.dropped_pairs > 0) ++sum_.overflowing_frames;
   sum_.fallback_cells += use.fallback_cells;
   if (use.fallback_cells > 0) ++sum_.fallback_frames;

@@ -45,6 +45,7 @@ struct Buffers {
   std::uint64_t traffic_bytes_max = 0;
   std::uint64_t dropped_pairs = 0, overflowing_cells = 0;
   int overflowing_frames = 0;
+  std::uint64_t repeated_pairs = 0;  // a light in a list where it is already
   std::set<std::uint32_t> dropped_lights;
   std::uint64_t fallback_cells = 0;  // cells without room that read the list of all lights, over all frames
   int fallback_frames = 0;

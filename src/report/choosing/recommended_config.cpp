@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "config/config_plugins.h"
 #include "core/error.h"
 #include "result/at.h"
 
@@ -58,6 +59,7 @@ Json recommended_config(const config::Config& config, const search::View& view, 
   out["scenes"] = Json::array({scene_json(config, view.scene, file)});
   out["viewports"] = Json::array({Json(answer.viewport)});
   for (const char* key : {"presets", "as_shipped"}) out.erase(key);
+  config::name_plugins(config, out);
   for (const char* key : {"grids", "assigners", "storages", "precision"}) out[key] = Json::array();
   for (int i = 0; i <= runners_up && i <= static_cast<int>(answer.runners_up.size()); ++i) {
     const result::Candidate& record = i == 0 ? *answer.choice : answer.runners_up[static_cast<std::size_t>(i) - 1];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/text.h"
 #include "report/cases/columns.h"
@@ -18,6 +19,7 @@
 namespace clusterbench::report {
 namespace {
 
+using result::BrokenCase;
 using result::Case;
 using result::ComparedCase;
 using result::Comparison;
@@ -64,8 +66,23 @@ std::string percent_of_ratio(double ratio) {
   return std::isfinite(ratio) ? text("%+.1f %%", 100.0 * (ratio - 1.0)) : "-";
 }
 
-std::vector<std::string> failures_of(const Result& next, const std::vector<ComparedCase>& cases) {
+// Cases of the base that broke in the new result.
+std::vector<BrokenCase> broken_of(const Result& base, const Result& next) {
+  std::vector<BrokenCase> out;
+  if (!next.broken) return out;
+  const auto is_of_base = [&](const BrokenCase& broken) {
+    return std::ranges::find(base.cases, broken.id, &Case::id) != base.cases.end() ||
+           (base.broken && std::ranges::find(*base.broken, broken.id, &BrokenCase::id) != base.broken->end());
+  };
+  std::ranges::copy_if(*next.broken, std::back_inserter(out), is_of_base);
+  return out;
+}
+
+std::vector<std::string> failures_of(const Result& base, const Result& next, const std::vector<ComparedCase>& cases) {
   std::vector<std::string> failures = gate_failures(next);
+  for (const BrokenCase& broken : broken_of(base, next))
+    if (std::ranges::find(base.cases, broken.id, &Case::id) != base.cases.end())
+      failures.push_back(shown(broken.name) + ": the base has figures of it, and the new result has none");
   for (const ComparedCase& compared_case : cases) {
     const std::string name = shown(compared_case.name);
     const auto& verdict = compared_case.verdict;
@@ -110,8 +127,8 @@ Comparison compare_results(const Result& base, const Result& next, double thresh
                  .threshold = threshold,
                  .data = is_paired ? "paired" : "separate",
                  .time = is_paired ? "assign" : "frame",
-                 .base = {is_paired ? next.baseline->tool : base.tool},
-                 .next = {next.tool},
+                 .base = {is_paired ? next.baseline->tool : base.tool, base.plugins},
+                 .next = {next.tool, next.plugins},
                  .left_out = omitted.parts};
   const bool is_same_program = is_paired && next.baseline->is_same_program.value_or(false);
   if (is_same_program) out.is_same_program = true;
@@ -123,14 +140,15 @@ Comparison compare_results(const Result& base, const Result& next, double thresh
   out.only_in_new = names_of(only_in_new);
   out.renamed = renamed_cases(base, only_in_base, next, only_in_new);
   out.not_compared = parts_of_one(matches);
-  out.failures = failures_of(next, out.cases);
+  if (std::vector<BrokenCase> broken = broken_of(base, next); !broken.empty()) out.broken = std::move(broken);
+  out.failures = failures_of(base, next, out.cases);
   out.warnings = warnings_of(base, next, out, is_one, omitted.forced, options.gates_separate);
   if (const std::vector<std::string> advice = advice_on(out); !advice.empty()) out.advice = advice;
   return out;
 }
 
 ExitCode outcome(const Comparison& comparison, bool is_strict) {
-  if (comparison.cases.empty()) return ExitCode::nothing_comparable;
+  if (comparison.cases.empty() && !comparison.broken) return ExitCode::nothing_comparable;
   if (!comparison.failures.empty()) return ExitCode::gate_failed;
   const bool is_open = comparison.summary.inconclusive != 0 || !comparison.only_in_base.empty() ||
                        comparison.left_out.instructions || is_gated_part_missing(comparison);

@@ -20,8 +20,8 @@ struct CompareOptions {
 result::Comparison compare_results(const result::Result& base, const result::Result& next, double threshold,
                                    const CompareOptions& options = {});
 
-// ok, gate_failed (a failure), nothing_comparable (no common case); with `is_strict` inconclusive if a verdict is, if a
-// case of the base is missing, or if instructions could not be compared.
+// ok, gate_failed (a failure), nothing_comparable (no common case, and none of the base that broke); with `is_strict`
+// inconclusive if a verdict is, if a case of the base is missing, or if instructions could not be compared.
 ExitCode outcome(const result::Comparison& comparison, bool is_strict);
 
 // As a table for terminals, and for a pull request.

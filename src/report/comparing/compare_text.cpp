@@ -46,6 +46,26 @@ std::string heading(const Comparison& comparison) {
          kind_of_times(comparison) + ", threshold " + text("%g", 100.0 * comparison.threshold) + " %";
 }
 
+std::string build_of(const result::Plugin& plugin) {
+  constexpr std::size_t k_digits = 12;
+  return plugin.version + " (" + plugin.file + ", sha256 " + plugin.sha256.substr(0, k_digits) + ")";
+}
+
+// A line for each plug-in that both results have: whether it is the same build.
+std::vector<std::string> plugin_lines(const Comparison& comparison) {
+  std::vector<std::string> lines;
+  const std::vector<result::Plugin> none;
+  for (const result::Plugin& before : comparison.base.plugins ? *comparison.base.plugins : none)
+    for (const result::Plugin& now : comparison.next.plugins ? *comparison.next.plugins : none) {
+      if (before.id != now.id) continue;
+      const std::string name = "plug-in " + shown(before.id) + ": ";
+      lines.push_back(name + (before.sha256 == now.sha256
+                                  ? "the same file in both, " + shown(build_of(now))
+                                  : "base " + shown(build_of(before)) + ", new " + shown(build_of(now))));
+    }
+  return lines;
+}
+
 bool is_hint(const ComparedCase& compared_case) {
   return compared_case.hint && compared_case.hint != "none";
 }
@@ -199,6 +219,7 @@ std::vector<std::string> details_of_all(const std::vector<ComparedCase>& cases) 
 
 std::string comparison_text(const Comparison& comparison) {
   std::string out = heading(comparison) + "\n";
+  for (const std::string& line : plugin_lines(comparison)) out += line + "\n";
   if (!comparison.cases.empty()) out += table(comparison.cases);
   for (const std::string& line : details_of_all(comparison.cases)) out += "counted: " + line + "\n";
   for (const std::string& warning : comparison.warnings) out += "warning: " + warning + "\n";
@@ -215,6 +236,7 @@ std::string comparison_markdown(const Comparison& comparison) {
     (is_remarkable(compared_case) ? remarkable : rest).push_back(&compared_case);
   std::string out = "### clusterbench: " + std::string(comparison.failures.empty() ? "passed" : "failed") + "\n\n" +
                     markdown_cell(summary_text(comparison)) + "\n\n" + markdown_cell(heading(comparison)) + "\n";
+  for (const std::string& line : plugin_lines(comparison)) out += "\n" + markdown_cell(line) + "\n";
   if (!remarkable.empty()) out += "\n" + markdown_table(remarkable);
   out += markdown_list("Failed", comparison.failures);
   out += markdown_list("What is counted", details_of_all(comparison.cases));

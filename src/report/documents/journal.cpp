@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 // The start of each line of a run, which also holds for the rest that a crashed program left.
 bool begins_as_an_entry(std::string_view line) {
-  for (const std::string_view start : {R"({"case":)", R"({"request":)"})
+  for (const std::string_view start : {R"({"case":)", R"({"broken":)", R"({"request":)"})
     if (line.starts_with(start) || start.starts_with(line)) return true;
   return line.find_first_not_of('\0') == std::string_view::npos;  // zeros after a power failure
 }
@@ -43,6 +43,12 @@ bool accepts_case(const Json& entry, std::set<std::string>& ids) {
   const Json* id = value_at(entry, "/case/id");
   return id != nullptr && entry.value("sha256", Json()) == sha256_hex(entry["case"].dump()) &&
          ids.insert(id->dump()).second;
+}
+
+// Whether a line contains an intact broken case.
+bool is_broken_case(const Json& entry) {
+  return value_at(entry, "/broken/id") != nullptr &&
+         entry.value("sha256", Json()) == sha256_hex(entry["broken"].dump());
 }
 
 std::string device_name(const Json& header) {
@@ -91,19 +97,21 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
   return begin;
 }
 
-// Throws Error for cases that violate the schema.
-std::vector<result::Case> cases_of_run(const Json& cases, const fs::path& path) {
+// `list`: "cases" or "broken" of a result. Throws Error for items that violate the schema.
+template <class Item>
+std::vector<Item> items_of_run(const char* list, const Json& items, const fs::path& path) {
   const auto refuse = [&](const std::string& violation) {
-    throw Error(path.string(), "", "does not hold the cases of a run: " + violation);
+    throw Error(path.string(), "", std::string("does not hold the ") + list + " of a run: " + violation);
   };
   const nlohmann::json schema = config::result_schema();
-  nlohmann::json cases_schema = schema["properties"]["cases"];
-  cases_schema["definitions"] = schema["definitions"];  // the definitions that its parts refer to
-  const std::vector<std::string> violations = config::schema_violations(cases_schema, nlohmann::json(cases));
+  nlohmann::json items_schema = schema["properties"][list];
+  items_schema.erase("minItems");
+  items_schema["definitions"] = schema["definitions"];  // the definitions that its parts refer to
+  const std::vector<std::string> violations = config::schema_violations(items_schema, nlohmann::json(items));
   if (!violations.empty()) refuse(violations.front());
-  std::vector<result::Case> out;
+  std::vector<Item> out;
   try {
-    for (const Json& one : cases) out.push_back(result::from_json<result::Case>(one, "/" + std::to_string(out.size())));
+    for (const Json& one : items) out.push_back(result::from_json<Item>(one, "/" + std::to_string(out.size())));
   } catch (const Error& error) {
     refuse(error.where() + ": " + error.message());
   }
@@ -128,6 +136,11 @@ std::vector<std::string> finished_ids(const fs::path& file, const Json& header) 
     throw Error(partial.string(), "", "is no regular file, and a run leaves no other");
   std::set<std::string> known;
   each_entry(file_text(partial.string()), partial, header, [&](const Json& entry) {
+    if (entry.contains("broken")) {
+      if (!is_broken_case(entry)) return false;
+      if (const Json& id = entry["broken"]["id"]; id.is_string()) ids.push_back(id);
+      return true;
+    }
     if (!entry.contains("case")) return true;
     if (!accepts_case(entry, known)) return false;
     if (const Json& id = entry["case"]["id"]; id.is_string()) ids.push_back(id);
@@ -168,15 +181,21 @@ void Journal::set_earlier_aside(const std::string& header) {
 }
 
 void Journal::read_earlier(const Json& header) {
-  Json cases = Json::array();
+  Json cases = Json::array(), broken = Json::array();
   std::set<std::string> ids;
   const std::size_t end = each_entry(partial_.text(), partial_path(), header, [&](Json& entry) {
+    if (entry.contains("broken")) {
+      if (!is_broken_case(entry)) return false;
+      broken.push_back(std::move(entry["broken"]));
+      return true;
+    }
     if (!entry.contains("case")) return accept_answer(entry);
     if (!accepts_case(entry, ids)) return false;
     cases.push_back(std::move(entry["case"]));
     return true;
   });
-  earlier_cases_ = cases_of_run(cases, partial_path());
+  earlier_cases_ = items_of_run<result::Case>("cases", cases, partial_path());
+  earlier_broken_ = items_of_run<result::BrokenCase>("broken", broken, partial_path());
   partial_.cut_to(end);
 }
 
@@ -212,6 +231,11 @@ void Journal::add(const Json& entry) {
 void Journal::add_case(const result::Case& finished) {
   const Json json = result::to_json(finished);
   add({{"case", json}, {"sha256", sha256_hex(json.dump())}});
+}
+
+void Journal::add_broken(const result::BrokenCase& broken) {
+  const Json json = result::to_json(broken);
+  add({{"broken", json}, {"sha256", sha256_hex(json.dump())}});
 }
 
 void Journal::finish(const result::Result& result) {

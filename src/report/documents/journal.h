@@ -1,8 +1,8 @@
 #pragma once
-// Results on disk while they arrive: FILE.partial has a header line, a line per finished case and, for cases that are
-// timed in several launches, a line per answer of a launch. Each line is written immediately, so a crash loses at most
-// the current measurement. finish() replaces FILE atomically. If FILE is a link, all this happens at its target, and
-// the link stays.
+// Results on disk while they arrive: FILE.partial has a header line, a line per finished or broken case and, for cases
+// that are timed in several launches, a line per answer of a launch. Each line is written immediately, so a crash loses
+// at most the current measurement. finish() replaces FILE atomically. If FILE is a link, all this happens at its
+// target, and the link stays.
 
 #include <filesystem>
 #include <map>
@@ -20,7 +20,7 @@ namespace clusterbench::report {
 // FILE.partial, beside the target of FILE. Throws Error for a folder.
 std::filesystem::path partial_of(const std::filesystem::path& file);
 
-// The ids of the finished cases of an interrupted run, as Journal with `resume` finds them; writes no file.
+// The ids of the finished and broken cases of an interrupted run, as Journal with `resume` finds them; writes no file.
 std::vector<std::string> finished_ids(const std::filesystem::path& file, const nlohmann::ordered_json& header);
 
 class Journal {
@@ -40,18 +40,23 @@ class Journal {
   // The finished cases of an interrupted run.
   const std::vector<result::Case>& earlier_cases() const { return earlier_cases_; }
   std::vector<std::string> earlier_ids() const;
+  // Its broken cases; one can be a finished case, too.
+  const std::vector<result::BrokenCase>& earlier_broken() const { return earlier_broken_; }
 
   // The file with the finished cases of an earlier run; "" if there were none, or if this run continues with them.
   const std::filesystem::path& set_aside() const { return set_aside_; }
 
   void add_case(const result::Case& finished);
+  void add_broken(const result::BrokenCase& broken);
 
   // The answer of a launch to a request, in an interrupted run.
   std::optional<nlohmann::ordered_json> earlier_answer(const nlohmann::ordered_json& request) const;
   void add_answer(const nlohmann::ordered_json& request, const nlohmann::ordered_json& answer);
 
   // Contains no measurement of this run or of an interrupted one.
-  bool is_empty() const { return earlier_cases_.empty() && earlier_answers_.empty() && !has_added_; }
+  bool is_empty() const {
+    return earlier_cases_.empty() && earlier_broken_.empty() && earlier_answers_.empty() && !has_added_;
+  }
 
   // Writes the whole result and removes FILE.partial.
   void finish(const result::Result& result);
@@ -68,6 +73,7 @@ class Journal {
   os::LockedFile partial_;
   bool has_added_ = false, is_finished_ = false;
   std::vector<result::Case> earlier_cases_;
+  std::vector<result::BrokenCase> earlier_broken_;
   std::map<std::string, nlohmann::ordered_json> earlier_answers_;  // by their requests
 };
 

@@ -1,5 +1,8 @@
 #include "report/documents/result_file.h"
 
+#include <map>
+#include <string_view>
+
 #include "config/schema/documents.h"
 #include "config/schema/schema_verdict.h"
 #include "core/error.h"
@@ -41,6 +44,14 @@ result::Result record_of(const std::string& path, const Json& json) {
   }
 }
 
+// Cases are known by their ids. A run gives each its own.
+void check_ids(const std::string& path, const result::Result& result) {
+  std::map<std::string_view, const result::Case*> known;
+  for (const result::Case& one : result.cases)
+    if (const auto [earlier, is_new] = known.try_emplace(one.id, &one); !is_new)
+      throw Error(path, "", "has two cases with the id " + one.id + ": " + earlier->second->name + " and " + one.name);
+}
+
 }  // namespace
 
 void refuse_history(const std::string& path, std::string_view text) {
@@ -63,6 +74,7 @@ result::Result read_result(const std::string& path) {
   config::check_version(path, json, config::row_of(config::Document::result));
   check(path, json);
   result::Result result = record_of(path, json);
+  check_ids(path, result);
   use_current_names(result);
   return result;
 }

@@ -64,6 +64,8 @@ ExportResult read(const result::Result& result, bool all) {
   out.os = result.machine.os;
   out.cores = static_cast<int>(result.machine.cores);
   out.failed = result.failed.value_or(std::vector<std::string>());
+  for (const result::BrokenCase& broken : result.broken.value_or(std::vector<result::BrokenCase>()))
+    out.failed.push_back(broken.name + ": " + broken.reason);
   for (const Case& result_case : result.cases) out.cases.push_back(read_case(result_case, out.cases.size(), all));
   return out;
 }

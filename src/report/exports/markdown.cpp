@@ -53,7 +53,7 @@ std::vector<std::size_t> shown_parts(const ExportResult& result) {
   return shown;
 }
 
-// With the value, that of the baseline, and the budget. "" if no budget failed.
+// Budgets, with the value and that of the baseline, and cases in which a plug-in broke down. "" if there are none.
 std::string failed_list(const ExportResult& result) {
   if (result.failed.empty()) return "";
   std::string out = "**FAILED**\n\n";

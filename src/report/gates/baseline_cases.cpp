@@ -72,7 +72,20 @@ std::string BaselineCases::changes_of(const Case& result_case) const {
   if (base_case->id != result_case.id) changes = differing_settings(base_, *base_case, next_, result_case);
   const std::string &before = base_.tool.git_sha, &now = next_.tool.git_sha;
   if (before != now) changes.push_back("clusterbench (" + before + ", now " + now + ")");
+  if (const std::string plugin = changed_plugin(result_case); !plugin.empty()) changes.push_back(plugin);
   return joined(changes);
+}
+
+// "plug-in acme (1.0, now 1.1)": of the case's method; "" without one, or where both are the same file.
+std::string BaselineCases::changed_plugin(const Case& result_case) const {
+  const std::string id = result_case.assigner.name.substr(0, result_case.assigner.name.find('.'));
+  const auto build_in = [&](const result::Result& result) -> std::string {
+    for (const result::Plugin& plugin : result.plugins.value_or(std::vector<result::Plugin>()))
+      if (plugin.id == id) return plugin.version + " " + plugin.sha256.substr(0, 12);
+    return "";
+  };
+  const std::string before = build_in(base_), now = build_in(next_);
+  return before == now ? "" : "plug-in " + id + " (" + before + ", now " + now + ")";
 }
 
 std::string BaselineCases::obstacle_to_instructions(const Case& result_case) const {

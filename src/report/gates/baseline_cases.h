@@ -32,6 +32,7 @@ class BaselineCases {
 
  private:
   std::string key_of(const result::Case& result_case) const;
+  std::string changed_plugin(const result::Case& result_case) const;
 
   const result::Result &base_, &next_;
   std::string name_;

@@ -37,6 +37,10 @@ std::string filled_page(std::string_view page_template, const Json& data, const 
   return html.replace(html.find(k_results_mark), k_results_mark.size(), script_json(data));
 }
 
+std::string check_page(const result::CheckPage& data) {
+  return filled_page(check_template(), result::to_json(data), "--page");
+}
+
 std::string page(const std::vector<NamedResult>& results, const std::string& command,
                  const std::vector<PagePicture>& pictures) {
   result::PageData data{.command = command, .figures = figure_words(), .pictures = pictures};

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "result/documents/check_page.h"
 #include "result/documents/page.h"
 
 namespace clusterbench::report {
@@ -16,6 +17,9 @@ struct NamedResult {
 };
 
 using result::PagePicture;
+
+// The page of `clusterbench check`. Throws Error if this build has no page.
+std::string check_page(const result::CheckPage& data);
 
 // Throws Error if this build has no page. `command`: the command that makes the page again, shown on it.
 std::string page(const std::vector<NamedResult>& results, const std::string& command,

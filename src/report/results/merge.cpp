@@ -76,6 +76,15 @@ void add_skipped(std::vector<result::Skipped>& all, const std::vector<result::Sk
       all.push_back(skip);
 }
 
+// A case that broke in one part and was measured in another is in the result by its figures, and fails.
+void add_broken(result::Result& all, const result::Result& part) {
+  if (!part.broken) return;
+  if (!all.broken) all.broken.emplace();
+  for (const result::BrokenCase& broken : *part.broken)
+    if (std::ranges::find(*all.broken, broken.id, &result::BrokenCase::id) == all.broken->end())
+      all.broken->push_back(broken);
+}
+
 Json merged_config(const std::vector<NamedPart>& parts) {
   const Json& first = parts.front().result.config;
   Json all = Json::array();
@@ -127,14 +136,20 @@ result::Result merged(const std::vector<NamedPart>& parts) {
   out.config = merged_config(parts);
   std::vector<std::string> failed;
   Union<result::Scene> scenes(out.scenes, "scenes", &result::Scene::name, "name");
+  std::vector<result::Plugin> all_plugins;
+  Union<result::Plugin> plugins(all_plugins, "plugins", &result::Plugin::id, "plug-in");
   Union<result::Case> cases(out.cases, "cases", &result::Case::id, "id");
   for (const NamedPart& part : parts) {
     check_origin(parts.front(), part);
+    for (const result::Plugin& plugin : part.result.plugins.value_or(std::vector<result::Plugin>()))
+      plugins.add(plugin, part.file, true);
     for (const result::Scene& scene : part.result.scenes) scenes.add(scene, part.file, true);
     for (const result::Case& result_case : part.result.cases) cases.add(result_case, part.file, false);
     add_skipped(out.skipped, part.result.skipped);
+    add_broken(out, part.result);
     if (part.result.failed) failed.insert(failed.end(), part.result.failed->begin(), part.result.failed->end());
   }
+  if (!all_plugins.empty()) out.plugins = std::move(all_plugins);
   out.pareto_front = fronts(out.scenes, out.cases, first);
   add_presets(out, first);
   out.conclusions = conclusions_of(out, first);

@@ -52,6 +52,25 @@ std::vector<Case> in_plan_order(const run::Result& result, const std::vector<Cas
   return cases;
 }
 
+// In the order of the plan. One that is among the finished cases fails that one, which keeps its figures.
+void add_broken(const run::Result& result, const std::vector<result::BrokenCase>& earlier, result::Result& out) {
+  std::map<std::string, result::BrokenCase> by_id;
+  for (const auto* some : {&earlier, &result.broken})
+    for (const result::BrokenCase& broken : *some) by_id.insert({broken.id, broken});
+  for (const std::string& id : result.planned_ids) {
+    const auto found = by_id.find(id);
+    if (found == by_id.end()) continue;
+    const auto finished = std::ranges::find(out.cases, id, &Case::id);
+    if (finished != out.cases.end()) {
+      finished->failures.push_back({found->second.kind, found->second.reason});
+      finished->eligible = false;
+      continue;
+    }
+    if (!out.broken) out.broken.emplace();
+    out.broken->push_back(found->second);
+  }
+}
+
 std::optional<std::string> known(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional(text);
 }
@@ -84,19 +103,25 @@ void add_presets(result::Result& result, const result::Result& origin) {
   result.presets = std::move(facts);
 }
 
-result::Result record_of(const run::Result& result, const std::vector<Case>& earlier_cases) {
+result::Result record_of(const run::Result& result, const std::vector<Case>& earlier_cases,
+                         const std::vector<result::BrokenCase>& earlier_broken) {
   result::Result out;
   out.schema_version = k_schema_version;
   out.name = result.config_name;
   out.date = known(result.date);
   out.command = known(result.command);
   out.tool = run::record_of(result.tool);
+  for (const plugin::LoadedPlugin* loaded : result.plugins) {
+    if (!out.plugins) out.plugins.emplace();
+    out.plugins->push_back(run::record_of(*loaded));
+  }
   out.machine = run::record_of(result.machine);
   if (result.device) out.device = run::record_of(*result.device);
   if (out.device && result.arithmetic) out.device->arithmetic = run::record_of(*result.arithmetic);
   out.config = result.config;
   for (const run::SceneResult& scene : result.scenes) out.scenes.push_back(run::record_of(scene));
   out.cases = in_plan_order(result, earlier_cases);
+  add_broken(result, earlier_broken, out);
   add_extra_pairs(out.cases);
   add_costs(out.cases, out.config);
   add_device_frames(out.cases, out.config);

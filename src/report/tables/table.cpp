@@ -382,6 +382,14 @@ std::string skipped_text(const std::vector<result::Skipped>& skipped) {
   return out + "Boxes are taken by " + joined(names) + ".\n";
 }
 
+std::string broken_text(const result::Result& result) {
+  if (!result.broken) return "";
+  std::string out = number_of(result.broken->size(), "case") + " not measured to the end:\n";
+  for (const result::BrokenCase& broken : *result.broken)
+    out += "  " + shown(broken.name) + ": " + shown(broken.reason) + "\n";
+  return out;
+}
+
 }  // namespace
 
 std::string render_table(const result::Result& result, bool colour) {
@@ -422,7 +430,7 @@ std::string render_table(const result::Result& result, bool colour) {
   out += legend(cases, extras, by, !on_front.empty(), is_complete);
   if (has_alike) out += "~: not measurably slower than the row above (`clusterbench ratio`).\n";
   if (!counted_by.empty()) out += "instr: instructions of one frame's assignment, counted by " + counted_by + ".\n";
-  out += skipped_text(result.skipped);
+  out += skipped_text(result.skipped) + broken_text(result);
   return out + samples_table(result) + lookup_table(result) + stability_table(result) + fit_table(result) +
          reaction_table(result) + reading_table(result) + fallback_table(result) + precision_table(result) +
          pre_cull_table(result) + shadows_table(result) + preset_table(result) + notes_text(result) +

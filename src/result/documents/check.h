@@ -20,6 +20,8 @@ struct ListReading {
   RECORD(ListReading);
   FIELD(std::uint64_t, fault_count, "Values that cannot be right");
   FIELD(std::vector<ReadingFault>, faults, "The first of them");
+  FIELD(std::uint64_t, twice_count, "Entries of a light that its list has already", "pairs");
+  FIELD(std::vector<ReadingFault>, twice, "The first of them, each at the later entry");
   FIELD(Nullable<std::string>, likely_reading,
         "Another description under which nothing is wrong; null: none was found");
   END_RECORD;
@@ -61,12 +63,16 @@ struct LostInCell {
 };
 
 struct OtherReading {
-  static About about() { return About("Another order of cells, or another camera, which loses far fewer lights"); }
+  static About about() {
+    return About(
+        "Another order of cells, another camera or another description of lists, which loses far fewer lights");
+  }
   RECORD(OtherReading);
   FIELD(std::string, axes, "As grid.axes of the dump");
   FIELD(std::string, first_row, "As grid.first_row");
   FIELD(std::string, first_slice, "As grid.first_slice");
   FIELD(std::string, camera, "What differs in the camera; empty: nothing");
+  FIELD(std::string, lists, "What differs in the description of the lists; empty: nothing");
   FIELD(std::uint64_t, lost_pairs, "That it would lose", "pairs");
   END_RECORD;
 };
@@ -114,6 +120,7 @@ struct CheckedDump {
   FIELD(CellIndex, cells, "Numbers of columns, rows and slices");
   FIELD(std::vector<CheckedSet>, sets, "In the order of the dump");
   FIELD(std::vector<CheckedMethod>, methods, "On the same frame; empty with --no-methods");
+  FIELD(std::vector<std::string>, methods_left_out, "Of those that were asked for: would take too long on this frame");
   END_RECORD;
 };
 

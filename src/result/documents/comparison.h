@@ -8,6 +8,7 @@ namespace clusterbench::result {
 struct ComparedProgram {
   RECORD(ComparedProgram);
   FIELD(Tool, tool, "As results have it");
+  FIELD(std::optional<std::vector<Plugin>>, plugins, "As results have them; absent without any");
   END_RECORD;
 };
 
@@ -130,6 +131,10 @@ struct Comparison {
   FIELD(std::vector<std::string>, only_in_new, "Names of cases");
   FIELD(std::vector<RenamedCase>, renamed,
         "Cases in only_in_base and only_in_new that have one name, with the settings in which they differ");
+  FIELD(std::optional<std::vector<BrokenCase>>, broken,
+        About("Cases of the base that the new result has no figures of, since a plug-in crashed, hung, took too much "
+              "memory or failed. Absent where there are none")
+            .items(1, 0));
   FIELD(std::vector<PartOfOne>, not_compared, "Parts that cases of both results have in one of them alone");
   FIELD(std::vector<std::string>, failures, "What makes the exit code 1");
   FIELD(std::vector<std::string>, warnings, "What to know before believing it");

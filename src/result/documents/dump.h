@@ -101,9 +101,13 @@ struct DumpTiles {
 
 struct DumpFormula {
   RECORD(DumpFormula);
-  FIELD(std::string, function, About("f of slice = floor(f(depth) * scale + bias)").one_of({"log2", "ln", "linear"}));
+  FIELD(std::string, function,
+        About("f of slice = floor(f(depth * depth_scale + depth_offset) * scale + bias)")
+            .one_of({"log2", "ln", "linear"}));
   FIELD(double, scale, About("See function").finite().above(0));
   FIELD(double, bias, About("See function").finite());
+  FIELD(std::optional<double>, depth_scale, About("See function; absent: 1").finite().above(0));
+  FIELD(std::optional<double>, depth_offset, About("See function; absent: 0").finite());
   FIELD(std::optional<double>, far_m,
         About("Where the last slice ends; absent: where the formula gives the next one", "m").finite().above(0));
   END_RECORD;
@@ -132,6 +136,16 @@ struct DumpBounds {
   END_RECORD;
 };
 
+struct DumpPlanes {
+  static About about() { return About("Boundaries of a world grid's cells that are not evenly spaced"); }
+  RECORD(DumpPlanes);
+  FIELD(Vector, origin_m, "What the boundaries count from, in the world");
+  FIELD(std::vector<double>, x_m, About("From the lowest to the highest", "m").finite().items(2, 65536));
+  FIELD(std::vector<double>, y_m, About("The same", "m").finite().items(2, 65536));
+  FIELD(std::vector<double>, z_m, About("The same", "m").finite().items(2, 65536));
+  END_RECORD;
+};
+
 struct DumpGrid {
   RECORD(DumpGrid);
   FIELD(std::optional<std::string>, kind,
@@ -142,6 +156,7 @@ struct DumpGrid {
   FIELD(std::optional<DumpSlices>, slices, "Not of a world grid");
   FIELD(std::optional<Size3>, cells, About("Only of a world grid: cells along x, y and z").at_least(1).at_most(65535));
   FIELD(std::optional<DumpBounds>, bounds, "Only of a world grid");
+  FIELD(std::optional<DumpPlanes>, planes, "Only of a world grid, in place of cells and bounds");
   FIELD(std::optional<std::string>, axes,
         About("Order of cells in memory, the fastest axis first: xyz is x + nx * (y + ny * z); x columns, y rows, z "
               "slices; absent: xyz")
@@ -296,6 +311,10 @@ struct DumpLists {
   FIELD(std::optional<std::string>, word,
         About("bits: of a word; light i is bit i % bits of word i / bits; absent: u32")
             .one_of({"u8", "u16", "u32", "u64"}));
+  FIELD(std::optional<std::uint64_t>, first_bit,
+        About("bits: the number of the bit that is the first light of this part; those before it and after its last "
+              "light are of other things (decals, probes) and are passed over; absent: 0, and a bit after the last "
+              "light is wrong"));
   FIELD(std::optional<DumpLightRanges>, ranges, "bits_and_bins, bits_and_slice_ranges");
   FIELD(std::optional<DumpField>, head, "linked: number of the first node, in the row");
   FIELD(std::optional<DumpNodes>, nodes, "linked");
@@ -310,6 +329,12 @@ struct Dump {
   FIELD(std::optional<std::string>, name, "For reports; absent: the name of the file");
   FIELD(std::optional<std::string>, engine, "What made the lists, with its version");
   FIELD(Size2, viewport, About("Width and height of the picture", "pixels").at_least(1).at_most(65536));
+  FIELD(std::optional<double>, metres_per_unit,
+        About("Of all lengths in this dump and its buffers, also of fields in m, where the engine has another unit; "
+              "reports are in metres; absent: 1",
+              "m")
+            .finite()
+            .above(0));
   FIELD(std::optional<ByName<DumpBuffer>>, buffers, About("By name").each(""));
   FIELD(DumpCamera, camera, "Of the frame");
   FIELD(DumpGrid, grid, "What cells are");
@@ -318,10 +343,11 @@ struct Dump {
   FIELD(
       std::optional<double>, rounding,
       About("A light that reaches less far into a cell than this is lost to rounding: in units of 2^-24 of |x| + |y| + "
-            "|z| + range in view space; absent: 32",
+            "|z| + range in view space, at the most 0.1 m and 1 % of the range; absent: 32",
             "roundoffs")
           .finite()
-          .at_least(0));
+          .at_least(0)
+          .at_most(1048576));
   END_RECORD;
 };
 

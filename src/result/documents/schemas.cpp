@@ -1,10 +1,13 @@
 #include "result/documents/check.h"
+#include "result/documents/check_page.h"
 #include "result/documents/comparison.h"
 #include "result/documents/dump.h"
 #include "result/documents/light_map.h"
 #include "result/documents/page.h"
+#include "result/documents/plugin_check.h"
 #include "result/documents/ratios.h"
 #include "result/documents/recommendation.h"
+#include "result/documents/shader.h"
 #include "result/documents/size.h"
 #include "result/documents/stress.h"
 #include "result/documents/worst_case.h"
@@ -14,12 +17,15 @@ namespace clusterbench::result {
 
 // Here once: each instance lists the fields of all records below it.
 template const Type& type_of<Check>();
+template const Type& type_of<CheckPage>();
 template const Type& type_of<Comparison>();
 template const Type& type_of<Dump>();
 template const Type& type_of<LightMaps>();
 template const Type& type_of<PageData>();
+template const Type& type_of<PluginCheck>();
 template const Type& type_of<Ratios>();
 template const Type& type_of<Recommendation>();
+template const Type& type_of<ShaderMethod>();
 template const Type& type_of<Size>();
 template const Type& type_of<Stress>();
 template const Type& type_of<WorstCase>();
@@ -28,6 +34,10 @@ Json check_schema() {
   return schema_of<Check>("clusterbench check",
                           "What `clusterbench check DUMP --json FILE` writes: light lists of any program, held against "
                           "the exact ones.");
+}
+
+Json check_page_schema() {
+  return schema_of<CheckPage>("clusterbench check page", "The data of a page that `clusterbench check` writes.");
 }
 
 Json comparison_schema() {
@@ -59,6 +69,12 @@ Json page_schema() {
   return schema_of<PageData>("clusterbench page", "The data of a page that `clusterbench report` writes.");
 }
 
+Json plugin_check_schema() {
+  return schema_of<PluginCheck>("clusterbench plugin check",
+                                "What `clusterbench plugin check PLUGIN --json FILE` writes: whether the methods of a "
+                                "plug-in keep their contract, test by test.");
+}
+
 Json ratios_schema() {
   return schema_of<Ratios>("clusterbench ratios",
                            "What `clusterbench ratio RESULT --json FILE` writes: how much longer one case takes than "
@@ -69,6 +85,43 @@ Json recommendation_schema() {
   return schema_of<Recommendation>("clusterbench recommendation",
                                    "What `clusterbench recommend -o FILE` writes: of each scene and viewport the "
                                    "candidate with the least objective among those that break no constraint.");
+}
+
+namespace {
+
+// The same schema, where a whole number may also be a formula.
+void allow_formulas(Json& schema) {
+  if (schema.is_object() && schema.value("type", Json()) == "integer") {
+    const Json formula{{"type", "string"}, {"x-formula", true}};
+    Json number = schema, outer = Json::object();
+    for (const char* key : {"description", "x-unit"})
+      if (number.contains(key)) {
+        outer[key] = number[key];
+        number.erase(key);
+      }
+    outer["anyOf"] = Json::array({number, formula});
+    schema = outer;
+    return;
+  }
+  if (schema.is_structured())
+    for (Json& member : schema) allow_formulas(member);
+}
+
+}  // namespace
+
+Json shader_schema() {
+  Json schema = schema_of<ShaderMethod>("clusterbench shader",
+                                        "What `--shader FILE` reads: compute shaders of a user as a method, with their "
+                                        "buffers, dispatches and the lists that they leave.");
+  const Json dump = dump_schema();
+  for (const char* name : {"lists", "rows", "field"}) {
+    Json part = dump["definitions"][name];
+    allow_formulas(part);
+    schema["definitions"][name] = part;
+  }
+  schema["properties"]["$schema"] = {{"type", "string"}, {"description", "For editors"}};
+  schema["properties"]["lists"]["items"] = {{"$ref", "#/definitions/lists"}};
+  return schema;
 }
 
 Json size_schema() {

@@ -108,10 +108,11 @@ std::string name_part(std::string text) {
   return printable(text);
 }
 
-std::string unique_name(const std::string& name, std::set<std::string>& used) {
-  std::string candidate = name;
-  for (int number = 2; !used.insert(candidate).second; ++number) candidate = name + "-" + std::to_string(number);
-  return candidate;
+std::string UniqueNames::add(const std::string& name) {
+  if (used_.insert(name).second) return name;
+  std::uint64_t& number = next_.try_emplace(name, 2).first->second;
+  for (;;)
+    if (std::string candidate = name + "-" + std::to_string(number++); used_.insert(candidate).second) return candidate;
 }
 
 std::string no_match_text(const std::string& filter, std::size_t cases, const std::string& example) {

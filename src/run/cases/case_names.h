@@ -3,6 +3,8 @@
 // Each name that commands print for a case, copied as a whole, selects the case in --filter and before a budget's
 // colon.
 
+#include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,8 +22,15 @@ const char* own_structure_name(const std::string& assigner);
 
 // A part of a case's name, without the slashes that separate parts and without control characters of a terminal.
 std::string name_part(std::string text);
-// The name, or the name with the smallest unused suffix "-2", "-3" ...; adds it to `used`.
-std::string unique_name(const std::string& name, std::set<std::string>& used);
+// Names that are different: a name in use gets the smallest unused suffix "-2", "-3" ...
+class UniqueNames {
+ public:
+  std::string add(const std::string& name);
+
+ private:
+  std::set<std::string> used_;
+  std::map<std::string, std::uint64_t> next_;  // the first suffix that may be unused, of names that were in use
+};
 
 // The message that a filter selects none of `cases` cases; `example`: one of their names, "" if there are none.
 std::string no_match_text(const std::string& filter, std::size_t cases, const std::string& example);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "os/call_notes.h"
 #include "run/cases/case_names.h"
 
 namespace clusterbench::run {
@@ -18,12 +19,18 @@ std::vector<Method> methods_of(const GroupPlan& group) {
   return list;
 }
 
+std::uint64_t label_of(const Method& method) {
+  return std::uint64_t{method.assigner} << 40 | std::uint64_t{method.precision} << 24 |
+         std::uint64_t{method.pre_cull} << 8 | static_cast<std::uint64_t>(method.answer);
+}
+
 const assign::AssignerDescriptor& method_of(const config::Config& config, const CasePlan& case_plan) {
   return *assign::find_assigner(config.assigners[case_plan.assigner].name);
 }
 
 assign::AssignerRun start_method(const config::Config& config, const Method& method) {
   const config::MethodRequest& request = config.assigners[method.assigner];
+  os::note_label(label_of(method));
   return {*assign::find_assigner(request.name), request.params, method.answer};
 }
 

@@ -52,6 +52,8 @@ struct GroupPlan {
 bool compares_cells(const config::Config& config, const GroupPlan& group);
 // The distinct methods of a group's cases, in order of first use.
 std::vector<Method> methods_of(const GroupPlan& group);
+// A method of a group as the label of its calls (os/call_notes.h).
+std::uint64_t label_of(const Method& method);
 const assign::AssignerDescriptor& method_of(const config::Config& config, const CasePlan& case_plan);
 // A case's method, ready to be built.
 assign::AssignerRun start_method(const config::Config& config, const Method& method);

@@ -34,17 +34,17 @@ std::string grid_obstacle(const grid::GridSpec& spec, const SceneData& data) {
 
 FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const scene::CameraPath& path,
                        Vec2i viewport) {
-  if (path.shots.empty()) return {0, {}, "the camera path has no frame"};
-  if (const std::string reason = grid_obstacle(spec, data); !reason.empty()) return {0, {}, reason};
+  if (path.shots.empty()) return {0, {}, {}, "the camera path has no frame"};
+  if (const std::string reason = grid_obstacle(spec, data); !reason.empty()) return {0, {}, {}, reason};
   try {
     const view::Frame frame = view::make_frame(data.scene, path.shots.front(), 0, viewport);
     LightReach reach;
     reach.add(frame);
-    const grid::Grid grid =
-        grid::make_grid(spec, grid::grid_inputs(spec, frame, reach.far_m(), reach.lo(), reach.hi()));
-    return {grid.cell_count(), frame.ranges(), ""};
+    grid::Grid grid = grid::make_grid(spec, grid::grid_inputs(spec, frame, reach.far_m(), reach.lo(), reach.hi()));
+    const std::uint32_t cells = grid.cell_count();
+    return {cells, frame.ranges(), std::move(grid), ""};
   } catch (const Error& error) {
-    return {0, {}, error.what()};
+    return {0, {}, {}, error.what()};
   }
 }
 
@@ -62,6 +62,10 @@ std::string method_obstacle(const config::MethodRequest& request, grid::Kind kin
   if (!assigner.boxes && data.has_lights(scene::LightType::box)) return name + " takes no boxes";
   const std::string reason = assign::unavailability(assigner, request.params);
   return reason.empty() ? "" : name + " cannot run here: " + reason;
+}
+
+std::string fit_obstacle(const assign::AssignerDescriptor& assigner, const FirstFrame& first) {
+  return assigner.unfit ? assigner.unfit(*first.grid) : "";
 }
 
 std::string limit_obstacle(const assign::AssignerDescriptor& assigner, const config::LimitsRequest& limits,

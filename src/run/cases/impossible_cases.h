@@ -3,6 +3,7 @@
 // in _obstacle returns the reason in words, or "" if nothing prevents the measurement.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "config/config.h"
@@ -15,7 +16,9 @@ namespace clusterbench::run {
 struct FirstFrame {
   std::uint32_t cells = 0;
   view::LightRanges lights;
-  std::string obstacle;  // the reason why the grid cannot be made for this path; the other members are then not set
+  std::optional<grid::Grid> grid = {};
+  std::string obstacle =
+      {};  // the reason why the grid cannot be made for this path; the other members are then not set
 };
 FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const scene::CameraPath& path,
                        Vec2i viewport);
@@ -24,6 +27,8 @@ FirstFrame first_frame(const grid::GridSpec& spec, const SceneData& data, const 
 // orthographic camera if `orthographic` is set, or on this machine.
 std::string method_obstacle(const config::MethodRequest& request, grid::Kind kind, const SceneData& data,
                             bool orthographic);
+// The reason why a method cannot run on this grid, though on others of its kind.
+std::string fit_obstacle(const assign::AssignerDescriptor& assigner, const FirstFrame& first);
 // The reason why a method is skipped that would test more pairs of light and cell than limits.all_pairs allows.
 std::string limit_obstacle(const assign::AssignerDescriptor& assigner, const config::LimitsRequest& limits,
                            const FirstFrame& first);

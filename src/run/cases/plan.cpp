@@ -117,6 +117,7 @@ class Expansion {
     std::string impossible =
         method_obstacle(method, kind, data, data.paths[group.camera].shots.front().projection.orthographic);
     if (impossible.empty()) impossible = limit_obstacle(assigner, config_.limits, first);
+    if (impossible.empty()) impossible = fit_obstacle(assigner, first);
     if (!impossible.empty()) {
       skip(branch.known, impossible, !assigner.takes(kind));
       return;
@@ -218,11 +219,12 @@ class Expansion {
   }
 
   void add_case(GroupPlan& group, CasePlan case_plan) {
-    case_plan.name = unique_name(case_plan.name, names_);
+    case_plan.name = names_.add(case_plan.name);
     const CaseIdentity identity = identity_of(config_, plan_.scenes[group.scene], case_plan);
-    case_plan.id = unique_name(identity.id, ids_);
+    case_plan.id = ids_.add(identity.id);
     case_plan.settings = identity.settings;
     ++all_cases_;
+    check_count();
     if (example_.empty()) example_ = case_plan.name;
     if (is_selected(filter_, names_of(case_plan))) group.cases.push_back(std::move(case_plan));
   }
@@ -230,7 +232,15 @@ class Expansion {
   // Cases that the filter rejects are not listed as skipped either. `known`: with the name of the skipped cases.
   void skip(const CasePlan& known, const std::string& reason, bool is_other_kind = false) {
     impossible_.push_back({known.name, reason, is_other_kind, known.preset});
+    check_count();
     if (filter_.is_in(known.name)) plan_.skipped.push_back(impossible_.back());
+  }
+
+  void check_count() const {
+    if (all_cases_ + impossible_.size() > k_most_cases)
+      throw Error(config_.file.string(), "",
+                  "scenes x cameras x viewports x grids x methods make more than " + std::to_string(k_most_cases) +
+                      " cases; shorten a list, or write several configurations");
   }
 
   // Skips sets of samples and shadows that a scene cannot have.
@@ -246,7 +256,7 @@ class Expansion {
   const config::Config& config_;
   Pattern filter_;
   Plan& plan_;
-  std::set<std::string> names_, ids_;
+  UniqueNames names_, ids_;
   std::map<std::string, std::string> without_grid_;  // settings that its structure depends on -> the case's name
   std::size_t all_cases_ = 0;
   std::string example_;

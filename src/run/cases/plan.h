@@ -10,6 +10,9 @@
 
 namespace clusterbench::run {
 
+// Of one run, with those that are skipped. A result with as many would have half a gigabyte.
+inline constexpr std::size_t k_most_cases = 100'000;
+
 struct Skipped {
   std::string name, reason;
   bool is_other_kind = false;  // the method does not support this kind of grid
@@ -30,7 +33,7 @@ struct Plan {
 
 // Loads the scenes and expands the cases. `filter` (a regular expression in RE2 syntax, "" = all) selects cases by
 // name. Sets memory_limit() to the configuration's. Throws Error as load_scenes() does, for a filter that is no regular
-// expression, and if no case is left.
+// expression, for more than k_most_cases, and if no case is left.
 Plan make_plan(const config::Config& config, const std::string& filter);
 
 }  // namespace clusterbench::run

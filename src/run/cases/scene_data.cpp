@@ -61,10 +61,10 @@ void weigh_frames(const config::Config& config, const config::SceneRequest& requ
 }
 
 void check_and_name_paths(SceneData& data) {
-  std::set<std::string> cameras;
+  UniqueNames cameras;
   for (scene::CameraPath& path : data.paths) {
     scene::check_domain(data.scene, path);
-    path.camera = unique_name(name_part(path.camera), cameras);
+    path.camera = cameras.add(name_part(path.camera));
   }
 }
 
@@ -96,10 +96,10 @@ void lay_ground(const config::Config& config, SceneData& data) {
 }
 
 // `names`: those of earlier scenes; adds this one's.
-SceneData scene_data(const config::Config& config, const config::SceneRequest& request, std::set<std::string>& names) {
+SceneData scene_data(const config::Config& config, const config::SceneRequest& request, UniqueNames& names) {
   SceneData data;
   data.scene = resolved_scene(request);
-  data.scene.name = unique_name(name_part(data.scene.name), names);
+  data.scene.name = names.add(name_part(data.scene.name));
   data.paths = scene::camera_paths(data.scene, request.camera);
   weigh_frames(config, request, data);
   check_and_name_paths(data);
@@ -126,7 +126,7 @@ std::string SceneData::contents_sha256() const {
 
 std::vector<SceneData> load_scenes(const config::Config& config) {
   std::vector<SceneData> scenes;
-  std::set<std::string> names;
+  UniqueNames names;
   for (const config::SceneRequest& request : config.scenes) scenes.push_back(scene_data(config, request, names));
   for (SceneData& data : scenes)  // their final address
     if (data.has_triangles()) {

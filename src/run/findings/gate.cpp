@@ -265,8 +265,8 @@ const char* name_of(Failure::Kind kind) {
 }
 
 const char* name_of(Warning::Kind kind) {
-  constexpr const char* k_names[] = {"dropped_pairs", "unlit",     "undecided",
-                                     "lost_pairs",    "unchecked", "too_many_lights"};
+  constexpr const char* k_names[] = {"dropped_pairs", "unlit",           "undecided",      "lost_pairs",
+                                     "unchecked",     "too_many_lights", "repeated_lights"};
   return k_names[static_cast<std::size_t>(kind)];
 }
 
@@ -301,6 +301,10 @@ std::vector<Warning> warnings_of(const CaseResult& result) {
   std::vector<Warning> warnings;
   if (result.buffers.dropped_pairs > 0)
     warnings.push_back({Kind::dropped_pairs, dropped_text(result) + lost_light_text(result)});
+  if (result.buffers.repeated_pairs > 0)
+    warnings.push_back(
+        {Kind::repeated_lights, number_of(result.buffers.repeated_pairs, "time") +
+                                    " a light is in a list where it is already; a shader would add it twice"});
   if (const ExceededLimit limit = exceeded_limit(result); limit.step != nullptr)
     warnings.push_back({Kind::too_many_lights, limit_text(result, limit)});
   if (result.shading && is_unlit(*result.shading)) warnings.push_back({Kind::unlit, unlit_text(result)});

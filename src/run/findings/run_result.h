@@ -30,6 +30,8 @@
 #include "measure/statistics/time_statistics.h"
 #include "measure/truth/list_errors.h"
 #include "os/processor.h"
+#include "plugin/plugins.h"
+#include "result/broken_case.h"
 #include "run/cases/plan.h"
 #include "run/counters/instruction_counter.h"
 #include "run/findings/fit_meter.h"
@@ -264,7 +266,15 @@ struct Failure {
 
 // A fact that a reader must know, which does not fail the run.
 struct Warning {
-  enum class Kind : std::uint8_t { dropped_pairs, unlit, undecided, lost_pairs, unchecked, too_many_lights };
+  enum class Kind : std::uint8_t {
+    dropped_pairs,
+    unlit,
+    undecided,
+    lost_pairs,
+    unchecked,
+    too_many_lights,
+    repeated_lights
+  };
   Kind kind = Kind::dropped_pairs;
   std::string text;  // without the case's name
 };
@@ -311,13 +321,14 @@ struct CaseResult {
   std::vector<ShadowCullResult> shadow_culls;        // of lists, one per way; empty if not requested
   std::optional<SharedFrustaResult> shared_frusta;   // if requested
   std::optional<TimingResult> timing;
-  bool on_device = false;                // the method runs on a device
-  std::optional<DeviceTimes> device;     // its times, in place of `timing`
-  std::optional<ReadingResult> reading;  // if requested
-  std::string unread;                    // why there is none though it was requested
-  std::optional<CountResult> count;      // if requested
-  std::optional<Details> details;        // with cells, if requested
-  std::vector<Failure> failures;         // run/findings/gate.h
+  bool on_device = false;                  // the method runs on a device
+  std::string origin_file, origin_sha256;  // of a method that is not built in
+  std::optional<DeviceTimes> device;       // its times, in place of `timing`
+  std::optional<ReadingResult> reading;    // if requested
+  std::string unread;                      // why there is none though it was requested
+  std::optional<CountResult> count;        // if requested
+  std::optional<Details> details;          // with cells, if requested
+  std::vector<Failure> failures;           // run/findings/gate.h
 };
 
 // Cells of the case's grid in a frame.
@@ -327,6 +338,7 @@ struct Result {
   std::string config_name;
   std::string date, command;  // "" without timing: the result is then the same whenever it is made
   ToolFacts tool;
+  std::vector<const plugin::LoadedPlugin*> plugins;  // of the configuration's methods
   MachineFacts machine;
   std::optional<gpu::DeviceFacts> device;     // if a case runs on it
   std::optional<gpu::Arithmetic> arithmetic;  // of the device
@@ -334,7 +346,8 @@ struct Result {
   std::vector<SceneResult> scenes;
   std::vector<CaseResult> cases;
   std::vector<Skipped> skipped;
-  std::vector<std::string> planned_ids;  // of all cases of the plan, in its order
+  std::vector<result::BrokenCase> broken;  // that this process found
+  std::vector<std::string> planned_ids;    // of all cases of the plan, in its order
 };
 
 }  // namespace clusterbench::run

@@ -2,6 +2,7 @@
 
 #include "assign/lists/list_builder.h"
 #include "core/error.h"
+#include "os/call_notes.h"
 #include "run/timing/timed_work.h"
 
 namespace clusterbench::run {
@@ -50,6 +51,8 @@ void count_pass(const config::Config& config, const Plan& plan, const std::funct
       return !is_wanted(case_plan) || method_of(config, case_plan).on_device;
     });
     if (group.cases.empty()) continue;
+    os::note_group(group.cases.front().id);
+    os::note_pass("count of instructions");
     const PathFrames path = path_of(config, plan, group);
     const std::vector<TimedFrame> frames = timed_frames(config, group, path, mean_frames(config, path));
     for (const Method& method : methods_of(group)) {

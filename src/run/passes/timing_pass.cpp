@@ -55,6 +55,7 @@ class TimingTrack {
     work_.assign();  // warms caches
     samples_.warm_ns.push_back(assign_.sample() / frames);
     samples_.warm_passes = assign_.runs_per_sample();
+    work_.check();
     samples_.floor_ns.push_back(floor_.sample() / frames);
     // Conversion has branches that depend on the lists. Without a warm-up of its own, some conversions take up to a
     // quarter longer after a method with other lists than after one with the same lists.
@@ -70,6 +71,7 @@ class TimingTrack {
     if (work_.culls())
       samples_.cull_warm_each.push_back(frame_by_frame([this](std::size_t frame) { work_.cull_frame(frame); }));
     samples_.warm_each.push_back(frame_by_frame([this](std::size_t frame) { work_.assign_frame(frame); }));
+    for (std::size_t frame = 0; frame < samples_.frames.size(); ++frame) work_.check_frame(frame);
     for (std::size_t store = 0; store < samples_.stores.size(); ++store)
       samples_.stores[store].warm_each.push_back(
           frame_by_frame([this, store](std::size_t frame) { work_.convert_frame(store, frame); }));
@@ -88,6 +90,7 @@ class TimingTrack {
         if (store == 0 && work_.culls()) samples_.cull_cold_each.back().push_back(lists.cull_ns);
         if (store == 0) samples_.cold_each.back().push_back(lists.assign_ns);
         if (samples_.stores.empty()) continue;
+        work_.check_frame(frame);
         const double before = wall_ns();
         work_.convert_frame(store, frame);
         samples_.stores[store].cold_each.back().push_back(wall_ns() - before);

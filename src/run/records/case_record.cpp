@@ -16,8 +16,14 @@ std::optional<std::string> known(const std::string& text) {
 }
 
 result::Method method_record(const CaseResult& found) {
-  return {found.assigner,     found.assigner_label, result::Json(found.assigner_params),
-          found.conservative, found.exact,          found.on_device ? std::optional(true) : std::nullopt};
+  return {found.assigner,
+          found.assigner_label,
+          result::Json(found.assigner_params),
+          found.conservative,
+          found.exact,
+          found.on_device ? std::optional(true) : std::nullopt,
+          known(found.origin_file),
+          known(found.origin_sha256)};
 }
 
 // Whether samples search a structure of the method's own.
@@ -122,6 +128,13 @@ result::Scene record_of(const SceneResult& scene) {
 
 result::Tool record_of(const ToolFacts& tool) {
   return {tool.version, tool.git_sha, tool.compiler, tool.flags, tool.build_type, tool.simd_target, tool.libraries};
+}
+
+result::Plugin record_of(const plugin::LoadedPlugin& loaded) {
+  const plugin::PluginFacts& facts = loaded.facts;
+  return {facts.id,      facts.name,
+          facts.version, loaded.file.filename().string(),
+          loaded.sha256, std::to_string(CLUSTERBENCH_PLUGIN_MAJOR) + "." + std::to_string(facts.minor)};
 }
 
 result::DeviceArithmetic record_of(const gpu::Arithmetic& found) {

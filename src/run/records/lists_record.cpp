@@ -80,6 +80,7 @@ result::Buffers buffers_record(const CaseResult& found) {
   out.used_share = {counted(b.in_use_mean), counted(b.in_use_max)};
   out.overflow = {b.dropped_pairs, static_cast<std::uint64_t>(b.overflowing_cells),
                   static_cast<std::uint64_t>(b.overflowing_frames), converted<std::uint64_t>(b.dropped_lights)};
+  if (b.repeated_pairs > 0) out.repeated_pairs = b.repeated_pairs;
   out.scratch_bytes = b.scratch_bytes;
   out.worst_frame = static_cast<std::uint64_t>(b.worst_frame);
   if (b.traffic_bytes_max > 0) out.traffic_bytes = {counted(b.traffic_bytes_mean), b.traffic_bytes_max};

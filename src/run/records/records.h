@@ -13,6 +13,7 @@ namespace clusterbench::run {
 result::Case record_of(const CaseResult& found);
 result::Scene record_of(const SceneResult& scene);
 result::Tool record_of(const ToolFacts& tool);
+result::Plugin record_of(const plugin::LoadedPlugin& loaded);
 result::Machine record_of(const MachineFacts& machine);
 result::Device record_of(const gpu::DeviceFacts& device);
 result::DeviceArithmetic record_of(const gpu::Arithmetic& found);

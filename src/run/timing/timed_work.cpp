@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/memory.h"
+#include "os/call_notes.h"
 
 namespace clusterbench::run {
 
@@ -51,6 +52,7 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
       pre_cull_(&frames.front().culls->path.of(method)),
       most_lights_(frames.front().culls->max_lights_of(method)) {
   const std::size_t all_frames = frames.size() + (extra == nullptr ? 0 : 1);
+  os::note_label(label_of(method));
   const config::MethodRequest& request = config.assigners[method.assigner];
   const assign::AssignerDescriptor& descriptor = *assign::find_assigner(request.name);
   if (method.answer == assign::Answer::lists) {
@@ -78,6 +80,8 @@ TimedWork::TimedWork(const config::Config& config, const GroupPlan& group, const
   }
   if (extra_ != nullptr) assign_frame(frames.size());
   assign();
+  check();
+  if (extra_ != nullptr) check_frame(frames.size());
 }
 
 std::vector<std::size_t> TimedWork::frames_of_stores(std::size_t all_frames) {
@@ -137,6 +141,15 @@ void TimedWork::assign_frame(std::size_t frame) {
     lists_assigner_->assign(input, lists_[frame]);
   else
     structure_assigner_->assign(input, *structures_[frame]);
+}
+
+void TimedWork::check_frame(std::size_t frame) const {
+  os::note_frame(path_frame(frame));
+  if (lists_assigner_) lists_assigner_->check(lists_[frame], lights(frame));
+}
+
+void TimedWork::check() const {
+  for (std::size_t i = 0; i < frames_.size(); ++i) check_frame(i);
 }
 
 std::size_t TimedWork::builds() const {

@@ -55,6 +55,10 @@ class TimedWork {
   void prepare_frame(std::size_t frame);
   // One frame, in the same way as assign().
   void assign_frame(std::size_t frame);
+  // Throws MethodError where the lists of a plug-in's method, of a frame or of all, are none. Before they are
+  // converted; never timed.
+  void check_frame(std::size_t frame) const;
+  void check() const;
   // Of the last frame that was assigned, by the device's own clock. Only of methods that run on a device.
   const assign::DeviceSpans& device_spans() const { return *assigner().device_spans(); }
   double device_floor_ns() const { return assigner().device_floor_ns(); }

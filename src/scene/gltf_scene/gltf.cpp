@@ -241,9 +241,7 @@ void check_world(const Scene& scene, const JsonLocation& root) {
         .refuse("its position in the world is not a number: the transforms above it are too large");
 }
 
-}  // namespace
-
-Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice) {
+Scene read_scene(const std::filesystem::path& path, const GltfChoice& choice) {
   GltfFile file;
   read_gltf_file(path, file, k_lazy_from_bytes);
   Warnings warnings;
@@ -279,6 +277,12 @@ Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice) {
   scene.sha256 = file.hash.hex();
   scene.warnings = warnings.lines();
   return scene;
+}
+
+}  // namespace
+
+Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice) {
+  return within_memory(path.string(), [&] { return read_scene(path, choice); });
 }
 
 }  // namespace clusterbench::scene

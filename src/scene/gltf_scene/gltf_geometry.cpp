@@ -354,7 +354,9 @@ std::uint64_t Geometry::vertex_count() const {
   return count;
 }
 
-Geometry load_geometry(const Scene& scene, GeometryParts parts) {
+namespace {
+
+Geometry read_geometry(const Scene& scene, GeometryParts parts) {
   GltfFile file;
   read_gltf_file(scene.path, file, k_lazy_from_bytes);
   Warnings warnings;
@@ -365,6 +367,12 @@ Geometry load_geometry(const Scene& scene, GeometryParts parts) {
   geometry.sha256 = sha256_of(geometry);
   geometry.warnings = warnings.lines();
   return geometry;
+}
+
+}  // namespace
+
+Geometry load_geometry(const Scene& scene, GeometryParts parts) {
+  return within_memory(scene.path.string(), [&] { return read_geometry(scene, parts); });
 }
 
 }  // namespace clusterbench::scene

@@ -5,7 +5,9 @@
 #include "assign/settings.h"
 #include "gpu/device_test.h"
 #include "gpu/faults/made_and_destroyed.h"
+#include "gpu/user_shaders/shader_method.h"
 #include "gpu/vulkan/vulkan.h"
+#include "places.h"
 
 namespace clusterbench::gpu {
 namespace {
@@ -64,6 +66,7 @@ TEST_F(DeviceFaults, while_buffers_and_kernels_are_made_leave_nothing_behind) {
 // Each method, from opening to its lists, then the same method with a device that works again.
 TEST_F(DeviceFaults, while_a_method_works_leave_nothing_behind_and_the_next_frame_is_right) {
   CountedVulkan vulkan;
+  add_shader_method(test::source_dir() + "/configs/shaders/tutorial.json");
   for (const assign::AssignerDescriptor* row : assign::assigner_descriptors()) {
     if (!row->on_device) continue;
     const assign::testing::Setting setting = assign::testing::settings_for(*row, 9).front();
@@ -87,6 +90,7 @@ TEST_F(DeviceFaults, while_a_method_works_leave_nothing_behind_and_the_next_fram
     EXPECT_GT(each_fault(vulkan, work), 60) << row->name;
     EXPECT_TRUE(right == expected) << row->name;
   }
+  remove_shader_methods();
   EXPECT_EQ(objections().first, "");
 }
 

@@ -1,0 +1,33 @@
+#include "acceptance/acceptance_test.h"
+
+#include <algorithm>
+
+namespace clusterbench::acceptance {
+
+std::span<const AcceptanceTest> acceptance_tests() {
+  static const std::vector<AcceptanceTest> all = [] {
+    std::vector<AcceptanceTest> tests;
+    for (const auto some : {instance_tests, list_tests, memory_tests, truth_tests})
+      for (const AcceptanceTest& test : some()) tests.push_back(test);
+    return tests;
+  }();
+  return all;
+}
+
+const AcceptanceTest* find_test(const std::string& name) {
+  for (const AcceptanceTest& test : acceptance_tests())
+    if (test.name == name) return &test;
+  return nullptr;
+}
+
+Findings run_test(const AcceptanceTest& test, const Subject& subject) {
+  Findings findings;
+  try {
+    test.run(subject, findings);
+  } catch (const std::exception& error) {
+    findings.fault(error.what());
+  }
+  return findings;
+}
+
+}  // namespace clusterbench::acceptance

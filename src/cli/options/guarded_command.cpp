@@ -1,0 +1,144 @@
+#include "cli/options/guarded_command.h"
+
+#include <iostream>
+#include <set>
+#include <utility>
+
+#include "core/text.h"
+#include "os/stop_signals.h"
+#include "os/terminal.h"
+#include "report/cases/columns.h"
+
+namespace clusterbench::cli {
+namespace {
+
+using How = os::GuardedEnd::How;
+
+std::string death_text(const os::GuardedEnd& end) {
+  const std::string signal = os::signal_name(end.signal);
+  if (signal == "SIGKILL") return "was killed (SIGKILL), as where memory runs out,";
+  if (end.signal != 0) return "crashed (" + signal + ")";
+  return "ended the process (exit code " + std::to_string(end.died_with_code) + ")";
+}
+
+std::string end_text(const os::GuardedEnd& end, const GuardFlags& flags) {
+  if (end.how == How::timed_out) return "did not return within " + report::text("%g s", flags.timeout_s);
+  if (end.how == How::out_of_memory) return "took more than " + std::to_string(flags.memory_mib) + " MiB of memory";
+  return death_text(end);
+}
+
+const char* kind_of(How how) {
+  if (how == How::timed_out) return "timed_out";
+  return how == How::out_of_memory ? "out_of_memory" : "crashed";
+}
+
+// "in assign, frame 12 (truth and counts)"; "after" if the call had returned.
+std::string call_text(const os::GuardedEnd& end) {
+  const os::NotedCall& call = *end.call;
+  const bool is_within = end.is_call_running || call.step == os::CallStep::unload;
+  std::string out = std::string(is_within ? " in " : " after ") + os::name_of(call.step);
+  if (call.frame >= 0) out += ", frame " + std::to_string(call.frame);
+  if (!call.pass.empty() && call.step != os::CallStep::unload) out += " (" + call.pass + ")";
+  return out;
+}
+
+Casualty casualty_of(const os::GuardedEnd& end, const GuardFlags& flags) {
+  if (!end.call) throw Error("", "", "ended without a call of a plug-in: " + death_text(end), ExitCode::internal);
+  return {*end.call, kind_of(end.how), "the plug-in " + end.call->code + " " + end_text(end, flags) + call_text(end),
+          end.signal != 0 ? os::signal_name(end.signal) : ""};
+}
+
+// A process that died cannot remove its progress line.
+void clear_line() {
+  if (os::terminal(os::StandardStream::error).interactive) std::cerr << "\r\033[K" << std::flush;
+}
+
+os::ProcessGuard::Limits limits_of(const GuardFlags& flags) {
+  return {flags.timeout_s, static_cast<std::uint64_t>(flags.memory_mib) << 20};
+}
+
+// Runs a part, and notes its end: what ends the process after it is no end of the part.
+ExitCode ended(const std::function<std::optional<ExitCode>()>& part) {
+  try {
+    const std::optional<ExitCode> code = part();
+    if (!code) os::note_measured();
+    if (code) os::note_done(static_cast<int>(*code));
+    return code.value_or(ExitCode::ok);
+  } catch (const Error& error) {
+    os::note_done(static_cast<int>(error.code()));
+    throw;
+  } catch (...) {
+    os::note_done(static_cast<int>(ExitCode::internal));
+    throw;
+  }
+}
+
+// A plug-in that cannot be loaded is an input that cannot be taken.
+ExitCode code_of(const Casualty& casualty, ExitCode other) {
+  return casualty.call.step == os::CallStep::load ? ExitCode::usage : other;
+}
+
+[[noreturn]] void refuse(const Casualty& casualty, ExitCode code) {
+  const std::string setting = casualty.call.setting.empty() ? "" : "; with " + casualty.call.setting;
+  throw Error("", "", casualty.reason + setting, code);
+}
+
+}  // namespace
+
+void add_guard_options(Command& command, GuardFlags& flags) {
+  command.add_option("--plugin-timeout", flags.timeout_s, "Longest time of one call of a plug-in, in seconds")
+      .range(0.1, 1e6)
+      .shows_standard();
+  command
+      .add_option("--plugin-memory", flags.memory_mib,
+                  "Most memory that the process may take beyond what it had when it first called a plug-in, in MiB")
+      .range(1, 1 << 30)
+      .shows_standard();
+  command.add_flag("--plugin-in-process", flags.is_in_process,
+                   "Call plug-ins in this process, for a debugger: if one crashes, the command ends with it");
+}
+
+ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& before_each,
+                     const std::function<std::optional<ExitCode>(const GuardedPart& part)>& part) {
+  if (flags.is_in_process) return *part({});
+  const std::atomic<bool>& stop = os::stop_on_signals();
+  os::ProcessGuard guard(limits_of(flags));
+  std::set<std::pair<std::string, std::uint64_t>> broken;  // group and method
+  GuardedPart next;
+  next.can_go_on = true;
+  for (;; ++next.number) {
+    before_each();
+    const std::optional<os::GuardedEnd> end = guard.run(stop);
+    if (!end) return ended([&] { return part(next); });
+    if (end->how == How::done) return static_cast<ExitCode>(end->exit_code);
+    next.message = guard.message();
+    next.casualty.reset();
+    if (end->how == How::measured) continue;
+    clear_line();
+    if (stop) return os::stopped_exit_code();
+    next.casualty = casualty_of(*end, flags);
+    if (next.casualty->call.group.empty()) refuse(*next.casualty, code_of(*next.casualty, ExitCode::gate_failed));
+    // A method is called no more in the group that it broke down in.
+    const bool is_new = broken.emplace(next.casualty->call.group, next.casualty->call.label).second;
+    if (!is_new) refuse(*next.casualty, ExitCode::internal);
+  }
+}
+
+ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::function<ExitCode()>& command) {
+  if (flags.is_in_process) return command();
+  const std::atomic<bool>& stop = os::stop_on_signals();
+  os::ProcessGuard guard(limits_of(flags));
+  const std::optional<os::GuardedEnd> end = guard.run(stop);
+  if (!end) return ended([&]() -> std::optional<ExitCode> { return command(); });
+  if (end->how == How::done) return static_cast<ExitCode>(end->exit_code);
+  clear_line();
+  if (stop) return os::stopped_exit_code();
+  const Casualty casualty = casualty_of(*end, flags);
+  refuse(casualty, code_of(casualty, code));
+}
+
+ExitCode guarded_if_needed(const RunInputs& inputs, const GuardFlags& flags, const std::function<ExitCode()>& command) {
+  return names_plugins(inputs) ? run_guarded_once(flags, ExitCode::gate_failed, command) : command();
+}
+
+}  // namespace clusterbench::cli

@@ -1,0 +1,375 @@
+#include "gpu/user_shaders/shader_file.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.h"
+#include "core/file_text.h"
+#include "core/json_document.h"
+#include "core/sha256.h"
+#include "core/text.h"
+#include "gpu/device/device.h"
+#include "gpu/user_shaders/known_values.h"
+#include "gpu/user_shaders/light_rows.h"
+#include "gpu/user_shaders/number_bytes.h"
+#include "result/allowed_values.h"
+
+namespace clusterbench::gpu {
+namespace {
+
+namespace fs = std::filesystem;
+using result::Json;
+using result::ShaderMethod;
+using result::ShaderPass;
+
+constexpr std::uintmax_t k_most_json_bytes = std::uintmax_t{1} << 20, k_most_module_bytes = std::uintmax_t{16} << 20;
+constexpr std::size_t k_most_buffers = Buffers::k_bindings - 1;  // one is the floor's
+constexpr std::uint64_t k_most_argument_bytes = 4096;
+
+std::string small_file(const fs::path& path, std::uintmax_t most) {
+  std::error_code failed;
+  if (fs::is_directory(path, failed)) throw Error(path.string(), "", "is a folder, not a file");
+  if (!fs::exists(path, failed)) throw Error(path.string(), "", "does not exist");
+  if (!fs::is_regular_file(path, failed)) throw Error(path.string(), "", "is no file of a known size");
+  if (const std::uintmax_t size = fs::file_size(path, failed); failed || size > most)
+    throw Error(path.string(), "", "has " + number_of(size, "byte") + "; allowed: at most " + std::to_string(most));
+  return file_text(path);
+}
+
+bool has_only(const std::string& text, const char* letters, std::size_t most) {
+  return !text.empty() && text.size() <= most && text.find_first_not_of(letters) == std::string::npos;
+}
+
+// Checks of one method; all throw Error ("", JSON pointer).
+class MethodCheck {
+ public:
+  explicit MethodCheck(const ShaderFile& file)
+      : file_(file), method_(file.record), names_(number_names(method_)), names_of_grid_(number_names(method_, true)) {}
+
+  void check() const {
+    check_names();
+    check_parameters();
+    check_buffers();
+    check_lights();
+    for (std::size_t i = 0; i < method_.passes.size(); ++i) check_pass(i);
+    if (std::ranges::all_of(method_.passes, [&](const ShaderPass& pass) { return file_.is_build(pass); }))
+      throw Error("", "/passes", "are all of the build; one that assigns is needed");
+    for (std::size_t i = 0; i < method_.lists.size(); ++i) check_lists(i);
+    if (method_.tests) check_formula(*method_.tests, names_, "/tests");
+  }
+
+ private:
+  using Values = std::vector<result::ShaderValue>;
+
+  void check_names() const {
+    if (!has_only(method_.name, "abcdefghijklmnopqrstuvwxyz0123456789-", 40) || method_.name.front() == '-')
+      throw Error(
+          "", "/name",
+          "is '" + method_.name + "'; allowed: small letters, digits and -, at most 40, a letter or digit first");
+    for (const auto& [where, text] :
+         {std::pair("/summary", method_.summary), std::pair("/source", method_.source.value_or("-"))})
+      if (text.empty() || text.size() > 1000)
+        throw Error("", where, "has " + number_of(text.size(), "byte") + "; allowed: 1 to 1000");
+  }
+
+  void check_parameters() const {
+    if (!method_.parameters) return;
+    std::set<std::string> seen{"name"};
+    for (const KnownValue& value : known_values()) seen.insert(value.name);
+    for (std::size_t i = 0; i < method_.parameters->size(); ++i) {
+      const result::ShaderParameter& one = (*method_.parameters)[i];
+      const std::string where = "/parameters/" + std::to_string(i);
+      if (!has_only(one.name, "abcdefghijklmnopqrstuvwxyz0123456789_", 40) || one.name.front() < 'a')
+        throw Error("", where + "/name",
+                    "is '" + one.name + "'; allowed: small letters, digits and _, at most 40, a letter first");
+      if (!seen.insert(one.name).second)
+        throw Error("", where + "/name", "is '" + one.name + "', which is a known value or another parameter");
+      if (!(one.least <= one.standard && one.standard <= one.most))
+        throw Error("", where + "/standard", "is not from least to most");
+    }
+  }
+
+  void check_buffers() const {
+    if (method_.buffers.empty() || method_.buffers.size() > k_most_buffers)
+      throw Error(
+          "", "/buffers",
+          "has " + number_of(method_.buffers.size(), "buffer") + "; allowed: 1 to " + std::to_string(k_most_buffers));
+    for (const auto& [name, buffer] : method_.buffers) {
+      const std::string where = "/buffers/" + name;
+      check_amount(buffer.bytes, names_, where + "/bytes");
+      if (!buffer.values) continue;
+      check_values(*buffer.values, where + "/values");
+      if (buffer.clear.value_or(false))
+        throw Error("", where + "/clear", "is true: that would wipe out the values that the host has written there");
+    }
+  }
+
+  void check_values(const Values& values, const std::string& pointer) const {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string where = pointer + "/" + std::to_string(i);
+      check_is(values[i].is, where + "/is", names_);
+      check_amount(values[i].at, names_, where + "/at");
+      if (values[i].step.value_or(8) > 4096 || values[i].step.value_or(8) < bytes_of_number(values[i].type))
+        throw Error("", where + "/step",
+                    "is " + std::to_string(*values[i].step) + "; allowed: the size of the type to 4096");
+    }
+  }
+  static void check_is(const std::string& is, const std::string& where, const std::vector<std::string>& numbers) {
+    std::vector<std::string> allowed = numbers;
+    for (const KnownValue& value : known_values())
+      if (value.numbers != 1) allowed.emplace_back(value.name);
+    if (std::ranges::find(allowed, is) != allowed.end()) return;
+    if (has_only(is, "abcdefghijklmnopqrstuvwxyz0123456789_", 40) && is.front() >= 'a')
+      throw Error("", where,
+                  "is '" + is + "', which is not known" + did_you_mean(is, allowed) + "; allowed: " + joined(allowed) +
+                      ", or a formula");
+    check_formula(is, numbers, where);
+  }
+
+  void check_buffer_name(const std::string& name, const std::string& where) const {
+    std::vector<std::string> names;
+    for (const auto& [one, _] : method_.buffers) names.push_back(one);
+    if (std::ranges::find(names, name) != names.end()) return;
+    throw Error("", where, "is '" + name + "'" + did_you_mean(name, names) + ", allowed: " + joined(names));
+  }
+
+  void check_lights() const {
+    for (std::size_t i = 0; i < method_.lights.rows.size(); ++i) {
+      const result::ShaderLightRows& rows = method_.lights.rows[i];
+      const std::string where = "/lights/rows/" + std::to_string(i);
+      check_buffer_name(rows.buffer, where + "/buffer");
+      if (method_.buffers[file_.buffer_index(rows.buffer)].second.clear.value_or(false))
+        throw Error("", "/buffers/" + rows.buffer + "/clear", "is true: that would wipe out the lights in it");
+      if (rows.stride > 4096)
+        throw Error("", where + "/stride", "is " + std::to_string(rows.stride) + "; allowed: at most 4096");
+      if (rows.at.value_or(0) > k_most_module_bytes)
+        throw Error("", where + "/at", "is " + std::to_string(*rows.at) + "; allowed: at most 16 MiB");
+      for (std::size_t j = 0; j < rows.fields.size(); ++j) {
+        const result::ShaderLightField& field = rows.fields[j];
+        const std::uint64_t size = numbers_of(field) * bytes_of_number(field.type);
+        if (field.at > rows.stride || size > rows.stride - field.at)
+          throw Error("", where + "/fields/" + std::to_string(j) + "/at",
+                      "is " + std::to_string(field.at) + ": its " + number_of(size, "byte") +
+                          " end beyond the stride of " + std::to_string(rows.stride));
+      }
+    }
+  }
+
+  void check_pass(std::size_t index) const {
+    const ShaderPass& pass = method_.passes[index];
+    const std::string where = "/passes/" + std::to_string(index);
+    if (pass.groups.has_value() == pass.invocations.has_value())
+      throw Error("", where, "has to have one of groups and invocations");
+    const std::vector<Json>& counts = pass.groups ? *pass.groups : *pass.invocations;
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      check_amount(counts[i], names_, where + (pass.groups ? "/groups/" : "/invocations/") + std::to_string(i));
+    check_entry(pass, where);
+    check_bindings(pass, where);
+    check_constants(pass, where);
+    check_push(pass, where);
+  }
+
+  void check_entry(const ShaderPass& pass, const std::string& where) const {
+    const std::string wanted = pass.entry.value_or("main");
+    std::vector<std::string> names;
+    for (const ModuleEntry& entry : file_.module(pass).entries) {
+      if (entry.is_compute && entry.name == wanted) return;
+      if (entry.is_compute) names.push_back(entry.name);
+    }
+    throw Error("", where + "/entry",
+                "is '" + wanted + "'" + did_you_mean(wanted, names) + "; " + pass.module + " has " +
+                    (names.empty() ? "no entry point of a compute shader" : joined(names)));
+  }
+
+  static std::string text_of(const ModuleBinding& binding) {
+    return "set " + std::to_string(binding.set) + ", binding " + std::to_string(binding.binding) +
+           (binding.name.empty() ? "" : " ('" + binding.name + "')");
+  }
+
+  void check_bindings(const ShaderPass& pass, const std::string& where) const {
+    const SpirvModule& module = file_.module(pass);
+    std::set<std::pair<std::uint32_t, std::uint32_t>> described;
+    for (std::size_t i = 0; i < pass.bindings.size(); ++i) {
+      const result::ShaderBinding& binding = pass.bindings[i];
+      const std::string at = where + "/bindings/" + std::to_string(i);
+      check_buffer_name(binding.buffer, at + "/buffer");
+      const std::pair place(binding.set.value_or(0), binding.binding);
+      if (!described.insert(place).second)
+        throw Error(
+            "", at,
+            "is the second of set " + std::to_string(place.first) + ", binding " + std::to_string(place.second));
+      if (std::ranges::none_of(module.bindings, [&](const ModuleBinding& one) {
+            return one.set == place.first && one.binding == place.second;
+          }))
+        throw Error("", at,
+                    "is set " + std::to_string(place.first) + ", binding " + std::to_string(place.second) + ", which " +
+                        pass.module + " does not have; it has " + all_bindings(module));
+    }
+    for (const ModuleBinding& binding : module.bindings) {
+      if (binding.kind == ModuleBinding::Kind::other || binding.is_array)
+        throw Error("", where + "/module",
+                    pass.module + " has " + text_of(binding) +
+                        ", which is no buffer; methods have storage and uniform buffers, one at each binding");
+      if (!described.contains({binding.set, binding.binding}))
+        throw Error("", where + "/bindings", "do not say which buffer is " + text_of(binding) + " of " + pass.module);
+    }
+  }
+  static std::string all_bindings(const SpirvModule& module) {
+    std::vector<std::string> all;
+    for (const ModuleBinding& binding : module.bindings) all.push_back(text_of(binding));
+    return all.empty() ? "none" : joined(all, "; ");
+  }
+
+  void check_constants(const ShaderPass& pass, const std::string& where) const {
+    if (!pass.constants) return;
+    const SpirvModule& module = file_.module(pass);
+    std::set<std::uint32_t> seen;
+    for (std::size_t i = 0; i < pass.constants->size(); ++i) {
+      const result::ShaderConstant& constant = (*pass.constants)[i];
+      const std::string at = where + "/constants/" + std::to_string(i);
+      const auto found = std::ranges::find(module.constants, constant.id, &ModuleConstant::id);
+      if (found == module.constants.end() || !seen.insert(constant.id).second)
+        throw Error("", at + "/id",
+                    "is " + std::to_string(constant.id) +
+                        (found == module.constants.end()
+                             ? ", which " + pass.module + " does not have as a specialization constant"
+                             : ", for the second time"));
+      if (!found->is_word) throw Error("", at + "/id", "is " + std::to_string(constant.id) + ", which has no 32 bits");
+      check_formula(constant.is, names_of_grid_, at + "/is");
+    }
+  }
+
+  void check_push(const ShaderPass& pass, const std::string& where) const {
+    const std::uint64_t bytes = file_.module(pass).argument_bytes;
+    if (bytes > k_most_argument_bytes)
+      throw Error("", where + "/module",
+                  pass.module + " has " + number_of(bytes, "byte") + " of push constants; allowed: at most " +
+                      std::to_string(k_most_argument_bytes));
+    if (bytes > 0 && !pass.push)
+      throw Error("", where + "/push",
+                  "is missing: " + pass.module + " has " + number_of(bytes, "byte") + " of push constants");
+    if (!pass.push) return;
+    check_values(*pass.push, where + "/push");
+  }
+
+  void check_lists(std::size_t index) const {
+    const std::string where = "/lists/" + std::to_string(index);
+    const NumberOf any = [&](const std::string& name) {
+      static constexpr double k_one = 1.0;
+      return std::ranges::find(names_, name) == names_.end() ? nullptr : &k_one;
+    };
+    const result::DumpLists lists = lists_of(method_.lists[index], any, where);
+    if (lists.layout == "inline")
+      throw Error("", where + "/layout", "is inline; allowed: a layout of buffers, which the shader leaves");
+    if (lists.set) throw Error("", where + "/set", "is not known here: all parts are united");
+    if (lists.rows) check_buffer_name(lists.rows->buffer, where + "/rows/buffer");
+    if (lists.entries && lists.entries->buffer) check_buffer_name(*lists.entries->buffer, where + "/entries/buffer");
+    if (lists.ranges) check_buffer_name(lists.ranges->buffer, where + "/ranges/buffer");
+    if (lists.nodes) check_buffer_name(lists.nodes->buffer, where + "/nodes/buffer");
+  }
+
+  const ShaderFile& file_;
+  const ShaderMethod& method_;
+  std::vector<std::string> names_, names_of_grid_;
+};
+
+// A formula where the type wants a whole number becomes that number.
+void replace_formulas(const result::Type& type, Json& value, const NumberOf& number, const std::string& where) {
+  if (type.kind == result::Kind::integer && value.is_string()) {
+    value = amount_of(value, number, where);
+  } else if (type.kind == result::Kind::list && value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      replace_formulas(*type.element, value[i], number, where + "/" + std::to_string(i));
+  } else if (type.kind == result::Kind::object && value.is_object()) {
+    for (const result::Field& field : type.fields)
+      if (value.contains(field.name))
+        replace_formulas(*field.type, value[field.name], number, where + "/" + field.name);
+  }
+}
+
+void read_modules(ShaderFile& file, Sha256& digest, const BytesOfModule& bytes_of) {
+  for (std::size_t i = 0; i < file.record.passes.size(); ++i) {
+    const std::string& name = file.record.passes[i].module;
+    if (file.modules.contains(name)) continue;
+    const std::string bytes = bytes_of(name, "/passes/" + std::to_string(i) + "/module");
+    digest.add(bytes);
+    file.modules.emplace(name, read_module(std::as_bytes(std::span(bytes)), (file.path.parent_path() / name).string()));
+  }
+}
+
+ShaderMethod parse_shader_method(std::string_view text, const std::string& file) {
+  const auto json = read_json<Json>(text, file, JsonComments::allowed);
+  if (!json.is_object() || !json.contains("shader_version"))
+    throw Error(file, "/shader_version", "is missing: this is no method of shaders (see `clusterbench schema shader`)");
+  try {
+    if (json["shader_version"] != 1)
+      throw Error("", "/shader_version", "is " + json["shader_version"].dump() + "; this version reads 1");
+    Json plain = json;
+    plain.erase("$schema");
+    auto method = result::from_json<ShaderMethod>(plain);
+    result::check_values(method);
+    return method;
+  } catch (const Error& error) {
+    throw Error(file, error.where(), error.message(), error.code());
+  }
+}
+
+}  // namespace
+
+const ModuleEntry& ShaderFile::entry(const ShaderPass& pass) const {
+  const std::string wanted = pass.entry.value_or("main");
+  return *std::ranges::find_if(module(pass).entries,
+                               [&](const ModuleEntry& entry) { return entry.is_compute && entry.name == wanted; });
+}
+
+std::size_t ShaderFile::buffer_index(const std::string& name) const {
+  std::size_t index = 0;
+  while (record.buffers.at(index).first != name) ++index;
+  return index;
+}
+
+result::DumpLists lists_of(const Json& part, const NumberOf& number, const std::string& where) {
+  Json whole = part;
+  replace_formulas(result::type_of<result::DumpLists>(), whole, number, where);
+  auto lists = result::from_json<result::DumpLists>(whole, where);
+  result::check_values(result::type_of<result::DumpLists>(), &lists, where);
+  return lists;
+}
+
+ShaderFile make_shader_file(const fs::path& path, std::string_view text, const BytesOfModule& bytes_of) {
+  ShaderFile file;
+  file.path = path;
+  file.record = parse_shader_method(text, path.string());
+  Sha256 digest;
+  digest.add(text);
+  read_modules(file, digest, bytes_of);
+  file.sha256 = digest.hex();
+  try {
+    MethodCheck(file).check();
+  } catch (const Error& error) {
+    throw Error(path.string(), error.where(), error.message(), error.code());
+  }
+  return file;
+}
+
+ShaderFile read_shader_file(const fs::path& path) {
+  return make_shader_file(path, small_file(path, k_most_json_bytes),
+                          [&](const std::string& name, const std::string& where) {
+                            const fs::path module = path.parent_path() / name;
+                            std::error_code none;
+                            if (fs::exists(module, none)) return small_file(module, k_most_module_bytes);
+                            throw Error(path.string(), where,
+                                        "names " + module.string() +
+                                            ", which does not exist; it is made by glslangValidator -V --target-env "
+                                            "vulkan1.3 X.comp -o X.spv");
+                          });
+}
+
+std::vector<std::string> files_of_shader(const fs::path& path) {
+  std::vector<std::string> files{path.string()};
+  for (const ShaderPass& pass : parse_shader_method(small_file(path, k_most_json_bytes), path.string()).passes)
+    files.push_back((path.parent_path() / pass.module).string());
+  return files;
+}
+
+}  // namespace clusterbench::gpu

@@ -1,0 +1,21 @@
+#pragma once
+// A user's shaders as a method: the registry knows it like those that are built in.
+
+#include <memory>
+
+#include "assign/contract/assigner.h"
+#include "gpu/user_shaders/shader_file.h"
+
+namespace clusterbench::gpu {
+
+assign::AssignerDescriptor descriptor_of(const std::shared_ptr<const ShaderFile>& file);
+
+// Reads the file and adds its method to the registry, unless the same file was added before; then its descriptor as it
+// was. Throws Error (file, JSON pointer), also where another method has the name.
+const assign::AssignerDescriptor& add_shader_method(const std::filesystem::path& path);
+// The reason why a device of this process cannot run it; "" if it can, as far as is known without a frame.
+std::string shader_obstacle(const ShaderFile& file);
+// Takes all of them out of the registry again; for tests. No configuration may be in use.
+void remove_shader_methods();
+
+}  // namespace clusterbench::gpu

@@ -1,0 +1,21 @@
+#pragma once
+// What an engine gives (assign.h), checked, in this project's own types. All throw Error (where: the argument).
+
+#include "assign/contract/assigner.h"
+#include "depth/depth_image.h"
+#include "grid/grid_spec.h"
+#include "library/assign.h"
+#include "view/frame.h"
+
+namespace clusterbench::library {
+
+grid::GridSpec grid_spec_of(const Grid& grid);
+assign::Params params_of(std::span<const assign::ParamSpec> specs, std::span<const Parameter> given);
+
+// Camera and viewport. The lights of the frame stay.
+void set_camera(const View& view, view::Frame& frame);
+// Keeps the frame's memory.
+void set_lights(const Lights& lights, view::Frame& frame);
+void set_depths(const View& view, depth::DepthImage& image);
+
+}  // namespace clusterbench::library

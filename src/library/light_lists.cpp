@@ -1,0 +1,394 @@
+// LightLists: one frame's input through method and storage.
+
+#include <cmath>
+#include <map>
+#include <new>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assign/contract/storage.h"
+#include "core/error.h"
+#include "core/float_environment.h"
+#include "core/memory.h"
+#include "core/text.h"
+#include "library/given.h"
+#include "library/jobs.h"
+
+namespace clusterbench::library {
+namespace {
+
+std::string known_names(std::string_view name, const std::vector<std::string>& names) {
+  return "is '" + std::string(name) + "'" + did_you_mean(name, names) + "; there are: " + joined(names);
+}
+
+const assign::AssignerDescriptor& method_named(std::string_view name) {
+  const assign::AssignerDescriptor* found = assign::find_assigner(std::string(name));
+  if (found == nullptr) throw Error("", "method", known_names(name, assign::assigner_names()));
+  return *found;
+}
+
+const assign::StorageDescriptor& storage_named(std::string_view name) {
+  const assign::StorageDescriptor* found = assign::find_storage(std::string(name));
+  if (found == nullptr) throw Error("", "storage", known_names(name, assign::storage_names()));
+  return *found;
+}
+
+// The parameter of a method that is its number of threads; null: it has one thread.
+const assign::ParamSpec* threads_param(const assign::AssignerDescriptor& method) {
+  for (const assign::ParamSpec& spec : method.params)
+    if (spec.is_thread_count) return &spec;
+  return nullptr;
+}
+
+assign::Params method_params(const assign::AssignerDescriptor& method, const Settings& settings) {
+  const assign::ParamSpec* const threads = threads_param(method);
+  if (settings.threads != 1 && threads == nullptr)
+    throw Error(
+        "", "threads",
+        "is " + std::to_string(settings.threads) + "; allowed: 1, since " + method.name + " works on one thread");
+  std::vector<Parameter> given(settings.method_parameters.begin(), settings.method_parameters.end());
+  if (threads != nullptr) given.emplace_back(threads->name, settings.threads);
+  return params_of(method.params, given);
+}
+
+void check_lights(const assign::AssignerDescriptor& method, const Lights& lights) {
+  const auto refuse_if = [&](bool is_refused, const char* kind) {
+    if (is_refused) throw Error("", std::string("lights.") + kind, "are given, and " + method.name + " takes none");
+  };
+  refuse_if(!method.points && !lights.points.empty(), "points");
+  refuse_if(!method.spots && !lights.spots.empty(), "spots");
+  refuse_if(!method.boxes && !lights.boxes.empty(), "boxes");
+}
+
+bool are_equal(const view::LightRanges& a, const view::LightRanges& b) {
+  return a.points.count == b.points.count && a.spots.count == b.spots.count && a.boxes.count == b.boxes.count;
+}
+
+// Errors of grids name keys of a configuration.
+std::string argument_of(const std::string& key) {
+  static const std::map<std::string, const char*> k_arguments{{"tiles.pixels", "grid.tile_width, grid.tile_height"},
+                                                              {"tiles.count", "grid.columns, grid.rows"},
+                                                              {"slices.near", "grid.near_m"},
+                                                              {"slices.far", "grid.far_m"},
+                                                              {"slices.first", "grid.first_m"},
+                                                              {"slices.lambda", "grid.lambda"},
+                                                              {"slices.count", "grid.slices"},
+                                                              {"slices.boundaries", "grid.boundaries_m"},
+                                                              {"bounds", "grid.lo_m, grid.hi_m"},
+                                                              {"finest", "grid.finest_m"},
+                                                              {"camera", "view"}};
+  const auto found = k_arguments.find(key);
+  return found == k_arguments.end() ? "grid." + key : found->second;
+}
+
+grid::Grid made_grid(const grid::GridSpec& spec, const grid::GridInputs& inputs) {
+  try {
+    return grid::make_grid(spec, inputs);
+  } catch (const Error& error) {
+    throw Error("", argument_of(error.where()), error.message());
+  }
+}
+
+// 0 if there is no memory for the answer.
+assign::StructureUse use_of(const assign::LightStructure& structure) {
+  try {
+    return structure.use();
+  } catch (...) {
+    return {};
+  }
+}
+
+template <class Row>
+std::vector<std::string_view> names_of(std::span<const Row* const> rows) {
+  std::vector<std::string_view> names;
+  for (const Row* row : rows) names.push_back(row->name);
+  return names;
+}
+
+}  // namespace
+
+struct LightLists::State {
+  const assign::AssignerDescriptor* method = nullptr;  // null: not started
+  grid::GridSpec spec;
+  bool wants_lists = false;  // of a structure
+  std::optional<LentThreads> lent;
+  std::unique_ptr<assign::ListAssigner> list_method;
+  std::unique_ptr<assign::StructureAssigner> structure_method;  // or this one
+  std::unique_ptr<assign::Storage> storage;                     // null: none
+  std::unique_ptr<assign::LightStructure> own;                  // of structure_method
+
+  // Of the last build; without a value the next frame builds.
+  std::optional<grid::GridInputs> inputs;
+  grid::Grid grid;
+  assign::LightKinds kinds{false, false};
+  view::LightRanges stored;  // lights that the storage was started for
+  std::uint64_t builds = 0;
+
+  view::Frame frame;
+  view::LightArrays arrays;
+  depth::DepthImage depths;
+  assign::Lists lists;
+  assign::ShaderBuffers shader;
+  std::vector<Buffer> buffers;
+  std::string problem;
+  const char* short_problem = "";  // where there is no memory for a text
+
+  SharedThreads* threads() { return lent ? &*lent : nullptr; }
+  assign::Assigner& assigner() {
+    if (list_method) return *list_method;
+    return *structure_method;
+  }
+  const assign::LightStructure* structure() const { return own ? own.get() : storage.get(); }
+
+  void start(const Settings& settings);
+  void make_method(const Settings& settings);
+  void update(const View& view, const Lights& lights);
+  void check_grid(const View& view) const;
+  void prepare_grid();
+  void build(const grid::GridInputs& now, const assign::LightKinds& wanted);
+  void prepare_storage();
+  void assign();
+  void show_buffers();
+  void forget_frame();
+
+  // Whether `work` did not fail.
+  template <class Work>
+  bool tried(Work&& work) noexcept {
+    problem.clear();
+    short_problem = "";
+    const NearestRoundingScope rounding;
+    try {
+      const SharedThreadsScope lend(threads());
+      work();
+      return true;
+    } catch (const std::bad_alloc&) {
+      short_problem = "there is not enough memory";
+    } catch (const std::exception& error) {
+      keep_problem(error.what());
+    }
+    forget_frame();
+    return false;
+  }
+  void keep_problem(const char* text) noexcept {
+    try {
+      problem = text;
+    } catch (...) {
+      short_problem = "there is not enough memory";
+    }
+  }
+};
+
+void LightLists::State::start(const Settings& settings) {
+  *this = State();
+  const assign::AssignerDescriptor& wanted = method_named(settings.method);
+  spec = grid_spec_of(settings.grid);
+  if (!wanted.takes(spec.kind))
+    throw Error("", "grid.kind",
+                std::string("is ") + grid::kind_name(spec.kind) + ", on which " + wanted.name + " does not work");
+  if (settings.jobs.run != nullptr) lent.emplace(settings.jobs);
+  wants_lists = settings.wants_lists_of_structures;
+  const SharedThreadsScope lend(threads());
+  method = &wanted;
+  make_method(settings);
+}
+
+void LightLists::State::make_method(const Settings& settings) {
+  const assign::Params params = method_params(*method, settings);
+  if (const std::string reason = assign::unavailability(*method, params); !reason.empty())
+    throw Error("", "method", method->name + " cannot run here: " + reason);
+  if (method->make != nullptr) {
+    list_method = method->make(params);
+    if (settings.storage.empty()) return;
+    const assign::StorageDescriptor& row = storage_named(settings.storage);
+    storage = row.make(params_of(row.params, settings.storage_parameters));
+    return;
+  }
+  if (!settings.storage.empty())
+    throw Error("", "storage", "is given, and " + method->name + " leaves a structure of its own; allowed: none");
+  structure_method = method->make_own(params);
+  own = structure_method->make_structure();
+}
+
+void LightLists::State::update(const View& view, const Lights& lights) {
+  if (method == nullptr) throw Error("", "update", "was called before a start() that did not fail");
+  check_lights(*method, lights);
+  check_grid(view);
+  set_camera(view, frame);
+  set_lights(lights, frame);
+  if (method->needs.depth) set_depths(view, depths);
+  prepare_grid();
+  prepare_storage();
+  assign();
+  show_buffers();
+}
+
+void LightLists::State::check_grid(const View& view) const {
+  if (view.is_orthographic && !method->orthographic)
+    throw Error("", "view.is_orthographic", "is true, and " + method->name + " takes perspective cameras only");
+  const bool has_end = spec.slices.scheme == grid::Scheme::list || spec.slices.far_m > 0.0;
+  if (spec.has_tiles() && !has_end && std::isinf(view.far_m))
+    throw Error("", "grid.far_m", "is not given, and the camera has no far plane; give one of the two");
+}
+
+// Builds if the projection changed, or if there is a light of a kind that the last build did not know.
+void LightLists::State::prepare_grid() {
+  const view::LightRanges now_there = frame.ranges();
+  const grid::GridInputs now = grid::grid_inputs(spec, frame, 0.0, Vec3d(0.0), Vec3d(0.0));
+  const assign::LightKinds wanted{kinds.spots || !now_there.spots.empty(), kinds.boxes || !now_there.boxes.empty()};
+  if (inputs == now && wanted.spots == kinds.spots && wanted.boxes == kinds.boxes) return;
+  build(now, wanted);
+}
+
+void LightLists::State::build(const grid::GridInputs& now, const assign::LightKinds& wanted) {
+  inputs.reset();
+  grid = made_grid(spec, now);
+  kinds = wanted;
+  assigner().build(grid, kinds);
+  ++builds;
+  stored = {};
+  if (storage) storage->start(grid, frame.ranges());
+  stored = frame.ranges();
+  inputs = now;
+}
+
+void LightLists::State::prepare_storage() {
+  if (are_equal(stored, frame.ranges())) return;
+  if (storage) storage->start(grid, frame.ranges());
+  stored = frame.ranges();
+}
+
+void LightLists::State::assign() {
+  view::fill_lights_in(frame, grid::space_of(grid, frame), arrays);
+  const assign::FrameInput input{frame, arrays, method->needs.depth ? &depths : nullptr};
+  if (list_method) {
+    list_method->assign(input, lists);
+    if (storage) storage->store(lists);
+    return;
+  }
+  structure_method->assign(input, *own);
+  if (wants_lists && own->has_cells()) own->expand(lists);
+}
+
+void LightLists::State::show_buffers() {
+  if (structure() == nullptr || !structure()->fill_shader_buffers(shader)) return;
+  buffers.clear();
+  for (const assign::ShaderBuffers::Buffer& buffer : shader.buffers)
+    buffers.push_back({buffer.name, buffer.element_bytes, buffer.bytes});
+}
+
+// After a failure in any step; the next frame builds.
+void LightLists::State::forget_frame() {
+  lists.begin.clear();
+  lists.lights.clear();
+  buffers.clear();
+  inputs.reset();
+}
+
+LightLists::LightLists() noexcept = default;
+LightLists::~LightLists() = default;
+LightLists::LightLists(LightLists&&) noexcept = default;
+LightLists& LightLists::operator=(LightLists&&) noexcept = default;
+
+bool LightLists::start(const Settings& settings) noexcept {
+  if (!state_) state_.reset(new (std::nothrow) State);
+  if (!state_) return false;
+  const bool is_started = state_->tried([&] { state_->start(settings); });
+  if (!is_started) state_->method = nullptr;
+  return is_started;
+}
+
+bool LightLists::update(const View& view, const Lights& lights) noexcept {
+  return state_ && state_->tried([&] { state_->update(view, lights); });
+}
+
+std::string_view LightLists::error() const noexcept {
+  if (!state_) return "start: was not called, or there was no memory for it";
+  return *state_->short_problem != '\0' ? std::string_view(state_->short_problem) : std::string_view(state_->problem);
+}
+
+Cells LightLists::cells() const noexcept {
+  if (!state_ || !state_->inputs) return {};
+  const Vec3i cells = state_->grid.cells();
+  return {cells.x, cells.y, cells.z};
+}
+
+std::span<const std::uint32_t> LightLists::begins() const noexcept {
+  return state_ ? std::span<const std::uint32_t>(state_->lists.begin) : std::span<const std::uint32_t>();
+}
+
+std::span<const std::uint32_t> LightLists::light_indices() const noexcept {
+  return state_ ? std::span<const std::uint32_t>(state_->lists.lights) : std::span<const std::uint32_t>();
+}
+
+std::span<const std::uint32_t> LightLists::of(std::uint32_t cell) const noexcept {
+  if (!state_ || std::size_t{cell} + 1 >= state_->lists.begin.size()) return {};
+  return state_->lists.of(cell);
+}
+
+std::int64_t LightLists::cell_at(float pixel_x, float pixel_y, float depth) const noexcept {
+  const bool is_point = std::isfinite(pixel_x) && std::isfinite(pixel_y) && std::isfinite(depth);
+  if (!is_point || !state_ || !state_->inputs) return -1;
+  const view::Frame& frame = state_->frame;
+  if (!frame.projection.orthographic && !(depth > 0.0f)) return -1;  // behind the eye
+  const view::PictureRay ray = view::picture_ray(frame, {static_cast<double>(pixel_x), static_cast<double>(pixel_y)});
+  const Vec3d at = ray.at(static_cast<double>(depth));
+  const Mat3d& rotation = frame.view_space.rotation;
+  const Vec3d from_eye{dot(rotation[0], at), dot(rotation[1], at), dot(rotation[2], at)};
+  return grid::lookup(state_->grid, {pixel_x, pixel_y, Vec3f(at), from_eye, frame.view_space.origin});
+}
+
+Lookup LightLists::lookup() const noexcept {
+  if (!state_ || !state_->inputs || !state_->grid.has_tiles()) return {};
+  const grid::ScreenGrid& screen = state_->grid.screen();
+  const grid::SliceLookup& slices = screen.slices.lookup;
+  return {screen.tiles.scale_x,
+          screen.tiles.scale_y,
+          static_cast<Lookup::Form>(slices.form),
+          slices.scale,
+          slices.bias,
+          slices.first_m,
+          slices.first_slice,
+          screen.slices.boundaries};
+}
+
+std::span<const Buffer> LightLists::buffers() const noexcept {
+  return state_ ? std::span<const Buffer>(state_->buffers) : std::span<const Buffer>();
+}
+
+std::uint64_t LightLists::dropped_pairs() const noexcept {
+  return state_ && state_->inputs && state_->storage ? use_of(*state_->storage).dropped_pairs : 0;
+}
+
+std::size_t LightLists::memory_bytes() const noexcept {
+  if (!state_ || !state_->inputs) return 0;
+  std::size_t bytes = state_->assigner().scratch_bytes();
+  bytes += (state_->lists.begin.capacity() + state_->lists.lights.capacity()) * sizeof(std::uint32_t);
+  bytes += state_->frame.lights.capacity() * sizeof(scene::WorldLight);
+  if (state_->storage) bytes += 2 * use_of(*state_->storage).upload_bytes;
+  return bytes;
+}
+
+std::uint64_t LightLists::builds() const noexcept {
+  return state_ ? state_->builds : 0;
+}
+
+std::span<const std::string_view> methods() noexcept {
+  static const std::vector<std::string_view> names = names_of(assign::assigner_descriptors());
+  return names;
+}
+
+std::span<const std::string_view> storages() noexcept {
+  static const std::vector<std::string_view> names = names_of(assign::storage_descriptors());
+  return names;
+}
+
+void set_memory_limit(std::uint64_t bytes) noexcept {
+  clusterbench::set_memory_limit(bytes);
+}
+
+const char* version() noexcept {
+  return CLUSTERBENCH_LIBRARY_VERSION;
+}
+
+}  // namespace clusterbench::library

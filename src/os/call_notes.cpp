@@ -1,0 +1,207 @@
+#include "os/call_notes.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/error.h"
+#include "os/notes_page.h"
+#include "os/process_memory.h"
+
+namespace clusterbench::os {
+namespace {
+
+// Notes belong to the process, as its signals do.
+NotesPage g_own_page{};
+NotesPage* g_page = &g_own_page;
+int g_file = -1;
+std::string g_joined;  // NOLINT(cert-err58-cpp): an empty string throws nothing
+
+constexpr auto k_relaxed = std::memory_order_relaxed;
+
+thread_local ThreadNotes* t_notes = nullptr;
+thread_local std::uint64_t t_label = 0;
+
+bool is_gone(int process) {
+  return ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+// A free place, or that of a process that has ended. If there are more threads than places, some share the last one.
+ThreadNotes& claimed_notes() {
+  for (ThreadNotes& notes : g_page->threads) {
+    int owner = notes.process.load();
+    if (owner != 0 && !is_gone(owner)) continue;
+    if (!notes.process.compare_exchange_strong(owner, ::getpid())) continue;
+    notes.begun = notes.ended = 0;
+    notes.resident_before = 0;
+    notes.setting.set("");
+    return notes;
+  }
+  return g_page->threads.back();
+}
+
+ThreadNotes& thread_notes() {
+  if (t_notes == nullptr) t_notes = &claimed_notes();
+  return *t_notes;
+}
+
+void map_page(int file) {
+  void* memory = ::mmap(nullptr, sizeof(NotesPage), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (memory == MAP_FAILED) throw Error("memory", "", errno_text("no notes could be shared"), ExitCode::internal);
+  g_page = static_cast<NotesPage*>(memory);
+  t_notes = nullptr;
+}
+
+void on_crash(int number) {
+  if (t_notes != nullptr && t_notes->is_running())
+    g_page->crashed_thread = static_cast<int>(t_notes - g_page->threads.data());
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+}
+
+}  // namespace
+
+const char* name_of(CallStep step) {
+  constexpr const char* k_names[] = {"load", "create", "build", "assign", "query", "destroy", "unload"};
+  const auto index = static_cast<std::size_t>(step);
+  return index < std::size(k_names) ? k_names[index] : "?";
+}
+
+ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) {
+  ThreadNotes& notes = thread_notes();
+  if (step == CallStep::destroy) {
+    label_before_ = notes.label;
+    code_before_ = notes.code;
+    step_before_ = notes.step;
+    frame_before_ = notes.frame;
+  }
+  notes.code.store(caller.code, k_relaxed);
+  notes.label.store(caller.label, k_relaxed);
+  notes.step.store(static_cast<std::uint32_t>(step), k_relaxed);
+  notes.frame.store(frame, k_relaxed);
+  if (notes.resident_before.load(k_relaxed) == 0) notes.resident_before = resident_bytes(::getpid());
+  g_page->last_thread.store(static_cast<int>(&notes - g_page->threads.data()), k_relaxed);
+  g_page->has_called.store(true, k_relaxed);
+  notes.begun.store(notes.begun.load(k_relaxed) + 1, std::memory_order_release);
+}
+
+ForeignCall::~ForeignCall() {
+  ThreadNotes& notes = thread_notes();
+  notes.ended.store(notes.ended.load(k_relaxed) + 1, std::memory_order_release);
+  if (notes.step.load(k_relaxed) != static_cast<std::uint32_t>(CallStep::destroy)) return;
+  notes.label = label_before_;
+  notes.code = code_before_;
+  notes.step = step_before_;
+  notes.frame = frame_before_;
+}
+
+void note_frame(int frame) {
+  if (t_notes != nullptr) t_notes->frame = frame;
+}
+
+std::uint32_t note_code(std::string_view name) {
+  const std::uint32_t known = std::min<std::uint32_t>(g_page->codes, NotesPage::k_codes - 1);
+  for (std::uint32_t index = 0; index < known; ++index)
+    if (g_page->names[index].text() == name) return index;
+  const std::uint32_t index = std::min<std::uint32_t>(g_page->codes.fetch_add(1), NotesPage::k_codes - 1);
+  g_page->names[index].set(index + 1 < NotesPage::k_codes ? name : "one of more than 32 plug-ins");
+  return index;
+}
+
+void note_group(std::string_view case_id) {
+  g_page->group.set(case_id);
+}
+
+void note_pass(std::string_view name) {
+  g_page->pass.set(name);
+}
+
+void note_label(std::uint64_t label) {
+  t_label = label;
+}
+
+std::uint64_t noted_label() {
+  return t_label;
+}
+
+void note_setting(std::string_view text) {
+  thread_notes().setting.set(text);
+}
+
+LastCall last_call() {
+  const auto index = static_cast<std::size_t>(g_page->last_thread.load());
+  if (!g_page->has_called || index >= g_page->threads.size()) return {};
+  const ThreadNotes& notes = g_page->threads[index];
+  return {static_cast<CallStep>(notes.step.load()), notes.label, notes.frame, g_page->pass.text()};
+}
+
+bool is_guarded() {
+  return g_page != &g_own_page;
+}
+
+std::string path_of_notes() {
+  if (!g_joined.empty()) return g_joined;
+  return g_file < 0 ? "" : "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(g_file);
+}
+
+void join_notes(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+  struct stat facts {};
+  const bool is_page = file >= 0 && ::fstat(file, &facts) == 0 && facts.st_size == sizeof(NotesPage);
+  if (is_page) map_page(file);
+  if (file >= 0) ::close(file);
+  if (!is_page || g_page->magic != NotesPage::k_magic)
+    throw Error(path, "", "holds no notes of this program's calls", ExitCode::internal);
+  g_joined = path;
+  watch_for_crashes();
+}
+
+void end_with_call(int wait_status) {
+  if (!is_guarded()) return;
+  if (!std::ranges::any_of(g_page->threads, &ThreadNotes::is_running)) return;
+  g_page->child_status = wait_status;
+  g_page->has_child_status = true;
+  std::_Exit(static_cast<int>(ExitCode::internal));
+}
+
+NotesPage& notes_page() {
+  return *g_page;
+}
+
+NotesPage& share_notes() {
+  if (g_file >= 0) return *g_page;
+  g_file = ::memfd_create("clusterbench", MFD_CLOEXEC);
+  if (g_file < 0 || ::ftruncate(g_file, sizeof(NotesPage)) != 0)
+    throw Error("memory", "", errno_text("no notes could be shared"), ExitCode::internal);
+  map_page(g_file);
+  g_page->magic = NotesPage::k_magic;
+  clear_notes(*g_page);
+  return *g_page;
+}
+
+void clear_notes(NotesPage& page) {
+  page.state = GuardState::working;
+  page.exit_code = 0;
+  page.crashed_thread = -1;
+  page.has_called = false;
+  page.has_child_status = false;
+  page.codes = 0;
+  page.group.set("");
+  page.pass.set("");
+  for (ThreadNotes& notes : page.threads) notes.process = 0;
+  for (ThreadNotes& notes : page.threads) notes.begun = notes.ended = 0;
+}
+
+void watch_for_crashes() {
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP})
+    if (const auto before = std::signal(number, on_crash); before != SIG_DFL) std::signal(number, before);
+}
+
+}  // namespace clusterbench::os

@@ -1,0 +1,79 @@
+#pragma once
+// The memory behind call_notes.h, which processes share: plain bytes and lock-free numbers. A reader trusts none of
+// them: foreign code can have written there.
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "os/call_notes.h"
+
+namespace clusterbench::os {
+
+// Text in shared memory, cut to its room.
+template <std::size_t size>
+class NotedText {
+ public:
+  void set(std::string_view text) {
+    const std::size_t length = std::min(text.size(), size - 1);
+    std::copy_n(text.data(), length, bytes_.data());
+    bytes_[length] = '\0';
+  }
+  std::string text() const {
+    const auto end = std::find(bytes_.begin(), bytes_.end(), '\0');
+    return {bytes_.begin(), end};
+  }
+
+ private:
+  std::array<char, size> bytes_;
+};
+
+// Of one thread.
+struct alignas(64) ThreadNotes {
+  std::atomic<int> process;                 // its id; 0: the place is free
+  std::atomic<std::uint64_t> begun, ended;  // calls; equal where none is running
+  std::atomic<std::uint64_t> label;         // of the last call, as the three below
+  std::atomic<std::uint32_t> code, step;
+  std::atomic<int> frame;
+  std::atomic<std::uint64_t>
+      resident_before;  // bytes of the process when the thread first created something; 0: not yet
+  NotedText<160> setting;
+
+  bool is_running() const { return begun.load() != ended.load(); }
+};
+
+// How far a guarded process has come.
+enum class GuardState : std::uint32_t { working, measured, done };
+
+struct NotesPage {
+  static constexpr std::size_t k_threads = 128, k_codes = 33;
+  static constexpr std::uint64_t k_magic = 0x63626e6f74657331;
+
+  std::uint64_t magic;
+  std::atomic<GuardState> state;
+  std::atomic<int> exit_code;       // once it is done
+  std::atomic<int> crashed_thread;  // its index; -1: unknown
+  std::atomic<bool> has_child_status;
+  std::atomic<int> child_status;
+  std::atomic<int> last_thread;  // that began a call
+  std::atomic<bool> has_called;
+  std::atomic<std::uint32_t> codes;
+  std::array<NotedText<101>, k_codes> names;
+  NotedText<101> group, pass;
+  NotedText<1000> message;  // for the next process of the same guard
+  std::array<ThreadNotes, k_threads> threads;
+};
+
+// Those that this process writes.
+NotesPage& notes_page();
+// Makes new ones, which processes share that this one forks. Throws Error.
+NotesPage& share_notes();
+// Forgets all but the names of codes and the message.
+void clear_notes(NotesPage& page);
+// Notes the thread that crashes. Signals that others handle stay theirs.
+void watch_for_crashes();
+
+}  // namespace clusterbench::os

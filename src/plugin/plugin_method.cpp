@@ -1,0 +1,128 @@
+#include "plugin/plugin_method.h"
+
+#include <algorithm>
+
+#include "assign/contract/method_error.h"
+#include "core/memory.h"
+#include "core/text.h"
+#include "plugin/views.h"
+
+namespace clusterbench::plugin {
+namespace {
+
+constexpr std::uint64_t k_first_capacity = 1u << 16;
+
+std::string name_of(clusterbench_status status) {
+  switch (status) {
+    case CLUSTERBENCH_FAILED:
+      return "failed";
+    case CLUSTERBENCH_OUT_OF_MEMORY:
+      return "had too little memory";
+    case CLUSTERBENCH_INVALID:
+      return "found its parameters invalid";
+    case CLUSTERBENCH_MORE:
+      return "asked for more room, which only assign() may";
+    default:
+      return "returned the unknown status " + std::to_string(status);
+  }
+}
+
+// Every light in every cell.
+std::uint64_t most_pairs(const clusterbench_grid& grid, const view::LightRanges& lights) {
+  return std::uint64_t{grid.cell_count} * lights.size();
+}
+
+}  // namespace
+
+std::vector<clusterbench_value> values_of(std::span<const assign::ParamSpec> specs, const assign::Params& params) {
+  std::vector<clusterbench_value> values;
+  for (const assign::ParamSpec& spec : specs) {
+    const assign::ParamValue& value = params.values().at(spec.name);
+    clusterbench_value& out = values.emplace_back(clusterbench_value{spec.name.c_str(), nullptr, 0.0});
+    if (const auto* text = std::get_if<std::string>(&value)) out.text = text->c_str();
+    if (const auto* flag = std::get_if<bool>(&value)) out.number = *flag ? 1.0 : 0.0;
+    if (const auto* number = std::get_if<double>(&value)) out.number = *number;
+  }
+  return values;
+}
+
+PluginMethod::PluginMethod(const MethodFacts& facts, std::string file, const assign::Params& params)
+    : facts_(facts), file_(std::move(file)), caller_{os::note_code(facts.descriptor.plugin), os::noted_label()} {
+  error_ = {sizeof error_, static_cast<std::uint32_t>(text_.size()), text_.data()};
+  create(params);
+}
+
+PluginMethod::~PluginMethod() {
+  const os::ForeignCall call(caller_, os::CallStep::destroy);
+  facts_.table.destroy(instance_);
+}
+
+void PluginMethod::create(const assign::Params& params) {
+  const std::vector<clusterbench_value> values = values_of(facts_.descriptor.params, params);
+  const os::ForeignCall call(caller_, os::CallStep::create);
+  expect(facts_.table.create(facts_.own, values.data(), static_cast<std::uint32_t>(values.size()), &instance_, &error_),
+         "create()");
+}
+
+void PluginMethod::fail(const std::string& message) const {
+  throw assign::MethodError(file_, facts_.descriptor.name, message);
+}
+
+void PluginMethod::expect(clusterbench_status status, const char* doing) const {
+  if (status == CLUSTERBENCH_OK) return;
+  const std::string reason(text_.data(), strnlen(text_.data(), text_.size()));
+  fail(std::string(doing) + " " + name_of(status) + (reason.empty() ? "" : ": " + printable(reason)));
+}
+
+void PluginMethod::build(const grid::Grid& grid, const assign::LightKinds& kinds) {
+  grid_ = view_of(grid);
+  text_.front() = '\0';
+  const os::ForeignCall call(caller_, os::CallStep::build);
+  expect(facts_.table.build(instance_, &grid_, light_types_of(kinds), &error_), "build()");
+}
+
+bool PluginMethod::fill(const clusterbench_frame& frame, const clusterbench_lights& lights, assign::Lists& out) {
+  last_ = {sizeof last_, grid_.cell_count, out.begin.data(), out.lights.data(), out.lights.size(), 0, 0, 0, 0};
+  text_.front() = '\0';
+  const os::ForeignCall call(caller_, os::CallStep::assign, frame_);
+  const clusterbench_status status = facts_.table.assign(instance_, &frame, &lights, &last_, &error_);
+  if (status == CLUSTERBENCH_MORE) return false;
+  expect(status, "assign()");
+  if (last_.count > out.lights.size())
+    fail("says that it wrote " + std::to_string(last_.count) + " pairs where there is room for " +
+         std::to_string(out.lights.size()));
+  return true;
+}
+
+void PluginMethod::assign(const assign::FrameInput& input, assign::Lists& out) {
+  frame_ = input.frame.index;
+  const clusterbench_frame frame = view_of(input.frame, input.depth);
+  const clusterbench_lights lights = view_of(input.lights);
+  const std::uint64_t most = most_pairs(grid_, input.lights);
+  out.begin.resize(grid_.cell_count + std::size_t{1});
+  // Lists that were made before have room for the same frame again. So while a frame is timed again and again, the
+  // method is called once, and no memory is made or cleared.
+  const bool is_new = out.lights.capacity() == 0;
+  std::uint64_t capacity = std::min(most, is_new ? k_first_capacity : out.lights.size() + unused_);
+  std::uint64_t asked = 0;
+  for (out.lights.resize(capacity); !fill(frame, lights, out); out.lights.resize(capacity)) {
+    asked = last_.count;
+    if (asked <= capacity || asked > most)
+      fail("asks for room for " + std::to_string(asked) + " pairs where it has room for " + std::to_string(capacity) +
+           ", and all lights in all cells are " + std::to_string(most));
+    capacity = std::min(most, std::max(asked, capacity + capacity / 2));
+    check_memory("pairs of light lists", capacity, sizeof(std::uint32_t));
+  }
+  if (asked > last_.count) unused_ = std::max(unused_, asked - last_.count);
+  if (out.begin.front() != 0 || out.begin.back() != last_.count)
+    fail("says that it wrote " + std::to_string(last_.count) + " pairs, but its lists begin at " +
+         std::to_string(out.begin.front()) + " and end at " + std::to_string(out.begin.back()));
+  out.lights.resize(last_.count);
+}
+
+void PluginMethod::check(const assign::Lists& lists, const view::LightRanges& ranges) const {
+  const std::string fault = assign::lists_fault(lists, grid_.cell_count, ranges, checked_);
+  if (!fault.empty()) fail("left lists that are none: " + fault);
+}
+
+}  // namespace clusterbench::plugin

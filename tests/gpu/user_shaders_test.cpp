@@ -1,0 +1,221 @@
+// Shaders of users as methods: those of configs/shaders on a device, beside the same steps on the processor.
+
+#include "gpu/user_shaders/shader_method.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "assign/contract/assigner_run.h"
+#include "assign/settings.h"
+#include "core/error.h"
+#include "core/file_text.h"
+#include "gpu/device_test.h"
+#include "gpu/user_shaders/known_values.h"
+#include "places.h"
+
+namespace clusterbench::gpu {
+namespace {
+
+using assign::Answer;
+using assign::AssignerRun;
+using assign::Lists;
+using assign::Params;
+using assign::testing::Setting;
+
+class DeviceUserShaders : public testing::DeviceTest {
+ protected:
+  void TearDown() override { remove_shader_methods(); }
+};
+
+const assign::AssignerDescriptor& shader_of(const char* name) {
+  return add_shader_method(test::source_dir() + "/configs/shaders/" + name + ".json");
+}
+
+// Frames without boxes; where the tests of a setting want spots as balls of their range.
+std::vector<Setting> settings_of(const assign::AssignerDescriptor& row) {
+  std::vector<Setting> settings = assign::testing::settings_for(row, 5);
+  for (Setting& setting : settings) {
+    std::erase_if(setting.frame.lights,
+                  [](const scene::WorldLight& light) { return light.type == scene::LightType::box; });
+    setting.frame.count_types();
+  }
+  std::erase_if(settings, [](const Setting& setting) { return setting.frame.projection.orthographic; });
+  return settings;
+}
+
+AssignerRun run_of(const assign::AssignerDescriptor& row, const std::map<std::string, assign::ParamValue>& values,
+                   Answer answer, const Setting& setting) {
+  const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
+  AssignerRun run(row, Params(row.params, values), answer);
+  run.build(setting.grid, assign::kinds_of(lights));
+  run.assign(setting.input(lights));
+  return run;
+}
+
+// Balls of range against boxes, with ranges that are shorter or longer by what the shaders' roundings can be off by.
+Lists lists_of_brute_force(Setting setting, double sign) {
+  for (scene::WorldLight& light : setting.frame.lights) {
+    const double size = glm::length(light.position) + glm::length(setting.frame.view_space.origin) + light.range_m;
+    if (light.range_m > 0.0) light.range_m = std::max(0.0, light.range_m + sign * 1e-5 * size);
+  }
+  return run_of(*assign::find_assigner("brute-force"), {{"spot", std::string("range")}, {"inflation", 0.0}},
+                Answer::lists, setting)
+      .cell_lists();
+}
+
+struct Beside {
+  std::uint64_t cells = 0, pairs = 0, full = 0, beyond_fewest = 0, lacks = 0, beside_most = 0;
+};
+
+// Each list has all that shorter ranges give, and nothing beyond longer ones. Full lists have `cap` of them.
+Beside compared(const Lists& found, const Lists& fewest, const Lists& most, std::size_t cap) {
+  Beside out;
+  for (std::uint32_t cell = 0; cell < found.cell_count(); ++cell) {
+    const auto list = found.of(cell), needed = fewest.of(cell), allowed = most.of(cell);
+    ++out.cells;
+    out.pairs += list.size();
+    out.beside_most += std::ranges::includes(allowed, list) ? 0 : 1;
+    out.full += list.size() == cap ? 1 : 0;
+    if (list.size() < cap) out.lacks += std::ranges::includes(list, needed) ? 0 : 1;
+    out.beyond_fewest += list.size() > needed.size() ? list.size() - needed.size() : 0;
+  }
+  return out;
+}
+
+// Lights that are off give no light, and are in no list of ours; a shader may list the cell that they are in.
+void remove_dark(Setting& setting) {
+  std::erase_if(setting.frame.lights, [](const scene::WorldLight& light) { return !(light.range_m > 0.0); });
+  setting.frame.count_types();
+}
+
+TEST_F(DeviceUserShaders, of_the_tutorial_list_what_balls_against_boxes_do) {
+  const assign::AssignerDescriptor& row = shader_of("tutorial");
+  EXPECT_FALSE(row.conservative);
+  std::uint64_t settings = 0, pairs = 0;
+  for (Setting setting : settings_of(row)) {
+    remove_dark(setting);
+    std::optional<AssignerRun> run;
+    try {
+      run.emplace(run_of(row, {}, Answer::structure, setting));
+    } catch (const DeviceError& error) {
+      EXPECT_NE(error.message().find("tutorial-loop has exponential slices; those of this grid are others"),
+                std::string::npos)
+          << error.message();
+      continue;
+    }
+    const Beside beside =
+        compared(run->cell_lists(), lists_of_brute_force(setting, -1), lists_of_brute_force(setting, 1), 100);
+    EXPECT_EQ(beside.lacks, 0u) << setting.name;
+    EXPECT_EQ(beside.beside_most, 0u) << setting.name;
+    ++settings;
+    pairs += beside.pairs;
+    const assign::StructureUse use = run->structure()->use();
+    EXPECT_EQ(use.index_bytes + use.header_bytes, setting.grid.cell_count() * 448u);
+    EXPECT_EQ(use.index_entries, beside.pairs);
+  }
+  EXPECT_GT(settings, 0u);
+  EXPECT_GT(pairs, 1000u);
+}
+
+TEST_F(DeviceUserShaders, that_append_list_the_same_in_any_order) {
+  const assign::AssignerDescriptor& row = shader_of("append");
+  std::uint64_t settings = 0;
+  for (Setting setting : settings_of(row)) {
+    remove_dark(setting);
+    const Lists fewest = lists_of_brute_force(setting, -1), most = lists_of_brute_force(setting, 1);
+    for (const double group : {1.0, 32.0, 64.0}) {
+      const AssignerRun run = run_of(row, {{"group", group}, {"per_cell", 1000.0}}, Answer::structure, setting);
+      const Beside beside = compared(run.cell_lists(), fewest, most, ~std::size_t{0});
+      EXPECT_EQ(beside.lacks, 0u) << setting.name;
+      EXPECT_EQ(beside.beside_most, 0u) << setting.name;
+      EXPECT_EQ(run.structure()->use().dropped_pairs, 0u) << setting.name;
+      EXPECT_EQ(run.structure()->use().index_bytes, 4 * beside.pairs) << setting.name;
+      EXPECT_EQ(run.structure()->use().header_bytes, std::uint64_t{8} * setting.grid.cell_count());
+    }
+    ++settings;
+  }
+  EXPECT_GT(settings, 1u);
+}
+
+TEST_F(DeviceUserShaders, whose_buffer_is_full_have_what_they_drop_counted) {
+  const assign::AssignerDescriptor& row = shader_of("append");
+  std::uint64_t dropped = 0;
+  for (Setting setting : settings_of(row)) {
+    remove_dark(setting);
+    const AssignerRun all = run_of(row, {{"per_cell", 1000.0}}, Answer::structure, setting),
+                      some = run_of(row, {{"per_cell", 1.0}}, Answer::structure, setting);
+    const assign::StructureUse use = some.structure()->use();
+    EXPECT_EQ(use.index_entries + use.dropped_pairs, all.structure()->use().index_entries) << setting.name;
+    EXPECT_LE(use.index_entries, setting.grid.cell_count()) << setting.name;
+    EXPECT_EQ(some.structure()->limit().index_entries, setting.grid.cell_count()) << setting.name;
+    dropped += use.dropped_pairs;
+  }
+  EXPECT_GT(dropped, 0u);
+}
+
+TEST_F(DeviceUserShaders, leave_the_same_lists_however_often_their_work_is_repeated) {
+  using Repeats = assign::DeviceRepeats;
+  for (const char* name : {"tutorial", "append"}) {
+    const assign::AssignerDescriptor& row = shader_of(name);
+    Setting setting = settings_of(row).front();
+    const view::LightArrays lights = view::lights_in(setting.frame, grid::space_of(setting.grid, setting.frame));
+    std::map<std::string, assign::ParamValue> values;
+    if (name == std::string("append")) values["per_cell"] = 1000.0;  // what is dropped would be another light each time
+    const auto method = row.make_own(Params(row.params, values));
+    const auto structure = method->make_structure();
+    method->build(setting.grid, assign::kinds_of(lights));
+    method->assign(setting.input(lights), *structure);
+    const Lists once = structure->expanded();
+    for (const Repeats::Caches caches : {Repeats::Caches::warm, Repeats::Caches::cold}) {
+      method->repeat_on_device({.caches = caches, .upload = 3, .run = 5, .floor = 2, .build = 2});
+      method->assign(setting.input(lights), *structure);
+      EXPECT_EQ(structure->expanded(), once) << name;
+      EXPECT_EQ(method->device_spans()->dispatches, name == std::string("append") ? 2u : 1u);
+      EXPECT_GT(method->device_spans()->result_bytes, 0u);
+      EXPECT_EQ(method->device_build_ns().has_value(), name == std::string("tutorial"));
+      method->device_floor_ns();
+      method->assign(setting.input(lights), *structure);
+      EXPECT_EQ(structure->expanded(), once) << name << ", after its build was repeated";
+    }
+  }
+}
+
+TEST_F(DeviceUserShaders, take_frames_with_other_numbers_of_lights_and_other_grids_in_turn) {
+  const assign::AssignerDescriptor& row = shader_of("append");
+  const auto method = row.make_own(Params(row.params, {{"per_cell", 1000.0}}));
+  const auto structure = method->make_structure();
+  for (int round = 0; round < 2; ++round)
+    for (Setting setting : settings_of(row))
+      for (const std::size_t kept : {std::size_t{0}, std::size_t{7}, setting.frame.lights.size()}) {
+        Setting part = setting;
+        part.frame.lights.resize(kept);
+        part.frame.count_types();
+        const view::LightArrays lights = view::lights_in(part.frame, grid::space_of(part.grid, part.frame));
+        method->build(part.grid, assign::kinds_of(lights));
+        method->assign(part.input(lights), *structure);
+        EXPECT_EQ(structure->expanded(), run_of(row, {{"per_cell", 1000.0}}, Answer::structure, part).cell_lists())
+            << part.name << ", " << kept << " lights";
+      }
+}
+
+TEST(UserShaders, have_all_known_values_in_their_document) {
+  const std::string page = file_text(test::source_dir() + "/docs/shaders.md");
+  for (const KnownValue& value : known_values())
+    EXPECT_NE(page.find("`" + std::string(value.name) + "`"), std::string::npos) << value.name;
+}
+
+TEST_F(DeviceUserShaders, are_registered_once_and_by_names_of_their_own) {
+  const assign::AssignerDescriptor& row = shader_of("append");
+  EXPECT_EQ(&row, &shader_of("append"));
+  EXPECT_EQ(assign::find_assigner("append"), &row);
+  ASSERT_TRUE(row.origin);
+  EXPECT_EQ(row.origin->sha256.size(), 64u);
+  EXPECT_TRUE(row.own_lists);
+  EXPECT_EQ(row.params.size(), 2u);
+  remove_shader_methods();
+  EXPECT_EQ(assign::find_assigner("append"), nullptr);
+}
+
+}  // namespace
+}  // namespace clusterbench::gpu
