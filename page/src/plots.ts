@@ -55,7 +55,11 @@ export function chart(says: string, options: Plot.PlotOptions): Element {
     marginBottom: 40,
     ...options,
   });
-  for (const part of drawn.querySelectorAll("[aria-label]")) part.removeAttribute("aria-label"); // "dot", "rule": noise
+  const removeLabels = () => {
+    for (const part of drawn.querySelectorAll("[aria-label]")) part.removeAttribute("aria-label"); // "dot", "rule": noise
+  };
+  removeLabels();
+  new MutationObserver(removeLabels).observe(drawn, { childList: true, subtree: true }); // tips come with the pointer
   drawn.setAttribute("role", "img");
   drawn.setAttribute("aria-label", says);
   return drawn;

@@ -56,6 +56,7 @@ const doubts: Record<WarningKind, string> = {
   undecided: "had pairs that stayed undecided, counted as true",
   unchecked: "went without a check against the truth",
   too_many_lights: "had more lights in view than their limit lets in, and lost some",
+  repeated_lights: "had lights twice in a list, as a shader left them",
   lost_pairs: "lost lights, as methods that are not conservative may",
 };
 

@@ -134,7 +134,8 @@ TYPED_TEST(OwnFloats, round_to_nearest) {
   using Wide = mp::number<mp::cpp_bin_float<2 * TypeParam::k_bits + 128, mp::digit_base_2>, mp::et_off>;
   using Boosts = typename TypeParam::Boosts;
   SplitMix64 random(9);
-  // Boost rounds to nearest, too.
+  // Boost rounds to nearest, too, except differences of numbers that lie one bit more apart than their digits: so exact
+  // ones are rounded in one step.
   const auto check_against_boost = [](const char* name, const Own& made, const Boosts& of_boost) {
     ASSERT_EQ(in_boost<Boosts>(made), of_boost) << name;
   };
@@ -154,8 +155,8 @@ TYPED_TEST(OwnFloats, round_to_nearest) {
     check("product", a * b, c * d);
     check("quotient", a / b, c / d);
     const Boosts e = in_boost<Boosts>(a), f = in_boost<Boosts>(b);
-    check_against_boost("sum", a + b, e + f);
-    check_against_boost("difference", a - b, e - f);
+    check_against_boost("sum", a + b, Boosts(c + d));
+    check_against_boost("difference", a - b, Boosts(c - d));
     check_against_boost("product", a * b, e * f);
     check_against_boost("quotient", a / b, e / f);
     ASSERT_EQ(a < b, c < d);

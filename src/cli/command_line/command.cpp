@@ -38,12 +38,11 @@ std::string range_error(const std::string& allowed, const std::string& word) {
 }
 
 constexpr const char* k_of_its_type = "of its type";
-constexpr const char* k_of_a_text = "of a text";
 
 // Rejects an empty word, which an unset variable of a script becomes: it would look like an option that was not given.
 CLI::Option* with_text(CLI::Option* option) {
   const auto check = [](const std::string& word) { return word.empty() ? "takes a text that is not empty" : ""; };
-  return option->check(check, "", k_of_a_text);
+  return option->check(check);
 }
 
 // The range of the type, if no narrower range is given.
@@ -127,11 +126,6 @@ Option& Option::one_of(std::vector<std::string> words) {
     return "no '" + word + "'" + did_you_mean(word, words) + "; there are: " + joined(words);
   });
   option_->check(known);
-  return *this;
-}
-
-Option& Option::may_be_empty() {
-  option_->get_validator(k_of_a_text)->active(false);
   return *this;
 }
 

@@ -28,8 +28,7 @@ class Option {
   Option& positive_to(double most);
   Option& non_negative();
   Option& one_of(std::vector<std::string> words);
-  Option& may_be_empty();  // a text, which otherwise may not be empty
-  Option& once_a_name();   // --name A --name B, not --name A B
+  Option& once_a_name();  // --name A --name B, not --name A B
   Option& needs(const Option& other);
 
  private:

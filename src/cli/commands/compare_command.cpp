@@ -59,10 +59,8 @@ void add_compare(Command& program, Action& action) {
   command.add_option("--threshold", flags->threshold_percent, "Smallest change of time that matters, in percent")
       .range(0.01, 1000.0)
       .shows_standard();
-  command
-      .add_option("--filter", flags->filter,
-                  "Only cases whose name has this in it, or matches it as a regular expression")
-      .may_be_empty();
+  command.add_option("--filter", flags->filter,
+                     "Only cases whose name has this in it, or matches it as a regular expression");
   command.add_option("--markdown", flags->markdown,
                      "Write the comparison for a pull request to this file (-: in place of the text)");
   command.add_option("--json", flags->json, "Write the comparison as JSON to this file (-: in place of the text)");

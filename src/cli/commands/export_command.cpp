@@ -33,10 +33,8 @@ void add_export(Command& program, Action& action) {
   command.add_option("RESULT", flags->result, "A result file of `clusterbench run`").required();
   command.add_option("--format", flags->format, "One of those below").required();
   command.add_option("-o,--output", flags->output, "File to write; without it standard output");
-  command
-      .add_option("--filter", flags->filter,
-                  "Only cases whose name has this in it, or matches it as a regular expression")
-      .may_be_empty();
+  command.add_option("--filter", flags->filter,
+                     "Only cases whose name has this in it, or matches it as a regular expression");
   command.add_flag("--all", flags->all, "All exported figures, not only the headline");
   command.footer("Formats:\n" + export_formats_text());
   command.when_named([flags, &action] { action = [flags] { return export_result(*flags); }; });

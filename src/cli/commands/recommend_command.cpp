@@ -346,10 +346,8 @@ void add_recommend(Command& program, Action& action) {
                   "How many of those behind it are in that configuration, too")
       .range(0, 100)
       .shows_standard();
-  command
-      .add_option("--filter", flags->filter,
-                  "Only candidates whose cases' names have this in them, or match it as a regular expression")
-      .may_be_empty();
+  command.add_option("--filter", flags->filter,
+                     "Only candidates whose cases' names have this in them, or match it as a regular expression");
   add_config_options(command, flags->inputs);
   add_guard_options(command, flags->guard);
   command.add_flag("--no-timing", flags->no_timing, "Nothing is timed; the answer is then the same on every machine");

@@ -54,10 +54,8 @@ void add_report(Command& program, Action& action) {
       .required();
   command.add_option("--images", options->images,
                      "DIR: also show the pictures that `clusterbench run --images DIR` has made of these cases");
-  command
-      .add_option("--filter", options->filter,
-                  "Only cases whose names have this in them, or match it as a regular expression")
-      .may_be_empty();
+  command.add_option("--filter", options->filter,
+                     "Only cases whose names have this in them, or match it as a regular expression");
   command.add_option("-o,--output", options->output, "Where the page goes; standard output by default");
   command.when_named([options, &action] { action = [options] { return write_report(*options); }; });
 }

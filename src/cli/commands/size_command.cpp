@@ -202,10 +202,8 @@ void add_size(Command& program, Action& action) {
                   "A result file of `clusterbench run`; or one configuration (.json), or scenes (.glb, .gltf), whose "
                   "frames are counted, of all cameras, without timing")
       .required();
-  command
-      .add_option("--filter", flags->request.filter,
-                  "Only cases whose name has this in it, or matches it as a regular expression")
-      .may_be_empty();
+  command.add_option("--filter", flags->request.filter,
+                     "Only cases whose name has this in it, or matches it as a regular expression");
   command.add_option("--format", flags->request.format, "What is printed: a table, code, or JSON")
       .one_of(report::size_formats())
       .shows_standard();

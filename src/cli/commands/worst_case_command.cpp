@@ -143,11 +143,9 @@ void add_worst_case(Command& program, Action& action) {
   command.add_option("--measure", flags->measure, "What is to be as large as possible")
       .one_of(measure_names())
       .shows_standard();
-  command
-      .add_option(
-          "--filter", flags->filter,
-          "Of the cases whose name has this in it, or matches it as a regular expression, the first is searched")
-      .may_be_empty();
+  command.add_option(
+      "--filter", flags->filter,
+      "Of the cases whose name has this in it, or matches it as a regular expression, the first is searched");
   add_effort_options(command, flags->search);
   command.add_option("--random", flags->search.request.random, "Random frames to compare with; 0: none")
       .range(0, 10'000'000)

@@ -38,10 +38,8 @@ void add_run_options(Command& command, RunFlags& flags) {
   command.add_option("--export", flags.exports, "FORMAT=FILE, repeatable: also write another tool's format")
       .once_a_name();
   add_image_options(command, flags.images);
-  command
-      .add_option("--filter", flags.filter,
-                  "Only cases whose name has this in it, or matches it as a regular expression")
-      .may_be_empty();
+  command.add_option("--filter", flags.filter,
+                     "Only cases whose name has this in it, or matches it as a regular expression");
   add_config_options(command, flags.inputs);
   command.add_flag("--count{auto}", flags.count,
                    "Count instructions, too: --count=perf (hardware), =callgrind (valgrind), or what works");

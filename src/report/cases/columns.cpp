@@ -127,17 +127,15 @@ std::string method_name(const Case& result_case) {
   return label;
 }
 
-std::vector<NamedCase> distinct_cases(const std::vector<Case>& cases, const Scene& scene, const std::string& block,
-                                      PartOfCase part) {
+std::vector<NamedCase> distinct_cases(const std::vector<const Case*>& cases, PartOfCase part) {
   std::vector<NamedCase> out;
-  for (const Case& result_case : cases) {
-    if (result_case.scene != scene.name || block_of(result_case) != block) continue;
-    const Json of_case = part(result_case);
+  for (const Case* result_case : cases) {
+    const Json of_case = part(*result_case);
     const auto is_same = [&](const NamedCase& other) {
-      return other.name == method_name(result_case) && of_case == part(*other.result_case);
+      return other.name == method_name(*result_case) && of_case == part(*other.result_case);
     };
     if (!of_case.is_null() && std::none_of(out.begin(), out.end(), is_same))
-      out.push_back({method_name(result_case), &result_case});
+      out.push_back({method_name(*result_case), result_case});
   }
   std::map<std::string, int> uses;
   for (const NamedCase& named : out) ++uses[named.name];
@@ -151,12 +149,15 @@ std::string block_of(const Case& result_case) {
          viewport_text(result_case.viewport);
 }
 
-std::vector<std::string> blocks_of(const std::vector<Case>& cases, const Scene& scene) {
-  std::vector<std::string> blocks;
-  for (const Case& result_case : cases)
-    if (result_case.scene == scene.name &&
-        std::find(blocks.begin(), blocks.end(), block_of(result_case)) == blocks.end())
-      blocks.push_back(block_of(result_case));
+std::vector<CaseBlock> blocks_of(const std::vector<Case>& cases, const Scene& scene) {
+  std::vector<CaseBlock> blocks;
+  std::map<std::string, std::size_t> index_of;
+  for (const Case& result_case : cases) {
+    if (result_case.scene != scene.name) continue;
+    const auto [at, is_new] = index_of.try_emplace(block_of(result_case), blocks.size());
+    if (is_new) blocks.push_back({at->first, {}});
+    blocks[at->second].cases.push_back(&result_case);
+  }
   return blocks;
 }
 

@@ -65,13 +65,16 @@ struct NamedCase {
 };
 // The part of a case that a table shows, as JSON; null if the case does not have it.
 using PartOfCase = nlohmann::ordered_json (*)(const result::Case& result_case);
-// The cases of a scene's block that have the part, without repetitions of method and part.
-std::vector<NamedCase> distinct_cases(const std::vector<result::Case>& cases, const result::Scene& scene,
-                                      const std::string& block, PartOfCase part);
+// The cases that have the part, without repetitions of method and part.
+std::vector<NamedCase> distinct_cases(const std::vector<const result::Case*>& cases, PartOfCase part);
 
 // The common properties of a block of cases: camera, viewport and grid.
 std::string block_of(const result::Case& result_case);
+struct CaseBlock {
+  std::string name;  // block_of() each case
+  std::vector<const result::Case*> cases;
+};
 // The blocks of a scene in the order of its cases.
-std::vector<std::string> blocks_of(const std::vector<result::Case>& cases, const result::Scene& scene);
+std::vector<CaseBlock> blocks_of(const std::vector<result::Case>& cases, const result::Scene& scene);
 
 }  // namespace clusterbench::report

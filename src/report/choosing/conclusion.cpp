@@ -141,7 +141,7 @@ measure::Interval by_prices(const Choice& choice) {
 
 std::string against_text(const Choice& choice) {
   if (choice.against == nullptr)
-    return choice.alike.empty() ? "; no other case was measured, or each loses lights" : "";
+    return choice.alike.empty() ? "; no other case was measured that is conservative and loses no lights" : "";
   const std::string out =
       "; " + case_title(*choice.against->result_case) + " costs " +
       more_text(choice.times_as_much(), choice.ratio ? choice.ratio->ci95 : measure::Interval{}, by_prices(choice));
@@ -216,7 +216,8 @@ std::string unsound_text(const std::vector<const Case*>& cases) {
 
 std::string why_none(const SceneView& view) {
   if (!view.on_device.empty() && view.sound.empty() && view.searched.empty() && view.unsampled == 0)
-    return "nothing to take of methods that run on the processor: none was measured, or each loses lights";
+    return "nothing to take of methods that run on the processor: none was measured that is conservative and loses no "
+           "lights";
   if (!view.searched.empty())
     return "nothing to take: only structures that samples search are sound here, and no GPU has measured such a search";
   if (view.unsampled > 0)

@@ -53,16 +53,16 @@ std::string fit_table(const result::Result& result) {
   std::string out;
   for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result.cases, scene)) {
+    for (const CaseBlock& block : blocks_of(result.cases, scene)) {
       std::vector<Cells> rows{k_headings};
       const Fit* any = nullptr;
-      for (const Case& result_case : result.cases) {
-        if (!result_case.fit || result_case.scene != scene.name || block_of(result_case) != block) continue;
-        rows.push_back(row_of(result_case));
-        any = &*result_case.fit;
+      for (const Case* result_case : block.cases) {
+        if (!result_case->fit) continue;
+        rows.push_back(row_of(*result_case));
+        any = &*result_case->fit;
       }
       if (any == nullptr) continue;
-      blocks += " " + block + "\n  " + range_text(*any) + "\n";
+      blocks += " " + block.name + "\n  " + range_text(*any) + "\n";
       blocks += aligned_rows(rows);
     }
     if (!blocks.empty()) out += "fitted slices of " + shown(scene.name) + "\n" + blocks + "\n";

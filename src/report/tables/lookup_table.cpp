@@ -43,9 +43,9 @@ std::string lookup_table(const result::Result& result) {
   std::string out;
   for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result.cases, scene)) {
-      const std::vector<NamedCase> cases = distinct_cases(result.cases, scene, block, ways_of);
-      if (!cases.empty()) blocks += lookup_block(block, cases);
+    for (const CaseBlock& block : blocks_of(result.cases, scene)) {
+      const std::vector<NamedCase> cases = distinct_cases(block.cases, ways_of);
+      if (!cases.empty()) blocks += lookup_block(block.name, cases);
     }
     if (!blocks.empty()) out += "lookup on " + shown(scene.name) + "\n" + blocks + "\n";
   }

@@ -57,12 +57,12 @@ std::string pre_cull_table(const result::Result& result) {
   std::string out;
   for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result.cases, scene)) {
+    for (const CaseBlock& block : blocks_of(result.cases, scene)) {
       std::vector<Cells> rows{k_pre_cull_headings};
-      for (const NamedCase& line : distinct_cases(result.cases, scene, block, parts_of))
+      for (const NamedCase& line : distinct_cases(block.cases, parts_of))
         if (line.result_case->pre_cull) rows.push_back(pre_cull_row(line));
       if (rows.size() == 1) continue;
-      blocks += " " + block + "\n";
+      blocks += " " + block.name + "\n";
       blocks += aligned_rows(rows);
     }
     if (!blocks.empty()) out += "pre-culls of " + shown(scene.name) + "\n" + blocks + "\n";

@@ -40,9 +40,8 @@ Json precision_of(const Case& result_case) {
 }
 
 // Cases of a block, once per method, precision and loss. The precision has its own column.
-std::vector<NamedCase> precision_lines(const std::vector<Case>& cases, const result::Scene& scene,
-                                       const std::string& block) {
-  std::vector<NamedCase> lines = distinct_cases(cases, scene, block, precision_of);
+std::vector<NamedCase> precision_lines(const std::vector<const Case*>& cases) {
+  std::vector<NamedCase> lines = distinct_cases(cases, precision_of);
   std::erase_if(lines, [](const NamedCase& line) { return !line.result_case->precision; });
   for (NamedCase& line : lines) {
     const Case& result_case = *line.result_case;
@@ -87,9 +86,9 @@ std::string precision_table(const result::Result& result) {
   std::string out;
   for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result.cases, scene)) {
-      const std::vector<NamedCase> lines = precision_lines(result.cases, scene, block);
-      if (!lines.empty()) blocks += precision_block(block, lines);
+    for (const CaseBlock& block : blocks_of(result.cases, scene)) {
+      const std::vector<NamedCase> lines = precision_lines(block.cases);
+      if (!lines.empty()) blocks += precision_block(block.name, lines);
     }
     if (!blocks.empty()) out += "precision of " + shown(scene.name) + "\n" + blocks + "\n";
   }

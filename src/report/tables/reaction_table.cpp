@@ -73,16 +73,16 @@ std::string table_beside(const result::Result& result, std::optional<Part> Case:
   std::string out;
   for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result.cases, scene)) {
+    for (const CaseBlock& block : blocks_of(result.cases, scene)) {
       std::vector<Cells> rows{headings};
       const Part* any = nullptr;
-      for (const Case& result_case : result.cases) {
-        if (!(result_case.*part) || result_case.scene != scene.name || block_of(result_case) != block) continue;
-        rows.push_back(to_row(result_case));
-        any = &*(result_case.*part);
+      for (const Case* result_case : block.cases) {
+        if (!(result_case->*part)) continue;
+        rows.push_back(to_row(*result_case));
+        any = &*(result_case->*part);
       }
       if (any == nullptr) continue;
-      blocks += " " + block + "\n" + to_text(*any);
+      blocks += " " + block.name + "\n" + to_text(*any);
       const std::vector<std::size_t> widths = widths_of(rows);
       for (const Cells& row : rows) blocks += aligned(row, widths);
     }

@@ -52,14 +52,12 @@ std::string line_name(const ReadingLine& line) {
   return method_name(*line.result_case) + " / " + storage_name(*line.result_case);
 }
 
-std::vector<ReadingLine> lines_of(const std::vector<Case>& cases, const result::Scene& scene, const std::string& block,
-                                  const std::string& device) {
+std::vector<ReadingLine> lines_of(const std::vector<const Case*>& cases, const std::string& device) {
   std::vector<ReadingLine> lines;
   bool is_software = false;
-  for (const Case& result_case : cases) {
-    if (!result_case.reading || result_case.reading->device != device || result_case.scene != scene.name ||
-        block_of(result_case) != block)
-      continue;
+  for (const Case* in_block : cases) {
+    const Case& result_case = *in_block;
+    if (!result_case.reading || result_case.reading->device != device) continue;
     is_software |= result_case.reading->software;
     const std::vector<SetReading>& sets = result_case.reading->sets;
     for (std::size_t set = 0; set < sets.size(); ++set)
@@ -185,10 +183,10 @@ std::string reading_table(const result::Result& result) {
     for (const std::string& device : devices_of_scene(result, scene)) {
       std::string blocks;
       bool is_software = false;
-      for (const std::string& block : blocks_of(result.cases, scene)) {
-        const std::vector<ReadingLine> lines = lines_of(result.cases, scene, block, device);
+      for (const CaseBlock& block : blocks_of(result.cases, scene)) {
+        const std::vector<ReadingLine> lines = lines_of(block.cases, device);
         if (lines.empty()) continue;
-        blocks += reading_block(block, lines);
+        blocks += reading_block(block.name, lines);
         is_software = lines.front().result_case->reading->software;
         for (const ReadingLine& line : lines) {
           has_frames |= line.frame_ns().has_value();

@@ -73,9 +73,9 @@ std::string samples_table(const result::Result& result) {
   std::string out;
   for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result.cases, scene)) {
-      const std::vector<NamedCase> cases = distinct_cases(result.cases, scene, block, sets_of);
-      if (!cases.empty()) blocks += samples_block(block, cases);
+    for (const CaseBlock& block : blocks_of(result.cases, scene)) {
+      const std::vector<NamedCase> cases = distinct_cases(block.cases, sets_of);
+      if (!cases.empty()) blocks += samples_block(block.name, cases);
     }
     if (!blocks.empty()) out += "lights per sample of " + shown(scene.name) + "\n" + blocks + "\n";
   }

@@ -93,10 +93,10 @@ std::string shadows_table(const result::Result& result) {
   bool has_culls = false;
   for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result.cases, scene)) {
-      const std::vector<NamedCase> lines = distinct_cases(result.cases, scene, block, part_of);
+    for (const CaseBlock& block : blocks_of(result.cases, scene)) {
+      const std::vector<NamedCase> lines = distinct_cases(block.cases, part_of);
       if (lines.empty()) continue;
-      blocks += shadows_block(block, lines);
+      blocks += shadows_block(block.name, lines);
       for (const NamedCase& named : lines) has_culls = has_culls || named.result_case->shadows->culls;
     }
     if (!blocks.empty()) out += "shadows of " + shown(scene.name) + "\n" + blocks + "\n";

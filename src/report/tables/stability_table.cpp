@@ -37,14 +37,13 @@ Cells truth_row(const Stability& steps) {
 }
 
 // Cases of a block with steps, once per method, since lists do not depend on their storage. The fewest changes first.
-std::vector<const Case*> stability_lines(const std::vector<Case>& cases, const result::Scene& scene,
-                                         const std::string& block) {
+std::vector<const Case*> stability_lines(const std::vector<const Case*>& cases) {
   std::vector<const Case*> lines;
-  for (const Case& result_case : cases) {
-    if (!result_case.stability || result_case.scene != scene.name || block_of(result_case) != block) continue;
-    const bool is_known = std::any_of(lines.begin(), lines.end(),
-                                      [&](const Case* line) { return method_name(*line) == method_name(result_case); });
-    if (!is_known) lines.push_back(&result_case);
+  for (const Case* result_case : cases) {
+    if (!result_case->stability) continue;
+    const bool is_known = std::any_of(
+        lines.begin(), lines.end(), [&](const Case* line) { return method_name(*line) == method_name(*result_case); });
+    if (!is_known) lines.push_back(result_case);
   }
   std::ranges::stable_sort(lines, {},
                            [](const Case* result_case) { return result_case->stability->changed.method.total; });
@@ -72,10 +71,10 @@ std::string stability_table(const result::Result& result) {
   std::string out, window;
   for (const result::Scene& scene : result.scenes) {
     std::string blocks;
-    for (const std::string& block : blocks_of(result.cases, scene)) {
-      const std::vector<const Case*> lines = stability_lines(result.cases, scene, block);
+    for (const CaseBlock& block : blocks_of(result.cases, scene)) {
+      const std::vector<const Case*> lines = stability_lines(block.cases);
       if (lines.empty()) continue;
-      blocks += stability_block(block, lines);
+      blocks += stability_block(block.name, lines);
       window = std::to_string(lines.front()->stability->window);
     }
     if (!blocks.empty()) out += "stability of " + shown(scene.name) + "\n" + blocks + "\n";

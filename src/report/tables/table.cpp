@@ -1,6 +1,7 @@
 #include "report/tables/table.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <vector>
@@ -346,6 +347,7 @@ struct TableBlock {
 std::vector<TableBlock> table_blocks(const result::Result& result, const result::Scene& scene) {
   const std::string on_device = "on " + (result.device ? shown(result.device->name) : std::string("a device")) + ": ";
   std::vector<TableBlock> lists, device_lists, searched;
+  std::map<std::string, std::size_t> index_of;  // of a heading among its blocks
   for (const Case& result_case : result.cases) {
     if (result_case.scene != scene.name) continue;
     const bool is_searched = samples_search(result_case);
@@ -354,9 +356,9 @@ std::vector<TableBlock> table_blocks(const result::Result& result, const result:
     const bool is_on_device = runs_on_device(result_case);
     if (is_on_device) heading.insert(0, on_device);
     std::vector<TableBlock>& blocks = is_on_device ? device_lists : is_searched ? searched : lists;
-    auto found = std::ranges::find(blocks, heading, &TableBlock::heading);
-    if (found == blocks.end()) found = blocks.insert(blocks.end(), {heading, {}});
-    found->cases.push_back(&result_case);
+    const auto [at, is_new] = index_of.try_emplace(heading, blocks.size());
+    if (is_new) blocks.push_back({heading, {}});
+    blocks[at->second].cases.push_back(&result_case);
   }
   lists.insert(lists.end(), device_lists.begin(), device_lists.end());
   lists.insert(lists.end(), searched.begin(), searched.end());

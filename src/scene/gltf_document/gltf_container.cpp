@@ -94,8 +94,10 @@ void parse(const std::filesystem::path& path, GltfFile& file, std::string_view t
     }
     file.lazy = {};  // the parser reports the error with its place in the whole text
   }
-  if (const std::optional<JsonFault> fault = parse_json(text, file.json))
-    refuse_at(file, offset + fault->byte, fault->text());
+  const std::optional<JsonFault> fault = parse_json(text, file.json);
+  if (!fault) return;
+  if (!fault->is_repeated_key) refuse_at(file, offset + fault->byte, fault->text());
+  file.repeated_key = "byte " + std::to_string(offset + fault->byte) + " " + fault->text();
 }
 
 }  // namespace

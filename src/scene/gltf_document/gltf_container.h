@@ -19,6 +19,7 @@ struct GltfFile {
   nlohmann::json json;
   LazyArrays lazy;                         // arrays that are empty in `json`
   bool has_byte_order_mark = false;        // before the JSON; skipped
+  std::string repeated_key;                // a key that stands twice, of which the later value counts; "": none
   std::optional<std::string_view> binary;  // the GLB's BIN chunk, inside `bytes`
 
   GltfFile() = default;

@@ -177,7 +177,8 @@ std::string_view TextSource::at(std::uint64_t begin, std::size_t size) {
 json LazyArray::element(std::size_t index) const {
   const Range range = elements_[index];
   json value;
-  if (parse_json(source_->at(range.begin, range.size), value))
+  const std::optional<JsonFault> fault = parse_json(source_->at(range.begin, range.size), value);
+  if (fault && !fault->is_repeated_key)
     throw Error(file_, "byte " + std::to_string(range.begin), "has changed while it was read");
   return value;
 }

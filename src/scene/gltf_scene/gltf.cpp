@@ -247,6 +247,7 @@ Scene read_scene(const std::filesystem::path& path, const GltfChoice& choice) {
   Warnings warnings;
   AccessorReader reader(file, warnings);
   const JsonLocation& root = reader.root();
+  if (!file.repeated_key.empty()) root.warn(file.repeated_key + "; the later value counts");
   if (file.has_byte_order_mark) root.warn("begins with a byte order mark, which JSON has none of; skipped");
   Scene scene;
   scene.name = printable(path.stem().string());
