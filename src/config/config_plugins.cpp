@@ -33,30 +33,52 @@ void load_listed(const JsonText& text) {
     if (!list[i].is_string()) continue;
     const std::string where = text.where(child_pointer("/plugins", i));
     const plugin::PluginName name = plugin::plugin_name(list[i].get<std::string>());
+    if (name.file.empty()) throw Error(text.file, where, "names no file of a plug-in; takes FILE or ID=FILE");
     load_from(path_in(text, name.file, where), name.id, text.file, where);
   }
 }
 
-std::vector<std::string> named_methods(const Json& document, std::span<const FlagValue> flags) {
-  std::vector<std::string> names;
+// A method as a user names it, and where: a file, or "", and the place.
+struct NamedMethod {
+  std::string name, file, where;
+};
+
+std::vector<NamedMethod> named_methods(const JsonText& text, std::span<const FlagValue> flags) {
+  std::vector<NamedMethod> names;
+  const Json& document = text.value;
   const Json list = document.is_object() ? document.value("assigners", Json::array()) : Json::array();
-  for (const Json& entry : list) {
-    const Json name = entry.is_object() ? entry.value("name", Json()) : entry;
-    if (name.is_string()) names.push_back(name.get<std::string>());
+  for (std::size_t i = 0; i < list.size() && list.is_array(); ++i) {
+    const Json name = list[i].is_object() ? list[i].value("name", Json()) : list[i];
+    if (name.is_string())
+      names.push_back({name.get<std::string>(), text.file, text.where(child_pointer("/assigners", i))});
   }
   for (const FlagValue& flag : flags) {
     std::istringstream parts(flag.name == "--assigner" ? flag.value : "");
-    for (std::string part; std::getline(parts, part, ',');) names.push_back(part);
+    for (std::string part; std::getline(parts, part, ',');) names.push_back({part, "", flag.shown()});
   }
   return names;
 }
 
+// "acme.tiles" of a plug-in that is not there. The program's own names can have a dot, too.
+void refuse_absent(const NamedMethod& method, const std::string& id) {
+  const auto begins_so = [&](const std::string& own) { return own.starts_with(id + "."); };
+  if (!plugin::is_name(id) || std::ranges::any_of(assign::assigner_names(), begins_so)) return;
+  throw Error(method.file, method.where,
+              "'" + method.name + "' is a method of the plug-in '" + id +
+                  "', which is not there: name its file by --plugin FILE or the key \"plugins\", or have it as " + id +
+                  ".so in a folder of the variable " + plugin::k_path_variable);
+}
+
 void load_named(JsonText& text, std::span<const FlagValue> flags) {
-  for (const std::string& name : named_methods(text.value, flags)) {
+  const bool has_shaders = (text.value.is_object() && text.value.contains("shaders")) ||
+                           std::ranges::any_of(flags, [](const FlagValue& flag) { return flag.name == "--shader"; });
+  for (const NamedMethod& method : named_methods(text, flags)) {
+    const std::string& name = method.name;
     const std::string id = name.substr(0, name.find('.'));
     const bool is_known = assign::find_assigner(name) != nullptr || plugin::find_plugin(id) != nullptr;
     if (id == name || id.empty() || is_known) continue;
     const fs::path file = plugin::file_on_path(id);
+    if (file.empty() && !has_shaders) refuse_absent(method, id);  // theirs are read later
     if (file.empty()) continue;
     load_from(file, "", "", plugin::k_path_variable);
     text.value["plugins"].push_back(fs::absolute(file).string());

@@ -100,6 +100,8 @@ std::string errors_text(const result::CheckedSet& set) {
     out += format(" (%.1f %% of the true ones)",
                   100.0 * static_cast<double>(error.false_positives) / static_cast<double>(error.true_pairs));
   if (error.undecided > 0) out += "; " + number(error.undecided) + " undecided";
+  if (!set.other_reading && error.false_positives > error.listed_pairs / 2)
+    out += "; are ranges and cones described rightly?";
   return out + "\n";
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <glm/matrix.hpp>
+
 #include "core/error.h"
 #include "core/memory.h"
 #include "dump/camera.h"
@@ -28,22 +30,45 @@ Vec3i source_cell(const layout::CellOrder& given, const layout::CellOrder& other
 struct CameraChange {
   const char* text;
   bool is_transposed = false, is_turned = false, has_other_depth = false;
+  Vec3d mirrored{1.0};  // signs of view space: lights are seen in a mirror
 };
-constexpr CameraChange k_changes[] = {
+const CameraChange k_changes[] = {
     {.text = "camera.order: the matrices transposed", .is_transposed = true},
     {.text = "camera.forward: the other way", .is_turned = true},
     {.text = "camera.order and camera.forward: both the other", .is_transposed = true, .is_turned = true},
-    {.text = "camera.depth: the other of 0..1 and -1..1", .has_other_depth = true}};
+    {.text = "camera.depth: the other of 0..1 and -1..1", .has_other_depth = true},
+    {.text = "camera: the other handedness (the z row of world_to_view negated, or camera.forward and projection both "
+             "the other way)",
+     .mirrored = {1.0, 1.0, -1.0}},
+    {.text = "camera: the x row of world_to_view negated", .mirrored = {-1.0, 1.0, 1.0}},
+    {.text = "camera: the x and z rows of world_to_view negated", .mirrored = {-1.0, 1.0, -1.0}}};
+
+bool is_mirrored(const CameraChange& change) {
+  return change.mirrored != Vec3d(1.0);
+}
+
+// Moves all lights to where a camera sees them whose rows of the view matrix have these signs.
+void mirror_lights(view::Frame& frame, const Vec3d& signs) {
+  const Mat3d to_view = frame.view_space.rotation, to_world = glm::transpose(to_view);
+  for (scene::WorldLight& light : frame.lights) {
+    light.position =
+        frame.view_space.origin + to_world * (signs * (to_view * (light.position - frame.view_space.origin)));
+    light.direction = to_world * (signs * (to_view * light.direction));
+  }
+}
 
 // nullopt where the camera has no matrices, or they are none of a camera that way.
 std::optional<DumpFrame> changed_frame(const DumpFile& dump, const CameraChange& change) {
   result::DumpCamera camera = dump.record.camera;
-  if (!has_matrices(camera)) return std::nullopt;
+  if (!has_matrices(camera) || (is_mirrored(change) && dump.record.grid.kind.value_or("frustum") == "world"))
+    return std::nullopt;
   if (change.is_transposed) camera.order = camera.order.value_or("columns") == "columns" ? "rows" : "columns";
   if (change.has_other_depth) camera.depth = camera.depth.value_or("0..1") == "0..1" ? "-1..1" : "0..1";
   if (change.is_turned) camera.forward = camera.forward.value_or("-z") == "-z" ? "+z" : "-z";
   try {
-    return frame_of(dump, camera);
+    DumpFrame frame = frame_of(dump, camera);
+    if (is_mirrored(change)) mirror_lights(frame.frame, change.mirrored);
+    return frame;
   } catch (const Error&) {
     return std::nullopt;
   }

@@ -1,6 +1,7 @@
 #pragma once
-// Where lights are lost: is it the description? Tries the 24 orders of cells, cameras with matrices transposed or
-// looking the other way, and other descriptions of the lists (widths of numbers, the first index, units of offsets).
+// Where lights are lost: is it the description? Tries the 24 orders of cells, cameras with matrices transposed,
+// looking the other way or mirrored, and other descriptions of the lists (widths of numbers, the first index, units of
+// offsets).
 
 #include <optional>
 

@@ -68,7 +68,8 @@ struct OtherDescription {
 std::vector<OtherDescription> other_descriptions(std::span<const ListPart> parts);
 
 // Another description under which nothing is wrong, as a sentence: "with entries as u16 all 812 indices are below 300".
-// The first of other_descriptions(); nullopt if none of them fits.
+// The first of other_descriptions() that leaves at least half of the indices that are right in any of them, the given
+// one included; nullopt if none of them fits.
 std::optional<std::string> likely_reading(std::span<const ListPart> parts, std::span<const Buffer> buffers,
                                           const Shape& shape);
 

@@ -23,9 +23,27 @@ bool set_entry_type(DumpLists& lists, const std::string& type) {
   return true;
 }
 
-bool change_first_light(DumpLists& lists, const std::string&) {
-  if (!lists.entries) return false;
-  lists.entries->first_light = lists.entries->first_light.value_or(0) == 0 ? 1 : 0;
+bool count_from_one(DumpLists& lists, const std::string&) {
+  if (!lists.entries || lists.entries->first_light.value_or(0) > 0) return false;
+  lists.entries->first_light = 1;
+  return true;
+}
+
+bool count_from_zero(DumpLists& lists, const std::string&) {
+  if (!lists.entries || lists.entries->first_light.value_or(0) == 0) return false;
+  lists.entries->first_light.reset();
+  return true;
+}
+
+bool lower_first_light(DumpLists& lists, const std::string&) {
+  if (!lists.entries || lists.entries->first_light.value_or(0) < 2) return false;
+  --*lists.entries->first_light;
+  return true;
+}
+
+bool raise_first_light(DumpLists& lists, const std::string&) {
+  if (!lists.entries || lists.entries->first_light.value_or(0) == 0) return false;
+  ++*lists.entries->first_light;
   return true;
 }
 
@@ -100,9 +118,12 @@ bool move_words_earlier(DumpLists& lists, const std::string&) {
 // In the order in which they are believed.
 std::vector<Change> changes() {
   std::vector<Change> all;
+  all.push_back({"indices that count from 1 (entries.first_light)", count_from_one});
+  all.push_back({"indices that count from 0 (entries.first_light)", count_from_zero});
+  all.push_back({"an index of the first light that is one lower (entries.first_light)", lower_first_light});
+  all.push_back({"an index of the first light that is one higher (entries.first_light)", raise_first_light});
   for (const char* type : {"u16", "u8", "u32", "f32"})
     all.push_back({std::string("entries as ") + type, set_entry_type, type});
-  all.push_back({"indices that count from 1 (entries.first_light)", change_first_light});
   all.push_back({"the other unit of offsets (offset_is)", change_offset_unit});
   all.push_back({"offset and count swapped", swap_offset_and_count});
   for (const char* type : {"u16", "u8", "u32"}) all.push_back({std::string("counts as ") + type, set_count_type, type});
@@ -132,16 +153,27 @@ std::vector<OtherDescription> other_descriptions(std::span<const ListPart> parts
 
 std::optional<std::string> likely_reading(std::span<const ListPart> parts, std::span<const Buffer> buffers,
                                           const Shape& shape) {
+  // What is right in the given lists counts, too: a reading that leaves a small part of all that is no explanation.
+  std::size_t most = decode(parts, buffers, shape).lists.pair_count();
+  struct Fitting {
+    std::string change;
+    std::size_t indices;
+  };
+  std::vector<Fitting> fitting;
   for (const OtherDescription& other : other_descriptions(parts)) {
     try {
       const Decoded decoded = decode(other.parts, buffers, shape);
-      if (decoded.faults.count == 0 && decoded.faults.twice == 0 && decoded.lists.pair_count() > 0)
-        return "with " + other.change + " all " + std::to_string(decoded.lists.pair_count()) + " indices are below " +
-               std::to_string(shape.lights);
+      const std::size_t indices = decoded.lists.pair_count();
+      if (decoded.faults.count > 0 || decoded.faults.twice > 0 || indices == 0) continue;
+      most = std::max(most, indices);
+      fitting.push_back({other.change, indices});
     } catch (const Error&) {  // NOLINT(bugprone-empty-catch): this description does not fit the buffers
     }
   }
-  return std::nullopt;
+  const auto found = std::ranges::find_if(fitting, [most](const Fitting& one) { return one.indices >= most / 2; });
+  if (found == fitting.end()) return std::nullopt;
+  return "with " + found->change + " all " + std::to_string(found->indices) + " indices are below " +
+         std::to_string(shape.lights);
 }
 
 }  // namespace clusterbench::layout

@@ -64,14 +64,15 @@ struct Conventions {
 struct View {
   int width = 0, height = 0;  // of the viewport, in pixels
   double eye[3] = {};
-  // The axes of the picture in the world: unit and orthogonal, each number exact as it is.
+  // The axes of the picture in the world: each product of two axes within 1e-3 of 1 (an axis with itself) or 0. Their
+  // numbers are taken as they are.
   double to_right[3] = {1.0, 0.0, 0.0}, to_top[3] = {0.0, 1.0, 0.0}, forward[3] = {0.0, 0.0, -1.0};
   bool is_orthographic = false;
   // The sides of the picture: slopes (offset / depth) of a perspective camera, metres of an orthographic one.
   double left = -1.0, right = 1.0, bottom = -1.0, top = 1.0;
   double near_m = 0.1, far_m = 1000.0;  // far may be +inf for a perspective camera
   // Only for methods that need a depth buffer: width x height depths along `forward` in metres, row by row from the top
-  // left, +inf where there is no surface.
+  // left, +inf where there is no surface; 0 or more for a perspective camera.
   std::span<const float> depths{};
 
   // Sets all but width, height and depths from 16 numbers of the view matrix (world to view: a rotation and a
@@ -108,8 +109,8 @@ struct Grid {
   Slicing slicing = Slicing::exponential_first;
   int slices = 16;
   double near_m = 0.0, far_m = 0.0;           // 0: the camera's
-  double first_m = 5.0, lambda = 0.5;         // of the schemes that use them
-  std::span<const double> boundaries_m = {};  // ascending; slices + 1 of them
+  double first_m = 5.0, lambda = 0.5;         // of the schemes that use them; lambda is 0 to 1
+  std::span<const double> boundaries_m = {};  // of Slicing::list alone: ascending; `slices` is then their number - 1
   // cascades: cells of a level, multiples of 4, 4 and 2. world: cells of the whole box.
   int cells[3] = {16, 16, 16};
   int levels = 5;                     // cascades
@@ -142,17 +143,21 @@ struct JobSystem {
 
 struct Settings {
   Grid grid{};
-  std::string_view method = "exact-fast";  // of methods()
-  std::span<const Parameter> method_parameters{};
-  // Writes the lists into buffers as a shader reads them: of storages(). Empty: no buffers. Methods that leave a
-  // structure of their own (z-binning, bvh, tiled and others) take none; their structure is in buffers() if shaders can
-  // read it as it is (not tile-slices, deferred and babylon's).
+  std::string_view method = "exact-fast";          // of methods()
+  std::span<const Parameter> method_parameters{};  // each once, without the number of threads
+  // Writes the lists into buffers as a shader reads them: of storages(). Empty: no buffers. These methods leave a
+  // structure of their own in place of lists, and take no storage:
+  //   in buffers(): z-binning, tile-ranges, tile-spans, babylon-masks, babylon-as-shipped, tiled, tiled-2.5d, flagged,
+  //   explicit, naive-mask;
+  //   without buffers: tile-slices, deferred, naive-tile-size.
+  // All others make lists, bvh too.
   std::string_view storage = {};
-  std::span<const Parameter> storage_parameters{};
+  std::span<const Parameter> storage_parameters{};  // each once; none without a storage
   // Threads that share a frame, 1 to 256; above 1 only for exact-fast. The lists do not depend on them.
   int threads = 1;
   JobSystem jobs{};  // its threads, in place of own ones; `threads` then says how many parts are worth while
-  // Also lists per cell of a method that leaves a structure of its own, if its samples depend on their cell alone.
+  // Also lists per cell of a method that leaves a structure of its own. start() refuses it for those without buffers:
+  // their samples depend on more than a cell of the grid. Methods that make lists have them in any case.
   bool wants_lists_of_structures = false;
 };
 
@@ -163,15 +168,21 @@ struct Cells {
 };
 
 // One buffer of a storage or structure, little-endian, ready to be uploaded; docs/methods.md says how shaders read it.
+// Those of tiled, tiled-2.5d and naive-mask have a header per tile in place of one per cell.
 struct Buffer {
   const char* name = "";            // "indices", "headers", "words"
   std::uint32_t element_bytes = 0;  // of an index, a header, a word
   std::span<const std::byte> bytes{};
 };
 
-// What a shader needs to find a cell of a frustum or distance grid. tile = int(pixel * tile_scale), pixels from the top
-// left; slice = first_slice + int(f(depth) * scale + bias), for depths below first_m slice 0; depth is the distance
-// from the eye in a distance grid.
+// What a shader needs to find a cell of a frustum or distance grid; depth is the distance from the eye in a distance
+// grid. Outside of the viewport, beyond boundaries' last number and, with a perspective camera, at 0 or less there is
+// no cell. Otherwise
+//   tile = int(pixel * tile_scale), at most the last tile; pixels from the top left
+//   slice = 0 where depth < first_m and first_slice is 1
+//   slice = int(clamp(f(depth) * scale + bias, 0, slices - 1)) for all other depths; bias contains first_slice
+//   cell = (slice * rows + row of tiles) * columns + column
+// In the form `search` slice is the last of 0 .. slices - 1 whose near boundary is not above depth, or 0.
 struct Lookup {
   enum class Form : std::uint8_t {
     linear,  // f(depth) = depth
@@ -181,7 +192,7 @@ struct Lookup {
   float tile_scale_x = 0.0f, tile_scale_y = 0.0f;
   Form form = Form::search;
   float scale = 0.0f, bias = 0.0f, first_m = 0.0f;
-  int first_slice = 0;
+  int first_slice = 0;                  // 1: slice 0 lies before first_m, without a formula
   std::span<const float> boundaries{};  // metres; slices + 1
 };
 
@@ -203,13 +214,14 @@ class LightLists {
   // within rounding). A new viewport or projection, and the first spot or box, cost a build of the grid. After a
   // failure there are no lists, and the next frame is as any other.
   [[nodiscard]] bool update(const View& view, const Lights& lights) noexcept;
-  // Why the last start() or update() returned false; "" if it did not. data() ends with a 0.
+  // Why the last start() or update() returned false; "" if it did not, or there was none. data() ends with a 0.
   std::string_view error() const noexcept;
 
   Cells cells() const noexcept;
   // The lights of cell c are light_indices()[begins()[c]] .. light_indices()[begins()[c + 1] - 1]: points, then spots,
   // then boxes, each once. c = (z * cells.y + y) * cells.x + x, from the top left near corner. Empty for a method with
-  // a structure of its own, unless they are asked for.
+  // a structure of its own, unless they are asked for. All cells of a tile have the tile's list where a method has one
+  // list per tile.
   std::span<const std::uint32_t> begins() const noexcept;
   std::span<const std::uint32_t> light_indices() const noexcept;
   std::span<const std::uint32_t> of(std::uint32_t cell) const noexcept;
@@ -221,21 +233,27 @@ class LightLists {
   std::span<const Buffer> buffers() const noexcept;
   // Pairs that the storage had no room for (`fixed`).
   std::uint64_t dropped_pairs() const noexcept;
-  // All memory that this object keeps, in bytes.
+  // The memory that this object keeps, in bytes, after a failed update() too: lights as given and as converted, grid,
+  // depths, lists, the method's own memory, the buffers and as much again for the storage or structure that they are
+  // copied from.
   std::size_t memory_bytes() const noexcept;
   // How often the grid was built since start().
   std::uint64_t builds() const noexcept;
 
  private:
   struct State;
+  bool make_state() noexcept;
+
   std::unique_ptr<State> state_;
+  bool has_no_memory_ = false;  // for state_
 };
 
 // Names, in the order of docs/methods.md.
 std::span<const std::string_view> methods() noexcept;
 std::span<const std::string_view> storages() noexcept;
 
-// What lists, buffers and tables may take each, in this process; 4 GiB at first. update() fails before it takes more.
+// What lists, buffers and tables may take each, in this process; 4 GiB at first. update() fails before it takes more,
+// with an error that names this function.
 void set_memory_limit(std::uint64_t bytes) noexcept;
 
 // "0.1.0"

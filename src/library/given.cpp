@@ -39,22 +39,31 @@ grid::Scheme scheme_of(Grid::Slicing slicing) {
     case Grid::Slicing::power:
       return grid::Scheme::power;
     case Grid::Slicing::list:
-      break;
+      return grid::Scheme::list;
   }
-  return grid::Scheme::list;
+  refuse("grid.slicing", "is none; allowed: linear, exponential, exponential_first, power, list");
 }
 
 grid::Tiling tiling_of(const Grid& given) {
   if ((given.columns == 0) != (given.rows == 0))
-    refuse("grid.rows", "and grid.columns are " + std::to_string(given.rows) + " and " + std::to_string(given.columns) +
-                            "; allowed: both 0, or both above 0");
+    refuse("grid.columns, grid.rows", "are " + std::to_string(given.columns) + " and " + std::to_string(given.rows) +
+                                          "; allowed: both 0, or both above 0");
   grid::Tiling tiling;
   tiling.pixels = given.columns == 0 ? Vec2i(given.tile_width, given.tile_height) : Vec2i(0, 0);
   tiling.count = Vec2i(given.columns, given.rows);
   return tiling;
 }
 
+// What make_grid does not check.
+void check_slicing(const Grid& given) {
+  if (given.slicing != Grid::Slicing::list && !given.boundaries_m.empty())
+    refuse("grid.boundaries_m", "are given, and grid.slicing is not list; allowed: none");
+  if (given.slicing == Grid::Slicing::power && !(given.lambda >= 0.0 && given.lambda <= 1.0))
+    refuse("grid.lambda", "is " + short_number(given.lambda) + "; allowed: 0 to 1");
+}
+
 grid::Slicing slicing_of(const Grid& given) {
+  check_slicing(given);
   grid::Slicing slices;
   slices.scheme = scheme_of(given.slicing);
   slices.count = given.slices;
@@ -80,7 +89,7 @@ void check_counts(const Grid& given) {
     case Grid::Kind::distance:
       if (given.slicing != Grid::Slicing::list)
         return check_count("grid.slices", count_of(given.slices), k_most_slices);
-      if (given.boundaries_m.size() < 2) refuse("grid.boundaries_m", "are fewer than 2");
+      if (given.boundaries_m.size() < 2) refuse("grid.boundaries_m", "are fewer than 2; allowed: 2 to 4097");
       return check_count("grid.boundaries_m", given.boundaries_m.size(), k_most_slices + 1);
     case Grid::Kind::cascades:
     case Grid::Kind::world:
@@ -90,38 +99,56 @@ void check_counts(const Grid& given) {
   refuse("grid.kind", "is none; allowed: frustum, distance, cascades, world");
 }
 
-assign::ParamValue value_of(const Parameter& parameter) {
+assign::ParamValue value_of(const char* where, const Parameter& parameter) {
   switch (parameter.type) {
     case Parameter::Type::flag:
       return parameter.flag;
     case Parameter::Type::text:
       return std::string(parameter.text);
     case Parameter::Type::number:
-      break;
+      return parameter.number;
   }
-  return parameter.number;
+  refuse(where, "have '" + std::string(parameter.name) + "' of no type; allowed: number, text, flag");
 }
 
 // --- Camera ---
 
+// As View::set_matrices() does.
 void check_axes(const Mat3d& rotation) {
+  constexpr double k_most_off = 1e-3;
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) {
       double sum = 0.0;
       for (int i = 0; i < 3; ++i) sum += rotation[i][a] * rotation[i][b];
-      if (!(std::abs(sum - (a == b ? 1.0 : 0.0)) <= 2e-3))
-        refuse("view.to_right", "view.to_top and view.forward are not unit and orthogonal, up to 1e-3");
+      if (!(std::abs(sum - (a == b ? 1.0 : 0.0)) <= k_most_off))
+        refuse("view.to_right, view.to_top, view.forward",
+               "are not unit and orthogonal; allowed: products within 1e-3 of 1 and 0");
     }
+}
+
+void check_sides(const view::Projection& projection) {
+  try {
+    view::check_projection(projection);
+  } catch (const Error& error) {
+    refuse("view", error.message());
+  }
 }
 
 void check_range_of_depths(const View& view) {
   const bool has_near = view.is_orthographic ? std::isfinite(view.near_m) : view.near_m > 0.0;
   const bool has_far = view.near_m < view.far_m && (!view.is_orthographic || std::isfinite(view.far_m));
   if (has_near && has_far) return;
-  refuse("view.near_m",
-         "and view.far_m are " + short_number(view.near_m) + " and " + short_number(view.far_m) +
+  refuse("view.near_m, view.far_m",
+         "are " + short_number(view.near_m) + " and " + short_number(view.far_m) +
              "; allowed: 0 < near < far, far may be infinite; of an orthographic camera near < far, both "
              "finite");
+}
+
+void check_depth(float depth, bool is_orthographic) {
+  const float least = is_orthographic ? std::numeric_limits<float>::lowest() : 0.0f;
+  if (depth >= least) return;
+  refuse("view.depths", "have " + short_number(static_cast<double>(depth)) + "; allowed: " +
+                            (is_orthographic ? "metres" : "0 m or more") + ", and +inf without a surface");
 }
 
 // --- Lights ---
@@ -220,23 +247,26 @@ grid::GridSpec grid_spec_of(const Grid& given) {
   return spec;
 }
 
-assign::Params params_of(std::span<const assign::ParamSpec> specs, std::span<const Parameter> given) {
+assign::Params params_of(const char* where, std::span<const assign::ParamSpec> specs,
+                         std::span<const Parameter> given) {
   std::map<std::string, assign::ParamValue> values;
-  for (const Parameter& parameter : given) values[std::string(parameter.name)] = value_of(parameter);
+  for (const Parameter& parameter : given)
+    if (!values.emplace(parameter.name, value_of(where, parameter)).second)
+      refuse(where, "have '" + std::string(parameter.name) + "' twice; allowed: each once");
   return {specs, values};
 }
 
 void set_camera(const View& view, view::Frame& frame) {
   constexpr int k_widest = 1 << 20;
   if (view.width < 1 || view.height < 1 || view.width > k_widest || view.height > k_widest)
-    refuse("view.width", "and view.height are " + std::to_string(view.width) + " and " + std::to_string(view.height) +
-                             "; allowed: 1 to 1048576 pixels");
+    refuse("view.width, view.height", "are " + std::to_string(view.width) + " and " + std::to_string(view.height) +
+                                          "; allowed: 1 to 1048576 pixels");
   if (!(view.left < view.right) || !(view.bottom < view.top))
-    refuse("view.left", "view.right, view.bottom and view.top are no picture; allowed: left < right, bottom < top");
+    refuse("view.left, view.right, view.bottom, view.top", "are no picture; allowed: left < right, bottom < top");
   check_range_of_depths(view);
   frame.viewport = {view.width, view.height};
   frame.projection = {view.is_orthographic, view.left, view.right, view.bottom, view.top, view.near_m, view.far_m};
-  view::check_projection(frame.projection);
+  check_sides(frame.projection);
   view::Space& space = frame.view_space;
   space.origin = Vec3d(view.eye[0], view.eye[1], view.eye[2]);
   if (!is_position(space.origin)) refuse("view.eye", "is farther than 1e15 m from the origin along an axis");
@@ -260,8 +290,7 @@ void set_depths(const View& view, depth::DepthImage& image) {
     refuse("view.depths", "are " + std::to_string(view.depths.size()) + ", and this method needs one for each of " +
                               std::to_string(image.pixels.count()) + " pixels");
   image.nearest.assign(view.depths.begin(), view.depths.end());
-  for (const float depth : image.nearest)
-    if (std::isnan(depth)) refuse("view.depths", "have a nan; allowed: metres, and +inf without a surface");
+  for (const float depth : image.nearest) check_depth(depth, view.is_orthographic);
 }
 
 }  // namespace clusterbench::library

@@ -10,7 +10,8 @@
 namespace clusterbench::library {
 
 grid::GridSpec grid_spec_of(const Grid& grid);
-assign::Params params_of(std::span<const assign::ParamSpec> specs, std::span<const Parameter> given);
+// `where`: the argument that they are.
+assign::Params params_of(const char* where, std::span<const assign::ParamSpec> specs, std::span<const Parameter> given);
 
 // Camera and viewport. The lights of the frame stay.
 void set_camera(const View& view, view::Frame& frame);

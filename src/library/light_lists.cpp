@@ -1,5 +1,6 @@
 // LightLists: one frame's input through method and storage.
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <new>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "assign/contract/storage.h"
+#include "core/arrays.h"
 #include "core/error.h"
 #include "core/float_environment.h"
 #include "core/memory.h"
@@ -48,8 +50,47 @@ assign::Params method_params(const assign::AssignerDescriptor& method, const Set
         "", "threads",
         "is " + std::to_string(settings.threads) + "; allowed: 1, since " + method.name + " works on one thread");
   std::vector<Parameter> given(settings.method_parameters.begin(), settings.method_parameters.end());
+  for (const Parameter& parameter : given)
+    if (threads != nullptr && parameter.name == threads->name)
+      throw Error("", "method_parameters",
+                  "have '" + threads->name + "', which Settings::threads gives; allowed: the other parameters of " +
+                      method.name);
   if (threads != nullptr) given.emplace_back(threads->name, settings.threads);
-  return params_of(method.params, given);
+  return params_of("method_parameters", method.params, given);
+}
+
+std::unique_ptr<assign::Storage> made_storage(const Settings& settings) {
+  if (settings.storage.empty()) return nullptr;
+  const assign::StorageDescriptor& row = storage_named(settings.storage);
+  return row.make(params_of("storage_parameters", row.params, settings.storage_parameters));
+}
+
+// Whether a sample's lights depend on its cell of the grid, or on the tile of that cell.
+bool has_lists_of_cells(const assign::AssignerDescriptor& method, const assign::LightStructure& structure) {
+  const bool has_slices_of_its_own = method.name == "tile-slices";  // of each tile, where the grid's cells are others
+  return structure.has_cells() && !has_slices_of_its_own;
+}
+
+void check_own(const assign::AssignerDescriptor& method, const assign::LightStructure& own, const Settings& settings) {
+  if (!settings.storage.empty())
+    throw Error("", "storage", "is given, and " + method.name + " leaves a structure of its own; allowed: none");
+  if (settings.wants_lists_of_structures && !has_lists_of_cells(method, own))
+    throw Error("", "wants_lists_of_structures",
+                "is true, and " + method.name + " has no lists of the grid's cells; allowed: false");
+}
+
+// Lists of tiles become those of all slices of cells.
+void repeat_in_slices(std::uint32_t cell_count, assign::Lists& lists) {
+  const std::size_t tiles = lists.cell_count(), pairs = lists.lights.size();
+  if (tiles == cell_count) return;
+  const std::size_t slices = cell_count / tiles;
+  check_memory("pairs of light lists", pairs * slices, sizeof(std::uint32_t));
+  assign::check_pair_count(pairs * slices);
+  lists.lights.resize(pairs * slices);
+  for (std::size_t i = pairs; i < lists.lights.size(); ++i) lists.lights[i] = lists.lights[i - pairs];
+  lists.begin.resize(std::size_t{cell_count} + 1);
+  for (std::size_t cell = tiles + 1; cell < lists.begin.size(); ++cell)
+    lists.begin[cell] = lists.begin[cell - tiles] + static_cast<std::uint32_t>(pairs);
 }
 
 void check_lights(const assign::AssignerDescriptor& method, const Lights& lights) {
@@ -65,29 +106,69 @@ bool are_equal(const view::LightRanges& a, const view::LightRanges& b) {
   return a.points.count == b.points.count && a.spots.count == b.spots.count && a.boxes.count == b.boxes.count;
 }
 
-// Errors of grids name keys of a configuration.
+// Errors of grids and methods name keys of a configuration. "": none of these.
 std::string argument_of(const std::string& key) {
-  static const std::map<std::string, const char*> k_arguments{{"tiles.pixels", "grid.tile_width, grid.tile_height"},
-                                                              {"tiles.count", "grid.columns, grid.rows"},
-                                                              {"slices.near", "grid.near_m"},
-                                                              {"slices.far", "grid.far_m"},
-                                                              {"slices.first", "grid.first_m"},
-                                                              {"slices.lambda", "grid.lambda"},
-                                                              {"slices.count", "grid.slices"},
-                                                              {"slices.boundaries", "grid.boundaries_m"},
-                                                              {"bounds", "grid.lo_m, grid.hi_m"},
-                                                              {"finest", "grid.finest_m"},
-                                                              {"camera", "view"}};
+  static const std::map<std::string, const char*> k_arguments{
+      {"tiles.pixels", "grid.tile_width, grid.tile_height"},
+      {"tiles.count", "grid.columns, grid.rows"},
+      {"tiles", "grid.tile_width, grid.tile_height, grid.columns, grid.rows"},
+      {"slices.scheme", "grid.slicing"},
+      {"slices.near", "grid.near_m"},
+      {"slices.far", "grid.far_m"},
+      {"slices.first", "grid.first_m"},
+      {"slices.lambda", "grid.lambda"},
+      {"slices.count", "grid.slices"},
+      {"slices.boundaries", "grid.boundaries_m"},
+      {"bounds", "grid.lo_m, grid.hi_m"},
+      {"finest", "grid.finest_m"},
+      {"cells", "grid.cells"},
+      {"camera", "view"},
+      {"limits.memory_mib", "set_memory_limit"}};
   const auto found = k_arguments.find(key);
-  return found == k_arguments.end() ? "grid." + key : found->second;
+  return found == k_arguments.end() ? "" : found->second;
 }
 
 grid::Grid made_grid(const grid::GridSpec& spec, const grid::GridInputs& inputs) {
   try {
     return grid::make_grid(spec, inputs);
   } catch (const Error& error) {
-    throw Error("", argument_of(error.where()), error.message());
+    const std::string argument = argument_of(error.where());
+    throw Error("", argument.empty() ? "grid." + error.where() : argument, error.message());
   }
+}
+
+void replace_words(const std::string& words, const std::string& by, std::string& text) {
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + by.size()))
+    text.replace(at, words.size(), by);
+}
+
+// The same error with an engine's names in place of keys of a configuration.
+std::string text_for_engines(const Error& error) {
+  if (!error.file().empty()) return error.what();
+  std::string message = error.message();
+  replace_words("grids.*.slices.first", "grid.first_m", message);
+  replace_words("grids.*.slices.scheme", "grid.slicing", message);
+  const std::string argument = argument_of(error.where()), where = argument.empty() ? error.where() : argument;
+  return where.empty() ? message : where + ": " + message;
+}
+
+std::size_t kept_by(const view::LightArrays& a) {
+  return bytes_of(a.x, a.y, a.z, a.radius, a.reach, a.axis_x, a.axis_y, a.axis_z, a.cos_angle, a.sin_angle,
+                  a.half_axes);
+}
+
+std::size_t kept_by(const grid::Grid& grid) {
+  if (const auto* screen = std::get_if<grid::ScreenGrid>(&grid.shape))
+    return bytes_of(screen->tiles.x, screen->tiles.y, screen->slices.boundaries);
+  if (const auto* world = std::get_if<grid::WorldGrid>(&grid.shape)) return bytes_of(world->x, world->y, world->z);
+  return 0;  // cascades are a few numbers
+}
+
+std::size_t kept_by(const assign::ShaderBuffers& shader) {
+  std::size_t bytes = bytes_of(shader.words);
+  for (const auto* buffers : {&shader.buffers, &shader.former})
+    for (const assign::ShaderBuffers::Buffer& buffer : *buffers) bytes += bytes_of(buffer.bytes);
+  return bytes;
 }
 
 // 0 if there is no memory for the answer.
@@ -131,11 +212,12 @@ struct LightLists::State {
   assign::Lists lists;
   assign::ShaderBuffers shader;
   std::vector<Buffer> buffers;
+  std::size_t unshown_bytes = 0;  // of a structure without buffers: of its fullest frame
   std::string problem;
   const char* short_problem = "";  // where there is no memory for a text
 
   SharedThreads* threads() { return lent ? &*lent : nullptr; }
-  assign::Assigner& assigner() {
+  assign::Assigner& assigner() const {
     if (list_method) return *list_method;
     return *structure_method;
   }
@@ -151,6 +233,7 @@ struct LightLists::State {
   void assign();
   void show_buffers();
   void forget_frame();
+  std::size_t memory_bytes() const;
 
   // Whether `work` did not fail.
   template <class Work>
@@ -164,11 +247,20 @@ struct LightLists::State {
       return true;
     } catch (const std::bad_alloc&) {
       short_problem = "there is not enough memory";
+    } catch (const Error& error) {
+      keep_problem(error);
     } catch (const std::exception& error) {
       keep_problem(error.what());
     }
     forget_frame();
     return false;
+  }
+  void keep_problem(const Error& error) noexcept {
+    try {
+      problem = text_for_engines(error);
+    } catch (...) {
+      short_problem = "there is not enough memory";
+    }
   }
   void keep_problem(const char* text) noexcept {
     try {
@@ -197,17 +289,16 @@ void LightLists::State::make_method(const Settings& settings) {
   const assign::Params params = method_params(*method, settings);
   if (const std::string reason = assign::unavailability(*method, params); !reason.empty())
     throw Error("", "method", method->name + " cannot run here: " + reason);
+  if (settings.storage.empty() && !settings.storage_parameters.empty())
+    throw Error("", "storage_parameters", "are given, and storage is not; allowed: none");
   if (method->make != nullptr) {
     list_method = method->make(params);
-    if (settings.storage.empty()) return;
-    const assign::StorageDescriptor& row = storage_named(settings.storage);
-    storage = row.make(params_of(row.params, settings.storage_parameters));
+    storage = made_storage(settings);
     return;
   }
-  if (!settings.storage.empty())
-    throw Error("", "storage", "is given, and " + method->name + " leaves a structure of its own; allowed: none");
   structure_method = method->make_own(params);
   own = structure_method->make_structure();
+  check_own(*method, *own, settings);
 }
 
 void LightLists::State::update(const View& view, const Lights& lights) {
@@ -267,11 +358,17 @@ void LightLists::State::assign() {
     return;
   }
   structure_method->assign(input, *own);
-  if (wants_lists && own->has_cells()) own->expand(lists);
+  if (!wants_lists) return;
+  own->expand(lists);
+  repeat_in_slices(grid.cell_count(), lists);
 }
 
 void LightLists::State::show_buffers() {
-  if (structure() == nullptr || !structure()->fill_shader_buffers(shader)) return;
+  if (structure() == nullptr) return;
+  if (!structure()->fill_shader_buffers(shader)) {
+    unshown_bytes = std::max<std::size_t>(unshown_bytes, use_of(*structure()).upload_bytes);
+    return;
+  }
   buffers.clear();
   for (const assign::ShaderBuffers::Buffer& buffer : shader.buffers)
     buffers.push_back({buffer.name, buffer.element_bytes, buffer.bytes});
@@ -290,20 +387,32 @@ LightLists::~LightLists() = default;
 LightLists::LightLists(LightLists&&) noexcept = default;
 LightLists& LightLists::operator=(LightLists&&) noexcept = default;
 
-bool LightLists::start(const Settings& settings) noexcept {
+std::size_t LightLists::State::memory_bytes() const {
+  std::size_t bytes = kept_by(arrays) + kept_by(grid) + 2 * kept_by(shader) + unshown_bytes;
+  bytes += bytes_of(frame.lights, depths.nearest, lists.begin, lists.lights, buffers);
+  if (builds > 0) bytes += assigner().scratch_bytes();
+  return bytes;
+}
+
+bool LightLists::make_state() noexcept {
   if (!state_) state_.reset(new (std::nothrow) State);
-  if (!state_) return false;
+  has_no_memory_ = !state_;
+  return !has_no_memory_;
+}
+
+bool LightLists::start(const Settings& settings) noexcept {
+  if (!make_state()) return false;
   const bool is_started = state_->tried([&] { state_->start(settings); });
   if (!is_started) state_->method = nullptr;
   return is_started;
 }
 
 bool LightLists::update(const View& view, const Lights& lights) noexcept {
-  return state_ && state_->tried([&] { state_->update(view, lights); });
+  return make_state() && state_->tried([&] { state_->update(view, lights); });
 }
 
 std::string_view LightLists::error() const noexcept {
-  if (!state_) return "start: was not called, or there was no memory for it";
+  if (!state_) return has_no_memory_ ? "there is not enough memory" : "";
   return *state_->short_problem != '\0' ? std::string_view(state_->short_problem) : std::string_view(state_->problem);
 }
 
@@ -361,12 +470,7 @@ std::uint64_t LightLists::dropped_pairs() const noexcept {
 }
 
 std::size_t LightLists::memory_bytes() const noexcept {
-  if (!state_ || !state_->inputs) return 0;
-  std::size_t bytes = state_->assigner().scratch_bytes();
-  bytes += (state_->lists.begin.capacity() + state_->lists.lights.capacity()) * sizeof(std::uint32_t);
-  bytes += state_->frame.lights.capacity() * sizeof(scene::WorldLight);
-  if (state_->storage) bytes += 2 * use_of(*state_->storage).upload_bytes;
-  return bytes;
+  return state_ ? state_->memory_bytes() : 0;
 }
 
 std::uint64_t LightLists::builds() const noexcept {

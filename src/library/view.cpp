@@ -137,8 +137,20 @@ const char* set_projection(Matrix m, const Conventions& conventions, double forw
   return "projection: its near plane is beyond its far plane, as if another Conventions::depth were meant";
 }
 
+const char* fault_of_conventions(const Conventions& conventions) {
+  using Order = Conventions::Order;
+  using Depth = Conventions::Depth;
+  if (conventions.order != Order::columns && conventions.order != Order::rows)
+    return "conventions.order: is none; allowed: columns, rows";
+  const Depth depth = conventions.depth;
+  if (depth != Depth::zero_to_one && depth != Depth::one_to_zero && depth != Depth::minus_one_to_one)
+    return "conventions.depth: is none; allowed: zero_to_one, one_to_zero, minus_one_to_one";
+  return nullptr;
+}
+
 template <class Number>
 const char* set_all(View& view, const Number* world_to_view, const Number* projection, const Conventions& conventions) {
+  if (const char* fault = fault_of_conventions(conventions)) return fault;
   const Matrix pose(world_to_view, conventions.order);
   if (const char* fault = fault_of_view_matrix(pose)) return fault;
   const double forward = conventions.looks_along_positive_z ? 1.0 : -1.0;

@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "os/notes_page.h"
 #include "os/process_memory.h"
+#include "os/standard_streams.h"
 
 namespace clusterbench::os {
 namespace {
@@ -160,6 +161,7 @@ void join_notes(const std::string& path) {
   if (!is_page || g_page->magic != NotesPage::k_magic)
     throw Error(path, "", "holds no notes of this program's calls", ExitCode::internal);
   g_joined = path;
+  keep_output_apart();
   watch_for_crashes();
 }
 
@@ -168,6 +170,14 @@ void end_with_call(int wait_status) {
   if (!std::ranges::any_of(g_page->threads, &ThreadNotes::is_running)) return;
   g_page->child_status = wait_status;
   g_page->has_child_status = true;
+  std::_Exit(static_cast<int>(ExitCode::internal));
+}
+
+void end_as_ended_thread() {
+  g_page->has_ended_thread = true;
+  if (t_notes != nullptr && t_notes->is_running())
+    g_page->crashed_thread = static_cast<int>(t_notes - g_page->threads.data());
+  if (!is_guarded()) std::fputs("clusterbench: a plug-in ended the thread that called it (pthread_exit)\n", stderr);
   std::_Exit(static_cast<int>(ExitCode::internal));
 }
 
@@ -191,6 +201,7 @@ void clear_notes(NotesPage& page) {
   page.exit_code = 0;
   page.crashed_thread = -1;
   page.has_called = false;
+  page.has_ended_thread = false;
   page.has_child_status = false;
   page.codes = 0;
   page.group.set("");

@@ -67,4 +67,8 @@ void join_notes(const std::string& path);
 // Returns if no call is running, or without a guard. `wait_status`: as waitpid() tells it.
 void end_with_call(int wait_status);
 
+// Ends this process at once, because foreign code ended the thread of the call that is running. Without a guard it says
+// so.
+[[noreturn]] void end_as_ended_thread();
+
 }  // namespace clusterbench::os

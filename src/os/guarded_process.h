@@ -25,9 +25,10 @@ struct GuardedEnd {
   // by the guard.
   enum class How : std::uint8_t { measured, done, died, timed_out, out_of_memory };
   How how = How::done;
-  int exit_code = 0;       // of `done`
-  int signal = 0;          // by which it died; 0: by exit()
-  int died_with_code = 0;  // of exit()
+  int exit_code = 0;              // of `done`
+  int signal = 0;                 // by which it died; 0: by exit()
+  int died_with_code = 0;         // of exit()
+  bool has_ended_thread = false;  // ... because foreign code ended the thread that called it
   // Of a process that did not end by itself: the call that was running, or the last one before; none if it made none.
   std::optional<NotedCall> call;
   bool is_call_running = false;
@@ -44,8 +45,8 @@ class ProcessGuard {
   explicit ProcessGuard(const Limits& limits);
 
   // Makes a copy of this process. Returns nothing in the copy, which goes on, and in this process the end of the copy.
-  // `stop`: of stop_on_signals(). Once it is true the copy gets the same signal; the one that a terminal sends to both
-  // does not reach it.
+  // `stop`: of stop_on_signals(). Once it is true the copy gets the same signal, and a call may go on for two seconds;
+  // the one that a terminal sends to both does not reach it.
   std::optional<GuardedEnd> run(const std::atomic<bool>& stop);
 
   // Text that an earlier copy left with leave_message(); cut to 1000 bytes.

@@ -60,6 +60,7 @@ struct NotesPage {
   std::atomic<int> child_status;
   std::atomic<int> last_thread;  // that began a call
   std::atomic<bool> has_called;
+  std::atomic<bool> has_ended_thread;  // foreign code ended the thread that called it
   std::atomic<std::uint32_t> codes;
   std::array<NotedText<101>, k_codes> names;
   NotedText<101> group, pass;

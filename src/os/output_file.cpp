@@ -16,6 +16,8 @@
 #include <string>
 #include <thread>
 
+#include "os/standard_streams.h"
+
 namespace clusterbench::os {
 namespace {
 
@@ -28,7 +30,7 @@ int number_in(std::string_view name) {
   return failed == std::errc() && end == name.data() + name.size() ? number : -1;
 }
 
-int own_descriptor(const fs::path& path) {
+int named_descriptor(const fs::path& path) {
   const std::string name = path.lexically_normal().string();
   constexpr std::pair<const char*, int> k_names[] = {
       {"/dev/stdin", STDIN_FILENO}, {"/dev/stdout", STDOUT_FILENO}, {"/dev/stderr", STDERR_FILENO}};
@@ -38,6 +40,11 @@ int own_descriptor(const fs::path& path) {
        {std::string("/dev/fd/"), std::string("/proc/self/fd/"), "/proc/" + std::to_string(::getpid()) + "/fd/"})
     if (name.starts_with(folder)) return number_in(std::string_view(name).substr(folder.size()));
   return -1;
+}
+
+int own_descriptor(const fs::path& path) {
+  const int named = named_descriptor(path);
+  return named == STDOUT_FILENO ? output_descriptor() : named;
 }
 
 // Links there name open descriptors, and not always files.
@@ -155,7 +162,7 @@ std::string shown(const fs::path& name) {
 }  // namespace
 
 OutputTarget output_target(const fs::path& name) {
-  if (name.empty() || name == "-") return {"/dev/stdout", true, STDOUT_FILENO};
+  if (name.empty() || name == "-") return {"/dev/stdout", true, output_descriptor()};
   OutputTarget target{name};
   constexpr int k_most_links = 40;  // the system's own limit
   std::error_code failed;

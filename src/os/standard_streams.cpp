@@ -4,10 +4,69 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <streambuf>
 #include <utility>
 
+#include "core/error.h"
+
 namespace clusterbench::os {
+namespace {
+
+// Descriptors belong to the process.
+int g_output = STDOUT_FILENO;
+
+// Text that goes to a descriptor.
+class DescriptorText final : public std::streambuf {
+ public:
+  explicit DescriptorText(int descriptor) : descriptor_(descriptor) {
+    setp(buffer_.data(), buffer_.data() + buffer_.size());
+  }
+
+ protected:
+  int_type overflow(int_type one) override {
+    if (sync() != 0) return traits_type::eof();
+    if (!traits_type::eq_int_type(one, traits_type::eof())) sputc(traits_type::to_char_type(one));
+    return traits_type::not_eof(one);
+  }
+  int sync() override {
+    const char* at = pbase();
+    while (at < pptr()) {
+      const ssize_t bytes = ::write(descriptor_, at, static_cast<std::size_t>(pptr() - at));
+      if (bytes < 0 && errno == EINTR) continue;
+      if (bytes < 0) return -1;
+      at += bytes;
+    }
+    setp(buffer_.data(), buffer_.data() + buffer_.size());
+    return 0;
+  }
+
+ private:
+  int descriptor_;
+  std::array<char, 1 << 14> buffer_{};
+};
+
+}  // namespace
+
+void keep_output_apart() {
+  if (g_output != STDOUT_FILENO) return;
+  std::cout << std::flush;
+  std::fflush(stdout);
+  const int kept = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (kept < 0) throw Error("", "standard output", errno_text("cannot be kept"), ExitCode::internal);
+  static DescriptorText& text = *new DescriptorText(kept);  // std::cout is flushed after all else has ended
+  ::dup2(STDERR_FILENO, STDOUT_FILENO);
+  std::cout.rdbuf(&text);
+  g_output = kept;
+}
+
+int output_descriptor() {
+  return g_output;
+}
 
 void keep_standard_streams() {
   for (const auto& [stream, way] :

@@ -12,6 +12,12 @@ void keep_standard_streams();
 // Makes a file that exceeds the system's size limit (`ulimit -f`) a write error, instead of the end of the process.
 void report_size_limits_as_errors();
 
+// From now on std::cout, and files named "-" or /dev/stdout, are what standard output was, and what foreign code in
+// this process prints there goes to standard error. Once a process. Throws Error.
+void keep_output_apart();
+// The descriptor of standard output for this program's own text.
+int output_descriptor();
+
 // Whether an open descriptor of this process is a file of that name, as of `merge a b >> a`.
 bool is_open_file(int descriptor, const std::string& name);
 

@@ -6,12 +6,14 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "os/standard_streams.h"
+
 namespace clusterbench::os {
 namespace {
 
 int descriptor_of(StandardStream stream) {
-  constexpr int k_descriptors[] = {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO};
-  return k_descriptors[static_cast<int>(stream)];
+  const int descriptors[] = {STDIN_FILENO, output_descriptor(), STDERR_FILENO};
+  return descriptors[static_cast<int>(stream)];
 }
 
 }  // namespace

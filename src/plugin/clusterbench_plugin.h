@@ -24,6 +24,11 @@
  * Errors. Functions return a clusterbench_status and write the reason into `error`. No C++ exception may leave a
  * function (clusterbench_plugin.hpp catches them all). A plug-in ends no process, and handles no signals.
  *
+ * Rules. A call leaves what it did not make as it was: what it was given (arrays of grids, lights and depth are to be
+ * read only), the thread that called it, and that thread's mode of floating-point numbers (rounding, denormals, traps).
+ * Other methods use them next. The program sets the mode back after each call, and fails the method that changed it; it
+ * fails one that wrote to its inputs, where it finds that: at the first call for each frame.
+ *
  * Units: metres and radians. View space is right-handed, x to the right, y up, and the camera looks along -z: depth =
  * -z. Space of the lights and of box cells: view space for frustum and distance grids and cascades, the world's axes
  * relative to grid.origin for world grids. Matrices m[16] are in columns, for column vectors: m[4 * column + row]. */
@@ -120,7 +125,8 @@ typedef struct clusterbench_parameter {
   const char* unit;      /* "m", "px"; NULL or "": none */
   double default_number; /* flags, numbers */
   double min, max;       /* numbers: both may be taken */
-  double conservative_from; /* below it a method that is conservative is so no more */
+  double conservative_from; /* below it a method that is conservative is so no more; from min to max, and, where the
+                               method says that it is conservative, not above the default */
   const char* default_text;
   const char* const* choices; /* texts: all that are allowed */
 } clusterbench_parameter;
@@ -221,7 +227,7 @@ typedef struct clusterbench_lists {
   uint32_t* begin;  /* cell_count + 1 numbers; begin[0] = 0 */
   uint32_t* lights; /* room for `capacity` numbers */
   uint64_t capacity;
-  /* Written by the method. */
+  /* Written by the method. The last three are at most 2^48 each. */
   uint64_t count;      /* of numbers in lights: begin[cell_count]. With CLUSTERBENCH_MORE the capacity that is needed */
   uint64_t tests_done; /* tests of lights against cells, tiles or nodes, for whoever compares methods by them; 0: not
                           counted */

@@ -5,12 +5,16 @@
 #include "assign/contract/method_error.h"
 #include "core/memory.h"
 #include "core/text.h"
+#include "plugin/plugin_call.h"
 #include "plugin/views.h"
 
 namespace clusterbench::plugin {
 namespace {
 
 constexpr std::uint64_t k_first_capacity = 1u << 16;
+// Of tests, fallbacks and bytes of one frame: sums over frames stay exact, and no method gets there.
+constexpr std::uint64_t k_most_counted = std::uint64_t{1} << 48;
+constexpr int k_most_seen = 1 << 16;
 
 std::string name_of(clusterbench_status status) {
   switch (status) {
@@ -30,6 +34,15 @@ std::string name_of(clusterbench_status status) {
 // Every light in every cell.
 std::uint64_t most_pairs(const clusterbench_grid& grid, const view::LightRanges& lights) {
   return std::uint64_t{grid.cell_count} * lights.size();
+}
+
+// The boundaries, which the grid owns.
+KeptInputs kept_of(const clusterbench_grid& grid) {
+  KeptInputs out;
+  if (grid.x != nullptr) out.keep("grid.x", grid.x, grid.cells[0] + std::size_t{1});
+  if (grid.y != nullptr) out.keep("grid.y", grid.y, grid.cells[1] + std::size_t{1});
+  if (grid.z != nullptr) out.keep("grid.z", grid.z, grid.cells[2] + std::size_t{1});
+  return out;
 }
 
 }  // namespace
@@ -53,15 +66,21 @@ PluginMethod::PluginMethod(const MethodFacts& facts, std::string file, const ass
 }
 
 PluginMethod::~PluginMethod() {
-  const os::ForeignCall call(caller_, os::CallStep::destroy);
-  facts_.table.destroy(instance_);
+  bool keeps_mode = true;  // set back if not; a destructor fails no more
+  called(caller_, os::CallStep::destroy, -1, keeps_mode, [&] { facts_.table.destroy(instance_); });
 }
 
 void PluginMethod::create(const assign::Params& params) {
   const std::vector<clusterbench_value> values = values_of(facts_.descriptor.params, params);
-  const os::ForeignCall call(caller_, os::CallStep::create);
-  expect(facts_.table.create(facts_.own, values.data(), static_cast<std::uint32_t>(values.size()), &instance_, &error_),
-         "create()");
+  bool keeps_mode = true;
+  const clusterbench_status status = called(caller_, os::CallStep::create, -1, keeps_mode, [&] {
+    return facts_.table.create(facts_.own, values.data(), static_cast<std::uint32_t>(values.size()), &instance_,
+                               &error_);
+  });
+  expect(status, "create()");
+  if (keeps_mode) return;
+  called(caller_, os::CallStep::destroy, -1, keeps_mode, [&] { facts_.table.destroy(instance_); });
+  expect_mode(false, "create()");
 }
 
 void PluginMethod::fail(const std::string& message) const {
@@ -74,18 +93,40 @@ void PluginMethod::expect(clusterbench_status status, const char* doing) const {
   fail(std::string(doing) + " " + name_of(status) + (reason.empty() ? "" : ": " + printable(reason)));
 }
 
+void PluginMethod::expect_mode(bool is_kept, const char* doing) const {
+  if (!is_kept)
+    fail(std::string(doing) +
+         " left another rounding mode, or other denormals or traps, of floating-point numbers; allowed: the mode that "
+         "it "
+         "was called with");
+}
+
+void PluginMethod::refuse_written(const KeptInputs& before, const char* doing) const {
+  const std::string names = before.put_back();
+  if (!names.empty()) fail(std::string(doing) + " wrote to " + names + ", which is to be read only");
+}
+
 void PluginMethod::build(const grid::Grid& grid, const assign::LightKinds& kinds) {
   grid_ = view_of(grid);
   text_.front() = '\0';
-  const os::ForeignCall call(caller_, os::CallStep::build);
-  expect(facts_.table.build(instance_, &grid_, light_types_of(kinds), &error_), "build()");
+  kept_grid_ = kept_of(grid_);
+  bool keeps_mode = true;
+  const clusterbench_status status = called(caller_, os::CallStep::build, -1, keeps_mode, [&] {
+    return facts_.table.build(instance_, &grid_, light_types_of(kinds), &error_);
+  });
+  refuse_written(kept_grid_, "build()");
+  expect(status, "build()");
+  expect_mode(keeps_mode, "build()");
 }
 
 bool PluginMethod::fill(const clusterbench_frame& frame, const clusterbench_lights& lights, assign::Lists& out) {
   last_ = {sizeof last_, grid_.cell_count, out.begin.data(), out.lights.data(), out.lights.size(), 0, 0, 0, 0};
   text_.front() = '\0';
-  const os::ForeignCall call(caller_, os::CallStep::assign, frame_);
-  const clusterbench_status status = facts_.table.assign(instance_, &frame, &lights, &last_, &error_);
+  bool keeps_mode = true;
+  const clusterbench_status status = called(caller_, os::CallStep::assign, frame_, keeps_mode, [&] {
+    return facts_.table.assign(instance_, &frame, &lights, &last_, &error_);
+  });
+  if (!keeps_mode) expect_mode(false, "assign()");
   if (status == CLUSTERBENCH_MORE) return false;
   expect(status, "assign()");
   if (last_.count > out.lights.size())
@@ -94,7 +135,50 @@ bool PluginMethod::fill(const clusterbench_frame& frame, const clusterbench_ligh
   return true;
 }
 
+bool PluginMethod::is_first_of(int frame) {
+  if (frame < 0 || frame >= k_most_seen) return false;
+  const auto index = static_cast<std::size_t>(frame);
+  if (index < seen_.size() && seen_[index]) return false;
+  if (index >= seen_.size()) seen_.resize(index + 1);
+  return seen_[index] = true;
+}
+
+KeptInputs PluginMethod::kept(const assign::FrameInput& input) const {
+  KeptInputs out = kept_grid_;
+  const view::LightArrays& lights = input.lights;
+  const auto keep = [&](const char* name, const auto& array) { out.keep(name, array.data(), array.size()); };
+  keep("lights.x", lights.x);
+  keep("lights.y", lights.y);
+  keep("lights.z", lights.z);
+  keep("lights.radius", lights.radius);
+  keep("lights.reach", lights.reach);
+  keep("lights.axis_x", lights.axis_x);
+  keep("lights.axis_y", lights.axis_y);
+  keep("lights.axis_z", lights.axis_z);
+  keep("lights.cos_angle", lights.cos_angle);
+  keep("lights.sin_angle", lights.sin_angle);
+  keep("lights.half_axes", lights.half_axes);
+  keep("lights.world_position and what follows it", lights.source);
+  if (input.depth != nullptr) keep("frame.depth", input.depth->nearest);
+  return out;
+}
+
 void PluginMethod::assign(const assign::FrameInput& input, assign::Lists& out) {
+  if (!is_first_of(input.frame.index)) {
+    fill_lists(input, out);
+    return;
+  }
+  const KeptInputs before = kept(input);
+  try {
+    fill_lists(input, out);
+  } catch (...) {
+    before.put_back();
+    throw;
+  }
+  refuse_written(before, "assign()");
+}
+
+void PluginMethod::fill_lists(const assign::FrameInput& input, assign::Lists& out) {
   frame_ = input.frame.index;
   const clusterbench_frame frame = view_of(input.frame, input.depth);
   const clusterbench_lights lights = view_of(input.lights);
@@ -121,6 +205,14 @@ void PluginMethod::assign(const assign::FrameInput& input, assign::Lists& out) {
 }
 
 void PluginMethod::check(const assign::Lists& lists, const view::LightRanges& ranges) const {
+  const auto check_number = [this](const char* name, std::uint64_t number) {
+    if (number > k_most_counted)
+      fail(std::string(name) + " is " + std::to_string(number) + ", allowed: at most 2^48 (" +
+           std::to_string(k_most_counted) + ")");
+  };
+  check_number("tests_done", last_.tests_done);
+  check_number("fallbacks", last_.fallbacks);
+  check_number("scratch_bytes", last_.scratch_bytes);
   const std::string fault = assign::lists_fault(lists, grid_.cell_count, ranges, checked_);
   if (!fault.empty()) fail("left lists that are none: " + fault);
 }

@@ -8,6 +8,7 @@
 
 #include "assign/contract/assigner.h"
 #include "os/call_notes.h"
+#include "plugin/kept_inputs.h"
 #include "plugin/read_plugin.h"
 
 namespace clusterbench::plugin {
@@ -35,6 +36,12 @@ class PluginMethod final : public assign::ListAssigner {
   // Throws MethodError unless the method succeeded.
   void expect(clusterbench_status status, const char* doing) const;
   [[noreturn]] void fail(const std::string& message) const;
+  void expect_mode(bool is_kept, const char* doing) const;
+  // Whether this is the first time that this frame comes: it is not timed.
+  bool is_first_of(int frame);
+  KeptInputs kept(const assign::FrameInput& input) const;
+  void refuse_written(const KeptInputs& before, const char* doing) const;
+  void fill_lists(const assign::FrameInput& input, assign::Lists& out);
   // One call. False if there was too little room.
   bool fill(const clusterbench_frame& frame, const clusterbench_lights& lights, assign::Lists& out);
 
@@ -45,6 +52,8 @@ class PluginMethod final : public assign::ListAssigner {
   clusterbench_grid grid_{};
   clusterbench_lists last_{};
   os::Caller caller_;
+  KeptInputs kept_grid_;
+  std::vector<bool> seen_;                      // frames, by their index
   int frame_ = -1;                              // that is assigned
   mutable std::vector<std::uint32_t> checked_;  // of check()
   std::uint64_t unused_ = 0;                    // the most room that it has asked for and not filled

@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "os/call_notes.h"
 #include "os/shared_library.h"
+#include "plugin/plugin_call.h"
 #include "plugin/plugin_method.h"
 
 namespace clusterbench::plugin {
@@ -44,13 +45,16 @@ std::string content_of_library(const fs::path& file) {
 }
 
 PluginFacts facts_of(const fs::path& file, const std::string& id) {
-  const os::ForeignCall call({os::note_code(file.filename().string()), 0}, os::CallStep::load);
-  const os::SharedLibrary library(file);
-  using Entry = const clusterbench_plugin* (*)(const clusterbench_host*);
-  const auto entry = reinterpret_cast<Entry>(library.symbol(k_entry));
-  if (entry == nullptr)
-    throw Error(file.string(), "", std::string("is no plug-in: it exports no function ") + k_entry + "()");
-  return read_plugin(file.string(), entry(&host()), id);
+  // Libraries that are built with -ffast-math change the mode of numbers as they are loaded; it is set back.
+  bool keeps_mode = true;
+  return called({os::note_code(file.filename().string()), 0}, os::CallStep::load, -1, keeps_mode, [&] {
+    const os::SharedLibrary library(file);
+    using Entry = const clusterbench_plugin* (*)(const clusterbench_host*);
+    const auto entry = reinterpret_cast<Entry>(library.symbol(k_entry));
+    if (entry == nullptr)
+      throw Error(file.string(), "", std::string("is no plug-in: it exports no function ") + k_entry + "()");
+    return read_plugin(file.string(), entry(&host()), id);
+  });
 }
 
 std::string why_unavailable(const MethodFacts& method) {
@@ -94,6 +98,17 @@ fs::path absolute_path(const fs::path& file) {
   return failed ? fs::absolute(file) : canonical;
 }
 
+// What is no file, and has an equals sign, was meant as ID=FILE.
+void check_name(const fs::path& given) {
+  if (given.empty()) throw Error("", "", "names no file of a plug-in; takes FILE or ID=FILE");
+  std::error_code none;
+  if (given.string().find('=') == std::string::npos || fs::exists(given, none)) return;
+  throw Error(
+      given.string(), "",
+      "is no file, and what stands before '=' is no ID, which has lower-case letters, digits and '-', begins with "
+      "a letter and has at most 64 of them");
+}
+
 std::vector<fs::path> folders_on_path() {
   const char* value = std::getenv(k_path_variable);
   std::istringstream list(value == nullptr ? "" : value);
@@ -116,6 +131,7 @@ std::string LoadedPlugin::text() const {
 }
 
 const LoadedPlugin& load_plugin(const fs::path& given, const std::string& id) {
+  check_name(given);
   const fs::path file = absolute_path(given);
   const std::string sha256 = sha256_hex(content_of_library(file));
   if (const Registered* before = same_file(file)) {

@@ -84,6 +84,8 @@ void read_number(const clusterbench_parameter& given, const Place& place, assign
   if (out.is_thread_count && (!out.whole || given.min < 1.0)) place.fail("counts threads: takes whole numbers from 1");
   if (!has(given.flags, CLUSTERBENCH_PARAMETER_CONSERVATIVE_FROM)) return;
   if (!std::isfinite(given.conservative_from)) place.fail("conservative_from is no finite number");
+  if (given.conservative_from < given.min || given.conservative_from > given.max)
+    place.fail("conservative_from is not between min and max");
   out.conservative_from = given.conservative_from;
 }
 
@@ -176,6 +178,19 @@ void read_parameters(const clusterbench_method& given, const Place& place, std::
   }
 }
 
+// A method that is conservative is so as it comes.
+void check_promise(const assign::AssignerDescriptor& descriptor, const Place& place) {
+  if (!descriptor.conservative) return;
+  for (const assign::ParamSpec& spec : descriptor.params) {
+    const auto* standard = std::get_if<double>(&spec.default_value);
+    if (standard != nullptr && *standard < spec.conservative_from)
+      place.at("parameter '" + spec.name + "'")
+          .fail(
+              "the default is below conservative_from, but the method says that it is conservative; allowed: a default "
+              "from there on, or a method without CLUSTERBENCH_CONSERVATIVE");
+  }
+}
+
 MethodFacts read_method(const clusterbench_method* from, const std::string& id, Place place) {
   MethodFacts out;
   out.own = from;
@@ -190,6 +205,7 @@ MethodFacts read_method(const clusterbench_method* from, const std::string& id, 
   check_functions(out.table, place);
   read_bits(out.table, place, descriptor);
   read_parameters(out.table, place, descriptor.params);
+  check_promise(descriptor, place);
   out.unknown_needs = out.table.needs & ~std::uint32_t{CLUSTERBENCH_NEEDS_DEPTH};
   return out;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace clusterbench::result {
 namespace {
@@ -142,9 +143,11 @@ void from_json(const Type& type, const Json& json, void* record, const std::stri
     }
   }
   if (known == json.size()) return;
+  std::vector<std::string> names;
+  for (const Field& field : type.fields) names.emplace_back(field.name);
   for (const auto& [name, value] : json.items())
-    if (std::ranges::find(type.fields, name, &Field::name) == type.fields.end())
-      throw Error("", where + "/" + name, "is not known");
+    if (std::ranges::find(names, name) == names.end())
+      throw Error("", where + "/" + name, "is not known" + did_you_mean(name, names) + "; allowed: " + joined(names));
 }
 
 }  // namespace clusterbench::result

@@ -290,6 +290,27 @@ TEST(GuardedRun, that_is_interrupted_goes_on_with_resume) {
   EXPECT_EQ(place.result()["cases"].size(), 4u);
 }
 
+TEST(GuardedRun, that_is_interrupted_in_a_call_that_hangs_ends_within_seconds) {
+  const GuardedPlace place;
+  const std::string command = "exec " + test::program() + " run -q --no-timing --plugin-timeout 60 " +
+                              place.config({R"(, "fault": "hang")"}) + " -o " + place.out + " 2>" +
+                              (place.folder / "err").string();
+  const pid_t pid = fork();
+  if (pid == 0) {
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  const auto start = std::chrono::steady_clock::now();
+  kill(pid, SIGTERM);
+  int status = 0;
+  waitpid(pid, &status, 0);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_EQ(WEXITSTATUS(status), 75);
+  const std::string told = file_text(place.folder / "err");
+  EXPECT_NE(told.find("interrupted; the plug-in guard was ended in assign"), std::string::npos) << told;
+}
+
 TEST(GuardedRun, that_is_killed_leaves_no_process_and_goes_on_with_resume) {
   const SlowPlace place;
   EXPECT_EQ(place.end_by(SIGKILL), 128 + 9);

@@ -181,6 +181,9 @@ TEST(PluginRun, what_is_no_plugin_is_refused_with_a_sentence) {
       {plugin_file("entry-null"), "clusterbench_plugin_entry() returned no plug-in"},
       {plugin_file("version-2"), "is made for version 2.0 of the interface; this program takes versions 1.0 and later"},
       {(folder / "twin.so").string() + " --plugin " + plugin_file("example"), "has the id 'example', and so has "},
+      {"x=", "names no file of a plug-in; takes FILE or ID=FILE"},
+      {"Bad=" + plugin_file("example"),
+       "is no file, and what stands before '=' is no ID, which has lower-case letters"},
       {"a=" + plugin_file("example") + " --plugin b=" + plugin_file("example"), "is loaded already, with the id 'a'"},
   };
   for (const Refused& one : all) {
@@ -190,6 +193,89 @@ TEST(PluginRun, what_is_no_plugin_is_refused_with_a_sentence) {
     EXPECT_TRUE(mentions(outcome.err, "--plugin=")) << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   }
+}
+
+TEST(PluginRun, an_empty_name_in_a_configuration_is_refused_at_its_place) {
+  const Folder folder;
+  const fs::path config = folder.write("c.json", R"({"scenes": ["a.glb"], "plugins": [""]})");
+  const Outcome refused = tool("run --dry-run " + config.string());
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(mentions(refused.err, "/plugins/0: names no file of a plug-in")) << refused.err;
+}
+
+TEST(PluginRun, a_method_of_a_plugin_that_is_not_there_says_where_it_is_looked_for) {
+  const Outcome refused = tool(plugin_run("--dry-run --assigner foo.bar"));
+  EXPECT_EQ(refused.code, 2);
+  for (const char* part : {"--assigner=foo.bar", "--plugin FILE", "foo.so", "CLUSTERBENCH_PLUGIN_PATH"})
+    EXPECT_TRUE(mentions(refused.err, part)) << part << "\n" << refused.err;
+  EXPECT_TRUE(mentions(tool(plugin_run("--dry-run --assigner tiled-2.5")).err, "tiled-2.5d"));
+}
+
+TEST(PluginRun, what_a_plugin_prints_is_not_in_the_result) {
+  const Outcome printed = tool(plugin_run("-q --plugin " + plugin_file("hostile") + " --assigner hostile.prints,aabb"));
+  EXPECT_EQ(printed.code, 0) << printed.err;
+  const Json result = Json::parse(printed.out, nullptr, false);
+  ASSERT_TRUE(result.is_object()) << printed.out.substr(0, 300);
+  EXPECT_EQ(result["cases"].size(), 2u);
+  EXPECT_TRUE(mentions(printed.err, "clusterbench plugin check: {}"));
+}
+
+// --- Plug-ins that break down as they are loaded ---
+
+TEST(PluginLoading, that_ends_the_process_is_told_by_every_command_that_loads) {
+  const Folder folder;
+  const std::pair<const char*, const char*> k_ends[] = {
+      {"entry-crashes", "the plug-in entry-crashes.so crashed (SIGABRT) in load"},
+      {"entry-ends-thread", "the plug-in entry-ends-thread.so ended the process by ending its thread"}};
+  for (const auto& [name, told] : k_ends) {
+    const std::string flag = " --plugin " + plugin_file(name);
+    const std::string config =
+        folder.write("c.json", R"({"scenes": ["a.glb"], "plugins": [")" + plugin_file(name) + R"("]})").string();
+    const std::string wrong = folder.write("wrong.json", R"({"scenes": 7})").string();
+    for (const std::string& command : {"list assigners" + flag, "list --json" + flag, "schema config" + flag,
+                                       "validate " + config, plugin_run(flag), "validate " + config + " " + wrong}) {
+      const Outcome outcome = tool(command);
+      EXPECT_EQ(outcome.code, 2) << command << outcome.err;
+      EXPECT_TRUE(mentions(outcome.err, told)) << command << "\n" << outcome.err;
+      if (mentions(command, wrong)) EXPECT_TRUE(mentions(outcome.err, "wrong.json")) << outcome.err;
+    }
+  }
+}
+
+TEST(PluginLoading, of_one_bad_file_in_a_folder_hides_no_other_one) {
+  const Folder folder;
+  for (const char* name : {"entry-crashes", "entry-ends-thread", "entry-null", "example"})
+    fs::copy_file(plugin_file(name), folder / (std::string(name) + ".so"));
+  setenv("CLUSTERBENCH_PLUGIN_PATH", folder.path().c_str(), 1);
+  const Outcome listed = tool("list assigners");
+  unsetenv("CLUSTERBENCH_PLUGIN_PATH");
+  EXPECT_EQ(listed.code, 0) << listed.err;
+  EXPECT_TRUE(mentions(listed.out, "example.cell-boxes")) << listed.out;
+  for (const char* name : {"entry-crashes.so: the plug-in entry-crashes.so crashed",
+                           "entry-ends-thread.so: the plug-in", "entry-null.so: "})
+    EXPECT_TRUE(mentions(listed.err, name)) << name << "\n" << listed.err;
+}
+
+// --- A plug-in that ends the thread that calls it, and no exit code tells it ---
+
+TEST(PluginRun, that_ends_its_thread_loses_its_case) {
+  const Folder folder;
+  const std::string file = (folder / "r.json").string();
+  const std::string flags = " --plugin " + plugin_file("ends-thread") + " --assigner aabb,takes-all.takes-all -q";
+  const Outcome done = tool(plugin_run(flags + " -o " + file));
+  EXPECT_EQ(done.code, 1) << done.err;
+  const Json result = Json::parse(file_text(file), nullptr, false);
+  ASSERT_TRUE(result.is_object()) << done.err;
+  EXPECT_EQ(result["cases"].size(), 1u);
+  ASSERT_EQ(result["broken"].size(), 1u);
+  EXPECT_EQ(result["broken"][0]["step"], "assign");
+  EXPECT_TRUE(
+      mentions(result["broken"][0]["reason"], "ended the process by ending its thread (pthread_exit) in assign"));
+  const Outcome sized =
+      tool("size " + source_file("scenes/street.glb") +
+           " --viewport 320x180 --grid frustum --tiles 64 --slices 4 --set 'scenes.*.frames=2'" + flags);
+  EXPECT_EQ(sized.code, 1) << sized.err;
+  EXPECT_TRUE(mentions(sized.err, "ending its thread (pthread_exit) in assign")) << sized.err;
 }
 
 // A build that differs in a byte behind its code.

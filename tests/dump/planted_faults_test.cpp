@@ -157,6 +157,82 @@ TEST(PlantedFaults, the_other_handedness_and_transposed_matrices_are_found) {
   EXPECT_EQ(verdict_on(transposed).other_reading->camera, "camera.order: the matrices transposed");
 }
 
+// A perspective projection that looks along +z (sign 1) or -z (sign -1), by columns; its planes stay as they are.
+void give_projection(const Made& of, double sign, result::DumpCamera& camera) {
+  const view::Projection& p = of.frame.projection;
+  const double width = p.right - p.left, height = p.top - p.bottom;
+  camera.sides.reset();
+  camera.orthographic.reset();
+  camera.projection = {2.0 / width,
+                       0,
+                       0,
+                       0,
+                       0,
+                       2.0 / height,
+                       0,
+                       0,
+                       -sign * (p.right + p.left) / width,
+                       -sign * (p.top + p.bottom) / height,
+                       sign * 1.01,
+                       sign,
+                       0,
+                       0,
+                       -0.1,
+                       0};
+}
+
+// Only what the camera has well in front of it.
+Made in_front() {
+  Made out = made_frame();
+  std::erase_if(out.frame.lights, [&](const scene::WorldLight& light) {
+    return (out.frame.view_space.rotation * (light.position - out.frame.view_space.origin)).z > -light.range_m - 1.0;
+  });
+  out.frame.count_types();
+  out.truth = measure::find_truth(out.frame, out.grid, 1).lists;
+  return out;
+}
+
+TEST(PlantedFaults, a_camera_of_the_other_handedness_throughout_is_found_where_it_sees_no_light) {
+  const Made front = in_front();
+  ASSERT_GT(front.truth.pair_count(), 100u);
+  DumpFile both = dump_of(front, front.truth), row = both;
+  give_projection(front, 1.0, both.record.camera);
+  both.record.camera.forward = "+z";
+  give_projection(front, -1.0, row.record.camera);
+  EXPECT_EQ(verdict_on(row).verdict, "right");
+  for (const std::size_t i : {8u, 9u, 10u}) row.record.camera.view_to_world->at(i) *= -1.0;
+  for (const DumpFile& dump : {both, row}) {
+    const result::CheckedDump checked = judge(dump, {});
+    EXPECT_EQ(checked.sets[0].error->true_pairs, 0u);
+    EXPECT_EQ(checked.sets[0].verdict, "misread");
+    ASSERT_TRUE(checked.sets[0].other_reading);
+    EXPECT_LE(checked.sets[0].other_reading->lost_pairs, 2u);
+    const std::string text = check_text(checked, 3);
+    EXPECT_LT(text.find("camera: the other handedness"), text.find("lists: no light is lost, but")) << text;
+  }
+}
+
+TEST(PlantedFaults, a_mirrored_x_axis_is_found) {
+  DumpFile dump = dump_of(made(), made().truth);
+  for (const std::size_t i : {0u, 1u, 2u}) dump.record.camera.view_to_world->at(i) *= -1.0;
+  const result::CheckedSet set = verdict_on(dump);
+  EXPECT_EQ(set.verdict, "misread");
+  ASSERT_TRUE(set.other_reading);
+  EXPECT_EQ(set.other_reading->camera, "camera: the x row of world_to_view negated");
+  EXPECT_LE(set.other_reading->lost_pairs, 2u);
+}
+
+// Whoever tells too small ranges loses nothing, and is told that much is listed for nothing.
+TEST(PlantedFaults, ranges_that_are_told_too_small_are_asked_about) {
+  Made small = made_frame();
+  const assign::Lists listed = small.truth;
+  for (scene::WorldLight& light : small.frame.lights) light.range_m = 0.5;
+  const result::CheckedDump checked = judge(dump_of(small, listed), {}), sound = judge(dump_of(made(), listed), {});
+  ASSERT_GT(checked.sets[0].error->false_positives, listed.pair_count() / 2);
+  EXPECT_NE(check_text(checked, 3).find("are ranges and cones described rightly?"), std::string::npos);
+  EXPECT_EQ(check_text(sound, 3).find("are ranges and cones described rightly?"), std::string::npos);
+}
+
 TEST(PlantedFaults, rows_of_pixels_that_are_counted_from_the_other_end_are_found) {
   const Made pixels = made_frame({{100, 100}, {0, 0}, 0.0});  // 720 is no multiple of 100
   DumpFile dump = dump_of(pixels, pixels.truth);

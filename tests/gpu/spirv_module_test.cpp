@@ -62,6 +62,8 @@ TEST(SpirvModules, tell_push_constants_and_what_can_be_specialized) {
   ASSERT_EQ(module.constants.size(), 1u);
   EXPECT_EQ(module.constants[0].id, 0u);
   EXPECT_TRUE(module.constants[0].is_word);
+  EXPECT_EQ(module.constants[0].type, "u32");
+  EXPECT_EQ(module.arguments, std::vector<bool>(20, true));
   EXPECT_EQ(module.group_size(module.entries[0], {{0, 96}}), (std::array<std::uint32_t, 3>{96, 1, 1}));
 }
 

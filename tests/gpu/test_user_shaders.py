@@ -257,6 +257,21 @@ class Examples(unittest.TestCase):
                                                                             "tutorial-loop has tiles of equal size; the last ones of this grid are cut off"])
         self.assertNotIn("was not measured", done.stderr)
 
+    def test_slices_without_a_formula_skip_what_is_told_one_before_the_run(self):
+        told = changed(METHOD, buffers__formula={"bytes": 8, "values": [{"at": 0, "type": "f32", "is": "slice_scale"},
+                                                                         {"at": 4, "type": "f32", "is": "1 + slice_bias"}]})
+        listed = {"kind": "frustum", "tiles": {"pixels": 32}, "slices": {"scheme": "list", "boundaries": [0.1, 1, 4, 11, 37, 400]}}
+        with Folder() as folder:
+            path = folder.method(told)
+            result, done = folder.run(configuration(grids=[GRID, listed]), "--shader", path, "--no-timing")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual([case["assigner"]["name"] for case in result["cases"]], ["brute-force", "mine", "brute-force"])
+            self.assertEqual([one["reason"] for one in result["skipped"]],
+                             ["mine is told slice_scale or slice_bias; the slices of this grid follow no formula"])
+            stress = subprocess.run([PROGRAM, "stress", "--shader", folder.method(changed(told, counts_dropped=True)), "--cases", "H34",
+                                     "--tries", "0", "-q"], capture_output=True, text=True)
+            self.assertNotIn("follow no formula", stress.stdout + stress.stderr)
+
     def test_readings_and_launches(self):
         with Folder() as folder:
             document = configuration(reading={"rounds": 2, "divisor": 4})
@@ -309,10 +324,24 @@ class Faults(unittest.TestCase):
             ({"lists__0__layout": "inline"}, "/lists/0/layout: is inline"),
             ({"lists__0__layout": "fixd"}, r"/lists/0/layout: found 'fixd' \(did you mean 'fixed'\?\)"),
             ({"lists__0__rows__buffer": "list"}, "did you mean 'lists'"),
-            ({"lists__0__per_cell": "per_cell"}, "names 'per_cell', which is not known"),
-            ({"lists__0__peer_cell": 1}, "/lists/0/peer_cell: is not known"),
+            ({"lists__0__per_cell": "per_cell"}, "/lists/0/per_cell: 'per_cell' names 'per_cell'.*, allowed: "),
+            ({"lists__0__per_cell": "cells *"}, "/lists/0/per_cell: .*ends where a number is missing"),
+            ({"lists__0__layout": "packed"}, "/lists/0/offset: is missing: layout 'packed' needs it"),
+            ({"lists__0__counts__0__bits": [0, 33]}, r"/lists/0/counts/0/bits: is \[0,33\]; allowed: bits of the type, u32"),
+            ({"lists__0__counts__0__at": 798}, "/lists/0/counts/0/at: is 798: its 4 bytes end beyond the stride of 800"),
+            ({"lists__0__rows__stride": 0}, "/lists/0/rows/stride: is 0; allowed: at least 1"),
+            ({"lists__0__entries__at": 8}, "/lists/0/entries/at: is 8: 199 entries there end beyond the stride of 800"),
+            ({"lists__0__rows__at": 4096, "buffers__lists__bytes": 4096}, "/lists/0/rows/at: is 4096; buffer 'lists' has 4096 bytes"),
+            ({"buffers__lists__bytes": 0}, "/buffers/lists/bytes: is 0; allowed: at least 1"),
+            ({"buffers__lists": {"bytes": 8, "values": [{"at": 0, "type": "f32", "is": "eye"}]}}, "/buffers/lists/values/0/at: is 0: its 12 bytes end beyond the 8"),
+            ({"buffers__lists": {"bytes": 16, "values": [{"at": 8, "type": "u32", "is": "lights"}, {"at": 0, "type": "f32", "is": "eye"}]}},
+             "/buffers/lists/values/1/at: is 0: byte 8 is one of /buffers/lists/values/0, too"),
+            ({"passes__0__push__1__at": 16}, "/passes/0/push/1/at: is 16: its 4 bytes end beyond the 16"),
+            ({"passes__0__push__1__at": 8}, "/passes/0/push/1/at: is 8: byte 8 is one of /passes/0/push/0, too"),
+            ({"passes__0__push__1": None}, "/passes/0/push: say nothing of byte 12, which the push constants of mine.spv have"),
+            ({"lists__0__peer_cell": 1}, r"/lists/0/peer_cell: is not known \(did you mean 'per_cell'\?\); allowed: set, layout"),
             ({"parameters": [{"name": "cells", "summary": "x", "standard": 1, "least": 1, "most": 2}]}, "which is a known value or another parameter"),
-            ({"parameters": [{"name": "n", "summary": "x", "standard": 3, "least": 1, "most": 2}]}, "/parameters/0/standard: is not from least to most"),
+            ({"parameters": [{"name": "n", "summary": "x", "standard": 3, "least": 1, "most": 2}]}, "/parameters/0/standard: is 3; allowed: from least to most, here 1 to 2"),
         ):
             with self.subTest(message):
                 self.refused(changed(METHOD, **change), message)
@@ -372,19 +401,58 @@ class Faults(unittest.TestCase):
 
     def test_what_no_device_can_do_ends_the_case_before_memory_is_taken(self):
         self.ended(changed(METHOD, buffers__lists__bytes="cells * 1000000000"), r"/buffers/lists/bytes: is \d+ here; .* allows \d+")
-        self.ended(changed(METHOD, buffers__lists__bytes="1000000 * 60"), "memory", flags=("--set", "limits.memory_mib=40"))
+        self.ended(changed(METHOD, buffers__lists__bytes="1000000 * 60"), "60\\d+ bytes of a shader's buffers would take .* MiB", flags=("--set", "limits.memory_mib=40"))
         self.ended(changed(METHOD, passes__0__invocations=[2**40]), "makes 17179869184 groups; .* allows")
-        self.ended(changed(METHOD, passes__0__invocations=["cells / 7"]), "allowed: a whole number")
-        self.ended(changed(METHOD, buffers__lights__bytes=64), "/lights/rows/0: take .* bytes for .* lights; buffer 'lights' has 64")
-        self.ended(changed(METHOD, buffers__boundaries__bytes=64), "/buffers/boundaries/values/.*/at: is .* end beyond the 64 that there are")
-        self.ended(changed(METHOD, lists__0__rows__stride=1600), "/lists/0/rows.*do not fit into buffer 'lists'")
         self.ended(changed(METHOD, passes__0__constants=[{"id": 5, "is": "4096"}]), "has groups of 4096 x 1 x 1 invocations; .* allows",
                    source=LOOP.replace("local_size_x = 64", "local_size_x_id = 5"))
-        self.ended(METHOD, "lacks, the capability|push constants", source=LOOP.replace("uint lights; }", "uint lights; uint more[100]; }"))
+        more = copy.deepcopy(METHOD)
+        more["passes"][0]["push"] += [{"at": 16 + 4 * i, "type": "u32", "is": "lights"} for i in range(100)]
+        self.ended(more, "lacks, the capability|push constants", source=LOOP.replace("uint lights; }", "uint lights; uint more[100]; }"))
         shared = LOOP.replace("void main() {", "shared uint much[1 << 20];\nvoid main() { much[gl_LocalInvocationIndex] = 1;")
         self.ended(METHOD, "has .* bytes for a group to share; mine.spv takes 4194304", source=shared)
+
+    def test_a_description_that_does_not_fit_its_frame_fails_the_run(self):
+        """What depends on numbers of the case cannot be refused before; it is no lack of the device."""
+        for change, message in (
+            ({"passes__0__invocations": ["cells / 7"]}, "allowed: a whole number"),
+            ({"buffers__lists__bytes": "-cells"}, r"/buffers/lists/bytes: '-cells' is -\d+ here; allowed: a whole number"),
+            ({"buffers__lists__bytes": "cells - cells"}, "/lists/0/rows.*do not fit into buffer 'lists' of 0 bytes"),
+            ({"buffers__lights__bytes": 64}, "/lights/rows/0: take .* bytes for .* lights; buffer 'lights' has 64"),
+            ({"buffers__boundaries__bytes": 64}, "/buffers/boundaries/values/.*/at: is .* end beyond the 64 that there are"),
+            ({"buffers__boundaries__values__1__at": "4 * columns"}, r"/buffers/boundaries/values/1/at: is \d+: byte \d+ is one of /buffers/boundaries/values/0, too"),
+            ({"lists__0__rows__stride": 1600}, "/lists/0/rows.*do not fit into buffer 'lists'"),
+            ({"lists__0__rows__at": "cells * 900"}, "/lists/0/rows.*do not fit into buffer 'lists'"),
+            ({"lists__0__counts__0__at": "slices * 100"}, "/lists/0/counts/0/at: is 800: its 4 bytes end beyond the stride"),
+        ):
+            with self.subTest(message):
+                self.ended(changed(METHOD, **change), message, failed=True)
         big = LOOP.replace("readonly buffer Boundaries { float boundaries[]; }", "readonly buffer Boundaries { float boundaries[4096]; }")
-        self.ended(METHOD, "/passes/0/bindings/1: mine.spv reads 16384 bytes there; buffer 'boundaries' has", source=big)
+        self.ended(METHOD, "/passes/0/bindings/1: mine.spv reads 16384 bytes there; buffer 'boundaries' has", source=big, failed=True)
+        self.refused(changed(METHOD, buffers__boundaries__bytes=4096), "/passes/0/bindings/1: mine.spv reads 16384 bytes there; buffer 'boundaries' has 4096", source=big)
+
+    def test_constants_of_another_type_than_the_modules_are_refused(self):
+        source = LOOP.replace("vec2 span", "layout(constant_id = 7) const float scale = 1.0;\nvec2 span", 1).replace("* 1.00001", "* 1.00001 * scale")
+        for constant, message in (({"id": 7, "is": "1", "type": "u32"}, "/passes/0/constants/0/type: is u32; constant 7 of mine.spv is f32"),
+                                  ({"id": 7, "is": "1"}, "/passes/0/constants/0/type: is missing, which means u32; constant 7 of mine.spv is f32")):
+            self.refused(changed(METHOD, passes__0__constants=[constant]), message, source=source)
+        with Folder() as folder:
+            record = changed(METHOD, passes__0__constants=[{"id": 7, "is": "1", "type": "f32"}])
+            result, done = folder.run(configuration(), "--shader", folder.method(record, source=source), "--no-timing")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(case_of(result, "mine")["error"]["false_negatives"], 0)
+
+    def test_formulas_of_lists_are_computed_for_each_case(self):
+        """With 1 in place of every number they would not be whole, or below 0."""
+        cap = [{"name": "cap", "summary": "x", "standard": 796, "least": 64, "most": 1024}]
+        for change in ({"parameters": cap, "lists__0__per_cell": "cap / 4"}, {"parameters": cap, "lists__0__per_cell": "cap - 597"},
+                       {"lists__0__rows__at": "(slices - 8) * 4"}, {"lists__0__entries__at": "viewport_width / 80"}):
+            with self.subTest(change), Folder() as folder:
+                path = folder.method(changed(METHOD, **change))
+                done = subprocess.run([PROGRAM, "validate", path], capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                result, done = folder.run(configuration(), "--shader", path, "--no-timing")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(case_of(result, "mine")["error"]["false_negatives"], 0)
 
     def test_lists_that_cannot_be_right_fail_their_case_alone(self):
         self.ended(METHOD, r"buffer 'lists', byte \d+, cell \(\d+, \d+, \d+\): count 1000 is above per_cell, 199; \d+ values more",

@@ -13,6 +13,7 @@
 #include "gpu/device_test.h"
 #include "gpu/user_shaders/known_values.h"
 #include "places.h"
+#include "result/documents/shader.h"
 
 namespace clusterbench::gpu {
 namespace {
@@ -203,6 +204,61 @@ TEST(UserShaders, have_all_known_values_in_their_document) {
   const std::string page = file_text(test::source_dir() + "/docs/shaders.md");
   for (const KnownValue& value : known_values())
     EXPECT_NE(page.find("`" + std::string(value.name) + "`"), std::string::npos) << value.name;
+}
+
+// What the example says of itself, with other values at these places.
+std::string refusal_of_append(const std::vector<std::pair<const char*, const char*>>& changes) {
+  const std::string folder = test::source_dir() + "/configs/shaders/";
+  auto json = result::Json::parse(file_text(folder + "append.json"));
+  for (const auto& [pointer, value] : changes) json[result::Json::json_pointer(pointer)] = result::Json::parse(value);
+  try {
+    make_shader_file("append.json", json.dump(),
+                     [&](const std::string& name, const std::string&) { return file_text(folder + name); });
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(UserShaders, may_have_formulas_of_lists_that_only_numbers_of_a_frame_make_right) {
+  for (const char* formula : {R"("per_cell / 4")", R"("per_cell - 1")", R"("viewport_width / 15")",
+                              R"("(columns - 2) * 4")", R"("near / 0")"}) {
+    EXPECT_EQ(refusal_of_append({{"/lists/0/rows/at", formula}}), "") << formula;
+    EXPECT_EQ(refusal_of_append({{"/lists/0/lights", formula}}), "") << formula;
+  }
+  EXPECT_NE(
+      refusal_of_append({{"/lists/0/rows/at", R"("(columns - 2")"}}).find("/lists/0/rows/at: '(columns - 2' lacks"),
+      std::string::npos);
+  EXPECT_NE(refusal_of_append({{"/lists/0/rows/at", R"("colums")"}}).find("did you mean 'columns'"), std::string::npos);
+}
+
+TEST(UserShaders, whose_description_cannot_be_right_in_any_frame_are_refused) {
+  const std::tuple<std::vector<std::pair<const char*, const char*>>, const char*> rows[] = {
+      {{{"/lists/0/layout", R"("linked")"}}, "/lists/0/head: is missing: layout 'linked' needs it"},
+      {{{"/lists/0/layout", R"("bits_and_bins")"}}, "/lists/0/ranges: is missing"},
+      {{{"/lists/0/counts/0/bits", "[0, 33]"}}, "/lists/0/counts/0/bits: is [0,33]; allowed: bits of the type, u32"},
+      {{{"/lists/0/counts/0/at", "6"}}, "/lists/0/counts/0/at: is 6: its 4 bytes end beyond the stride of 8 bytes"},
+      {{{"/lists/0/offset/at", "5"}}, "/lists/0/offset/at: is 5"},
+      {{{"/lists/0/rows/stride", "0"}}, "/lists/0/rows/stride: is 0; allowed: at least 1"},
+      {{{"/buffers/indices/bytes", "64"}, {"/lists/0/entries/at", "64"}},
+       "/lists/0/entries/at: is 64; buffer 'indices' has 64 bytes"},
+      {{{"/buffers/indices/bytes", "0"}}, "/buffers/indices/bytes: is 0; allowed: at least 1, or a formula"},
+      {{{"/buffers/indices/bytes", R"("4 - 8")"}},
+       "/buffers/indices/bytes: '4 - 8' is -4 here; allowed: a whole number"},
+      {{{"/lists/0/rows/at", R"("8 / 3")"}}, "/lists/0/rows/at: '8 / 3' is 2.6"},
+      {{{"/passes/0/push/1/at", "8"}}, "/passes/0/push/1/at: is 8: byte 8 is one of /passes/0/push/0, too"},
+      {{{"/passes/0/push/2/at", "17"}}, "/passes/0/push/2/at: is 17: its 4 bytes end beyond the 20 that there are"},
+      {{{"/passes/0/push", R"([{"at": 0, "type": "u32", "is": "grid_size"}])"}},
+       "/passes/0/push: say nothing of byte 12, which the push constants of append.spv have"},
+      {{{"/passes/0/constants/0/type", R"("f32")"}},
+       "/passes/0/constants/0/type: is f32; constant 0 of append.spv is u32"},
+      {{{"/parameters/0/standard", "5000"}},
+       "/parameters/0/standard: is 5000; allowed: from least to most, here 1 to 4096"},
+      {{{"/bufers", "{}"}}, "/bufers: is not known (did you mean 'buffers'?); allowed: shader_version, name"}};
+  EXPECT_EQ(refusal_of_append({}), "");
+  for (const auto& [changes, message] : rows)
+    EXPECT_NE(refusal_of_append(changes).find(message), std::string::npos)
+        << refusal_of_append(changes) << "\nnot: " << message;
 }
 
 TEST_F(DeviceUserShaders, are_registered_once_and_by_names_of_their_own) {

@@ -239,7 +239,7 @@ TEST(Decode, the_likeliest_other_reading_is_found) {
       {[](auto& given) { given.entries->type = "u32"; }, "with entries as u16 all "},
       {[](auto& given) { given.offset_is = "bytes"; }, "with the other unit of offsets (offset_is) all "},
       {[](auto& given) { given.entries->first_light = 2; },
-       "with indices that count from 1 (entries.first_light) all "}};
+       "with indices that count from 0 (entries.first_light) all "}};
   Described right = stored("packed", {{"index_bits", std::string("16")}}, lists, {40, 30});
   for (const auto& [change, wanted] : rows) {
     ListPart part{right.lists, "/lists/0"};
@@ -249,6 +249,34 @@ TEST(Decode, the_likeliest_other_reading_is_found) {
     ASSERT_TRUE(likely) << wanted;
     EXPECT_EQ(likely->substr(0, std::string(wanted).size()), wanted);
   }
+}
+
+// Counts of 8 bits leave a small part of the lists, and nothing that is wrong in it.
+TEST(Decode, a_reading_that_leaves_a_small_part_of_the_indices_is_no_likely_one) {
+  Described wide;
+  wide.buffers = {{"rows", "rows.bin", 0, {}}, {"indices", "indices.bin", 0, {}}};
+  wide.lists.layout = "packed";
+  wide.lists.rows = result::DumpRows{"rows", {}, 8};
+  wide.lists.offset = result::DumpField{0, "u32", {}};
+  wide.lists.counts = std::vector<result::DumpField>{{4, "u32", {}}};
+  wide.lists.entries = result::DumpEntries{"indices", {}, "u32", {}, {}, {}};
+  constexpr std::uint32_t k_lists = 4, k_long = 260, k_wide_lights = 300;
+  for (std::uint32_t cell = 0; cell < k_lists; ++cell) {
+    put<std::uint32_t>(wide.buffers[0].bytes, 8 * cell, k_long * cell);
+    put<std::uint32_t>(wide.buffers[0].bytes, 8 * cell + 4, k_long);
+    for (std::uint32_t i = 0; i < k_long; ++i) put<std::uint32_t>(wide.buffers[1].bytes, 4 * (k_long * cell + i), i);
+  }
+  const Shape shape{{2, 2, 1}, {}, k_wide_lights};
+  ListPart part{wide.lists, "/lists/0"};
+  EXPECT_TRUE(decode({&part, 1}, wide.buffers, shape).faults.are_readable());
+  put<std::uint32_t>(wide.buffers[1].bytes, 4 * (k_long - 1), 7777);  // one index is wrong: 4 of 260 would be left
+  EXPECT_FALSE(likely_reading({&part, 1}, wide.buffers, shape));
+  // Indices that count from 1 are tried before all else.
+  for (std::uint32_t i = 0; i < k_lists * k_long; ++i)
+    put<std::uint32_t>(wide.buffers[1].bytes, 4 * i, k_wide_lights - i % k_long);
+  const auto likely = likely_reading({&part, 1}, wide.buffers, shape);
+  ASSERT_TRUE(likely);
+  EXPECT_EQ(*likely, "with indices that count from 1 (entries.first_light) all 1040 indices are below 300");
 }
 
 std::string refusal_of(const Described& described, std::uint32_t lights = 10) {

@@ -1,14 +1,21 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cfenv>
+#include <fstream>
+#include <iterator>
 #include <thread>
+#include <utility>
 
 #include "assign/allocations.h"
 #include "assign/contract/assigner_run.h"
 #include "assign/contract/storage.h"
+#include "depth/depth_image.h"
 #include "geom/light_meets_cell.h"
 #include "library/assign.h"
 #include "library/engine_frame.h"
+#include "places.h"
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
@@ -234,14 +241,138 @@ TEST(LightLists, have_buffers_of_structures_and_lists_of_them_if_asked) {
   }
 }
 
+// --- Structures of a method's own ---
+
+// A frame of lights that the method takes, with the depths that it may need.
+struct FrameForMethod {
+  EngineFrame engine;
+  depth::DepthImage depths;
+
+  explicit FrameForMethod(const assign::AssignerDescriptor& method) : engine(engine_frame(150, 5)) {
+    if (!method.spots) engine.spots.clear();
+    if (!method.points) engine.points.clear();
+    depths = depth::seeded_depths(program_frame(engine), 4);
+    engine.view.depths = depths.nearest;
+  }
+};
+
+Grid grid_for(const assign::AssignerDescriptor& method) {
+  for (const GridCase& each : grid_cases())
+    if (each.spec.kind == method.kinds.front()) return each.grid;
+  ADD_FAILURE() << "no grid for " << method.name;
+  return {};
+}
+
+// The names between two texts of the header, without its comment signs.
+std::vector<std::string> names_in_header(const std::string& from, const std::string& to) {
+  std::ifstream file(test::source_dir() + "/src/library/assign.h");
+  const std::string header{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t begin = header.find(from), end = header.find(to, begin);
+  if (begin == std::string::npos || end == std::string::npos) return {};
+  std::vector<std::string> names;
+  std::string name;
+  for (const char c : header.substr(begin + from.size(), end - begin - from.size()) + ",") {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.') name += c;
+    if (c == ',') names.push_back(std::exchange(name, ""));
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+TEST(LightLists, have_buffers_and_take_storages_as_the_header_lists_the_methods) {
+  std::vector<std::string> shown, unshown;
+  for (const assign::AssignerDescriptor* method : assign::assigner_descriptors()) {
+    const FrameForMethod frame(*method);
+    Settings settings = settings_for(grid_for(*method), method->name);
+    LightLists lists;
+    ASSERT_TRUE(lists.start(settings)) << method->name << " " << lists.error();
+    ASSERT_TRUE(lists.update(frame.engine.view, frame.engine.lights())) << method->name << " " << lists.error();
+    const bool has_lists = !lists.begins().empty(), has_buffers = !lists.buffers().empty();
+    if (!has_lists) (has_buffers ? shown : unshown).push_back(method->name);
+    settings.storage = "packed";
+    EXPECT_EQ(lists.start(settings), has_lists) << method->name;
+    if (!has_lists) continue;
+    EXPECT_FALSE(has_buffers) << method->name;
+    ASSERT_TRUE(lists.update(frame.engine.view, frame.engine.lights())) << method->name << " " << lists.error();
+    EXPECT_EQ(lists.buffers().size(), 2u) << method->name;
+  }
+  std::ranges::sort(shown);
+  std::ranges::sort(unshown);
+  EXPECT_EQ(names_in_header("in buffers():", ";"), shown);
+  EXPECT_EQ(names_in_header("without buffers:", ".\n"), unshown);
+}
+
+// The lists of a method with a structure of its own, against what its own structure gives a shader at random points of
+// the picture.
+void expect_lists_of_samples(const assign::AssignerDescriptor& method, const GridCase& grid) {
+  const FrameForMethod frame(method);
+  Settings settings = settings_for(grid.grid, method.name);
+  settings.wants_lists_of_structures = true;
+  LightLists lists;
+  if (!lists.start(settings)) {
+    EXPECT_EQ(lists.error(), "wants_lists_of_structures: is true, and " + method.name +
+                                 " has no lists of the grid's cells; allowed: false");
+    return;
+  }
+  ASSERT_TRUE(lists.update(frame.engine.view, frame.engine.lights())) << lists.error();
+  const Cells cells = lists.cells();
+  ASSERT_EQ(lists.begins().size(), static_cast<std::size_t>(cells.x * cells.y * cells.z) + 1) << method.name;
+  EXPECT_EQ(lists.begins().back(), lists.light_indices().size()) << method.name;
+
+  const view::Frame program = program_frame(frame.engine);
+  const grid::Grid made = grid::make_grid(grid.spec, grid::grid_inputs(grid.spec, program, 0, Vec3d(0), Vec3d(0)));
+  assign::AssignerRun run(method, assign::Params(method.params), assign::Answer::structure);
+  run.build(made);
+  const view::LightArrays arrays = view::lights_in(program, grid::space_of(made, program));
+  run.assign({program, arrays, &frame.depths});
+  SplitMix64 random(8);
+  std::vector<std::uint32_t> expected;
+  std::size_t pairs = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto x = static_cast<float>(random.between(0, 1279)), y = static_cast<float>(random.between(0, 719));
+    auto depth = static_cast<float>(random.between(0.2, 149.0));
+    const float surface = frame.depths.nearest[static_cast<std::size_t>(y) * 1280 + static_cast<std::size_t>(x)];
+    if (i % 2 == 0 && std::isfinite(surface)) depth = std::min(surface, 149.0f);
+    const Vec3d at = view::picture_ray(program, {x, y}).at(depth);
+    run.structure()->lights_at({x, y, Vec3f(at), Vec3d(0.0), Vec3d(0.0)}, grid::Log2::rounded, expected);
+    const std::int64_t cell = lists.cell_at(x, y, depth);
+    ASSERT_GE(cell, 0);
+    std::vector<std::uint32_t> listed = copy_of(lists.of(static_cast<std::uint32_t>(cell)));
+    std::ranges::sort(listed);
+    std::ranges::sort(expected);
+    ASSERT_EQ(listed, expected) << method.name << " at " << x << ", " << y << ", " << depth;
+    pairs += listed.size();
+  }
+  EXPECT_GT(pairs, 0u) << method.name;
+}
+
+TEST(LightLists, of_structures_are_the_lights_that_a_shader_finds_in_the_cell) {
+  int refused = 0;
+  for (const assign::AssignerDescriptor* method : assign::assigner_descriptors()) {
+    if (method->make != nullptr) continue;
+    ASSERT_TRUE(method->takes(grid::Kind::frustum)) << method->name;
+    expect_lists_of_samples(*method, grid_cases()[0]);
+    Settings settings = settings_for(grid_cases()[0].grid, method->name);
+    settings.wants_lists_of_structures = true;
+    refused += !LightLists().start(settings);
+  }
+  EXPECT_EQ(refused, 3);  // tile-slices, deferred, naive-tile-size
+}
+
 TEST(LightLists, take_depths_for_methods_that_need_them) {
   EngineFrame frame = engine_frame(100, 5);
   LightLists lists;
   ASSERT_TRUE(lists.start(settings_for(frustum_grid(), "tiled"))) << lists.error();
   EXPECT_FALSE(lists.update(frame.view, frame.lights()));
   EXPECT_EQ(lists.error(), "view.depths: are 0, and this method needs one for each of 921600 pixels");
-  const std::vector<float> depths(921600, 20.0f);
+  std::vector<float> depths(921600, 20.0f);
   frame.view.depths = depths;
+  for (const float bad : {-1.0f, -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    depths[77] = bad;
+    EXPECT_FALSE(lists.update(frame.view, frame.lights()));
+    EXPECT_TRUE(lists.error().ends_with("; allowed: 0 m or more, and +inf without a surface")) << lists.error();
+  }
+  depths[77] = std::numeric_limits<float>::infinity();
   EXPECT_TRUE(lists.update(frame.view, frame.lights())) << lists.error();
   EXPECT_GE(lists.buffers().size(), 2u);
 }
@@ -289,6 +420,35 @@ TEST(LightLists, of_steady_frames_allocate_nothing) {
   settings.threads = 3;
   settings.jobs.run = run_part_by_part;
   EXPECT_EQ(allocations_of_steady_frames(settings), 0u);
+}
+
+// Lights that are off are in no list and take none of the method's memory: what is left are their two copies.
+TEST(LightLists, count_lights_as_given_and_as_converted_and_depths) {
+  const auto bytes_with = [](const EngineFrame& frame, std::string_view method) {
+    LightLists lists;
+    EXPECT_TRUE(lists.start(settings_for(frustum_grid(), method))) << lists.error();
+    EXPECT_TRUE(lists.update(frame.view, frame.lights())) << lists.error();
+    return lists.memory_bytes();
+  };
+  EngineFrame few = engine_frame(0, 3), many = few;
+  few.points.resize(10), many.points.resize(30010);
+  constexpr std::size_t k_a_light = sizeof(scene::WorldLight) + 5 * sizeof(float);  // x, y, z, radius, reach
+  EXPECT_GE(bytes_with(many, "aabb"), bytes_with(few, "aabb") + 30000 * k_a_light);
+  const FrameForMethod tiled(*assign::find_assigner("tiled"));
+  EXPECT_GE(bytes_with(tiled.engine, "tiled"), 1280 * 720 * sizeof(float));
+}
+
+TEST(LightLists, keep_and_count_their_memory_after_a_frame_that_failed) {
+  EngineFrame frame = engine_frame(500, 3);
+  Settings settings = settings_for(frustum_grid(), "exact-fast");
+  settings.storage = "packed";
+  LightLists lists;
+  ASSERT_TRUE(lists.start(settings));
+  ASSERT_TRUE(lists.update(frame.view, frame.lights()));
+  const std::size_t before = lists.memory_bytes();
+  frame.points[1].range = -1.0f;
+  EXPECT_FALSE(lists.update(frame.view, frame.lights()));
+  EXPECT_GE(lists.memory_bytes(), before / 2);
 }
 
 TEST(LightLists, do_not_depend_on_threads_or_who_lends_them) {
@@ -389,25 +549,91 @@ TEST(LightLists, look_up_cells_as_the_grid_does_and_a_shader_would) {
   }
 }
 
-TEST(Lookup, finds_the_cells_by_its_formula) {
-  const EngineFrame frame = engine_frame(30, 9);
-  for (std::size_t i = 0; i < 2; ++i) {
-    LightLists lists;
-    ASSERT_TRUE(lists.start(settings_for(grid_cases()[i].grid, "exact-fast")));
-    ASSERT_TRUE(lists.update(frame.view, frame.lights()));
-    const Lookup lookup = lists.lookup();
-    ASSERT_EQ(lookup.form, Lookup::Form::log2);
-    for (float depth = 0.11f; depth < 80.0f; depth *= 1.07f) {
-      const int slice = depth < lookup.first_m && lookup.first_slice > 0
-                            ? 0
-                            : static_cast<int>(std::log2(depth) * lookup.scale + lookup.bias);
-      const int column = static_cast<int>(700.5f * lookup.tile_scale_x);
-      const int row = static_cast<int>(300.5f * lookup.tile_scale_y);
-      const Cells cells = lists.cells();
-      EXPECT_EQ(lists.cell_at(700.5f, 300.5f, depth), (slice * cells.y + row) * cells.x + column) << depth;
-    }
-    EXPECT_EQ(lookup.boundaries.size(), static_cast<std::size_t>(lists.cells().z) + 1);
+// By the words of the header alone.
+int slice_by_header(const Lookup& lookup, float depth) {
+  const int slices = static_cast<int>(lookup.boundaries.size()) - 1;
+  if (lookup.form == Lookup::Form::search) {
+    int slice = 0;
+    for (int k = 0; k < slices; ++k)
+      if (lookup.boundaries[static_cast<std::size_t>(k)] <= depth) slice = k;
+    return slice;
   }
+  if (depth < lookup.first_m && lookup.first_slice == 1) return 0;
+  const float f = lookup.form == Lookup::Form::log2 ? static_cast<float>(std::log2(static_cast<double>(depth))) : depth;
+  return static_cast<int>(std::clamp(f * lookup.scale + lookup.bias, 0.0f, static_cast<float>(slices - 1)));
+}
+
+std::int64_t cell_by_header(const LightLists& lists, float x, float y, float depth, bool is_orthographic) {
+  const Lookup lookup = lists.lookup();
+  const Cells cells = lists.cells();
+  if (depth > lookup.boundaries.back() || (!is_orthographic && depth <= 0.0f)) return -1;
+  const int column = std::min(static_cast<int>(x * lookup.tile_scale_x), cells.x - 1);
+  const int row = std::min(static_cast<int>(y * lookup.tile_scale_y), cells.y - 1);
+  return (std::int64_t{slice_by_header(lookup, depth)} * cells.y + row) * cells.x + column;
+}
+
+// Near, far, both sides of every boundary, and depths between.
+std::vector<float> depths_to_look_up(std::span<const float> boundaries) {
+  std::vector<float> depths{-1.0f, 0.0f, 1e-30f, 0.01f, 0.0999f, 0.1f, 4.9999f, 5.0f, 5.0001f, 150.0f, 151.0f, 1e6f};
+  for (const float boundary : boundaries)
+    for (const float factor : {0.999f, 0.9999999f, 1.0f, 1.0000001f, 1.001f, 1.03f})
+      depths.push_back(boundary * factor);
+  return depths;
+}
+
+void expect_cells_by_header(const Grid& grid, View view, int first_slice) {
+  LightLists lists;
+  ASSERT_TRUE(lists.start(settings_for(grid, "bvh"))) << lists.error();
+  ASSERT_TRUE(lists.update(view, {})) << lists.error();
+  ASSERT_EQ(lists.lookup().boundaries.size(), static_cast<std::size_t>(lists.cells().z) + 1);
+  EXPECT_EQ(lists.lookup().first_slice, first_slice);
+  // The middle of the picture alone has a distance that is its depth.
+  const bool is_distance = grid.kind == Grid::Kind::distance;
+  std::vector<bool> seen(static_cast<std::size_t>(lists.cells().z));
+  for (const float depth : depths_to_look_up(lists.lookup().boundaries))
+    for (const float x : {640.0f, 0.0f, 700.5f, 1280.0f}) {
+      if (is_distance && x != 640.0f) continue;
+      const float y = x == 640.0f ? 360.0f : x / 2;
+      const std::int64_t cell = cell_by_header(lists, x, y, depth, view.is_orthographic);
+      EXPECT_EQ(lists.cell_at(x, y, depth), cell) << x << " " << depth << " " << static_cast<int>(grid.slicing);
+      const auto slice = cell / (std::int64_t{lists.cells().x} * lists.cells().y);
+      if (cell >= 0) seen[static_cast<std::size_t>(slice)] = true;
+    }
+  EXPECT_EQ(std::ranges::count(seen, true), lists.cells().z);
+}
+
+TEST(Lookup, finds_the_cells_by_the_formula_of_the_header) {
+  using Slicing = Grid::Slicing;
+  static constexpr double k_boundaries[] = {0.1, 3.0, 20.0, 100.0};
+  const View view = engine_frame(1, 9).view;
+  for (const Grid::Kind kind : {Grid::Kind::frustum, Grid::Kind::distance})
+    for (const Slicing slicing :
+         {Slicing::linear, Slicing::exponential, Slicing::exponential_first, Slicing::power, Slicing::list}) {
+      Grid grid;  // tiles in pixels
+      grid.kind = kind;
+      grid.slicing = slicing;
+      if (slicing == Slicing::list) grid.boundaries_m = k_boundaries;
+      expect_cells_by_header(grid, view, slicing == Slicing::exponential_first);
+      grid.columns = 16, grid.rows = 9;
+      expect_cells_by_header(grid, view, slicing == Slicing::exponential_first);
+    }
+  Grid nearer;  // slices that begin beyond the camera's near plane and end before its far plane
+  nearer.near_m = 1.0, nearer.far_m = 60.0;
+  expect_cells_by_header(nearer, view, 1);
+  nearer.slicing = Slicing::exponential;
+  expect_cells_by_header(nearer, view, 0);
+}
+
+TEST(Lookup, finds_the_cells_of_an_orthographic_camera_that_sees_behind_itself) {
+  View view = engine_frame(1, 9).view;
+  view.is_orthographic = true;
+  view.left = -32.0, view.right = 32.0, view.bottom = -18.0, view.top = 18.0;
+  view.near_m = -20.0, view.far_m = 100.0;
+  Grid grid;
+  grid.slicing = Grid::Slicing::linear;
+  expect_cells_by_header(grid, view, 0);
+  grid.slicing = Grid::Slicing::exponential;  // with a first slice from near on
+  expect_cells_by_header(grid, view, 1);
 }
 
 // --- Bad input ---
@@ -420,7 +646,13 @@ struct BadInput {
 TEST(LightLists, refuse_bad_input_in_one_sentence_and_go_on) {
   constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
   static constexpr double k_descending[] = {1.0, 0.5};
-  static const Parameter k_unknown("index_bit", "16"), k_wrong("index_bits", 16), k_no("index_bits", "17");
+  static const Parameter k_unknown("index_bit", "16"), k_wrong("index_bits", 16), k_no("index_bits", "17"),
+      k_threads("threads", 2), k_twice[] = {{"index_bits", "16"}, {"index_bits", "8"}};
+  static const Parameter k_no_type = [] {
+    Parameter parameter("index_bits", "16");
+    parameter.type = static_cast<Parameter::Type>(7);
+    return parameter;
+  }();
   const BadInput inputs[] = {
       {"method: is 'exact-fats' (did you mean 'exact-fast'?)",
        [](Settings& s, EngineFrame&) { s.method = "exact-fats"; }},
@@ -444,7 +676,32 @@ TEST(LightLists, refuse_bad_input_in_one_sentence_and_go_on) {
        [](Settings& s, EngineFrame&) { s.method = "aabb-fast", s.threads = 2; }},
       {"grid.kind: is world, on which exact-fast", [](Settings& s, EngineFrame&) { s.grid.kind = Grid::Kind::world; }},
       {"grid.kind: is none", [](Settings& s, EngineFrame&) { s.grid.kind = static_cast<Grid::Kind>(9); }},
-      {"grid.rows: and grid.columns are 0 and 16", [](Settings& s, EngineFrame&) { s.grid.rows = 0; }},
+      {"method_parameters: have 'threads', which Settings::threads gives; allowed: the other parameters of exact-fast",
+       [](Settings& s, EngineFrame&) {
+         s.method_parameters = {&k_threads, 1};
+       }},
+      {"storage_parameters: are given, and storage is not; allowed: none",
+       [](Settings& s, EngineFrame&) {
+         s.storage_parameters = {k_twice, 1};
+       }},
+      {"storage_parameters: have 'index_bits' twice; allowed: each once",
+       [](Settings& s, EngineFrame&) { s.storage = "packed", s.storage_parameters = k_twice; }},
+      {"storage_parameters: have 'index_bits' of no type; allowed: number, text, flag",
+       [](Settings& s, EngineFrame&) {
+         s.storage = "packed", s.storage_parameters = {&k_no_type, 1};
+       }},
+      {"grid.slicing: is none; allowed: linear,",
+       [](Settings& s, EngineFrame&) { s.grid.slicing = static_cast<Grid::Slicing>(9); }},
+      {"grid.boundaries_m: are given, and grid.slicing is not list; allowed: none",
+       [](Settings& s, EngineFrame&) { s.grid.boundaries_m = k_descending; }},
+      {"grid.lambda: is 1.5; allowed: 0 to 1",
+       [](Settings& s, EngineFrame&) { s.grid.slicing = Grid::Slicing::power, s.grid.lambda = 1.5; }},
+      {"grid.lambda: is nan; allowed: 0 to 1",
+       [](Settings& s, EngineFrame&) { s.grid.slicing = Grid::Slicing::power, s.grid.lambda = std::nan(""); }},
+      {"grid.first_m: is 200 m; it must lie between near, 0.1 m, and far, 150 m: name one (grid.first_m), or another "
+       "scheme (grid.slicing)",
+       [](Settings& s, EngineFrame&) { s.grid.slicing = Grid::Slicing::exponential_first, s.grid.first_m = 200.0; }},
+      {"grid.columns, grid.rows: are 16 and 0; allowed: both 0", [](Settings& s, EngineFrame&) { s.grid.rows = 0; }},
       {"grid.columns, grid.rows: ", [](Settings& s, EngineFrame&) { s.grid.columns = -1; }},
       {"grid.tile_width, grid.tile_height: ",
        [](Settings& s, EngineFrame&) { s.grid.columns = s.grid.rows = s.grid.tile_width = 0; }},
@@ -455,14 +712,20 @@ TEST(LightLists, refuse_bad_input_in_one_sentence_and_go_on) {
       {"grid.near_m: ", [](Settings& s, EngineFrame&) { s.grid.near_m = 500.0; }},
       {"grid.far_m: is not given, and the camera has no far plane",
        [](Settings&, EngineFrame& f) { f.view.far_m = std::numeric_limits<double>::infinity(); }},
-      {"view.width: and view.height are 0 and 720", [](Settings&, EngineFrame& f) { f.view.width = 0; }},
-      {"view.left: ", [](Settings&, EngineFrame& f) { f.view.right = f.view.left; }},
-      {"view.near_m: and view.far_m are -1 and 150", [](Settings&, EngineFrame& f) { f.view.near_m = -1.0; }},
-      {"view.near_m: and view.far_m are nan", [](Settings&, EngineFrame& f) { f.view.near_m = std::nan(""); }},
+      {"view.width, view.height: are 0 and 720; allowed: 1 to 1048576 pixels",
+       [](Settings&, EngineFrame& f) { f.view.width = 0; }},
+      {"view.left, view.right, view.bottom, view.top: are no picture; allowed: left < right, bottom < top",
+       [](Settings&, EngineFrame& f) { f.view.right = f.view.left; }},
+      {"view.near_m, view.far_m: are -1 and 150; allowed: 0 < near < far",
+       [](Settings&, EngineFrame& f) { f.view.near_m = -1.0; }},
+      {"view.near_m, view.far_m: are nan and 150", [](Settings&, EngineFrame& f) { f.view.near_m = std::nan(""); }},
       {"view.eye: ", [](Settings&, EngineFrame& f) { f.view.eye[2] = 2e15; }},
-      {"view.to_right: ", [](Settings&, EngineFrame& f) { f.view.to_top[2] += 0.1; }},
-      {"view.to_right: ", [](Settings&, EngineFrame& f) { f.view.forward[0] = std::nan(""); }},
-      {"camera: shows more than", [](Settings&, EngineFrame& f) { f.view.top = 1e6; }},
+      {"view.to_right, view.to_top, view.forward: are not unit and orthogonal; allowed: products within 1e-3 of 1 and "
+       "0",
+       [](Settings&, EngineFrame& f) { f.view.to_top[2] += 0.1; }},
+      {"view.to_right, view.to_top, view.forward: ",
+       [](Settings&, EngineFrame& f) { f.view.forward[0] = std::nan(""); }},
+      {"view: shows more than", [](Settings&, EngineFrame& f) { f.view.top = 1e6; }},
       {"lights.points[3].position: is (nan,", [](Settings&, EngineFrame& f) { f.points[3].position[0] = k_nan; }},
       {"lights.points[2].range: is -1; allowed: 0 or more",
        [](Settings&, EngineFrame& f) { f.points[2].range = -1.0f; }},
@@ -514,6 +777,7 @@ TEST(LightLists, that_would_need_more_than_the_limit_on_memory_fail) {
   ASSERT_TRUE(lists.start(settings_for(frustum_grid(), "brute-force")));
   set_memory_limit(10'000);
   EXPECT_FALSE(lists.update(frame.view, frame.lights()));
+  EXPECT_TRUE(lists.error().starts_with("set_memory_limit: ")) << lists.error();
   EXPECT_NE(lists.error().find("would take"), std::string_view::npos) << lists.error();
   set_memory_limit(before);
   EXPECT_TRUE(lists.update(frame.view, frame.lights())) << lists.error();
@@ -521,8 +785,9 @@ TEST(LightLists, that_would_need_more_than_the_limit_on_memory_fail) {
 
 TEST(LightLists, that_were_not_started_or_moved_from_answer_nothing) {
   LightLists lists;
+  EXPECT_EQ(lists.error(), "");
   EXPECT_FALSE(lists.update({}, {}));
-  EXPECT_NE(lists.error(), "");
+  EXPECT_EQ(lists.error(), "update: was called before a start() that did not fail");
   EXPECT_EQ(lists.cells().x + static_cast<int>(lists.begins().size() + lists.buffers().size() + lists.of(0).size()), 0);
   EXPECT_EQ(lists.memory_bytes() + lists.builds() + lists.dropped_pairs(), 0u);
   ASSERT_TRUE(lists.start(settings_for(frustum_grid(), "exact-fast")));

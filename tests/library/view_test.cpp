@@ -161,5 +161,33 @@ TEST(View, refuses_what_is_no_camera_and_stays_as_it_was) {
   EXPECT_TRUE(fault_with(v, perspective(1.0, 0.0, -1.0, 1.0)).starts_with("projection: its near plane"));
 }
 
+TEST(View, refuses_conventions_that_are_none) {
+  const Numbers v = pose(-1.0), p = perspective(0.0, 1.0, -1.0, 1.0);
+  Conventions order, depth;
+  order.order = static_cast<Conventions::Order>(5);
+  depth.depth = static_cast<Conventions::Depth>(5);
+  View view;
+  EXPECT_STREQ(view.set_matrices(v.data(), p.data(), order), "conventions.order: is none; allowed: columns, rows");
+  EXPECT_STREQ(view.set_matrices(v.data(), p.data(), depth),
+               "conventions.depth: is none; allowed: zero_to_one, one_to_zero, minus_one_to_one");
+}
+
+// The same limit where axes are given and where they are in a matrix.
+TEST(View, takes_axes_up_to_the_tolerance_of_the_header) {
+  LightLists lists;
+  ASSERT_TRUE(lists.start({}));
+  for (const double off : {0.9e-3, 1.1e-3, 1.9e-3}) {
+    const bool is_within = off < 1e-3;
+    View given, read;
+    given.width = read.width = 64, given.height = read.height = 64;
+    given.to_right[1] = off;  // times to_top
+    EXPECT_EQ(lists.update(given, {}), is_within) << off << " " << lists.error();
+    const Numbers world_to_view{1, 0, 0, 0, off, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    const char* fault = read.set_matrices(world_to_view.data(), perspective(0.0, 1.0, -1.0, 1.0).data());
+    EXPECT_EQ(fault == nullptr, is_within) << off;
+    EXPECT_EQ(fault == nullptr && lists.update(read, {}), is_within) << off << " " << lists.error();
+  }
+}
+
 }  // namespace
 }  // namespace clusterbench::library

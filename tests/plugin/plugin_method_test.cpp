@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <pthread.h>
+
+#include <cfenv>
 #include <functional>
 
 #include "assign/contract.h"
@@ -229,6 +232,60 @@ TEST(PluginMethod, what_breaks_the_interface_is_its_fault_and_says_so) {
     EXPECT_NE(fault.find(broken.says), std::string::npos) << broken.says << "\n" << fault;
     EXPECT_TRUE(fault.starts_with("one.so: hand.cells: ")) << fault;
   }
+}
+
+TEST(PluginMethod, refuses_numbers_that_no_frame_can_have) {
+  const std::pair<const char*, std::uint64_t clusterbench_lists::*> k_numbers[] = {
+      {"tests_done", &clusterbench_lists::tests_done},
+      {"fallbacks", &clusterbench_lists::fallbacks},
+      {"scratch_bytes", &clusterbench_lists::scratch_bytes}};
+  for (const auto& [name, member] : k_numbers)
+    for (const std::uint64_t number : {~std::uint64_t{0}, std::uint64_t{1} << 62}) {
+      const std::string fault = fault_of([member = member, number](const auto&, auto& out, auto&) {
+        out.*member = number;
+        return CLUSTERBENCH_OK;
+      });
+      EXPECT_NE(fault.find(std::string(name) + " is " + std::to_string(number) + ", allowed: at most 2^48"),
+                std::string::npos)
+          << fault;
+    }
+}
+
+TEST(PluginMethod, that_changes_the_rounding_mode_fails_and_the_mode_is_set_back) {
+  const std::string fault = fault_of([](const auto&, auto&, auto&) {
+    std::fesetround(FE_UPWARD);
+    return CLUSTERBENCH_OK;
+  });
+  const int mode = std::fegetround();
+  std::fesetround(FE_TONEAREST);
+  EXPECT_EQ(mode, FE_TONEAREST);
+  EXPECT_NE(fault.find("assign() left another rounding mode"), std::string::npos) << fault;
+}
+
+TEST(PluginMethod, that_writes_to_its_lights_fails) {
+  const std::string fault = fault_of([](const clusterbench_lights& lights, auto&, auto&) {
+    const_cast<float*>(lights.x)[0] += 1.0f;
+    const_cast<float*>(lights.reach)[1] += 1.0f;
+    return CLUSTERBENCH_OK;
+  });
+  EXPECT_NE(fault.find("assign() wrote to lights.x, lights.reach, which is to be read only"), std::string::npos)
+      << fault;
+}
+
+TEST(KeptInputs, puts_back_what_was_written) {
+  std::vector<float> x{1.0f, 2.0f}, y{3.0f};
+  KeptInputs kept;
+  kept.keep("x", x.data(), x.size());
+  kept.keep("y", y.data(), y.size());
+  EXPECT_EQ(kept.put_back(), "");
+  x[1] = 7.0f;
+  EXPECT_EQ(kept.put_back(), "x");
+  EXPECT_EQ(x, (std::vector<float>{1.0f, 2.0f}));
+}
+
+TEST(PluginMethod, that_ends_its_thread_ends_the_process_with_a_sentence_and_no_success) {
+  EXPECT_EXIT(fault_of([](const auto&, auto&, auto&) -> clusterbench_status { pthread_exit(nullptr); }),
+              ::testing::ExitedWithCode(static_cast<int>(ExitCode::internal)), "a plug-in ended the thread");
 }
 
 TEST(PluginMethod, takes_lists_that_are_right) {

@@ -195,6 +195,15 @@ const Wrong k_wrong[] = {
      [](PluginByHand& hand) { hand.number.flags = CLUSTERBENCH_PARAMETER_THREADS; }},
     {"parameter 'size': conservative_from is no finite number",
      [](PluginByHand& hand) { hand.number.conservative_from = k_nan; }},
+    {"parameter 'size': conservative_from is not between min and max",
+     [](PluginByHand& hand) { hand.number.conservative_from = 8.5; }},
+    {"parameter 'size': conservative_from is not between min and max",
+     [](PluginByHand& hand) { hand.number.conservative_from = 0.25; }},
+    {"parameter 'size': the default is below conservative_from, but the method says that it is conservative",
+     [](PluginByHand& hand) {
+       hand.method.flags = CLUSTERBENCH_CONSERVATIVE;
+       hand.number.conservative_from = 3.0;
+     }},
     {"parameter 'way': choice_count is 0", [](PluginByHand& hand) { hand.text.choice_count = 0; }},
     {"parameter 'way': choices is a null pointer", [](PluginByHand& hand) { hand.text.choices = nullptr; }},
     {"parameter 'way', choice 1: is a null pointer", [](PluginByHand& hand) { hand.choices[1] = nullptr; }},

@@ -93,7 +93,8 @@ TEST(Record, names_the_place_of_what_it_cannot_read) {
   EXPECT_EQ(refusal("/inner/0/lights", -1), "/case/inner/0/lights must be a whole number of at least 0");
   EXPECT_EQ(refusal("/inner", Json::object()), "/case/inner must be a list");
   EXPECT_EQ(refusal("/take", 1), "/case/take must be a text");
-  EXPECT_EQ(refusal("/kinds", 1), "/case/kinds is not known");
+  EXPECT_TRUE(refusal("/kinds", 1).starts_with("/case/kinds is not known")) << refusal("/kinds", 1);
+  EXPECT_NE(refusal("/kinds", 1).find("; allowed: "), std::string::npos) << refusal("/kinds", 1);
   EXPECT_EQ(refusal("/sets/sun", 1.5), "/case/sets/sun must be a whole number");
   EXPECT_EQ(refusal("/sets/sun", 9223372036854775808u),
             "/case/sets/sun must be a whole number from -9223372036854775808 to 9223372036854775807");

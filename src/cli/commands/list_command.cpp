@@ -9,12 +9,14 @@
 #include "assign/contract/assigner.h"
 #include "assign/contract/storage.h"
 #include "cli/command_line/commands.h"
+#include "cli/options/guarded_command.h"
 #include "cli/options/plugin_option.h"
 #include "cli/output/output.h"
 #include "config/presets/preset_library.h"
 #include "cull/pre_cull_spec.h"
 #include "gpu/device/device_facts.h"
 #include "gpu/user_shaders/shader_method.h"
+#include "os/stop_signals.h"
 #include "plugin/plugins.h"
 #include "report/history/history.h"
 #include "result/figures/figure_table.h"
@@ -72,14 +74,32 @@ Json to_json(const assign::AssignerDescriptor& assigner) {
   return out;
 }
 
-// Also those in the folders of the path variable. One that cannot be loaded hides no other one.
-void load_all_plugins(const std::vector<std::string>& given) {
-  load_plugins(given);
+void warn_of_path(const std::string& fault) {
+  print_message(std::string("warning: ") + plugin::k_path_variable + ": " + fault);
+}
+
+// Those in the folders of the path variable that can be loaded, each tried in a process of its own: one that crashes or
+// hangs hides no other one.
+std::vector<std::filesystem::path> sound_plugins_on_path() {
+  std::vector<std::filesystem::path> sound;
   for (const std::filesystem::path& file : plugin::files_on_path()) {
+    const std::string fault = loading_fault(file);
+    if (os::stop_signal() != 0) break;
+    if (fault.empty())
+      sound.push_back(file);
+    else
+      warn_of_path(fault);
+  }
+  return sound;
+}
+
+void load_all_plugins(const std::vector<std::string>& given, const std::vector<std::filesystem::path>& on_path) {
+  load_plugins(given);
+  for (const std::filesystem::path& file : on_path) {
     try {
       plugin::load_plugin(file);
     } catch (const Error& error) {
-      print_message(std::string("warning: ") + plugin::k_path_variable + ": " + error.what());
+      warn_of_path(error.what());
     }
   }
 }
@@ -329,6 +349,15 @@ void print_text(const Json& all, const std::string& wanted) {
   std::cout << "All keys of a configuration: docs/configuration.md, or `clusterbench schema config`\n";
 }
 
+void print_all(const std::string& section, bool as_json) {
+  Json all = everything();
+  if (section == k_devices) all[k_devices] = devices();
+  if (as_json)
+    std::cout << (section.empty() ? all : all[section]).dump(2) << "\n";
+  else
+    print_text(all, section);
+}
+
 }  // namespace
 
 void add_list(Command& program, Action& action) {
@@ -348,15 +377,15 @@ void add_list(Command& program, Action& action) {
   command.add_option("--shader", *shaders, "FILE, repeatable: also your own compute shaders as a method");
   command.when_named([as_json, section, plugins, shaders, &action] {
     action = [as_json, section, plugins, shaders] {
-      load_all_plugins(*plugins);
-      for (const std::string& shader : *shaders) gpu::add_shader_method(shader);
-      Json all = everything();
-      if (*section == k_devices) all[k_devices] = devices();
-      if (*as_json)
-        std::cout << (section->empty() ? all : all[*section]).dump(2) << "\n";
-      else
-        print_text(all, *section);
-      return ExitCode::ok;
+      const std::vector<std::filesystem::path> on_path = sound_plugins_on_path();
+      if (os::stop_signal() != 0) return os::stopped_exit_code();
+      const auto list = [&] {
+        load_all_plugins(*plugins, on_path);
+        for (const std::string& shader : *shaders) gpu::add_shader_method(shader);
+        print_all(*section, *as_json);
+        return ExitCode::ok;
+      };
+      return plugins->empty() && on_path.empty() ? list() : run_guarded_once(loading_limits(), ExitCode::usage, list);
     };
   });
 }

@@ -4,10 +4,12 @@
 // `clusterbench validate FILE...`.
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
 #include "cli/command_line/commands.h"
+#include "cli/options/guarded_command.h"
 #include "cli/options/plugin_option.h"
 #include "cli/output/output.h"
 #include "config/config.h"
@@ -63,6 +65,27 @@ ExitCode validate(const std::string& path) {
   return row.document == config::Document::config ? validate_config(path) : validate_written(path, document, row);
 }
 
+void print_schema(const std::string& name) {
+  const auto rows = config::document_rows();
+  const config::DocumentRow& row = *std::ranges::find(rows, name, &config::DocumentRow::name);
+  const bool is_result = row.document == config::Document::result;  // in the order of its fields
+  std::cout << (is_result ? result::result_schema().dump(2) : row.schema().dump(2)) << "\n";
+}
+
+// A configuration that names plug-ins loads them, and looks for methods in the folders of the path variable.
+ExitCode validate_apart(const std::string& path) {
+  RunInputs inputs;
+  inputs.paths = {path};
+  std::error_code none;
+  const bool can_name = names_plugins(inputs) || !std::filesystem::is_regular_file(path, none);  // or a pipe
+  if (!can_name) return validate(path);
+  try {
+    return run_apart([&] { return validate(path); });
+  } catch (const Error& error) {  // a plug-in broke down
+    throw Error(path, error.where(), error.message(), error.code());
+  }
+}
+
 }  // namespace
 
 void add_schema(Command& program, Action& action) {
@@ -82,12 +105,12 @@ void add_schema(Command& program, Action& action) {
   add_plugin_option(command, *plugins);
   command.when_named([name, plugins, &action] {
     action = [name, plugins] {
-      load_plugins(*plugins);
-      const auto rows = config::document_rows();
-      const config::DocumentRow& row = *std::ranges::find(rows, *name, &config::DocumentRow::name);
-      const bool is_result = row.document == config::Document::result;  // in the order of its fields
-      std::cout << (is_result ? result::result_schema().dump(2) : row.schema().dump(2)) << "\n";
-      return ExitCode::ok;
+      const auto print = [&] {
+        load_plugins(*plugins);
+        print_schema(*name);
+        return ExitCode::ok;
+      };
+      return plugins->empty() ? print() : run_guarded_once(loading_limits(), ExitCode::usage, print);
     };
   });
 }
@@ -106,7 +129,7 @@ void add_validate(Command& program, Action& action) {
       ExitCode worst = ExitCode::ok;
       for (const std::string& path : *paths) {
         try {
-          if (validate(path) != ExitCode::ok) worst = ExitCode::usage;
+          if (const ExitCode code = validate_apart(path); code != ExitCode::ok) worst = code;
         } catch (const Error& error) {  // the other files are still checked
           print_message(error.what());
           worst = error.code();

@@ -1,12 +1,16 @@
 #include "cli/options/guarded_command.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <iostream>
 #include <set>
 #include <utility>
 
+#include "cli/output/output.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
 #include "os/terminal.h"
+#include "plugin/plugins.h"
 #include "report/cases/columns.h"
 
 namespace clusterbench::cli {
@@ -18,6 +22,7 @@ std::string death_text(const os::GuardedEnd& end) {
   const std::string signal = os::signal_name(end.signal);
   if (signal == "SIGKILL") return "was killed (SIGKILL), as where memory runs out,";
   if (end.signal != 0) return "crashed (" + signal + ")";
+  if (end.has_ended_thread) return "ended the process by ending its thread (pthread_exit)";
   return "ended the process (exit code " + std::to_string(end.died_with_code) + ")";
 }
 
@@ -78,6 +83,12 @@ ExitCode code_of(const Casualty& casualty, ExitCode other) {
   return casualty.call.step == os::CallStep::load ? ExitCode::usage : other;
 }
 
+// A plug-in that was within a call when a signal came cannot be asked to stop.
+ExitCode stopped(const os::GuardedEnd& end, const char* advice) {
+  if (end.call) print_message("interrupted; the plug-in " + end.call->code + " was ended" + call_text(end) + advice);
+  return os::stopped_exit_code();
+}
+
 [[noreturn]] void refuse(const Casualty& casualty, ExitCode code) {
   const std::string setting = casualty.call.setting.empty() ? "" : "; with " + casualty.call.setting;
   throw Error("", "", casualty.reason + setting, code);
@@ -115,7 +126,7 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
     next.casualty.reset();
     if (end->how == How::measured) continue;
     clear_line();
-    if (stop) return os::stopped_exit_code();
+    if (stop) return stopped(*end, "; -o FILE keeps each case as it is finished, and then --resume goes on");
     next.casualty = casualty_of(*end, flags);
     if (next.casualty->call.group.empty()) refuse(*next.casualty, code_of(*next.casualty, ExitCode::gate_failed));
     // A method is called no more in the group that it broke down in.
@@ -132,13 +143,79 @@ ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::fun
   if (!end) return ended([&]() -> std::optional<ExitCode> { return command(); });
   if (end->how == How::done) return static_cast<ExitCode>(end->exit_code);
   clear_line();
-  if (stop) return os::stopped_exit_code();
+  if (stop) return stopped(*end, "");
   const Casualty casualty = casualty_of(*end, flags);
   refuse(casualty, code_of(casualty, code));
 }
 
+GuardFlags loading_limits() {
+  return {10.0, 4096, false};
+}
+
+namespace {
+
+// Ends this process without the ends of what plug-ins have loaded.
+[[noreturn]] void end_part(const std::function<ExitCode()>& part) {
+  ExitCode code = ExitCode::internal;
+  try {
+    code = part();
+    check_standard_output();
+  } catch (const Error& error) {
+    print_message(printable(error.what()));
+    code = error.code();
+  } catch (const std::exception& error) {
+    print_message(std::string("internal error: ") + error.what());
+    code = ExitCode::internal;
+  }
+  std::cout << std::flush;
+  std::cerr << std::flush;
+  os::note_done(static_cast<int>(code));
+  std::_Exit(static_cast<int>(code));
+}
+
+// What comes through a pipe is not looked into, and may name some.
+bool may_name_plugins(const RunInputs& inputs) {
+  std::error_code none;
+  const auto is_pipe = [&](const std::string& path) { return std::filesystem::is_fifo(path, none) || path == "-"; };
+  return names_plugins(inputs) || std::ranges::any_of(inputs.paths, is_pipe);
+}
+
+ExitCode describe_or_leave_message(const std::filesystem::path& file) {
+  try {
+    plugin::describe_plugin(file);
+    return ExitCode::ok;
+  } catch (const Error& error) {
+    os::leave_message(error.what());
+    return error.code();
+  }
+}
+
+}  // namespace
+
+ExitCode run_apart(const std::function<ExitCode()>& part) {
+  const GuardFlags flags = loading_limits();
+  const std::atomic<bool>& stop = os::stop_on_signals();
+  os::ProcessGuard guard(limits_of(flags));
+  const std::optional<os::GuardedEnd> end = guard.run(stop);
+  if (!end) end_part(part);
+  if (end->how == How::done) return static_cast<ExitCode>(end->exit_code);
+  if (stop) return stopped(*end, "");
+  refuse(casualty_of(*end, flags), ExitCode::usage);
+}
+
+std::string loading_fault(const std::filesystem::path& plugin) {
+  const GuardFlags flags = loading_limits();
+  os::ProcessGuard guard(limits_of(flags));
+  const std::optional<os::GuardedEnd> end = guard.run(os::stop_on_signals());
+  if (!end) end_part([&] { return describe_or_leave_message(plugin); });
+  if (end->how != How::done) return plugin.string() + ": " + casualty_of(*end, flags).reason;
+  if (end->exit_code == 0) return "";
+  const std::string message = guard.message();
+  return message.empty() ? plugin.string() + ": cannot be loaded" : message;
+}
+
 ExitCode guarded_if_needed(const RunInputs& inputs, const GuardFlags& flags, const std::function<ExitCode()>& command) {
-  return names_plugins(inputs) ? run_guarded_once(flags, ExitCode::gate_failed, command) : command();
+  return may_name_plugins(inputs) ? run_guarded_once(flags, ExitCode::gate_failed, command) : command();
 }
 
 }  // namespace clusterbench::cli

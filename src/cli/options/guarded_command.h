@@ -2,6 +2,7 @@
 // A command that calls plug-ins, in processes of its own: where a plug-in crashes, hangs or takes too much memory, that
 // is known and told, and a command that can go on does so in the next process.
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -47,7 +48,18 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
 // The same for a command of one part: if it dies, throws Error with the reason, and `code`.
 ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::function<ExitCode()>& command);
 
-// The same for a command with these inputs, if they name plug-ins; else it stays in this process.
+// Runs a part of a command in a process of its own that ends with it, and returns its exit code; its errors are
+// printed. For parts that load plug-ins and call no method. Throws Error as run_guarded_once() does.
+ExitCode run_apart(const std::function<ExitCode()>& part);
+
+// Why a plug-in cannot be loaded, found out in a process of its own; "" if it can be.
+std::string loading_fault(const std::filesystem::path& plugin);
+
+// For commands that load plug-ins and call no method: they need no flags.
+GuardFlags loading_limits();
+
+// The same for a command with these inputs, if they name plug-ins or come through a pipe; else it stays in this
+// process.
 ExitCode guarded_if_needed(const RunInputs& inputs, const GuardFlags& flags, const std::function<ExitCode()>& command);
 
 }  // namespace clusterbench::cli

@@ -173,7 +173,19 @@ std::uint64_t amount_of(const result::Json& given, const NumberOf& number, const
 }
 
 void check_amount(const result::Json& given, const std::vector<std::string>& names, const std::string& where) {
-  if (given.is_string()) return check_formula(given.get<std::string>(), names, where);
+  if (given.is_string()) {
+    const auto formula = given.get<std::string>();
+    check_formula(formula, names, where);
+    static constexpr double k_any = 1.0;
+    bool is_constant = true;
+    const NumberOf number = [&is_constant](const std::string&) {
+      is_constant = false;
+      return &k_any;
+    };
+    FormulaReader(formula, number, where).value();
+    if (is_constant) amount_of(given, number, where);
+    return;
+  }
   if (!given.is_number_unsigned())
     throw Error("", where, "is " + given.dump() + "; allowed: a whole number from 0, or a formula");
 }

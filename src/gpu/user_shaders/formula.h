@@ -24,7 +24,7 @@ double number_of_formula(const std::string& formula, const NumberOf& number, con
 
 // A whole number from 0 to 2^53 as JSON has it: a number, or a formula. Throws Error ("", `where`) for any other value.
 std::uint64_t amount_of(const result::Json& given, const NumberOf& number, const std::string& where);
-// Throws Error as both.
+// Throws Error as both; a value that names change is not judged.
 void check_amount(const result::Json& given, const std::vector<std::string>& names, const std::string& where);
 
 }  // namespace clusterbench::gpu

@@ -1,6 +1,8 @@
 #include "gpu/user_shaders/shader_file.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cstdio>
 #include <set>
 
 #include "core/error.h"
@@ -11,7 +13,9 @@
 #include "gpu/device/device.h"
 #include "gpu/user_shaders/known_values.h"
 #include "gpu/user_shaders/light_rows.h"
+#include "gpu/user_shaders/lists_check.h"
 #include "gpu/user_shaders/number_bytes.h"
+#include "gpu/user_shaders/value_places.h"
 #include "result/allowed_values.h"
 
 namespace clusterbench::gpu {
@@ -38,6 +42,36 @@ std::string small_file(const fs::path& path, std::uintmax_t most) {
 
 bool has_only(const std::string& text, const char* letters, std::size_t most) {
   return !text.empty() && text.size() <= most && text.find_first_not_of(letters) == std::string::npos;
+}
+
+std::string formula_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
+// What takes the place of a formula where the type wants a whole number.
+using ReplaceFormula = std::function<std::uint64_t(const Json& formula, const std::string& where)>;
+
+void replace_formulas(const result::Type& type, Json& value, const ReplaceFormula& number, const std::string& where) {
+  if (type.kind == result::Kind::integer && value.is_string()) {
+    value = number(value, where);
+  } else if (type.kind == result::Kind::list && value.is_array()) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      replace_formulas(*type.element, value[i], number, where + "/" + std::to_string(i));
+  } else if (type.kind == result::Kind::object && value.is_object()) {
+    for (const result::Field& field : type.fields)
+      if (value.contains(field.name))
+        replace_formulas(*field.type, value[field.name], number, where + "/" + field.name);
+  }
+}
+
+result::DumpLists lists_with(const Json& part, const ReplaceFormula& number, const std::string& where) {
+  Json whole = part;
+  replace_formulas(result::type_of<result::DumpLists>(), whole, number, where);
+  auto lists = result::from_json<result::DumpLists>(whole, where);
+  result::check_values(result::type_of<result::DumpLists>(), &lists, where);
+  return lists;
 }
 
 // Checks of one method; all throw Error ("", JSON pointer).
@@ -85,7 +119,9 @@ class MethodCheck {
       if (!seen.insert(one.name).second)
         throw Error("", where + "/name", "is '" + one.name + "', which is a known value or another parameter");
       if (!(one.least <= one.standard && one.standard <= one.most))
-        throw Error("", where + "/standard", "is not from least to most");
+        throw Error("", where + "/standard",
+                    "is " + formula_number(one.standard) + "; allowed: from least to most, here " +
+                        formula_number(one.least) + " to " + formula_number(one.most));
     }
   }
 
@@ -97,14 +133,24 @@ class MethodCheck {
     for (const auto& [name, buffer] : method_.buffers) {
       const std::string where = "/buffers/" + name;
       check_amount(buffer.bytes, names_, where + "/bytes");
+      if (buffer.bytes == 0) throw Error("", where + "/bytes", "is 0; allowed: at least 1, or a formula");
       if (!buffer.values) continue;
-      check_values(*buffer.values, where + "/values");
+      check_values(*buffer.values, bytes_of(name), where + "/values");
       if (buffer.clear.value_or(false))
         throw Error("", where + "/clear", "is true: that would wipe out the values that the host has written there");
     }
   }
 
-  void check_values(const Values& values, const std::string& pointer) const {
+  // nullopt where a formula says them.
+  std::optional<std::uint64_t> bytes_of(const std::string& buffer) const {
+    const Json& bytes = method_.buffers[file_.buffer_index(buffer)].second.bytes;
+    return bytes.is_number_unsigned() ? std::optional(bytes.get<std::uint64_t>()) : std::nullopt;
+  }
+
+  // `room`: bytes that there are, as far as that is known. Returns where the values are, as far as that is.
+  std::vector<std::optional<ValuePlace>> check_values(const Values& values, std::optional<std::uint64_t> room,
+                                                      const std::string& pointer) const {
+    std::vector<std::optional<ValuePlace>> places(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::string where = pointer + "/" + std::to_string(i);
       check_is(values[i].is, where + "/is", names_);
@@ -112,7 +158,19 @@ class MethodCheck {
       if (values[i].step.value_or(8) > 4096 || values[i].step.value_or(8) < bytes_of_number(values[i].type))
         throw Error("", where + "/step",
                     "is " + std::to_string(*values[i].step) + "; allowed: the size of the type to 4096");
+      const std::uint64_t numbers = numbers_in(values[i].is);
+      if (!values[i].at.is_number_unsigned() || numbers == 0) continue;
+      places[i] = place_of(values[i], values[i].at.get<std::uint64_t>(), numbers);
+      if (room) check_room(*places[i], *room, where);
     }
+    check_overlaps(places, pointer);
+    return places;
+  }
+  // 0 where the grid says how many.
+  static std::uint64_t numbers_in(const std::string& is) {
+    for (const KnownValue& value : known_values())
+      if (is == value.name) return value.numbers;
+    return 1;
   }
   static void check_is(const std::string& is, const std::string& where, const std::vector<std::string>& numbers) {
     std::vector<std::string> allowed = numbers;
@@ -164,6 +222,10 @@ class MethodCheck {
     for (std::size_t i = 0; i < counts.size(); ++i)
       check_amount(counts[i], names_, where + (pass.groups ? "/groups/" : "/invocations/") + std::to_string(i));
     check_entry(pass, where);
+    if (!file_.module(pass).group_size(file_.entry(pass), {}))
+      throw Error(
+          "", where + "/module",
+          pass.module + " computes the size of its groups from constants, which is not read; let each be one constant");
     check_bindings(pass, where);
     check_constants(pass, where);
     check_push(pass, where);
@@ -204,6 +266,7 @@ class MethodCheck {
         throw Error("", at,
                     "is set " + std::to_string(place.first) + ", binding " + std::to_string(place.second) + ", which " +
                         pass.module + " does not have; it has " + all_bindings(module));
+      check_bound_bytes(pass, binding, at);
     }
     for (const ModuleBinding& binding : module.bindings) {
       if (binding.kind == ModuleBinding::Kind::other || binding.is_array)
@@ -213,6 +276,15 @@ class MethodCheck {
       if (!described.contains({binding.set, binding.binding}))
         throw Error("", where + "/bindings", "do not say which buffer is " + text_of(binding) + " of " + pass.module);
     }
+  }
+  void check_bound_bytes(const ShaderPass& pass, const result::ShaderBinding& binding, const std::string& at) const {
+    const std::optional<std::uint64_t> bytes = bytes_of(binding.buffer);
+    if (!bytes) return;
+    for (const ModuleBinding& one : file_.module(pass).bindings)
+      if (one.set == binding.set.value_or(0) && one.binding == binding.binding && one.bytes > (*bytes + 3) / 4 * 4)
+        throw Error("", at,
+                    pass.module + " reads " + number_of(one.bytes, "byte") + " there; buffer '" + binding.buffer +
+                        "' has " + std::to_string(*bytes));
   }
   static std::string all_bindings(const SpirvModule& module) {
     std::vector<std::string> all;
@@ -235,8 +307,19 @@ class MethodCheck {
                              ? ", which " + pass.module + " does not have as a specialization constant"
                              : ", for the second time"));
       if (!found->is_word) throw Error("", at + "/id", "is " + std::to_string(constant.id) + ", which has no 32 bits");
+      check_constant_type(constant, found->type, pass.module, at);
       check_formula(constant.is, names_of_grid_, at + "/is");
     }
+  }
+
+  // `type`: that of the module; "" where it is not known.
+  static void check_constant_type(const result::ShaderConstant& constant, const std::string& type,
+                                  const std::string& module, const std::string& at) {
+    const bool is_whole = type == "u32" || type == "i32";  // the same bits, where nothing is said
+    if (type.empty() || constant.type == type || (!constant.type && is_whole)) return;
+    throw Error("", at + "/type",
+                (constant.type ? "is " + *constant.type : std::string("is missing, which means u32")) + "; constant " +
+                    std::to_string(constant.id) + " of " + module + " is " + type);
   }
 
   void check_push(const ShaderPass& pass, const std::string& where) const {
@@ -249,16 +332,18 @@ class MethodCheck {
       throw Error("", where + "/push",
                   "is missing: " + pass.module + " has " + number_of(bytes, "byte") + " of push constants");
     if (!pass.push) return;
-    check_values(*pass.push, where + "/push");
+    check_covered(check_values(*pass.push, bytes, where + "/push"), file_.module(pass).arguments, pass.module,
+                  where + "/push");
   }
 
   void check_lists(std::size_t index) const {
     const std::string where = "/lists/" + std::to_string(index);
-    const NumberOf any = [&](const std::string& name) {
-      static constexpr double k_one = 1.0;
-      return std::ranges::find(names_, name) == names_.end() ? nullptr : &k_one;
+    // Numbers are those of a frame: a formula is only read.
+    const ReplaceFormula any = [&](const Json& formula, const std::string& at) -> std::uint64_t {
+      check_amount(formula, names_, at);
+      return 1;
     };
-    const result::DumpLists lists = lists_of(method_.lists[index], any, where);
+    const result::DumpLists lists = lists_with(method_.lists[index], any, where);
     if (lists.layout == "inline")
       throw Error("", where + "/layout", "is inline; allowed: a layout of buffers, which the shader leaves");
     if (lists.set) throw Error("", where + "/set", "is not known here: all parts are united");
@@ -266,6 +351,8 @@ class MethodCheck {
     if (lists.entries && lists.entries->buffer) check_buffer_name(*lists.entries->buffer, where + "/entries/buffer");
     if (lists.ranges) check_buffer_name(lists.ranges->buffer, where + "/ranges/buffer");
     if (lists.nodes) check_buffer_name(lists.nodes->buffer, where + "/nodes/buffer");
+    check_list_part(
+        method_.lists[index], lists, [&](const std::string& name) { return bytes_of(name); }, where);
   }
 
   const ShaderFile& file_;
@@ -273,18 +360,29 @@ class MethodCheck {
   std::vector<std::string> names_, names_of_grid_;
 };
 
-// A formula where the type wants a whole number becomes that number.
-void replace_formulas(const result::Type& type, Json& value, const NumberOf& number, const std::string& where) {
-  if (type.kind == result::Kind::integer && value.is_string()) {
-    value = amount_of(value, number, where);
-  } else if (type.kind == result::Kind::list && value.is_array()) {
-    for (std::size_t i = 0; i < value.size(); ++i)
-      replace_formulas(*type.element, value[i], number, where + "/" + std::to_string(i));
-  } else if (type.kind == result::Kind::object && value.is_object()) {
-    for (const result::Field& field : type.fields)
-      if (value.contains(field.name))
-        replace_formulas(*field.type, value[field.name], number, where + "/" + field.name);
-  }
+bool has_word(const std::string& text, std::string_view word) {
+  const auto is_letter = [&](std::size_t i) {
+    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_');
+  };
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+    if ((at == 0 || !is_letter(at - 1)) && !is_letter(at + word.size())) return true;
+  return false;
+}
+// Is the word in a formula of this JSON? Names of buffers, modules and entries are none.
+bool names_number(const Json& json, std::string_view word) {
+  if (json.is_string()) return has_word(json.get_ref<const std::string&>(), word);
+  if (json.is_array()) return std::ranges::any_of(json, [&](const Json& one) { return names_number(one, word); });
+  if (!json.is_object()) return false;
+  for (const auto& [key, value] : json.items())
+    if (key != "buffer" && key != "module" && key != "entry" && names_number(value, word)) return true;
+  return false;
+}
+bool has_slice_formula(const ShaderMethod& method) {
+  const Json all = result::to_json(method);
+  for (const char* key : {"buffers", "passes", "lists", "tests"})
+    if (all.contains(key) && (names_number(all[key], "slice_scale") || names_number(all[key], "slice_bias")))
+      return true;
+  return false;
 }
 
 void read_modules(ShaderFile& file, Sha256& digest, const BytesOfModule& bytes_of) {
@@ -329,11 +427,10 @@ std::size_t ShaderFile::buffer_index(const std::string& name) const {
 }
 
 result::DumpLists lists_of(const Json& part, const NumberOf& number, const std::string& where) {
-  Json whole = part;
-  replace_formulas(result::type_of<result::DumpLists>(), whole, number, where);
-  auto lists = result::from_json<result::DumpLists>(whole, where);
-  result::check_values(result::type_of<result::DumpLists>(), &lists, where);
-  return lists;
+  const ReplaceFormula of_frame = [&](const Json& formula, const std::string& at) {
+    return amount_of(formula, number, at);
+  };
+  return lists_with(part, of_frame, where);
 }
 
 ShaderFile make_shader_file(const fs::path& path, std::string_view text, const BytesOfModule& bytes_of) {
@@ -346,6 +443,7 @@ ShaderFile make_shader_file(const fs::path& path, std::string_view text, const B
   file.sha256 = digest.hex();
   try {
     MethodCheck(file).check();
+    file.has_slice_formula = has_slice_formula(file.record);
   } catch (const Error& error) {
     throw Error(path.string(), error.where(), error.message(), error.code());
   }

@@ -19,6 +19,7 @@ struct ShaderFile {
   result::ShaderMethod record;
   std::map<std::string, SpirvModule> modules;  // by their names in the JSON
   std::string sha256;                          // of the JSON and the modules
+  bool has_slice_formula = false;              // is told slice_scale or slice_bias
 
   const SpirvModule& module(const result::ShaderPass& pass) const { return modules.at(pass.module); }
   const ModuleEntry& entry(const result::ShaderPass& pass) const;

@@ -17,6 +17,7 @@
 #include "gpu/user_shaders/light_rows.h"
 #include "gpu/user_shaders/number_bytes.h"
 #include "gpu/user_shaders/shader_lists.h"
+#include "gpu/user_shaders/value_places.h"
 
 namespace clusterbench::gpu {
 namespace {
@@ -82,9 +83,16 @@ std::string tiles_obstacle(const result::ShaderMethod& method, const grid::Grid&
   return method.name + " has tiles of equal size; the last ones of this grid are cut off";
 }
 
-std::string grid_obstacle(const result::ShaderMethod& method, const grid::Grid& grid) {
-  const std::string reason = tiles_obstacle(method, grid);
-  return reason.empty() ? slices_obstacle(method, grid) : reason;
+std::string formula_obstacle(const ShaderFile& file, const grid::Grid& grid) {
+  const bool has_none = grid.screen().slices.lookup.form == grid::SliceLookup::Form::search;
+  if (!file.has_slice_formula || !has_none) return "";
+  return file.record.name + " is told slice_scale or slice_bias; the slices of this grid follow no formula";
+}
+
+std::string grid_obstacle(const ShaderFile& file, const grid::Grid& grid) {
+  std::string reason = tiles_obstacle(file.record, grid);
+  if (reason.empty()) reason = slices_obstacle(file.record, grid);
+  return reason.empty() ? formula_obstacle(file, grid) : reason;
 }
 
 // A pass, ready to be dispatched for one frame.
@@ -129,8 +137,9 @@ class ShaderAssigner final : public assign::StructureAssigner {
     } catch (const DeviceError&) {
       throw;
     } catch (const Error& error) {  // of this frame: it ends the method's cases, and not the run
-      throw DeviceError(file_->path.string() + ": " + (error.where().empty() ? "" : error.where() + ": ") +
-                        error.message());
+      const std::string text = text_at(error.where(), error.message());
+      if (error.where() == "limits.memory_mib" || error.where() == "device") throw DeviceError(text);
+      throw ShaderFault(text);  // what the description says does not fit together
     }
   }
 
@@ -165,12 +174,19 @@ class ShaderAssigner final : public assign::StructureAssigner {
   [[noreturn]] void refuse(const std::string& where, const std::string& problem) const {
     throw Error("", where, problem);
   }
+  // What another device may have.
+  [[noreturn]] void refuse_here(const std::string& where, const std::string& problem) const {
+    throw DeviceError(text_at(where, problem));
+  }
+  std::string text_at(const std::string& where, const std::string& problem) const {
+    return file_->path.string() + ": " + (where.empty() ? "" : where + ": ") + problem;
+  }
 
   // --- The grid ---
 
   // Slices that follow a frame's lights may fit in one frame and not in the next.
   void check_grid(const grid::Grid& grid) const {
-    if (const std::string reason = grid_obstacle(record(), grid); !reason.empty())
+    if (const std::string reason = grid_obstacle(*file_, grid); !reason.empty())
       throw DeviceError(file_->path.string() + ": " + reason);
   }
 
@@ -200,12 +216,12 @@ class ShaderAssigner final : public assign::StructureAssigner {
     for (const auto& [name, buffer] : record().buffers) {
       bytes_.push_back(amount_of(buffer.bytes, values.number(), "/buffers/" + name + "/bytes"));
       if (bytes_.back() > device_->facts().max_buffer_bytes)
-        refuse("/buffers/" + name + "/bytes", "is " + std::to_string(bytes_.back()) + " here; " +
-                                                  device_->facts().name + " allows " +
-                                                  std::to_string(device_->facts().max_buffer_bytes));
+        refuse_here("/buffers/" + name + "/bytes", "is " + std::to_string(bytes_.back()) + " here; " +
+                                                       device_->facts().name + " allows " +
+                                                       std::to_string(device_->facts().max_buffer_bytes));
       sum += bytes_.back();
     }
-    check_memory("buffers of a shader, whose bytes", sum, 1, "make them smaller, or use fewer lights or cells");
+    check_memory("bytes of a shader's buffers", sum, 1, "make them smaller, or use fewer lights or cells");
     for (std::size_t i = 0; i < record().lights.rows.size(); ++i) {
       const result::ShaderLightRows& rows = record().lights.rows[i];
       const std::uint64_t needed = bytes_of_lights(rows, lights.boxes.first);
@@ -240,18 +256,17 @@ class ShaderAssigner final : public assign::StructureAssigner {
   // `room`: bytes that there are.
   static void write_values(const std::vector<result::ShaderValue>& all, const FrameValues& values, std::uint64_t room,
                            const std::string& pointer, ByteImage& out) {
+    std::vector<std::optional<ValuePlace>> places;
+    std::vector<std::vector<double>> numbers;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const std::string where = pointer + "/" + std::to_string(i);
-      const std::vector<double> numbers = values.numbers(all[i].is, where + "/is");
-      const std::uint64_t at = amount_of(all[i].at, values.number(), where + "/at"),
-                          size = bytes_of_number(all[i].type),
-                          length = (numbers.size() - 1) * all[i].step.value_or(size) + size;
-      if (at > room || length > room - at)
-        throw Error("", where + "/at",
-                    "is " + std::to_string(at) + ": its " + number_of(length, "byte") + " end beyond the " +
-                        std::to_string(room) + " that there are");
-      out.write(at, all[i].type, all[i].step.value_or(0), numbers, where);
+      numbers.push_back(values.numbers(all[i].is, where + "/is"));
+      places.push_back(place_of(all[i], amount_of(all[i].at, values.number(), where + "/at"), numbers.back().size()));
+      check_room(*places.back(), room, where);
     }
+    check_overlaps(places, pointer);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      out.write(places[i]->at, all[i].type, all[i].step.value_or(0), numbers[i], pointer + "/" + std::to_string(i));
   }
 
   // --- Passes ---
@@ -275,12 +290,8 @@ class ShaderAssigner final : public assign::StructureAssigner {
   std::array<std::uint32_t, 3> group_size_of(std::size_t index) const {
     const ShaderPass& pass = record().passes[index];
     const Constants& constants = constants_[index];
-    const auto size = file_->module(pass).group_size(file_->entry(pass), {constants.begin(), constants.end()});
-    if (!size)
-      refuse(
-          "/passes/" + std::to_string(index) + "/module",
-          pass.module + " computes the size of its groups from constants, which is not read; let each be one constant");
-    return *size;
+    // Where it is computed the file is refused.
+    return *file_->module(pass).group_size(file_->entry(pass), {constants.begin(), constants.end()});
   }
 
   void check_group(std::size_t index) const {
@@ -290,10 +301,10 @@ class ShaderAssigner final : public assign::StructureAssigner {
     bool fits = all >= 1 && all <= facts.max_group_size;
     for (std::size_t axis = 0; axis < 3; ++axis) fits = fits && size[axis] <= facts.max_group_sizes[axis];
     if (fits) return;
-    refuse("/passes/" + std::to_string(index) + "/module", record().passes[index].module + " has groups of " +
-                                                               text_of(size) + " invocations; " + facts.name +
-                                                               " allows " + std::to_string(facts.max_group_size) +
-                                                               ", along the axes " + text_of(facts.max_group_sizes));
+    refuse_here("/passes/" + std::to_string(index) + "/module",
+                record().passes[index].module + " has groups of " + text_of(size) + " invocations; " + facts.name +
+                    " allows " + std::to_string(facts.max_group_size) + ", along the axes " +
+                    text_of(facts.max_group_sizes));
   }
   static std::string text_of(const std::array<std::uint32_t, 3>& size) {
     return std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
@@ -351,8 +362,8 @@ class ShaderAssigner final : public assign::StructureAssigner {
         refuse(at, pass.module + " reads " + number_of(binding.bytes, "byte") + " there; buffer '" +
                        pass.bindings[i].buffer + "' has " + std::to_string(bytes_[buffer]));
       if (binding.kind == ModuleBinding::Kind::uniform && bytes_[buffer] > device_->facts().max_uniform_bytes)
-        refuse(at, "is a uniform buffer of " + number_of(bytes_[buffer], "byte") + "; " + device_->facts().name +
-                       " allows " + std::to_string(device_->facts().max_uniform_bytes));
+        refuse_here(at, "is a uniform buffer of " + number_of(bytes_[buffer], "byte") + "; " + device_->facts().name +
+                            " allows " + std::to_string(device_->facts().max_uniform_bytes));
       seen.push_back(device_bytes(buffer));
     }
     programs_[index]->bind(buffers_, seen);
@@ -369,8 +380,8 @@ class ShaderAssigner final : public assign::StructureAssigner {
       const std::uint64_t count = amount_of(given[axis], values.number(), at),
                           groups = count / size[axis] + (count % size[axis] == 0 ? 0 : 1);
       if (groups > device_->facts().max_groups[axis])
-        refuse(at, "makes " + number_of(groups, "group") + "; " + device_->facts().name + " allows " +
-                       std::to_string(device_->facts().max_groups[axis]) + " along this axis");
+        refuse_here(at, "makes " + number_of(groups, "group") + "; " + device_->facts().name + " allows " +
+                            std::to_string(device_->facts().max_groups[axis]) + " along this axis");
       out[axis] = static_cast<std::uint32_t>(groups);
     }
     return out;
@@ -573,7 +584,7 @@ assign::AssignerDescriptor descriptor_of(const std::shared_ptr<const ShaderFile>
   out.make_own = [file](const assign::Params& params) -> std::unique_ptr<assign::StructureAssigner> {
     return std::make_unique<ShaderAssigner>(file, params);
   };
-  out.unfit = [file](const grid::Grid& grid) { return grid_obstacle(file->record, grid); };
+  out.unfit = [file](const grid::Grid& grid) { return grid_obstacle(*file, grid); };
   out.unavailable = [file](const assign::Params&) { return shader_obstacle(*file); };
   return out;
 }

@@ -194,7 +194,7 @@ class ModuleReader {
         [[fallthrough]];
       case Op::spec_constant_true:
       case Op::spec_constant_false:
-        if (op != Op::constant) specialized_.push_back({operands[1], operands.size() <= 3});
+        if (op != Op::constant) specialized_.push_back({operands[1], operands[0], operands.size() <= 3});
         return;
       case Op::constant_composite:
       case Op::spec_constant_composite:
@@ -320,10 +320,11 @@ class ModuleReader {
   }
 
   void finish() {
-    for (const auto& [id, is_word] : specialized_)
-      if (const auto as = decoration(id, Decoration::spec_id)) {
-        add_constant({*as, is_word});
-        if (const auto found = out_.numbers.find(id); found != out_.numbers.end()) found->second.specialized_as = *as;
+    for (const Specialized& one : specialized_)
+      if (const auto as = decoration(one.id, Decoration::spec_id)) {
+        add_constant({*as, one.is_word, constant_type(one.type)});
+        if (const auto found = out_.numbers.find(one.id); found != out_.numbers.end())
+          found->second.specialized_as = *as;
       }
     for (const Variable& one : variables_) add(one);
     std::ranges::sort(out_.bindings, {}, [](const ModuleBinding& one) { return std::pair(one.set, one.binding); });
@@ -338,8 +339,54 @@ class ModuleReader {
     const auto found = std::ranges::find(out_.constants, constant.id, &ModuleConstant::id);
     if (found == out_.constants.end())
       out_.constants.push_back(constant);
-    else
-      found->is_word = found->is_word && constant.is_word;
+    else if (found->is_word = found->is_word && constant.is_word; found->type != constant.type)
+      found->type.clear();
+  }
+  std::string constant_type(std::uint32_t id) const {
+    const TypeOf* of = type(id);
+    if (of == nullptr) return "";
+    if (of->op == Op::type_bool) return "bool";
+    if (of->operands.empty() || of->operands[0] != 32) return "";
+    if (of->op == Op::type_float) return "f32";
+    return of->op != Op::type_int || of->operands.size() < 2 ? "" : of->operands[1] == 0 ? "u32" : "i32";
+  }
+
+  // Marks the bytes of a type's numbers from `at` on, as far as `marks` goes; `steps` ends what would go on for ever.
+  void mark_bytes(std::uint32_t id, std::uint64_t at, std::uint64_t matrix_step, std::vector<bool>& marks, int& steps) {
+    const TypeOf* of = type(id);
+    if (of == nullptr || of->operands.empty() || at >= marks.size() || --steps < 0) return;
+    if (of->op == Op::type_struct) {
+      for (std::uint32_t i = 0; i < of->operands.size(); ++i)
+        mark_bytes(of->operands[i], at + member_decoration(id, i, Decoration::offset),
+                   member_decoration(id, i, Decoration::matrix_stride), marks, steps);
+    } else if (of->op == Op::type_array || (of->op == Op::type_matrix && matrix_step > 0)) {
+      const bool is_array = of->op == Op::type_array;
+      const std::uint64_t step = is_array ? decoration(id, Decoration::array_stride).value_or(0) : matrix_step,
+                          count = is_array ? number(of->operands[1]) : of->operands[1];
+      for (std::uint64_t i = 0; i < count && (i == 0 || step > 0) && at + i * step < marks.size() && steps > 0; ++i)
+        mark_bytes(of->operands[0], at + i * step, matrix_step, marks, steps);
+    } else {
+      const std::uint64_t end = std::min<std::uint64_t>(at + bytes_of(id), marks.size());
+      for (std::uint64_t i = at; i < end; ++i) marks[i] = true;
+    }
+  }
+  std::uint32_t member_decoration(std::uint32_t id, std::uint32_t member, std::uint32_t which) const {
+    const auto of = members_.find(id);
+    if (of == members_.end()) return 0;
+    const auto at = of->second.find(member);
+    if (at == of->second.end()) return 0;
+    const auto found = at->second.find(which);
+    return found == at->second.end() ? 0 : found->second;
+  }
+  void add_arguments(std::uint32_t pointed) {
+    constexpr std::uint64_t k_most = 4096;
+    constexpr int k_most_steps = 5000;  // also of depth
+    const bool is_first = out_.argument_bytes == 0 && !has_arguments_;
+    has_arguments_ = true;
+    out_.argument_bytes = std::max(out_.argument_bytes, bytes_of(pointed));
+    out_.arguments.assign(is_first ? std::min(out_.argument_bytes, k_most) : 0, false);
+    int steps = k_most_steps;
+    mark_bytes(pointed, 0, 0, out_.arguments, steps);
   }
 
   struct Variable {
@@ -350,10 +397,7 @@ class ModuleReader {
     std::uint32_t pointed = pointer != nullptr && pointer->op == Op::type_pointer && pointer->operands.size() > 1
                                 ? pointer->operands[1]
                                 : 0;
-    if (one.storage == Storage::push_constant) {
-      out_.argument_bytes = std::max(out_.argument_bytes, bytes_of(pointed));
-      return;
-    }
+    if (one.storage == Storage::push_constant) return add_arguments(pointed);
     if (one.storage == Storage::workgroup) {
       out_.shared_bytes += dense_bytes_of(pointed);
       return;
@@ -388,7 +432,12 @@ class ModuleReader {
   std::map<std::uint32_t, std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>>> members_;
   std::map<std::uint32_t, TypeOf> types_;
   std::map<std::uint32_t, std::vector<std::uint32_t>> composites_;
-  std::vector<std::pair<std::uint32_t, bool>> specialized_;
+  struct Specialized {
+    std::uint32_t id, type;
+    bool is_word;
+  };
+  std::vector<Specialized> specialized_;
+  bool has_arguments_ = false;
   std::vector<Variable> variables_;
   Sizes sizes_, dense_sizes_;
 };

@@ -24,6 +24,7 @@ struct ModuleBinding {
 struct ModuleConstant {
   std::uint32_t id = 0;
   bool is_word = false;  // 32 bits, or a truth value
+  std::string type{};    // u32, i32, f32, bool; "" where it is another, or not the same everywhere
 };
 
 struct ModuleEntry {
@@ -41,7 +42,9 @@ struct SpirvModule {
   std::vector<ModuleConstant> constants;  // that can be specialized
   std::vector<std::uint32_t> capabilities;
   std::uint64_t argument_bytes = 0;  // of push constants
-  std::uint64_t shared_bytes = 0;    // of a group, with the module's own constants
+  // The bytes of push constants that are members, not gaps; none where entries have blocks of their own.
+  std::vector<bool> arguments;
+  std::uint64_t shared_bytes = 0;  // of a group, with the module's own constants
 
   // Of an entry, with constants by id in place of the module's own; nullopt where a size is computed.
   std::optional<std::array<std::uint32_t, 3>> group_size(const ModuleEntry& entry,

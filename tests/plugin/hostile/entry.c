@@ -1,5 +1,6 @@
 /* Plug-ins that are wrong before any method runs, by what they are compiled with. */
 
+#include <pthread.h>
 #include <stdlib.h>
 
 #include "clusterbench_plugin.h"
@@ -14,6 +15,11 @@ const clusterbench_plugin* clusterbench_plugin_entry(const clusterbench_host* ho
 const clusterbench_plugin* clusterbench_plugin_entry(const clusterbench_host* host) {
   (void)host;
   abort();
+}
+#elif defined(ENTRY_ENDS_THREAD)
+const clusterbench_plugin* clusterbench_plugin_entry(const clusterbench_host* host) {
+  (void)host;
+  pthread_exit(NULL);
 }
 #elif defined(ENTRY_NULL)
 const clusterbench_plugin* clusterbench_plugin_entry(const clusterbench_host* host) {

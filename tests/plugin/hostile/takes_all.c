@@ -1,4 +1,6 @@
-/* A method that takes parameters which it does not have. */
+/* A method that takes parameters which it does not have; with ENDS_THREAD it also ends the thread that calls it. */
+
+#include <pthread.h>
 
 #include "clusterbench_plugin.h"
 
@@ -28,6 +30,9 @@ static clusterbench_status assign(void* made, const clusterbench_frame* frame, c
   (void)frame;
   (void)lights;
   (void)error;
+#ifdef ENDS_THREAD
+  pthread_exit(NULL);
+#endif
   for (cell = 0; cell <= out->cell_count; ++cell) out->begin[cell] = 0;
   return CLUSTERBENCH_OK;
 }
@@ -39,7 +44,7 @@ static void destroy(void* made) {
 const clusterbench_plugin* clusterbench_plugin_entry(const clusterbench_host* host) {
   static const clusterbench_method method = {sizeof(clusterbench_method),
                                              CLUSTERBENCH_FRUSTUM,
-                                             CLUSTERBENCH_POINTS,
+                                             CLUSTERBENCH_POINTS | CLUSTERBENCH_SPOTS | CLUSTERBENCH_BOXES,
                                              0,
                                              0,
                                              0,
