@@ -237,7 +237,9 @@ TEST(PluginLoading, that_ends_the_process_is_told_by_every_command_that_loads) {
       const Outcome outcome = tool(command);
       EXPECT_EQ(outcome.code, 2) << command << outcome.err;
       EXPECT_TRUE(mentions(outcome.err, told)) << command << "\n" << outcome.err;
-      if (mentions(command, wrong)) EXPECT_TRUE(mentions(outcome.err, "wrong.json")) << outcome.err;
+      if (mentions(command, wrong)) {
+        EXPECT_TRUE(mentions(outcome.err, "wrong.json")) << outcome.err;
+      }
     }
   }
 }
