@@ -151,6 +151,18 @@ TEST(RunInLaunches, a_scene_that_changes_meanwhile_ends_the_run_and_is_named) {
   EXPECT_NE(err.find("level.glb: has changed since the run began"), std::string::npos) << err;
 }
 
+TEST(RunInLaunches, a_scene_that_is_removed_meanwhile_is_named_without_a_place_in_another_text) {
+  const LaunchPlace place;
+  Running run(place.folder, "run -q c.json -o r.json");
+  ASSERT_TRUE(run.has_answered(place.partial));
+  std::filesystem::remove(place.scene);
+  EXPECT_EQ(run.end(), 2);
+  const std::string err = file_text(place.folder / "err");
+  EXPECT_NE(err.find("level.glb: has been removed since the run began"), std::string::npos) << err;
+  EXPECT_EQ(err.find("c.json: 1:"), std::string::npos) << err;
+  EXPECT_NE(err.find("--resume goes on with the same scenes, configuration and program"), std::string::npos) << err;
+}
+
 TEST(RunInLaunches, a_program_that_is_removed_meanwhile_goes_on) {
   const LaunchPlace place;
   const std::filesystem::path binary = place.folder / "clusterbench";

@@ -53,6 +53,9 @@ ReceivedRun received_run(const std::string& line, const std::string& file) {
   for (const Json& scene : given["scenes"]) {
     scenes.push_back(run.config.scenes.at(scene["scene_index"].get<std::size_t>()));
     if (scene["path"].is_string()) scenes.back().path = scene["path"].get<std::string>();
+    // Its place would be that in this line, not in the user's configuration.
+    if (const fs::path& path = scenes.back().path; !path.empty() && !fs::exists(path))
+      throw Error(path.string(), "", "has been removed since the run began; run again");
   }
   run.config.scenes = std::move(scenes);
   run.plan = run::make_plan(run.config, "");

@@ -88,7 +88,10 @@ std::string RunJournal::saved_cases_text() const {
 }
 
 Error RunJournal::with_saved_cases(const Error& error) const {
-  return Error(error.file(), error.where(), error.message() + saved_cases_text(), error.code());
+  const std::string saved = saved_cases_text();
+  return Error(error.file(), error.where(),
+               error.message() + saved + (saved.empty() ? "" : " with the same scenes, configuration and program"),
+               error.code());
 }
 
 ExitCode RunJournal::interrupted() const {
