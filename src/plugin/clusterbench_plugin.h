@@ -42,6 +42,8 @@
 extern "C" {
 #endif
 
+/* NOLINTBEGIN(readability-identifier-naming): names of C */
+
 #define CLUSTERBENCH_PLUGIN_MAJOR 1u
 #define CLUSTERBENCH_PLUGIN_MINOR 0u
 
@@ -318,6 +320,8 @@ static inline clusterbench_status clusterbench_check_values(const clusterbench_m
   if (error->capacity > 0) error->text[at] = 0;
   return CLUSTERBENCH_INVALID;
 }
+
+/* NOLINTEND(readability-identifier-naming) */
 
 #ifdef __cplusplus
 }

@@ -168,7 +168,7 @@ PluginFacts describe_plugin(const fs::path& given) {
 fs::path file_on_path(const std::string& id) {
   std::error_code failed;
   for (const fs::path& folder : folders_on_path())
-    if (const fs::path file = folder / (id + ".so"); fs::is_regular_file(file, failed)) return file;
+    if (fs::path file = folder / (id + ".so"); fs::is_regular_file(file, failed)) return file;
   return {};
 }
 

@@ -144,7 +144,7 @@ double ReadingTimes::cold_median_ns() const {
 }
 
 std::string reading_obstacle() {
-  if (const std::string obstacle = device_obstacle(); !obstacle.empty()) return obstacle;
+  if (std::string obstacle = device_obstacle(); !obstacle.empty()) return obstacle;
   const DeviceFacts& facts = device().facts();
   if (facts.timestamp_bits == 0) return facts.name + " has no clock";
   if (!facts.has_subgroup_arithmetic)

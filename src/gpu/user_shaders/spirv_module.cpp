@@ -335,7 +335,7 @@ class ModuleReader {
   }
 
   // Several constants may have one id.
-  void add_constant(ModuleConstant constant) {
+  void add_constant(const ModuleConstant& constant) {
     const auto found = std::ranges::find(out_.constants, constant.id, &ModuleConstant::id);
     if (found == out_.constants.end())
       out_.constants.push_back(constant);

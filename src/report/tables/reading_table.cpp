@@ -199,7 +199,7 @@ std::string reading_table(const result::Result& result) {
             " A software device: these times are a processor's and no GPU's. They are not sorted, and rank nothing.\n";
       out += blocks + "\n";
     }
-  const std::string unread = unread_text(result.cases);
+  std::string unread = unread_text(result.cases);
   if (out.empty()) return unread;
   return "\n" + out +
          "read: a frame's samples look up their lists, walk them and add a small attenuation for each light, by the "
