@@ -18,7 +18,7 @@
 #include "core/file_text.h"
 #include "core/json_document.h"
 #include "core/text.h"
-#include "gpu/user_shaders/shader_method.h"
+#include "gpu/user_shaders/shader_obstacles.h"
 #include "result/result.h"
 #include "run/cases/plan.h"
 

@@ -13,8 +13,6 @@ assign::AssignerDescriptor descriptor_of(const std::shared_ptr<const ShaderFile>
 // Reads the file and adds its method to the registry, unless the same file was added before; then its descriptor as it
 // was. Throws Error (file, JSON pointer), also where another method has the name.
 const assign::AssignerDescriptor& add_shader_method(const std::filesystem::path& path);
-// The reason why a device of this process cannot run it; "" if it can, as far as is known without a frame.
-std::string shader_obstacle(const ShaderFile& file);
 // Takes all of them out of the registry again; for tests. No configuration may be in use.
 void remove_shader_methods();
 
