@@ -167,7 +167,7 @@ class Planted:
         (folder / "dump.json").write_text(json.dumps(self.dump))
         out = folder / "out.json"
         out.unlink(missing_ok=True)
-        command = [program, "check", "--no-methods", folder / "dump.json", "--json", out, "--most-lost", "1"]
+        command = [program, "check", "--methods", "none", folder / "dump.json", "--json", out, "--most-lost", "1"]
         done = subprocess.run(command, capture_output=True, text=True, timeout=120)
         found = json.loads(out.read_text())["frames"][0]["sets"][0] if out.exists() else None
         return done, found

@@ -1073,7 +1073,7 @@ export type CheckPage = {
         false_positives: number; // Of them not true [pairs]
         lost_pairs: number; // True pairs that it does not list [pairs]
         packed_bytes: number; // Of its lists as `packed` [bytes]
-      }>; // On the same frame; empty with --no-methods
+      }>; // On the same frame; empty with --methods none
       methods_left_out: string[]; // Of those that were asked for: would take too long on this frame
     }; // Its verdict
     grid: {

@@ -38,7 +38,7 @@ struct Small {
     folder.write(name, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
   }
   std::string path() const { return folder.write("dump.json", dump.dump()).string(); }
-  Outcome check(const std::string& flags = "--no-methods") const { return tool("check " + path() + " " + flags); }
+  Outcome check(const std::string& flags = "--methods none") const { return tool("check " + path() + " " + flags); }
 };
 
 TEST(Check, right_lists_pass_and_a_lost_light_fails_with_its_cell_and_how_far_it_reaches_in) {
@@ -47,7 +47,7 @@ TEST(Check, right_lists_pass_and_a_lost_light_fails_with_its_cell_and_how_far_it
   EXPECT_EQ(right.code, 0) << right.err;
   EXPECT_NE(right.out.find("lists: right: no light is lost"), std::string::npos) << right.out;
   small.write<std::uint16_t>("cells.bin", {0, 1, 1, 0});
-  const Outcome lost = small.check("--no-methods --json " + (small.folder / "out.json").string());
+  const Outcome lost = small.check("--methods none --json " + (small.folder / "out.json").string());
   EXPECT_EQ(lost.code, 1);
   EXPECT_NE(
       lost.out.find("light 0, cell (0, 0, 1) (number 1, depth 10 to 100 m): reaches in by 1 m, 50 % of its range"),
@@ -160,10 +160,10 @@ TEST(Check, a_dump_that_is_cut_off_is_never_left_out_of_its_folder_and_other_fil
   const std::string folder = small.folder.path().string();
   small.folder.write("schema.json", R"({"properties": {"dump_version": {"const": 1}}})");
   fs::create_symlink(small.folder / "nowhere", small.folder / ".#lock.json");
-  EXPECT_EQ(tool("check --no-methods " + folder).code, 0);
+  EXPECT_EQ(tool("check --methods none " + folder).code, 0);
   for (const char* cut : {"", "{\"dump_ver"}) {
     const std::string path = small.folder.write("second.json", cut).string();
-    const Outcome outcome = tool("check --no-methods " + folder);
+    const Outcome outcome = tool("check --methods none " + folder);
     EXPECT_EQ(outcome.code, 2) << outcome.out;
     EXPECT_NE(outcome.err.find("second.json"), std::string::npos) << outcome.err;
   }
@@ -176,7 +176,7 @@ TEST(Check, no_output_goes_over_a_dump_or_its_buffers) {
     for (const char* file : {"dump.json", "cells.bin", "lights.bin"})
       for (const char* flag : {" --json ", " --page "}) {
         const std::string before = file_text(small.folder / file);
-        const Outcome outcome = tool("check -q --no-methods " + input + flag + (small.folder / file).string());
+        const Outcome outcome = tool("check -q --methods none " + input + flag + (small.folder / file).string());
         EXPECT_EQ(outcome.code, 2) << input << " " << file;
         EXPECT_NE(outcome.err.find("would be lost"), std::string::npos) << outcome.err;
         EXPECT_EQ(file_text(small.folder / file), before);
@@ -267,7 +267,7 @@ TEST(Check, the_lists_of_world_grids_come_back_right_and_grids_without_words_sto
   EXPECT_NE(written.err.find("6 dumps written"), std::string::npos) << written.err;
   EXPECT_NE(written.err.find("no dump: dumps have no words for grids of kind cascades"), std::string::npos)
       << written.err;
-  const Outcome done = tool("check --no-methods " + dumps + " --json " + (folder / "out.json").string());
+  const Outcome done = tool("check --methods none " + dumps + " --json " + (folder / "out.json").string());
   EXPECT_EQ(done.code, 0) << done.out << done.err;
   const Json found = Json::parse(file_text(folder / "out.json"));
   ASSERT_EQ(found["frames"].size(), 6u);
@@ -298,8 +298,7 @@ TEST(Check, methods_are_those_that_are_asked_for) {
   const std::pair<const char*, const char*> bad[] = {
       {"--methods exct", "--methods: found 'exct' (did you mean 'exact'?), allowed: none, quick, all, or names"},
       {"--methods world-grid", "--methods: names 'world-grid', which makes no lists of this dump's grid"},
-      {"--methods tiled", "--methods: names 'tiled', which makes no lists of this dump's grid"},
-      {"--methods all --no-methods", "--no-methods: stands beside --methods; allowed: one of the two"}};
+      {"--methods tiled", "--methods: names 'tiled', which makes no lists of this dump's grid"}};
   for (const auto& [flags, wanted] : bad) {
     const Outcome refused = small.check(flags);
     EXPECT_EQ(refused.code, 2) << flags;
@@ -342,7 +341,7 @@ TEST(Check, the_smallest_dump_of_the_document_is_one) {
   EXPECT_EQ(tool("validate " + path).out, path + ": valid, a dump for `clusterbench check` with 1 list\n");
   small.folder.write("lights.bin", std::string(4800, '\0'));
   small.folder.write("cells.bin", std::string(27648, '\0'));
-  const Outcome done = tool("check --no-methods " + path);
+  const Outcome done = tool("check --methods none " + path);
   EXPECT_EQ(done.code, 1) << done.err;
   EXPECT_NE(done.out.find("no light reaches a cell, so nothing was checked"), std::string::npos) << done.out;
 }

@@ -20,7 +20,7 @@ struct CheckFlags {
   std::vector<std::string> dumps;
   std::string json, page, engine, methods = "quick";
   int most_lost = 10, threads = 1;
-  bool no_methods = false, allow_rounding = false, quiet = false;
+  bool allow_rounding = false, quiet = false;
 };
 
 // What to do now.
@@ -65,13 +65,6 @@ std::string made_page(const CheckFlags& flags, const std::string& verdict, resul
   return report::check_page(page);
 }
 
-dump::MethodChoice chosen_methods(const CheckFlags& flags) {
-  if (!flags.no_methods) return dump::method_choice(flags.methods);
-  if (flags.methods != CheckFlags{}.methods)
-    throw Error("", "--no-methods", "stands beside --methods; allowed: one of the two");
-  return {};
-}
-
 struct CheckInputs {
   std::vector<std::filesystem::path> dumps;
   std::vector<std::string> files;  // all that are read
@@ -90,7 +83,7 @@ CheckInputs inputs_of(const CheckFlags& flags) {
 // Fills the frames of `page` if one is asked for.
 result::Check judge_all(const CheckFlags& flags, const CheckInputs& inputs, result::CheckPage& page,
                         std::ostream& out) {
-  const dump::MethodChoice methods = chosen_methods(flags);
+  const dump::MethodChoice methods = dump::method_choice(flags.methods);
   std::size_t page_room = dump::k_most_page_entries;
   result::Check checked;
   checked.check_version = 1;
@@ -143,7 +136,6 @@ void add_check(Command& program, Action& action) {
                   "Methods of clusterbench on the same frame: quick (if they take a few seconds), all, none, or names "
                   "with commas")
       .shows_standard();
-  command.add_flag("--no-methods", flags->no_methods, "As --methods none");
   command.add_option("--threads", flags->threads, "Threads; results do not depend on it")
       .range(1, 1024)
       .shows_standard();

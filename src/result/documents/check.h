@@ -119,7 +119,7 @@ struct CheckedDump {
   FIELD(std::string, grid_kind, "Of the grid");
   FIELD(CellIndex, cells, "Numbers of columns, rows and slices");
   FIELD(std::vector<CheckedSet>, sets, "In the order of the dump");
-  FIELD(std::vector<CheckedMethod>, methods, "On the same frame; empty with --no-methods");
+  FIELD(std::vector<CheckedMethod>, methods, "On the same frame; empty with --methods none");
   FIELD(std::vector<std::string>, methods_left_out, "Of those that were asked for: would take too long on this frame");
   END_RECORD;
 };
