@@ -22,6 +22,7 @@ if(CLUSTERBENCH_LIBRARY_ONLY)
   target_compile_definitions(clusterbench_flags INTERFACE CLUSTERBENCH_OWN_VECTORS=1 CLUSTERBENCH_OWN_NUMBERS=1)
 else()
   target_link_libraries(clusterbench_flags INTERFACE glm::glm)
+  target_include_directories(clusterbench_flags SYSTEM INTERFACE ${BOOST_INCLUDE})
 endif()
 if(CLUSTERBENCH_SANITIZE)
   target_compile_options(clusterbench_flags INTERFACE
