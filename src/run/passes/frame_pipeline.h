@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "core/stop.h"
@@ -14,7 +17,7 @@
 namespace clusterbench::run {
 
 // Frames that one pass keeps ahead take at most this much memory, or there is only one.
-inline constexpr std::size_t k_most_bytes_ahead = std::size_t{256} << 20;
+inline constexpr std::size_t k_most_bytes_ahead = std::size_t{64} << 20;
 
 // Work on the frames of a pass.
 template <class Frame>
@@ -39,7 +42,8 @@ class FramePipeline {
   FramePipeline(const FrameWork<Frame>& work, int frames, int threads, const Stop& stop)
       : work_(work), frames_(frames), threads_(threads), stop_(stop), pool_(threads) {}
 
-  // False if stopped before the end. Throws what the work throws.
+  // False if stopped before the end. Throws what one thread would throw: of the work that throws, the first by frame,
+  // then by user.
   bool run() {
     Block ready;
     while (begun_ < frames_ || !ready.empty()) {
@@ -49,31 +53,78 @@ class FramePipeline {
       if (stop_) return false;
       ready = overlaps() ? std::move(next) : Block{};
     }
+    if (unready_) std::rethrow_exception(unready_);
     return true;
   }
 
  private:
   using Block = std::vector<std::unique_ptr<Frame>>;
 
+  // What users of a block throw: the first by frame, then by user.
+  struct Failures {
+    std::mutex adding;
+    std::pair<std::size_t, std::size_t> first{};  // frame of the block, user
+    std::exception_ptr failure;
+
+    void add(std::size_t frame, std::size_t user) {
+      const std::lock_guard lock(adding);
+      if (failure && first < std::pair(frame, user)) return;
+      first = {frame, user};
+      failure = std::current_exception();
+    }
+  };
+
   bool overlaps() const { return threads_ > 1 && work_.users_apart && !work_.after; }
 
   Block begun_block() {
     Block block;
-    for (; begun_ < frames_ && block.size() < block_size_ && !stop_; ++begun_) block.push_back(work_.begin(begun_));
+    try {
+      for (; begun_ < frames_ && block.size() < block_size_ && !stop_; ++begun_) block.push_back(work_.begin(begun_));
+    } catch (...) {
+      end_with(std::current_exception());
+    }
     return block;
+  }
+  // No frame comes after those that are ready: users of these may throw before.
+  void end_with(std::exception_ptr failure) {
+    unready_ = std::move(failure);
+    begun_ = frames_;
   }
 
   // All users of the ready frames, and the preparation of the next ones. A user has more to do than the preparation of
   // one frame, so users begin first.
-  void work_on(const Block& ready, const Block& next) {
+  void work_on(const Block& ready, Block& next) {
     const std::size_t users = ready.empty() ? 0 : work_.users.size();
+    Failures failures;
+    std::vector<std::exception_ptr> unprepared(next.size());
     each_in_order(pool_, users + next.size(), [&](std::size_t i) {
       if (i < users)
-        for (const std::unique_ptr<Frame>& frame : ready) use(i, *frame);
+        use_all(ready, i, failures);
       else if (!stop_)
-        work_.prepare(*next[i - users]);
+        unprepared[i - users] = prepare(*next[i - users]);
     });
+    if (failures.failure) std::rethrow_exception(failures.failure);
+    const auto failed = std::ranges::find_if(unprepared, [](const auto& failure) { return failure != nullptr; });
+    if (failed != unprepared.end()) {
+      next.resize(static_cast<std::size_t>(failed - unprepared.begin()));
+      end_with(*failed);
+    }
     if (!stop_) size_next_block(next);
+  }
+  std::exception_ptr prepare(Frame& frame) const {
+    try {
+      work_.prepare(frame);
+      return nullptr;
+    } catch (...) {
+      return std::current_exception();
+    }
+  }
+  void use_all(const Block& ready, std::size_t user, Failures& failures) {
+    for (std::size_t frame = 0; frame < ready.size(); ++frame) try {
+        use(user, *ready[frame]);
+      } catch (...) {
+        return failures.add(frame, user);
+      }
   }
 
   void use(const Block& block) {
@@ -106,6 +157,7 @@ class FramePipeline {
   Stop stop_;
   ThreadPool pool_;
   std::size_t block_size_ = 1, most_bytes_ = 1;
+  std::exception_ptr unready_;  // why there is no frame behind those that are ready
 };
 
 }  // namespace clusterbench::run
