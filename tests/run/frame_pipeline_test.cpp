@@ -114,7 +114,7 @@ TEST_P(Pipelines, end_with_a_stop_without_another_frame) {
 
 TEST_P(Pipelines, keep_one_frame_ahead_if_frames_are_large) {
   struct Counted {
-    explicit Counted(Log& log) : log(log) { log.most_alive = std::max(log.most_alive.load(), ++log.alive); }
+    explicit Counted(Log& of) : log(of) { log.most_alive = std::max(log.most_alive.load(), ++log.alive); }
     ~Counted() { --log.alive; }
     Log& log;
   };

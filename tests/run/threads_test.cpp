@@ -2,144 +2,150 @@
 
 #include <gtest/gtest.h>
 
-#include <mutex>
+#include <atomic>
 
 #include "core/error.h"
 #include "core/memory.h"
 #include "places.h"
 #include "result/result.h"
 #include "run/records/records.h"
-#include "run/walk.h"
+#include "run/runner.h"
 
 namespace clusterbench::run {
 namespace {
 
-using testing::Walk;
+// A plan of a scene of ours, to be counted.
+struct Planned {
+  config::Config config;
+  Plan plan;
 
-// Several grids, each a group, with lights of both kinds.
-Walk crowd(const std::string& more, int frames = 11) {
-  Walk walk(R"("grids": [{"tiles": {"pixels": [[10, 10], [25, 20]]}, "slices": {"count": [4, 8]}}, {"kind": "distance"},
-                         {"kind": "cascades"}, {"kind": "world", "cells": [6, 3, 6]}], )" +
-                more,
-            frames);
-  for (int i = 0; i < 60; ++i) {
-    scene::Light& light =
-        walk.add_light({8 * std::sin(i * 1.3), 6 * std::sin(i * 2.9), -15 + 14 * std::sin(i * 0.7)}, 0.5 + 0.05 * i);
-    if (i % 2 == 0) light.type = scene::LightType::spot;
+  explicit Planned(const std::string& keys, const std::string& scene = "street", int frames = 11)
+      : config(config::parse_config(R"({"scenes": [{"path": ")" + test::source_dir() + "/scenes/" + scene +
+                                        R"(.glb", "frames": )" + std::to_string(frames) +
+                                        R"(}], "viewport": [320, 180], "timing": {"measure": false}, )" + keys + "}",
+                                    "c.json")),
+        plan(make_plan(config, "")) {}
+
+  Result run(int threads, const Listener& listener = {}, const std::vector<std::string>& done = {}) {
+    config.threads = threads;
+    return run_plan(config, plan, done, listener, stop);
   }
-  return walk;
-}
+  std::atomic<bool> stop{false};
+};
+
+constexpr const char* k_grids =
+    R"("grids": [{"kind": "frustum", "tiles": {"pixels": [[64, 64], [48, 37]]}, "slices": {"count": [6, 12]}},
+                 {"kind": "distance", "slices": {"count": 8}}, {"kind": "cascades"}, {"kind": "world", "cells": [12, 4, 12]}], )";
 
 std::string text_of(const Result& result) {
   std::string text;
-  for (const CaseResult& one : result.cases) {
-    result::Case record = record_of(one);
-    text += result::to_json(record).dump() + "\n";
-  }
+  for (const CaseResult& one : result.cases) text += result::to_json(record_of(one)).dump() + "\n";
+  for (const Skipped& skipped : result.skipped) text += skipped.name + skipped.reason + "\n";
   return text;
 }
 
-std::string counted(Walk& walk, int threads) {
-  walk.config.threads = threads;
-  return text_of(walk.run());
-}
+struct Row {
+  const char* name;
+  const char* scene;
+  std::string keys;
+};
 
-class Threads : public ::testing::TestWithParam<const char*> {};
+class Threads : public ::testing::TestWithParam<Row> {};
 
 TEST_P(Threads, change_no_byte_of_a_result) {
-  Walk walk = crowd(GetParam());
-  const std::string one = counted(walk, 1);
-  EXPECT_GT(one.size(), 1000u);
-  for (const int threads : {2, 3, 8}) EXPECT_EQ(counted(walk, threads), one) << threads << " threads";
+  Planned planned(GetParam().keys, GetParam().scene);
+  const Result one = planned.run(1);
+  EXPECT_GT(one.cases.size(), 1u);
+  for (const int threads : {2, 3, 8}) EXPECT_EQ(text_of(planned.run(threads)), text_of(one)) << threads << " threads";
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Counts, Threads,
-    ::testing::Values(R"("assigners": ["aabb", "sphere-refinement", "distance", "cascades", "world-grid"])",
-                      R"("assigners": ["*-fast"], "storages": ["packed", "bitfield", "linked"])",
-                      R"("assigners": ["bvh", "z-binning"], "storages": ["packed"], "precision": ["float32", "half"])",
-                      R"("assigners": ["aabb-fast"], "shading": {"samples": 40000}, "lookup": {"samples": 500})",
-                      R"("assigners": ["aabb-fast", "bvh"], "stability": {"steps": 30, "step_mm": 50})",
-                      R"("assigners": ["aabb-fast", "bvh"], "details": {"frames": 5})",
-                      R"("assigners": ["aabb-fast"], "pre_cull": ["none", "frustum", {"distance_m": 20}])"));
+    ::testing::Values(
+        Row{"methods", "street", std::string(k_grids) + R"("assigners": ["*"], "storages": ["packed", "bitfield"])"},
+        Row{"precisions", "street",
+            std::string(k_grids) + R"("assigners": ["*-fast"], "precision": ["float32", "half"])"},
+        Row{"many_samples", "street",
+            R"("assigners": ["aabb-fast", "bvh"], "shading": {"samples": 40000}, "lookup": {"samples": 500})"},
+        Row{"stability", "street", R"("assigners": ["aabb-fast", "bvh"], "stability": {"steps": 30, "step_mm": 50})"},
+        Row{"details", "street", std::string(k_grids) + R"("assigners": ["*-fast"], "details": {"frames": 5})"},
+        Row{"pre_culls", "slope",
+            R"("assigners": ["aabb-fast"], "pre_cull": ["none", ["frustum", {"distance_m": 20}],
+                {"visible_set": {"view_cell_m": 4, "voxel_m": 2, "rays": 512}}])"},
+        Row{"presets", "street", R"("presets": ["godot", "bevy", "filament", "unity-urp"])"},
+        Row{"surfaces", "slope",
+            R"("assigners": ["exact-fast", "tiled", "tiled-2.5d", "explicit", "flagged"], "samples": {"opaque": {}, "transparent": {}})"},
+        Row{"shadows", "slope", R"("assigners": ["exact-fast"], "samples": {"opaque": {"divisor": 4}},
+            "shadow_cull": {"resolution": [8, 16]}, "shadow_frusta": {}, "storages": ["packed", "fixed"])"},
+        Row{"fit", "slope",
+            R"("grids": [{"tiles": {"pixels": [64, 64]}, "slices": {"count": 8, "fit": [null, {"to": ["lights", "surfaces"]},
+                {"damping": 0.9}]}}], "assigners": ["exact-fast", "aabb-fast"])"},
+        Row{"reactions", "street",
+            R"("grids": [{"tiles": {"pixels": [32, 32]}, "slices": {"count": 8}, "react": [null,
+                {"to": "entries", "most": [500, 3000], "of": "exact-fast"}]}], "assigners": ["exact-fast", "aabb-fast"])"}),
+    [](const auto& row) { return std::string(row.param.name); });
 
-TEST(Counting, of_grids_that_follow_and_react_is_the_same_on_any_number_of_threads) {
-  const auto make = [] {
-    Walk walk(R"("grids": [{"tiles": {"pixels": [10, 10]}, "slices": {"count": 6, "fit": [null, {"damping": 0.5}]},
-                            "react": [null, {"to": "entries", "most": 300, "of": "aabb"}]}],
-                 "assigners": ["aabb", "exact-fast"])",
-              13);
-    for (int i = 0; i < 40; ++i) walk.add_light({6 * std::sin(i * 1.3), 0.0, -12 + 9 * std::sin(i * 0.7)}, 2.0);
-    return walk;
-  };
-  Walk walk = make();
-  ASSERT_EQ(walk.plan.groups.size(), 4u);
-  const std::string one = counted(walk, 1);
-  for (const int threads : {2, 3, 8}) EXPECT_EQ(counted(walk, threads), one);
+Planned several_groups() {
+  return Planned(std::string(k_grids) + R"("assigners": ["aabb", "aabb-fast", "distance", "cascades", "world-grid"])");
 }
 
 TEST(Counting, tells_cases_in_the_order_of_the_plan_one_at_a_time) {
-  Walk walk = crowd(R"("assigners": ["aabb", "aabb-fast"])", 3);
-  walk.config.threads = 8;
+  Planned planned = several_groups();
   std::vector<std::string> told;  // not guarded: two at a time are a race
   Listener listener;
   listener.on_case = [&](const CaseResult& one) { told.push_back(one.id); };
-  const Result result = walk.run(listener);
+  const Result result = planned.run(8, listener);
+  EXPECT_GT(told.size(), 4u);
   EXPECT_EQ(told, result.planned_ids);
   EXPECT_EQ(result.cases.size(), told.size());
 }
 
-TEST(Counting, of_groups_after_a_failure_is_not_told_and_the_failure_is_the_first_of_the_plan) {
-  Walk walk = crowd(R"("assigners": ["brute-force"])", 40);
-  ASSERT_GE(walk.plan.groups.size(), 6u);
-  const MemoryLimitScope limit(20'000);  // the larger grids fail
-  std::string of_one;
-  for (const int threads : {1, 2, 8}) {
-    walk.config.threads = threads;
-    std::vector<std::string> told;
-    Listener listener;
-    listener.on_case = [&](const CaseResult& one) { told.push_back(one.id); };
-    std::string failure;
-    try {
-      walk.run(listener);
-    } catch (const Error& error) {
-      failure = error.where();
-    }
-    ASSERT_FALSE(failure.empty());
-    for (const std::string& id : told) failure += ", after " + id;
-    if (threads == 1) of_one = failure;
-    EXPECT_EQ(failure, of_one) << threads << " threads";
+// Its place, and the cases that were told before.
+std::string failure_of(Planned& planned, int threads) {
+  std::string told;
+  Listener listener;
+  listener.on_case = [&](const CaseResult& one) { told += one.id + " "; };
+  try {
+    planned.run(threads, listener);
+  } catch (const Error& error) {
+    return told + "then " + error.what();
+  }
+  return "none";
+}
+
+TEST(Counting, of_groups_after_a_failure_is_not_told_and_the_failure_is_that_of_one_thread) {
+  Planned planned = several_groups();
+  for (const std::uint64_t bytes : {5'000u, 20'000u, 40'000u}) {
+    const MemoryLimitScope limit(bytes);
+    const std::string one = failure_of(planned, 1);
+    EXPECT_NE(one, "none");
+    for (const int threads : {2, 8}) EXPECT_EQ(failure_of(planned, threads), one) << threads << " threads";
   }
 }
 
 TEST(Counting, goes_on_from_any_case_with_another_number_of_threads) {
-  Walk walk = crowd(R"("assigners": ["aabb", "aabb-fast"])", 5);
-  walk.config.threads = 1;
-  const Result whole = walk.run();
+  Planned planned = several_groups();
+  const Result whole = planned.run(1);
   for (const std::size_t cut : {std::size_t{1}, std::size_t{5}, whole.cases.size() - 1}) {
-    walk.config.threads = 3;
-    const std::vector<std::string> done(whole.planned_ids.begin(),
-                                        whole.planned_ids.begin() + static_cast<std::ptrdiff_t>(cut));
-    Result rest = walk.run({}, done);
+    const auto end = static_cast<std::ptrdiff_t>(cut);
+    const Result rest = planned.run(3, {}, {whole.planned_ids.begin(), whole.planned_ids.begin() + end});
     Result expected = whole;
-    expected.cases.erase(expected.cases.begin(), expected.cases.begin() + static_cast<std::ptrdiff_t>(cut));
+    expected.cases.erase(expected.cases.begin(), expected.cases.begin() + end);
     EXPECT_EQ(text_of(rest), text_of(expected));
   }
 }
 
 TEST(Counting, stops_with_whole_cases_alone_on_any_number_of_threads) {
-  Walk walk = crowd(R"("assigners": ["aabb", "aabb-fast"])", 20);
-  const std::string whole = counted(walk, 1);
   for (const int threads : {1, 2, 8}) {
-    walk.config.threads = threads;
-    std::atomic<bool> stop{false};
-    int frames = 0;
+    Planned planned = several_groups();
+    const Result whole = planned.run(threads);
+    std::atomic<int> frames = 0;
     Listener listener;
-    listener.on_progress = [&](const Progress&) { stop = ++frames > 50; };
-    const Result part = run_plan(walk.config, walk.plan, {}, listener, stop);
-    const std::string text = text_of(part);
-    EXPECT_LT(part.cases.size(), part.planned_ids.size());
-    EXPECT_EQ(text, whole.substr(0, text.size()));
+    listener.on_progress = [&](const Progress&) { planned.stop = ++frames > 40; };
+    const Result part = planned.run(threads, listener);
+    ASSERT_LT(part.cases.size(), part.planned_ids.size());
+    for (std::size_t i = 0; i < part.cases.size(); ++i)
+      EXPECT_EQ(result::to_json(record_of(part.cases[i])), result::to_json(record_of(whole.cases[i])));
   }
 }
 
