@@ -130,9 +130,10 @@ function toCase(raw: CaseResult, { figures, sets }: PageCase, run: Run, known: K
   };
 }
 
-// Cases that see the same, whatever cells they use. Of several results each is by itself: they can be of other machines.
+// Cases that see the same, whatever cells they use. Of several results each is by itself: they can be of other machines,
+// as those of a merged result.
 export const seenBy = (aCase: Case) =>
-  [aCase.run.label, aCase.scene, aCase.raw.camera, aCase.raw.viewport.join("x")].join("\n");
+  [aCase.run.label, aCase.scene, aCase.raw.camera, aCase.raw.viewport.join("x"), aCase.raw.machine ?? ""].join("\n");
 
 export const isRankedByCost = (aCase: Case) => aCase.run.result.config.rank_by === "frame_cost";
 

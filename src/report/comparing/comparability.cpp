@@ -86,6 +86,9 @@ Obstacles obstacles(const Result& base, const Result& next) {
   out.to_instructions =
       differing({"/machine/cpu", "/machine/family", "/machine/model", "/machine/stepping", "/machine/caches",
                  "/tool/compiler", "/tool/flags", "/tool/build_type", "/tool/simd_target", "/config/timing/frames"});
+  if (base.machines || next.machines)
+    out.to_instructions.push_back(
+        "/machines is there: times and instructions of several machines, of which a case can be on another one now");
   out.to_times = differing({"/machine/cores", "/machine/ram_bytes", "/machine/os"});
   const std::optional<std::string> base_caches = caches_of_times(base), next_caches = caches_of_times(next);
   if (base_caches && next_caches && *base_caches != *next_caches)
