@@ -111,7 +111,7 @@ function toCase(raw: CaseResult, { figures, sets }: PageCase, run: Run, known: K
     family: raw.assigner.name.replace(/-fast$/, ""),
     isFast: raw.assigner.name.endsWith("-fast"),
     storage,
-    setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), grid, storage].join(" · "),
+    setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), grid, storage, raw.machine ?? []].flat().join(" · "),
     isOnFront: front.has(raw.id),
     isEligible: raw.eligible && !raw.samples_search,
     isSearched: raw.samples_search === true,
