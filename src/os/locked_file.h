@@ -8,8 +8,9 @@
 
 namespace clusterbench::os {
 
-// Locked with flock, so that any end of the process releases it. A regular file: nothing is written through links. All
-// functions throw Error.
+// Locked with flock, so that any end of the process releases it; on disks that have no locks (some network disks), by a
+// file PATH.lock, which a killed process leaves behind. A regular file: nothing is written through links. All functions
+// throw Error.
 class LockedFile {
  public:
   // The behaviour if another process holds it: throw Error, or wait.
@@ -39,6 +40,11 @@ class LockedFile {
   void remove();
 
  private:
+  struct LockOwner;
+  static LockOwner owner_of(const std::filesystem::path& beside);
+  void lock_beside();
+  [[noreturn]] void refuse_locked(const std::filesystem::path& beside, const LockOwner& owner);
+  std::filesystem::path lock_path() const;
   void open();
   bool has_opened();
   void lock();
@@ -50,7 +56,7 @@ class LockedFile {
   std::filesystem::path path_;
   Held held_;
   int file_ = -1;
-  bool is_made_ = false;
+  bool is_made_ = false, has_lock_beside_ = false;
 };
 
 }  // namespace clusterbench::os

@@ -136,6 +136,7 @@ class Run {
     if (out.device) out.arithmetic = known_arithmetic();
     if (config_.timing.measure) note_beginning(out);
     out.config = config_.resolved;
+    out.shard = plan_.shard;
     out.skipped = plan_.skipped;
     for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
       out.scenes.push_back(scene_result(plan_.scenes[i], config_.scenes[i], config_.viewports));

@@ -6,6 +6,7 @@
 
 #include "cli/command_line/commands.h"
 #include "cli/output/output.h"
+#include "core/error.h"
 #include "core/text.h"
 #include "report/documents/result_file.h"
 #include "report/history/history.h"
@@ -28,6 +29,9 @@ struct ShowFlags {
 ExitCode add(const AddFlags& flags) {
   refuse_overwriting({flags.file}, {flags.result});
   const result::Result result = report::read_result(flags.result);
+  if (result.machines)
+    throw Error(flags.result, "/machines",
+                "has times of several machines, and a line of a history is of one; add the results that were merged");
   const std::string commit = flags.commit.empty() ? result.tool.git_sha : flags.commit;
   const report::Addition addition = report::add_to_history(flags.file, result, commit);
   const std::string before = number_of(addition.earlier, "result") + " of " + commit;
