@@ -31,16 +31,24 @@ def known_licences():
     return json.loads((pathlib.Path(__file__).parent / "licences.json").read_text(encoding="utf-8"))
 
 
+def inputs(facts):
+    """Files that the program is made of, those that are made on the way to it included."""
+    return set(output(["ninja", "-C", str(facts.build), "-t", "inputs", "clusterbench"]).splitlines())
+
+
 def linked_archives(facts):
     """Static libraries of others in the program."""
-    inputs = output(["ninja", "-C", str(facts.build), "-t", "inputs", "clusterbench"]).splitlines()
-    return sorted({path for path in inputs if path.startswith("/") and path.endswith(".a") and not is_own(facts, path)})
+    return sorted(path for path in inputs(facts) if path.startswith("/") and path.endswith(".a") and not is_own(facts, path))
 
 
 def read_headers(facts):
-    """Headers of others that the build has read."""
-    lines = output(["ninja", "-C", str(facts.build), "-t", "deps"]).splitlines()
-    paths = {os.path.normpath(facts.build / line.strip()) for line in lines if line.startswith("    ")}
+    """Headers of others that were read for the program."""
+    made_of, paths, counts = inputs(facts), set(), False
+    for line in output(["ninja", "-C", str(facts.build), "-t", "deps"]).splitlines():
+        if not line.startswith(" "):  # OUTPUT: #deps 436, ..., and its files below
+            counts = line.split(": #deps")[0] in made_of
+        elif counts:
+            paths.add(os.path.normpath(facts.build / line.strip()))
     return sorted(path for path in paths if not is_own(facts, path) and not COMPILERS_OWN.search(path))
 
 
