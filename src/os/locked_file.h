@@ -8,9 +8,9 @@
 
 namespace clusterbench::os {
 
-// Locked with flock, so that any end of the process releases it; on disks that have no locks (some network disks), by a
-// file PATH.lock, which a killed process leaves behind. A regular file: nothing is written through links. All functions
-// throw Error.
+// Locked with flock, on Windows with LockFileEx, so that any end of the process releases it; on disks that have no
+// locks (some network disks), by a file PATH.lock, which a killed process leaves behind. A regular file: nothing is
+// written through links. All functions throw Error.
 class LockedFile {
  public:
   // The behaviour if another process holds it: throw Error, or wait.
@@ -55,7 +55,7 @@ class LockedFile {
 
   std::filesystem::path path_;
   Held held_;
-  int file_ = -1;
+  std::intptr_t file_ = -1;  // a descriptor or handle of the system
   bool is_made_ = false, has_lock_beside_ = false;
 };
 

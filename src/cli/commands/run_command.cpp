@@ -123,7 +123,7 @@ ExitCode run(RunFlags& flags) {
   const os::RereadableInputs inputs(flags.inputs.paths);
   std::optional<os::TemporaryFolder> folder;
   std::optional<LaterOutput> output;  // a pipe stays open from the first part to the last one
-  if (is_stream(flags.output) && !flags.guard.is_in_process) {
+  if (is_stream(flags.output) && !calls_in_process(flags.guard)) {
     folder.emplace();
     output.emplace(flags.output, is_for_reading(flags.output));
   }

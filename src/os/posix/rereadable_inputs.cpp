@@ -1,7 +1,6 @@
 #include "os/rereadable_inputs.h"
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,6 +10,7 @@
 
 #include "core/error.h"
 #include "os/output_file.h"
+#include "os/posix/system_calls.h"
 
 namespace clusterbench::os {
 namespace {
@@ -27,7 +27,7 @@ void write_whole(int file, const char* bytes, std::size_t count, const std::stri
 
 // The same bytes in memory.
 int copy_in_memory(int from, const std::string& path) {
-  const int file = ::memfd_create("clusterbench", 0);
+  const int file = memory_file();
   if (file < 0) throw Error(path, "", errno_text("cannot be kept in memory"), ExitCode::internal);
   std::array<char, 1 << 16> some{};
   for (;;) {

@@ -16,6 +16,7 @@
 #include <string>
 #include <thread>
 
+#include "os/posix/system_calls.h"
 #include "os/standard_streams.h"
 
 namespace clusterbench::os {
@@ -102,7 +103,7 @@ bool write_all(int file, std::string_view text) {
 
 // Flushes to disk. True also for file systems and devices that do not support it.
 bool is_on_disk(int file) {
-  return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP;
+  return flush_to_disk(file) == 0 || errno == EINVAL || errno == ENOTSUP;
 }
 
 struct MadeFile {
@@ -180,24 +181,6 @@ OutputTarget output_target(const fs::path& name) {
   return target;
 }
 
-void require_folder_of(const fs::path& name) {
-  const OutputTarget target = output_target(name);
-  if (target.is_stream) return;
-  std::error_code none;
-  const fs::path folder = target.path.parent_path();
-  if (folder.empty() || fs::is_directory(folder, none)) return;
-  throw Error(name.string(), "",
-              "cannot be written: " + (fs::exists(folder, none)
-                                           ? "'" + folder.string() + "' is no folder"
-                                           : "there is no folder '" + folder.string() + "'; make it first (mkdir -p)"));
-}
-
-ExitCode code_of_failed_write(int error) {
-  for (const int known : {ENOSPC, EDQUOT, EFBIG, EIO, EBADF, EPIPE})
-    if (error == known) return ExitCode::internal;
-  return ExitCode::usage;
-}
-
 OutputFile::OutputFile(const fs::path& name) : name_(name), target_(output_target(name)) {
   if (target_.is_stream) {
     open_stream();
@@ -267,10 +250,6 @@ void OutputFile::replace(std::string_view text) const {
   fresh.copy_owner_and_mode(target_.path);
   if (!fresh.fill(text)) fail("could not be written whole");
   if (!fresh.rename_to(target_.path)) fail("cannot be replaced");
-}
-
-void write_file(const fs::path& name, std::string_view text) {
-  OutputFile(name).write(text);
 }
 
 fs::path reserve_name(const fs::path& path) {

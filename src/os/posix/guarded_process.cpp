@@ -1,7 +1,6 @@
 #include "os/guarded_process.h"
 
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 
 #include "core/error.h"
 #include "os/notes_page.h"
+#include "os/posix/system_calls.h"
 #include "os/process_memory.h"
 #include "os/standard_streams.h"
 #include "os/stop_signals.h"
@@ -182,6 +182,10 @@ GuardedEnd watched(pid_t copy, const ProcessGuard::Limits& limits, const std::at
 
 }  // namespace
 
+std::string guard_obstacle() {
+  return "";
+}
+
 ProcessGuard::ProcessGuard(const Limits& limits) : limits_(limits) {
   share_notes().message.set("");
 }
@@ -194,7 +198,7 @@ std::optional<GuardedEnd> ProcessGuard::run(const std::atomic<bool>& stop) {
   const pid_t self = ::getpid(), copy = ::fork();
   if (copy < 0) throw Error("", "", errno_text("no process for plug-ins could be started"), ExitCode::internal);
   if (copy > 0) return watched(copy, limits_, stop);
-  if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || ::getppid() != self) ::_exit(static_cast<int>(ExitCode::internal));
+  if (!end_with_parent(self)) ::_exit(static_cast<int>(ExitCode::internal));
   stop_on_signals_of(self);
   watch_for_crashes();
   keep_output_apart();
@@ -219,8 +223,8 @@ void leave_message(const std::string& text) {
 }
 
 std::string signal_name(int number) {
-  const char* name = ::sigabbrev_np(number);
-  return name == nullptr ? "signal " + std::to_string(number) : std::string("SIG") + name;
+  const std::string name = name_of_signal(number);
+  return name.empty() ? "signal " + std::to_string(number) : name;
 }
 
 }  // namespace clusterbench::os

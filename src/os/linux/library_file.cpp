@@ -1,11 +1,8 @@
-#include "os/shared_library.h"
-
-#include <dlfcn.h>
 #include <elf.h>
 
 #include <cstring>
 
-#include "core/error.h"
+#include "os/shared_library.h"
 
 namespace clusterbench::os {
 namespace {
@@ -49,20 +46,6 @@ std::string library_obstacle(std::string_view content) {
     return std::string("is made for another machine than this one (") + k_machine_name + ")";
   if (header.e_type != ET_DYN) return "is an ELF file, but no shared library";
   return is_cut_off(content, header) ? "is a shared library that was cut off" : "";
-}
-
-SharedLibrary::SharedLibrary(const std::filesystem::path& file)
-    : handle_(dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL)) {
-  if (handle_ != nullptr) return;
-  const char* text = dlerror();
-  std::string reason = text == nullptr ? "no reason is known" : text;
-  if (const std::string named = std::filesystem::absolute(file).string() + ": "; reason.starts_with(named))
-    reason.erase(0, named.size());
-  throw Error(file.string(), "", "cannot be loaded: " + reason);
-}
-
-void* SharedLibrary::symbol(const char* name) const {
-  return dlsym(handle_, name);
 }
 
 }  // namespace clusterbench::os

@@ -1,7 +1,6 @@
 #include "os/processor_time.h"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <string>
@@ -15,15 +14,6 @@ double seconds(const timeval& time) {
 }
 
 }  // namespace
-
-ProcessorTime processor_time(std::istream& stat) {
-  const auto ticks_per_s = static_cast<double>(sysconf(_SC_CLK_TCK));
-  std::string name;
-  double user = 0, nice = 0, system = 0, idle = 0, waiting = 0, irq = 0, soft_irq = 0, stolen = 0;
-  stat >> name >> user >> nice >> system >> idle >> waiting >> irq >> soft_irq >> stolen;
-  if (!stat || name != "cpu") return {};
-  return {(user + nice + system + irq + soft_irq) / ticks_per_s, stolen / ticks_per_s};
-}
 
 ProcessorTime processor_time_now() {
   std::ifstream stat("/proc/stat");

@@ -13,10 +13,19 @@
 #include "core/text.h"
 #include "os/host_name.h"
 #include "os/output_file.h"
+#include "os/posix/system_calls.h"
 
 namespace clusterbench::os {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+int descriptor_of(std::intptr_t file) {
+  return static_cast<int>(file);
+}
+
+}  // namespace
 
 // The process that made a file PATH.lock, as its text says: "HOST PID".
 struct LockedFile::LockOwner {
@@ -44,7 +53,8 @@ LockedFile::LockedFile(fs::path path, Held held) : path_(std::move(path)), held_
 
 LockedFile::~LockedFile() {
   struct stat opened {};
-  if (is_made_ && file_ >= 0 && ::fstat(file_, &opened) == 0 && opened.st_size == 0 && is_still_at_path())
+  if (is_made_ && file_ >= 0 && ::fstat(descriptor_of(file_), &opened) == 0 && opened.st_size == 0 &&
+      is_still_at_path())
     ::unlink(path_.c_str());
   close();
 }
@@ -71,7 +81,7 @@ bool LockedFile::has_opened() {
   if (file_ < 0 && errno == ELOOP)
     throw Error(path_.string(), "", "is a symbolic link, through which nothing is written; remove it");
   struct stat opened {};
-  if (file_ < 0 || ::fstat(file_, &opened) != 0) fail("cannot be written");
+  if (file_ < 0 || ::fstat(descriptor_of(file_), &opened) != 0) fail("cannot be written");
   if (S_ISREG(opened.st_mode)) return true;
   close();
   throw Error(path_.string(), "", "is no regular file, and only such a one is written here");
@@ -79,7 +89,7 @@ bool LockedFile::has_opened() {
 
 void LockedFile::lock() {
   int failed = 0;
-  do failed = ::flock(file_, held_ == Held::wait ? LOCK_EX : LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+  do failed = ::flock(descriptor_of(file_), held_ == Held::wait ? LOCK_EX : LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
   while (failed == EINTR);
   if (failed == 0) return;
   if (failed != EWOULDBLOCK) {
@@ -126,7 +136,7 @@ void LockedFile::refuse_locked(const fs::path& beside, const LockOwner& owner) {
 }
 
 void LockedFile::close() {
-  if (file_ >= 0) ::close(file_);
+  if (file_ >= 0) ::close(descriptor_of(file_));
   file_ = -1;
   if (has_lock_beside_) ::unlink(lock_path().c_str());
   has_lock_beside_ = false;
@@ -139,8 +149,8 @@ fs::path LockedFile::lock_path() const {
 bool LockedFile::is_still_at_path() const {
   struct stat opened {};
   struct stat named {};
-  return ::fstat(file_, &opened) == 0 && ::lstat(path_.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
-         opened.st_ino == named.st_ino;
+  return ::fstat(descriptor_of(file_), &opened) == 0 && ::lstat(path_.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
 void LockedFile::fail(const std::string& action) const {
@@ -152,7 +162,7 @@ std::string LockedFile::text() const {
   std::string text;
   char block[1 << 16];
   for (off_t at = 0;;) {
-    const ssize_t got = ::pread(file_, block, sizeof block, at);
+    const ssize_t got = ::pread(descriptor_of(file_), block, sizeof block, at);
     if (got < 0) fail("cannot be read");
     if (got == 0) return text;
     text.append(block, static_cast<std::size_t>(got));
@@ -162,7 +172,7 @@ std::string LockedFile::text() const {
 
 void LockedFile::append(std::string_view text) {
   while (!text.empty()) {
-    const ssize_t put = ::write(file_, text.data(), text.size());
+    const ssize_t put = ::write(descriptor_of(file_), text.data(), text.size());
     if (put < 0 && errno == EINTR) continue;
     if (put < 0) fail("cannot be written");
     text.remove_prefix(static_cast<std::size_t>(put));
@@ -170,7 +180,7 @@ void LockedFile::append(std::string_view text) {
 }
 
 void LockedFile::cut_to(std::size_t bytes) {
-  if (::ftruncate(file_, static_cast<off_t>(bytes)) != 0) fail("cannot be cut");
+  if (::ftruncate(descriptor_of(file_), static_cast<off_t>(bytes)) != 0) fail("cannot be cut");
 }
 
 void LockedFile::empty() {
@@ -180,9 +190,9 @@ void LockedFile::empty() {
 
 // Reserves the room and frees it again.
 void LockedFile::check_room(std::uint64_t bytes) const {
-  const off_t size = ::lseek(file_, 0, SEEK_END);
-  const int failed = ::posix_fallocate(file_, size, static_cast<off_t>(bytes));
-  const bool restored = ::ftruncate(file_, size) == 0;
+  const off_t size = ::lseek(descriptor_of(file_), 0, SEEK_END);
+  const int failed = reserve_room(descriptor_of(file_), size, static_cast<off_t>(bytes));
+  const bool restored = ::ftruncate(descriptor_of(file_), size) == 0;
   if (failed == EFBIG)
     throw Error(path_.string(), "",
                 "no file may have the " + std::to_string(bytes >> 10) + " KiB that the result takes (ulimit -f)",
@@ -208,7 +218,7 @@ void LockedFile::replace(std::string_view text) {
 
 std::uint64_t LockedFile::other_names() const {
   struct stat opened {};
-  return ::fstat(file_, &opened) == 0 && opened.st_nlink > 1 ? opened.st_nlink - 1 : 0;
+  return ::fstat(descriptor_of(file_), &opened) == 0 && opened.st_nlink > 1 ? opened.st_nlink - 1 : 0;
 }
 
 void LockedFile::remove() {

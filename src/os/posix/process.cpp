@@ -2,8 +2,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -15,12 +13,18 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 
 #include "core/error.h"
+#include "os/posix/system_calls.h"
+#include "os/process_memory.h"
 
 namespace clusterbench::os {
 namespace {
+
+// Descriptors and processes of this system are small.
+int number(std::intptr_t known) {
+  return static_cast<int>(known);
+}
 
 [[noreturn]] void refuse_start(const std::string& program, const std::string& action, int error) {
   throw Error(program, "", action + ": " + std::strerror(error), ExitCode::internal);
@@ -34,7 +38,7 @@ struct Streams {
 // In the new process: becomes the other program. Returns only on failure.
 void become(const char* program, char* const* arguments, const Streams& streams, pid_t parent) {
   // From here on it ends with the process that started it; that one may have ended just before.
-  if (::prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || ::getppid() != parent) return;
+  if (!end_with_parent(parent)) return;
   if (::dup2(streams.in, STDIN_FILENO) >= 0 && ::dup2(streams.out, STDOUT_FILENO) >= 0 &&
       ::dup2(streams.errors, STDERR_FILENO) >= 0)
     ::execvp(program, arguments);
@@ -50,9 +54,9 @@ Started start(const std::vector<std::string>& command, const Streams& streams) {
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   std::string own_name = "clusterbench";  // in lists of processes
-  if (command.front() == k_this_program) arguments.front() = own_name.data();
+  if (command.front() == this_program()) arguments.front() = own_name.data();
   std::array<int, 2> failure{};  // carries the reason of a failed start; closed without data by a good one
-  if (::pipe2(failure.data(), O_CLOEXEC) != 0) return {-1, errno};
+  if (closing_pipe(failure.data()) != 0) return {-1, errno};
   const pid_t self = ::getpid();
   Started started{::fork(), errno};
   if (started.pid == 0) {
@@ -99,8 +103,8 @@ class Child {
  public:
   Child(const std::vector<std::string>& command, const std::string& input) : input_(input) {
     std::array<int, 2> pipe{};
-    if (::pipe2(pipe.data(), O_CLOEXEC) != 0) refuse_start(command.front(), "no pipe for its output", errno);
-    started_ = start(command, {input_.descriptor(), pipe[1], errors_.descriptor()});
+    if (closing_pipe(pipe.data()) != 0) refuse_start(command.front(), "no pipe for its output", errno);
+    started_ = start(command, {number(input_.descriptor()), pipe[1], number(errors_.descriptor())});
     ::close(pipe[1]);
     out_ = pipe[0];
   }
@@ -144,23 +148,21 @@ class Child {
 
 }  // namespace
 
-std::string this_program_for_others() {
-  return "/proc/" + std::to_string(::getpid()) + "/exe";
+int own_process() {
+  return ::getpid();
 }
 
-std::vector<std::string> own_command_line() {
-  std::ifstream in("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> words;
-  for (std::string word; std::getline(in, word, '\0');) words.push_back(word);
-  return words;
+bool is_running(int process) {
+  return ::kill(process, 0) == 0 || errno != ESRCH;
 }
 
-MemoryFile::MemoryFile(const std::string& text) : descriptor_(::memfd_create("clusterbench", MFD_CLOEXEC)) {
+MemoryFile::MemoryFile(const std::string& text) : descriptor_(memory_file()) {
   if (descriptor_ < 0) refuse_start("memory", "no file could be made in it", errno);
   for (std::size_t done = 0; done < text.size();) {
-    const ssize_t bytes = ::pwrite(descriptor_, text.data() + done, text.size() - done, static_cast<off_t>(done));
+    const ssize_t bytes =
+        ::pwrite(number(descriptor_), text.data() + done, text.size() - done, static_cast<off_t>(done));
     if (bytes < 0 && errno != EINTR) {
-      ::close(descriptor_);
+      ::close(number(descriptor_));
       refuse_start("memory", "a file in it could not be written", errno);
     }
     done += static_cast<std::size_t>(std::max<ssize_t>(bytes, 0));
@@ -168,16 +170,16 @@ MemoryFile::MemoryFile(const std::string& text) : descriptor_(::memfd_create("cl
 }
 
 MemoryFile::~MemoryFile() {
-  ::close(descriptor_);
+  ::close(number(descriptor_));
 }
 
 std::string MemoryFile::tail() const {
   constexpr off_t k_most = 2000;
   struct stat facts {};
-  if (::fstat(descriptor_, &facts) != 0) return "";
+  if (::fstat(number(descriptor_), &facts) != 0) return "";
   const off_t begin = std::max<off_t>(0, facts.st_size - k_most);
   std::string text(static_cast<std::size_t>(facts.st_size - begin), '\0');
-  const ssize_t bytes = ::pread(descriptor_, text.data(), text.size(), begin);
+  const ssize_t bytes = ::pread(number(descriptor_), text.data(), text.size(), begin);
   text.resize(static_cast<std::size_t>(std::max<ssize_t>(bytes, 0)));
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return (begin > 0 ? "..." : "") + text;
@@ -198,26 +200,25 @@ Ending run_child(const std::vector<std::string>& command, const std::string& inp
 
 Conversation::Conversation(const std::vector<std::string>& command) {
   std::array<int, 2> ends{};  // one socket is both its standard input and its standard output
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
-    refuse_start(command.front(), "no socket to talk to it", errno);
-  const Started started = start(command, {ends[1], ends[1], errors_.descriptor()});
+  if (closing_socket_pair(ends.data()) != 0) refuse_start(command.front(), "no socket to talk to it", errno);
+  const Started started = start(command, {ends[1], ends[1], number(errors_.descriptor())});
   ::close(ends[1]);
-  socket_ = ends[0];
-  pid_ = started.pid;
+  to_ = from_ = ends[0];
+  process_ = started.pid;
   if (started.error == 0) return;
-  ::close(socket_);
+  ::close(number(to_));
   throw Error(command.front(), "", start_error_text(started.error));
 }
 
 Conversation::~Conversation() {
   end();
-  ::close(socket_);
+  ::close(number(to_));
 }
 
 void Conversation::send_line(const std::string& line) {
   const std::string text = line + "\n";
   for (std::size_t sent = 0; sent < text.size();) {
-    const ssize_t bytes = ::send(socket_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
+    const ssize_t bytes = send_quietly(number(to_), text.data() + sent, text.size() - sent);
     if (bytes < 0 && errno != EINTR) return;
     sent += static_cast<std::size_t>(std::max<ssize_t>(bytes, 0));
   }
@@ -233,13 +234,13 @@ Conversation::Received Conversation::receive_line(std::string& line, double seco
       received_.erase(0, end + 1);
       return Received::line;
     }
-    pollfd waiting{socket_, POLLIN, 0};
+    pollfd waiting{number(from_), POLLIN, 0};
     const bool is_ready = ::poll(&waiting, 1, k_wait_ms) > 0;
     if (stop) return Received::stop;
     if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds)
       return Received::timeout;
     if (!is_ready) continue;
-    const ssize_t bytes = ::recv(socket_, some.data(), some.size(), 0);
+    const ssize_t bytes = ::recv(number(from_), some.data(), some.size(), 0);
     if (bytes == 0 || (bytes < 0 && errno != EINTR)) return Received::end;
     searched = received_.size();
     if (bytes > 0) received_.append(some.data(), static_cast<std::size_t>(bytes));
@@ -247,13 +248,13 @@ Conversation::Received Conversation::receive_line(std::string& line, double seco
 }
 
 Ending Conversation::end() {
-  if (pid_ < 0) return ending_;
-  ::shutdown(socket_, SHUT_RDWR);  // a program that reads it ends by itself
+  if (process_ < 0) return ending_;
+  ::shutdown(number(to_), SHUT_RDWR);  // a program that reads it ends by itself
   constexpr int k_tries = 20, k_wait_ms = 10;
-  for (int i = 0; i < k_tries && !has_exited(pid_); ++i) ::poll(nullptr, 0, k_wait_ms);
-  ::kill(pid_, SIGKILL);  // it has no data to save; no effect if it has ended
-  ending_ = wait_for(pid_, errors_);
-  pid_ = -1;
+  for (int i = 0; i < k_tries && !has_exited(number(process_)); ++i) ::poll(nullptr, 0, k_wait_ms);
+  ::kill(number(process_), SIGKILL);  // it has no data to save; no effect if it has ended
+  ending_ = wait_for(number(process_), errors_);
+  process_ = -1;
   return ending_;
 }
 

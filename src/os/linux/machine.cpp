@@ -3,7 +3,6 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include <ctime>
 #include <fstream>
 #include <thread>
 
@@ -39,14 +38,6 @@ std::optional<Clock> clock_now() {
 std::optional<double> load_now() {
   std::ifstream loadavg("/proc/loadavg");
   return load_of(loadavg);
-}
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[sizeof "2000-01-01T00:00:00Z"];
-  return {text, std::strftime(text, sizeof text, "%FT%TZ", &utc)};
 }
 
 }  // namespace clusterbench::os
