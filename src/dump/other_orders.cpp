@@ -155,7 +155,7 @@ class BestReading {
   }
   bool fits_both_ways(std::uint64_t lost, const Evidence& evidence) const {
     const std::uint64_t wrong = lost + evidence.listed.pair_count() - true_of(lost, evidence.truth);
-    return 4 * wrong <= found_.lost_pairs + found_.false_positives;
+    return 3 * wrong <= found_.lost_pairs + found_.false_positives;
   }
 
   void take(std::uint64_t lost, const Evidence& evidence, result::OtherReading reading) {

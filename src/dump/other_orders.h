@@ -15,7 +15,7 @@ namespace clusterbench::dump {
 // lost, only a reading that loses at least 100 times fewer, with half as many true ones or more. Where most listed
 // pairs are for nothing, also one that makes most of them true, half as many again as before, and loses at least 100
 // times fewer than are listed. In either case lists with their lights in other cells, drawn by chance, would have to
-// lose ten times as many. Of ranges it also has to leave four times fewer wrong pairs, lost and for nothing.
+// lose ten times as many. Of ranges it also has to leave three times fewer wrong pairs, lost and for nothing.
 std::optional<result::OtherReading> better_reading(const DumpFile& dump, const DumpFrame& frame, const ListSet& set,
                                                    const assign::Lists& truth, const assign::Lists& listed,
                                                    const LostLights& found, int threads);
