@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint64_t k_times_fewer = 100;
 constexpr std::uint64_t k_too_few = 10;  // to say so
+constexpr double k_times_chance = 10.0;  // as many pairs as a reading loses are lost by chance
 
 bool is_of_tiles(const ListSet& set) {
   return std::ranges::all_of(set.parts, [](const layout::ListPart& part) {
@@ -137,14 +138,14 @@ class BestReading {
 
   // Lists that lose nothing by chance are no evidence, and neither are a few pairs beside all that are lost.
   bool is_enough(const Evidence& evidence) const {
-    constexpr double k_least = 10.0;
-    return evidence.by_chance >= k_least &&
-           (!is_lost_ || is_for_nothing_ || k_least * evidence.by_chance >= static_cast<double>(found_.lost_pairs));
+    return evidence.by_chance >= k_times_chance &&
+           (!is_lost_ || is_for_nothing_ ||
+            k_times_chance * evidence.by_chance >= static_cast<double>(found_.lost_pairs));
   }
   // Loses far fewer, and has no fewer than half as many pairs that are true.
   bool explains_losses(std::uint64_t lost, const Evidence& evidence) const {
     return is_lost_ && lost <= found_.lost_pairs / k_times_fewer &&
-           10.0 * evidence.by_chance >= static_cast<double>(found_.lost_pairs) &&
+           k_times_chance * evidence.by_chance >= static_cast<double>(found_.lost_pairs) &&
            2 * true_of(lost, evidence.truth) >= found_.true_pairs - found_.lost_pairs;
   }
   // Makes most of the listed pairs true, and many more than there were.
@@ -159,7 +160,6 @@ class BestReading {
   }
 
   void take(std::uint64_t lost, const Evidence& evidence, result::OtherReading reading) {
-    constexpr double k_times_chance = 10.0;
     if (lost > most_ || (best_ && lost >= best_->lost_pairs)) return;
     if (k_times_chance * static_cast<double>(lost + 1) > evidence.by_chance) return;
     const bool loses_fewer = explains_losses(lost, evidence), has_more_true = explains_excess(lost, evidence);
