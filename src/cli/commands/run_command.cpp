@@ -103,7 +103,7 @@ std::optional<ExitCode> run_part(const RunFlags& flags) {
   }
   if (!flags.dump_folder.empty()) {
     const WrittenDumps written = write_dumps(config, plan, flags.dump_folder, flags.dump_frames);
-    for (const std::string& line : written.left_out) print_message(printable(line));
+    for (const std::string& line : written.remarks) print_message(printable(line));
     if (!flags.quiet)
       print_message(number_of(written.count, "dump") + " written; `clusterbench check " + flags.dump_folder +
                     "` reads them");

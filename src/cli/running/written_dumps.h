@@ -10,7 +10,8 @@ namespace clusterbench::cli {
 
 struct WrittenDumps {
   std::size_t count = 0;
-  std::vector<std::string> left_out;  // cases with the reason, each once
+  // Of cases that have no dump, the reason; of those whose storage had no room for all lights, how many.
+  std::vector<std::string> remarks;
 };
 
 // `frames`: of each case, evenly spaced on its path. Throws Error if a file cannot be written, and if no case has lists
