@@ -61,7 +61,7 @@ void LockedFile::lock() {
   if (failed != EWOULDBLOCK) return;
   is_made_ = false;
   close();
-  throw Error(path_.string(), "", "another run is writing here; wait for its end, or name another file");
+  throw FileHeld(path_.string(), "", "another run is writing here; wait for its end, or name another file");
 }
 
 void LockedFile::close() {
