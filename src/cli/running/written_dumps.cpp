@@ -1,8 +1,12 @@
 #include "cli/running/written_dumps.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
+#include <utility>
 
+#include "cli/output/output.h"
+#include "cli/output/output_folder.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "dump/write_dump.h"
@@ -126,8 +130,36 @@ class DumpWriter {
 
 }  // namespace
 
+void refuse_beside_dumps(const RunFlags& flags) {
+  const auto has_fail_if = [](const config::FlagValue& flag) { return flag.name == "--fail-if"; };
+  const std::pair<const char*, bool> excluded[] = {
+      {"-o", !flags.output.empty()},
+      {"--export", !flags.exports.empty()},
+      {"--images", !flags.images.folder.empty()},
+      {"--fail-if", std::ranges::any_of(flag_values(flags.inputs), has_fail_if)},
+      {"--baseline", !flags.gates.baseline.empty()},
+      {"--baseline-binary", !flags.baseline.binary.empty()},
+      {"--count", !flags.count.empty()},
+      {"--resume", flags.resume},
+  };
+  for (const auto& [flag, is_given] : excluded)
+    if (is_given)
+      throw Error("", "--write-dump",
+                  std::string("does not go with ") + flag +
+                      ": it writes lists and measures nothing; give it a command of its own");
+}
+
+void warn_of_budgets(const config::Config& config) {
+  const std::size_t budgets = config.limits.fail_if.size();
+  if (budgets > 0)
+    print_message("warning: --write-dump measures nothing and does not look at limits.fail_if (" +
+                  number_of(budgets, "budget") + ")");
+  if (!config.limits.baseline.empty())
+    print_message("warning: --write-dump measures nothing and does not look at limits.baseline");
+}
+
 WrittenDumps write_dumps(const config::Config& config, const run::Plan& plan, const std::string& folder, int frames) {
-  std::filesystem::create_directories(folder);
+  const OutputFolder made(folder);
   DumpWriter writer(config, folder);
   for (const run::GroupPlan& group : plan.groups) writer.write_group(plan, group, frames);
   if (writer.written().count == 0)

@@ -4,9 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "cli/running/run_flags.h"
 #include "run/cases/plan.h"
 
 namespace clusterbench::cli {
+
+// Dumps are written without a measurement: throws Error for a flag that asks for one, and warns of budgets that the
+// configuration has.
+void refuse_beside_dumps(const RunFlags& flags);
+void warn_of_budgets(const config::Config& config);
 
 struct WrittenDumps {
   std::size_t count = 0;

@@ -98,7 +98,7 @@ void LockedFile::lock() {
   }
   is_made_ = false;
   close();
-  throw Error(path_.string(), "", "another run is writing here; wait for its end, or name another file");
+  throw FileHeld(path_.string(), "", "another run is writing here; wait for its end, or name another file");
 }
 
 // On a file system without locks (ENOLCK, EOPNOTSUPP: some network disks), PATH.lock stands for the lock: of all
@@ -130,7 +130,7 @@ void LockedFile::lock_beside() {
 void LockedFile::refuse_locked(const fs::path& beside, const LockOwner& owner) {
   is_made_ = false;
   close();
-  throw Error(path_.string(), "",
+  throw FileHeld(path_.string(), "",
               "another run is writing here: " + owner.text() + ". This disk has no locks, so the file " +
                   beside.string() + " stands for one; remove it if that run has ended, or name another file");
 }
