@@ -10,8 +10,10 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "core/error.h"
+#include "os/kept_files.h"
 #include "os/notes_page.h"
 #include "os/process_memory.h"
 #include "os/standard_streams.h"
@@ -19,9 +21,10 @@
 namespace clusterbench::os {
 namespace {
 
-// Notes belong to the process, as its signals do.
-NotesPage g_own_page{};
-NotesPage* g_page = &g_own_page;
+// Notes belong to the process, as its signals do. Those without a guard are shared with copies of this process alone.
+NotesPage g_first_page{};
+NotesPage* g_page = &g_first_page;
+bool g_is_guarded = false;
 int g_file = -1;
 std::string g_joined;  // NOLINT(cert-err58-cpp): an empty string throws nothing
 
@@ -57,12 +60,61 @@ void map_page(int file) {
   void* memory = ::mmap(nullptr, sizeof(NotesPage), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   if (memory == MAP_FAILED) throw Error("memory", "", errno_text("no notes could be shared"), ExitCode::internal);
   g_page = static_cast<NotesPage*>(memory);
+  g_is_guarded = true;
   t_notes = nullptr;
 }
 
-void on_crash(int number) {
+// A byte that the kernel clears in each copy of this process. Where it does not, the process's id tells.
+class OwnMark {
+ public:
+  OwnMark() {
+    constexpr std::size_t k_bytes = 4096;
+    void* memory = ::mmap(nullptr, k_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory != MAP_FAILED && ::madvise(memory, k_bytes, MADV_WIPEONFORK) == 0) byte_ = static_cast<char*>(memory);
+    set();
+  }
+  void set() {
+    if (byte_ != nullptr) *byte_ = 1;
+    process_ = ::getpid();
+  }
+  bool is_copy() const { return byte_ != nullptr ? *byte_ == 0 : process_ != ::getpid(); }
+
+ private:
+  volatile char* byte_ = nullptr;
+  int process_ = 0;
+};
+
+OwnMark& own_mark() {
+  static OwnMark mark;
+  return mark;
+}
+
+// Without a guard: notes that a copy can leave for this process.
+void share_with_copies() {
+  void* memory = ::mmap(nullptr, sizeof(NotesPage), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) return;
+  std::memcpy(memory, static_cast<const void*>(&g_first_page), sizeof(NotesPage));
+  g_page = static_cast<NotesPage*>(memory);
+  g_page->lost_descriptor = -1;
+}
+
+// Before the first call, which loads a plug-in, there is one thread.
+void prepare_for_copies() {
+  static const bool is_prepared = [] {
+    own_mark();
+    if (!g_is_guarded) share_with_copies();
+    return true;
+  }();
+  static_cast<void>(is_prepared);
+}
+
+void note_crashed_thread() {
   if (t_notes != nullptr && t_notes->is_running())
     g_page->crashed_thread = static_cast<int>(t_notes - g_page->threads.data());
+}
+
+void on_crash(int number) {
+  note_crashed_thread();
   std::signal(number, SIG_DFL);
   std::raise(number);
 }
@@ -75,7 +127,8 @@ const char* name_of(CallStep step) {
   return index < std::size(k_names) ? k_names[index] : "?";
 }
 
-ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) {
+ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) : caller_(caller), step_(step), frame_(frame) {
+  prepare_for_copies();
   ThreadNotes& notes = thread_notes();
   if (step == CallStep::destroy) {
     label_before_ = notes.label;
@@ -93,7 +146,20 @@ ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) {
   notes.begun.store(notes.begun.load(k_relaxed) + 1, std::memory_order_release);
 }
 
+// The notes of this thread are those of the other process, which goes on with them.
+void ForeignCall::note_fork() const {
+  g_page->forked_code = caller_.code;
+  g_page->forked_label = caller_.label;
+  g_page->forked_step = static_cast<std::uint32_t>(step_);
+  g_page->forked_frame = frame_;
+  g_page->has_forked = true;
+}
+
 ForeignCall::~ForeignCall() {
+  if (own_mark().is_copy()) {
+    note_fork();
+    ::_exit(static_cast<int>(ExitCode::internal));
+  }
   ThreadNotes& notes = thread_notes();
   notes.ended.store(notes.ended.load(k_relaxed) + 1, std::memory_order_release);
   if (notes.step.load(k_relaxed) != static_cast<std::uint32_t>(CallStep::destroy)) return;
@@ -144,7 +210,7 @@ LastCall last_call() {
 }
 
 bool is_guarded() {
-  return g_page != &g_own_page;
+  return g_is_guarded;
 }
 
 std::string path_of_notes() {
@@ -175,10 +241,35 @@ void end_with_call(int wait_status) {
 
 void end_as_ended_thread() {
   g_page->has_ended_thread = true;
-  if (t_notes != nullptr && t_notes->is_running())
-    g_page->crashed_thread = static_cast<int>(t_notes - g_page->threads.data());
+  note_crashed_thread();
   if (!is_guarded()) std::fputs("clusterbench: a plug-in ended the thread that called it (pthread_exit)\n", stderr);
   std::_Exit(static_cast<int>(ExitCode::internal));
+}
+
+std::optional<CallStep> forked_step() {
+  if (!g_page->has_forked) return {};
+  return static_cast<CallStep>(g_page->forked_step.load());
+}
+
+std::optional<CallStep> forked_step_of(std::uint32_t code) {
+  return g_page->forked_code == code ? forked_step() : std::nullopt;
+}
+
+void note_own_process() {
+  own_mark().set();
+}
+
+void end_if_files_are_lost() {
+  if (own_mark().is_copy()) return;  // it ends soon
+  const int lost = lost_file();
+  if (lost < 0) return;
+  g_page->lost_descriptor = lost;
+  note_crashed_thread();
+  if (!is_guarded())
+    std::fprintf(stderr,
+                 "clusterbench: a plug-in closed a file of the program, or put another in its place (descriptor %d)\n",
+                 lost);
+  ::_exit(static_cast<int>(is_guarded() ? ExitCode::internal : ExitCode::gate_failed));
 }
 
 NotesPage& notes_page() {
@@ -202,6 +293,8 @@ void clear_notes(NotesPage& page) {
   page.crashed_thread = -1;
   page.has_called = false;
   page.has_ended_thread = false;
+  page.lost_descriptor = -1;
+  page.has_forked = false;
   page.has_child_status = false;
   page.codes = 0;
   page.group.set("");

@@ -8,6 +8,7 @@
 #include <cerrno>
 
 #include "core/error.h"
+#include "os/kept_files.h"
 #include "os/output_file.h"
 
 namespace clusterbench::os {
@@ -32,6 +33,7 @@ void LockedFile::open() {
     }
     lock();
   } while (!is_still_at_path());
+  keep_file(file_);
 }
 
 // False if another process has created or removed it meanwhile.
@@ -65,6 +67,7 @@ void LockedFile::lock() {
 }
 
 void LockedFile::close() {
+  release_file(file_);
   if (file_ >= 0) ::close(file_);
   file_ = -1;
 }

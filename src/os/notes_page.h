@@ -61,6 +61,11 @@ struct NotesPage {
   std::atomic<int> last_thread;  // that began a call
   std::atomic<bool> has_called;
   std::atomic<bool> has_ended_thread;  // foreign code ended the thread that called it
+  std::atomic<int> lost_descriptor;    // that foreign code closed or replaced; -1: none
+  std::atomic<bool> has_forked;        // a copy of the process has come back from the call below
+  std::atomic<std::uint64_t> forked_label;
+  std::atomic<std::uint32_t> forked_code, forked_step;
+  std::atomic<int> forked_frame;
   std::atomic<std::uint32_t> codes;
   std::array<NotedText<101>, k_codes> names;
   NotedText<101> group, pass;

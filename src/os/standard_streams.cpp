@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "os/kept_files.h"
 
 namespace clusterbench::os {
 namespace {
@@ -62,6 +63,8 @@ void keep_output_apart() {
   ::dup2(STDERR_FILENO, STDOUT_FILENO);
   std::cout.rdbuf(&text);
   g_output = kept;
+  keep_file(kept);
+  keep_standard_files();
 }
 
 int output_descriptor() {
