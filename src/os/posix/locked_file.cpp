@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "os/host_name.h"
+#include "os/kept_files.h"
 #include "os/output_file.h"
 #include "os/posix/system_calls.h"
 
@@ -66,6 +67,7 @@ void LockedFile::open() {
     }
     lock();
   } while (!is_still_at_path());
+  keep_file(descriptor_of(file_));
 }
 
 // False if another process has created or removed it meanwhile.
@@ -131,11 +133,12 @@ void LockedFile::refuse_locked(const fs::path& beside, const LockOwner& owner) {
   is_made_ = false;
   close();
   throw FileHeld(path_.string(), "",
-              "another run is writing here: " + owner.text() + ". This disk has no locks, so the file " +
-                  beside.string() + " stands for one; remove it if that run has ended, or name another file");
+                 "another run is writing here: " + owner.text() + ". This disk has no locks, so the file " +
+                     beside.string() + " stands for one; remove it if that run has ended, or name another file");
 }
 
 void LockedFile::close() {
+  release_file(descriptor_of(file_));
   if (file_ >= 0) ::close(descriptor_of(file_));
   file_ = -1;
   if (has_lock_beside_) ::unlink(lock_path().c_str());

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "os/kept_files.h"
 
 namespace clusterbench::os {
 namespace {
@@ -81,6 +82,8 @@ void keep_output_apart() {
   ::dup2(STDERR_FILENO, STDOUT_FILENO);
   std::cout.rdbuf(&text);
   g_output = kept;
+  keep_file(kept);
+  keep_standard_files();
 }
 
 int output_descriptor() {
