@@ -15,7 +15,7 @@ SCENES = ROOT / "scenes"
 RUNS = {
     "a level": [SCENES / "street.glb"],
     "patterns": [SCENES / "street.glb", "--filter", "(aabb|exact)(-fast)?/(packed|bitfield)$"],
-    "presets": [SCENES / "street.glb", "--presets", "all"],
+    "presets": [SCENES / "street.glb", "--presets"],
     "depth": [ROOT / "configs/depth.json", "--set", "scenes.*.frames=2"],
     "two threads": [SCENES / "street.glb", "--threads", "2"],
 }
