@@ -24,7 +24,7 @@ bin/clusterbench measures clustered light assignment on your own level. It start
     bin/clusterbench report result.json -o report.html
     bin/clusterbench size share/clusterbench/scenes/street.glb
 
-It needs Linux with glibc {glibc} and libstdc++ with GLIBCXX_{libstdcxx} or newer: Debian 12, Ubuntu 24.04, Fedora 37 and later.
+It needs Linux with glibc {glibc} and libstdc++ with GLIBCXX_{libstdcxx}, or newer ones.
 Everything else lies in lib/. A GPU is found through the machine's own Vulkan loader, if there is one.
 
 share/doc/clusterbench/README.md       what it is for, and the commands
