@@ -7,6 +7,7 @@
 
 #include "cli/tool.h"
 #include "config/limit_rules.h"
+#include "core/libraries.h"
 #include "result/figures/figure_table.h"
 
 namespace clusterbench::test {
@@ -114,6 +115,8 @@ TEST(CommandLine, the_version_is_also_json) {
   const Json version = Json::parse(done.out);
   for (const char* key : {"version", "git_sha", "compiler", "flags", "build_type", "simd_target", "libraries"})
     EXPECT_TRUE(version.contains(key)) << key;
+  for (const OptionalLibrary& row : optional_libraries())
+    EXPECT_EQ(version["built_in"][row.name], row.is_built_in) << row.name;
   EXPECT_NE(tool("--version").out.find(version["version"].get<std::string>()), std::string::npos);
 }
 

@@ -6,6 +6,7 @@
 
 #include "cli/output/output.h"
 #include "core/error.h"
+#include "core/libraries.h"
 #include "core/text.h"
 #include "geom/shapes/domain.h"
 #include "os/file_access.h"
@@ -134,6 +135,7 @@ void add_image_options(Command& command, ImageFlags& flags) {
 PictureFiles::PictureFiles(const ImageFlags& flags, const config::Config& config, const run::Plan& plan,
                            std::vector<std::string> inputs)
     : config_(config), plan_(plan), folder_(flags.folder), inputs_(std::move(inputs)), request_(request_of(flags)) {
+  need_library(Library::libpng, "--images", "pictures");
   check_count(plan, request_);
   make_folder(folder_);
   if (!os::is_writable_folder(folder_)) throw Error(folder_, "", errno_text("cannot be written to"));
