@@ -8,7 +8,7 @@
 #include <limits>
 #include <type_traits>
 
-#if defined(_MSC_VER) && defined(_M_X64) && !defined(__clang__)
+#if defined(_MSC_VER) && defined(_M_X64)
 #include <intrin.h>
 #endif
 
@@ -69,7 +69,7 @@ class OwnTwoLimbs {
 
   // By halves of limbs, as one multiplies on paper.
   static constexpr OwnTwoLimbs product(Limb a, Limb b) {
-#if defined(_MSC_VER) && defined(_M_X64) && !defined(__clang__)
+#if defined(_MSC_VER) && defined(_M_X64)
     if (!std::is_constant_evaluated()) {
       Limb high = 0;
       const Limb low = _umul128(a, b, &high);
@@ -101,7 +101,8 @@ class OwnTwoLimbs {
   Limb high_ = 0, low_ = 0;  // in the order in which they are compared
 };
 
-#ifdef __SIZEOF_INT128__
+// clang for Microsoft's linker has the type, and not the functions that divide it.
+#if defined(__SIZEOF_INT128__) && !defined(_MSC_VER)
 __extension__ using TwoLimbs = unsigned __int128;
 #else
 using TwoLimbs = OwnTwoLimbs;

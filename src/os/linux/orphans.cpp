@@ -1,14 +1,15 @@
 #include "os/orphans.h"
 
-#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <thread>
 
 namespace clusterbench::os {
 namespace {
@@ -53,7 +54,7 @@ int Orphans::end_all() const {
       ::kill(child, SIGKILL);
     }
     if (!is_left) break;
-    ::poll(nullptr, 0, k_wait_ms);
+    std::this_thread::sleep_for(std::chrono::milliseconds(k_wait_ms));
   }
   return static_cast<int>(running.size());
 }
