@@ -212,7 +212,7 @@ void require_folder_of(const fs::path& name) {
 }
 
 ExitCode code_of_failed_write(int error) {
-  for (const int known : {ENOSPC, EDQUOT, EFBIG, EIO, EBADF, EPIPE})
+  for (const int known : {ENOSPC, EDQUOT, EFBIG, EIO, EBADF, EPIPE, EMFILE, ENFILE})
     if (error == known) return ExitCode::internal;
   return ExitCode::usage;
 }
