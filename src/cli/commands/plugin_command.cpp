@@ -108,7 +108,7 @@ void add_plugin(Command& program, Action& action) {
   group.needs_command();
   auto flags = std::make_shared<PluginFlags>();
   Command command = group.add_command("check", "Check that the methods of a plug-in keep their contract");
-  command.add_option("PLUGIN", flags->request.file, "Shared library (.so), see docs/plugins.md").required();
+  command.add_option("PLUGIN", flags->request.file, "Shared library (.so), see docs/plugins.md").required().utf8();
   std::vector<std::string> names;
   for (const acceptance::AcceptanceTest& test : acceptance::acceptance_tests()) names.emplace_back(test.name);
   command.add_option("--test", flags->tests, "NAME, repeatable: only these tests").once_a_name().one_of(names);

@@ -172,9 +172,11 @@ void add_stress(Command& program, Action& action) {
                      "Only methods whose name has this in it, or matches it as a regular expression");
   add_plugin_option(command, flags->plugins);
   add_guard_options(command, flags->guard);
-  command.add_option("--shader", flags->shaders,
-                     "FILE, repeatable: your own compute shaders as a method (docs/shaders.md); without --methods only "
-                     "these");
+  command
+      .add_option("--shader", flags->shaders,
+                  "FILE, repeatable: your own compute shaders as a method (docs/shaders.md); without --methods only "
+                  "these")
+      .utf8();
   command.add_option("--device", flags->device,
                      "NAME, UUID or number: also methods that run on a device, on this one, as `clusterbench list "
                      "devices` shows it; without it only those that --methods names, on the best one");

@@ -27,7 +27,8 @@ int number(std::intptr_t known) {
 }
 
 [[noreturn]] void refuse_start(const std::string& program, const std::string& action, int error) {
-  throw Error(program, "", action + ": " + std::strerror(error), ExitCode::internal);
+  throw Error(program == this_program() ? "clusterbench" : program, "", action + ": " + reason_text(error),
+              ExitCode::internal);
 }
 
 // The standard streams of the new process; all above 2.
@@ -76,7 +77,7 @@ Started start(const std::vector<std::string>& command, const Streams& streams) {
 }
 
 std::string start_error_text(int error) {
-  return std::string("cannot be started: ") + std::strerror(error);
+  return "cannot be started: " + reason_text(error);
 }
 
 // Waits for its end, and describes it.
@@ -207,6 +208,8 @@ Conversation::Conversation(const std::vector<std::string>& command) {
   process_ = started.pid;
   if (started.error == 0) return;
   ::close(number(to_));
+  if (started.error == EMFILE || started.error == ENFILE)
+    refuse_start(command.front(), "cannot be started", started.error);
   throw Error(command.front(), "", start_error_text(started.error));
 }
 
