@@ -239,6 +239,10 @@ std::string ProcessGuard::message() const {
   return notes_page().message.text();
 }
 
+void begin_notes() {
+  clear_notes(share_notes());
+}
+
 GuardedEnd noted_end(int wait_status) {
   return end_of(wait_status);
 }

@@ -59,7 +59,9 @@ class ProcessGuard {
   Limits limits_;
 };
 
-// The end of a process that this one has started, and that has joined its notes.
+// Notes for the next process that this one starts, which joins them (os/call_notes.h). Throws Error.
+void begin_notes();
+// The end of such a process.
 GuardedEnd noted_end(int wait_status);
 
 // In the copy: says how far it has come, as its last act before it ends like any process.

@@ -17,12 +17,15 @@ struct PluginCheckRequest {
   double seconds = 5.0;     // for tests that draw until time is over
   double timeout_s = 60.0;  // for the rest of each test
   bool in_process = false;
+  std::string notes;  // of the process that asks, for that which is asked
 };
 
 // The hidden option by which the other process is asked for a test, as METHOD/TEST; or for the description of the
 // plug-in. It answers with a line of JSON.
 inline constexpr const char* k_serve_test = "--serve-test";
 inline constexpr const char* k_description = "description";
+// The hidden option with the path of the notes of the process that asks.
+inline constexpr const char* k_notes = "--notes";
 
 // The plug-in and the names of its methods.
 struct PluginDescription {

@@ -28,7 +28,9 @@ struct PluginCheck {
   FIELD(double, seconds,
         About("For each of the tests that draw until time is over", "s").finite().at_least(0).as_fraction());
   FIELD(std::vector<PluginTest>, tests, "Method by method, in the order in which they were run");
-  FIELD(std::string, verdict, About("passed: no test failed").one_of({"passed", "failed"}));
+  FIELD(std::string, verdict,
+        About("passed: no test failed. incomplete: interrupted before all tests were run")
+            .one_of({"passed", "failed", "incomplete"}));
   END_RECORD;
 };
 

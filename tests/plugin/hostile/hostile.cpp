@@ -87,6 +87,18 @@ CLUSTERBENCH_HOSTILE(LeavesThread, "leaves-thread", "leaves threads running", {
       for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
     }).detach();
 })
+CLUSTERBENCH_HOSTILE(Spins, "spins", "leaves a thread that never rests", {
+  static std::atomic<bool> has_started{false};
+  if (!has_started.exchange(true))
+    std::thread([] {
+      for (volatile unsigned i = 0;;) i = i + 1;
+    }).detach();
+})
+CLUSTERBENCH_HOSTILE(HangsWithChild, "hangs-with-child", "never returns, and neither does its child", {
+  static std::atomic<bool> has_forked{false};
+  if (!has_forked.exchange(true)) ::fork();
+  for (;;) ::sleep(1);
+})
 CLUSTERBENCH_HOSTILE(Closes, "closes", "closes files of others", for (int i = 1; i < 64; ++i)::close(i);)
 CLUSTERBENCH_HOSTILE(Handles, "handles", "handles signals", std::signal(SIGALRM, [](int) {});)
 CLUSTERBENCH_HOSTILE(Moves, "moves", "changes the working directory", if (::chdir("/") != 0) std::abort();)
@@ -206,6 +218,12 @@ class Picky : public Empty {
   }
 };
 
+class Slow : public Empty {
+ public:
+  explicit Slow(const sdk::Values&) { std::this_thread::sleep_for(std::chrono::milliseconds(100)); }
+  static sdk::Description description() { return named("slow", "takes its time to be made"); }
+};
+
 class Good : public Empty {
  public:
   explicit Good(const sdk::Values&) {}
@@ -217,4 +235,4 @@ class Good : public Empty {
 CLUSTERBENCH_PLUGIN("hostile", "What no plug-in may do", "1.0", Good, Crashes, Aborts, Exits, Hangs, Throws,
                     ThrowsOther, Prints, WritesBehind, WritesInput, ReadsBehind, ReadsBefore, NoIndex, Greedy, Late,
                     Remembers, Shares, Leaks, Loses, Picky, Ghost, Races, CountsBuilds, Forks, LeavesChild,
-                    LeavesThread, Closes, Handles, Moves, Translates)
+                    LeavesThread, Closes, Handles, Moves, Translates, Spins, Slow, HangsWithChild)
