@@ -211,6 +211,33 @@ TEST(PluginRun, a_method_of_a_plugin_that_is_not_there_says_where_it_is_looked_f
   EXPECT_TRUE(mentions(tool(plugin_run("--dry-run --assigner tiled-2.5")).err, "tiled-2.5d"));
 }
 
+TEST(PluginRun, folders_that_were_searched_are_named) {
+  const Folder folder;
+  const std::string arguments = plugin_run("--dry-run --assigner foo.bar");
+  EXPECT_TRUE(mentions(tool(arguments).err, "CLUSTERBENCH_PLUGIN_PATH, which is not set"));
+  setenv("CLUSTERBENCH_PLUGIN_PATH", (folder.path().string() + ":/no/such").c_str(), 1);
+  const Outcome refused = tool(arguments);
+  unsetenv("CLUSTERBENCH_PLUGIN_PATH");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(mentions(refused.err, "which has " + folder.path().string() + ", /no/such (does not exist)"))
+      << refused.err;
+}
+
+TEST(PluginRun, a_method_by_the_name_of_a_file_says_the_id_of_its_plugin) {
+  const Folder folder;
+  fs::copy_file(plugin_file("example"), folder / "renamed.so");
+  const std::string says = "'renamed.cell-boxes': renamed.so has the id 'example'; name its method example.cell-boxes",
+                    arguments = plugin_run("--dry-run --assigner renamed.cell-boxes");
+  const Outcome named = tool(arguments + " --plugin " + (folder / "renamed.so").string());
+  EXPECT_EQ(named.code, 2);
+  EXPECT_TRUE(mentions(named.err, says)) << named.err;
+  setenv("CLUSTERBENCH_PLUGIN_PATH", folder.path().c_str(), 1);
+  const Outcome found = tool(arguments);
+  unsetenv("CLUSTERBENCH_PLUGIN_PATH");
+  EXPECT_EQ(found.code, 2);
+  EXPECT_TRUE(mentions(found.err, says)) << found.err;
+}
+
 TEST(PluginRun, what_a_plugin_prints_is_not_in_the_result) {
   const Outcome printed = tool(plugin_run("-q --plugin " + plugin_file("hostile") + " --assigner hostile.prints,aabb"));
   EXPECT_EQ(printed.code, 0) << printed.err;
