@@ -153,6 +153,7 @@ GuardedEnd end_of(int status) {
     end.signal = WTERMSIG(status);
   end.has_ended_thread = page.has_ended_thread;
   end.lost_descriptor = page.lost_descriptor;
+  end.made = codes_that_made();
   add_call(end, -1);
   return end;
 }

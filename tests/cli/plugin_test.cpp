@@ -385,6 +385,27 @@ TEST(PluginBuilds, of_an_interrupted_run_are_not_mixed) {
   EXPECT_TRUE(mentions(refused.err, "is an interrupted run of another")) << refused.err;
 }
 
+TEST(PluginBuilds, of_a_complete_result_are_not_replaced_by_resume) {
+  const Folder folder;
+  const fs::path plugin = folder / "p.so";
+  fs::copy_file(plugin_file("example"), plugin);
+  const std::string result = (folder / "r.json").string(),
+                    run = plugin_run("--plugin " + plugin.string() + " --assigner example.cell-boxes -q -o " + result);
+  ASSERT_EQ(tool(run).code, 0);
+  const std::string before = file_text(result);
+  EXPECT_EQ(tool(run + " --resume").code, 0) << "the same build";
+  fs::remove(plugin);
+  fs::copy_file(other_build(folder), plugin);
+  const Outcome refused = tool(run + " --resume");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(mentions(refused.err, "is a complete result, with another build of the plug-in example (sha256 "))
+      << refused.err;
+  EXPECT_EQ(Json::parse(file_text(result))["plugins"], Json::parse(before)["plugins"]);
+  EXPECT_FALSE(fs::exists(result + ".partial"));
+  EXPECT_EQ(tool(run).code, 0);
+  EXPECT_NE(Json::parse(file_text(result))["plugins"], Json::parse(before)["plugins"]);
+}
+
 TEST(PluginTimes, launches_load_the_same_plugins) {
   const Folder folder;
   const Json result =
