@@ -26,9 +26,8 @@ std::string suspects_text(const std::vector<std::string>& made, const std::strin
   std::vector<std::string> others = made;
   std::erase(others, blamed);
   if (others.empty()) return "";
-  const bool is_one = others.size() == 1;
-  return std::string("; the plug-in") + (is_one ? " " : "s ") + joined(others) + (is_one ? " was made" : " were made") +
-         " before in the same process, and can have written to its memory: --assigner with this method alone tells";
+  return std::string("; the plug-in") + (others.size() == 1 ? " " : "s ") + joined(others) +
+         " ran in the same process, and can have written to its memory: --assigner with this method alone tells";
 }
 
 result::BrokenCase broken_case(const config::Config& config, const Plan& plan, const CasePlan& case_plan,
