@@ -1,13 +1,6 @@
 #include "os/call_notes.h"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -16,7 +9,6 @@
 #include "os/kept_files.h"
 #include "os/notes_page.h"
 #include "os/process_memory.h"
-#include "os/standard_streams.h"
 
 namespace clusterbench::os {
 namespace {
@@ -25,24 +17,18 @@ namespace {
 NotesPage g_first_page{};
 NotesPage* g_page = &g_first_page;
 bool g_is_guarded = false;
-int g_file = -1;
-std::string g_joined;  // NOLINT(cert-err58-cpp): an empty string throws nothing
 
 constexpr auto k_relaxed = std::memory_order_relaxed;
 
 thread_local ThreadNotes* t_notes = nullptr;
 thread_local std::uint64_t t_label = 0;
 
-bool is_gone(int process) {
-  return ::kill(process, 0) != 0 && errno == ESRCH;
-}
-
 // A free place, or that of a process that has ended. If there are more threads than places, some share the last one.
 ThreadNotes& claimed_notes() {
   for (ThreadNotes& notes : g_page->threads) {
     int owner = notes.process.load();
-    if (owner != 0 && !is_gone(owner)) continue;
-    if (!notes.process.compare_exchange_strong(owner, ::getpid())) continue;
+    if (owner != 0 && is_running(owner)) continue;
+    if (!notes.process.compare_exchange_strong(owner, own_process())) continue;
     notes.begun = notes.ended = 0;
     notes.resident_before = 0;
     notes.setting.set("");
@@ -56,67 +42,18 @@ ThreadNotes& thread_notes() {
   return *t_notes;
 }
 
-void map_page(int file) {
-  void* memory = ::mmap(nullptr, sizeof(NotesPage), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  if (memory == MAP_FAILED) throw Error("memory", "", errno_text("no notes could be shared"), ExitCode::internal);
-  g_page = static_cast<NotesPage*>(memory);
-  g_is_guarded = true;
-  t_notes = nullptr;
-}
-
-// A byte that the kernel clears in each copy of this process. Where it does not, the process's id tells.
-class OwnMark {
- public:
-  OwnMark() {
-    constexpr std::size_t k_bytes = 4096;
-    void* memory = ::mmap(nullptr, k_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (memory != MAP_FAILED && ::madvise(memory, k_bytes, MADV_WIPEONFORK) == 0) byte_ = static_cast<char*>(memory);
-    set();
-  }
-  void set() {
-    if (byte_ != nullptr) *byte_ = 1;
-    process_ = ::getpid();
-  }
-  bool is_copy() const { return byte_ != nullptr ? *byte_ == 0 : process_ != ::getpid(); }
-
- private:
-  volatile char* byte_ = nullptr;
-  int process_ = 0;
-};
-
-OwnMark& own_mark() {
-  static OwnMark mark;
-  return mark;
-}
-
-// Without a guard: notes that a copy can leave for this process.
-void share_with_copies() {
-  void* memory = ::mmap(nullptr, sizeof(NotesPage), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) return;
-  std::memcpy(memory, static_cast<const void*>(&g_first_page), sizeof(NotesPage));
-  g_page = static_cast<NotesPage*>(memory);
-  g_page->lost_descriptor = -1;
-}
-
 // Before the first call, which loads a plug-in, there is one thread.
 void prepare_for_copies() {
   static const bool is_prepared = [] {
-    own_mark();
-    if (!g_is_guarded) share_with_copies();
+    is_forked_copy();
+    NotesPage* page = g_is_guarded ? nullptr : page_for_copies();
+    if (page == nullptr) return true;
+    std::memcpy(static_cast<void*>(page), static_cast<const void*>(g_page), sizeof(NotesPage));
+    g_page = page;
+    g_page->lost_descriptor = -1;
     return true;
   }();
   static_cast<void>(is_prepared);
-}
-
-void note_crashed_thread() {
-  if (t_notes != nullptr && t_notes->is_running())
-    g_page->crashed_thread = static_cast<int>(t_notes - g_page->threads.data());
-}
-
-void on_crash(int number) {
-  note_crashed_thread();
-  std::signal(number, SIG_DFL);
-  std::raise(number);
 }
 
 }  // namespace
@@ -142,7 +79,7 @@ ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) : calle
   notes.label.store(caller.label, k_relaxed);
   notes.step.store(static_cast<std::uint32_t>(step), k_relaxed);
   notes.frame.store(frame, k_relaxed);
-  if (notes.resident_before.load(k_relaxed) == 0) notes.resident_before = resident_bytes(::getpid());
+  if (notes.resident_before.load(k_relaxed) == 0) notes.resident_before = resident_bytes(own_process());
   g_page->last_thread.store(static_cast<int>(&notes - g_page->threads.data()), k_relaxed);
   g_page->has_called.store(true, k_relaxed);
   notes.begun.store(notes.begun.load(k_relaxed) + 1, std::memory_order_release);
@@ -158,9 +95,9 @@ void ForeignCall::note_fork() const {
 }
 
 ForeignCall::~ForeignCall() {
-  if (own_mark().is_copy()) {
+  if (is_forked_copy()) {
     note_fork();
-    ::_exit(static_cast<int>(ExitCode::internal));
+    std::_Exit(static_cast<int>(ExitCode::internal));
   }
   ThreadNotes& notes = thread_notes();
   notes.ended.store(notes.ended.load(k_relaxed) + 1, std::memory_order_release);
@@ -222,24 +159,6 @@ bool is_guarded() {
   return g_is_guarded;
 }
 
-std::string path_of_notes() {
-  if (!g_joined.empty()) return g_joined;
-  return g_file < 0 ? "" : "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(g_file);
-}
-
-void join_notes(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-  struct stat facts {};
-  const bool is_page = file >= 0 && ::fstat(file, &facts) == 0 && facts.st_size == sizeof(NotesPage);
-  if (is_page) map_page(file);
-  if (file >= 0) ::close(file);
-  if (!is_page || g_page->magic != NotesPage::k_magic)
-    throw Error(path, "", "holds no notes of this program's calls", ExitCode::internal);
-  g_joined = path;
-  keep_output_apart();
-  watch_for_crashes();
-}
-
 void end_with_call(int wait_status) {
   if (!is_guarded()) return;
   if (!std::ranges::any_of(g_page->threads, &ThreadNotes::is_running)) return;
@@ -250,7 +169,7 @@ void end_with_call(int wait_status) {
 
 void end_as_ended_thread() {
   g_page->has_ended_thread = true;
-  note_crashed_thread();
+  note_crash();
   if (!is_guarded()) std::fputs("clusterbench: a plug-in ended the thread that called it (pthread_exit)\n", stderr);
   std::_Exit(static_cast<int>(ExitCode::internal));
 }
@@ -264,36 +183,37 @@ std::optional<CallStep> forked_step_of(std::uint32_t code) {
   return g_page->forked_code == code ? forked_step() : std::nullopt;
 }
 
-void note_own_process() {
-  own_mark().set();
-}
-
 void end_if_files_are_lost() {
-  if (own_mark().is_copy()) return;  // it ends soon
+  if (is_forked_copy()) return;  // it ends soon
   const int lost = lost_file();
   if (lost < 0) return;
   g_page->lost_descriptor = lost;
-  note_crashed_thread();
+  note_crash();
   if (!is_guarded())
     std::fprintf(stderr,
                  "clusterbench: a plug-in closed a file of the program, or put another in its place (descriptor %d)\n",
                  lost);
-  ::_exit(static_cast<int>(is_guarded() ? ExitCode::internal : ExitCode::gate_failed));
+  std::_Exit(static_cast<int>(is_guarded() ? ExitCode::internal : ExitCode::gate_failed));
 }
 
 NotesPage& notes_page() {
   return *g_page;
 }
 
-NotesPage& share_notes() {
-  if (g_file >= 0) return *g_page;
-  g_file = ::memfd_create("clusterbench", MFD_CLOEXEC);
-  if (g_file < 0 || ::ftruncate(g_file, sizeof(NotesPage)) != 0)
-    throw Error("memory", "", errno_text("no notes could be shared"), ExitCode::internal);
-  map_page(g_file);
-  g_page->magic = NotesPage::k_magic;
-  clear_notes(*g_page);
-  return *g_page;
+void use_notes(NotesPage& page) {
+  g_page = &page;
+  g_is_guarded = true;
+  t_notes = nullptr;
+}
+
+void begin_notes(NotesPage& page) {
+  page.magic = NotesPage::k_magic;
+  clear_notes(page);
+}
+
+void note_crash() {
+  if (t_notes != nullptr && t_notes->is_running())
+    g_page->crashed_thread = static_cast<int>(t_notes - g_page->threads.data());
 }
 
 void clear_notes(NotesPage& page) {
@@ -311,11 +231,6 @@ void clear_notes(NotesPage& page) {
   page.pass.set("");
   for (ThreadNotes& notes : page.threads) notes.process = 0;
   for (ThreadNotes& notes : page.threads) notes.begun = notes.ended = 0;
-}
-
-void watch_for_crashes() {
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP})
-    if (const auto before = std::signal(number, on_crash); before != SIG_DFL) std::signal(number, before);
 }
 
 }  // namespace clusterbench::os

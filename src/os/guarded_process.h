@@ -39,6 +39,9 @@ struct GuardedEnd {
   bool is_call_running = false;
 };
 
+// Why this system has no such copies, as a sentence; "" if it has. Without them run() goes on in this process.
+std::string guard_obstacle();
+
 class ProcessGuard {
  public:
   struct Limits {

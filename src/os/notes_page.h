@@ -76,7 +76,17 @@ struct NotesPage {
 
 // Those that this process writes.
 NotesPage& notes_page();
-// Makes new ones, which processes share that this one forks. Throws Error.
+// From here on this process writes these.
+void use_notes(NotesPage& page);
+// Makes empty ones of fresh memory.
+void begin_notes(NotesPage& page);
+// For a signal handler: this thread crashes.
+void note_crash();
+// Fresh memory that copies of this process share with it; null where there are no copies.
+NotesPage* page_for_copies();
+// Whether this process is a copy that was forked since the first such question, or since note_own_process().
+bool is_forked_copy();
+// Makes new ones, which processes share that this one forks, and uses them. Throws Error.
 NotesPage& share_notes();
 // Forgets all but the names of codes and the message.
 void clear_notes(NotesPage& page);

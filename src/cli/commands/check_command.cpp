@@ -23,8 +23,8 @@ struct CheckFlags {
   bool allow_rounding = false, quiet = false;
 };
 
-// What to do now.
-std::string last_line(const std::string& verdict, bool allows_rounding) {
+// The next step. `names_cells`: whether lost lights are named above.
+std::string last_line(const std::string& verdict, bool allows_rounding, bool names_cells) {
   if (verdict == "right") return "No light is lost.";
   if (verdict == "rounding")
     return allows_rounding
@@ -35,8 +35,9 @@ std::string last_line(const std::string& verdict, bool allows_rounding) {
   if (verdict == "twice") return "A light is shaded twice: the engine adds it twice, or two parts of a set overlap.";
   if (verdict == "misread") return "Correct the description of the dump as said first, and check again.";
   if (verdict == "lost")
-    return "Lights are lost. Compare the first cell above with the engine's own test; --json FILE has up to 1000 of "
-           "them.";
+    return std::string("Lights are lost. ") +
+           (names_cells ? "Compare the first cell above with the engine's own test; --json FILE has up to 1000 of them."
+                        : "--json FILE has up to 1000 of them, with their cells.");
   return "The buffers are not laid out as the dump says: compare its description with the engine's shader "
          "(`clusterbench schema dump`).";
 }
@@ -52,6 +53,17 @@ std::string frames_line(const std::vector<result::CheckedDump>& frames) {
 
 ExitCode print_template(const CheckFlags& flags) {
   if (!flags.dumps.empty()) throw Error("", "--template", "prints a dump to fill in, and checks none");
+  const CheckFlags none;
+  const std::pair<bool, const char*> given[] = {{!flags.json.empty(), "--json"},
+                                                {!flags.page.empty(), "--page"},
+                                                {flags.methods != none.methods, "--methods"},
+                                                {flags.most_lost != none.most_lost, "--most-lost"},
+                                                {flags.threads != none.threads, "--threads"},
+                                                {flags.allow_rounding, "--allow-rounding"},
+                                                {flags.quiet, "--quiet"}};
+  for (const auto& [is_given, flag] : given)
+    if (is_given)
+      throw Error("", flag, "has no meaning with --template, which checks nothing; allowed: --template alone");
   std::cout << std::ranges::find(dump::dump_templates(), flags.engine, &dump::DumpTemplate::name)->text;
   return ExitCode::ok;
 }
@@ -110,7 +122,7 @@ ExitCode check(const CheckFlags& flags) {
   if (!flags.json.empty()) output.write(result::to_json(checked));
   if (!flags.page.empty()) page_output.write_text(made_page(flags, checked.verdict, std::move(page)));
   if (!flags.quiet && checked.frames.size() > 1) out << frames_line(checked.frames);
-  if (!flags.quiet) out << last_line(checked.verdict, flags.allow_rounding) << "\n";
+  if (!flags.quiet) out << last_line(checked.verdict, flags.allow_rounding, flags.most_lost > 0) << "\n";
   const bool is_right = checked.verdict == "right" || (flags.allow_rounding && checked.verdict == "rounding");
   return is_right ? ExitCode::ok : ExitCode::gate_failed;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <mutex>
 #include <set>
 #include <utility>
 
@@ -127,9 +128,17 @@ void add_guard_options(Command& command, GuardFlags& flags) {
                    "Call plug-ins in this process, for a debugger: if one crashes, the command ends with it");
 }
 
+bool calls_in_process(const GuardFlags& flags) {
+  static const std::string obstacle = os::guard_obstacle();
+  if (flags.is_in_process || obstacle.empty()) return flags.is_in_process;
+  static std::once_flag is_said;
+  std::call_once(is_said, [] { print_message("warning: " + obstacle); });
+  return true;
+}
+
 ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& before_each,
                      const std::function<std::optional<ExitCode>(const GuardedPart& part)>& part) {
-  if (flags.is_in_process) return *part({});
+  if (calls_in_process(flags)) return *part({});
   const std::atomic<bool>& stop = os::stop_on_signals();
   os::ProcessGuard guard(limits_of(flags));
   std::set<std::pair<std::string, std::uint64_t>> broken;  // group and method
@@ -156,7 +165,7 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
 
 ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::function<ExitCode()>& command,
                           const std::string& advice) {
-  if (flags.is_in_process) return command();
+  if (calls_in_process(flags)) return command();
   const std::atomic<bool>& stop = os::stop_on_signals();
   os::ProcessGuard guard(limits_of(flags));
   const std::optional<os::GuardedEnd> end = guard.run(stop);
@@ -201,6 +210,15 @@ bool may_name_plugins(const RunInputs& inputs) {
   return names_plugins(inputs) || std::ranges::any_of(inputs.paths, is_pipe);
 }
 
+std::string fault_found_here(const std::filesystem::path& file) {
+  try {
+    plugin::describe_plugin(file);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 ExitCode describe_or_leave_message(const std::filesystem::path& file) {
   try {
     plugin::describe_plugin(file);
@@ -214,6 +232,7 @@ ExitCode describe_or_leave_message(const std::filesystem::path& file) {
 }  // namespace
 
 ExitCode run_apart(const std::function<ExitCode()>& part) {
+  if (!os::guard_obstacle().empty()) return part();
   const GuardFlags flags = loading_limits();
   const std::atomic<bool>& stop = os::stop_on_signals();
   os::ProcessGuard guard(limits_of(flags));
@@ -225,6 +244,7 @@ ExitCode run_apart(const std::function<ExitCode()>& part) {
 }
 
 std::string loading_fault(const std::filesystem::path& plugin) {
+  if (!os::guard_obstacle().empty()) return fault_found_here(plugin);
   const GuardFlags flags = loading_limits();
   os::ProcessGuard guard(limits_of(flags));
   const std::optional<os::GuardedEnd> end = guard.run(os::stop_on_signals());
@@ -237,6 +257,7 @@ std::string loading_fault(const std::filesystem::path& plugin) {
 
 ExitCode guarded_if_needed(const RunInputs& inputs, const GuardFlags& flags, const std::function<ExitCode()>& command,
                            const std::string& advice) {
+  if (!os::guard_obstacle().empty() && !names_plugins(inputs)) return command();
   return may_name_plugins(inputs) ? run_guarded_once(flags, ExitCode::gate_failed, command, advice) : command();
 }
 

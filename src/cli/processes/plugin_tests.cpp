@@ -70,10 +70,17 @@ Answer answer_of(const PluginCheckRequest& request, const std::string& asked, do
                  const std::atomic<bool>& stop) {
   const os::Orphans orphans;
   os::begin_notes();
-  os::Conversation child({os::k_this_program, "plugin", "check", std::string(k_serve_test) + "=" + asked,
-                          "--seed=" + std::to_string(request.seed), "--seconds=" + std::to_string(request.seconds),
-                          "--timeout=" + std::to_string(request.timeout_s),
-                          std::string(k_notes) + "=" + os::path_of_notes(), "--", request.file});
+  std::vector<std::string> command{os::this_program(),
+                                   "plugin",
+                                   "check",
+                                   std::string(k_serve_test) + "=" + asked,
+                                   "--seed=" + std::to_string(request.seed),
+                                   "--seconds=" + std::to_string(request.seconds),
+                                   "--timeout=" + std::to_string(request.timeout_s)};
+  if (const std::string notes = os::path_of_notes(); !notes.empty())
+    command.push_back(std::string(k_notes) + "=" + notes);
+  command.insert(command.end(), {"--", request.file});
+  os::Conversation child(command);
   Answer answer;
   std::string line;
   const os::Conversation::Received received = child.receive_line(line, seconds, stop);
