@@ -66,6 +66,8 @@ class ProcessGuard {
 
 // Notes for the next process that this one starts, which joins them (os/call_notes.h). Throws Error.
 void begin_notes();
+// How much more memory it has than when it first made something, in bytes, if it is in a call; else 0.
+std::uint64_t noted_growth();
 // The end of such a process.
 GuardedEnd noted_end(int wait_status);
 

@@ -245,6 +245,11 @@ TEST(PluginRun, what_a_plugin_prints_is_not_in_the_result) {
   ASSERT_TRUE(result.is_object()) << printed.out.substr(0, 300);
   EXPECT_EQ(result["cases"].size(), 2u);
   EXPECT_TRUE(mentions(printed.err, "clusterbench plugin check: {}"));
+  const Outcome here =
+      tool(plugin_run("-q --plugin-in-process --plugin " + plugin_file("hostile") + " --assigner hostile.prints,aabb"));
+  EXPECT_EQ(here.code, 0) << here.err;
+  EXPECT_TRUE(Json::parse(here.out, nullptr, false).is_object()) << here.out.substr(0, 300);
+  EXPECT_TRUE(mentions(here.err, "clusterbench plugin check: {}"));
 }
 
 // --- Plug-ins that break down as they are loaded ---
@@ -582,6 +587,15 @@ TEST(PluginCheck, ends_a_method_that_hangs) {
   EXPECT_TRUE(mentions(outcome.out, "was not done within 0.5 s; it was in assign, with seed ")) << outcome.out;
   EXPECT_TRUE(mentions(outcome.out, "; --timeout SECONDS gives it longer")) << outcome.out;
   EXPECT_TRUE(mentions(outcome.out, "gdb --args clusterbench plugin check ")) << outcome.out;
+}
+
+TEST(PluginCheck, ends_a_method_that_takes_too_much_memory) {
+  const Outcome outcome =
+      tool("plugin check " + plugin_file("hostile") + " --method hostile.eats --test grids --memory 200");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(mentions(outcome.out, "CRASHED   grids")) << outcome.out;
+  EXPECT_TRUE(mentions(outcome.out, "took more than 200 MiB of memory in assign, with seed ")) << outcome.out;
+  EXPECT_TRUE(mentions(outcome.out, "; --memory MIB gives it more")) << outcome.out;
 }
 
 TEST(PluginCheck, passes_on_what_a_plugin_prints) {

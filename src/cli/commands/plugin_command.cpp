@@ -129,6 +129,11 @@ void add_plugin(Command& program, Action& action) {
   command.add_option("--timeout", flags->request.timeout_s, "Longest time for a test beside that, in seconds")
       .range(0.1, 1e6)
       .shows_standard();
+  command
+      .add_option("--memory", flags->request.memory_mib,
+                  "Most memory that a test's process may take in calls, beyond what it had at the first one, in MiB")
+      .range(1, 1 << 30)
+      .shows_standard();
   command.add_flag("--in-process", flags->request.in_process,
                    "All tests in this process, for a debugger; a crash then ends it");
   command.add_option("--json", flags->json, "Write the verdict as JSON to this file; -: standard output");

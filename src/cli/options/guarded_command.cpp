@@ -9,6 +9,7 @@
 
 #include "cli/output/output.h"
 #include "core/text.h"
+#include "os/standard_streams.h"
 #include "os/stop_signals.h"
 #include "os/terminal.h"
 #include "plugin/plugins.h"
@@ -130,7 +131,9 @@ void add_guard_options(Command& command, GuardFlags& flags) {
 
 bool calls_in_process(const GuardFlags& flags) {
   static const std::string obstacle = os::guard_obstacle();
-  if (flags.is_in_process || obstacle.empty()) return flags.is_in_process;
+  if (!flags.is_in_process && obstacle.empty()) return false;
+  os::keep_output_apart();
+  if (flags.is_in_process) return true;
   static std::once_flag is_said;
   std::call_once(is_said, [] { print_message("warning: " + obstacle); });
   return true;

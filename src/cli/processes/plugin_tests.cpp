@@ -1,5 +1,7 @@
 #include "cli/processes/plugin_tests.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <sstream>
@@ -61,10 +63,26 @@ Json to_json(const PluginDescription& description) {
 // What the other process answered, or how it ended without an answer.
 struct Answer {
   std::optional<Json> json;
-  bool is_late = false, is_stopped = false;
+  bool is_late = false, is_stopped = false, is_too_large = false;
   os::Ending ending;
   std::optional<os::GuardedEnd> noted;  // of a process that gave no answer
 };
+
+// Waits for a line of its output, and looks at its memory meanwhile.
+os::Conversation::Received received_from(os::Conversation& child, const PluginCheckRequest& request, double seconds,
+                                         const std::atomic<bool>& stop, Answer& answer, std::string& line) {
+  using Received = os::Conversation::Received;
+  constexpr double k_look_s = 0.05;
+  const std::uint64_t most_bytes = static_cast<std::uint64_t>(request.memory_mib) << 20;
+  const auto start = std::chrono::steady_clock::now();
+  for (;;) {
+    const Received received = child.receive_line(line, std::min(k_look_s, seconds), stop);
+    if (received != Received::timeout) return received;
+    answer.is_too_large = os::noted_growth() > most_bytes;
+    const double spent_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (answer.is_too_large || spent_s > seconds) return received;
+  }
+}
 
 Answer answer_of(const PluginCheckRequest& request, const std::string& asked, double seconds,
                  const std::atomic<bool>& stop) {
@@ -83,9 +101,9 @@ Answer answer_of(const PluginCheckRequest& request, const std::string& asked, do
   os::Conversation child(command);
   Answer answer;
   std::string line;
-  const os::Conversation::Received received = child.receive_line(line, seconds, stop);
+  const os::Conversation::Received received = received_from(child, request, seconds, stop, answer, line);
   answer.is_stopped = received == os::Conversation::Received::stop;
-  answer.is_late = received == os::Conversation::Received::timeout;
+  answer.is_late = received == os::Conversation::Received::timeout && !answer.is_too_large;
   if (received == os::Conversation::Received::line)
     if (Json json = json_or_discarded<Json>(line); json.is_object()) answer.json = std::move(json);
   answer.ending = child.end();
@@ -136,6 +154,12 @@ std::string late_text(const Answer& answer, double seconds) {
          (noted ? "; it was" + place_text(noted->call, noted->is_call_running) : "") + k_longer;
 }
 
+std::string memory_text(const PluginCheckRequest& request, const Answer& answer) {
+  const std::optional<os::GuardedEnd>& noted = answer.noted;
+  return "took more than " + std::to_string(request.memory_mib) + " MiB of memory" +
+         (noted ? place_text(noted->call, noted->is_call_running) : "") + "; --memory MIB gives it more";
+}
+
 double time_for(const PluginCheckRequest& request, const std::string& test) {
   const acceptance::AcceptanceTest* row = acceptance::find_test(test);
   return request.timeout_s + (row != nullptr && row->takes_seconds ? request.seconds : 0.0);
@@ -170,6 +194,7 @@ std::optional<result::PluginTest> tested(const PluginCheckRequest& request, cons
   }
   if (answer.is_stopped || stop) return {};
   if (answer.is_late) return result::PluginTest{method, test, "timed_out", {late_text(answer, seconds)}, ""};
+  if (answer.is_too_large) return result::PluginTest{method, test, "crashed", {memory_text(request, answer)}, ""};
   return result::PluginTest{method, test, "crashed", {ending_text(answer)}, ""};
 }
 

@@ -16,6 +16,7 @@ struct PluginCheckRequest {
   std::uint64_t seed = 1;
   double seconds = 5.0;     // for tests that draw until time is over
   double timeout_s = 60.0;  // for the rest of each test
+  int memory_mib = 4096;    // that the process of a test may grow by in calls
   bool in_process = false;
   std::string notes;  // of the process that asks, for that which is asked
 };

@@ -23,6 +23,10 @@ std::string ProcessGuard::message() const {
 
 void begin_notes() {}
 
+std::uint64_t noted_growth() {
+  return 0;
+}
+
 GuardedEnd noted_end(int) {
   return {};
 }

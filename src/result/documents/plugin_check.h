@@ -11,7 +11,8 @@ struct PluginTest {
   FIELD(std::string, method, "As configurations name it");
   FIELD(std::string, test, "Its name, for --test");
   FIELD(std::string, verdict,
-        About("crashed: a signal ended its process, or the plug-in did. timed_out: it was not done in time. skipped: "
+        About("crashed: a signal ended its process, or the plug-in did, or it took too much memory. timed_out: it was "
+              "not done in time. skipped: "
               "it does "
               "not apply")
             .one_of({"passed", "failed", "crashed", "timed_out", "skipped"}));

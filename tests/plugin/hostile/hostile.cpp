@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "clusterbench_plugin.hpp"
 
@@ -218,6 +219,20 @@ class Picky : public Empty {
   }
 };
 
+// No more than two gigabytes: nobody may end it.
+class Eats : public Empty {
+ public:
+  explicit Eats(const sdk::Values&) {}
+  static sdk::Description description() { return named("eats", "takes more memory all the time"); }
+  void misbehave(const clusterbench_frame&, const clusterbench_lights&, clusterbench_lists&) override {
+    std::vector<std::vector<char>> all;
+    while (all.size() < 256) {
+      all.emplace_back(std::size_t{8} << 20, 'x');
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+};
+
 class Slow : public Empty {
  public:
   explicit Slow(const sdk::Values&) { std::this_thread::sleep_for(std::chrono::milliseconds(100)); }
@@ -235,4 +250,4 @@ class Good : public Empty {
 CLUSTERBENCH_PLUGIN("hostile", "What no plug-in may do", "1.0", Good, Crashes, Aborts, Exits, Hangs, Throws,
                     ThrowsOther, Prints, WritesBehind, WritesInput, ReadsBehind, ReadsBefore, NoIndex, Greedy, Late,
                     Remembers, Shares, Leaks, Loses, Picky, Ghost, Races, CountsBuilds, Forks, LeavesChild,
-                    LeavesThread, Closes, Handles, Moves, Translates, Spins, Slow, HangsWithChild)
+                    LeavesThread, Closes, Handles, Moves, Translates, Spins, Slow, HangsWithChild, Eats)
