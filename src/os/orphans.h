@@ -20,7 +20,7 @@ class Orphans {
 
 // Processes that this one has started, or taken over, and that have not been waited for.
 std::vector<int> child_processes();
-// Threads of this process.
+// Of this process.
 int thread_count();
 
 }  // namespace clusterbench::os

@@ -238,10 +238,13 @@ Conversation::Received Conversation::receive_line(std::string& line, double seco
       return Received::line;
     }
     pollfd waiting{number(from_), POLLIN, 0};
+    const bool has_ended =
+        has_exited(number(process_));  // before the last look at its output, which a child of it can hold open
     const bool is_ready = ::poll(&waiting, 1, k_wait_ms) > 0;
     if (stop) return Received::stop;
     if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds)
       return Received::timeout;
+    if (!is_ready && has_ended) return Received::end;
     if (!is_ready) continue;
     const ssize_t bytes = ::recv(number(from_), some.data(), some.size(), 0);
     if (bytes == 0 || (bytes < 0 && errno != EINTR)) return Received::end;
