@@ -18,6 +18,7 @@
 #include "config/config.h"
 #include "config/config_plugins.h"
 #include "config/presets/preset_library.h"
+#include "core/libraries.h"
 #include "core/text.h"
 #include "os/call_notes.h"
 #include "os/stop_signals.h"
@@ -242,11 +243,14 @@ void print_notes(const config::Config& config, const run::Plan& plan, const std:
 }
 
 void warn_of_random_depths() {
+  const std::string unseen = missing_library(Library::embree);
   print_message(
-      "warning: the scene has no triangles: each pixel is shaded at a random depth, where no surface is, and surfaces "
-      "can "
-      "make another clustering the best; export the level's meshes with its lights, or take a floor: --set "
-      "samples.opaque.ground=lowest, or =Y for one at that height");
+      "warning: " + (unseen.empty() ? "the scene has no triangles" : unseen) +
+      ": each pixel is shaded at a random depth, where no surface is, and surfaces can make another clustering "
+      "the best; " +
+      (unseen.empty() ? "export the level's meshes with its lights, or take a floor: --set "
+                        "samples.opaque.ground=lowest, or =Y for one at that height"
+                      : "take a build with it"));
 }
 
 bool needs_cost(const report::Question& question) {
