@@ -1,7 +1,11 @@
 # clusterbench_callgrind(): whether and, if not, why not this build can be counted by callgrind. valgrind is not needed to
 # build; without it `run --count=callgrind` says what is missing.
 function(clusterbench_callgrind)
-  find_path(CALLGRIND_INCLUDE valgrind/callgrind.h)
+  set(CALLGRIND_INCLUDE CALLGRIND_INCLUDE-NOTFOUND)
+  if(CLUSTERBENCH_TRIES_VALGRIND)
+    find_path(CALLGRIND_INCLUDE valgrind/callgrind.h)
+  endif()
+  clusterbench_optional(VALGRIND CALLGRIND_INCLUDE "valgrind (Debian: valgrind)" "run --count=callgrind will be refused")
   set(OBSTACLE "")
   if(CLUSTERBENCH_SANITIZE)
     set(OBSTACLE "this build has sanitizers (${CLUSTERBENCH_SANITIZE}), which valgrind cannot run: use another build")

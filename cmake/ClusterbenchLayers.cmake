@@ -12,7 +12,9 @@ target_compile_options(clusterbench_flags INTERFACE
 # and a quarter more memory.
 cmake_host_system_information(RESULT BUILD_MEMORY_MIB QUERY TOTAL_PHYSICAL_MEMORY)
 cmake_host_system_information(RESULT BUILD_PROCESSORS QUERY NUMBER_OF_LOGICAL_CORES)
-math(EXPR BUILD_MEMORY_MIB "${BUILD_MEMORY_MIB} / ${BUILD_PROCESSORS}")
+if(BUILD_PROCESSORS GREATER 0) # without /proc neither is known
+  math(EXPR BUILD_MEMORY_MIB "${BUILD_MEMORY_MIB} / ${BUILD_PROCESSORS}")
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND BUILD_MEMORY_MIB GREATER 1500)
   target_compile_options(clusterbench_flags INTERFACE --param=ggc-min-heapsize=700000)
 endif()
@@ -22,6 +24,7 @@ if(CLUSTERBENCH_LIBRARY_ONLY)
   target_compile_definitions(clusterbench_flags INTERFACE CLUSTERBENCH_OWN_VECTORS=1 CLUSTERBENCH_OWN_NUMBERS=1)
 else()
   target_link_libraries(clusterbench_flags INTERFACE glm::glm)
+  target_include_directories(clusterbench_flags SYSTEM INTERFACE ${BOOST_INCLUDE})
 endif()
 if(CLUSTERBENCH_SANITIZE)
   target_compile_options(clusterbench_flags INTERFACE

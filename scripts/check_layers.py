@@ -17,6 +17,7 @@ LAYERS = ["core", "os", "result", "geom", "scene", "view", "depth", "grid", "cul
 # folders; where it is not named they stand above all folders.
 FOLDERS = {
     "result": [["."], ["figures"], ["documents"]],
+    "os": [["."], ["posix", "windows"], ["linux", "mac"]],
     "geom": [["numbers"], ["shapes"], ["ball", "box", "search", "certificate", "single_precision", "projection"], ["filter"],
              ["spot"]],
     "scene": [["."], ["gltf_document"], ["gltf_scene", "writers"], ["generators"]],
@@ -52,7 +53,7 @@ HOMES = {
     "nlopt": ["search"],
     "valgrind/": ["run"],
     "CLI/": ["cli"],
-    # The operating system: another one is a second file beside each of these.
+    # The operating system. SYSTEM_FOLDERS says where in it.
     "unistd.h": ["os"],
     "fcntl.h": ["os"],
     "poll.h": ["os"],
@@ -68,6 +69,37 @@ HOMES = {
     "elf.h": ["os"],
     "sys/": ["os"],
     "linux/": ["os"],
+    "malloc": ["os"],
+    "mach/": ["os"],
+    "mach-o/": ["os"],
+    "libproc.h": ["os"],
+    "crt_externs.h": ["os"],
+    "windows.h": ["os"],
+    "psapi.h": ["os"],
+    "shellapi.h": ["os"],
+    "io.h": ["os"],
+}
+
+# System header -> the only folders of the layer os that include it. Headers of the layer, and the files beside its folders,
+# are for every system.
+SYSTEM_FOLDERS = {
+    "windows.h": ["windows"],
+    "psapi.h": ["windows"],
+    "shellapi.h": ["windows"],
+    "io.h": ["windows"],
+    "mach": ["mac"],
+    "libproc.h": ["mac"],
+    "crt_externs.h": ["mac"],
+    "linux/": ["linux"],
+    "elf.h": ["linux"],
+    "unistd.h": ["posix", "linux", "mac"],
+    "fcntl.h": ["posix", "linux", "mac", "windows"],
+    "signal.h": ["posix", "linux", "mac"],
+    "poll.h": ["posix"],
+    "dlfcn.h": ["posix"],
+    "stdlib.h": ["posix", "mac"],
+    "sys/": ["posix", "linux", "mac", "windows"],
+    "malloc": ["linux", "mac", "windows"],
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
@@ -86,6 +118,13 @@ def layer_faults(name, layer, file_includes):
         for library, homes in HOMES.items():
             if included.startswith(library) and layer not in homes:
                 yield f"{name}: includes {included}, whose home is {' and '.join(homes)}"
+
+
+def system_faults(name, folder, file_includes):
+    for kind, included in file_includes:
+        for header, folders in SYSTEM_FOLDERS.items():
+            if kind == "<" and included.startswith(header) and folder not in folders:
+                yield f"{name}: includes {included}, which belongs into src/os/{' or src/os/'.join(folders)}"
 
 
 def folder_of(parts):
@@ -157,6 +196,8 @@ def faults(root):
         file_includes = includes_of(path)
         graph[str(relative)] = [name for kind, name in file_includes if kind == '"']
         yield from layer_faults(f"src/{relative}", layer, file_includes)
+        if layer == "os":
+            yield from system_faults(f"src/{relative}", folder_of(relative.parts), file_includes)
         if layer in FOLDERS:
             yield from folder_faults(f"src/{relative}", layer, folder_of(relative.parts), file_includes)
     yield from circle_faults(graph)

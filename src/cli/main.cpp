@@ -6,10 +6,12 @@
 #include "cli/command_line/commands.h"
 #include "cli/output/output.h"
 #include "core/text.h"
+#include "os/environment.h"
 #include "os/standard_streams.h"
 
 int main(int argc, char** argv) {
   using clusterbench::ExitCode;
+  clusterbench::os::take_arguments(argc, argv);
   clusterbench::os::keep_standard_streams();
   clusterbench::os::report_size_limits_as_errors();
   try {

@@ -1,10 +1,11 @@
 #include "config/config_scenes.h"
 
-#include <cstdlib>
+#include <optional>
 
 #include "config/config_grids.h"
 #include "core/error.h"
 #include "core/file_text.h"
+#include "os/environment.h"
 #include "scene/camera_jitter.h"
 #include "scene/rig.h"
 
@@ -20,11 +21,11 @@ std::string expanded(std::string path, const std::string& file, const std::strin
     const std::size_t end = path.find('}', begin);
     if (end == std::string::npos) throw Error(file, where, "found '${' without '}' in '" + path + "'");
     const std::string name = path.substr(begin + 2, end - begin - 2);
-    const char* value = std::getenv(name.c_str());
-    if (value == nullptr)
+    const std::optional<std::string> value = os::variable(name);
+    if (!value)
       throw Error(file, where, "the environment variable '" + name + "' is not set; set it to use '" + path + "'");
-    path.replace(begin, end + 1 - begin, value);
-    begin += std::string(value).size();
+    path.replace(begin, end + 1 - begin, *value);
+    begin += value->size();
   }
   return path;
 }

@@ -1,29 +1,40 @@
-// Apart from the rest of core/text.h, which needs no library.
-
-#include <openssl/evp.h>
-
-#include <algorithm>
+#include <array>
+#include <cstdint>
 
 #include "core/text.h"
 
 namespace clusterbench {
+namespace {
+
+constexpr std::uint8_t k_no_digit = 64;
+
+// The value of each character (RFC 4648, table 1).
+constexpr std::array<std::uint8_t, 256> k_digit_of = [] {
+  constexpr std::string_view k_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::array<std::uint8_t, 256> values{};
+  values.fill(k_no_digit);
+  for (std::size_t i = 0; i < k_digits.size(); ++i)
+    values[static_cast<unsigned char>(k_digits[i])] = static_cast<std::uint8_t>(i);
+  return values;
+}();
+
+}  // namespace
 
 std::optional<std::string> base64_decoded(std::string_view text) {
   while (text.ends_with('=')) text.remove_suffix(1);
-  if (text.size() % 4 == 1 || text.find('=') != std::string_view::npos) return std::nullopt;
-  std::string padded(text);
-  padded.resize((text.size() + 3) / 4 * 4, '=');
-  std::string bytes(padded.size() / 4 * 3, '\0');
-  constexpr std::size_t k_longest = std::size_t{1} << 30;  // characters of a call, which counts in int
-  for (std::size_t from = 0; from < padded.size(); from += k_longest) {
-    const std::size_t count = std::min(k_longest, padded.size() - from);
-    const int decoded =
-        EVP_DecodeBlock(reinterpret_cast<unsigned char*>(bytes.data() + from / 4 * 3),
-                        reinterpret_cast<const unsigned char*>(padded.data() + from), static_cast<int>(count));
-    // The decoder skips white space at either end, which gives fewer bytes.
-    if (decoded < 0 || static_cast<std::size_t>(decoded) != count / 4 * 3) return std::nullopt;
+  if (text.size() % 4 == 1) return std::nullopt;
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3 + 2);
+  std::uint32_t bits = 0, count = 0;
+  for (const char character : text) {
+    const std::uint8_t digit = k_digit_of[static_cast<unsigned char>(character)];
+    if (digit == k_no_digit) return std::nullopt;
+    bits = bits << 6 | digit;
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes += static_cast<char>(bits >> count);
   }
-  bytes.resize(text.size() * 3 / 4);
   return bytes;
 }
 

@@ -1,15 +1,34 @@
 #include "core/pattern.h"
 
-#include <re2/re2.h>
-
 #include "core/error.h"
+#include "core/regular_expression.h"
+
+#if CLUSTERBENCH_HAS_RE2
+#include <re2/re2.h>
+#endif
 
 namespace clusterbench {
-namespace {
 
-re2::StringPiece re2_text(std::string_view text) {
-  return {text.data(), text.size()};
-}
+#if CLUSTERBENCH_HAS_RE2
+struct Pattern::Expression {
+  RE2 re2;
+
+  explicit Expression(const std::string& text) : re2(text, RE2::Quiet) {
+    if (!re2.ok()) throw Error("", "", re2.error());
+  }
+  bool is_in(std::string_view text) const { return RE2::PartialMatch(re2_text(text), re2); }
+  bool is_all_of(std::string_view text) const { return RE2::FullMatch(re2_text(text), re2); }
+
+ private:
+  static re2::StringPiece re2_text(std::string_view text) { return {text.data(), text.size()}; }
+};
+#else
+struct Pattern::Expression : RegularExpression {
+  using RegularExpression::RegularExpression;
+};
+#endif
+
+namespace {
 
 // "\\ makes ( ) + plain characters", for those characters of the text that are special in a regular expression; "":
 // none.
@@ -21,35 +40,33 @@ std::string escapes_text(std::string_view text) {
   return "\\ makes " + special + (special.size() == 2 ? "a plain character" : "plain characters");
 }
 
-std::shared_ptr<const RE2> compiled(const std::string& text, const std::string& option) {
+}  // namespace
+
+std::shared_ptr<const Pattern::Expression> Pattern::compiled(const std::string& text, const std::string& option) {
   constexpr std::size_t k_longest = 10'000;  // bytes
   if (text.size() > k_longest)
     throw Error(
         "", option,
         "a regular expression of " + std::to_string(text.size()) + " bytes; at most " + std::to_string(k_longest));
-  RE2::Options quiet;
-  quiet.set_log_errors(false);
-  auto expression = std::make_shared<RE2>(text, quiet);
-  if (!expression->ok()) {
+  try {
+    return std::make_shared<Expression>(text);
+  } catch (const Error& error) {
     const std::string escapes = escapes_text(text);
     throw Error("", option,
-                "'" + text + "' is no regular expression (as RE2 has them): " + expression->error() +
+                "'" + text + "' is no regular expression (as RE2 has them): " + error.message() +
                     (escapes.empty() ? "" : "; " + escapes));
   }
-  return expression;
 }
-
-}  // namespace
 
 Pattern::Pattern(const std::string& text, const std::string& option)
     : text_(text), expression_(compiled(text, option)) {}
 
 bool Pattern::is_in(std::string_view text) const {
-  return !expression_ || text.find(text_) != std::string_view::npos || RE2::PartialMatch(re2_text(text), *expression_);
+  return !expression_ || text.find(text_) != std::string_view::npos || expression_->is_in(text);
 }
 
 bool Pattern::is_all_of(std::string_view text) const {
-  return !expression_ || text == text_ || RE2::FullMatch(re2_text(text), *expression_);
+  return !expression_ || text == text_ || expression_->is_all_of(text);
 }
 
 bool Pattern::is_literally_in(std::string_view text) const {

@@ -1,14 +1,11 @@
 #pragma once
 // User input that selects names: a literal part of a name, or a regular expression. The time of a match is linear in
-// its text for every expression, thanks to RE2: std::regex needs exponential time for "(a+)+$".
+// its text for every expression, thanks to RE2 or, where that is missing, to regular_expression.h: std::regex needs
+// exponential time for "(a+)+$".
 
 #include <memory>
 #include <string>
 #include <string_view>
-
-namespace re2 {  // the library's own name
-class RE2;
-}
 
 namespace clusterbench {
 
@@ -26,8 +23,11 @@ class Pattern {
   bool is(std::string_view text) const;
 
  private:
+  struct Expression;
+  static std::shared_ptr<const Expression> compiled(const std::string& text, const std::string& option);
+
   std::string text_;
-  std::shared_ptr<const re2::RE2> expression_;
+  std::shared_ptr<const Expression> expression_;  // null: of every text
 };
 
 // Text to append to a message that nothing matches, which names the special characters of the text: ", neither as it

@@ -1,6 +1,10 @@
 #include "depth/ray_caster.h"
 
+#if CLUSTERBENCH_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <algorithm>
 #include <array>
@@ -49,6 +53,51 @@ void check(RTCDevice device) {
               ExitCode::internal);
 }
 
+// How rays are cast. Embree 3 takes a context, Embree 4 arguments that refer to one. The context comes first: Embree
+// passes its address to filters.
+struct RayQuery {
+#if CLUSTERBENCH_EMBREE_MAJOR >= 4
+  RTCRayQueryContext context;
+  RTCIntersectArguments arguments;
+
+  RayQuery() {
+    rtcInitRayQueryContext(&context);
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context;
+  }
+  void expect_coherent_rays() {
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  }
+  void find_first(RTCScene surfaces, RTCRayHit& ray) {
+    rtcIntersect1(surfaces, &ray, &arguments);
+  }
+#else
+  RTCIntersectContext context;
+
+  RayQuery() {
+    rtcInitIntersectContext(&context);
+  }
+  void expect_coherent_rays() {
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  }
+  void find_first(RTCScene surfaces, RTCRayHit& ray) {
+    rtcIntersect1(surfaces, &context, &ray);
+  }
+#endif
+  RayQuery(const RayQuery&) = delete;
+  RayQuery& operator=(const RayQuery&) = delete;
+};
+
+bool is_occluded(RTCScene surfaces, RTCRay& ray) {
+#if CLUSTERBENCH_EMBREE_MAJOR >= 4
+  rtcOccluded1(surfaces, &ray);
+#else
+  RayQuery query;
+  rtcOccluded1(surfaces, &query.context, &ray);
+#endif
+  return ray.tfar < 0.0f;
+}
+
 Vec3f direction_of(const RTCRay& ray) {
   return {ray.dir_x, ray.dir_y, ray.dir_z};
 }
@@ -82,17 +131,17 @@ void leave_out_backs(const RTCFilterFunctionNArguments* arguments) {
   if (arguments->valid[0] == -1 && shows_its_back(*ray, *hit)) arguments->valid[0] = 0;
 }
 
-// The hits of a ray through surfaces that blend. The context comes first: Embree passes its address to filters.
+// The hits of a ray through surfaces that blend. The query comes first: filters find this by its address.
 struct Gathering {
   struct Found {
     float depth;
     std::uint32_t surface;
   };
-  RTCIntersectContext context;
+  RayQuery query;
   RTCScene surfaces;
   std::vector<Found> found;
 
-  explicit Gathering(RTCScene of) : surfaces(of) { rtcInitIntersectContext(&context); }
+  explicit Gathering(RTCScene of) : surfaces(of) {}
 
   // The nearest ones, front to back. Embree may pass the same triangle to a filter more than once, and a ray through an
   // edge that two triangles of a surface share meets both: one layer.
@@ -302,9 +351,8 @@ std::optional<SurfaceHit> RayCaster::first_surface(const Vec3d& from, const Vec3
                                                    double end_m) const {
   const Vec3d local = from - surfaces_->origin;
   RTCRayHit ray = ray_of(Vec3f(local), Vec3f(along), static_cast<float>(begin_m), static_cast<float>(end_m));
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(surfaces_->opaque.get(), &context, &ray);
+  RayQuery query;
+  query.find_first(surfaces_->opaque.get(), ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   SurfaceHit hit{static_cast<double>(depth_at(surfaces_->opaque.get(), ray.ray, ray.hit.geomID, ray.hit.primID)),
                  corners_of(surfaces_->opaque.get(), ray.hit)};
@@ -325,12 +373,11 @@ DepthImage RayCaster::depths(const view::Frame& frame, const PixelGrid& pixels, 
   check_memory("depths of pixels", pixels.count(), sizeof(float), "ask for a larger divisor");
   out.nearest.assign(pixels.count(), k_nothing);
   parallel_ranges(pixels.count(), threads, [&](std::size_t begin, std::size_t end) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    RayQuery query;
+    query.expect_coherent_rays();
     for (std::size_t i = begin; i < end; ++i) {
       RTCRayHit ray = camera.ray(i);
-      rtcIntersect1(surfaces_->opaque.get(), &context, &ray);
+      query.find_first(surfaces_->opaque.get(), ray);
       if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID)
         out.nearest[i] = depth_at(surfaces_->opaque.get(), ray.ray, ray.hit.geomID, ray.hit.primID);
     }
@@ -345,10 +392,7 @@ bool RayCaster::is_hidden(const Vec3d& from, const Vec3d& to, double ends_before
   RTCRay ray =
       ray_of(Vec3f(from - surfaces_->origin), Vec3f(way / distance), 0.0f, static_cast<float>(distance - ends_before_m))
           .ray;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(surfaces_->opaque.get(), &context, &ray);
-  return ray.tfar < 0.0f;
+  return is_occluded(surfaces_->opaque.get(), ray);
 }
 
 double RayCaster::clearance_m(const Vec3d& from) const {
@@ -361,13 +405,12 @@ std::vector<double> RayCaster::free_ways(std::span<const WorldRay> rays, int thr
   std::vector<double> ways(rays.size());
   RTCScene surfaces = surfaces_->opaque.get();
   parallel_ranges(rays.size(), threads, [&](std::size_t begin, std::size_t end) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    RayQuery query;
     for (std::size_t i = begin; i < end; ++i) {
       const WorldRay& world = rays[i];
       RTCRayHit ray =
           ray_of(Vec3f(world.from - surfaces_->origin), Vec3f(world.along), 0.0f, static_cast<float>(world.most_m));
-      rtcIntersect1(surfaces, &context, &ray);
+      query.find_first(surfaces, ray);
       ways[i] = world.most_m;
       if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
       ways[i] =
@@ -392,7 +435,7 @@ LayerImage RayCaster::layers(const view::Frame& frame, const DepthImage& opaque,
         RTCRayHit ray = camera.ray(i);
         ray.ray.tfar = std::min(ray.ray.tfar, opaque.nearest[i]);
         gathering.found.clear();
-        rtcIntersect1(surfaces_->blending.get(), &gathering.context, &ray);
+        gathering.query.find_first(surfaces_->blending.get(), ray);
         gathering.finish(most);
         out.begin[i + 1] = static_cast<std::uint32_t>(gathering.found.size());
         for (const Gathering::Found& layer : gathering.found) found[row].push_back(layer.depth);

@@ -1,45 +1,34 @@
 #include "os/call_notes.h"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "core/error.h"
+#include "os/kept_files.h"
 #include "os/notes_page.h"
 #include "os/process_memory.h"
-#include "os/standard_streams.h"
 
 namespace clusterbench::os {
 namespace {
 
-// Notes belong to the process, as its signals do.
-NotesPage g_own_page{};
-NotesPage* g_page = &g_own_page;
-int g_file = -1;
-std::string g_joined;  // NOLINT(cert-err58-cpp): an empty string throws nothing
+// Notes belong to the process, as its signals do. Those without a guard are shared with copies of this process alone.
+NotesPage g_first_page{};
+NotesPage* g_page = &g_first_page;
+bool g_is_guarded = false;
 
 constexpr auto k_relaxed = std::memory_order_relaxed;
 
 thread_local ThreadNotes* t_notes = nullptr;
 thread_local std::uint64_t t_label = 0;
 
-bool is_gone(int process) {
-  return ::kill(process, 0) != 0 && errno == ESRCH;
-}
-
 // A free place, or that of a process that has ended. If there are more threads than places, some share the last one.
 ThreadNotes& claimed_notes() {
   for (ThreadNotes& notes : g_page->threads) {
     int owner = notes.process.load();
-    if (owner != 0 && !is_gone(owner)) continue;
-    if (!notes.process.compare_exchange_strong(owner, ::getpid())) continue;
+    if (owner != 0 && is_running(owner)) continue;
+    if (!notes.process.compare_exchange_strong(owner, own_process())) continue;
     notes.begun = notes.ended = 0;
     notes.resident_before = 0;
     notes.setting.set("");
@@ -53,18 +42,18 @@ ThreadNotes& thread_notes() {
   return *t_notes;
 }
 
-void map_page(int file) {
-  void* memory = ::mmap(nullptr, sizeof(NotesPage), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  if (memory == MAP_FAILED) throw Error("memory", "", errno_text("no notes could be shared"), ExitCode::internal);
-  g_page = static_cast<NotesPage*>(memory);
-  t_notes = nullptr;
-}
-
-void on_crash(int number) {
-  if (t_notes != nullptr && t_notes->is_running())
-    g_page->crashed_thread = static_cast<int>(t_notes - g_page->threads.data());
-  std::signal(number, SIG_DFL);
-  std::raise(number);
+// Before the first call, which loads a plug-in, there is one thread.
+void prepare_for_copies() {
+  static const bool is_prepared = [] {
+    is_forked_copy();
+    NotesPage* page = g_is_guarded ? nullptr : page_for_copies();
+    if (page == nullptr) return true;
+    std::memcpy(static_cast<void*>(page), static_cast<const void*>(g_page), sizeof(NotesPage));
+    g_page = page;
+    g_page->lost_descriptor = -1;
+    return true;
+  }();
+  static_cast<void>(is_prepared);
 }
 
 }  // namespace
@@ -75,7 +64,8 @@ const char* name_of(CallStep step) {
   return index < std::size(k_names) ? k_names[index] : "?";
 }
 
-ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) {
+ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) : caller_(caller), step_(step), frame_(frame) {
+  prepare_for_copies();
   ThreadNotes& notes = thread_notes();
   if (step == CallStep::destroy) {
     label_before_ = notes.label;
@@ -87,13 +77,26 @@ ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) {
   notes.label.store(caller.label, k_relaxed);
   notes.step.store(static_cast<std::uint32_t>(step), k_relaxed);
   notes.frame.store(frame, k_relaxed);
-  if (notes.resident_before.load(k_relaxed) == 0) notes.resident_before = resident_bytes(::getpid());
+  if (notes.resident_before.load(k_relaxed) == 0) notes.resident_before = resident_bytes(own_process());
   g_page->last_thread.store(static_cast<int>(&notes - g_page->threads.data()), k_relaxed);
   g_page->has_called.store(true, k_relaxed);
   notes.begun.store(notes.begun.load(k_relaxed) + 1, std::memory_order_release);
 }
 
+// The notes of this thread are those of the other process, which goes on with them.
+void ForeignCall::note_fork() const {
+  g_page->forked_code = caller_.code;
+  g_page->forked_label = caller_.label;
+  g_page->forked_step = static_cast<std::uint32_t>(step_);
+  g_page->forked_frame = frame_;
+  g_page->has_forked = true;
+}
+
 ForeignCall::~ForeignCall() {
+  if (is_forked_copy()) {
+    note_fork();
+    std::_Exit(static_cast<int>(ExitCode::internal));
+  }
   ThreadNotes& notes = thread_notes();
   notes.ended.store(notes.ended.load(k_relaxed) + 1, std::memory_order_release);
   if (notes.step.load(k_relaxed) != static_cast<std::uint32_t>(CallStep::destroy)) return;
@@ -144,25 +147,7 @@ LastCall last_call() {
 }
 
 bool is_guarded() {
-  return g_page != &g_own_page;
-}
-
-std::string path_of_notes() {
-  if (!g_joined.empty()) return g_joined;
-  return g_file < 0 ? "" : "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(g_file);
-}
-
-void join_notes(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-  struct stat facts {};
-  const bool is_page = file >= 0 && ::fstat(file, &facts) == 0 && facts.st_size == sizeof(NotesPage);
-  if (is_page) map_page(file);
-  if (file >= 0) ::close(file);
-  if (!is_page || g_page->magic != NotesPage::k_magic)
-    throw Error(path, "", "holds no notes of this program's calls", ExitCode::internal);
-  g_joined = path;
-  keep_output_apart();
-  watch_for_crashes();
+  return g_is_guarded;
 }
 
 void end_with_call(int wait_status) {
@@ -175,25 +160,51 @@ void end_with_call(int wait_status) {
 
 void end_as_ended_thread() {
   g_page->has_ended_thread = true;
-  if (t_notes != nullptr && t_notes->is_running())
-    g_page->crashed_thread = static_cast<int>(t_notes - g_page->threads.data());
+  note_crash();
   if (!is_guarded()) std::fputs("clusterbench: a plug-in ended the thread that called it (pthread_exit)\n", stderr);
   std::_Exit(static_cast<int>(ExitCode::internal));
+}
+
+std::optional<CallStep> forked_step() {
+  if (!g_page->has_forked) return {};
+  return static_cast<CallStep>(g_page->forked_step.load());
+}
+
+std::optional<CallStep> forked_step_of(std::uint32_t code) {
+  return g_page->forked_code == code ? forked_step() : std::nullopt;
+}
+
+void end_if_files_are_lost() {
+  if (is_forked_copy()) return;  // it ends soon
+  const int lost = lost_file();
+  if (lost < 0) return;
+  g_page->lost_descriptor = lost;
+  note_crash();
+  if (!is_guarded())
+    std::fprintf(stderr,
+                 "clusterbench: a plug-in closed a file of the program, or put another in its place (descriptor %d)\n",
+                 lost);
+  std::_Exit(static_cast<int>(is_guarded() ? ExitCode::internal : ExitCode::gate_failed));
 }
 
 NotesPage& notes_page() {
   return *g_page;
 }
 
-NotesPage& share_notes() {
-  if (g_file >= 0) return *g_page;
-  g_file = ::memfd_create("clusterbench", MFD_CLOEXEC);
-  if (g_file < 0 || ::ftruncate(g_file, sizeof(NotesPage)) != 0)
-    throw Error("memory", "", errno_text("no notes could be shared"), ExitCode::internal);
-  map_page(g_file);
-  g_page->magic = NotesPage::k_magic;
-  clear_notes(*g_page);
-  return *g_page;
+void use_notes(NotesPage& page) {
+  g_page = &page;
+  g_is_guarded = true;
+  t_notes = nullptr;
+}
+
+void begin_notes(NotesPage& page) {
+  page.magic = NotesPage::k_magic;
+  clear_notes(page);
+}
+
+void note_crash() {
+  if (t_notes != nullptr && t_notes->is_running())
+    g_page->crashed_thread = static_cast<int>(t_notes - g_page->threads.data());
 }
 
 void clear_notes(NotesPage& page) {
@@ -202,17 +213,14 @@ void clear_notes(NotesPage& page) {
   page.crashed_thread = -1;
   page.has_called = false;
   page.has_ended_thread = false;
+  page.lost_descriptor = -1;
+  page.has_forked = false;
   page.has_child_status = false;
   page.codes = 0;
   page.group.set("");
   page.pass.set("");
   for (ThreadNotes& notes : page.threads) notes.process = 0;
   for (ThreadNotes& notes : page.threads) notes.begun = notes.ended = 0;
-}
-
-void watch_for_crashes() {
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP})
-    if (const auto before = std::signal(number, on_crash); before != SIG_DFL) std::signal(number, before);
 }
 
 }  // namespace clusterbench::os

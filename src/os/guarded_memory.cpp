@@ -1,16 +1,12 @@
 #include "os/guarded_memory.h"
 
-#include <malloc.h>
-#include <signal.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
 
 #include "core/error.h"
+#include "os/memory_pages.h"
 
 namespace clusterbench::os {
 namespace {
@@ -36,9 +32,7 @@ class SignalText {
     while ((number /= 10) > 0);
     return *this << digits.data() + first;
   }
-  void print() const {
-    if (::write(STDERR_FILENO, text_.data(), size_) < 0) return;
-  }
+  void print() const { print_on_error(text_.data(), size_); }
 
  private:
   std::array<char, 256> text_{};
@@ -57,11 +51,10 @@ void describe(const GuardedRange& range, std::uintptr_t address) {
   text.print();
 }
 
-void on_access(int, siginfo_t* info, void*) {
-  const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
+void describe_access(std::uintptr_t address) {
   for (const GuardedRange& range : guarded_ranges)
     if (address >= range.pages_begin && address < range.pages_end) describe(range, address);
-}  // the access is tried again, without this handler
+}
 
 std::size_t free_place() {
   const auto* found = std::ranges::find(guarded_ranges, std::uintptr_t{0}, &GuardedRange::pages_end);
@@ -73,13 +66,11 @@ std::size_t free_place() {
 
 GuardedMemory::GuardedMemory(const std::string& name, std::size_t bytes, Guard guard)
     : bytes_(bytes), place_(free_place()) {
-  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  const std::size_t page = os::page_bytes();
   const std::size_t inner = (bytes + page - 1) / page * page;
   page_bytes_ = inner + 2 * page;
-  void* pages = ::mmap(nullptr, page_bytes_, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (pages == MAP_FAILED) throw Error("", "memory", errno_text("cannot be had"));
-  pages_ = static_cast<std::byte*>(pages);
-  if (inner > 0 && ::mprotect(pages_ + page, inner, PROT_READ | PROT_WRITE) != 0)
+  pages_ = reserve_pages(page_bytes_);
+  if (pages_ == nullptr || (inner > 0 && !allow_writing(pages_ + page, inner)))
     throw Error("", "memory", errno_text("cannot be had"));
   data_ = pages_ + page + (guard == Guard::behind ? inner - bytes : 0);
   GuardedRange& range = guarded_ranges[place_];
@@ -93,26 +84,18 @@ GuardedMemory::GuardedMemory(const std::string& name, std::size_t bytes, Guard g
 
 GuardedMemory::~GuardedMemory() {
   guarded_ranges[place_] = {};
-  ::munmap(pages_, page_bytes_);
+  release_pages(pages_, page_bytes_);
 }
 
 void GuardedMemory::forbid_writing() const {
   if (bytes_ == 0) return;
-  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  if (::mprotect(pages_ + page, page_bytes_ - 2 * page, PROT_READ) != 0)
+  const std::size_t page = os::page_bytes();
+  if (!allow_reading_alone(pages_ + page, page_bytes_ - 2 * page))
     throw Error("", "memory", errno_text("cannot be protected"));
 }
 
 void report_guards() {
-  struct sigaction action {};
-  action.sa_sigaction = on_access;
-  action.sa_flags = SA_SIGINFO | SA_RESETHAND;
-  for (const int number : {SIGSEGV, SIGBUS}) ::sigaction(number, &action, nullptr);
-}
-
-std::size_t heap_in_use() {
-  const struct mallinfo2 facts = ::mallinfo2();
-  return facts.uordblks + facts.hblkhd;
+  watch_accesses(describe_access);
 }
 
 }  // namespace clusterbench::os

@@ -6,14 +6,22 @@
 #include <string>
 #include <string_view>
 
+#include "core/error.h"
+
 namespace clusterbench::os {
 
-// Locked with flock, so that any end of the process releases it; on disks that have no locks (some network disks), by a
-// file PATH.lock, which a killed process leaves behind. A regular file: nothing is written through links. All functions
-// throw Error.
+// Another process holds the file.
+class FileHeld : public Error {
+ public:
+  using Error::Error;
+};
+
+// Locked with flock, on Windows with LockFileEx, so that any end of the process releases it; on disks that have no
+// locks (some network disks), by a file PATH.lock, which a killed process leaves behind. A regular file: nothing is
+// written through links. All functions throw Error.
 class LockedFile {
  public:
-  // The behaviour if another process holds it: throw Error, or wait.
+  // The behaviour if another process holds it: throw FileHeld, or wait.
   enum class Held { refuse, wait };
 
   // Opens the file, or creates an empty one, which is removed with this object if nothing is written to it.
@@ -55,7 +63,7 @@ class LockedFile {
 
   std::filesystem::path path_;
   Held held_;
-  int file_ = -1;
+  std::intptr_t file_ = -1;  // a descriptor or handle of the system
   bool is_made_ = false, has_lock_beside_ = false;
 };
 

@@ -2,14 +2,16 @@
 // Another program, started by this one, which reads its output. It does not outlive this one.
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace clusterbench::os {
 
-// As a command's first word: this program, even if its file has been replaced or removed since the start.
-inline constexpr const char* k_this_program = "/proc/self/exe";
+// The file of this program, as a command's first word; on Linux even if it has been replaced or removed since the
+// start.
+const std::string& this_program();
 // The same as a path that another program can open.
 std::string this_program_for_others();
 // The command line of this process.
@@ -23,18 +25,19 @@ class MemoryFile {
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
-  int descriptor() const { return descriptor_; }
+  // A descriptor or handle of the system.
+  std::intptr_t descriptor() const { return descriptor_; }
   // Its last 2,000 bytes.
   std::string tail() const;
 
  private:
-  int descriptor_;
+  std::intptr_t descriptor_;
 };
 
 struct Ending {
   std::string how;         // "" if it ended well; else "exit code 3", "signal 11 (...)", "cannot be started: ..."
   int exit_code = -1;      // if it has one
-  int wait_status = -1;    // as waitpid() tells it; -1: it never ran
+  int wait_status = -1;    // as waitpid() tells it, on Windows the exit code; -1: it never ran
   std::string error_tail;  // the end of its standard error
 };
 
@@ -66,8 +69,8 @@ class Conversation {
 
  private:
   MemoryFile errors_;
-  int pid_ = -1;
-  int socket_ = -1;
+  std::intptr_t process_ = -1;
+  std::intptr_t to_ = -1, from_ = -1;  // its standard input and output
   std::string received_;
   Ending ending_;
 };

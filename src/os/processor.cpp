@@ -8,6 +8,8 @@
 #include <map>
 #include <string_view>
 
+#include "os/processor_time.h"
+
 namespace clusterbench::os {
 namespace {
 
@@ -122,6 +124,15 @@ std::optional<Clock> clock_of(std::istream& cpuinfo, const std::filesystem::path
   Clock clock{sum_mhz > 0.0 ? sum_mhz / count : first_khz / 1e3, {}};
   if (most_khz > 0.0) clock.most_mhz = most_khz / 1e3;
   return clock.now_mhz > 0.0 ? std::optional(clock) : std::nullopt;
+}
+
+ProcessorTime processor_time(std::istream& stat) {
+  constexpr double k_ticks_per_s = 100.0;  // USER_HZ, which is part of the kernel's interface
+  std::string name;
+  double user = 0, nice = 0, system = 0, idle = 0, waiting = 0, irq = 0, soft_irq = 0, stolen = 0;
+  stat >> name >> user >> nice >> system >> idle >> waiting >> irq >> soft_irq >> stolen;
+  if (!stat || name != "cpu") return {};
+  return {(user + nice + system + irq + soft_irq) / k_ticks_per_s, stolen / k_ticks_per_s};
 }
 
 std::optional<double> load_of(std::istream& loadavg) {

@@ -9,6 +9,7 @@
 
 #include "assign/contract/storage.h"
 #include "core/error.h"
+#include "core/libraries.h"
 #include "pictures/file_names.h"
 #include "pictures/png.h"
 #include "run/cases/frame_lights.h"
@@ -337,6 +338,7 @@ Geometries load_geometries(const config::Config& config, const run::Plan& plan, 
   for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
     if (plan.scenes[i].geometry || config.scenes[i].rig) continue;
     try {
+      if (const std::string unseen = missing_library(Library::embree); !unseen.empty()) throw Error("", "", unseen);
       out[i] = scene::load_geometry(plan.scenes[i].scene);
     } catch (const Error& error) {
       out[i].emplace().warnings.push_back("pictures are at one depth, as without triangles: " +

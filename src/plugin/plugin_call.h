@@ -2,12 +2,13 @@
 // A call of a plug-in's function: noted, with the mode of floating-point numbers as it was before, and never left by
 // the end of the thread.
 
-#include <cxxabi.h>
-
 #include <cfenv>
 #include <cstdint>
 
-#if defined(__x86_64__)
+#ifdef __GLIBCXX__
+#include <cxxabi.h>
+#endif
+#if defined(__x86_64__) || defined(_M_X64)
 #include <xmmintrin.h>
 #endif
 
@@ -20,19 +21,23 @@ class FloatMode {
  public:
   bool operator==(const FloatMode&) const = default;
 
-#if defined(__x86_64__)
+#if defined(__x86_64__) || defined(_M_X64)
   FloatMode() : vector_(_mm_getcsr() & k_modes) {
+#ifdef __GNUC__
     asm volatile("fnstcw %0" : "=m"(old_));
+#endif
   }
   void set() const {
     _mm_setcsr((_mm_getcsr() & ~k_modes) | vector_);
+#ifdef __GNUC__
     asm volatile("fldcw %0" : : "m"(old_));
+#endif
   }
 
  private:
   static constexpr std::uint32_t k_modes = 0xffc0;
   std::uint32_t vector_ = 0;
-  std::uint16_t old_ = 0;
+  std::uint16_t old_ = 0;  // of the x87, which Microsoft's compiler does not use
 #else
   FloatMode() : rounding_(std::fegetround()) {}
   void set() const {
@@ -58,11 +63,15 @@ auto called(const os::Caller& caller, os::CallStep step, int frame, bool& keeps_
   };
   const os::ForeignCall call(caller, step, frame);
   const Restored restored{keeps_mode, {}};
+#ifdef __GLIBCXX__
   try {
     return function();
   } catch (const abi::__forced_unwind&) {
     os::end_as_ended_thread();
   }
+#else  // no exception tells it
+  return function();
+#endif
 }
 
 }  // namespace clusterbench::plugin

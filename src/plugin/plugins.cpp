@@ -5,12 +5,12 @@
 #include <cstdlib>
 #include <deque>
 #include <set>
-#include <sstream>
 
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/text.h"
 #include "os/call_notes.h"
+#include "os/environment.h"
 #include "os/shared_library.h"
 #include "plugin/plugin_call.h"
 #include "plugin/plugin_method.h"
@@ -110,12 +110,8 @@ void check_name(const fs::path& given) {
 }
 
 std::vector<fs::path> folders_on_path() {
-  const char* value = std::getenv(k_path_variable);
-  std::istringstream list(value == nullptr ? "" : value);
-  std::vector<fs::path> folders;
-  for (std::string folder; std::getline(list, folder, ':');)
-    if (!folder.empty()) folders.emplace_back(folder);
-  return folders;
+  const std::vector<std::string> named = os::folders_in_variable(k_path_variable);
+  return {named.begin(), named.end()};
 }
 
 }  // namespace

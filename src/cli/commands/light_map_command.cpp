@@ -7,6 +7,7 @@
 #include "cli/command_line/commands.h"
 #include "cli/options/run_inputs.h"
 #include "cli/output/output.h"
+#include "core/libraries.h"
 #include "core/text.h"
 #include "report/searches/light_map_report.h"
 
@@ -65,6 +66,7 @@ report::LightMapScene light_maps_of(const std::string& path, const LightMapFlags
 
 ExitCode light_map(const LightMapFlags& flags) {
   const measure::LightMapRequest request = light_map_request(flags);
+  if (request.visibility) need_library(Library::embree, "--visibility", "rays to lights");
   refuse_overwriting({flags.output}, flags.scenes);
   const bool for_reading = is_for_reading(flags.output);
   LaterOutput output(flags.output, for_reading);

@@ -13,6 +13,7 @@
 #include "cli/options/plugin_option.h"
 #include "cli/output/output.h"
 #include "config/presets/preset_library.h"
+#include "core/libraries.h"
 #include "cull/pre_cull_spec.h"
 #include "gpu/device/device_facts.h"
 #include "gpu/user_shaders/shader_method.h"
@@ -153,6 +154,10 @@ Json to_json(const result::Figure& figure) {
           {"uses", uses_of(figure)}};
 }
 
+Json to_json(const OptionalLibrary& row) {
+  return {{"name", row.name}, {"serves", row.serves}, {"without", row.without}, {"built_in", row.is_built_in}};
+}
+
 Json everything() {
   Json all{{"assigners", Json::array()}, {"storages", Json::array()}, {"grids", Json::array()}};
   for (const assign::AssignerDescriptor* assigner : assign::assigner_descriptors())
@@ -169,6 +174,7 @@ Json everything() {
     all["scenes"].push_back(
         {{"name", row.name}, {"summary", row.summary}, {"source", row.source}, {"default_lights", row.default_lights}});
   for (const result::Figure& figure : result::figures()) all["figures"].push_back(to_json(figure));
+  for (const OptionalLibrary& row : optional_libraries()) all["libraries"].push_back(to_json(row));
   return all;
 }
 
@@ -302,6 +308,15 @@ void print_figures(const Json& figures) {
   for (const Json& figure : figures) print_figure(figure);
 }
 
+void print_libraries(const Json& libraries) {
+  std::cout << "libraries (optional ones of this build)\n";
+  for (const Json& library : libraries)
+    std::cout << "  " << word_of(library["name"]) << ": "
+              << (library["built_in"] ? "built in, for " + word_of(library["serves"])
+                                      : "not built in; " + word_of(library["without"]))
+              << "\n";
+}
+
 void print_section(const Json& all, const char* section) {
   if (std::string_view(section) == "presets") {
     print_presets(all[section]);
@@ -313,6 +328,10 @@ void print_section(const Json& all, const char* section) {
   }
   if (std::string_view(section) == "figures") {
     print_figures(all[section]);
+    return;
+  }
+  if (std::string_view(section) == "libraries") {
+    print_libraries(all[section]);
     return;
   }
   std::cout << section << "\n";
@@ -337,8 +356,8 @@ void print_section(const Json& all, const char* section) {
 }
 
 constexpr const char* k_devices = "devices";  // only by name
-constexpr const char* k_sections[] = {"assigners", "storages", "grids",   "pre_culls",
-                                      "scenes",    "presets",  "figures", k_devices};
+constexpr const char* k_sections[] = {"assigners", "storages", "grids",     "pre_culls", "scenes",
+                                      "presets",   "figures",  "libraries", k_devices};
 
 // `wanted`: "" for all sections.
 void print_text(const Json& all, const std::string& wanted) {
@@ -363,12 +382,12 @@ void print_all(const std::string& section, bool as_json) {
 void add_list(Command& program, Action& action) {
   Command command = program.add_command("list",
                                         "Assigners, storages, grids, pre-culls, scenes and presets that exist, with "
-                                        "their parameters, figures of cases, and devices");
+                                        "their parameters, figures of cases, optional libraries, and devices");
   auto as_json = std::make_shared<bool>(false);
   auto section = std::make_shared<std::string>();
   command
       .add_option("SECTION", *section,
-                  "Only these: assigners, storages, grids, pre_culls, scenes, presets, figures or devices")
+                  "Only these: assigners, storages, grids, pre_culls, scenes, presets, figures, libraries or devices")
       .one_of({std::begin(k_sections), std::end(k_sections)});
   command.add_flag("--json", *as_json, "As JSON");
   auto plugins = std::make_shared<std::vector<std::string>>();

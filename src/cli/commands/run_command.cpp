@@ -87,7 +87,18 @@ void refuse_unguarded(const RunFlags& flags, const config::Config& config) {
               "--plugin");
 }
 
+ExitCode write_dumps_alone(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
+  warn_of_budgets(config);
+  const WrittenDumps written = write_dumps(config, plan, flags.dump_folder, flags.dump_frames);
+  for (const std::string& line : written.remarks) print_message(printable(line));
+  if (!flags.quiet)
+    print_message(number_of(written.count, "dump") + " written; `clusterbench check " + flags.dump_folder +
+                  "` reads them");
+  return ExitCode::ok;
+}
+
 std::optional<ExitCode> run_part(const RunFlags& flags) {
+  if (!flags.dump_folder.empty()) refuse_beside_dumps(flags);
   const config::Config config = read_config(flags);
   refuse_unguarded(flags, config);
   const CountWay way = count_way(flags.count);
@@ -101,14 +112,7 @@ std::optional<ExitCode> run_part(const RunFlags& flags) {
     print_plan(flags, config, std::move(plan));
     return ExitCode::ok;
   }
-  if (!flags.dump_folder.empty()) {
-    const WrittenDumps written = write_dumps(config, plan, flags.dump_folder, flags.dump_frames);
-    for (const std::string& line : written.left_out) print_message(printable(line));
-    if (!flags.quiet)
-      print_message(number_of(written.count, "dump") + " written; `clusterbench check " + flags.dump_folder +
-                    "` reads them");
-    return ExitCode::ok;
-  }
+  if (!flags.dump_folder.empty()) return write_dumps_alone(flags, config, plan);
   if (!flags.baseline.binary.empty()) check_baseline(flags);
   return measure(flags, config, plan, way, exports);
 }
@@ -123,7 +127,7 @@ ExitCode run(RunFlags& flags) {
   const os::RereadableInputs inputs(flags.inputs.paths);
   std::optional<os::TemporaryFolder> folder;
   std::optional<LaterOutput> output;  // a pipe stays open from the first part to the last one
-  if (is_stream(flags.output) && !flags.guard.is_in_process) {
+  if (is_stream(flags.output) && !calls_in_process(flags.guard)) {
     folder.emplace();
     output.emplace(flags.output, is_for_reading(flags.output));
   }

@@ -11,6 +11,7 @@
 #include "cli/output/duration.h"
 #include "cli/output/output.h"
 #include "cli/output/progress_line.h"
+#include "core/libraries.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
 #include "report/searches/worst_case_report.h"
@@ -93,6 +94,7 @@ void check_path(const search::WorstCase& found, const report::WorstCaseFacts& fa
 }
 
 ExitCode worst_case(const WorstCaseFlags& flags) {
+  need_library(Library::nlopt, "worst-case", "searches");
   config::Config config = config::with_presets_on_processor(read_inputs(flags.inputs));
   const search::WorstCaseRequest request = request_of(flags, config);
   const run::Plan plan = run::make_plan(config, flags.filter);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <mutex>
 #include <set>
 #include <utility>
 
@@ -19,9 +20,13 @@ namespace {
 using How = os::GuardedEnd::How;
 
 std::string death_text(const os::GuardedEnd& end) {
+  if (end.has_forked) return "came back twice (it forked)";
   const std::string signal = os::signal_name(end.signal);
   if (signal == "SIGKILL") return "was killed (SIGKILL), as where memory runs out,";
   if (end.signal != 0) return "crashed (" + signal + ")";
+  if (end.lost_descriptor >= 0)
+    return "closed a file of the program, or put another in its place (descriptor " +
+           std::to_string(end.lost_descriptor) + ")";
   if (end.has_ended_thread) return "ended the process by ending its thread (pthread_exit)";
   return "ended the process (exit code " + std::to_string(end.died_with_code) + ")";
 }
@@ -41,7 +46,7 @@ const char* kind_of(How how) {
 std::string call_text(const os::GuardedEnd& end) {
   const os::NotedCall& call = *end.call;
   const bool is_within = end.is_call_running || call.step == os::CallStep::unload;
-  std::string out = std::string(is_within ? " in " : " after ") + os::name_of(call.step);
+  std::string out = std::string(end.has_forked ? " from " : is_within ? " in " : " after ") + os::name_of(call.step);
   if (call.frame >= 0) out += ", frame " + std::to_string(call.frame);
   if (!call.pass.empty() && call.step != os::CallStep::unload) out += " (" + call.pass + ")";
   return out;
@@ -53,6 +58,14 @@ Casualty casualty_of(const os::GuardedEnd& end, const GuardFlags& flags) {
           end.signal != 0 ? os::signal_name(end.signal) : ""};
 }
 
+// Of processes that plug-ins have started.
+void tell_orphans(const os::GuardedEnd& end) {
+  if (end.orphans == 0) return;
+  const bool is_one = end.orphans == 1;
+  print_message("warning: plug-ins left " + std::to_string(end.orphans) +
+                (is_one ? " process running, which was ended" : " processes running, which were ended"));
+}
+
 // A process that died cannot remove its progress line.
 void clear_line() {
   if (os::terminal(os::StandardStream::error).interactive) std::cerr << "\r\033[K" << std::flush;
@@ -62,17 +75,21 @@ os::ProcessGuard::Limits limits_of(const GuardFlags& flags) {
   return {flags.timeout_s, static_cast<std::uint64_t>(flags.memory_mib) << 20};
 }
 
-// Runs a part, and notes its end: what ends the process after it is no end of the part.
+// Runs a part, and notes its end: what ends the process after it is no end of the part. Where a plug-in has closed
+// files of the program, the part can have failed for that, and nobody would read its message.
 ExitCode ended(const std::function<std::optional<ExitCode>()>& part) {
   try {
     const std::optional<ExitCode> code = part();
+    os::end_if_files_are_lost();
     if (!code) os::note_measured();
     if (code) os::note_done(static_cast<int>(*code));
     return code.value_or(ExitCode::ok);
   } catch (const Error& error) {
+    os::end_if_files_are_lost();
     os::note_done(static_cast<int>(error.code()));
     throw;
   } catch (...) {
+    os::end_if_files_are_lost();
     os::note_done(static_cast<int>(ExitCode::internal));
     throw;
   }
@@ -109,9 +126,17 @@ void add_guard_options(Command& command, GuardFlags& flags) {
                    "Call plug-ins in this process, for a debugger: if one crashes, the command ends with it");
 }
 
+bool calls_in_process(const GuardFlags& flags) {
+  static const std::string obstacle = os::guard_obstacle();
+  if (flags.is_in_process || obstacle.empty()) return flags.is_in_process;
+  static std::once_flag is_said;
+  std::call_once(is_said, [] { print_message("warning: " + obstacle); });
+  return true;
+}
+
 ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& before_each,
                      const std::function<std::optional<ExitCode>(const GuardedPart& part)>& part) {
-  if (flags.is_in_process) return *part({});
+  if (calls_in_process(flags)) return *part({});
   const std::atomic<bool>& stop = os::stop_on_signals();
   os::ProcessGuard guard(limits_of(flags));
   std::set<std::pair<std::string, std::uint64_t>> broken;  // group and method
@@ -121,6 +146,7 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
     before_each();
     const std::optional<os::GuardedEnd> end = guard.run(stop);
     if (!end) return ended([&] { return part(next); });
+    tell_orphans(*end);
     if (end->how == How::done) return static_cast<ExitCode>(end->exit_code);
     next.message = guard.message();
     next.casualty.reset();
@@ -136,11 +162,12 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
 }
 
 ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::function<ExitCode()>& command) {
-  if (flags.is_in_process) return command();
+  if (calls_in_process(flags)) return command();
   const std::atomic<bool>& stop = os::stop_on_signals();
   os::ProcessGuard guard(limits_of(flags));
   const std::optional<os::GuardedEnd> end = guard.run(stop);
   if (!end) return ended([&]() -> std::optional<ExitCode> { return command(); });
+  tell_orphans(*end);
   if (end->how == How::done) return static_cast<ExitCode>(end->exit_code);
   clear_line();
   if (stop) return stopped(*end, "");
@@ -180,6 +207,15 @@ bool may_name_plugins(const RunInputs& inputs) {
   return names_plugins(inputs) || std::ranges::any_of(inputs.paths, is_pipe);
 }
 
+std::string fault_found_here(const std::filesystem::path& file) {
+  try {
+    plugin::describe_plugin(file);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 ExitCode describe_or_leave_message(const std::filesystem::path& file) {
   try {
     plugin::describe_plugin(file);
@@ -193,6 +229,7 @@ ExitCode describe_or_leave_message(const std::filesystem::path& file) {
 }  // namespace
 
 ExitCode run_apart(const std::function<ExitCode()>& part) {
+  if (!os::guard_obstacle().empty()) return part();
   const GuardFlags flags = loading_limits();
   const std::atomic<bool>& stop = os::stop_on_signals();
   os::ProcessGuard guard(limits_of(flags));
@@ -204,6 +241,7 @@ ExitCode run_apart(const std::function<ExitCode()>& part) {
 }
 
 std::string loading_fault(const std::filesystem::path& plugin) {
+  if (!os::guard_obstacle().empty()) return fault_found_here(plugin);
   const GuardFlags flags = loading_limits();
   os::ProcessGuard guard(limits_of(flags));
   const std::optional<os::GuardedEnd> end = guard.run(os::stop_on_signals());
@@ -215,6 +253,7 @@ std::string loading_fault(const std::filesystem::path& plugin) {
 }
 
 ExitCode guarded_if_needed(const RunInputs& inputs, const GuardFlags& flags, const std::function<ExitCode()>& command) {
+  if (!os::guard_obstacle().empty() && !names_plugins(inputs)) return command();
   return may_name_plugins(inputs) ? run_guarded_once(flags, ExitCode::gate_failed, command) : command();
 }
 

@@ -23,6 +23,10 @@ struct GuardFlags {
 };
 void add_guard_options(Command& command, GuardFlags& flags);
 
+// Whether plug-ins are called in this process: it was asked for, or the system has no other way. Then that is said
+// once.
+bool calls_in_process(const GuardFlags& flags);
+
 // How a process with plug-ins ended.
 struct Casualty {
   os::NotedCall call;  // the last one, if none was running

@@ -114,12 +114,12 @@ void measure_beside(const BaselineRequest& request, const std::vector<std::strin
                                 tool = program->tool();
                                 return program;
                               },
-                              [&] { return start(os::k_this_program); }};
+                              [&] { return start(os::this_program()); }};
   try {
     const std::map<std::string, run::PairedCase> measured = measured_beside(
         config, plan_of_measured(plan, result), paired_request(request, config), both, on_round, result);
     report::add_baseline(result, tool_in(tool, request.binary), measured);
-    if (are_same_bytes(other, os::k_this_program)) result.baseline->is_same_program = true;
+    if (are_same_bytes(other, os::this_program())) result.baseline->is_same_program = true;
   } catch (const nlohmann::json::exception& error) {
     throw Error(request.binary, "--baseline-binary", std::string("answered what cannot be read: ") + error.what());
   }

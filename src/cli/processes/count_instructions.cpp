@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "os/call_notes.h"
+#include "os/environment.h"
 #include "os/file_access.h"
 #include "os/process.h"
 #include "os/temporary_folder.h"
@@ -34,9 +35,7 @@ std::string perf_obstacle() {
 }
 
 bool is_in_path(const std::string& program) {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');)
+  for (const std::string& folder : os::folders_in_variable("PATH"))
     if (os::is_executable(fs::path(folder) / program)) return true;
   return false;
 }

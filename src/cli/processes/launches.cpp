@@ -134,7 +134,7 @@ Json request_for(const run::GroupToTime& group, int launch, int rounds) {
 class Launch {
  public:
   Launch(const config::Config& config, const run::Plan& plan, std::size_t scene, const std::atomic<bool>& stop)
-      : stop_(stop), child_({os::k_this_program, "run", k_serve_launch, "--", file_argument(config)}) {
+      : stop_(stop), child_({os::this_program(), "run", k_serve_launch, "--", file_argument(config)}) {
     child_.send_line(handover_line(config, plan, scene));
     if (const std::optional<std::string> line = next_line(); line && *line != k_ready)
       fail("greets with '" + *line + "'");

@@ -61,7 +61,7 @@ struct Answer {
 
 Answer answer_of(const PluginCheckRequest& request, const std::string& asked, double seconds,
                  const std::atomic<bool>& stop) {
-  os::Conversation child({os::k_this_program, "plugin", "check", std::string(k_serve_test) + "=" + asked,
+  os::Conversation child({os::this_program(), "plugin", "check", std::string(k_serve_test) + "=" + asked,
                           "--seed=" + std::to_string(request.seed), "--seconds=" + std::to_string(request.seconds),
                           "--", request.file});
   Answer answer;

@@ -55,7 +55,7 @@ void serve_rounds(const config::Config& config, const run::Plan& plan) {
 }
 
 RemoteProgram::RemoteProgram(const std::vector<std::string>& command, double timeout_s, const std::atomic<bool>& stop)
-    : name_(command.front() == os::k_this_program ? "this program" : command.front()),
+    : name_(command.front() == os::this_program() ? "this program" : command.front()),
       timeout_s_(timeout_s),
       stop_(stop),
       child_(command) {

@@ -6,6 +6,7 @@
 #include "cli/output/duration.h"
 #include "cli/output/output.h"
 #include "core/error.h"
+#include "core/libraries.h"
 #include "core/text.h"
 #include "os/stop_signals.h"
 #include "search/shared_grid.h"
@@ -23,6 +24,7 @@ const run::CasePlan* case_named(const run::Plan& plan, const std::string& name) 
 
 // Why frames at other places cannot be measured; "" if they can.
 std::string search_obstacle(const config::Config& config, const run::CasePlan& case_plan) {
+  if (!is_built_in(Library::nlopt)) return "a search needs NLopt, and " + missing_library(Library::nlopt);
   const assign::AssignerDescriptor& method = *assign::find_assigner(config.assigners[case_plan.assigner].name);
   const std::optional<grid::Fit>& fit = config.grids[case_plan.grid].slices.fit;
   const bool needs_surfaces = method.needs.depth || method.at_surfaces || (fit && fit->needs_surfaces());

@@ -1,10 +1,9 @@
 #include "config/presets/assigner_names.h"
 
-#include <fnmatch.h>
-
 #include "assign/contract/assigner.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/wildcards.h"
 
 namespace clusterbench::config {
 
@@ -16,7 +15,7 @@ std::vector<std::string> matching_assigners(const std::string& pattern, const st
                                             const std::string& where) {
   std::vector<std::string> defaults, others;
   for (const assign::AssignerDescriptor* descriptor : assign::assigner_descriptors())
-    if (fnmatch(pattern.c_str(), descriptor->name.c_str(), 0) == 0)
+    if (matches_wildcards(pattern, descriptor->name))
       (descriptor->is_default() ? defaults : others).push_back(descriptor->name);
   if (defaults.empty() && others.empty())
     throw Error(file, where, "'" + pattern + "' matches none of " + joined(assign::assigner_names()));

@@ -1,7 +1,5 @@
 #include "config/presets/preset_library.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 
 #include "assign/contract/assigner.h"
@@ -11,6 +9,7 @@
 #include "config/presets/preset_tiles.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "core/wildcards.h"
 
 namespace clusterbench::config {
 namespace {
@@ -126,7 +125,7 @@ std::vector<std::string> named_presets(std::span<const std::string> entries, con
   for (const std::string& entry : entries) {
     bool is_any = false;
     for (const std::string& name : all) {
-      if (is_glob(entry) ? fnmatch(entry.c_str(), name.c_str(), 0) != 0 : entry != name) continue;
+      if (is_glob(entry) ? !matches_wildcards(entry, name) : entry != name) continue;
       is_any = true;
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }

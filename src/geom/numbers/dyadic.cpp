@@ -5,10 +5,11 @@
 #include <iterator>
 #include <utility>
 
+#include "geom/numbers/two_limbs.h"
+
 namespace clusterbench::geom {
 namespace {
 
-__extension__ using DoubleLimb = unsigned __int128;
 constexpr int k_bits = 64;
 
 }  // namespace
@@ -112,11 +113,11 @@ Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_is_negative) {
   for (int i = 0; i < x_count; ++i) {
     const Limb other = i < y_count ? y[i] : 0;
     if (adds) {
-      const DoubleLimb total = DoubleLimb{x[i]} + other + carried;
+      const TwoLimbs total = TwoLimbs{x[i]} + other + carried;
       to[i] = static_cast<Limb>(total);
       carried = static_cast<Limb>(total >> k_bits);
     } else {
-      const DoubleLimb total = DoubleLimb{x[i]} - other - carried;
+      const TwoLimbs total = TwoLimbs{x[i]} - other - carried;
       to[i] = static_cast<Limb>(total);
       carried = static_cast<Limb>(total >> k_bits) & 1;
     }
@@ -138,10 +139,10 @@ Dyadic operator*(const Dyadic& a, const Dyadic& b) {
   Dyadic::Limb* to = result.limbs_.data();
   std::fill_n(to, a.count_, 0);
   for (int j = 0; j < b.count_; ++j) {
-    const DoubleLimb factor = b.limbs_[static_cast<std::size_t>(j)];
+    const TwoLimbs factor = b.limbs_[static_cast<std::size_t>(j)];
     Dyadic::Limb carried = 0;
     for (int i = 0; i < a.count_; ++i) {
-      const DoubleLimb product = factor * a.limbs_[static_cast<std::size_t>(i)] + to[i + j] + carried;
+      const TwoLimbs product = factor * a.limbs_[static_cast<std::size_t>(i)] + to[i + j] + carried;
       to[i + j] = static_cast<Dyadic::Limb>(product);
       carried = static_cast<Dyadic::Limb>(product >> k_bits);
     }

@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "geom/numbers/own_integer.h"
+#include "geom/numbers/two_limbs.h"
 
 namespace clusterbench::geom::own_numbers {
 
@@ -19,7 +20,6 @@ template <unsigned bits>
 class Float {
   static constexpr std::size_t k_limbs = bits / k_limb_bits;
   static_assert(k_limbs * k_limb_bits == bits && k_limbs > 0);
-  __extension__ using TwoLimbs = unsigned __int128;
   using Digits = std::array<Limb, k_limbs>;
   template <unsigned>
   friend class Float;

@@ -4,10 +4,10 @@
 #include <bit>
 #include <utility>
 
+#include "geom/numbers/two_limbs.h"
+
 namespace clusterbench::geom::own_numbers {
 namespace {
-
-__extension__ using TwoLimbs = unsigned __int128;
 
 void trim(Limbs& limbs) {
   while (!limbs.empty() && limbs.back() == 0) limbs.pop_back();
@@ -83,10 +83,10 @@ Limb divide_step(Limbs& rest, const Limbs& divisor, std::size_t at) {
   const std::size_t n = divisor.size();
   const TwoLimbs top = TwoLimbs{rest[at + n]} << k_limb_bits | rest[at + n - 1];
   TwoLimbs guess = top / divisor[n - 1], left = top % divisor[n - 1];
-  while (guess >> k_limb_bits != 0 || guess * divisor[n - 2] > (left << k_limb_bits | rest[at + n - 2])) {
+  while ((guess >> k_limb_bits) != 0 || guess * divisor[n - 2] > (left << k_limb_bits | rest[at + n - 2])) {
     --guess;
     left += divisor[n - 1];
-    if (left >> k_limb_bits != 0) break;
+    if ((left >> k_limb_bits) != 0) break;
   }
   Limb borrowed = 0, carried = 0;
   for (std::size_t i = 0; i < n; ++i) {

@@ -1,12 +1,11 @@
 #include "report/sizing/camera_views.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <set>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/wildcards.h"
 
 namespace clusterbench::report {
 namespace {
@@ -22,7 +21,7 @@ std::vector<std::string> between_commas(const std::string& list) {
 }
 
 bool is_named_by(const std::string& pattern, const std::string& camera) {
-  return camera == pattern || fnmatch(pattern.c_str(), camera.c_str(), 0) == 0;
+  return camera == pattern || matches_wildcards(pattern, camera);
 }
 
 // The cameras of a structure that a group names, in the order of the cases.

@@ -21,8 +21,9 @@ std::string kind_names(const std::vector<grid::Kind>& kinds) {
 
 // Of a grid that needs something that the scene does not have.
 std::string grid_obstacle(const grid::GridSpec& spec, const SceneData& data) {
-  if (follows_surfaces(spec) && !data.has_triangles())
-    return "slices that follow surfaces need a depth buffer, and the scene has no triangles";
+  const std::string unseen = data.surface_obstacle();
+  if (follows_surfaces(spec) && !unseen.empty())
+    return "slices that follow surfaces need a depth buffer, and " + unseen;
   if (spec.reaction && spec.reaction->to == grid::Reaction::To::entries && data.has_lights(scene::LightType::box) &&
       !assign::find_assigner(spec.reaction->of)->boxes)
     return "its tiles react to the lists of " + spec.reaction->of +
@@ -54,8 +55,8 @@ std::string method_obstacle(const config::MethodRequest& request, grid::Kind kin
   const std::string& name = assigner.name;
   if (!assigner.takes(kind))
     return name + " takes " + kind_names(assigner.kinds) + " grids, not " + grid::kind_name(kind);
-  if (assigner.needs.depth && !data.has_triangles())
-    return name + " needs a depth buffer, and the scene has no triangles";
+  const std::string unseen = data.surface_obstacle();
+  if (assigner.needs.depth && !unseen.empty()) return name + " needs a depth buffer, and " + unseen;
   if (orthographic && !assigner.orthographic) return name + " does not take orthographic cameras";
   if (!assigner.points && data.has_lights(scene::LightType::point)) return name + " takes no point lights";
   if (!assigner.spots && data.has_lights(scene::LightType::spot)) return name + " takes no spot lights";
@@ -89,8 +90,9 @@ std::string precision_obstacle(const assign::AssignerDescriptor& assigner, const
 std::string pre_cull_obstacle(const cull::PreCullSpec& pre_cull, const SceneData& data) {
   if (!pre_cull.is_none() && data.has_lights(scene::LightType::box))
     return "pre-culls take points and spots; run boxes without";
-  if (!pre_cull.needs_triangles() || data.has_triangles()) return "";
-  return "a visible set needs surfaces that hide, and the scene has no triangles";
+  const std::string unseen = data.surface_obstacle();
+  if (!pre_cull.needs_triangles() || unseen.empty()) return "";
+  return "a visible set needs surfaces that hide, and " + unseen;
 }
 
 std::string storage_obstacle(const config::MethodRequest& request, const FirstFrame& first) {
@@ -110,8 +112,8 @@ std::string storage_obstacle(const config::MethodRequest& request, const FirstFr
 }
 
 std::string set_obstacle(const config::SampleSetRequest& request, const SceneData& data) {
-  if (request.needs_triangles() && !data.has_triangles() && !ground_height(request, data))
-    return "the scene has no triangles";
+  if (request.needs_triangles() && !ground_height(request, data))
+    if (const std::string unseen = data.surface_obstacle(); !unseen.empty()) return unseen;
   const bool has_bounds = std::ranges::any_of(data.scene.lights, [](const scene::Light& light) {
     return light.type != scene::LightType::directional && std::isfinite(geom::range_in_domain(light.range_m));
   });
@@ -121,7 +123,7 @@ std::string set_obstacle(const config::SampleSetRequest& request, const SceneDat
 
 std::string shadow_obstacle(const SceneData& data) {
   if (data.has_lights(scene::LightType::box)) return "shadow maps are of points and spots; run boxes without";
-  return data.has_triangles() ? "" : "the scene has no triangles";
+  return data.surface_obstacle();
 }
 
 }  // namespace clusterbench::run

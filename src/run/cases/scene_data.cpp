@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/libraries.h"
 #include "core/text.h"
 #include "run/cases/case_names.h"
 #include "run/cases/frame_work.h"
@@ -120,6 +121,10 @@ bool SceneData::has_lights(scene::LightType type) const {
   return std::ranges::find(scene.lights, type, &scene::Light::type) != scene.lights.end();
 }
 
+std::string SceneData::surface_obstacle() const {
+  return has_triangles() ? missing_library(Library::embree) : "the scene has no triangles";
+}
+
 std::string SceneData::contents_sha256() const {
   return geometry && counts_triangles ? sha256_hex(scene.sha256 + geometry->sha256) : scene.sha256;
 }
@@ -129,7 +134,7 @@ std::vector<SceneData> load_scenes(const config::Config& config) {
   UniqueNames names;
   for (const config::SceneRequest& request : config.scenes) scenes.push_back(scene_data(config, request, names));
   for (SceneData& data : scenes)  // their final address
-    if (data.has_triangles()) {
+    if (data.surface_obstacle().empty()) {
       data.depths = std::make_shared<FrameDepths>(data.scene, *data.geometry);
       data.visible_sets = std::make_shared<SceneVisibleSets>(data.scene, *data.geometry);
     }

@@ -31,6 +31,8 @@ struct SceneData {
   std::optional<double> lowest_m = {};
 
   bool has_triangles() const { return geometry && !geometry->empty(); }
+  // Why its surfaces cannot be seen: "the scene has no triangles", or that this build lacks Embree; "" if they can.
+  std::string surface_obstacle() const;
   bool has_lights(scene::LightType type) const;
 
   // Hash of all contents read from its file.

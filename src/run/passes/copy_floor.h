@@ -5,6 +5,7 @@
 #include <cstring>
 #include <vector>
 
+#include "core/kept_stores.h"
 #include "run/timing/timed_work.h"
 
 namespace clusterbench::run {
@@ -30,7 +31,7 @@ class CopyFloor {
   void copy_once() {
     for (Copy& copy : copies_) {
       std::memcpy(copy.to.data(), copy.from.data(), copy.from.size());
-      asm volatile("" : : "r"(copy.to.data()) : "memory");  // the compiler must not remove the copies
+      keep_stores(copy.to.data());
     }
   }
 

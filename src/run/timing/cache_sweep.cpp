@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/kept_stores.h"
 #include "os/machine.h"
 
 namespace clusterbench::run {
@@ -17,7 +18,7 @@ void CacheSweep::operator()() {
   constexpr std::size_t k_line = 64;  // one plain store to each line: memset() may use stores that bypass the caches
   ++value_;
   for (std::size_t at = 0; at < buffer_.size(); at += k_line) buffer_[at] = value_;
-  asm volatile("" : : "r"(buffer_.data()) : "memory");  // the compiler must not remove stores that nothing reads
+  keep_stores(buffer_.data());
 }
 
 int cold_rounds(int rounds, std::size_t frames, std::uint64_t bytes) {

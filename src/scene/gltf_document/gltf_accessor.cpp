@@ -79,8 +79,8 @@ std::string decoded(std::string_view base64, const JsonLocation& location) {
 // Scenes may come from untrusted sources: they may name no file outside of their own folder.
 bool stays_in_folder(const std::filesystem::path& path) {
   const std::filesystem::path plain = path.lexically_normal();
-  const bool escapes = plain.is_absolute() || (!plain.empty() && *plain.begin() == "..");
-  return !escapes && printable(path.native()) == path.native();
+  const bool escapes = plain.has_root_path() || (!plain.empty() && *plain.begin() == "..");
+  return !escapes && printable(path.generic_string()) == path.generic_string();
 }
 
 std::size_t array_size(const JsonLocation& root, const std::string& key) {

@@ -5,7 +5,7 @@
 #include <new>
 #include <stdexcept>
 
-#if CLUSTERBENCH_WITH_DRACO
+#if CLUSTERBENCH_HAS_DRACO
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wpedantic"
@@ -23,10 +23,10 @@
 namespace clusterbench::scene {
 
 bool has_draco() {
-  return CLUSTERBENCH_WITH_DRACO != 0;
+  return CLUSTERBENCH_HAS_DRACO != 0;
 }
 
-#if CLUSTERBENCH_WITH_DRACO
+#if CLUSTERBENCH_HAS_DRACO
 namespace {
 
 std::vector<double> numbers_of(const draco::Mesh& mesh, const JsonLocation& id, std::size_t components) {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#if CLUSTERBENCH_WITH_MESHOPT
+#if CLUSTERBENCH_HAS_MESHOPTIMIZER
 #include <meshoptimizer.h>
 #endif
 
@@ -51,7 +51,7 @@ bool can_hold(const MeshoptView& view, std::size_t bytes) {
   return view.count / k_most_of_a_byte <= bytes / view.stride;
 }
 
-#if CLUSTERBENCH_WITH_MESHOPT
+#if CLUSTERBENCH_HAS_MESHOPTIMIZER
 int decode(const MeshoptView& view, std::string_view stream, char* out) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(stream.data());
   switch (view.mode) {
@@ -82,7 +82,7 @@ void undo_filter(const MeshoptView& view, char* bytes) {
 }  // namespace
 
 bool has_meshopt() {
-  return CLUSTERBENCH_WITH_MESHOPT != 0;
+  return CLUSTERBENCH_HAS_MESHOPTIMIZER != 0;
 }
 
 std::optional<JsonLocation> meshopt_extension(const JsonLocation& view) {
@@ -117,7 +117,7 @@ std::string meshopt_decoded(const MeshoptView& view, std::string_view stream, co
     extension.at("count").refuse(std::to_string(view.count) + " elements of " + std::to_string(view.stride) +
                                  " bytes do not fit into a stream of " + std::to_string(stream.size()));
   check_memory("bytes of a compressed bufferView", view.count * view.stride, 1, "export the scene without compression");
-#if CLUSTERBENCH_WITH_MESHOPT
+#if CLUSTERBENCH_HAS_MESHOPTIMIZER
   std::string out(view.count * view.stride, '\0');
   if (view.count == 0) return out;
   const int failed = decode(view, stream, out.data());
