@@ -20,7 +20,8 @@ function(clusterbench_package_facts PLATFORM FILE)
   file(CONFIGURE OUTPUT ${FILE} CONTENT [[{
   "version": "@PROJECT_VERSION@", "platform": "@PLATFORM@", "triplet": "@CMAKE_LIBRARY_ARCHITECTURE@",
   "source": "@PROJECT_SOURCE_DIR@", "build": "@CMAKE_CURRENT_BINARY_DIR@", "sysroot": "@SYSROOT@",
-  "dpkg": "@CLUSTERBENCH_SYSROOT_DPKG@", "readelf": "@CMAKE_READELF@"
+  "dpkg": "@CLUSTERBENCH_SYSROOT_DPKG@", "readelf": "@CMAKE_READELF@",
+  "maintainer": "@CLUSTERBENCH_MAINTAINER@"
 }
 ]] @ONLY)
 endfunction()
@@ -45,7 +46,6 @@ function(clusterbench_package)
   set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "measures clustered light assignment")
   set(CPACK_PACKAGE_FILE_NAME clusterbench-${PROJECT_VERSION}-${PLATFORM})
-  set(CPACK_PACKAGE_CHECKSUM "")
   set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
   set(CPACK_STRIP_FILES ON)
   set(CPACK_VERBATIM_VARIABLES ON)
@@ -65,12 +65,12 @@ macro(clusterbench_debian_variables)
   set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SECTION graphics)
   set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SUGGESTS "libvulkan1, valgrind")
   set(CPACK_COMPONENT_UNSPECIFIED_DESCRIPTION
-    "Loads glTF levels, runs the methods that list the lights of each cell of a grid,\nand reports exact errors, buffer sizes and times.")
+    "Loads glTF levels, runs the methods that list the lights of each cell of a\ngrid, and reports exact errors, buffer sizes and times.")
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME clusterbench-dev)
   set(CPACK_DEBIAN_LIBRARY_FILE_NAME DEB-DEFAULT)
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS libhwy-dev)
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS OFF)
   set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
-    "The static library that engines link to make light lists (clusterbench::assign),\nand the headers of plug-ins.")
+    "The static library that engines link to make light lists, and the headers\nof plug-ins.")
 endmacro()

@@ -20,6 +20,7 @@ class Facts:
     sysroot: pathlib.Path  # / or the folder with the libraries of another processor
     dpkg: str  # the folder of dpkg's records on the sysroot, "" for the machine's own
     readelf: str
+    maintainer: str  # of Debian's packages
 
     @property
     def commit(self):

@@ -4,6 +4,8 @@
 archive: the shared libraries beside the program, licences of all that is inside, an SBOM, a README.txt.
 deb: the same without the libraries, which are dependencies, in the forms that Debian asks for."""
 
+import datetime
+import email.utils
 import gzip
 import os
 import pathlib
@@ -71,12 +73,21 @@ def stage_archive(facts, root):
     settle(root, facts.seconds)
 
 
+def debian_changelog(facts, package):
+    date = email.utils.format_datetime(datetime.datetime.fromtimestamp(facts.seconds, datetime.timezone.utc))
+    return (f"{package} ({facts.version}-1) unstable; urgency=medium\n\n"
+            f"  * Made of commit\n    {facts.commit}.\n    Its changes are in changelog.gz.\n\n"
+            f" -- {facts.maintainer}  {date}\n")
+
+
 def debian_documents(facts, folder, package):
     documents = folder / "usr/share/doc" / package
     documents.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(facts.source / "LICENSE", documents / "copyright")
     shutil.copyfile(facts.source / "CHANGELOG.md", documents / "changelog")
-    compress(documents / "changelog")
+    (documents / "changelog.Debian").write_text(debian_changelog(facts, package), encoding="utf-8")
+    for name in ("changelog", "changelog.Debian"):
+        compress(documents / name)
     for name in ("LICENSE", "CHANGELOG.md"):
         (documents / name).unlink(missing_ok=True)
 

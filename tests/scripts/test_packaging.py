@@ -35,7 +35,7 @@ class Packages(unittest.TestCase):
         readelf = self.folder / "readelf"
         readelf.write_text(READELF, encoding="utf-8")
         readelf.chmod(0o755)
-        self.facts = Facts("1.2.3", "linux-some", "some-linux-gnu", ROOT, self.folder / "build", self.folder, "", str(readelf))
+        self.facts = Facts("1.2.3", "linux-some", "some-linux-gnu", ROOT, self.folder / "build", self.folder, "", str(readelf), "x <x@localhost>")
 
     def binary(self, path, *needed):
         path.parent.mkdir(parents=True, exist_ok=True)
