@@ -1,17 +1,25 @@
-# clusterbench_install(): `cmake --install` puts the manual page and the shells' completions beside the program, which writes
-# them itself. (The program's own rule is in ClusterbenchLayers.cmake.)
+# clusterbench_install(): `cmake --install` puts documents, levels and configurations beside the program, and the manual page and
+# the shells' completions, which it writes itself. (The program's own rule is in ClusterbenchLayers.cmake.)
 include(GNUInstallDirs)
 
 function(clusterbench_install_output ARGUMENTS FOLDER NAME)
+  set(EMULATOR "") # a program for another processor or system
+  foreach(PART ${CMAKE_CROSSCOMPILING_EMULATOR})
+    string(APPEND EMULATOR "\"${PART}\" ")
+  endforeach()
   install(CODE "
     set(FILE \"${CMAKE_CURRENT_BINARY_DIR}/install/${NAME}\")
     file(MAKE_DIRECTORY \"${CMAKE_CURRENT_BINARY_DIR}/install\")
-    execute_process(COMMAND \"$<TARGET_FILE:clusterbench>\" ${ARGUMENTS} OUTPUT_FILE \"\${FILE}\" COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND ${EMULATOR} \"$<TARGET_FILE:clusterbench>\" ${ARGUMENTS} OUTPUT_FILE \"\${FILE}\" COMMAND_ERROR_IS_FATAL ANY)
     file(INSTALL DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${FOLDER}\" TYPE FILE FILES \"\${FILE}\")")
 endfunction()
 
 function(clusterbench_install)
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+          DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  # Configurations name levels by ../scenes.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/clusterbench
+          PATTERN peers EXCLUDE)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md")
   clusterbench_install_output("man" ${CMAKE_INSTALL_MANDIR}/man1 clusterbench.1)
   clusterbench_install_output("completion bash" ${CMAKE_INSTALL_DATADIR}/bash-completion/completions clusterbench)

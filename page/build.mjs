@@ -1,5 +1,5 @@
 // Bundles src/ into FOLDER/template.html (of reports), FOLDER/history.html and FOLDER/check.html, each one file that may load nothing, and
-// FOLDER/page_template.cpp, which holds all: node build.mjs FOLDER.
+// FOLDER/page_template.cpp, which holds all: node build.mjs FOLDER. FOLDER/packages.json says whose code is inside, for packaging/pieces.py.
 
 import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -43,18 +43,29 @@ function packageOf(input) {
 // Packages whose code is inside of d3's own files.
 const within = ["delaunator", "internmap", "robust-predicates"];
 
+function packageNames(inputs) {
+  return [...new Set([...inputs.map(packageOf).filter(Boolean), ...within])].sort();
+}
+
+function licenceText(name) {
+  const folder = join(root, "node_modules", name);
+  const file = readdirSync(folder).find((entry) => /^(un)?licen[cs]e/i.test(entry));
+  if (!file) throw new Error(`${name} has no licence file`);
+  return readFileSync(join(folder, file), "utf8").trim();
+}
+
 // What the bundled packages' licences ask to be kept with copies.
 function notices(inputs) {
-  const names = [...new Set([...inputs.map(packageOf).filter(Boolean), ...within])].sort();
-  return names
-    .map((name) => {
-      const folder = join(root, "node_modules", name);
-      const file = readdirSync(folder).find((entry) => /^(un)?licen[cs]e/i.test(entry));
-      if (!file) throw new Error(`${name} has no licence file`);
-      return `${name}\n\n${readFileSync(join(folder, file), "utf8").trim()}`;
-    })
+  return packageNames(inputs)
+    .map((name) => `${name}\n\n${licenceText(name)}`)
     .join("\n\n----\n\n")
     .replaceAll("--", "- -");
+}
+
+function packageFacts(name) {
+  const facts = JSON.parse(readFileSync(join(root, "node_modules", name, "package.json"), "utf8"));
+  if (!facts.license) throw new Error(`${name}/package.json names no licence`);
+  return { name, version: facts.version, licence: facts.license, homepage: facts.homepage ?? "", text: licenceText(name) };
 }
 
 function filled(text, values) {
@@ -97,8 +108,11 @@ const folder = process.argv[2];
 if (!folder) throw new Error("usage: node build.mjs FOLDER");
 const style = await bundled("src/style.css");
 
+const bundledInputs = [];
+
 async function templateOf(entry) {
   const script = await bundled(entry);
+  bundledInputs.push(...script.inputs);
   if (script.text.includes("</script") || script.text.includes(resultsMark))
     throw new Error("the script holds what would end it early");
   const template = filled(readFileSync(join(root, "src/page.html"), "utf8"), {
@@ -121,3 +135,4 @@ writeFileSync(join(folder, "template.html"), report);
 writeFileSync(join(folder, "history.html"), history);
 writeFileSync(join(folder, "check.html"), check);
 writeFileSync(join(folder, "page_template.cpp"), cpp(report, history, check));
+writeFileSync(join(folder, "packages.json"), JSON.stringify(packageNames(bundledInputs).map(packageFacts)));

@@ -167,7 +167,7 @@ class Planted:
         (folder / "dump.json").write_text(json.dumps(self.dump))
         out = folder / "out.json"
         out.unlink(missing_ok=True)
-        command = [program, "check", "--no-methods", folder / "dump.json", "--json", out, "--most-lost", "1"]
+        command = [program, "check", "--methods", "none", folder / "dump.json", "--json", out, "--most-lost", "1"]
         done = subprocess.run(command, capture_output=True, text=True, timeout=120)
         found = json.loads(out.read_text())["frames"][0]["sets"][0] if out.exists() else None
         return done, found
@@ -263,6 +263,69 @@ def handedness_swapped(frame, layout):
     return planted
 
 
+def grown(frame):
+    """The lists as of an engine that culls coarsely: each light in all cells of its columns and rows, and of those beside them."""
+    nx, ny, nz = frame.cells
+    columns = {}
+    for z in range(nz):
+        for y in range(ny):
+            for x in range(nx):
+                for light in frame.lists[frame.number(x, y, z)]:
+                    columns.setdefault((x, y), set()).add(light)
+    lists = []
+    for _z in range(nz):
+        for y in range(ny):
+            for x in range(nx):
+                beside = [columns.get((x + dx, y + dy), set()) for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
+                lists.append(sorted(set().union(*beside)))
+    return lists
+
+
+def rows_upside_down_in_loose_lists(frame, layout):
+    planted = Planted(frame, layout, grown(frame))
+    planted.dump["grid"]["first_row"] = "bottom"
+    planted.wanted = {"order": "grid.first_row 'top'"}
+    return planted
+
+
+def mirrored_in_loose_lists(frame, layout):
+    planted = Planted(frame, layout, grown(frame))
+    matrix = planted.dump["camera"]["view_to_world"]
+    matrix[0:3] = [-number for number in matrix[0:3]]
+    planted.wanted = {"camera": "camera: the x row of world_to_view negated"}
+    return planted
+
+
+def inverse_matrix(frame, layout):
+    planted = Planted(frame, layout, frame.lists)
+    camera = planted.dump["camera"]
+    camera["world_to_view"] = camera.pop("view_to_world")
+    planted.wanted = {
+        "camera": "camera.view_to_world and camera.world_to_view: the other of the two (the matrix is the inverse)",
+        "lost_pairs": 0,
+    }
+    return planted
+
+
+def with_ranges(frame, layout, change, wanted):
+    planted = Planted(frame, layout, frame.lists)
+    lights = bytearray(planted.files["lights"])
+    for at in range(24, len(lights), 64):
+        struct.pack_into("<d", lights, at, change(*struct.unpack_from("<d", lights, at)))
+    planted.files["lights"] = bytes(lights)
+    planted.wanted = {"lights": wanted}
+    return planted
+
+
+def ranges_squared(frame, layout):
+    return with_ranges(frame, layout, lambda r: r * r, "lights.rows range.is 'squared'")
+
+
+def diameters(frame, layout):
+    half = "ranges half as large (the number is a diameter, or the engine culls with half the range)"
+    return with_ranges(frame, layout, lambda r: 2 * r, half)
+
+
 def wrong_width(frame, layout):
     if layout not in ("packed", "fixed", "runs"):
         return None
@@ -340,6 +403,11 @@ FAULTS = [
     ("axes transposed: `zyx` for `xyz`", axes_transposed, is_other_reading),
     ("rows counted from the bottom", rows_upside_down, is_other_reading),
     ("handedness swapped", handedness_swapped, is_other_reading),
+    ("rows counted from the bottom, of loose lists", rows_upside_down_in_loose_lists, is_other_reading),
+    ("x axis mirrored, of loose lists", mirrored_in_loose_lists, is_other_reading),
+    ("the inverse of the view matrix", inverse_matrix, is_other_reading),
+    ("squares of ranges read as ranges", ranges_squared, is_other_reading),
+    ("diameters read as ranges", diameters, is_other_reading),
     ("indices of 32 bits read as 16", wrong_width, names_the_width),
     ("lists begin one entry too late", offset_off_by_one, is_not_right),
     ("a buffer cut off", buffer_truncated, names_the_buffer),

@@ -127,7 +127,7 @@ def program_dumps(program, folder, points, spots):
     config = {"scenes": [{"path": "level.gltf", "frames": 1}], "viewport": [1280, 720], "grids": [grid[-1] for grid in GRIDS],
               "assigners": ["brute-force", "exact-fast", "distance"], "storages": [{"name": "packed", "index_bits": "16"}]}
     (folder / "config.json").write_text(json.dumps(config))
-    run([program, "run", "config.json", "--no-timing", "-q", "-o", "result.json", "--write-dump", "dumps"], cwd=folder)
+    run([program, "run", "config.json", "--no-timing", "-q", "--write-dump", "dumps"], cwd=folder)
     dumps = {}
     for path in (folder / "dumps").glob("*.json"):
         dump = json.loads(path.read_text())

@@ -8,6 +8,10 @@ import tempfile
 PARTS = {
     "bin/clusterbench": b"\x7fELF",
     "share/doc/clusterbench/LICENSE": b"MIT License",
+    "share/doc/clusterbench/README.md": b"# clusterbench",
+    "share/doc/clusterbench/CHANGELOG.md": b"# Changelog",
+    "share/clusterbench/configs/quick.json": b"{",
+    "share/clusterbench/scenes/street.glb": b"glTF",
     "share/doc/clusterbench/docs/configuration.md": b"# Writing a configuration",
     "share/doc/clusterbench/docs/third-party.md": b"# ",
     "share/man/man1/clusterbench.1": b".TH CLUSTERBENCH 1",
@@ -16,6 +20,8 @@ PARTS = {
     "share/fish/vendor_completions.d/clusterbench.fish": b"# fish completion",
     "include/clusterbench/assign.h": b"#pragma once",
 }
+# Folders of which a file or two stand for all.
+MANY = ("share/doc/clusterbench/docs/", "share/clusterbench/configs/", "share/clusterbench/scenes/")
 # The library, whose own test is test_embedding.py.
 LIBRARY = (".a", ".cmake", ".pc", "include/clusterbench_plugin.h", "include/clusterbench_plugin.hpp")
 
@@ -26,7 +32,7 @@ def main():
         subprocess.run([cmake, "--install", build, "--prefix", prefix], check=True, capture_output=True)
         found = sorted(os.path.relpath(os.path.join(folder, name), prefix)
                        for folder, _, names in os.walk(prefix) for name in names)
-        found = [part for part in found if part in PARTS or not part.startswith("share/doc/clusterbench/docs/")]
+        found = [part for part in found if part in PARTS or not part.startswith(MANY)]
         found = [part for part in found if not part.endswith(LIBRARY)]
         assert found == sorted(PARTS), found
         for part, start in PARTS.items():

@@ -227,7 +227,10 @@ function setFacts(set: PageFrame["checked"]["sets"][number]): HTMLElement {
     error &&
       `${count(error.lost_pairs)} of ${count(error.true_pairs)} true pairs are lost, ${count(error.false_positives)} of ${count(error.listed_pairs)} listed ones are for nothing`,
     other &&
-      `with ${other.lists || `axes ${other.axes}, first row ${other.first_row}, first slice ${other.first_slice}${other.camera && `, ${other.camera}`}`} it would be ${count(other.lost_pairs)}`,
+      `with ${[other.order, other.lists, other.camera, other.lights].filter(Boolean).join(" and ")} it would be ${count(other.lost_pairs)}`,
+    error &&
+      error.lost_in_full_lists > 0 &&
+      `${count(error.lost_in_full_lists)} of the lost ones are in cells whose list is full`,
     ...set.reading.faults.map((fault) => fault.message),
     ...set.reading.twice.map((fault) => fault.message),
     set.reading.likely_reading,

@@ -25,6 +25,7 @@ function settingNames(view: View, settings: Map<string, Case[]>): [string, strin
       aCase!.grid,
       viewportsVary && raw.viewport.join("×"),
       storagesVary && aCase!.storage,
+      raw.machine,
       view.model.runs.length > 1 && run.label,
     ];
     return [key, name.filter(Boolean).join(" · ")];

@@ -111,7 +111,7 @@ function toCase(raw: CaseResult, { figures, sets }: PageCase, run: Run, known: K
     family: raw.assigner.name.replace(/-fast$/, ""),
     isFast: raw.assigner.name.endsWith("-fast"),
     storage,
-    setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), grid, storage].join(" · "),
+    setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), grid, storage, raw.machine ?? []].flat().join(" · "),
     isOnFront: front.has(raw.id),
     isEligible: raw.eligible && !raw.samples_search,
     isSearched: raw.samples_search === true,
@@ -130,9 +130,10 @@ function toCase(raw: CaseResult, { figures, sets }: PageCase, run: Run, known: K
   };
 }
 
-// Cases that see the same, whatever cells they use. Of several results each is by itself: they can be of other machines.
+// Cases that see the same, whatever cells they use. Of several results each is by itself: they can be of other machines,
+// as those of a merged result.
 export const seenBy = (aCase: Case) =>
-  [aCase.run.label, aCase.scene, aCase.raw.camera, aCase.raw.viewport.join("x")].join("\n");
+  [aCase.run.label, aCase.scene, aCase.raw.camera, aCase.raw.viewport.join("x"), aCase.raw.machine ?? ""].join("\n");
 
 export const isRankedByCost = (aCase: Case) => aCase.run.result.config.rank_by === "frame_cost";
 

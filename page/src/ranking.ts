@@ -168,6 +168,11 @@ function errorColumns(view: View, rows: Case[]): (Column<Case> | false)[] {
 function namesOf(view: View, rows: Case[], hasGrids: boolean): (Column<Case> | false)[] {
   return [
     view.hasRuns && { label: "result", value: (row) => row.run.label },
+    rows.some((row) => row.raw.machine !== undefined) && {
+      label: "machine",
+      about: "Where it was timed: times of two machines are not compared",
+      value: (row) => row.raw.machine ?? "",
+    },
     differ(rows, (row) => row.scene) && { label: "scene", value: (row) => row.scene },
     differ(rows, (row) => row.raw.camera) && { label: "camera", value: (row) => row.raw.camera },
     differ(rows, (row) => String(row.raw.viewport)) && {

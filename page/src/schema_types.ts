@@ -1043,6 +1043,7 @@ export type CheckPage = {
           lost_pairs: number; // True pairs that are not listed [pairs]
           lost_within_rounding: number; // Of these, those that `rounding` of the dump allows for [pairs]
           lost_lights: number; // Lights that a cell has lost, each once [lights]
+          lost_in_full_lists: number; // Of the lost pairs, those of cells whose list is full (layout fixed) [pairs]
           absent_lights: number; // Lights that reach a cell and are in no list at all [lights]
           undecided: number; // Pairs that exact arithmetic could not decide; counted as true [pairs]
           deepest_mm: number | null; // How far the most deeply lost light reaches into its cell; null: the range has no end [mm]
@@ -1062,8 +1063,10 @@ export type CheckPage = {
           axes: string; // As grid.axes of the dump
           first_row: string; // As grid.first_row
           first_slice: string; // As grid.first_slice
+          order: string; // What differs in these three; empty: nothing
           camera: string; // What differs in the camera; empty: nothing
           lists: string; // What differs in the description of the lists; empty: nothing
+          lights: string; // What differs in the lights' ranges; empty: nothing
           lost_pairs: number; // That it would lose [pairs]
         } | null; // Which is likelier than the dump's; null: none is
       }>; // In the order of the dump
@@ -1073,7 +1076,7 @@ export type CheckPage = {
         false_positives: number; // Of them not true [pairs]
         lost_pairs: number; // True pairs that it does not list [pairs]
         packed_bytes: number; // Of its lists as `packed` [bytes]
-      }>; // On the same frame; empty with --no-methods
+      }>; // On the same frame; empty with --methods none
       methods_left_out: string[]; // Of those that were asked for: would take too long on this frame
     }; // Its verdict
     grid: {

@@ -252,9 +252,11 @@ export const speedErrorSection: Section = (view, redraw) => {
   const measure = measures[key]!;
   const all = points(cases, measure);
   const x = timeExtent(all); // the same in all panels
-  // No front runs across results, which can be of different machines.
+  // No front runs across results and machines.
   const scenes = [
-    ...Map.groupBy(all, ({ aCase }) => (view.hasRuns ? `${aCase.scene} · ${aCase.run.label}` : aCase.scene)),
+    ...Map.groupBy(all, ({ aCase }) =>
+      [aCase.scene, view.hasRuns ? aCase.run.label : [], aCase.raw.machine ?? []].flat().join(" · "),
+    ),
   ];
   const width = chartWidth(Math.min(2, scenes.length));
   const panels = scenes.slice(0, mostPanels).map(([title, some]) => ({

@@ -63,7 +63,7 @@ before(async () => {
   broken = brokenDumps(place);
   const make = (name, dumps, code) => {
     const into = join(place, `${name}.html`);
-    const done = spawnSync(tool, ["check", "--no-methods", ...dumps, "--page", into], { encoding: "utf8" });
+    const done = spawnSync(tool, ["check", "--methods", "none", ...dumps, "--page", into], { encoding: "utf8" });
     assert.equal(done.status, code, done.stdout + done.stderr);
     pages[name] = pathToFileURL(into).href;
   };

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/file_text.h"
 #include "core/text.h"
+#include "core/work_in_order.h"
 
 namespace clusterbench::config {
 namespace {
@@ -90,6 +91,7 @@ Config read_config(const JsonText& text, const GridChange& preset_grid) {
   config.sample_sets = sample_sets(document);
   check_ranking(document, config.sample_sets, text);
   static_cast<Sections&>(config) = read_sections(document, text);
+  config.threads = config.threads_asked ? *config.threads_asked : processors();
   if (config.reading && config.timing.measure) config.reading_sets = reading_sets(*config.reading, config.sample_sets);
   return config;
 }

@@ -373,7 +373,7 @@ constexpr FlagRow k_rows[] = {
     {{"--max-range", "METRES: the longest range that such a light gets"}, set_max_range},
     {{"--rounds", "N: timed rounds over all cases of a group"}, set_rounds},
     {{"--launches", "N: processes that measure one after the other; intervals hold between them"}, set_launches},
-    {{"--threads", "N: threads for the truth and for rays; results do not depend on it"}, set_threads},
+    {{"--threads", "N: threads that count (default: all processors); results do not depend on it"}, set_threads},
     {{"--device",
       "NAME, UUID or number: the device of methods that run on one, as `clusterbench list devices` shows it; presets "
       "of engines that assign on the GPU then take such methods"},

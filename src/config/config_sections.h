@@ -171,7 +171,7 @@ struct LimitsRequest {
 // Keys and sections of the top level that are members as they are; the others have readers of their own.
 struct Sections {
   RECORD(Sections);
-  KEY(int, threads, 1);
+  KEY_AS("threads", result::Nullable<int>, threads_asked, {});  // null: as many as there are processors
   KEY(std::string, device, {});  // of methods that run on one: gpu::chosen_device(); "": the best
   KEY(std::uint64_t, seed, 1);
   KEY(AccuracyRequest, accuracy, {});

@@ -152,7 +152,9 @@ view::Projection projection_of_sides(const result::DumpCamera& camera) {
   return out;
 }
 
-void check_projection(const view::Projection& projection, const char* pointer) {
+// `camera`: whose near_m and far_m stand in place of the planes of its projection.
+void check_projection(const view::Projection& projection, const result::DumpCamera& camera) {
+  const char* pointer = camera.sides ? "/camera/sides" : "/camera/projection";
   const double widest = std::max(
       {std::abs(projection.left), std::abs(projection.right), std::abs(projection.bottom), std::abs(projection.top)});
   if (!(widest <= (projection.orthographic ? geom::k_farthest_m : geom::k_steepest_slope)))
@@ -160,6 +162,11 @@ void check_projection(const view::Projection& projection, const char* pointer) {
   const bool has_near = projection.orthographic ? std::isfinite(projection.near_m) : projection.near_m > 0.0;
   if (has_near && projection.near_m < projection.far_m && (!projection.orthographic || std::isfinite(projection.far_m)))
     return;
+  if (camera.near_m || camera.far_m)
+    throw Error("", camera.far_m ? "/camera/far_m" : "/camera/near_m",
+                "leaves the near plane at " + short_number(projection.near_m) + " m and the far plane at " +
+                    short_number(projection.far_m) + " m; allowed: " +
+                    (projection.orthographic ? "near_m below far_m" : "near_m above 0 and below far_m"));
   throw Error("", pointer,
               "gives a near plane at " + short_number(projection.near_m) + " m and a far plane at " +
                   short_number(projection.far_m) +
@@ -196,7 +203,7 @@ Camera camera_of(const result::DumpCamera& camera, bool lights_in_view_space) {
                                 : projection_of_matrix(matrix_of(*camera.projection, is_by_rows), camera, forward);
   if (camera.near_m) out.projection.near_m = *camera.near_m;
   if (camera.far_m) out.projection.far_m = camera.far_m->value_or(std::numeric_limits<double>::infinity());
-  check_projection(out.projection, camera.sides ? "/camera/sides" : "/camera/projection");
+  check_projection(out.projection, camera);
   return out;
 }
 

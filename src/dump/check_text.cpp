@@ -65,15 +65,12 @@ std::string twice_text(std::uint64_t count) {
 
 std::string other_text(const result::CheckedSet& set) {
   const result::OtherReading& other = *set.other_reading;
-  std::string out = "  Probably it is the description: with ";
-  if (other.lists.empty())
-    out +=
-        "grid.axes '" + other.axes + "', first_row '" + other.first_row + "', first_slice '" + other.first_slice + "'";
-  else
-    out += other.lists;
-  if (!other.camera.empty()) out += " and " + other.camera;
+  std::vector<std::string> changes;
+  for (const std::string& change : {other.order, other.lists, other.camera, other.lights})
+    if (!change.empty()) changes.push_back(change);
+  std::string out = "  Probably it is the description: with " + joined(changes, " and ");
   if (set.error->lost_pairs == 0)
-    return out + " the listed pairs are true, and " + number_of(other.lost_pairs, "pair") + " would be lost.\n";
+    return out + " most listed pairs are true, and " + number_of(other.lost_pairs, "pair") + " would be lost.\n";
   return out + ", " + number_of(other.lost_pairs, "pair") + " would be lost in place of " +
          number(set.error->lost_pairs) + ".\n";
 }
@@ -88,7 +85,10 @@ std::string lost_text(const result::CheckedSet& set, std::size_t most, bool is_w
            " m): reaches in by " + length_text(lost.reach_mm) + ", " + significant(lost.reach_percent) +
            " % of its range" + (lost.is_within_rounding ? ", within rounding" : "") + "\n";
   }
-  if (set.error->lost_pairs > shown) out += "    and " + number(set.error->lost_pairs - shown) + " more\n";
+  if (shown > 0 && set.error->lost_pairs > shown) out += "    and " + number(set.error->lost_pairs - shown) + " more\n";
+  if (set.error->lost_in_full_lists > 0)
+    out += "    " + number(set.error->lost_in_full_lists) + " of " + number(set.error->lost_pairs) +
+           " lost in cells whose list is full (lists[].per_cell): there was no room for more lights\n";
   return out;
 }
 
@@ -101,7 +101,7 @@ std::string errors_text(const result::CheckedSet& set) {
                   100.0 * static_cast<double>(error.false_positives) / static_cast<double>(error.true_pairs));
   if (error.undecided > 0) out += "; " + number(error.undecided) + " undecided";
   if (!set.other_reading && error.false_positives > error.listed_pairs / 2)
-    out += "; are ranges and cones described rightly?";
+    out += "; are camera, ranges and cones described rightly?";
   return out + "\n";
 }
 
@@ -118,8 +118,10 @@ std::string verdict_text(const result::CheckedSet& set) {
   const std::uint64_t beyond = error.lost_pairs - error.lost_within_rounding;
   if (set.verdict == "rounding")
     return number_of(error.lost_pairs, "pair") + " lost, all within rounding; the deepest reaches in by " +
-           length_text(error.deepest_mm) + " (rounding explains " + length_text(1000.0 * k_most_rounding_m) + " and " +
-           significant(100.0 * k_most_rounding_share) + " % of the range at the most)";
+           length_text(error.deepest_mm) +
+           " (the dump's `rounding`, 32 roundoffs if it has none, explains that; never " + "more than " +
+           length_text(1000.0 * k_most_rounding_m) + " or " + significant(100.0 * k_most_rounding_share) +
+           " % of the range)";
   std::string out = "LOST: " + number_of(beyond, "pair") + " of a cell and a light";
   if (error.lost_within_rounding > 0) out += ", and " + number(error.lost_within_rounding) + " within rounding";
   out += " (" + number_of(error.lost_lights, "light");

@@ -17,12 +17,19 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t k_most_json_bytes = std::uint64_t{64} << 20;
 
+// Why it cannot be read; empty: it is a file, which has a size.
+std::string problem_of(const fs::path& path) {
+  std::error_code failed;
+  if (fs::is_directory(path, failed)) return "is a folder, not a file";
+  if (!fs::exists(path, failed))
+    return fs::is_symlink(path, failed) ? "is a link that leads nowhere" : "does not exist";
+  return fs::is_regular_file(path, failed) ? "" : "is no file of a known size";
+}
+
 // Throws Error unless it is a file, which has a size.
 std::uint64_t checked_size(const fs::path& path) {
+  if (const std::string problem = problem_of(path); !problem.empty()) throw Error(path.string(), "", problem);
   std::error_code failed;
-  if (fs::is_directory(path, failed)) throw Error(path.string(), "", "is a folder, not a file");
-  if (!fs::exists(path, failed)) throw Error(path.string(), "", "does not exist");
-  if (!fs::is_regular_file(path, failed)) throw Error(path.string(), "", "is no file of a known size");
   const std::uintmax_t size = fs::file_size(path, failed);
   if (failed) throw Error(path.string(), "", "cannot be read: " + failed.message());
   return size;
@@ -31,10 +38,13 @@ std::uint64_t checked_size(const fs::path& path) {
 layout::Buffer read_buffer(const DumpFile& dump, const std::string& name, const result::DumpBuffer& given,
                            std::uint64_t& sum) {
   const std::string pointer = "/buffers/" + name;
+  if (given.file.empty() || given.file.find('\0') != std::string::npos)
+    throw Error(dump.path.string(), pointer + "/file",
+                std::string(given.file.empty() ? "is empty" : "has a character 0 in it") +
+                    "; allowed: the name of a file, relative to the folder of the dump");
   const fs::path path = dump.beside(given.file);
-  std::error_code none;
-  if (!fs::exists(path, none))
-    throw Error(dump.path.string(), pointer + "/file", "names " + path.string() + ", which does not exist");
+  if (const std::string problem = problem_of(path); !problem.empty())
+    throw Error(dump.path.string(), pointer + "/file", "names " + path.string() + ", which " + problem);
   const std::uint64_t size = checked_size(path), at = given.at.value_or(0);
   if (at > size)
     throw Error(dump.path.string(), pointer + "/at",
@@ -118,9 +128,12 @@ std::vector<fs::path> dump_paths(const fs::path& path) {
   std::error_code failed;
   if (!fs::is_directory(path, failed)) return {path};
   std::vector<fs::path> found;
-  std::error_code none;  // of an editor's lock, which links to nothing
+  std::error_code none;
+  // Hidden ones are an editor's: its lock links to nothing. What else cannot be read is refused when it is read.
   for (const fs::directory_entry& entry : fs::directory_iterator(path, failed))
-    if (entry.path().extension() == ".json" && entry.is_regular_file(none)) found.push_back(entry.path());
+    if (entry.path().extension() == ".json" && !entry.is_directory(none) &&
+        (entry.is_regular_file(none) || !entry.path().filename().string().starts_with('.')))
+      found.push_back(entry.path());
   if (failed) throw Error(path.string(), "", "cannot be read: " + failed.message());
   std::erase_if(found, is_other_json);
   std::ranges::sort(found);

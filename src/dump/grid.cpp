@@ -31,11 +31,14 @@ std::vector<double> formula_boundaries(const result::DumpFormula& formula, std::
   return out;
 }
 
-void set_boundaries(grid::Slicing& slices, std::vector<double> boundaries) {
+// `place`: the key that gives them; `last_place`: the last of them.
+void set_boundaries(grid::Slicing& slices, std::vector<double> boundaries, const std::string& place,
+                    const std::string& last_place) {
   for (std::size_t i = 1; i < boundaries.size(); ++i)
     if (!(boundaries[i - 1] < boundaries[i]))
-      throw Error("", std::string(k_slices) + "/boundaries_m",
-                  "do not ascend: " + grid::number_name(boundaries[i - 1]) + " m is followed by " +
+      throw Error("", k_slices + (i + 1 < boundaries.size() ? place : last_place),
+                  std::string(place == "/boundaries_m" ? "" : "gives boundaries of slices that ") +
+                      "do not ascend: " + grid::number_name(boundaries[i - 1]) + " m is followed by " +
                       grid::number_name(boundaries[i]) + " m (slice " + std::to_string(i - 1) + ")");
   slices.scheme = grid::Scheme::list;
   slices.near_m = boundaries.front();
@@ -69,7 +72,7 @@ grid::Slicing slicing_of(const std::optional<result::DumpSlices>& given, const v
   if (!given || (!given->boundaries_m && !given->scheme && !given->formula)) {
     if (!std::isfinite(projection.far_m))
       throw Error("", k_slices, "are missing: where the camera has no far plane, say where the one slice ends");
-    set_boundaries(slices, {projection.near_m, projection.far_m});
+    set_boundaries(slices, {projection.near_m, projection.far_m}, "", "");
     return slices;
   }
   if (given->boundaries_m.has_value() + given->scheme.has_value() + given->formula.has_value() != 1)
@@ -78,9 +81,11 @@ grid::Slicing slicing_of(const std::optional<result::DumpSlices>& given, const v
     set_scheme(slices, *given);
     if (slices.far_m == 0.0 && !std::isfinite(projection.far_m))
       throw Error("", std::string(k_slices) + "/far_m", "is missing: the camera has no far plane");
+  } else if (given->formula) {
+    set_boundaries(slices, formula_boundaries(*given->formula, needed_count(*given), projection), "/formula",
+                   given->formula->far_m ? "/formula/far_m" : "/formula");
   } else {
-    set_boundaries(slices, given->formula ? formula_boundaries(*given->formula, needed_count(*given), projection)
-                                          : *given->boundaries_m);
+    set_boundaries(slices, *given->boundaries_m, "/boundaries_m", "/boundaries_m");
   }
   return slices;
 }
@@ -152,6 +157,19 @@ grid::GridSpec world_spec(const result::DumpGrid& given) {
   return spec;
 }
 
+// Of a key of a configuration, as "slices.near".
+std::string place_in_dump(const std::string& key, const result::DumpGrid& given) {
+  if (key.starts_with("slices") && given.slices) {
+    if (given.slices->formula) return std::string(k_slices) + "/formula";
+    if (given.slices->boundaries_m) return std::string(k_slices) + "/boundaries_m";
+  }
+  std::string pointer = "/grid/" + key;
+  std::ranges::replace(pointer, '.', '/');
+  for (const char* length : {"/near", "/far", "/first"})
+    if (pointer == k_slices + std::string(length)) pointer += "_m";
+  return pointer;
+}
+
 }  // namespace
 
 layout::CellOrder order_of(const result::DumpGrid& grid) {
@@ -182,9 +200,7 @@ grid::Grid grid_of(const result::DumpGrid& given, const view::Frame& frame) {
       count_rows_from_bottom(std::get<grid::ScreenGrid>(grid.shape), spec.tiles, frame);
     return grid;
   } catch (const Error& error) {  // names keys of a configuration, "slices.near"
-    std::string pointer = "/grid/" + error.where();
-    std::ranges::replace(pointer, '.', '/');
-    throw Error("", pointer, error.message(), error.code());
+    throw Error("", place_in_dump(error.where(), given), error.message(), error.code());
   }
 }
 

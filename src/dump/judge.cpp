@@ -63,6 +63,7 @@ class SetJudge {
     const LostLights lost = find_lost(frame_.frame, frame_.grid, truth_.lists, listed,
                                       {dump_.record.rounding.value_or(k_default_rounding), metres_per_unit_});
     add_errors(lost, out);
+    if (lost.lost_pairs > 0) out.error->lost_in_full_lists = count_lost_in(truth_.lists, listed, full_cells(set));
     if (page_ != nullptr) page_->sets.back() = page_set(set.name, frame_, truth_.lists, listed, lost, *page_room_);
     const bool is_beyond = lost.lost_pairs > lost.within_rounding;
     out.verdict = is_beyond                  ? "lost"
@@ -92,6 +93,18 @@ class SetJudge {
     if (decoded.faults.are_readable()) return;
     if (const auto likely = layout::likely_reading(set.parts, dump_.buffers, shape_))
       out.reading.likely_reading = *likely;
+  }
+
+  // Cells whose list of some part has no room for another light.
+  std::vector<bool> full_cells(const ListSet& set) const {
+    std::vector<bool> out(truth_.lists.cell_count(), false);
+    for (const layout::ListPart& part : set.parts) {
+      if (part.lists.layout != "fixed") continue;
+      const assign::Lists lists = layout::decode({&part, 1}, dump_.buffers, shape_).lists;
+      for (std::uint32_t cell = 0; cell < lists.cell_count(); ++cell)
+        if (lists.of(cell).size() >= part.lists.per_cell.value_or(0)) out[cell] = true;
+    }
+    return out;
   }
 
   // Of a light whose range has no end: not finite.

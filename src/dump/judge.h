@@ -15,8 +15,8 @@ struct JudgeOptions {
   std::size_t* page_room = nullptr;        // with it: see page_set()
 };
 
-// Reads the lists, compares them with the truth, and tries the other orders of cells and the other conventions of
-// matrices where lights are lost. Throws Error (file, JSON pointer or byte) for a dump that describes no frame.
+// Reads the lists, compares them with the truth, and tries other descriptions where lights are lost or most listed
+// pairs are for nothing. Throws Error (file, JSON pointer or byte) for a dump that describes no frame.
 result::CheckedDump judge(const DumpFile& dump, const JudgeOptions& options);
 
 // The worst verdict of all sets. Where no light reaches a cell and none is listed a set does not count, unless all are

@@ -133,4 +133,12 @@ std::uint64_t count_lost(const assign::Lists& truth, const assign::Lists& listed
   return lost;
 }
 
+std::uint64_t count_lost_in(const assign::Lists& truth, const assign::Lists& listed,
+                            const std::vector<bool>& are_counted) {
+  std::uint64_t lost = 0;
+  for (std::uint32_t cell = 0; cell < truth.cell_count(); ++cell)
+    if (are_counted[cell]) each_lost(truth.of(cell), listed.of(cell), [&lost](std::uint32_t) { ++lost; });
+  return lost;
+}
+
 }  // namespace clusterbench::dump

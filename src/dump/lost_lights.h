@@ -23,9 +23,9 @@ struct LostLights {
   std::vector<LostPair> deepest;  // the deepest first
 };
 
-// Nearly all listed pairs: as if they were of another frame.
+// Most listed pairs: as if they were of another frame, or the lights larger.
 inline bool are_for_nothing(const LostLights& found) {
-  return found.false_positives > found.listed_pairs / 10 * 9;
+  return found.false_positives > found.listed_pairs / 2;
 }
 
 // No rounding of an engine explains more than this, whatever a dump allows for: of a light's range, and in metres.
@@ -43,5 +43,9 @@ LostLights find_lost(const view::Frame& frame, const grid::Grid& grid, const ass
 // Only their number, where the list of cell c is that of cell source(c). Stops above `most`.
 std::uint64_t count_lost(const assign::Lists& truth, const assign::Lists& listed,
                          const std::function<std::uint32_t(std::uint32_t cell)>& source, std::uint64_t most);
+
+// Their number in the cells that are_counted.
+std::uint64_t count_lost_in(const assign::Lists& truth, const assign::Lists& listed,
+                            const std::vector<bool>& are_counted);
 
 }  // namespace clusterbench::dump

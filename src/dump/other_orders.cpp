@@ -2,16 +2,16 @@
 
 #include <algorithm>
 
-#include <glm/matrix.hpp>
-
 #include "core/error.h"
 #include "core/memory.h"
-#include "dump/camera.h"
+#include "dump/other_frames.h"
 
 namespace clusterbench::dump {
 namespace {
 
 constexpr std::uint64_t k_times_fewer = 100;
+constexpr std::uint64_t k_too_few = 10;  // to say so
+constexpr double k_times_chance = 10.0;  // as many pairs as a reading loses are lost by chance
 
 bool is_of_tiles(const ListSet& set) {
   return std::ranges::all_of(set.parts, [](const layout::ListPart& part) {
@@ -27,53 +27,6 @@ Vec3i source_cell(const layout::CellOrder& given, const layout::CellOrder& other
   return given.tile_at(other.tile(at, cells), z, cells);
 }
 
-struct CameraChange {
-  const char* text;
-  bool is_transposed = false, is_turned = false, has_other_depth = false;
-  Vec3d mirrored{1.0};  // signs of view space: lights are seen in a mirror
-};
-const CameraChange k_changes[] = {
-    {.text = "camera.order: the matrices transposed", .is_transposed = true},
-    {.text = "camera.forward: the other way", .is_turned = true},
-    {.text = "camera.order and camera.forward: both the other", .is_transposed = true, .is_turned = true},
-    {.text = "camera.depth: the other of 0..1 and -1..1", .has_other_depth = true},
-    {.text = "camera: the other handedness (the z row of world_to_view negated, or camera.forward and projection both "
-             "the other way)",
-     .mirrored = {1.0, 1.0, -1.0}},
-    {.text = "camera: the x row of world_to_view negated", .mirrored = {-1.0, 1.0, 1.0}},
-    {.text = "camera: the x and z rows of world_to_view negated", .mirrored = {-1.0, 1.0, -1.0}}};
-
-bool is_mirrored(const CameraChange& change) {
-  return change.mirrored != Vec3d(1.0);
-}
-
-// Moves all lights to where a camera sees them whose rows of the view matrix have these signs.
-void mirror_lights(view::Frame& frame, const Vec3d& signs) {
-  const Mat3d to_view = frame.view_space.rotation, to_world = glm::transpose(to_view);
-  for (scene::WorldLight& light : frame.lights) {
-    light.position =
-        frame.view_space.origin + to_world * (signs * (to_view * (light.position - frame.view_space.origin)));
-    light.direction = to_world * (signs * (to_view * light.direction));
-  }
-}
-
-// nullopt where the camera has no matrices, or they are none of a camera that way.
-std::optional<DumpFrame> changed_frame(const DumpFile& dump, const CameraChange& change) {
-  result::DumpCamera camera = dump.record.camera;
-  if (!has_matrices(camera) || (is_mirrored(change) && dump.record.grid.kind.value_or("frustum") == "world"))
-    return std::nullopt;
-  if (change.is_transposed) camera.order = camera.order.value_or("columns") == "columns" ? "rows" : "columns";
-  if (change.has_other_depth) camera.depth = camera.depth.value_or("0..1") == "0..1" ? "-1..1" : "0..1";
-  if (change.is_turned) camera.forward = camera.forward.value_or("-z") == "-z" ? "+z" : "-z";
-  try {
-    DumpFrame frame = frame_of(dump, camera);
-    if (is_mirrored(change)) mirror_lights(frame.frame, change.mirrored);
-    return frame;
-  } catch (const Error&) {
-    return std::nullopt;
-  }
-}
-
 // Tiles in pixels are counted from the first row, so that the other end of the picture gives another grid.
 std::optional<grid::Grid> grid_from_other_row(const DumpFile& dump, const DumpFrame& frame) {
   result::DumpGrid given = dump.record.grid;
@@ -83,60 +36,146 @@ std::optional<grid::Grid> grid_from_other_row(const DumpFile& dump, const DumpFr
   return grid_of(given, frame.frame);
 }
 
+// In words; empty: the same.
+std::string order_change(const layout::CellOrder& given, const layout::CellOrder& other) {
+  std::string out;
+  const auto add = [&out](const std::string& change) { out += (out.empty() ? "" : ", ") + change; };
+  if (other.axes != given.axes) add("grid.axes '" + other.axes + "'");
+  if (other.is_from_bottom != given.is_from_bottom)
+    add(other.is_from_bottom ? "grid.first_row 'bottom'" : "grid.first_row 'top'");
+  if (other.is_from_far != given.is_from_far)
+    add(other.is_from_far ? "grid.first_slice 'far'" : "grid.first_slice 'near'");
+  return out;
+}
+
+// How many of the true pairs lists would lose that have as many cells for each light, but cells drawn by chance. Near 0
+// where lists name their lights in nearly all cells: those lose nothing under any description.
+double lost_by_chance(const assign::Lists& truth, const assign::Lists& listed, std::size_t lights) {
+  std::vector<std::uint64_t> is_true(lights, 0), are_listed(lights, 0);
+  for (const std::uint32_t light : truth.lights) ++is_true[light];
+  for (const std::uint32_t light : listed.lights) ++are_listed[light];
+  double lost = 0.0;
+  for (std::size_t light = 0; light < lights; ++light)
+    lost += static_cast<double>(is_true[light]) *
+            (1.0 - static_cast<double>(are_listed[light]) / static_cast<double>(listed.cell_count()));
+  return lost;
+}
+
+// Lists and truth under one description.
+struct Evidence {
+  const assign::Lists& truth;
+  const assign::Lists& listed;
+  double by_chance;
+  // Of ranges: a smaller one loses less whatever the lists are, so it has to fit in both directions.
+  bool is_strict = false;
+};
+
 class BestReading {
  public:
-  BestReading(const result::DumpGrid& given, const ListSet& set, const LostLights& found, std::uint64_t wrong)
-      : given_(order_of(given)),
-        of_tiles_(is_of_tiles(set)),
-        most_(wrong / k_times_fewer),
-        true_before_(found.true_pairs - found.lost_pairs),
-        listed_before_(found.listed_pairs),
-        least_true_(found.lost_pairs < wrong ? found.listed_pairs / 2 : 0) {}
+  BestReading(const result::DumpGrid& given, const ListSet& set, const LostLights& found, std::size_t lights)
+      : given_(order_of(given)), of_tiles_(is_of_tiles(set)), found_(found), lights_(lights) {
+    if (is_lost_) most_ = found.lost_pairs / k_times_fewer;
+    if (is_for_nothing_) most_ = std::max(most_, found.listed_pairs / k_times_fewer);
+  }
+  // Whether there is something to explain.
+  bool is_wanted() const { return is_lost_ || is_for_nothing_; }
+  bool is_lost() const { return is_lost_; }
+  WantedRanges wanted_ranges() const { return {is_lost_, is_for_nothing_ && !is_lost_}; }
 
   // `rows_from_bottom`: where the grid itself depends on the first row, the one that it was made for.
-  void try_orders(const grid::Grid& grid, const assign::Lists& truth, const assign::Lists& listed, const char* camera,
-                  std::optional<bool> rows_from_bottom) {
-    if (truth.cell_count() != listed.cell_count()) return;
+  void try_orders(const grid::Grid& grid, const assign::Lists& truth, const assign::Lists& listed,
+                  const std::string& camera, std::optional<bool> rows_from_bottom) {
+    const Evidence evidence = evidence_of(truth, listed);
+    if (truth.cell_count() != listed.cell_count() || !is_enough(evidence)) return;
     const Vec3i cells = grid.cells();
     for (const layout::CellOrder& order : layout::all_orders()) {
       if (rows_from_bottom && order.is_from_bottom != *rows_from_bottom) continue;
       const auto source = [&](std::uint32_t cell) {
         return grid::cell_index(source_cell(given_, order, grid.cell_at(cell), cells, of_tiles_), cells);
       };
-      take(count_lost(truth, listed, source, most_), truth,
-           {order.axes, row_name(order), slice_name(order), camera, "", 0});
+      take(count_lost(truth, listed, source, most_), evidence, reading_in(order, camera, "", ""));
     }
   }
   // Lists that are read another way, in the dump's own order.
   void try_lists(const assign::Lists& truth, const assign::Lists& listed, const std::string& change) {
     const std::uint64_t lost = count_lost(
         truth, listed, [](std::uint32_t cell) { return cell; }, most_);
-    const auto are_true = static_cast<double>(truth.pair_count() - std::min<std::uint64_t>(lost, truth.pair_count()));
+    const double are_true = static_cast<double>(true_of(lost, truth)),
+                 were_true = static_cast<double>(found_.true_pairs - found_.lost_pairs);
     // Numbers without meaning that make long lists lose nothing, too.
-    if (are_true * static_cast<double>(listed_before_) <
-        static_cast<double>(true_before_) * static_cast<double>(listed.pair_count()))
+    if (are_true * static_cast<double>(found_.listed_pairs) < were_true * static_cast<double>(listed.pair_count()))
       return;
-    take(lost, truth, {given_.axes, row_name(given_), slice_name(given_), "", change, 0});
+    take(lost, evidence_of(truth, listed), reading_in(given_, "", change, ""));
+  }
+  // Lights with other ranges.
+  void try_ranges(const assign::Lists& truth, const assign::Lists& listed, const std::string& change) {
+    const std::uint64_t lost = count_lost(
+        truth, listed, [](std::uint32_t cell) { return cell; }, most_);
+    Evidence evidence = evidence_of(truth, listed);
+    evidence.is_strict = true;
+    take(lost, evidence, reading_in(given_, "", "", change));
   }
   const std::optional<result::OtherReading>& best() const { return best_; }
 
  private:
-  static const char* row_name(const layout::CellOrder& order) { return order.is_from_bottom ? "bottom" : "top"; }
-  static const char* slice_name(const layout::CellOrder& order) { return order.is_from_far ? "far" : "near"; }
+  static std::uint64_t true_of(std::uint64_t lost, const assign::Lists& truth) {
+    return truth.pair_count() - std::min<std::uint64_t>(lost, truth.pair_count());
+  }
+  Evidence evidence_of(const assign::Lists& truth, const assign::Lists& listed) const {
+    return {truth, listed, truth.cell_count() == listed.cell_count() ? lost_by_chance(truth, listed, lights_) : 0.0};
+  }
+  result::OtherReading reading_in(const layout::CellOrder& order, const std::string& camera, const std::string& lists,
+                                  const std::string& lights) const {
+    return {order.axes,
+            order.is_from_bottom ? "bottom" : "top",
+            order.is_from_far ? "far" : "near",
+            order_change(given_, order),
+            camera,
+            lists,
+            lights,
+            0};
+  }
 
-  void take(std::uint64_t lost, const assign::Lists& truth, result::OtherReading reading) {
-    const std::uint64_t are_true = truth.pair_count() - std::min<std::uint64_t>(lost, truth.pair_count());
-    if (lost > most_ || are_true <= true_before_ || are_true < least_true_ || (best_ && lost >= best_->lost_pairs))
-      return;
+  // Lists that lose nothing by chance are no evidence, and neither are a few pairs beside all that are lost.
+  bool is_enough(const Evidence& evidence) const {
+    return evidence.by_chance >= k_times_chance &&
+           (!is_lost_ || is_for_nothing_ ||
+            k_times_chance * evidence.by_chance >= static_cast<double>(found_.lost_pairs));
+  }
+  // Loses far fewer, and has no fewer than half as many pairs that are true.
+  bool explains_losses(std::uint64_t lost, const Evidence& evidence) const {
+    return is_lost_ && lost <= found_.lost_pairs / k_times_fewer &&
+           k_times_chance * evidence.by_chance >= static_cast<double>(found_.lost_pairs) &&
+           2 * true_of(lost, evidence.truth) >= found_.true_pairs - found_.lost_pairs;
+  }
+  // Makes most of the listed pairs true, and many more than there were.
+  bool explains_excess(std::uint64_t lost, const Evidence& evidence) const {
+    const std::uint64_t are_true = true_of(lost, evidence.truth), were_true = found_.true_pairs - found_.lost_pairs;
+    return is_for_nothing_ && lost <= found_.listed_pairs / k_times_fewer &&
+           2 * are_true > evidence.listed.pair_count() && 2 * are_true >= 3 * were_true;
+  }
+  bool fits_both_ways(std::uint64_t lost, const Evidence& evidence) const {
+    const std::uint64_t wrong = lost + evidence.listed.pair_count() - true_of(lost, evidence.truth);
+    return 3 * wrong <= found_.lost_pairs + found_.false_positives;
+  }
+
+  void take(std::uint64_t lost, const Evidence& evidence, result::OtherReading reading) {
+    if (lost > most_ || (best_ && lost >= best_->lost_pairs)) return;
+    if (k_times_chance * static_cast<double>(lost + 1) > evidence.by_chance) return;
+    const bool loses_fewer = explains_losses(lost, evidence), has_more_true = explains_excess(lost, evidence);
+    if (evidence.is_strict && (!fits_both_ways(lost, evidence) || (is_lost_ && !loses_fewer))) return;
+    if (!loses_fewer && !has_more_true) return;
     reading.lost_pairs = lost;
     best_ = std::move(reading);
   }
 
   layout::CellOrder given_;
   bool of_tiles_;
-  std::uint64_t most_, true_before_, listed_before_;
-  // Lists that lose nothing are told to be another reading's only where that makes half of them true: they may be long.
-  std::uint64_t least_true_;
+  const LostLights& found_;
+  std::size_t lights_;
+  bool is_lost_ = found_.lost_pairs >= k_too_few;
+  bool is_for_nothing_ = found_.listed_pairs >= k_too_few && are_for_nothing(found_);
+  std::uint64_t most_ = 0;
   std::optional<result::OtherReading> best_;
 };
 
@@ -151,28 +190,45 @@ void try_descriptions(const DumpFile& dump, const DumpFrame& frame, const ListSe
     }
 }
 
+// Other cameras and other ranges.
+void try_frames(const DumpFile& dump, const DumpFrame& frame, const assign::Lists& listed, std::optional<bool> rows,
+                int threads, BestReading& best) {
+  const auto tried = [&](const DumpFrame& other, auto&& try_truth) {
+    try {
+      try_truth(measure::find_truth(other.frame, other.grid, threads).lists);
+    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): more pairs than the memory holds
+    }
+    return best.best().has_value();
+  };
+  each_other_camera(dump, [&](const DumpFrame& other, const std::string& change) {
+    return tried(other, [&](const assign::Lists& truth) { best.try_orders(other.grid, truth, listed, change, rows); });
+  });
+  if (best.best()) return;
+  each_other_range(dump, frame, best.wanted_ranges(), [&](const DumpFrame& other, const std::string& change) {
+    return tried(other, [&](const assign::Lists& truth) { best.try_ranges(truth, listed, change); });
+  });
+}
+
 }  // namespace
 
 std::optional<result::OtherReading> better_reading(const DumpFile& dump, const DumpFrame& frame, const ListSet& set,
                                                    const assign::Lists& truth, const assign::Lists& listed,
                                                    const LostLights& found, int threads) {
-  constexpr std::uint64_t k_too_few = 10;  // to say so
-  const std::uint64_t wrong = std::max(found.lost_pairs, are_for_nothing(found) ? found.listed_pairs : 0);
-  if (wrong < k_too_few || listed.pair_count() == 0) return std::nullopt;
-  BestReading best(dump.record.grid, set, found, wrong);
+  BestReading best(dump.record.grid, set, found, frame.frame.lights.size());
+  if (!best.is_wanted() || listed.pair_count() == 0) return std::nullopt;
+  const auto truth_in = [threads](const view::Frame& of, const grid::Grid& grid) {
+    return measure::find_truth(of, grid, threads).lists;
+  };
   const std::optional<grid::Grid> turned = grid_from_other_row(dump, frame);
   const bool is_from_bottom = order_of(dump.record.grid).is_from_bottom;
   const std::optional<bool> rows = turned ? std::optional(is_from_bottom) : std::nullopt;
-  best.try_orders(frame.grid, truth, listed, "", rows);
-  if (turned && !best.best())
-    best.try_orders(*turned, measure::find_truth(frame.frame, *turned, threads).lists, listed, "", !is_from_bottom);
-  if (!best.best()) try_descriptions(dump, frame, set, truth, best);
-  for (const CameraChange& change : k_changes) {
-    if (best.best()) break;
-    if (const std::optional<DumpFrame> other = changed_frame(dump, change))
-      best.try_orders(other->grid, measure::find_truth(other->frame, other->grid, threads).lists, listed, change.text,
-                      rows);
+  if (best.is_lost()) {  // no order and no other list makes more of the true pairs listed where none is lost
+    best.try_orders(frame.grid, truth, listed, "", rows);
+    if (turned && !best.best()) best.try_orders(*turned, truth_in(frame.frame, *turned), listed, "", !is_from_bottom);
+    if (!best.best()) try_descriptions(dump, frame, set, truth, best);
   }
+  if (best.best()) return best.best();
+  try_frames(dump, frame, listed, rows, threads, best);
   return best.best();
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// Where lights are lost: is it the description? Tries the 24 orders of cells, cameras with matrices transposed,
-// looking the other way or mirrored, and other descriptions of the lists (widths of numbers, the first index, units of
-// offsets).
+// Where lights are lost, or most listed pairs are for nothing: is it the description? Tries the 24 orders of cells,
+// other descriptions of the lists (widths of numbers, the first index, units of offsets), other cameras and ranges
+// (other_frames.h).
 
 #include <optional>
 
@@ -11,9 +11,11 @@
 
 namespace clusterbench::dump {
 
-// `listed`: by the dump's own order, lights of `frame`; `found`: what is lost of them. Only a reading that loses at
-// least 100 times fewer pairs, or where hardly any pair is lost 100 times fewer than are listed, and that makes more of
-// the listed pairs true.
+// `listed`: by the dump's own order, lights of `frame`; `found`: what is lost of them. Where ten pairs or more are
+// lost, only a reading that loses at least 100 times fewer, with half as many true ones or more. Where most listed
+// pairs are for nothing, also one that makes most of them true, half as many again as before, and loses at least 100
+// times fewer than are listed. In either case lists with their lights in other cells, drawn by chance, would have to
+// lose ten times as many. Of ranges it also has to leave three times fewer wrong pairs, lost and for nothing.
 std::optional<result::OtherReading> better_reading(const DumpFile& dump, const DumpFrame& frame, const ListSet& set,
                                                    const assign::Lists& truth, const assign::Lists& listed,
                                                    const LostLights& found, int threads);

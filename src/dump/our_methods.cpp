@@ -48,12 +48,20 @@ result::CheckedMethod checked_method(const assign::AssignerDescriptor& method, c
 
 using Descriptors = std::vector<const assign::AssignerDescriptor*>;
 
+[[noreturn]] void refuse_method(const std::string& name, const DumpFrame& frame) {
+  std::vector<std::string> allowed;
+  for (const assign::AssignerDescriptor* method : assign::assigner_descriptors())
+    if (runs_on(*method, assign::Params(method->params), frame)) allowed.push_back(method->name);
+  throw Error("", k_flag,
+              "names '" + name + "', which makes no lists of this dump's grid on a processor; allowed: " +
+                  (allowed.empty() ? std::string("none") : joined(allowed)));
+}
+
 Descriptors named_methods(const DumpFrame& frame, const std::vector<std::string>& names) {
   Descriptors out;
   for (const std::string& name : names) {
     out.push_back(assign::find_assigner(name));
-    if (!runs_on(*out.back(), assign::Params(out.back()->params), frame))
-      throw Error("", k_flag, "names '" + name + "', which makes no lists of this dump's grid on a processor");
+    if (!runs_on(*out.back(), assign::Params(out.back()->params), frame)) refuse_method(name, frame);
   }
   return out;
 }
@@ -75,7 +83,10 @@ MethodChoice method_choice(const std::string& text) {
   const std::vector<std::string> known = assign::assigner_names();
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
-    out.names.push_back(text.substr(begin, end - begin));
+    const std::string name = text.substr(begin, end - begin);
+    if (std::ranges::find(out.names, name) != out.names.end())
+      throw Error("", k_flag, "names '" + name + "' twice; allowed: each method once");
+    out.names.push_back(name);
     if (assign::find_assigner(out.names.back()) == nullptr)
       throw Error("", k_flag,
                   "found '" + out.names.back() + "'" + did_you_mean(out.names.back(), known) +

@@ -54,7 +54,7 @@ bool change_offset_unit(DumpLists& lists, const std::string&) {
 }
 
 bool swap_offset_and_count(DumpLists& lists, const std::string&) {
-  if (!lists.offset || !lists.counts || lists.counts->size() != 1) return false;
+  if (!lists.offset || !lists.counts || lists.counts->empty()) return false;
   std::swap(*lists.offset, lists.counts->front());
   return true;
 }
@@ -125,7 +125,7 @@ std::vector<Change> changes() {
   for (const char* type : {"u16", "u8", "u32", "f32"})
     all.push_back({std::string("entries as ") + type, set_entry_type, type});
   all.push_back({"the other unit of offsets (offset_is)", change_offset_unit});
-  all.push_back({"offset and count swapped", swap_offset_and_count});
+  all.push_back({"offset and (first) count swapped", swap_offset_and_count});
   for (const char* type : {"u16", "u8", "u32"}) all.push_back({std::string("counts as ") + type, set_count_type, type});
   for (const char* type : {"u32", "u16"}) all.push_back({std::string("offsets as ") + type, set_offset_type, type});
   all.push_back({"the other meaning of the end of a range (ranges.last_is)", change_last});

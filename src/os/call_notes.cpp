@@ -3,17 +3,20 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 #include "core/error.h"
+#include "os/kept_files.h"
 #include "os/notes_page.h"
 #include "os/process_memory.h"
 
 namespace clusterbench::os {
 namespace {
 
-// Notes belong to the process, as its signals do.
-NotesPage g_own_page{};
-NotesPage* g_page = &g_own_page;
+// Notes belong to the process, as its signals do. Those without a guard are shared with copies of this process alone.
+NotesPage g_first_page{};
+NotesPage* g_page = &g_first_page;
+bool g_is_guarded = false;
 
 constexpr auto k_relaxed = std::memory_order_relaxed;
 
@@ -39,6 +42,20 @@ ThreadNotes& thread_notes() {
   return *t_notes;
 }
 
+// Before the first call, which loads a plug-in, there is one thread.
+void prepare_for_copies() {
+  static const bool is_prepared = [] {
+    is_forked_copy();
+    NotesPage* page = g_is_guarded ? nullptr : page_for_copies();
+    if (page == nullptr) return true;
+    std::memcpy(static_cast<void*>(page), static_cast<const void*>(g_page), sizeof(NotesPage));
+    g_page = page;
+    g_page->lost_descriptor = -1;
+    return true;
+  }();
+  static_cast<void>(is_prepared);
+}
+
 }  // namespace
 
 const char* name_of(CallStep step) {
@@ -47,7 +64,8 @@ const char* name_of(CallStep step) {
   return index < std::size(k_names) ? k_names[index] : "?";
 }
 
-ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) {
+ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) : caller_(caller), step_(step), frame_(frame) {
+  prepare_for_copies();
   ThreadNotes& notes = thread_notes();
   if (step == CallStep::destroy) {
     label_before_ = notes.label;
@@ -65,7 +83,20 @@ ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) {
   notes.begun.store(notes.begun.load(k_relaxed) + 1, std::memory_order_release);
 }
 
+// The notes of this thread are those of the other process, which goes on with them.
+void ForeignCall::note_fork() const {
+  g_page->forked_code = caller_.code;
+  g_page->forked_label = caller_.label;
+  g_page->forked_step = static_cast<std::uint32_t>(step_);
+  g_page->forked_frame = frame_;
+  g_page->has_forked = true;
+}
+
 ForeignCall::~ForeignCall() {
+  if (is_forked_copy()) {
+    note_fork();
+    std::_Exit(static_cast<int>(ExitCode::internal));
+  }
   ThreadNotes& notes = thread_notes();
   notes.ended.store(notes.ended.load(k_relaxed) + 1, std::memory_order_release);
   if (notes.step.load(k_relaxed) != static_cast<std::uint32_t>(CallStep::destroy)) return;
@@ -116,7 +147,7 @@ LastCall last_call() {
 }
 
 bool is_guarded() {
-  return g_page != &g_own_page;
+  return g_is_guarded;
 }
 
 void end_with_call(int wait_status) {
@@ -134,12 +165,35 @@ void end_as_ended_thread() {
   std::_Exit(static_cast<int>(ExitCode::internal));
 }
 
+std::optional<CallStep> forked_step() {
+  if (!g_page->has_forked) return {};
+  return static_cast<CallStep>(g_page->forked_step.load());
+}
+
+std::optional<CallStep> forked_step_of(std::uint32_t code) {
+  return g_page->forked_code == code ? forked_step() : std::nullopt;
+}
+
+void end_if_files_are_lost() {
+  if (is_forked_copy()) return;  // it ends soon
+  const int lost = lost_file();
+  if (lost < 0) return;
+  g_page->lost_descriptor = lost;
+  note_crash();
+  if (!is_guarded())
+    std::fprintf(stderr,
+                 "clusterbench: a plug-in closed a file of the program, or put another in its place (descriptor %d)\n",
+                 lost);
+  std::_Exit(static_cast<int>(is_guarded() ? ExitCode::internal : ExitCode::gate_failed));
+}
+
 NotesPage& notes_page() {
   return *g_page;
 }
 
 void use_notes(NotesPage& page) {
   g_page = &page;
+  g_is_guarded = true;
   t_notes = nullptr;
 }
 
@@ -159,6 +213,8 @@ void clear_notes(NotesPage& page) {
   page.crashed_thread = -1;
   page.has_called = false;
   page.has_ended_thread = false;
+  page.lost_descriptor = -1;
+  page.has_forked = false;
   page.has_child_status = false;
   page.codes = 0;
   page.group.set("");

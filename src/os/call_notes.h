@@ -4,6 +4,7 @@
 // them. They take some nanoseconds a call, and nothing but calls of foreign code makes any.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,11 +24,17 @@ class ForeignCall {
  public:
   // `frame`: index in a camera's path; -1 without one.
   ForeignCall(const Caller& caller, CallStep step, int frame = -1);
+  // In a copy of the process, which the call has forked, it notes that and ends the copy.
   ~ForeignCall();
   ForeignCall(const ForeignCall&) = delete;
   ForeignCall& operator=(const ForeignCall&) = delete;
 
  private:
+  void note_fork() const;
+
+  Caller caller_;
+  CallStep step_;
+  int frame_;
   // Destroying is what errors lead to: once it has returned, the call before it is the last one again.
   std::uint64_t label_before_ = 0;
   std::uint32_t code_before_ = 0, step_before_ = 0;
@@ -70,5 +77,17 @@ void end_with_call(int wait_status);
 // Ends this process at once, because foreign code ended the thread of the call that is running. Without a guard it says
 // so.
 [[noreturn]] void end_as_ended_thread();
+
+// The step from which a copy of the process has come back, after a call of this code forked it.
+std::optional<CallStep> forked_step_of(std::uint32_t code);
+// Of any code.
+std::optional<CallStep> forked_step();
+
+// This process is no copy that a call has forked: to be said in one that was forked on purpose.
+void note_own_process();
+
+// Ends this process at once, for its guard, if the call that is running has closed or replaced a file that this
+// process needs (os/kept_files.h). Without a guard it says so, where standard error is left.
+void end_if_files_are_lost();
 
 }  // namespace clusterbench::os

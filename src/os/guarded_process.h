@@ -29,6 +29,9 @@ struct GuardedEnd {
   int signal = 0;                 // by which it died; 0: by exit()
   int died_with_code = 0;         // of exit()
   bool has_ended_thread = false;  // ... because foreign code ended the thread that called it
+  int lost_descriptor = -1;       // ... because foreign code closed or replaced a file that the process needs
+  bool has_forked = false;        // ... because foreign code forked it, and the copy came back from the call
+  int orphans = 0;                // processes that it left running, and that were ended
   // Of a process that did not end by itself: the call that was running, or the last one before; none if it made none.
   std::optional<NotedCall> call;
   bool is_call_running = false;
@@ -58,6 +61,9 @@ class ProcessGuard {
  private:
   Limits limits_;
 };
+
+// The end of a process that this one has started, and that has joined its notes.
+GuardedEnd noted_end(int wait_status);
 
 // In the copy: says how far it has come, as its last act before it ends like any process.
 void note_measured();

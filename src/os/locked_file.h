@@ -6,13 +6,22 @@
 #include <string>
 #include <string_view>
 
+#include "core/error.h"
+
 namespace clusterbench::os {
 
-// Locked with flock, on Windows with LockFileEx, so that any end of the process releases it. A regular file: nothing is
+// Another process holds the file.
+class FileHeld : public Error {
+ public:
+  using Error::Error;
+};
+
+// Locked with flock, on Windows with LockFileEx, so that any end of the process releases it; on disks that have no
+// locks (some network disks), by a file PATH.lock, which a killed process leaves behind. A regular file: nothing is
 // written through links. All functions throw Error.
 class LockedFile {
  public:
-  // The behaviour if another process holds it: throw Error, or wait.
+  // The behaviour if another process holds it: throw FileHeld, or wait.
   enum class Held { refuse, wait };
 
   // Opens the file, or creates an empty one, which is removed with this object if nothing is written to it.
@@ -39,6 +48,11 @@ class LockedFile {
   void remove();
 
  private:
+  struct LockOwner;
+  static LockOwner owner_of(const std::filesystem::path& beside);
+  void lock_beside();
+  [[noreturn]] void refuse_locked(const std::filesystem::path& beside, const LockOwner& owner);
+  std::filesystem::path lock_path() const;
   void open();
   bool has_opened();
   void lock();
@@ -50,7 +64,7 @@ class LockedFile {
   std::filesystem::path path_;
   Held held_;
   std::intptr_t file_ = -1;  // a descriptor or handle of the system
-  bool is_made_ = false;
+  bool is_made_ = false, has_lock_beside_ = false;
 };
 
 }  // namespace clusterbench::os

@@ -61,6 +61,11 @@ struct NotesPage {
   std::atomic<int> last_thread;  // that began a call
   std::atomic<bool> has_called;
   std::atomic<bool> has_ended_thread;  // foreign code ended the thread that called it
+  std::atomic<int> lost_descriptor;    // that foreign code closed or replaced; -1: none
+  std::atomic<bool> has_forked;        // a copy of the process has come back from the call below
+  std::atomic<std::uint64_t> forked_label;
+  std::atomic<std::uint32_t> forked_code, forked_step;
+  std::atomic<int> forked_frame;
   std::atomic<std::uint32_t> codes;
   std::array<NotedText<101>, k_codes> names;
   NotedText<101> group, pass;
@@ -76,6 +81,10 @@ void use_notes(NotesPage& page);
 void begin_notes(NotesPage& page);
 // For a signal handler: this thread crashes.
 void note_crash();
+// Fresh memory that copies of this process share with it; null where there are no copies.
+NotesPage* page_for_copies();
+// Whether this process is a copy that was forked since the first such question, or since note_own_process().
+bool is_forked_copy();
 // Makes new ones, which processes share that this one forks, and uses them. Throws Error.
 NotesPage& share_notes();
 // Forgets all but the names of codes and the message.

@@ -1,7 +1,8 @@
 #pragma once
 // The only way in which a file is written. Readers see either the old bytes or all of the new ones: the new ones are
-// written to a new file beside it, created exclusively, which gets the name when all is on the disk. A failure or a
-// signal leaves the old file as it was and no other file. If the name is a symbolic link, its target is replaced, and
+// written to a new file beside it, which gets the name when all is on the disk. Where the file system can do that, it
+// has no name before; else it is created exclusively. A failure or a signal leaves the old file as it was and no other
+// file. If the name is a symbolic link, its target is replaced, and
 // the link stays. Mode and, if possible, owner of the old file are kept.
 //
 // A pipe, a device or an open descriptor of this process (/dev/stdout, /dev/fd/3) cannot be replaced and is written

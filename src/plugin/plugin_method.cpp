@@ -67,15 +67,20 @@ PluginMethod::PluginMethod(const MethodFacts& facts, std::string file, const ass
 
 PluginMethod::~PluginMethod() {
   bool keeps_mode = true;  // set back if not; a destructor fails no more
-  called(caller_, os::CallStep::destroy, -1, keeps_mode, [&] { facts_.table.destroy(instance_); });
+  called(caller_, os::CallStep::destroy, -1, keeps_mode, [&] {
+    facts_.table.destroy(instance_);
+    os::end_if_files_are_lost();
+  });
 }
 
 void PluginMethod::create(const assign::Params& params) {
   const std::vector<clusterbench_value> values = values_of(facts_.descriptor.params, params);
   bool keeps_mode = true;
   const clusterbench_status status = called(caller_, os::CallStep::create, -1, keeps_mode, [&] {
-    return facts_.table.create(facts_.own, values.data(), static_cast<std::uint32_t>(values.size()), &instance_,
-                               &error_);
+    const auto count = static_cast<std::uint32_t>(values.size());
+    const clusterbench_status left = facts_.table.create(facts_.own, values.data(), count, &instance_, &error_);
+    os::end_if_files_are_lost();
+    return left;
   });
   expect(status, "create()");
   if (keeps_mode) return;
@@ -88,6 +93,9 @@ void PluginMethod::fail(const std::string& message) const {
 }
 
 void PluginMethod::expect(clusterbench_status status, const char* doing) const {
+  if (!os::is_guarded())  // else the guard ends this process
+    if (const auto step = os::forked_step_of(caller_.code))
+      fail(std::string("came back twice from ") + os::name_of(*step) + ": it forked");
   if (status == CLUSTERBENCH_OK) return;
   const std::string reason(text_.data(), strnlen(text_.data(), text_.size()));
   fail(std::string(doing) + " " + name_of(status) + (reason.empty() ? "" : ": " + printable(reason)));
@@ -112,7 +120,9 @@ void PluginMethod::build(const grid::Grid& grid, const assign::LightKinds& kinds
   kept_grid_ = kept_of(grid_);
   bool keeps_mode = true;
   const clusterbench_status status = called(caller_, os::CallStep::build, -1, keeps_mode, [&] {
-    return facts_.table.build(instance_, &grid_, light_types_of(kinds), &error_);
+    const clusterbench_status left = facts_.table.build(instance_, &grid_, light_types_of(kinds), &error_);
+    os::end_if_files_are_lost();
+    return left;
   });
   refuse_written(kept_grid_, "build()");
   expect(status, "build()");
@@ -124,7 +134,9 @@ bool PluginMethod::fill(const clusterbench_frame& frame, const clusterbench_ligh
   text_.front() = '\0';
   bool keeps_mode = true;
   const clusterbench_status status = called(caller_, os::CallStep::assign, frame_, keeps_mode, [&] {
-    return facts_.table.assign(instance_, &frame, &lights, &last_, &error_);
+    const clusterbench_status left = facts_.table.assign(instance_, &frame, &lights, &last_, &error_);
+    if (is_first_) os::end_if_files_are_lost();
+    return left;
   });
   if (!keeps_mode) expect_mode(false, "assign()");
   if (status == CLUSTERBENCH_MORE) return false;
@@ -164,7 +176,8 @@ KeptInputs PluginMethod::kept(const assign::FrameInput& input) const {
 }
 
 void PluginMethod::assign(const assign::FrameInput& input, assign::Lists& out) {
-  if (!is_first_of(input.frame.index)) {
+  is_first_ = is_first_of(input.frame.index);
+  if (!is_first_) {
     fill_lists(input, out);
     return;
   }

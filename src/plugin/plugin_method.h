@@ -33,7 +33,7 @@ class PluginMethod final : public assign::ListAssigner {
 
  private:
   void create(const assign::Params& params);
-  // Throws MethodError unless the method succeeded.
+  // Throws MethodError unless the method succeeded, and no call of the plug-in has forked.
   void expect(clusterbench_status status, const char* doing) const;
   [[noreturn]] void fail(const std::string& message) const;
   void expect_mode(bool is_kept, const char* doing) const;
@@ -55,6 +55,7 @@ class PluginMethod final : public assign::ListAssigner {
   KeptInputs kept_grid_;
   std::vector<bool> seen_;                      // frames, by their index
   int frame_ = -1;                              // that is assigned
+  bool is_first_ = false;                       // ... for the first time
   mutable std::vector<std::uint32_t> checked_;  // of check()
   std::uint64_t unused_ = 0;                    // the most room that it has asked for and not filled
   void* instance_ = nullptr;

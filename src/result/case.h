@@ -171,6 +171,10 @@ struct Case {
         "such a case stands on no front. Absent: it is none");
   FIELD(std::optional<std::string>, preset,
         "The preset that the case is of (`clusterbench list presets`); absent for the configuration's own clusterings");
+  FIELD(std::optional<std::string>, machine,
+        "Name of one of machines, where its times and instructions were measured; absent where they are of one "
+        "machine, and without any",
+        Compares::skipped);
   FIELD(std::vector<Failure>, failures, "Why the case fails the run; empty: it passes", Compares::unjudged);
   FIELD(std::vector<Warning>, warnings, "What to know about the case before believing its figures, beside its failures",
         Compares::follows);

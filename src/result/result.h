@@ -80,6 +80,28 @@ struct DeviceArithmetic {
   END_RECORD;
 };
 
+struct MeasuredMachine {
+  RECORD(MeasuredMachine);
+  FIELD(std::string, name, "Of `machine` of its cases: machine 1, machine 2 ...");
+  FIELD(Machine, machine, "As `machine` of a result");
+  FIELD(std::string, simd_target, "As `tool.simd_target`");
+  FIELD(std::optional<std::string>, host, "As `shard.host`; absent where it is not known");
+  END_RECORD;
+};
+
+struct Shard {
+  RECORD(Shard);
+  FIELD(std::uint64_t, index, About("Its number, from 1").at_least(1));
+  FIELD(std::uint64_t, count, About("Of all shards of the run", "shards", "the run").at_least(1));
+  FIELD(std::string, sweep,
+        "SHA-256 of what all of its shards have in common: program, configuration, filter, scenes, cases");
+  FIELD(std::optional<std::string>, filter, "That selected the run's cases (--filter); absent without one");
+  FIELD(std::optional<std::string>, host,
+        "Start of the SHA-256 of the machine's name: times of two machines of one kind stay apart. Absent where "
+        "nothing is timed, and where the machine does not tell its name");
+  END_RECORD;
+};
+
 struct Device {
   RECORD(Device);
   FIELD(std::string, name, "Its name, from its driver");
@@ -194,6 +216,7 @@ struct Conclusion {
   FIELD(std::string, scene, "Name of one of scenes");
   FIELD(std::string, camera, "As in cases");
   FIELD(Size2, viewport, "[width, height]", "px", "the cases");
+  FIELD(std::optional<std::string>, machine, "As the cases'; absent where times are of one machine");
   FIELD(Nullable<std::string>, take,
         "Id of the case to take; null: no case is sound, nothing that they are ranked by sees a light, or the run "
         "failed (text says what)");
@@ -366,7 +389,14 @@ struct Result {
   FIELD(Tool, tool, "The program that measured");
   FIELD(std::optional<std::vector<Plugin>>, plugins,
         About("Shared libraries that cases' methods come from. Absent without any").items(1, 0));
-  FIELD(Machine, machine, "Where it was measured");
+  FIELD(std::optional<Shard>, shard,
+        "The result is this part of a run (`run --shard`), and `clusterbench merge` makes one result of all parts. "
+        "Absent: it is whole");
+  FIELD(Machine, machine, "Where it was measured; with `machines` the first of them");
+  FIELD(std::optional<std::vector<MeasuredMachine>>, machines,
+        About("Of a merged result the machines whose times, device's times or instructions it has; those of two are "
+              "never compared, and every one has ranks, fronts and conclusions of its own. Absent where it is one")
+            .items(2, 0));
   FIELD(std::optional<Device>, device,
         "The device of the cases whose method runs on one (assigner.on_device). Absent where there are none");
   FIELD(Json, config,

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "assign/contract/method_error.h"
+#include "core/work_in_order.h"
 #include "gpu/device/device.h"
 #include "gpu/reading/reading.h"
 #include "os/call_notes.h"
@@ -23,10 +25,12 @@ double duration_ns(const Once& once) {
   return wall_ns() - start;
 }
 
-// Truth, lists, samples and buffers of all frames, estimated from one frame: the second of two, since memory grows in
-// the first. Depths are cast once for all groups, so their time is not counted again for other groups.
-double counting_ns(const config::Config& config, const SceneData& data, const GroupPlan& group, const PathFrames& path,
+// Truth, lists, samples and buffers of all frames on config.threads threads, estimated from one frame on one thread:
+// the second of two, since memory grows in the first. Depths are cast once for all groups, so their time is not counted
+// again for other groups.
+double counting_ns(config::Config config, const SceneData& data, const GroupPlan& group, const PathFrames& path,
                    int frames) {
+  const int threads = std::min(std::exchange(config.threads, 1), processors());
   const std::atomic<bool> stop{false};
   double start = 0.0;
   const PathFrames two = path.only({path.count() / 3, 2 * path.count() / 3});
@@ -34,7 +38,7 @@ double counting_ns(const config::Config& config, const SceneData& data, const Gr
   for (int i = 0; i < 2; ++i) cast_ns = duration_ns([&] { depths_for(config, group, two, two.frame(i)); });
   accuracy_pass(
       config, data, group, two, [&](int) { start = wall_ns(); }, stop);
-  return (wall_ns() - start + cast_ns) * frames;
+  return (wall_ns() - start + cast_ns) * frames / threads;
 }
 
 // For an even number of values, the lower one of the two in the middle.
@@ -117,8 +121,10 @@ double reading_ns(const config::Config& config, const GroupPlan& group, const Pa
 
 GroupCost cost_of_group(const config::Config& config, const Plan& plan, const GroupPlan& group, double sweep_ns,
                         const EstimateLimits& limits) {
-  os::note_group(group.cases.front().id);
-  os::note_pass("estimate of the duration");
+  if (runs_elsewhere(config, group)) {
+    os::note_group(group.cases.front().id);
+    os::note_pass("estimate of the duration");
+  }
   const PathFrames path = path_of(config, plan, group);
   const int steps = config.stability ? config.stability->steps : 0;
   GroupCost cost{.counting_ns = counting_ns(config, plan.scenes[group.scene], group, path, path.count() + steps)};
@@ -144,6 +150,22 @@ GroupCost cost_of_what_runs(const config::Config& config, const Plan& plan, cons
   }
 }
 
+// Groups whose costs are sampled at the same time: one, where something is timed.
+std::size_t sampled_at_once(const config::Config& config, const Plan& plan) {
+  const bool is_alone = config.timing.measure || std::ranges::any_of(plan.groups, [&](const GroupPlan& group) {
+                          return runs_elsewhere(config, group);
+                        });
+  return is_alone ? 1 : static_cast<std::size_t>(config.threads);
+}
+
+// Whether sampling has taken long enough, also in comparison with the counting that it is about.
+bool is_enough(double passed_s, const EstimateLimits& limits, const std::vector<double>& counting, std::size_t groups) {
+  if (counting.empty()) return false;
+  constexpr double k_share = 0.1;
+  const bool is_long = passed_s > k_share * 1e-9 * median(counting) * static_cast<double>(groups);
+  return is_long || passed_s >= limits.most_s;
+}
+
 }  // namespace
 
 std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan& plan, const EstimateLimits& limits) {
@@ -154,14 +176,23 @@ std::vector<GroupCost> estimated_costs(const config::Config& config, const Plan&
   while (std::gcd(stride, groups) != 1) ++stride;
   std::vector<GroupCost> costs(groups);
   std::vector<double> counting, timing, on_device, reading;
-  for (const double start = wall_ns(); sampled < groups && (sampled == 0 || 1e-9 * (wall_ns() - start) < limits.most_s);
-       ++sampled) {
-    const std::size_t index = sampled * stride % groups;
-    costs[index] = cost_of_what_runs(config, plan, plan.groups[index], sweep_ns, limits);
-    counting.push_back(costs[index].counting_ns);
-    timing.push_back(costs[index].timing_ns);
-    on_device.push_back(costs[index].device_ns);
-    reading.push_back(costs[index].reading_ns);
+  const std::size_t at_once = sampled_at_once(config, plan);
+  ThreadPool pool(static_cast<int>(at_once));
+  for (const double start = wall_ns();
+       sampled < groups && !is_enough(1e-9 * (wall_ns() - start), limits, counting, groups);) {
+    const std::size_t first = sampled;
+    sampled = std::min(groups, first + at_once);
+    each_in_order(pool, sampled - first, [&](std::size_t i) {
+      const std::size_t index = (first + i) * stride % groups;
+      costs[index] = cost_of_what_runs(config, plan, plan.groups[index], sweep_ns, limits);
+    });
+    for (std::size_t i = first; i < sampled; ++i) {
+      const GroupCost& cost = costs[i * stride % groups];
+      counting.push_back(cost.counting_ns);
+      timing.push_back(cost.timing_ns);
+      on_device.push_back(cost.device_ns);
+      reading.push_back(cost.reading_ns);
+    }
   }
   // A few groups take far longer than others: a sampled group like that stands for itself only.
   for (std::size_t i = sampled; i < groups; ++i)

@@ -1,25 +1,30 @@
 #include "run/runner.h"
 
 #include <algorithm>
+#include <exception>
+#include <map>
+#include <mutex>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "config/config_plugins.h"
 #include "config/presets/preset_library.h"
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/text.h"
+#include "core/turns.h"
+#include "core/work_in_order.h"
 #include "gpu/device/device.h"
 #include "os/call_notes.h"
 #include "os/machine.h"
 #include "run/case_result.h"
 #include "run/cases/path_frames.h"
+#include "run/counted_group.h"
 #include "run/findings/broken_cases.h"
 #include "run/findings/gate.h"
-#include "run/passes/accuracy_pass.h"
-#include "run/passes/details_pass.h"
 #include "run/passes/device_pass.h"
 #include "run/passes/reading_pass.h"
-#include "run/passes/stability_pass.h"
 #include "run/passes/timing_pass.h"
 #include "run/scene_facts.h"
 
@@ -85,20 +90,17 @@ bool is_timed(const config::Config& config, const CasePlan& case_plan) {
 }
 
 // A group whose counts are complete but whose times are missing.
-struct CountedGroup {
+struct CountedGroup : GroupCounts {
   GroupPlan group;
-  GroupPlan timed;  // its timed cases
-  int frames = 0;
-  AccuracyResult counted;
-  // of a grid that follows the needs of frames: the same in the grid that does not follow
-  std::optional<AccuracyResult> unfitted;
-  std::optional<AccuracyResult> fixed;  // of tiles that react: the same in the requested tiles
-  std::optional<TileMoves> tile_moves;  // of tiles that react
-  std::vector<Vec3i> cells;             // of tiles that react, frame by frame
-  std::vector<std::optional<StabilityResult>> stabilities;
-  std::vector<std::optional<Details>> details;
+  GroupPlan timed;                                       // its timed cases
   std::vector<std::optional<DeviceTimes>> device_times;  // by case
   std::vector<ReadCase> readings;                        // by case; empty if not requested
+};
+
+// What counting a group came to: neither, if it was stopped.
+struct Counting {
+  std::optional<GroupCounts> counts;
+  std::exception_ptr failure;
 };
 
 class Run {
@@ -112,7 +114,9 @@ class Run {
         stop_(stop),
         counts_(counts),
         launcher_(launcher),
-        costs_(costs) {
+        costs_(costs),
+        on_one_thread_(config) {
+    on_one_thread_.threads = 1;
     progress_.cases_total = plan.case_count();
     for (const GroupPlan& group : plan.groups) {
       const GroupPlan left = unfinished_part(group);
@@ -132,6 +136,7 @@ class Run {
     if (out.device) out.arithmetic = known_arithmetic();
     if (config_.timing.measure) note_beginning(out);
     out.config = config_.resolved;
+    out.shard = plan_.shard;
     out.skipped = plan_.skipped;
     for (std::size_t i = 0; i < plan_.scenes.size(); ++i) {
       out.scenes.push_back(scene_result(plan_.scenes[i], config_.scenes[i], config_.viewports));
@@ -139,8 +144,7 @@ class Run {
     }
     for (const GroupPlan& group : plan_.groups)
       for (const CasePlan& case_plan : group.cases) out.planned_ids.push_back(case_plan.id);
-    for (const GroupPlan& group : plan_.groups)
-      if (!stop_) run_group(unfinished_part(group), out);
+    run_groups(out);
     if (!stop_) time_waiting(out);
     if (out.machine.load) out.machine.load->end = os::load_now().value_or(out.machine.load->begin);
     return out;
@@ -242,36 +246,131 @@ class Run {
   }
 
   void report_progress(const GroupPlan& group, const char* stage, double cost) {
-    note(group, stage);
+    const std::lock_guard lock(reporting_);
     progress_.cost_done += cost;
+    costs_reported_[group.cases.front().id] += cost;
     const std::string& name = group.cases.front().name;
     progress_.doing = name.substr(0, name.find('/', name.find('/', name.find('/') + 1) + 1)) + ": " + stage;
     if (listener_.on_progress) listener_.on_progress(progress_);
   }
+  // Of a group that is measured again.
+  void take_back_progress(const GroupPlan& group) {
+    const std::lock_guard lock(reporting_);
+    progress_.cost_done -= std::exchange(costs_reported_[group.cases.front().id], 0.0);
+  }
+  // Changes the progress; then reports it.
+  template <class Change>
+  void change_progress(const Change& change) {
+    const std::lock_guard lock(reporting_);
+    change(progress_);
+    if (listener_.on_progress) listener_.on_progress(progress_);
+  }
+
+  std::size_t threads() const { return static_cast<std::size_t>(config_.threads); }
+
+  // Groups that may be counted at the same time, one after another; and those that may not, each alone.
+  void run_groups(Result& out) {
+    std::vector<GroupPlan> together;
+    const std::size_t most = (config_.timing.measure ? k_timed_groups_of_thread : k_groups_of_thread) * threads();
+    for (const GroupPlan& planned : plan_.groups) {
+      GroupPlan group = unfinished_part(planned);
+      if (stop_ || group.cases.empty()) continue;
+      const bool is_alone = config_.threads == 1 || runs_elsewhere(config_, group);
+      if (is_alone || together.size() == most) run_together(std::exchange(together, {}), out);
+      if (is_alone)
+        run_group(group, out);
+      else
+        together.push_back(std::move(group));
+    }
+    run_together(together, out);
+  }
+
+  // Counts groups on several threads. They are timed and added in their order: where something is timed after all are
+  // counted, so that it runs alone; else at once, so that an interrupted run loses little.
+  void run_together(const std::vector<GroupPlan>& groups, Result& out) {
+    if (stop_ || groups.empty()) return;
+    if (groups.size() == 1) return run_group(groups.front(), out);
+    std::vector<Counting> countings(groups.size());
+    const auto finish = [&](std::size_t i) { finish_group(groups[i], std::exchange(countings[i], {}), out); };
+    std::atomic<bool> has_failed = false;
+    const Stop stop(stop_, has_failed);
+    InOrder in_order(groups.size(), finish);
+    ThreadPool pool(config_.threads);
+    each_in_order(pool, groups.size(), [&](std::size_t i) {
+      const config::Config& config = is_near_end(i, groups.size(), pool) ? config_ : on_one_thread_;
+      countings[i] = counted_beside_others(groups[i], config, stop);
+      if (config_.timing.measure || stop) return;
+      try {
+        in_order.ready(i);
+      } catch (...) {
+        has_failed = true;
+        throw;
+      }
+    });
+    for (std::size_t i = 0; config_.timing.measure && i < groups.size() && !stop_; ++i) finish(i);
+  }
+
+  Counting counted_beside_others(const GroupPlan& group, const config::Config& config, const Stop& stop) {
+    Counting out;
+    try {
+      const PathFrames path = run::path_of(config, plan_, group);
+      const BudgetShare share(lists_, most_list_bytes(config, group, path), stop);
+      if (share.has_it() && !stop) out.counts = counted(config, group, path, stop);
+    } catch (...) {
+      out.failure = std::current_exception();
+    }
+    return out;
+  }
+
+  std::optional<GroupCounts> counted(const config::Config& config, const GroupPlan& group, const PathFrames& path,
+                                     const Stop& stop) {
+    const bool notes = runs_elsewhere(config_, group);
+    const double costs[] = {accuracy_cost_of(group), stability_cost_of(group), details_cost_of(group)};
+    const auto on_counting = [&](CountingStage stage, double share) {
+      if (notes) note(group, name_of(stage));
+      if (share > 0.0) report_progress(group, name_of(stage), share * costs[static_cast<std::size_t>(stage)]);
+    };
+    return count_group(config, plan_.scenes[group.scene], group, path, on_counting, stop);
+  }
+
+  void run_group(const GroupPlan& group, Result& out) {
+    attempt(group, out, [&] {
+      const PathFrames path = run::path_of(config_, plan_, group);
+      std::optional<GroupCounts> counts = counted(config_, group, path, stop_);
+      if (counts) conclude(group, std::move(*counts), out);
+    });
+  }
+
+  void finish_group(const GroupPlan& group, Counting counting, Result& out) {
+    attempt(group, out, [&] {
+      if (counting.failure) std::rethrow_exception(counting.failure);
+      if (counting.counts) conclude(group, std::move(*counting.counts), out);
+    });
+  }
 
   // With a launcher, several groups of a scene wait until they are timed together: each launch then starts only once
   // for all of them, some time after the previous launch.
-  void run_group(const GroupPlan& group, Result& out) {
+  template <class Work>
+  void attempt(const GroupPlan& group, Result& out, const Work& work) {
     if (group.cases.empty()) return;
     if (!waiting_.empty() && (waiting_.front().group.scene != group.scene || waiting_cost() > k_most_waiting_ns))
       time_waiting(out);
     if (stop_) return;
-    const double done_before = progress_.cost_done;
     try {
-      count_group(group, out);
+      work();
     } catch (const gpu::ShaderFault& fault) {
-      progress_.cost_done = done_before;
+      take_back_progress(group);
       run_apart(group, fault.message(), true, out);
     } catch (const gpu::DeviceError& error) {
       gpu::close_device();
-      progress_.cost_done = done_before;
+      take_back_progress(group);
       run_apart(group, error.message(), false, out);
     } catch (const assign::MethodError& error) {
-      progress_.cost_done = done_before;
+      take_back_progress(group);
       run_without_broken(group, error, out);
     } catch (const Error& error) {
-      throw Error(error.file(), name_of_group_ + (error.where().empty() ? "" : ": " + error.where()), error.message(),
-                  error.code());
+      throw Error(error.file(), group.cases.front().name + (error.where().empty() ? "" : ": " + error.where()),
+                  error.message(), error.code());
     }
   }
 
@@ -289,19 +388,18 @@ class Run {
     if (parts.size() > 1) {
       double cost = 0.0;
       for (const GroupPlan& part : parts) cost += cost_of_all(part);
-      progress_.cost_total += cost - cost_of_all(group);
+      change_progress([&](Progress& now) { now.cost_total += cost - cost_of_all(group); });
       for (const GroupPlan& part : parts) run_group(part, out);
       return;
     }
-    progress_.cost_total -= cost_of_all(group);
+    change_progress([&](Progress& now) { now.cost_total -= cost_of_all(group); });
     for (const CasePlan& case_plan : group.cases) {
       if (is_fault)
         add_broken(case_plan, {"failed", reason, os::CallStep::assign, -1, "", ""}, out);
       else
         out.skipped.push_back({case_plan.name, reason, false, case_plan.preset});
     }
-    if (!is_fault) progress_.cases_done += group.cases.size();
-    if (listener_.on_progress) listener_.on_progress(progress_);
+    if (!is_fault) change_progress([&](Progress& now) { now.cases_done += group.cases.size(); });
   }
 
   // After a failure of a plug-in: its cases are broken, and the others of the group are measured again.
@@ -319,13 +417,14 @@ class Run {
       if (std::ranges::find(rest.cases, one.id, &CasePlan::id) == rest.cases.end())
         add_broken(one, breakdown_of(error, method_of(config_, one).plugin), out);
     if (rest.cases.size() == group.cases.size()) throw assign::MethodError(error);
-    progress_.cost_total -= cost_of_all(group);
-    if (!rest.cases.empty()) progress_.cost_total += cost_of_all(rest);
+    const double cost = rest.cases.empty() ? 0.0 : cost_of_all(rest);
+    change_progress([&](Progress& now) { now.cost_total += cost - cost_of_all(group); });
     run_group(rest, out);
   }
 
   void add_broken(const CasePlan& case_plan, const Breakdown& breakdown, Result& out) {
     out.broken.push_back(broken_case(config_, plan_, case_plan, breakdown));
+    const std::lock_guard lock(reporting_);
     ++progress_.cases_done;
     if (listener_.on_broken) listener_.on_broken(out.broken.back());
   }
@@ -336,60 +435,26 @@ class Run {
     return cost;
   }
 
-  void count_group(GroupPlan group, Result& out) {
-    name_of_group_ = group.cases.front().name;
-    note(group, "truth and counts");
-    const SceneData& data = plan_.scenes[group.scene];
+  // What is left to do once a group is counted: times, and its results.
+  void conclude(const GroupPlan& group, GroupCounts counts, Result& out) {
+    CountedGroup counted_group{std::move(counts), group, timed_cases(config_, group), {}, {}};
+    if (!config_.timing.measure) return add_cases(counted_group, {}, out);
     const PathFrames path = run::path_of(config_, plan_, group);
-    const grid::GridSpec& spec = config_.grids[group.grid];
-    const bool follows = follows_needs(group), reacts = spec.reaction.has_value();
-    const double per_frame = accuracy_cost_of(group) / path.count() / (1 + (follows ? 1 : 0) + (reacts ? 1 : 0));
-    const ListsOverFrames over_frames = follows || reacts ? ListsOverFrames::compared : ListsOverFrames::ignored;
-    const auto on_frame = [&](int) { report_progress(group, "truth and counts", per_frame); };
-    CountedGroup counted_group;
-    counted_group.frames = path.count();
-    counted_group.counted = accuracy_pass(config_, data, group, path, on_frame, stop_, over_frames);
-    if (!counted_group.counted.is_complete) return;
-    const auto count_with = [&](config::Config plain) {
-      plain.lookup.reset();
-      return accuracy_pass(plain, data, group, path, on_frame, stop_, over_frames);
-    };
-    if (follows) {
-      counted_group.unfitted = count_with(without_fit(config_, group.grid));
-      if (!counted_group.unfitted->is_complete) return;
-    }
-    if (reacts) {
-      const int slices = counted_group.counted.last_grid.cells().z;
-      if (can_count_requested_tiles(spec, path.viewport(), slices)) {
-        counted_group.fixed = count_with(without_reaction(config_, group.grid));
-        if (!counted_group.fixed->is_complete) return;
-      }
-      counted_group.tile_moves = tile_moves(spec, path);
-      counted_group.cells = cells_of_frames(spec, path, slices);
-    }
-    if (config_.stability) {
-      const double cost = stability_cost_of(group);
-      note(group, "stability");
-      counted_group.stabilities = stability_pass(
-          config_, group, path, [&](double share) { report_progress(group, "stability", cost * share); }, stop_);
-      if (counted_group.stabilities.empty()) return;
-    }
-    if (config_.details) {
-      report_progress(group, "details", details_cost_of(group));
-      counted_group.details = details_pass(config_, group, path, data.scene, counted_group.counted, stop_);
-      if (counted_group.details.empty()) return;
-    }
-    counted_group.timed = timed_cases(config_, group);
-    if (config_.timing.measure && !time_on_device(group, path, counted_group)) return;
+    if (!time_on_device(group, path, counted_group)) return;
     if (!config_.reading_sets.empty()) {
-      report_progress(group, "reading on the device", reading_cost_of(group));
-      counted_group.readings = reading_pass(config_, data, group, path, stop_);
+      report_timing(group, "reading on the device", reading_cost_of(group));
+      counted_group.readings = reading_pass(config_, plan_.scenes[group.scene], group, path, stop_);
       if (counted_group.readings.empty()) return;
     }
-    counted_group.group = std::move(group);
-    if (!config_.timing.measure || counted_group.timed.cases.empty()) return add_cases(counted_group, {}, out);
+    if (counted_group.timed.cases.empty()) return add_cases(counted_group, {}, out);
     if (launcher_) return waiting_.push_back(std::move(counted_group));
     time_here(counted_group, path, out);
+  }
+
+  // Of work on the calling thread, beside which there is none.
+  void report_timing(const GroupPlan& group, const char* stage, double cost) {
+    note(group, stage);
+    report_progress(group, stage, cost);
   }
 
   // False if it was stopped.
@@ -399,7 +464,7 @@ class Run {
     const int launches = launcher_ ? config_.timing.launches : 1;
     const double per_round = device_cost_of(group) / (launches * rounds_per_launch(config_.timing, launches));
     std::vector<std::optional<DeviceTimes>> times = device_pass(
-        config_, on_device, path, launches, [&] { report_progress(group, "time on the device", per_round); }, stop_);
+        config_, on_device, path, launches, [&] { report_timing(group, "time on the device", per_round); }, stop_);
     if (times.empty()) return false;
     auto next = times.begin();
     for (const CasePlan& case_plan : group.cases) {
@@ -415,7 +480,7 @@ class Run {
     note(counted_group.group, "time");
     const GroupSamples samples = measure_launch(
         config_, counted_group.timed, path, request,
-        [&](int) { report_progress(counted_group.group, "time", per_round); }, stop_);
+        [&](int) { report_timing(counted_group.group, "time", per_round); }, stop_);
     begin_session();
     if (!samples.methods.empty())
       add_cases(counted_group, timing_results(config_, counted_group.timed, std::span(&samples, 1)), out);
@@ -428,7 +493,7 @@ class Run {
         return time_waiting(out, timed);
       } catch (const assign::MethodError& error) {
         const GroupPlan group = waiting_[timed].group;
-        progress_.cost_done -= cost_of_all(group) - timing_cost_of(group);
+        take_back_progress(group);
         waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(timed));
         run_without_broken(group, error, out);
       }
@@ -446,7 +511,7 @@ class Run {
       const std::string stage = "time, launch " + std::to_string(launch + 1) + " of " + std::to_string(launches);
       std::vector<GroupSamples> measured = launcher_(groups, launch, rounds, [&](std::size_t group) {
         timed = group;
-        report_progress(*groups[group].group, stage.c_str(), timing_cost_of(*groups[group].group) / launches);
+        report_timing(*groups[group].group, stage.c_str(), timing_cost_of(*groups[group].group) / launches);
       });
       if (stop_ || measured.size() != groups.size()) return;
       for (std::size_t i = 0; i < groups.size(); ++i) samples[i].push_back(std::move(measured[i]));
@@ -485,15 +550,13 @@ class Run {
         finished.timing->shadow_culls = finished.shadow_culls;
       }
       if (const auto count = counts_.find(finished.id); count != counts_.end()) finished.count = count->second;
-      ++progress_.cases_done;
-      if (listener_.on_case) listener_.on_case(finished);
+      {
+        const std::lock_guard lock(reporting_);
+        ++progress_.cases_done;
+        if (listener_.on_case) listener_.on_case(finished);
+      }
       out.cases.push_back(std::move(finished));
     }
-  }
-
-  bool follows_needs(const GroupPlan& group) const {
-    const grid::GridSpec& spec = config_.grids[group.grid];
-    return spec.has_tiles() && spec.slices.fit;
   }
 
   CaseSide method_side(const AccuracyResult& counted, const Method& of, std::size_t index, bool compares_cells) const {
@@ -539,10 +602,15 @@ class Run {
   const Launcher& launcher_;
   std::span<const GroupCost> costs_;  // parallel to the plan's groups, or empty
   static constexpr double k_most_waiting_ns = 2e10;
+  // That are counted together. All but the last of them use one thread each.
+  static constexpr std::size_t k_groups_of_thread = 16, k_timed_groups_of_thread = 4;
+  config::Config on_one_thread_;
+  Budget lists_{static_cast<double>(memory_limit())};  // of groups that are counted at the same time, in bytes
   std::vector<CountedGroup> waiting_;
-  std::string name_of_group_;
   std::string session_;  // of the cases that are being added
+  std::mutex reporting_;
   Progress progress_;
+  std::map<std::string, double> costs_reported_;  // of groups, by the id of their first case
 };
 
 }  // namespace

@@ -4,14 +4,19 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <set>
 #include <tuple>
 
+#include "core/memory.h"
 #include "core/text.h"
+#include "core/turns.h"
+#include "core/work_in_order.h"
 #include "measure/lists/lights_in_view_counts.h"
 #include "run/case_result.h"
 #include "run/cases/path_frames.h"
+#include "run/counted_group.h"
 #include "run/passes/accuracy_pass.h"
 #include "run/passes/timing_pass.h"
 
@@ -141,25 +146,42 @@ class ViewSearch {
     std::vector<double> pairs(frames.size(), 0.0);
     if (view_.candidates.empty()) return pairs;
     config::Config counting = config_;
+    counting.threads = 1;
     counting.accuracy.check = false;
     counting.sample_sets.clear();
     counting.lookup.reset();
     const Candidate& probe = view_.candidates.front();
     begin_stage("the lights of " + number_of(frames.size(), "frame"), frames.size(),
                 costs_.candidate_ns * static_cast<double>(frames.size()));
-    for (std::size_t i = 0; i < frames.size() && !watch_.stop; ++i) {
-      report_progress(i);
-      const run::GroupPlan group = group_of({&probe, 1}, frames[i].camera);
-      const run::AccuracyResult counted = accuracy_pass(
-          counting, plan_.scenes[view_.scene], group, paths_[frames[i].camera].only({frames[i].index}), [](int) {},
-          watch_.stop);
-      if (!counted.is_complete) break;
-      pairs[i] = counted.methods[0].has_cells
-                     ? counted.methods[0].occupancy.pairs.max
-                     : static_cast<double>(counted.structures[0].buffers.index_entries.high_water);
-      ++found_.work.measurements;
-    }
+    const std::size_t first_candidate = 0;
+    each_apart(std::span(&first_candidate, 1), frames.size(), [&](std::size_t i, int) {
+      report_done();
+      pairs[i] = pairs_of(counting, probe, frames[i]);
+    });
+    found_.work.measurements += frames.size();
     return pairs;
+  }
+
+  double pairs_of(const config::Config& counting, const Candidate& candidate, const FrameOfView& frame) const {
+    const run::GroupPlan group = group_of({&candidate, 1}, frame.camera);
+    const run::AccuracyResult counted = accuracy_pass(
+        counting, plan_.scenes[view_.scene], group, paths_[frame.camera].only({frame.index}), [](int) {}, watch_.stop);
+    if (!counted.is_complete) return 0.0;
+    return counted.methods[0].has_cells ? counted.methods[0].occupancy.pairs.max
+                                        : static_cast<double>(counted.structures[0].buffers.index_entries.high_water);
+  }
+
+  // Calls work(i, threads) for 0 <= i < count: at the same time, each with its own number of threads, if none of the
+  // candidates runs elsewhere; else one after the other.
+  template <class Work>
+  void each_apart(std::span<const std::size_t> candidates, std::size_t count, const Work& work) {
+    const bool is_alone = std::ranges::any_of(candidates, [&](std::size_t candidate) {
+      return runs_elsewhere(config_, group_of({&view_.candidates[candidate], 1}, 0));
+    });
+    ThreadPool pool(is_alone ? 1 : config_.threads);
+    each_in_order(pool, count, [&](std::size_t i) {
+      if (!watch_.stop) work(i, is_near_end(i, count, pool) ? config_.threads : 1);
+    });
   }
 
   // The cases of candidates of one grid on one of the view's cameras.
@@ -176,22 +198,42 @@ class ViewSearch {
 
   double lights() const { return static_cast<double>(plan_.scenes[view_.scene].scene.lights.size()); }
 
-  // Measures some candidates of one grid on some frames: the cases of each, one per camera with some of these frames.
-  std::vector<std::vector<run::CaseResult>> measured(std::span<const std::size_t> candidates,
-                                                     std::span<const FrameOfView> frames, bool is_timed) {
+  // The counts of candidates of one grid on one camera.
+  struct CountedCamera {
+    run::GroupPlan group;
+    run::PathFrames path;
+    run::AccuracyResult counted;
+  };
+
+  // Counts some candidates of one grid on some frames, camera by camera with some of these frames. Several threads may
+  // call it.
+  std::vector<CountedCamera> counted(std::span<const std::size_t> candidates, std::span<const FrameOfView> frames,
+                                     int threads) const {
+    config::Config config = config_;
+    config.threads = threads;
     std::vector<Candidate> some;
     for (const std::size_t candidate : candidates) some.push_back(view_.candidates[candidate]);
-    std::vector<std::vector<run::CaseResult>> cases(candidates.size());
+    std::vector<CountedCamera> cameras;
     for (std::size_t camera = 0; camera < paths_.size(); ++camera) {
       std::vector<int> indices;
       for (const FrameOfView& frame : frames)
         if (frame.camera == camera) indices.push_back(frame.index);
       if (indices.empty()) continue;
       std::ranges::sort(indices);
-      const run::PathFrames path = paths_[camera].only(indices);
-      const run::GroupPlan group = group_of(some, camera);
-      const run::AccuracyResult counted = accuracy_pass(
-          config_, plan_.scenes[view_.scene], group, path, [](int) {}, watch_.stop);
+      CountedCamera& now =
+          cameras.emplace_back(CountedCamera{group_of(some, camera), paths_[camera].only(indices), {}});
+      const BudgetShare share(lists_, run::most_list_bytes(config, now.group, now.path), watch_.stop);
+      now.counted = accuracy_pass(
+          config, plan_.scenes[view_.scene], now.group, now.path, [](int) {}, watch_.stop);
+    }
+    return cameras;
+  }
+
+  // The cases of the candidates, one per counted camera, with quick times if they are wanted.
+  std::vector<std::vector<run::CaseResult>> measured(std::span<const std::size_t> candidates,
+                                                     const std::vector<CountedCamera>& cameras, bool is_timed) {
+    std::vector<std::vector<run::CaseResult>> cases(candidates.size());
+    for (const auto& [group, path, counted] : cameras) {
       if (!counted.is_complete) return {};
       const std::vector<run::TimingResult> times =
           is_timed ? quick_times(group, path) : std::vector<run::TimingResult>{};
@@ -199,10 +241,27 @@ class ViewSearch {
       for (std::size_t i = 0; i < candidates.size(); ++i) {
         cases[i].push_back(case_result(config_, plan_, group.cases[i], path.count(), counted, i));
         if (!times.empty()) cases[i].back().timing = times[i];
-        add_work(view_.candidates[candidates[i]], counted.last_grid.cell_count(), indices.size());
+        add_work(view_.candidates[candidates[i]], counted.last_grid.cell_count(),
+                 static_cast<std::size_t>(path.count()));
       }
     }
     return cases;
+  }
+
+  // Counts candidates on some frames, grid by grid; then gives the cases of each grid's, in the order of the grids.
+  // What is timed runs alone: after all counting.
+  template <class Use>
+  void measure_grids(std::span<const std::size_t> candidates, std::span<const FrameOfView> frames, bool is_timed,
+                     const Use& use) {
+    std::vector<std::vector<std::size_t>> grids;
+    for (auto& [grid, some] : by_grid(candidates)) grids.push_back(std::move(some));
+    std::vector<std::vector<CountedCamera>> counts(grids.size());
+    each_apart(candidates, grids.size(), [&](std::size_t i, int threads) {
+      counts[i] = counted(grids[i], frames, threads);
+      report_done(grids[i].size());
+    });
+    for (std::size_t i = 0; i < grids.size() && !watch_.stop; ++i)
+      use(grids[i], measured(grids[i], std::exchange(counts[i], {}), is_timed));
   }
 
   std::vector<run::TimingResult> quick_times(const run::GroupPlan& group, const run::PathFrames& path) const {
@@ -227,18 +286,15 @@ class ViewSearch {
 
   // Records the results of candidates on the first frames of the order.
   void record(std::span<const std::size_t> candidates, std::size_t frames) {
-    std::size_t done = 0;
     begin_stage(number_of(frames, "frame") + ": " + number_of(candidates.size(), "candidate"), candidates.size(),
                 costs_.rung_ns(candidates.size(), grids_, frames));
-    for (const auto& [grid, some] : by_grid(candidates)) {
-      report_progress(done);
-      const std::vector<std::vector<run::CaseResult>> cases =
-          measured(some, std::span(order_).first(frames), request_.is_timed);
-      if (watch_.stop) return;
-      for (std::size_t i = 0; i < some.size(); ++i)
-        found_.records[some[i]] = {frames, verdict_of(cases[i], frames), k_unknown};
-      done += some.size();
-    }
+    measure_grids(candidates, std::span(order_).first(frames), request_.is_timed,
+                  [&](std::span<const std::size_t> some, const std::vector<std::vector<run::CaseResult>>& cases) {
+                    if (watch_.stop) return;
+                    for (std::size_t i = 0; i < some.size(); ++i)
+                      found_.records[some[i]] = {frames, verdict_of(cases[i], frames), k_unknown};
+                  });
+    if (watch_.stop) return;
     for (const bool is_apart : {false, true}) compare_with_best(frames, is_apart);
   }
 
@@ -329,13 +385,12 @@ class ViewSearch {
 
   std::vector<Finalist> counted_finalists(std::span<const std::size_t> candidates) {
     std::vector<Finalist> finalists;
-    for (const auto& [grid, some] : by_grid(candidates)) {
-      std::vector<std::vector<run::CaseResult>> cases = measured(some, order_, false);
-      if (watch_.stop) return {};
-      for (std::size_t i = 0; i < some.size(); ++i) finalists.push_back({some[i], std::move(cases[i])});
-      report_progress(finalists.size());
-    }
-    return finalists;
+    measure_grids(candidates, order_, false,
+                  [&](std::span<const std::size_t> some, std::vector<std::vector<run::CaseResult>> cases) {
+                    if (watch_.stop) return;
+                    for (std::size_t i = 0; i < some.size(); ++i) finalists.push_back({some[i], std::move(cases[i])});
+                  });
+    return watch_.stop ? std::vector<Finalist>{} : std::move(finalists);
   }
 
   // Measured as in `run`: interleaved, in several launches.
@@ -418,18 +473,24 @@ class ViewSearch {
   // `ns`: its planned cost.
   void begin_stage(const std::string& stage, std::size_t total, double ns) {
     progress_.doing = plan_.scenes[view_.scene].scene.name + ": " + stage;
+    progress_.cases_done = 0;
     progress_.cases_total = total;
     before_stage_ns_ += stage_ns_;
     stage_ns_ = ns;
     if (watch_.on_stage && !watch_.stop) watch_.on_stage(progress_.doing);
+  }
+  // So many more of the stage's candidates are counted: on any thread.
+  void report_done(std::size_t more = 1) {
+    const std::lock_guard lock(reporting_);
+    report_progress(progress_.cases_done + more);
   }
   // `done` of the stage's candidates.
   void report_progress(std::size_t done) {
     report_progress(done, static_cast<double>(done) / static_cast<double>(progress_.cases_total));
   }
   void report_progress(std::size_t done, double share_of_stage) {
-    if (!watch_.on_progress) return;
     progress_.cases_done = done;
+    if (!watch_.on_progress) return;
     progress_.cost_done = before_stage_ns_ + stage_ns_ * share_of_stage;
     progress_.cost_total = std::max(progress_.cost_total, before_stage_ns_ + stage_ns_);
     watch_.on_progress(progress_);
@@ -447,6 +508,8 @@ class ViewSearch {
   std::vector<run::PathFrames> paths_;  // of the cameras, whole
   std::vector<FrameOfView> order_;
   Found found_;
+  mutable Budget lists_{static_cast<double>(memory_limit())};  // of grids that are counted at the same time, in bytes
+  std::mutex reporting_;
   run::Progress progress_;
   double before_stage_ns_ = 0.0, stage_ns_ = 0.0;
 };

@@ -245,8 +245,7 @@ class WorstCaseSearch {
     const run::PathFrames recorded(plan_.scenes[case_.scene].scene, path_, viewport);
     progress_.begin("the recorded path");
     const std::vector<int> frames = run::evenly_spaced(affordable_frames(recorded), recorded.count());
-    const std::vector<double> values =
-        values_along(config_, case_, request_.measure, recorded.only(frames), [this] { progress_.step(); });
+    const std::vector<double> values = recorded_values(recorded, frames);
     const auto most = std::ranges::max_element(values);
     out_.recorded = {static_cast<int>(frames.size()), *most, frames[static_cast<std::size_t>(most - values.begin())]};
     const scene::CameraProjection& first = projection();
@@ -256,6 +255,20 @@ class WorstCaseSearch {
     if (std::ranges::any_of(path_.shots, differs))
       out_.warnings.emplace_back(
           "the camera's projection changes along its path; the search takes that of its first frame");
+  }
+
+  // Of these frames of the recorded path.
+  std::vector<double> recorded_values(const run::PathFrames& recorded, const std::vector<int>& frames) {
+    std::vector<double> values(frames.size());
+    each_task(k_tasks, [&](std::size_t task) {
+      const auto begin = static_cast<std::ptrdiff_t>(task * frames.size() / k_tasks),
+                 end = static_cast<std::ptrdiff_t>((task + 1) * frames.size() / k_tasks);
+      if (begin == end || stop_) return;
+      const run::PathFrames some = recorded.only({frames.begin() + begin, frames.begin() + end});
+      std::ranges::copy(values_along(config_, case_, request_.measure, some, [this] { progress_.step(); }),
+                        values.begin() + begin);
+    });
+    return values;
   }
 
   // A device that fails ends the search; what the tasks have found by then is kept.

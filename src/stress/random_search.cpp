@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <tuple>
 
-#include "core/parallel.h"
+#include "core/work_in_order.h"
 #include "gpu/device/device.h"
 #include "os/call_notes.h"
 #include "stress/random_setting.h"
@@ -67,14 +68,22 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
   RandomSearch search;
   search.first_seed = request.seed;
   ThreadPool threads(request.threads);
-  constexpr std::uint64_t k_batch = 64;
+  // All threads wait for the last setting of a batch. A device that fails is opened anew after its batch.
+  const bool is_on_device = std::ranges::any_of(methods, [](const auto& method) { return method.assigner->on_device; });
+  const std::uint64_t most = is_on_device ? 64 : 1024;
+  std::mutex telling;
+  std::uint64_t begun = 0;
+  const auto begin_one = [&] {
+    const std::lock_guard lock(telling);
+    on_progress(begun++, "settings from seed " + std::to_string(request.seed) + " on");
+  };
   while (!is_over(search.counts.settings)) {
-    const std::uint64_t first = search.counts.settings, count = std::min(k_batch, request.random - first);
-    on_progress(first, "settings from seed " + std::to_string(request.seed + first) + " on");
+    const std::uint64_t first = search.counts.settings, count = std::min(most, request.random - first);
     std::vector<Trial> trials(count);
     std::vector<std::optional<SettingReport>> reports(count);
-    threads.each(count, [&](std::size_t i) {
-      if (stop) return;
+    each_in_order(threads, count, [&](std::size_t i) {
+      if (is_over(first + i)) return;
+      begin_one();
       os::note_setting("--random 1 --seed " + std::to_string(request.seed + first + i));
       trials[i] = random_setting(request.seed + first + i);
       reports[i] = check_setting(trials[i], methods);
@@ -88,7 +97,7 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
       collect(*reports[i], request.seed + first + i, trials[i], search);
   }
   on_progress(search.counts.settings, "shrinking " + std::to_string(search.faults.size()) + " faults");
-  if (!stop) threads.each(search.faults.size(), [&](std::size_t i) { shrink(search.faults[i], methods); });
+  if (!stop) each_in_order(threads, search.faults.size(), [&](std::size_t i) { shrink(search.faults[i], methods); });
   return search;
 }
 

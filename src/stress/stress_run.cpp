@@ -6,7 +6,7 @@
 #include "assign/contract/method_error.h"
 #include "config/config.h"
 #include "core/error.h"
-#include "core/parallel.h"
+#include "core/work_in_order.h"
 #include "gpu/device/device.h"
 #include "measure/truth/list_errors.h"
 #include "os/call_notes.h"
@@ -84,6 +84,17 @@ void add_trial(StressCell& cell, const StressMethod& method, const Trial& trial,
   }
 }
 
+// Methods on several threads; then those on a device, one after the other, since one that fails is closed before the
+// next.
+template <class Work>
+void each_beside_device(ThreadPool& pool, const std::vector<StressMethod>& methods, const Work& work) {
+  each_in_order(pool, methods.size(), [&](std::size_t i) {
+    if (!methods[i].assigner->on_device) work(i);
+  });
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    if (methods[i].assigner->on_device) work(i);
+}
+
 std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressMethod>& methods,
                                  const StressRequest& request, const std::atomic<bool>& stop) {
   std::vector<StressCell> cells;
@@ -93,21 +104,23 @@ std::vector<StressCell> run_case(const HardCase& hard, const std::vector<StressM
     cells.back().method = method.label;
   }
   const std::vector<Trial> trials = hard.trials == nullptr ? std::vector<Trial>{} : hard.trials(request.seed);
+  ThreadPool pool(request.threads);
   for (const Trial& trial : trials) {
     if (stop) break;
     const bool is_wanted =
         std::any_of(methods.begin(), methods.end(), [&](const auto& m) { return supports_trial(m, trial); });
     if (!is_wanted) continue;
     const Prepared at = prepared(trial, request.threads);
-    for (std::size_t i = 0; i < methods.size(); ++i)
+    const auto try_method = [&](std::size_t i) {
       if (supports_trial(methods[i], trial) && !cells[i].is_ended) add_trial(cells[i], methods[i], trial, at);
+    };
+    each_beside_device(pool, methods, try_method);
   }
   std::erase_if(cells, [](const StressCell& cell) { return cell.trials == 0; });
   return cells;
 }
 
-// One search per method, several at once on several threads; those on a device one after the other behind them, since
-// one that fails is closed before the next.
+// One search per method.
 std::vector<SearchResult> run_searches(const std::vector<StressMethod>& methods, const StressRequest& request,
                                        const std::function<void(const std::string& method, double done)>& on_tries,
                                        const std::atomic<bool>& stop) {
@@ -125,15 +138,11 @@ std::vector<SearchResult> run_searches(const std::vector<StressMethod>& methods,
     };
     results[i] = search_for_losses(methods[i], request, on_progress, stop);
   };
-  parallel_ranges(methods.size(), request.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (!methods[i].assigner->on_device) search(i);
-  });
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    if (!methods[i].assigner->on_device) continue;
+  ThreadPool pool(request.threads);
+  each_beside_device(pool, methods, [&](std::size_t i) {
     search(i);
-    if (!results[i].fault.empty()) gpu::close_device();
-  }
+    if (methods[i].assigner->on_device && !results[i].fault.empty()) gpu::close_device();
+  });
   return results;
 }
 

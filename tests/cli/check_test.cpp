@@ -38,7 +38,7 @@ struct Small {
     folder.write(name, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
   }
   std::string path() const { return folder.write("dump.json", dump.dump()).string(); }
-  Outcome check(const std::string& flags = "--no-methods") const { return tool("check " + path() + " " + flags); }
+  Outcome check(const std::string& flags = "--methods none") const { return tool("check " + path() + " " + flags); }
 };
 
 TEST(Check, right_lists_pass_and_a_lost_light_fails_with_its_cell_and_how_far_it_reaches_in) {
@@ -47,7 +47,7 @@ TEST(Check, right_lists_pass_and_a_lost_light_fails_with_its_cell_and_how_far_it
   EXPECT_EQ(right.code, 0) << right.err;
   EXPECT_NE(right.out.find("lists: right: no light is lost"), std::string::npos) << right.out;
   small.write<std::uint16_t>("cells.bin", {0, 1, 1, 0});
-  const Outcome lost = small.check("--no-methods --json " + (small.folder / "out.json").string());
+  const Outcome lost = small.check("--methods none --json " + (small.folder / "out.json").string());
   EXPECT_EQ(lost.code, 1);
   EXPECT_NE(
       lost.out.find("light 0, cell (0, 0, 1) (number 1, depth 10 to 100 m): reaches in by 1 m, 50 % of its range"),
@@ -96,6 +96,16 @@ TEST(Check, what_is_bad_in_a_dump_is_one_line_with_file_and_place) {
       {[](Small& s) { s.dump["lists"][0]["rows"]["stride"] = -1; },
        "dump.json: /lists/0/rows/stride: must be a whole number of at least 0"},
       {[](Small& s) { s.dump["buffers"]["cells"]["file"] = "none.bin"; }, "dump.json: /buffers/cells/file: names "},
+      {[](Small& s) { s.dump["buffers"]["cells"]["file"] = ""; },
+       "dump.json: /buffers/cells/file: is empty; allowed: the name of a file"},
+      {[](Small& s) { s.dump["buffers"]["cells"]["file"] = std::string("a\0b", 3); },
+       "dump.json: /buffers/cells/file: has a character 0 in it; allowed: the name of a file"},
+      {[](Small& s) { s.dump["buffers"]["cells"]["file"] = "."; }, ", which is a folder, not a file"},
+      {[](Small& s) {
+         fs::create_symlink("loop.bin", s.folder / "loop.bin");
+         s.dump["buffers"]["cells"]["file"] = "loop.bin";
+       },
+       "loop.bin, which is a link that leads nowhere"},
       {[](Small& s) { s.dump["buffers"]["cells"]["at"] = 9; },
        "dump.json: /buffers/cells/at: is 9; cells.bin has 8 bytes"},
       {[](Small& s) { s.dump["buffers"]["cells"]["bytes"] = 18446744073709551615ull; },
@@ -118,6 +128,27 @@ TEST(Check, what_is_bad_in_a_dump_is_one_line_with_file_and_place) {
          s.dump["grid"]["slices"]["boundaries_m"] = {1, 10, 10};
        },
        "dump.json: /grid/slices/boundaries_m: do not ascend: 10 m is followed by 10 m (slice 1)"},
+      {[](Small& s) {
+         s.dump["grid"]["slices"] = {{"count", 2},
+                                     {"formula", {{"function", "linear"}, {"scale", 0.1}, {"bias", 0}, {"far_m", 2}}}};
+       },
+       "dump.json: /grid/slices/formula/far_m: gives boundaries of slices that do not ascend: 10 m is followed by 2 m"},
+      {[](Small& s) {
+         s.dump["grid"]["slices"] = {{"count", 2}, {"formula", {{"function", "log2"}, {"scale", 1}, {"bias", 1e300}}}};
+       },
+       "dump.json: /grid/slices/formula: gives boundaries of slices that do not ascend: 0 m is followed by 0 m"},
+      {[](Small& s) {
+         s.dump["grid"]["slices"] = {{"count", 2},
+                                     {"formula", {{"function", "linear"}, {"scale", 1e-300}, {"bias", 0}}}};
+       },
+       "dump.json: /grid/slices/formula: "},
+      {[](Small& s) {
+         s.dump["grid"]["slices"] = {{"scheme", "linear"}, {"count", 4}, {"near_m", 200}};
+       },
+       "dump.json: /grid/slices/near_m: "},
+      {[](Small& s) { s.dump["camera"]["far_m"] = 0; },
+       "dump.json: /camera/far_m: leaves the near plane at 1 m and the far plane at 0 m; allowed: near_m above 0 and "
+       "below far_m"},
       {[](Small& s) {
          s.dump["grid"]["tiles"]["count"] = {65, 1};
        },
@@ -160,10 +191,15 @@ TEST(Check, a_dump_that_is_cut_off_is_never_left_out_of_its_folder_and_other_fil
   const std::string folder = small.folder.path().string();
   small.folder.write("schema.json", R"({"properties": {"dump_version": {"const": 1}}})");
   fs::create_symlink(small.folder / "nowhere", small.folder / ".#lock.json");
-  EXPECT_EQ(tool("check --no-methods " + folder).code, 0);
+  EXPECT_EQ(tool("check --methods none " + folder).code, 0);
+  fs::create_symlink(small.folder / "nowhere", small.folder / "moved.json");
+  const Outcome dangling = tool("check --methods none " + folder);
+  EXPECT_EQ(dangling.code, 2) << dangling.out;
+  EXPECT_NE(dangling.err.find("moved.json: is a link that leads nowhere"), std::string::npos) << dangling.err;
+  fs::remove(small.folder / "moved.json");
   for (const char* cut : {"", "{\"dump_ver"}) {
     const std::string path = small.folder.write("second.json", cut).string();
-    const Outcome outcome = tool("check --no-methods " + folder);
+    const Outcome outcome = tool("check --methods none " + folder);
     EXPECT_EQ(outcome.code, 2) << outcome.out;
     EXPECT_NE(outcome.err.find("second.json"), std::string::npos) << outcome.err;
   }
@@ -176,7 +212,7 @@ TEST(Check, no_output_goes_over_a_dump_or_its_buffers) {
     for (const char* file : {"dump.json", "cells.bin", "lights.bin"})
       for (const char* flag : {" --json ", " --page "}) {
         const std::string before = file_text(small.folder / file);
-        const Outcome outcome = tool("check -q --no-methods " + input + flag + (small.folder / file).string());
+        const Outcome outcome = tool("check -q --methods none " + input + flag + (small.folder / file).string());
         EXPECT_EQ(outcome.code, 2) << input << " " << file;
         EXPECT_NE(outcome.err.find("would be lost"), std::string::npos) << outcome.err;
         EXPECT_EQ(file_text(small.folder / file), before);
@@ -267,7 +303,7 @@ TEST(Check, the_lists_of_world_grids_come_back_right_and_grids_without_words_sto
   EXPECT_NE(written.err.find("6 dumps written"), std::string::npos) << written.err;
   EXPECT_NE(written.err.find("no dump: dumps have no words for grids of kind cascades"), std::string::npos)
       << written.err;
-  const Outcome done = tool("check --no-methods " + dumps + " --json " + (folder / "out.json").string());
+  const Outcome done = tool("check --methods none " + dumps + " --json " + (folder / "out.json").string());
   EXPECT_EQ(done.code, 0) << done.out << done.err;
   const Json found = Json::parse(file_text(folder / "out.json"));
   ASSERT_EQ(found["frames"].size(), 6u);
@@ -298,13 +334,40 @@ TEST(Check, methods_are_those_that_are_asked_for) {
   const std::pair<const char*, const char*> bad[] = {
       {"--methods exct", "--methods: found 'exct' (did you mean 'exact'?), allowed: none, quick, all, or names"},
       {"--methods world-grid", "--methods: names 'world-grid', which makes no lists of this dump's grid"},
-      {"--methods tiled", "--methods: names 'tiled', which makes no lists of this dump's grid"},
-      {"--methods all --no-methods", "--no-methods: stands beside --methods; allowed: one of the two"}};
+      {"--methods exact,exact", "--methods: names 'exact' twice; allowed: each method once"},
+      {"--methods tiled",
+       "--methods: names 'tiled', which makes no lists of this dump's grid on a processor; allowed: "}};
   for (const auto& [flags, wanted] : bad) {
     const Outcome refused = small.check(flags);
     EXPECT_EQ(refused.code, 2) << flags;
     EXPECT_NE(refused.err.find(wanted), std::string::npos) << refused.err;
   }
+}
+
+TEST(Check, without_names_of_lost_lights_it_speaks_of_none) {
+  Small small;
+  small.write<std::uint16_t>("cells.bin", {0, 1, 1, 0});
+  const Outcome none = small.check("--methods none --most-lost 0"), one = small.check();
+  EXPECT_EQ(none.code, 1);
+  EXPECT_EQ(none.out.find(" more\n"), std::string::npos) << none.out;
+  EXPECT_EQ(none.out.find("first cell above"), std::string::npos) << none.out;
+  EXPECT_NE(one.out.find("first cell above"), std::string::npos) << one.out;
+}
+
+TEST(Check, lists_that_a_storage_cuts_off_are_told_when_they_are_written_and_when_they_are_checked) {
+  const Folder folder;
+  const std::string dumps = (folder / "dumps").string(),
+                    run = "run " + source_file("scenes/street.glb") +
+                          " --assigner exact-fast --grid frustum --tiles 96 --slices 8 --dump-frames 2 --write-dump ";
+  const Outcome written = tool(run + dumps + " --set 'storages=[{\"name\":\"fixed\",\"cap\":2}]'");
+  ASSERT_EQ(written.code, 0) << written.err;
+  EXPECT_NE(written.err.find(" lists are cut off where the storage has no room, by "), std::string::npos)
+      << written.err;
+  const Outcome lost = tool("check --methods none " + dumps);
+  EXPECT_EQ(lost.code, 1);
+  EXPECT_NE(lost.out.find(" lost in cells whose list is full (lists[].per_cell)"), std::string::npos) << lost.out;
+  const Outcome whole = tool(run + (folder / "whole").string() + " --set 'storages=[\"fixed\"]'");
+  EXPECT_EQ(whole.err.find("cut off"), std::string::npos) << whole.err;
 }
 
 TEST(Check, names_of_a_dump_reach_no_terminal_as_they_are) {
@@ -342,7 +405,7 @@ TEST(Check, the_smallest_dump_of_the_document_is_one) {
   EXPECT_EQ(tool("validate " + path).out, path + ": valid, a dump for `clusterbench check` with 1 list\n");
   small.folder.write("lights.bin", std::string(4800, '\0'));
   small.folder.write("cells.bin", std::string(27648, '\0'));
-  const Outcome done = tool("check --no-methods " + path);
+  const Outcome done = tool("check --methods none " + path);
   EXPECT_EQ(done.code, 1) << done.err;
   EXPECT_NE(done.out.find("no light reaches a cell, so nothing was checked"), std::string::npos) << done.out;
 }
@@ -354,6 +417,16 @@ TEST(Check, a_template_is_printed_and_another_engine_gets_a_list_of_those_that_a
   const Outcome unknown = tool("check --template filamnt");
   EXPECT_EQ(unknown.code, 2);
   EXPECT_NE(unknown.err.find("did you mean 'filament'?"), std::string::npos) << unknown.err;
+  for (const char* flag : {"--json", "--page", "--most-lost", "--threads", "--methods"}) {
+    const bool is_file = flag == std::string("--json") || flag == std::string("--page");
+    const Folder folder;
+    const std::string value = is_file ? (folder / "out").string() : flag == std::string("--methods") ? "all" : "2";
+    const Outcome refused = tool("check --template bevy " + std::string(flag) + " " + value);
+    EXPECT_EQ(refused.code, 2) << flag;
+    EXPECT_EQ(refused.out, "");
+    EXPECT_EQ(refused.err, "clusterbench: " + std::string(flag) +
+                               ": has no meaning with --template, which checks nothing; allowed: --template alone\n");
+  }
 }
 
 }  // namespace

@@ -97,6 +97,17 @@ TEST(CommandLine, no_option_takes_a_whole_number_that_its_type_does_not_hold) {
   EXPECT_GE(options, 7 * 4);
 }
 
+TEST(CommandLine, no_option_takes_a_blank_text) {
+  for (const char* arguments : {"run x.glb --device ' '", "ratio x.json --methods ' '", "history add x h --commit '\t'",
+                                "run x.glb --filter '  '", "run x.glb -o ' '", "report ' '", "stress --cases ' '",
+                                "run x.glb --fail-if ' '", "scene info ' '", "size x.json --name ' '"}) {
+    const Outcome refused = tool(arguments);
+    EXPECT_EQ(refused.code, 2) << arguments;
+    EXPECT_NE(refused.err.find("takes a text that is not blank"), std::string::npos)
+        << arguments << ": " << refused.err;
+  }
+}
+
 TEST(CommandLine, no_random_settings_are_not_all_hard_cases) {
   const Outcome done = tool("stress --random 0");
   EXPECT_EQ(done.code, 2);

@@ -142,6 +142,68 @@ TEST(GuardedRun, tells_in_which_function_the_plug_in_crashed) {
   }
 }
 
+// Processes of that command line.
+std::vector<std::string> processes_with(const std::string& text) {
+  std::vector<std::string> found;
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", failed))
+    if (file_text(entry.path() / "cmdline").find(text) != std::string::npos)
+      found.push_back(entry.path().filename().string());
+  return found;
+}
+
+// A copy of the measuring process that went on would hold the result's journal, and measure, too.
+TEST(GuardedRun, loses_only_the_case_of_a_plug_in_that_forks) {
+  for (const char* step : {"create", "build", "assign"})
+    for (const char* timing : {R"(, "launches": 1)", R"(, "launches": 2)"}) {
+      GuardedPlace place;
+      const Outcome done = place.run({std::string(R"(, "fault": "fork", "at": ")") + step + "\""}, "", timing);
+      EXPECT_EQ(done.code, 1) << done.err;
+      const Json result = place.result();
+      ASSERT_EQ(result["broken"].size(), 1u) << done.err;
+      EXPECT_EQ(result["broken"][0]["kind"], "crashed");
+      const std::string reason = result["broken"][0]["reason"];
+      EXPECT_EQ(reason.find("the plug-in guard came back twice (it forked) from " + std::string(step)), 0u) << reason;
+      expect_others_measured(result);
+      EXPECT_TRUE(processes_with(place.out).empty());
+    }
+}
+
+TEST(GuardedRun, in_its_own_process_loses_only_the_case_of_a_plug_in_that_forks) {
+  GuardedPlace place;
+  const Outcome done = place.run({R"(, "fault": "fork", "nap": 20)"}, "--plugin-in-process --no-timing");
+  EXPECT_EQ(done.code, 1) << done.err;
+  const Json result = place.result();
+  ASSERT_EQ(result["broken"].size(), 1u) << done.err;
+  EXPECT_NE(result["broken"][0]["reason"].get<std::string>().find("came back twice from assign: it forked"),
+            std::string::npos);
+  EXPECT_EQ(result["cases"].size(), 2u);
+  EXPECT_TRUE(processes_with(place.out).empty());
+}
+
+TEST(GuardedRun, loses_only_the_case_of_a_plug_in_that_closes_files_of_the_program) {
+  for (const char* timing : {R"(, "launches": 1)", R"(, "launches": 2)"}) {
+    GuardedPlace place;
+    const Outcome done = place.run({R"(, "fault": "close")"}, "", timing);
+    EXPECT_EQ(done.code, 1) << done.err;
+    const Json result = place.result();
+    ASSERT_EQ(result["broken"].size(), 1u) << done.err;
+    const std::string reason = result["broken"][0]["reason"];
+    EXPECT_EQ(reason.find("the plug-in guard closed a file of the program, or put another in its place (descriptor "),
+              0u)
+        << reason;
+    EXPECT_NE(reason.find(") in assign, frame "), std::string::npos) << reason;
+    expect_others_measured(result);
+  }
+}
+
+TEST(GuardedRun, of_a_search_says_which_plug_in_closed_files_of_the_program) {
+  const Outcome done = tool("stress -q --random 3 --seed 7 --threads 1 --methods hostile.closes --plugin " +
+                            plugin_folder() + "/hostile.so");
+  EXPECT_EQ(done.code, 1) << done.out;
+  EXPECT_NE(done.err.find("the plug-in hostile closed a file of the program"), std::string::npos) << done.err;
+}
+
 TEST(GuardedRun, keeps_the_figures_of_a_case_whose_plug_in_crashes_as_it_is_unloaded) {
   for (const auto& [fault, kind] : {std::pair{"segv", "crashed"}, std::pair{"hang", "timed_out"}}) {
     GuardedPlace place;

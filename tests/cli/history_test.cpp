@@ -27,6 +27,25 @@ TEST(HistoryCommand, a_corrupt_line_is_a_usage_error_that_names_it) {
   EXPECT_NE(done.err.find("history.jsonl: line 1: "), std::string::npos) << done.err;
 }
 
+TEST(HistoryCommand, a_commit_that_no_json_can_hold_is_refused) {
+  const Folder folder;
+  const std::string file = (folder / "h.jsonl").string();
+  const Outcome refused = tool("history add " + k_small_result + " " + file + " --commit \xff\xfe");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--commit: takes text in UTF-8"), std::string::npos) << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+TEST(HistoryCommand, that_another_process_holds_says_that_it_waits) {
+  const Folder folder;
+  const std::string file = folder.write("h.jsonl", "").string();
+  ASSERT_EQ(std::system(("flock " + file + " sleep 3 & sleep 0.3").c_str()), 0);
+  const Outcome added = tool("history add " + k_small_result + " " + file + " --commit c1");
+  EXPECT_EQ(added.code, 0) << added.err;
+  EXPECT_NE(added.err.find("h.jsonl is held by another process; waiting a minute for its end"), std::string::npos)
+      << added.err;
+}
+
 TEST(HistoryCommand, a_history_in_the_place_of_a_result_is_named_with_what_reads_it) {
   const Folder folder;
   const std::string result = (folder / "r.json").string(), history = (folder / "h.jsonl").string();

@@ -105,6 +105,55 @@ TEST(Run, an_output_over_an_input_or_another_output_is_refused) {
   EXPECT_EQ(file_text(scene), before);
 }
 
+TEST(Run, dumps_go_with_no_flag_that_asks_for_a_measurement) {
+  const Folder folder;
+  const std::string scene = source_file("scenes/street.glb"), result = (folder / "r.json").string(),
+                    dumps = " --grid frustum --assigner aabb-fast --write-dump " + (folder / "d").string();
+  for (const std::string& flag :
+       {"-o " + result, "--export csv=" + result, "--images " + result, std::string("--fail-if 'longest > 1'"),
+        "--baseline " + result, "--baseline-binary " + result, std::string("--count=perf"),
+        "-o " + result + " --resume"}) {
+    const Outcome refused = tool("run " + scene + dumps + " " + flag);
+    EXPECT_EQ(refused.code, 2) << flag;
+    const std::string name = flag.substr(0, flag.find_first_of(" ="));
+    EXPECT_NE(refused.err.find("--write-dump: does not go with " + name + ": it writes lists"), std::string::npos)
+        << refused.err;
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  const std::string config =
+      folder.write("c.json", small_config(R"(, "limits": {"fail_if": ["longest > 1"]})")).string();
+  const Outcome told = tool("run " + config + " --filter /aabb --write-dump " + (folder / "d").string());
+  EXPECT_EQ(told.code, 0) << told.err;
+  EXPECT_NE(told.err.find("--write-dump measures nothing and does not look at limits.fail_if (1 budget)"),
+            std::string::npos)
+      << told.err;
+}
+
+TEST(Run, folders_that_cannot_be_made_are_refused_and_those_of_a_refused_run_do_not_stay) {
+  const Folder folder;
+  const std::string file = folder.write("file", "").string();
+  std::filesystem::create_symlink("nothing", folder / "dangling");
+  const std::string run =
+      "run " + source_file("scenes/street.glb") + " --grid frustum --assigner aabb-fast --no-timing";
+  for (const char* flag : {" --write-dump ", " --images "})
+    for (const std::string& at : {file, file + "/below", (folder / "dangling").string(), std::string("/proc/none/d")}) {
+      const Outcome refused = tool(run + flag + at);
+      EXPECT_EQ(refused.code, 2) << flag << at << ": " << refused.err;
+      EXPECT_NE(refused.err.find(at + ": no folder can be made there: "), std::string::npos) << refused.err;
+    }
+  const std::string made = (folder / "new" / "below").string();
+  EXPECT_EQ(
+      tool("run " + source_file("scenes/street.glb") + " --grid cascades --assigner cascades --write-dump " + made)
+          .code,
+      2);
+  EXPECT_EQ(tool(run + " --images " + made + " --image-frames 999999").code, 2);
+  EXPECT_FALSE(exists(folder / "new"));
+  std::filesystem::create_directory(folder / "mine");
+  EXPECT_EQ(tool(run + " --image-frames 999999 --images " + (folder / "mine" / "new").string()).code, 2);
+  EXPECT_TRUE(exists(folder / "mine"));
+  EXPECT_FALSE(exists(folder / "mine" / "new"));
+}
+
 TEST(Run, a_folder_is_no_input) {
   for (const char* command : {"run", "validate"}) {
     const Outcome refused = tool(std::string(command) + " " + std::filesystem::temp_directory_path().string());

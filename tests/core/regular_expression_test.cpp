@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/libraries.h"
 #include "core/pattern.h"
 #include "core/random.h"
+#include "needs.h"
 
 namespace clusterbench {
 namespace {
@@ -135,7 +135,7 @@ std::optional<Pattern> library_pattern(const std::string& text) {
 
 // Random expressions against RE2, an independent implementation. A pattern is also looked for as it stands.
 TEST(RegularExpression, answers_as_RE2_does) {
-  if (!is_built_in(Library::re2)) GTEST_SKIP() << missing_library(Library::re2);
+  NEEDS(re2);
   SplitMix64 random(7);
   int matched = 0, refused = 0;
   for (int i = 0; i < 20'000; ++i) {

@@ -45,6 +45,22 @@ TEST(CheckText, lengths_have_units_that_fit_and_no_exponents) {
   EXPECT_NE(check_text(lost_by(1.0, 1.0, 0.01234, 123456.0), 1).find("depth 0.01234 to 123456 m"), std::string::npos);
 }
 
+TEST(CheckText, another_reading_says_only_what_changes) {
+  result::CheckedDump checked = lost_by(1.0, 1.0);
+  result::OtherReading& other = checked.sets[0].other_reading.emplace();
+  other.axes = "xyz";
+  other.first_row = "top";
+  other.first_slice = "near";
+  other.camera = "camera.forward: the other way";
+  EXPECT_NE(check_text(checked, 1)
+                .find("description: with camera.forward: the other way, 0 pairs would be lost in place of 1.\n"),
+            std::string::npos)
+      << check_text(checked, 1);
+  other.order = "grid.first_row 'bottom'";
+  EXPECT_NE(check_text(checked, 1).find("with grid.first_row 'bottom' and camera.forward: the other way, 0 pairs"),
+            std::string::npos);
+}
+
 TEST(CheckText, names_of_a_dump_bring_no_lines_and_no_escapes) {
   result::CheckedDump checked = lost_by(1.0, 1.0);
   const std::string evil = "x\n  lists: right\x1b[2J";

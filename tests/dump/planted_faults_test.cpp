@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <functional>
 #include <set>
 
@@ -222,6 +223,178 @@ TEST(PlantedFaults, a_mirrored_x_axis_is_found) {
   EXPECT_LE(set.other_reading->lost_pairs, 2u);
 }
 
+// As of an engine that culls coarsely: each light in all cells that are a few columns and rows from its own.
+assign::Lists grown(const Made& of, int columns, int rows) {
+  const Vec3i cells = of.grid.cells();
+  std::vector<std::set<std::uint32_t>> lists(of.truth.cell_count());
+  for (std::uint32_t cell = 0; cell < of.truth.cell_count(); ++cell) {
+    const Vec3i at = of.grid.cell_at(cell);
+    const auto here = of.truth.of(cell);
+    for (int z = 0; z < cells.z; ++z)
+      for (int y = std::max(0, at.y - rows); y <= std::min(cells.y - 1, at.y + rows); ++y)
+        for (int x = std::max(0, at.x - columns); x <= std::min(cells.x - 1, at.x + columns); ++x)
+          lists[grid::cell_index({x, y, z}, cells)].insert(here.begin(), here.end());
+  }
+  assign::Lists out{{0}, {}};
+  for (const std::set<std::uint32_t>& list : lists) {
+    out.lights.insert(out.lights.end(), list.begin(), list.end());
+    out.begin.push_back(static_cast<std::uint32_t>(out.lights.size()));
+  }
+  return out;
+}
+
+TEST(PlantedFaults, a_wrong_description_of_loose_lists_is_found_where_it_loses_pairs) {
+  const DumpFile loose = dump_of(made(), grown(made(), 1, 1));
+  const result::CheckedSet sound = verdict_on(loose);
+  EXPECT_EQ(sound.verdict, "right");
+  ASSERT_GT(10 * sound.error->false_positives, 9 * sound.error->listed_pairs);
+  DumpFile mirrored = loose, rows = loose;
+  for (const std::size_t i : {0u, 1u, 2u}) mirrored.record.camera.view_to_world->at(i) *= -1.0;
+  rows.record.grid.first_row = "bottom";
+  for (const auto& [dump, camera, row] :
+       {std::tuple(&mirrored, "camera: the x row of world_to_view negated", "top"), std::tuple(&rows, "", "top")}) {
+    const result::CheckedSet set = verdict_on(*dump);
+    EXPECT_EQ(set.verdict, "misread");
+    EXPECT_GT(set.error->lost_pairs, 100u);
+    ASSERT_TRUE(set.other_reading);
+    EXPECT_EQ(set.other_reading->camera, camera);
+    EXPECT_EQ(set.other_reading->first_row, row);
+    EXPECT_LE(set.other_reading->lost_pairs, set.error->lost_pairs / 100);
+  }
+  // A light that is in no list at all is lost under any description, however loose the lists are.
+  const std::uint32_t forgotten = made().truth.lights[0];
+  const DumpFile without = dump_of(made(), changed(grown(made(), 12, 7), [&](auto cell, auto light) -> Moved {
+                                     if (light == forgotten) return std::nullopt;
+                                     return std::pair(cell, light);
+                                   }));
+  EXPECT_EQ(verdict_on(without).verdict, "lost");
+}
+
+// Before the bits of the one light are those of 37 decals, which all cells have: read as the light's they lose nothing.
+TEST(PlantedFaults, bits_of_other_things_are_no_better_reading_of_a_lost_light) {
+  Made one = made_frame();
+  one.frame.lights.resize(1);
+  one.frame.count_types();
+  scene::WorldLight& light = one.frame.lights[0];
+  light.position =
+      one.frame.view_space.origin - 4.0 * glm::transpose(one.frame.view_space.rotation)[2] + Vec3d(0.3, 0.2, 0.1);
+  light.range_m = 1.5;
+  one.truth = measure::find_truth(one.frame, one.grid, 1).lists;
+  DumpFile dump = dump_of(one, one.truth);
+  const Vec3i cells = one.grid.cells();
+  layout::Buffer words{"words", "", 0, std::vector<std::byte>(4 + 8 * std::size_t{one.truth.cell_count()})};
+  for (std::uint32_t cell = 0; cell < one.truth.cell_count(); ++cell) {
+    Vec3i from = one.grid.cell_at(cell);
+    from.z = (from.z + 4) % cells.z;  // each list in the slice four before its own
+    const bool is_here = !one.truth.of(grid::cell_index(from, cells)).empty();
+    for (std::size_t byte = 0; byte < 4; ++byte) words.bytes[4 + 8 * cell + byte] = std::byte{0xff};
+    words.bytes[4 + 8 * cell + 4] = is_here ? std::byte{0x3f} : std::byte{0x1f};
+  }
+  dump.buffers.push_back(words);
+  dump.record.lists = {{}};
+  dump.record.lists[0].layout = "bits";
+  dump.record.lists[0].first_bit = 37;
+  dump.record.lists[0].rows = result::DumpRows{"words", 4, 8};
+  const result::CheckedSet set = verdict_on(dump);
+  ASSERT_GE(set.error->lost_pairs, 10u);
+  ASSERT_EQ(set.error->false_positives, set.error->listed_pairs);
+  EXPECT_EQ(set.verdict, "lost") << (set.other_reading ? set.other_reading->lists : "");
+}
+
+// Points just ahead of the eye. Seen behind it they still reach into some of their cells, and into no others.
+TEST(PlantedFaults, a_wrong_handedness_that_loses_nothing_is_found) {
+  Made near = made_frame();
+  std::erase_if(near.frame.lights, [&](const scene::WorldLight& light) {
+    const double z = (near.frame.view_space.rotation * (light.position - near.frame.view_space.origin)).z;
+    return z > 0.0 || z < -2.5 || light.type != scene::LightType::point;
+  });
+  near.frame.count_types();
+  near.truth = measure::find_truth(near.frame, near.grid, 1).lists;
+  DumpFile dump = dump_of(near, near.truth);
+  give_projection(near, -1.0, dump.record.camera);
+  for (const std::size_t i : {8u, 9u, 10u}) dump.record.camera.view_to_world->at(i) *= -1.0;
+  const result::CheckedDump checked = judge(dump, {});
+  const result::CheckedSet& set = checked.sets[0];
+  ASSERT_EQ(set.error->lost_pairs, 0u);
+  ASSERT_GT(2 * set.error->false_positives, set.error->listed_pairs);
+  ASSERT_LT(10 * set.error->false_positives, 9 * set.error->listed_pairs) << "of fewer than were tried once";
+  EXPECT_EQ(set.verdict, "misread");
+  ASSERT_TRUE(set.other_reading);
+  EXPECT_NE(set.other_reading->camera.find("the other handedness"), std::string::npos);
+  EXPECT_NE(check_text(checked, 3).find("Probably it is the description: with camera: the other handedness"),
+            std::string::npos)
+      << check_text(checked, 3);
+}
+
+TEST(PlantedFaults, the_inverse_of_the_view_matrix_is_found) {
+  DumpFile dump = dump_of(made(), made().truth);
+  std::swap(dump.record.camera.world_to_view, dump.record.camera.view_to_world);
+  const result::CheckedSet set = verdict_on(dump);
+  EXPECT_EQ(set.verdict, "misread");
+  ASSERT_TRUE(set.other_reading);
+  EXPECT_EQ(set.other_reading->camera.find("camera.view_to_world and camera.world_to_view: the other"), 0u);
+  EXPECT_EQ(set.other_reading->order, "");
+}
+
+// The ranges of a dump's rows.
+void change_ranges(DumpFile& dump, const std::function<double(double)>& change) {
+  std::vector<std::byte>& bytes = std::ranges::find(dump.buffers, "lights", &layout::Buffer::name)->bytes;
+  for (std::size_t at = 24; at < bytes.size(); at += 64) {
+    double range_m = 0.0;
+    std::memcpy(&range_m, &bytes[at], sizeof range_m);
+    range_m = change(range_m);
+    std::memcpy(&bytes[at], &range_m, sizeof range_m);
+  }
+}
+
+TEST(PlantedFaults, ranges_that_are_something_else_are_found) {
+  struct Row {
+    std::function<double(double)> in_buffer;
+    const char *is, *wanted;
+  };
+  const Row rows[] = {{[](double r) { return r * r; }, "range", "lights.rows range.is 'squared'"},
+                      {[](double r) { return r; }, "inverse", "lights.rows range.is 'range'"},
+                      {[](double r) { return 1.0 / r; }, "range", "lights.rows range.is 'inverse'"},
+                      {[](double r) { return 1.0 / (r * r); }, "inverse", "lights.rows range.is 'inverse-squared'"},
+                      {[](double r) { return 2.0 * r; }, "range", "ranges half as large"},
+                      {[](double r) { return r / 2.0; }, "range", "ranges twice as large"}};
+  for (const Row& row : rows) {
+    DumpFile dump = dump_of(made(), made().truth);
+    change_ranges(dump, row.in_buffer);
+    for (result::DumpLightRows& lights : *dump.record.lights.rows) lights.range.is = row.is;
+    const result::CheckedDump checked = judge(dump, {});
+    EXPECT_EQ(checked.sets[0].verdict, "misread") << row.wanted;
+    ASSERT_TRUE(checked.sets[0].other_reading) << row.wanted << check_text(checked, 1);
+    EXPECT_EQ(checked.sets[0].other_reading->lights.find(row.wanted), 0u) << checked.sets[0].other_reading->lights;
+    EXPECT_NE(check_text(checked, 1).find(row.wanted), std::string::npos);
+  }
+}
+
+TEST(PlantedFaults, pairs_that_are_lost_where_a_list_is_full_are_told) {
+  const assign::StorageDescriptor* fixed = assign::find_storage("fixed");
+  constexpr std::uint32_t k_cap = 3;
+  const auto storage = fixed->make(assign::Params(fixed->params, {{"cap", static_cast<double>(k_cap)}}));
+  storage->start(made().truth.cell_count(), made().frame.ranges());
+  storage->store(made().truth);
+  MadeDump full = make_dump(made().frame, made().grid, *layout::describe(*storage->shader_buffers()), {});
+  DumpFile dump{"made.json", std::move(full.record), std::move(full.buffers)};
+  const Deepest deepest = deepest_pair();
+  std::uint64_t dropped = 0;
+  for (std::uint32_t cell = 0; cell < made().truth.cell_count(); ++cell)
+    dropped += std::max<std::uint64_t>(made().truth.of(cell).size(), k_cap) - k_cap;
+  ASSERT_GT(dropped, 0u);
+  const result::CheckedDump checked = judge(dump, {});
+  EXPECT_EQ(checked.sets[0].error->lost_pairs, dropped);
+  EXPECT_EQ(checked.sets[0].error->lost_in_full_lists, dropped);
+  EXPECT_NE(check_text(checked, 1).find(" lost in cells whose list is full (lists[].per_cell)"), std::string::npos)
+      << check_text(checked, 1);
+  const DumpFile packed = dump_of(made(), changed(made().truth, [&](auto cell, auto light) -> Moved {
+                                    if (cell == deepest.cell && light == deepest.light) return std::nullopt;
+                                    return std::pair(cell, light);
+                                  }));
+  EXPECT_EQ(verdict_on(packed).error->lost_in_full_lists, 0u);
+}
+
 // Whoever tells too small ranges loses nothing, and is told that much is listed for nothing.
 TEST(PlantedFaults, ranges_that_are_told_too_small_are_asked_about) {
   Made small = made_frame();
@@ -229,8 +402,8 @@ TEST(PlantedFaults, ranges_that_are_told_too_small_are_asked_about) {
   for (scene::WorldLight& light : small.frame.lights) light.range_m = 0.5;
   const result::CheckedDump checked = judge(dump_of(small, listed), {}), sound = judge(dump_of(made(), listed), {});
   ASSERT_GT(checked.sets[0].error->false_positives, listed.pair_count() / 2);
-  EXPECT_NE(check_text(checked, 3).find("are ranges and cones described rightly?"), std::string::npos);
-  EXPECT_EQ(check_text(sound, 3).find("are ranges and cones described rightly?"), std::string::npos);
+  EXPECT_NE(check_text(checked, 3).find("are camera, ranges and cones described rightly?"), std::string::npos);
+  EXPECT_EQ(check_text(sound, 3).find("are camera, ranges and cones described rightly?"), std::string::npos);
 }
 
 TEST(PlantedFaults, rows_of_pixels_that_are_counted_from_the_other_end_are_found) {

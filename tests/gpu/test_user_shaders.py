@@ -340,8 +340,8 @@ class Faults(unittest.TestCase):
             ({"passes__0__push__1__at": 8}, "/passes/0/push/1/at: is 8: byte 8 is one of /passes/0/push/0, too"),
             ({"passes__0__push__1": None}, "/passes/0/push: say nothing of byte 12, which the push constants of mine.spv have"),
             ({"lists__0__peer_cell": 1}, r"/lists/0/peer_cell: is not known \(did you mean 'per_cell'\?\); allowed: set, layout"),
-            ({"parameters": [{"name": "cells", "summary": "x", "standard": 1, "least": 1, "most": 2}]}, "which is a known value or another parameter"),
-            ({"parameters": [{"name": "n", "summary": "x", "standard": 3, "least": 1, "most": 2}]}, "/parameters/0/standard: is 3; allowed: from least to most, here 1 to 2"),
+            ({"parameters": [{"name": "cells", "summary": "x", "default": 1, "min": 1, "max": 2}]}, "which is a known value or another parameter"),
+            ({"parameters": [{"name": "n", "summary": "x", "default": 3, "min": 1, "max": 2}]}, "/parameters/0/default: is 3; allowed: from min to max, here 1 to 2"),
         ):
             with self.subTest(message):
                 self.refused(changed(METHOD, **change), message)
@@ -443,7 +443,7 @@ class Faults(unittest.TestCase):
 
     def test_formulas_of_lists_are_computed_for_each_case(self):
         """With 1 in place of every number they would not be whole, or below 0."""
-        cap = [{"name": "cap", "summary": "x", "standard": 796, "least": 64, "most": 1024}]
+        cap = [{"name": "cap", "summary": "x", "default": 796, "min": 64, "max": 1024}]
         for change in ({"parameters": cap, "lists__0__per_cell": "cap / 4"}, {"parameters": cap, "lists__0__per_cell": "cap - 597"},
                        {"lists__0__rows__at": "(slices - 8) * 4"}, {"lists__0__entries__at": "viewport_width / 80"}):
             with self.subTest(change), Folder() as folder:

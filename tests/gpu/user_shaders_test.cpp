@@ -252,8 +252,8 @@ TEST(UserShaders, whose_description_cannot_be_right_in_any_frame_are_refused) {
        "/passes/0/push: say nothing of byte 12, which the push constants of append.spv have"},
       {{{"/passes/0/constants/0/type", R"("f32")"}},
        "/passes/0/constants/0/type: is f32; constant 0 of append.spv is u32"},
-      {{{"/parameters/0/standard", "5000"}},
-       "/parameters/0/standard: is 5000; allowed: from least to most, here 1 to 4096"},
+      {{{"/parameters/0/default", "5000"}},
+       "/parameters/0/default: is 5000; allowed: from min to max, here 1 to 4096"},
       {{{"/bufers", "{}"}}, "/bufers: is not known (did you mean 'buffers'?); allowed: shader_version, name"}};
   EXPECT_EQ(refusal_of_append({}), "");
   for (const auto& [changes, message] : rows)

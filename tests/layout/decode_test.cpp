@@ -238,6 +238,8 @@ TEST(Decode, the_likeliest_other_reading_is_found) {
   const std::pair<std::function<void(result::DumpLists&)>, const char*> rows[] = {
       {[](auto& given) { given.entries->type = "u32"; }, "with entries as u16 all "},
       {[](auto& given) { given.offset_is = "bytes"; }, "with the other unit of offsets (offset_is) all "},
+      {[](auto& given) { std::swap(*given.offset, given.counts->front()); },  // of two counts
+       "with offset and (first) count swapped all "},
       {[](auto& given) { given.entries->first_light = 2; },
        "with indices that count from 0 (entries.first_light) all "}};
   Described right = stored("packed", {{"index_bits", std::string("16")}}, lists, {40, 30});

@@ -1,5 +1,6 @@
 #include "os/guarded_process.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +13,8 @@
 
 #include "core/error.h"
 #include "os/call_notes.h"
+#include "os/kept_files.h"
+#include "os/orphans.h"
 #include "os/process.h"
 #include "os/process_memory.h"
 
@@ -200,6 +203,101 @@ TEST(GuardedProcess, that_hangs_as_it_ends_is_ended) {
   EXPECT_EQ(end.how, How::timed_out);
   ASSERT_TRUE(end.call);
   EXPECT_EQ(end.call->step, CallStep::unload);
+}
+
+// The copy that comes back from the call ends at once, and its process with it; that it came is told with the call.
+TEST(GuardedProcess, whose_call_comes_back_twice_is_told_with_that_call) {
+  for (const int after_ms : {0, 300}) {
+    ProcessGuard guard({});
+    const std::vector<int> before = child_processes();
+    const GuardedEnd end = end_after(guard, [&] {
+      {
+        const ForeignCall call(caller_of("acme", 77), CallStep::assign, 12);
+        ::fork();
+      }
+      { const ForeignCall call(caller_of("other"), CallStep::build); }
+      std::this_thread::sleep_for(std::chrono::milliseconds(after_ms));
+      note_done(0);
+    });
+    EXPECT_TRUE(end.has_forked) << after_ms;
+    EXPECT_EQ(end.how, How::died);
+    ASSERT_TRUE(end.call);
+    EXPECT_EQ(end.call->code, "acme");
+    EXPECT_EQ(end.call->label, 77u);
+    EXPECT_EQ(end.call->step, CallStep::assign);
+    EXPECT_EQ(end.call->frame, 12);
+    EXPECT_EQ(child_processes(), before);
+  }
+}
+
+TEST(GuardedProcess, leaves_no_process_behind_that_a_call_has_started) {
+  ProcessGuard guard({});
+  const std::vector<int> before = child_processes();
+  const GuardedEnd end = end_after(guard, [] {
+    {
+      const ForeignCall call(caller_of("acme"), CallStep::assign, 3);
+      if (::fork() == 0) {
+        if (::fork() == 0) ::setsid();  // beyond signals to a group of processes
+        ::sleep(60);
+        ::_exit(0);
+      }
+    }
+    note_done(0);
+  });
+  EXPECT_EQ(end.how, How::done);
+  EXPECT_FALSE(end.has_forked);
+  EXPECT_EQ(end.orphans, 2);
+  EXPECT_EQ(child_processes(), before);
+}
+
+TEST(GuardedProcess, with_a_process_that_a_call_has_waited_for_has_no_fault) {
+  ProcessGuard guard({});
+  const GuardedEnd end = end_after(guard, [] {
+    {
+      const ForeignCall call(caller_of("acme"), CallStep::assign, 3);
+      const pid_t child = ::fork();
+      if (child == 0) ::_exit(0);
+      ::waitpid(child, nullptr, 0);
+    }
+    note_done(0);
+  });
+  EXPECT_EQ(end.how, How::done);
+  EXPECT_EQ(end.orphans, 0);
+}
+
+TEST(GuardedProcess, of_which_a_call_closes_files_tells_that_call) {
+  for (const bool is_replaced : {false, true}) {
+    ProcessGuard guard({});
+    const GuardedEnd end = end_after(guard, [&] {
+      const int file = ::open("/proc/self/exe", O_RDONLY | O_CLOEXEC);
+      keep_file(file);
+      const ForeignCall call(caller_of("acme"), CallStep::build);
+      end_if_files_are_lost();
+      for (int i = STDIN_FILENO; i < 64 && !is_replaced; ++i) ::close(i);
+      if (is_replaced) ::dup2(::open("/dev/null", O_RDONLY), file);
+      end_if_files_are_lost();
+      note_done(0);
+    });
+    EXPECT_EQ(end.how, How::died);
+    EXPECT_GE(end.lost_descriptor, is_replaced ? 3 : 0);
+    ASSERT_TRUE(end.call);
+    EXPECT_EQ(end.call->step, CallStep::build);
+  }
+}
+
+TEST(GuardedProcess, may_close_and_open_files_of_its_own) {
+  ProcessGuard guard({});
+  const GuardedEnd end = end_after(guard, [] {
+    const int file = ::open("/proc/self/exe", O_RDONLY | O_CLOEXEC);
+    keep_file(file);
+    release_file(file);
+    ::close(file);
+    const ForeignCall call(caller_of("acme"), CallStep::build);
+    ::close(::open("/dev/null", O_RDONLY));
+    end_if_files_are_lost();
+    note_done(0);
+  });
+  EXPECT_EQ(end.how, How::done);
 }
 
 TEST(GuardedProcess, leaves_a_message_for_the_next_one) {

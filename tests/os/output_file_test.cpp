@@ -1,5 +1,6 @@
 #include "os/output_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -147,6 +148,25 @@ TEST_F(OutputFiles, a_pipe_waits_for_its_reader_and_stays_open) {
   EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
+// Another program that has the same pipe open can set it to that.
+TEST_F(OutputFiles, a_full_pipe_that_does_not_block_is_waited_for) {
+  int ends[2];
+  ASSERT_EQ(pipe2(ends, O_CLOEXEC | O_NONBLOCK), 0);
+  ASSERT_EQ(fcntl(ends[0], F_SETFL, 0), 0);
+  std::size_t taken = 0;
+  std::thread reader([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    char some[4096];
+    for (ssize_t got = 0; (got = read(ends[0], some, sizeof some)) > 0;) taken += static_cast<std::size_t>(got);
+  });
+  const std::string text(1 << 20, 'x');
+  EXPECT_NO_THROW(write_file("/dev/fd/" + std::to_string(ends[1]), text));
+  close(ends[1]);
+  reader.join();
+  close(ends[0]);
+  EXPECT_EQ(taken, text.size());
+}
+
 TEST_F(OutputFiles, names_of_open_descriptors_are_streams_also_through_a_link) {
   for (const char* name : {"-", "", "/dev/stdout", "/proc/self/fd/1", "/dev/../dev/fd/1"}) {
     EXPECT_TRUE(output_target(name).is_stream) << name;
@@ -176,6 +196,29 @@ TEST_F(OutputFiles, a_signal_leaves_the_old_text_or_the_new_one_and_no_other_fil
     const std::string text = text_in(file_);
     EXPECT_TRUE(text == old || text == fresh);
     EXPECT_EQ(names(), 1u);
+  }
+}
+
+// Between the last two steps, a name and then the right one, a whole file can be left; no half one.
+TEST_F(OutputFiles, a_killed_process_leaves_no_half_file) {
+  const std::string old(1 << 20, 'o'), fresh(1 << 20, 'n');
+  std::mt19937 random(2);
+  for (int i = 0; i < test::tries(60); ++i) {
+    put(file_, old);
+    const pid_t child = fork();
+    if (child == 0) {
+      for (;;) write_file(file_, fresh);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(random() % 20000));
+    kill(child, SIGKILL);
+    ASSERT_EQ(waitpid(child, nullptr, 0), child);
+    const std::string text = text_in(file_);
+    EXPECT_TRUE(text == old || text == fresh);
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+      if (entry.path() == file_) continue;
+      EXPECT_EQ(text_in(entry.path()).size(), fresh.size()) << entry.path();
+      fs::remove(entry.path());
+    }
   }
 }
 

@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
 #include "core/error.h"
+#include "os/locked_file.h"
 #include "report/history/history_page.h"
 #include "report/page/page_template.h"
 #include "report/result_by_hand.h"
@@ -363,6 +365,38 @@ TEST_F(History, the_same_commit_again_stands_beside_itself_and_the_same_result_o
   const std::vector<HistoryEntry> history = read_history(file_);
   ASSERT_EQ(history.size(), 4u);
   EXPECT_EQ(history[1].commit + history[2].commit + history[3].commit, "c2c2c3") << "not as the newest";
+}
+
+TEST_F(History, blank_lines_are_passed_over_and_stay) {
+  for (const char* commit : {"c1", "c2"}) add(commit, 3000.0);
+  const std::string lines = text();
+  const std::size_t second = lines.find('\n') + 1;
+  const std::string edited = "\n" + lines.substr(0, second) + " \r\n\n" + lines.substr(second) + "\n";
+  write(edited);
+  EXPECT_EQ(read_history(file_).size(), 2u);
+  add("c1", 3100.0);
+  add("c3", 3000.0);
+  std::string commits;
+  for (const HistoryEntry& entry : read_history(file_)) commits += entry.commit;
+  EXPECT_EQ(commits, "c1c1c2c3");
+  EXPECT_TRUE(text().starts_with("\n" + lines.substr(0, second)));
+}
+
+TEST_F(History, that_is_held_is_waited_for_and_then_given_up) {
+  using namespace std::chrono_literals;
+  const os::LockedFile held(file_);
+  int told = 0;
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    add_to_history(file_, record_of(testing::result_by_hand(), {}), "c1", {[&] { ++told; }, 100ms, 1s});
+    ADD_FAILURE() << "both write";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find(file_ + ": is held by another process, still after 1 second;"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(told, 1);
+  EXPECT_GE(std::chrono::steady_clock::now() - start, 1s);
 }
 
 TEST_F(History, files_beside_it_stay_as_they_are) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "config/schema/documents.h"
 #include "config/schema/schema_verdict.h"
 #include "core/error.h"
@@ -94,14 +96,73 @@ TEST(Merge, shards_of_one_machine_are_merged_however_busy_it_was) {
   EXPECT_EQ(result::to_json(merged({part, other})), whole_by_hand());
 }
 
-TEST(Merge, times_of_two_machines_are_refused_and_counts_are_not) {
+TEST(Merge, times_of_two_programs_are_refused_and_counts_are_not) {
   NamedPart part = shard("a.json", "slow"), other = shard("b.json", "fast");
-  other.result.machine.cpu = "another";
+  other.result.tool.version = "another";
   const std::string said = refusal({part, other});
-  EXPECT_NE(said.find("b.json: /machine: is not that of a.json"), std::string::npos) << said;
+  EXPECT_NE(said.find("b.json: /tool: is not that of a.json"), std::string::npos) << said;
   part.result.cases[0].timing.reset();
   other.result.cases[0].timing.reset();
   EXPECT_EQ(refusal({part, other}), "accepted");
+}
+
+// Parts of two machines, whose second has another instruction set, too.
+std::vector<NamedPart> of_two_machines() {
+  NamedPart part = shard("a.json", "slow"), other = shard("b.json", "fast");
+  other.result.machine.cpu = "another";
+  other.result.tool.simd_target = "SCALAR";
+  return {part, other};
+}
+
+TEST(Merge, times_of_two_machines_stay_with_their_machine) {
+  const result::Result all = merged(of_two_machines());
+  EXPECT_EQ(config::schema_violations(config::result_schema(), result::to_json(all)), std::vector<std::string>{});
+  ASSERT_TRUE(all.machines);
+  ASSERT_EQ(all.machines->size(), 2u);
+  EXPECT_EQ((*all.machines)[1].name, "machine 2");
+  EXPECT_EQ((*all.machines)[1].machine.cpu, "another");
+  EXPECT_EQ((*all.machines)[1].simd_target, "SCALAR");
+  for (const result::Case& one : all.cases) EXPECT_EQ(one.machine, one.id == "slow" ? "machine 1" : "machine 2");
+}
+
+TEST(Merge, no_star_and_no_conclusion_compares_two_machines) {
+  const result::Result one = merged({shard("a.json", "slow"), shard("b.json", "fast")}),
+                       two = merged(of_two_machines());
+  ASSERT_EQ(one.conclusions->size(), 1u);
+  EXPECT_EQ(one.pareto_front[0].ids, std::vector<std::string>{"fast"});
+  ASSERT_EQ(two.conclusions->size(), 2u);
+  EXPECT_EQ(two.pareto_front[0].ids, (std::vector<std::string>{"slow", "fast"}));
+  for (const result::Conclusion& conclusion : *two.conclusions) {
+    EXPECT_TRUE(conclusion.machine);
+    EXPECT_FALSE(conclusion.against);
+    EXPECT_TRUE(conclusion.alike.empty());
+    EXPECT_NE(conclusion.text.find(", " + *conclusion.machine + ": "), std::string::npos) << conclusion.text;
+  }
+}
+
+TEST(Merge, a_merged_result_of_two_machines_is_merged_on_with_those_of_a_third) {
+  std::vector<NamedPart> parts = of_two_machines();
+  const NamedPart both{"both.json", merged({parts[0], parts[1]})};
+  NamedPart third = shard("c.json", "fast");
+  third.result.cases[0].id = "third";
+  third.result.cases[0].name = "hall/look/grid/third";
+  third.result.machine.cores = 1234;
+  const result::Result all = merged({third, both});
+  ASSERT_EQ(all.machines->size(), 3u);
+  EXPECT_EQ(all.machines->front().machine.cores, 1234u);
+  std::set<std::string> names;
+  for (const result::Case& one : all.cases) names.insert(one.machine.value_or("none"));
+  EXPECT_EQ(names, (std::set<std::string>{"machine 1", "machine 2", "machine 3"}));
+}
+
+TEST(Merge, two_hosts_of_one_kind_are_two_machines) {
+  const auto part = [](const std::string& file, const std::string& id, std::uint64_t index, const std::string& host) {
+    NamedPart out = shard(file, id);
+    out.result.shard = {index, 2, std::string(64, '0'), {}, host};
+    return out;
+  };
+  EXPECT_TRUE(merged({part("a", "slow", 1, "aa"), part("b", "fast", 2, "bb")}).machines);
+  EXPECT_FALSE(merged({part("a", "slow", 1, "aa"), part("b", "fast", 2, "aa")}).machines);
 }
 
 }  // namespace

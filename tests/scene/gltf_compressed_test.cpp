@@ -8,7 +8,7 @@
 #include "scene/gltf_document/gltf_meshopt.h"
 #include "scene/mesh_fixture.h"
 
-#if __has_include(<meshoptimizer.h>)
+#if CLUSTERBENCH_HAS_MESHOPTIMIZER
 #include <meshoptimizer.h>
 
 namespace clusterbench::scene::test {
@@ -219,7 +219,7 @@ TEST(Meshopt, any_change_of_a_byte_loads_or_is_refused) {
 }  // namespace clusterbench::scene::test
 #endif
 
-#if __has_include(<draco/compression/encode.h>)
+#if CLUSTERBENCH_HAS_DRACO
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wpedantic"

@@ -39,9 +39,13 @@ std::string range_error(const std::string& allowed, const std::string& word) {
 
 constexpr const char* k_of_its_type = "of its type";
 
-// Rejects an empty word, which an unset variable of a script becomes: it would look like an option that was not given.
+// Rejects an empty or blank word, which an unset variable of a script becomes: it would look like an option that was
+// not given.
 CLI::Option* with_text(CLI::Option* option) {
-  const auto check = [](const std::string& word) { return word.empty() ? "takes a text that is not empty" : ""; };
+  const auto check = [](const std::string& word) {
+    if (word.empty()) return "takes a text that is not empty";
+    return word.find_first_not_of(" \t\n\v\f\r") == std::string::npos ? "takes a text that is not blank" : "";
+  };
   return option->check(check);
 }
 
@@ -131,6 +135,12 @@ Option& Option::one_of(std::vector<std::string> words) {
 
 Option& Option::once_a_name() {
   option_->allow_extra_args(false);
+  return *this;
+}
+
+Option& Option::utf8() {
+  option_->check(
+      [](const std::string& word) { return is_utf8(word) ? "" : "takes text in UTF-8, not '" + word + "'"; });
   return *this;
 }
 

@@ -29,6 +29,7 @@ class Option {
   Option& non_negative();
   Option& one_of(std::vector<std::string> words);
   Option& once_a_name();  // --name A --name B, not --name A B
+  Option& utf8();         // for text that gets into JSON; names of files may have any bytes
   Option& needs(const Option& other);
 
  private:

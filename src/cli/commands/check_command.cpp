@@ -20,11 +20,11 @@ struct CheckFlags {
   std::vector<std::string> dumps;
   std::string json, page, engine, methods = "quick";
   int most_lost = 10, threads = 1;
-  bool no_methods = false, allow_rounding = false, quiet = false;
+  bool allow_rounding = false, quiet = false;
 };
 
-// What to do now.
-std::string last_line(const std::string& verdict, bool allows_rounding) {
+// The next step. `names_cells`: whether lost lights are named above.
+std::string last_line(const std::string& verdict, bool allows_rounding, bool names_cells) {
   if (verdict == "right") return "No light is lost.";
   if (verdict == "rounding")
     return allows_rounding
@@ -35,8 +35,9 @@ std::string last_line(const std::string& verdict, bool allows_rounding) {
   if (verdict == "twice") return "A light is shaded twice: the engine adds it twice, or two parts of a set overlap.";
   if (verdict == "misread") return "Correct the description of the dump as said first, and check again.";
   if (verdict == "lost")
-    return "Lights are lost. Compare the first cell above with the engine's own test; --json FILE has up to 1000 of "
-           "them.";
+    return std::string("Lights are lost. ") +
+           (names_cells ? "Compare the first cell above with the engine's own test; --json FILE has up to 1000 of them."
+                        : "--json FILE has up to 1000 of them, with their cells.");
   return "The buffers are not laid out as the dump says: compare its description with the engine's shader "
          "(`clusterbench schema dump`).";
 }
@@ -52,6 +53,17 @@ std::string frames_line(const std::vector<result::CheckedDump>& frames) {
 
 ExitCode print_template(const CheckFlags& flags) {
   if (!flags.dumps.empty()) throw Error("", "--template", "prints a dump to fill in, and checks none");
+  const CheckFlags none;
+  const std::pair<bool, const char*> given[] = {{!flags.json.empty(), "--json"},
+                                                {!flags.page.empty(), "--page"},
+                                                {flags.methods != none.methods, "--methods"},
+                                                {flags.most_lost != none.most_lost, "--most-lost"},
+                                                {flags.threads != none.threads, "--threads"},
+                                                {flags.allow_rounding, "--allow-rounding"},
+                                                {flags.quiet, "--quiet"}};
+  for (const auto& [is_given, flag] : given)
+    if (is_given)
+      throw Error("", flag, "has no meaning with --template, which checks nothing; allowed: --template alone");
   std::cout << std::ranges::find(dump::dump_templates(), flags.engine, &dump::DumpTemplate::name)->text;
   return ExitCode::ok;
 }
@@ -63,13 +75,6 @@ std::string made_page(const CheckFlags& flags, const std::string& verdict, resul
   page.command = shell_command(words);
   page.verdict = verdict;
   return report::check_page(page);
-}
-
-dump::MethodChoice chosen_methods(const CheckFlags& flags) {
-  if (!flags.no_methods) return dump::method_choice(flags.methods);
-  if (flags.methods != CheckFlags{}.methods)
-    throw Error("", "--no-methods", "stands beside --methods; allowed: one of the two");
-  return {};
 }
 
 struct CheckInputs {
@@ -90,7 +95,7 @@ CheckInputs inputs_of(const CheckFlags& flags) {
 // Fills the frames of `page` if one is asked for.
 result::Check judge_all(const CheckFlags& flags, const CheckInputs& inputs, result::CheckPage& page,
                         std::ostream& out) {
-  const dump::MethodChoice methods = chosen_methods(flags);
+  const dump::MethodChoice methods = dump::method_choice(flags.methods);
   std::size_t page_room = dump::k_most_page_entries;
   result::Check checked;
   checked.check_version = 1;
@@ -117,7 +122,7 @@ ExitCode check(const CheckFlags& flags) {
   if (!flags.json.empty()) output.write(result::to_json(checked));
   if (!flags.page.empty()) page_output.write_text(made_page(flags, checked.verdict, std::move(page)));
   if (!flags.quiet && checked.frames.size() > 1) out << frames_line(checked.frames);
-  if (!flags.quiet) out << last_line(checked.verdict, flags.allow_rounding) << "\n";
+  if (!flags.quiet) out << last_line(checked.verdict, flags.allow_rounding, flags.most_lost > 0) << "\n";
   const bool is_right = checked.verdict == "right" || (flags.allow_rounding && checked.verdict == "rounding");
   return is_right ? ExitCode::ok : ExitCode::gate_failed;
 }
@@ -143,7 +148,6 @@ void add_check(Command& program, Action& action) {
                   "Methods of clusterbench on the same frame: quick (if they take a few seconds), all, none, or names "
                   "with commas")
       .shows_standard();
-  command.add_flag("--no-methods", flags->no_methods, "As --methods none");
   command.add_option("--threads", flags->threads, "Threads; results do not depend on it")
       .range(1, 1024)
       .shows_standard();

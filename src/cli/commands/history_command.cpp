@@ -6,6 +6,7 @@
 
 #include "cli/command_line/commands.h"
 #include "cli/output/output.h"
+#include "core/error.h"
 #include "core/text.h"
 #include "report/documents/result_file.h"
 #include "report/history/history.h"
@@ -28,8 +29,13 @@ struct ShowFlags {
 ExitCode add(const AddFlags& flags) {
   refuse_overwriting({flags.file}, {flags.result});
   const result::Result result = report::read_result(flags.result);
+  if (result.machines)
+    throw Error(flags.result, "/machines",
+                "has times of several machines, and a line of a history is of one; add the results that were merged");
   const std::string commit = flags.commit.empty() ? result.tool.git_sha : flags.commit;
-  const report::Addition addition = report::add_to_history(flags.file, result, commit);
+  const report::Addition addition = report::add_to_history(
+      flags.file, result, commit,
+      {.on_long = [&] { print_message(flags.file + " is held by another process; waiting a minute for its end"); }});
   const std::string before = number_of(addition.earlier, "result") + " of " + commit;
   if (!addition.is_added)
     print_message(flags.file + " has this result of " + commit + " already; nothing was added");
@@ -67,7 +73,7 @@ void add_add(Command& parent, Action& action) {
   Command command = parent.add_command("add", "Add a result to a history");
   command.add_option("RESULT", flags->result, "A result file of `clusterbench run`").required();
   command.add_option("FILE", flags->file, "The history, JSON lines; made if there is none").required();
-  command.add_option("--commit", flags->commit, "What was measured; without it the commit of clusterbench");
+  command.add_option("--commit", flags->commit, "What was measured; without it the commit of clusterbench").utf8();
   command.add_flag("--allow-changed-lights", flags->allows_changed_lights,
                    "Lights may be others than those of the result before, and levels missing; else exit code 1");
   command.when_named([flags, &action] { action = [flags] { return add(*flags); }; });

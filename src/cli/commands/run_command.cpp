@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/command_line/commands.h"
+#include "cli/options/shard_choice.h"
 #include "cli/output/output.h"
 #include "cli/processes/handover.h"
 #include "cli/processes/launches.h"
@@ -12,6 +13,7 @@
 #include "cli/running/dry_run.h"
 #include "cli/running/measured_run.h"
 #include "cli/running/run_flags.h"
+#include "cli/running/sharded_plan.h"
 #include "cli/running/written_dumps.h"
 #include "config/config.h"
 #include "core/file_text.h"
@@ -69,6 +71,13 @@ ExitCode serve_run(const RunFlags& flags) {
   return ExitCode::ok;
 }
 
+std::optional<ShardChoice> shard_of(const RunFlags& flags) {
+  if (flags.shard.empty()) return std::nullopt;
+  if (!flags.baseline.binary.empty())
+    throw Error("", "--shard", "does not go with --baseline-binary, which measures two programs on one machine");
+  return shard_choice(flags.shard);
+}
+
 // names_plugins() does not look into a pipe.
 void refuse_unguarded(const RunFlags& flags, const config::Config& config) {
   const bool is_guarded = os::is_guarded() || flags.guard.is_in_process || flags.rounds_server != 0;
@@ -78,25 +87,32 @@ void refuse_unguarded(const RunFlags& flags, const config::Config& config) {
               "--plugin");
 }
 
+ExitCode write_dumps_alone(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
+  warn_of_budgets(config);
+  const WrittenDumps written = write_dumps(config, plan, flags.dump_folder, flags.dump_frames);
+  for (const std::string& line : written.remarks) print_message(printable(line));
+  if (!flags.quiet)
+    print_message(number_of(written.count, "dump") + " written; `clusterbench check " + flags.dump_folder +
+                  "` reads them");
+  return ExitCode::ok;
+}
+
 std::optional<ExitCode> run_part(const RunFlags& flags) {
+  if (!flags.dump_folder.empty()) refuse_beside_dumps(flags);
   const config::Config config = read_config(flags);
   refuse_unguarded(flags, config);
   const CountWay way = count_way(flags.count);
+  const std::optional<ShardChoice> shard = shard_of(flags);
   run::Plan plan = run::make_plan(config, flags.filter);
   if (flags.rounds_server != 0) return serve(flags, config, plan);
+  if (shard && flags.dry_run) print_shards(config, plan, *shard);
+  if (shard) plan = sharded_plan(flags, config, std::move(plan), *shard);
   const std::vector<ExportTarget> exports = export_targets(flags.exports);
   if (flags.dry_run) {
     print_plan(flags, config, std::move(plan));
     return ExitCode::ok;
   }
-  if (!flags.dump_folder.empty()) {
-    const WrittenDumps written = write_dumps(config, plan, flags.dump_folder, flags.dump_frames);
-    for (const std::string& line : written.left_out) print_message(printable(line));
-    if (!flags.quiet)
-      print_message(number_of(written.count, "dump") + " written; `clusterbench check " + flags.dump_folder +
-                    "` reads them");
-    return ExitCode::ok;
-  }
+  if (!flags.dump_folder.empty()) return write_dumps_alone(flags, config, plan);
   if (!flags.baseline.binary.empty()) check_baseline(flags);
   return measure(flags, config, plan, way, exports);
 }

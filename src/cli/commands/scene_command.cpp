@@ -1,6 +1,8 @@
 // `clusterbench scene info FILE`, `clusterbench scene generate NAME` and `clusterbench scene views FILE`.
 
+#include <algorithm>
 #include <cmath>
+#include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -59,38 +61,52 @@ std::string metres(double value) {
   return text;
 }
 
+// To std::cout, whose failures are told (check_standard_output()).
+[[gnu::format(printf, 1, 2)]] void print_formatted(const char* format, ...) {
+  std::va_list values;
+  va_start(values, format);
+  std::va_list again;
+  va_copy(again, values);
+  std::string text(static_cast<std::size_t>(std::max(0, std::vsnprintf(nullptr, 0, format, values))), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, format, again);
+  va_end(again);
+  va_end(values);
+  std::cout << text;
+}
+
 // The ranges given to lights without one.
 void print_made_ranges(const scene::RangeRule& rule, const scene::Summary& summary) {
   const int made = summary.ranges_from_intensity + summary.ranges_clamped;
   if (made == 0) return;
   const std::string least = metres(summary.made_range_min_m), greatest = metres(summary.made_range_max_m);
-  std::printf("  by rule  %s without range: %s m, where %s to %g lux (--cutoff-lux)",
-              number_of(static_cast<std::uint64_t>(made), "light").c_str(),
-              (least == greatest ? least : least + " to " + greatest).c_str(), made == 1 ? "it falls" : "they fall",
-              rule.cutoff_lux);
+  print_formatted("  by rule  %s without range: %s m, where %s to %g lux (--cutoff-lux)",
+                  number_of(static_cast<std::uint64_t>(made), "light").c_str(),
+                  (least == greatest ? least : least + " to " + greatest).c_str(), made == 1 ? "it falls" : "they fall",
+                  rule.cutoff_lux);
   if (summary.ranges_clamped > 0)
-    std::printf("; %d of them cut off at %g m (--max-range)", summary.ranges_clamped, rule.max_range_m);
-  std::printf("\n");
+    print_formatted("; %d of them cut off at %g m (--max-range)", summary.ranges_clamped, rule.max_range_m);
+  print_formatted("\n");
 }
 
-void print(const scene::Scene& scene, const scene::Summary& summary) {
+void print_scene(const scene::Scene& scene, const scene::Summary& summary) {
   const auto& lo = summary.bounds_lo;
   const auto& hi = summary.bounds_hi;
-  std::printf("%s\n  lights   %d point, %d spot, %d directional, %d box\n", printable(scene.name).c_str(),
-              summary.points, summary.spots, summary.directionals, summary.boxes);
+  print_formatted("%s\n  lights   %d point, %d spot, %d directional, %d box\n", printable(scene.name).c_str(),
+                  summary.points, summary.spots, summary.directionals, summary.boxes);
   if (summary.points + summary.spots > 0) {
-    std::printf("  ranges   %.3g to %.3g m, median %.3g m; %d given, %d from intensity, %d clamped\n",
-                summary.range_min_m, summary.range_max_m, summary.range_median_m, summary.ranges_given,
-                summary.ranges_from_intensity, summary.ranges_clamped);
+    print_formatted("  ranges   %.3g to %.3g m, median %.3g m; %d given, %d from intensity, %d clamped\n",
+                    summary.range_min_m, summary.range_max_m, summary.range_median_m, summary.ranges_given,
+                    summary.ranges_from_intensity, summary.ranges_clamped);
     print_made_ranges(scene.range_rule, summary);
-    std::printf("  bounds   (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m\n", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
+    print_formatted("  bounds   (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m\n", lo.x, lo.y, lo.z, hi.x, hi.y, hi.z);
   }
   const scene::GltfContents& file = scene.contents;
   if (file.scenes.size() > 1)
-    std::printf("  scenes   %s; read is %zu\n", printable(scene::numbered(file.scenes)).c_str(), file.scene);
-  if (file.animations.size() > 1) std::printf("  clips    %s\n", printable(scene::numbered(file.animations)).c_str());
-  for (const std::string& camera : summary.cameras) std::printf("  camera   %s\n", printable(camera).c_str());
-  for (const std::string& warning : summary.warnings) std::printf("  warning  %s\n", printable(warning).c_str());
+    print_formatted("  scenes   %s; read is %zu\n", printable(scene::numbered(file.scenes)).c_str(), file.scene);
+  if (file.animations.size() > 1)
+    print_formatted("  clips    %s\n", printable(scene::numbered(file.animations)).c_str());
+  for (const std::string& camera : summary.cameras) print_formatted("  camera   %s\n", printable(camera).c_str());
+  for (const std::string& warning : summary.warnings) print_formatted("  warning  %s\n", printable(warning).c_str());
 }
 
 ExitCode info(const std::string& path, const scene::GltfChoice& choice, const scene::RangeRule& rule, bool as_json) {
@@ -100,7 +116,7 @@ ExitCode info(const std::string& path, const scene::GltfChoice& choice, const sc
   if (as_json)
     std::cout << printable_json(to_json(scene, summary).dump(2)) << "\n";
   else
-    print(scene, summary);
+    print_scene(scene, summary);
   return ExitCode::ok;
 }
 

@@ -136,7 +136,7 @@ ExitCode check_sizes(const SizeFlags& flags, const SizeCounts* counts, const res
     config.limits.allows_no_lights = allows_no_lights;
     keep_counted_budgets(config, "size");
     print_searched_budgets(config, result, request.scope.found);
-    code = report_findings(findings_with_searches(Gates(config, request.filter), result, request.scope.found));
+    code = report_findings(findings_with_searches(Gates(config.limits, request.filter), result, request.scope.found));
   }
   for (const std::string& name : report::sized_from_nothing(result, request)) {
     if (!allows_no_lights) code = ExitCode::gate_failed;

@@ -10,6 +10,7 @@
 #include "cli/output/output.h"
 #include "cli/output/progress_line.h"
 #include "core/text.h"
+#include "core/work_in_order.h"
 #include "gpu/device/device.h"
 #include "gpu/user_shaders/shader_method.h"
 #include "os/stop_signals.h"
@@ -191,7 +192,11 @@ void add_stress(Command& program, Action& action) {
       .non_negative()
       .shows_standard();
   command.add_option("--seed", flags->request.seed, "Seed of everything random").shows_standard();
-  command.add_option("--threads", flags->request.threads, "Threads; results do not depend on them").range(1, 1024);
+  flags->request.threads = processors();
+  command
+      .add_option("--threads", flags->request.threads,
+                  "Threads (default: all processors); results do not depend on them")
+      .range(1, 1024);
   command.add_option("--failures", flags->failures, "Folder for every loss or fault as a scene and a configuration");
   command.add_flag("-q,--quiet", flags->quiet, "No progress and no table");
   command.when_named([flags, &action] { action = [flags] { return guarded_stress(*flags); }; });

@@ -62,7 +62,7 @@ void keep_counted_budgets(config::Config& config, const std::string& doing) {
       ": it counts lists and lights alone, without times, truth, samples and a baseline; `clusterbench run` does");
 }
 
-Gates::Gates(const config::Config& config, const std::string& filter) : limits_(config.limits), filter_(filter) {
+Gates::Gates(const config::LimitsRequest& limits, const std::string& filter) : limits_(limits), filter_(filter) {
   if (!limits_.baseline.empty()) base_ = report::read_result(limits_.baseline.string());
   for (const config::LimitRule& rule : limits_.fail_if)
     if (rule.is_relative && !base_)

@@ -29,8 +29,8 @@ void keep_counted_budgets(config::Config& config, const std::string& doing);
 class Gates {
  public:
   // Reads the baseline, so that the user learns of errors in it before minutes of measuring. Throws Error for a budget
-  // in percent without a baseline.
-  Gates(const config::Config& config, const std::string& filter);
+  // in percent without a baseline. `limits` must outlive this object.
+  Gates(const config::LimitsRequest& limits, const std::string& filter);
 
   // The figures that have changed since the baseline; "" without one.
   std::string changes(const result::Result& result) const;

@@ -20,9 +20,13 @@ namespace {
 using How = os::GuardedEnd::How;
 
 std::string death_text(const os::GuardedEnd& end) {
+  if (end.has_forked) return "came back twice (it forked)";
   const std::string signal = os::signal_name(end.signal);
   if (signal == "SIGKILL") return "was killed (SIGKILL), as where memory runs out,";
   if (end.signal != 0) return "crashed (" + signal + ")";
+  if (end.lost_descriptor >= 0)
+    return "closed a file of the program, or put another in its place (descriptor " +
+           std::to_string(end.lost_descriptor) + ")";
   if (end.has_ended_thread) return "ended the process by ending its thread (pthread_exit)";
   return "ended the process (exit code " + std::to_string(end.died_with_code) + ")";
 }
@@ -42,7 +46,7 @@ const char* kind_of(How how) {
 std::string call_text(const os::GuardedEnd& end) {
   const os::NotedCall& call = *end.call;
   const bool is_within = end.is_call_running || call.step == os::CallStep::unload;
-  std::string out = std::string(is_within ? " in " : " after ") + os::name_of(call.step);
+  std::string out = std::string(end.has_forked ? " from " : is_within ? " in " : " after ") + os::name_of(call.step);
   if (call.frame >= 0) out += ", frame " + std::to_string(call.frame);
   if (!call.pass.empty() && call.step != os::CallStep::unload) out += " (" + call.pass + ")";
   return out;
@@ -54,6 +58,14 @@ Casualty casualty_of(const os::GuardedEnd& end, const GuardFlags& flags) {
           end.signal != 0 ? os::signal_name(end.signal) : ""};
 }
 
+// Of processes that plug-ins have started.
+void tell_orphans(const os::GuardedEnd& end) {
+  if (end.orphans == 0) return;
+  const bool is_one = end.orphans == 1;
+  print_message("warning: plug-ins left " + std::to_string(end.orphans) +
+                (is_one ? " process running, which was ended" : " processes running, which were ended"));
+}
+
 // A process that died cannot remove its progress line.
 void clear_line() {
   if (os::terminal(os::StandardStream::error).interactive) std::cerr << "\r\033[K" << std::flush;
@@ -63,17 +75,21 @@ os::ProcessGuard::Limits limits_of(const GuardFlags& flags) {
   return {flags.timeout_s, static_cast<std::uint64_t>(flags.memory_mib) << 20};
 }
 
-// Runs a part, and notes its end: what ends the process after it is no end of the part.
+// Runs a part, and notes its end: what ends the process after it is no end of the part. Where a plug-in has closed
+// files of the program, the part can have failed for that, and nobody would read its message.
 ExitCode ended(const std::function<std::optional<ExitCode>()>& part) {
   try {
     const std::optional<ExitCode> code = part();
+    os::end_if_files_are_lost();
     if (!code) os::note_measured();
     if (code) os::note_done(static_cast<int>(*code));
     return code.value_or(ExitCode::ok);
   } catch (const Error& error) {
+    os::end_if_files_are_lost();
     os::note_done(static_cast<int>(error.code()));
     throw;
   } catch (...) {
+    os::end_if_files_are_lost();
     os::note_done(static_cast<int>(ExitCode::internal));
     throw;
   }
@@ -130,6 +146,7 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
     before_each();
     const std::optional<os::GuardedEnd> end = guard.run(stop);
     if (!end) return ended([&] { return part(next); });
+    tell_orphans(*end);
     if (end->how == How::done) return static_cast<ExitCode>(end->exit_code);
     next.message = guard.message();
     next.casualty.reset();
@@ -150,6 +167,7 @@ ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::fun
   os::ProcessGuard guard(limits_of(flags));
   const std::optional<os::GuardedEnd> end = guard.run(stop);
   if (!end) return ended([&]() -> std::optional<ExitCode> { return command(); });
+  tell_orphans(*end);
   if (end->how == How::done) return static_cast<ExitCode>(end->exit_code);
   clear_line();
   if (stop) return stopped(*end, "");

@@ -9,7 +9,6 @@
 #include "core/libraries.h"
 #include "core/text.h"
 #include "geom/shapes/domain.h"
-#include "os/file_access.h"
 #include "os/output_file.h"
 
 namespace clusterbench::cli {
@@ -77,12 +76,6 @@ pictures::Request request_of(const ImageFlags& flags) {
   return request;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed) throw Error(folder.string(), "", "no folder can be made there: " + failed.message());
-}
-
 void check_count(const run::Plan& plan, const pictures::Request& request) {
   const std::uint64_t count = pictures::picture_count(plan, request);
   if (count > pictures::k_most_pictures)
@@ -137,8 +130,7 @@ PictureFiles::PictureFiles(const ImageFlags& flags, const config::Config& config
     : config_(config), plan_(plan), folder_(flags.folder), inputs_(std::move(inputs)), request_(request_of(flags)) {
   need_library(Library::libpng, "--images", "pictures");
   check_count(plan, request_);
-  make_folder(folder_);
-  if (!os::is_writable_folder(folder_)) throw Error(folder_, "", errno_text("cannot be written to"));
+  made_.emplace(folder_);
   geometries_ = pictures::load_geometries(config, plan, request_);
   for (std::size_t i = 0; i < geometries_.size(); ++i)
     for (const std::string& warning : geometries_[i] ? geometries_[i]->warnings : std::vector<std::string>{})
@@ -150,7 +142,7 @@ std::string PictureFiles::index_path(const std::string& folder) {
 }
 
 void PictureFiles::write_picture(const fs::path& file, const std::string& bytes) const {
-  make_folder(file.parent_path());
+  const OutputFolder made(file.parent_path());
   refuse_overwriting({file.string()}, inputs_);
   os::write_file(file, bytes);
 }

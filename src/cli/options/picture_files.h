@@ -4,10 +4,12 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/command_line/command.h"
+#include "cli/output/output_folder.h"
 #include "cli/output/progress_line.h"
 #include "os/terminal.h"
 #include "pictures/pictures.h"
@@ -47,6 +49,7 @@ class PictureFiles {
   const config::Config& config_;
   const run::Plan& plan_;
   std::string folder_;
+  std::optional<OutputFolder> made_;
   std::vector<std::string> inputs_;
   pictures::Request request_;
   pictures::Geometries geometries_;

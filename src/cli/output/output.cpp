@@ -1,5 +1,6 @@
 #include "cli/output/output.h"
 
+#include <cerrno>
 #include <filesystem>
 #include <iostream>
 
@@ -22,8 +23,14 @@ bool is_stream(const std::string& output) {
 }
 
 void check_standard_output() {
-  std::cout << std::flush;
-  if (!std::cout) throw Error("standard output", "", "could not be written whole", ExitCode::internal);
+  errno = 0;
+  if (std::cout.rdbuf()->pubsync() == 0 && std::cout) return;
+  const std::string problem = "could not be written whole";
+  throw Error("standard output", "",
+              errno == 0       ? problem
+              : errno == EBADF ? problem + ": it is closed"
+                               : errno_text(problem),
+              ExitCode::internal);
 }
 
 bool is_for_reading(const std::string& output) {

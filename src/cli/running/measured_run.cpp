@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 
 #include "cli/output/duration.h"
@@ -11,6 +12,7 @@
 #include "cli/running/broken_cases.h"
 #include "cli/running/printed_result.h"
 #include "cli/running/run_journal.h"
+#include "cli/running/sharded_plan.h"
 #include "cli/running/verdicts.h"
 #include "core/text.h"
 #include "os/process.h"
@@ -94,7 +96,7 @@ class MeasuredRun {
       : flags_(flags),
         config_(config),
         plan_(plan),
-        gates_(config, flags.filter),
+        gates_(config.limits, flags.filter),
         inputs_(inputs_kept(flags, config)),
         // If the output is a file, the journal probes it.
         output_(flags.output, !is_stream(flags.output) || is_for_reading(flags.output)),
@@ -198,7 +200,8 @@ class MeasuredRun {
 
   // Writes all files and prints the result.
   ExitCode concluded(const RunJournal& journal, const std::atomic<bool>& stop, result::Result& result) {
-    const Verdicts verdicts = verdicts_of(flags_.baseline, gates_, result);
+    // Budgets are of all cases: `merge` holds them against all.
+    const Verdicts verdicts = plan_.shard ? Verdicts() : verdicts_of(flags_.baseline, gates_, result);
     if (journal.is_kept())
       journal.file()->finish(result);
     else
@@ -210,10 +213,17 @@ class MeasuredRun {
       return os::stopped_exit_code();
     }
     const ExitCode code = report_verdicts(verdicts, result);
-    if (!flags_.quiet) print_conclusion(flags_, result);
-    if (!result.cases.empty() || result.broken) return code;
+    if (!flags_.quiet) print_next(result);
+    if (!result.cases.empty() || result.broken || plan_.case_count() == 0) return code;
     print_message("no case was measured to the end");  // a device ended them all
     return ExitCode::usage;
+  }
+
+  void print_next(const result::Result& result) const {
+    if (plan_.shard)
+      std::cerr << next_after_shard(*plan_.shard);
+    else
+      print_conclusion(flags_, result);
   }
 
   const RunFlags& flags_;

@@ -40,6 +40,9 @@ void add_run_options(Command& command, RunFlags& flags) {
   add_image_options(command, flags.images);
   command.add_option("--filter", flags.filter,
                      "Only cases whose name has this in it, or matches it as a regular expression");
+  command.add_option("--shard", flags.shard,
+                     "I/N: only part I of N of the cases, as 2/7, for several machines; `clusterbench merge` takes all "
+                     "parts. auto, auto/N: as an array job's environment says");
   add_config_options(command, flags.inputs);
   command.add_flag("--count{auto}", flags.count,
                    "Count instructions, too: --count=perf (hardware), =callgrind (valgrind), or what works");

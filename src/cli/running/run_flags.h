@@ -17,7 +17,7 @@ namespace clusterbench::cli {
 
 struct RunFlags {
   RunInputs inputs;
-  std::string output, filter, count;
+  std::string output, filter, count, shard;
   std::vector<std::string> exports;
   bool resume = false, dry_run = false, no_timing = false, quiet = false;
 

@@ -20,8 +20,9 @@ Json measured_config(const config::Config& config) {
   return out;
 }
 
-// The facts that must be the same in an interrupted run and the run that continues it.
-Json journal_header(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
+}  // namespace
+
+Json run_identity(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
   const run::ToolFacts tool = run::tool_facts();
   Json scenes = Json::array();
   for (const run::SceneData& data : plan.scenes) scenes.push_back(data.contents_sha256());
@@ -33,6 +34,15 @@ Json journal_header(const RunFlags& flags, const config::Config& config, const r
   for (const config::MethodRequest& method : config.assigners)
     if (const auto& origin = assign::find_assigner(method.name)->origin)
       header["methods"][method.name] = origin->sha256;
+  return header;
+}
+
+namespace {
+
+// The facts that must be the same in an interrupted run and the run that continues it.
+Json journal_header(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
+  Json header = run_identity(flags, config, plan);
+  if (plan.shard) header["shard"] = {plan.shard->index, plan.shard->count};
   if (const std::optional<gpu::DeviceFacts> device = run::device_of(config, plan))
     header["device"] = {{"name", device->name}, {"driver", device->driver}, {"uuid", device->uuid}};
   return header;

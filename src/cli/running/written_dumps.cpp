@@ -1,7 +1,12 @@
 #include "cli/running/written_dumps.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
+#include <utility>
 
+#include "cli/output/output.h"
+#include "cli/output/output_folder.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "dump/write_dump.h"
@@ -13,9 +18,20 @@
 namespace clusterbench::cli {
 namespace {
 
+// Lights that a storage had no room for.
+struct CutOff {
+  std::uint64_t lists = 0, pairs = 0;
+
+  CutOff& operator+=(const assign::StructureUse& use) {
+    lists += use.overflowing_cells;
+    pairs += use.dropped_pairs;
+    return *this;
+  }
+};
+
 // The lists in the case's storage, or as `packed` where dumps have no words for it.
 layout::Described described_lists(const config::Config& config, const run::CasePlan& plan, const assign::Lists& lists,
-                                  const grid::Grid& grid, const view::LightRanges& lights) {
+                                  const grid::Grid& grid, const view::LightRanges& lights, CutOff& cut_off) {
   const assign::StorageDescriptor* row = assign::find_storage("packed");
   assign::Params params(row->params);
   if (plan.storage) {
@@ -26,7 +42,10 @@ layout::Described described_lists(const config::Config& config, const run::CaseP
   storage->start(grid, lights);
   storage->store(lists);
   const auto shader = storage->shader_buffers();
-  if (auto described = shader ? layout::describe(*shader) : std::nullopt) return *std::move(described);
+  if (auto described = shader ? layout::describe(*shader) : std::nullopt) {
+    cut_off += storage->use();
+    return *std::move(described);
+  }
   const assign::StorageDescriptor& packed = *assign::find_storage("packed");
   const auto plain = packed.make(assign::Params(packed.params));
   plain->start(grid, lights);
@@ -70,19 +89,30 @@ class DumpWriter {
         write_case(case_plan, frame, grids.grid(), run.cell_lists());
       }
     }
+    for (const run::CasePlan& case_plan : group.cases) tell_cut_off(case_plan.name);
   }
   const WrittenDumps& written() const { return written_; }
 
  private:
+  void tell_cut_off(const std::string& case_name) {
+    const CutOff& found = cut_off_[case_name];
+    if (found.lists > 0)
+      written_.remarks.push_back(case_name + ": " + number_of(found.lists, "list") +
+                                 (found.lists == 1 ? " is" : " are") + " cut off where the storage has no room, by " +
+                                 number_of(found.pairs, "light") +
+                                 " in all, which `check` finds lost: give the storage a larger cap");
+  }
+
   void leave_out(const std::string& case_name, const std::string& reason) {
-    add_once(case_name + ": no dump: " + reason, written_.left_out);
+    add_once(case_name + ": no dump: " + reason, written_.remarks);
   }
 
   void write_case(const run::CasePlan& plan, const view::Frame& frame, const grid::Grid& grid,
                   const assign::Lists& lists) {
     std::optional<dump::MadeDump> made;
     try {
-      made = dump::make_dump(frame, grid, described_lists(config_, plan, lists, grid, frame.ranges()));
+      made = dump::make_dump(frame, grid,
+                             described_lists(config_, plan, lists, grid, frame.ranges(), cut_off_[plan.name]));
     } catch (const Error& error) {
       return leave_out(plan.name, error.message());
     }
@@ -95,19 +125,48 @@ class DumpWriter {
   const config::Config& config_;
   const std::string& folder_;
   WrittenDumps written_;
+  std::map<std::string, CutOff> cut_off_;  // by case, of all its frames
 };
 
 }  // namespace
 
+void refuse_beside_dumps(const RunFlags& flags) {
+  const auto has_fail_if = [](const config::FlagValue& flag) { return flag.name == "--fail-if"; };
+  const std::pair<const char*, bool> excluded[] = {
+      {"-o", !flags.output.empty()},
+      {"--export", !flags.exports.empty()},
+      {"--images", !flags.images.folder.empty()},
+      {"--fail-if", std::ranges::any_of(flag_values(flags.inputs), has_fail_if)},
+      {"--baseline", !flags.gates.baseline.empty()},
+      {"--baseline-binary", !flags.baseline.binary.empty()},
+      {"--count", !flags.count.empty()},
+      {"--resume", flags.resume},
+  };
+  for (const auto& [flag, is_given] : excluded)
+    if (is_given)
+      throw Error("", "--write-dump",
+                  std::string("does not go with ") + flag +
+                      ": it writes lists and measures nothing; give it a command of its own");
+}
+
+void warn_of_budgets(const config::Config& config) {
+  const std::size_t budgets = config.limits.fail_if.size();
+  if (budgets > 0)
+    print_message("warning: --write-dump measures nothing and does not look at limits.fail_if (" +
+                  number_of(budgets, "budget") + ")");
+  if (!config.limits.baseline.empty())
+    print_message("warning: --write-dump measures nothing and does not look at limits.baseline");
+}
+
 WrittenDumps write_dumps(const config::Config& config, const run::Plan& plan, const std::string& folder, int frames) {
-  std::filesystem::create_directories(folder);
+  const OutputFolder made(folder);
   DumpWriter writer(config, folder);
   for (const run::GroupPlan& group : plan.groups) writer.write_group(plan, group, frames);
   if (writer.written().count == 0)
     throw Error(
         "", "--write-dump",
-        "has written no dump" + (writer.written().left_out.empty() ? std::string(": the plan has no cases")
-                                                                   : "; " + joined(writer.written().left_out, "; ")));
+        "has written no dump" + (writer.written().remarks.empty() ? std::string(": the plan has no cases")
+                                                                  : "; " + joined(writer.written().remarks, "; ")));
   return writer.written();
 }
 

@@ -4,13 +4,20 @@
 #include <string>
 #include <vector>
 
+#include "cli/running/run_flags.h"
 #include "run/cases/plan.h"
 
 namespace clusterbench::cli {
 
+// Dumps are written without a measurement: throws Error for a flag that asks for one, and warns of budgets that the
+// configuration has.
+void refuse_beside_dumps(const RunFlags& flags);
+void warn_of_budgets(const config::Config& config);
+
 struct WrittenDumps {
   std::size_t count = 0;
-  std::vector<std::string> left_out;  // cases with the reason, each once
+  // Of cases that have no dump, the reason; of those whose storage had no room for all lights, how many.
+  std::vector<std::string> remarks;
 };
 
 // `frames`: of each case, evenly spaced on its path. Throws Error if a file cannot be written, and if no case has lists

@@ -118,10 +118,10 @@ class MethodCheck {
                     "is '" + one.name + "'; allowed: small letters, digits and _, at most 40, a letter first");
       if (!seen.insert(one.name).second)
         throw Error("", where + "/name", "is '" + one.name + "', which is a known value or another parameter");
-      if (!(one.least <= one.standard && one.standard <= one.most))
-        throw Error("", where + "/standard",
-                    "is " + formula_number(one.standard) + "; allowed: from least to most, here " +
-                        formula_number(one.least) + " to " + formula_number(one.most));
+      if (!(one.min <= one.default_value && one.default_value <= one.max))
+        throw Error("", where + "/default",
+                    "is " + formula_number(one.default_value) + "; allowed: from min to max, here " +
+                        formula_number(one.min) + " to " + formula_number(one.max));
     }
   }
 

@@ -475,10 +475,10 @@ std::vector<assign::ParamSpec> params_of(const result::ShaderMethod& method) {
   for (const result::ShaderParameter& one : *method.parameters)
     params.push_back({.name = one.name,
                       .summary = one.summary,
-                      .default_value = one.standard,
+                      .default_value = one.default_value,
                       .unit = one.unit.value_or(""),
-                      .min = one.least,
-                      .max = one.most,
+                      .min = one.min,
+                      .max = one.max,
                       .choices = {},
                       .whole = one.whole.value_or(true)});
   return params;

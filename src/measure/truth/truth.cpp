@@ -1,5 +1,6 @@
 #include "measure/truth/truth.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -35,6 +36,13 @@ LightCells cells_of_light(const geom::LightVolume& light, const TruthCells& cell
   return std::move(search).found();
 }
 
+// For a sum that several threads make: its value at the error depends on them, so the error says the least that is
+// beyond the limit.
+void check_sum(const char* name, std::uint64_t sum, std::uint64_t bytes) {
+  const std::uint64_t most = memory_limit() / bytes;
+  check_memory(name, std::min(sum, most + 1), bytes);
+}
+
 // Throws Error beyond the limit on memory.
 std::vector<LightCells> cells_of_lights(const view::Frame& frame, const TruthCells& cells, int threads) {
   std::vector<LightCells> found(frame.lights.size());
@@ -42,10 +50,10 @@ std::vector<LightCells> cells_of_lights(const view::Frame& frame, const TruthCel
   parallel_ranges(found.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t light = begin; light < end; ++light) {
       found[light] = cells_of_light(view::volume_of(frame.lights[light], cells.space()), cells);
-      check_memory("runs of true cells", runs += found[light].runs.size(), sizeof(LightCells::Run));
+      check_sum("runs of true cells", runs += found[light].runs.size(), sizeof(LightCells::Run));
       std::uint64_t now = 0;
       for (const LightCells::Run& run : found[light].runs) now += run.count;
-      check_memory("true pairs", true_pairs += now, sizeof(std::uint32_t));
+      check_sum("true pairs", true_pairs += now, sizeof(std::uint32_t));
     }
   });
   return found;

@@ -14,7 +14,9 @@
 #include <iostream>
 
 #include "core/error.h"
+#include "os/kept_files.h"
 #include "os/notes_page.h"
+#include "os/orphans.h"
 #include "os/posix/system_calls.h"
 #include "os/process_memory.h"
 #include "os/standard_streams.h"
@@ -112,8 +114,27 @@ void add_call(GuardedEnd& end, int thread) {
   end.call->frame = -1;
 }
 
+void add_fork(GuardedEnd& end) {
+  const NotesPage& page = notes_page();
+  end.how = GuardedEnd::How::died;
+  end.has_forked = end.is_call_running = true;
+  NotedCall call;
+  call.code = page.names[std::min<std::size_t>(page.forked_code, page.names.size() - 1)].text();
+  call.step = static_cast<CallStep>(page.forked_step.load());
+  call.frame = page.forked_frame;
+  call.label = page.forked_label;
+  call.group = page.group.text();
+  call.pass = page.pass.text();
+  end.call = call;
+}
+
 GuardedEnd end_of(int status) {
   const NotesPage& page = notes_page();
+  if (page.has_forked) {
+    GuardedEnd end;
+    add_fork(end);
+    return end;
+  }
   if (page.has_child_status) status = page.child_status;
   GuardedEnd end;
   const GuardState state = page.has_child_status ? GuardState::working : page.state.load();
@@ -131,6 +152,7 @@ GuardedEnd end_of(int status) {
   else
     end.signal = WTERMSIG(status);
   end.has_ended_thread = page.has_ended_thread;
+  end.lost_descriptor = page.lost_descriptor;
   add_call(end, -1);
   return end;
 }
@@ -166,6 +188,10 @@ GuardedEnd watched(pid_t copy, const ProcessGuard::Limits& limits, const std::at
     const WatchClock::time_point now = WatchClock::now();
     const auto how = watch.look(std::min(k_most_step_s, std::chrono::duration<double>(now - before).count()));
     before = now;
+    if (notes_page().has_forked) {
+      end_now(copy);
+      return end_of(0);
+    }
     if (!how) continue;
     GuardedEnd end;
     end.how = *how;
@@ -195,18 +221,30 @@ std::optional<GuardedEnd> ProcessGuard::run(const std::atomic<bool>& stop) {
   std::cout << std::flush;
   std::cerr << std::flush;
   std::fflush(nullptr);
+  const Orphans orphans;
   const pid_t self = ::getpid(), copy = ::fork();
   if (copy < 0) throw Error("", "", errno_text("no process for plug-ins could be started"), ExitCode::internal);
-  if (copy > 0) return watched(copy, limits_, stop);
+  if (copy > 0) {
+    GuardedEnd end = watched(copy, limits_, stop);
+    end.orphans = orphans.end_all();
+    if (notes_page().has_forked) add_fork(end);  // it came back later than the call ended
+    return end;
+  }
+  note_own_process();
   if (!end_with_parent(self)) ::_exit(static_cast<int>(ExitCode::internal));
   stop_on_signals_of(self);
   watch_for_crashes();
   keep_output_apart();
+  keep_standard_files();
   return std::nullopt;
 }
 
 std::string ProcessGuard::message() const {
   return notes_page().message.text();
+}
+
+GuardedEnd noted_end(int wait_status) {
+  return end_of(wait_status);
 }
 
 void note_measured() {

@@ -6,8 +6,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
+#include <fstream>
 
 #include "core/error.h"
+#include "core/text.h"
+#include "os/host_name.h"
+#include "os/kept_files.h"
 #include "os/output_file.h"
 #include "os/posix/system_calls.h"
 
@@ -22,6 +27,26 @@ int descriptor_of(std::intptr_t file) {
 }
 
 }  // namespace
+
+// The process that made a file PATH.lock, as its text says: "HOST PID".
+struct LockedFile::LockOwner {
+  std::string host;
+  long process = 0;
+
+  // For certain: that of another host may still be there.
+  bool has_ended() const {
+    return process > 0 && host == host_name() && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
+  }
+  std::string text() const {
+    return process > 0 ? "process " + std::to_string(process) + " on " + printable(host) : "one that is unknown";
+  }
+};
+
+LockedFile::LockOwner LockedFile::owner_of(const fs::path& beside) {
+  LockOwner owner;
+  std::ifstream(beside) >> owner.host >> owner.process;
+  return owner;
+}
 
 LockedFile::LockedFile(fs::path path, Held held) : path_(std::move(path)), held_(held) {
   open();
@@ -42,6 +67,7 @@ void LockedFile::open() {
     }
     lock();
   } while (!is_still_at_path());
+  keep_file(descriptor_of(file_));
 }
 
 // False if another process has created or removed it meanwhile.
@@ -63,20 +89,64 @@ bool LockedFile::has_opened() {
   throw Error(path_.string(), "", "is no regular file, and only such a one is written here");
 }
 
-// A file system without locks (EOPNOTSUPP, ENOLCK) does not prevent measuring.
 void LockedFile::lock() {
   int failed = 0;
   do failed = ::flock(descriptor_of(file_), held_ == Held::wait ? LOCK_EX : LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
   while (failed == EINTR);
-  if (failed != EWOULDBLOCK) return;
+  if (failed == 0) return;
+  if (failed != EWOULDBLOCK) {
+    lock_beside();
+    return;
+  }
   is_made_ = false;
   close();
-  throw Error(path_.string(), "", "another run is writing here; wait for its end, or name another file");
+  throw FileHeld(path_.string(), "", "another run is writing here; wait for its end, or name another file");
+}
+
+// On a file system without locks (ENOLCK, EOPNOTSUPP: some network disks), PATH.lock stands for the lock: of all
+// processes that create it at once, one succeeds. One that was left by a dead process of this host is taken over.
+void LockedFile::lock_beside() {
+  const fs::path beside = lock_path();
+  for (;;) {
+    const int made = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (made >= 0) {
+      const std::string owner = host_name() + " " + std::to_string(::getpid()) + "\n";
+      const bool is_written = ::write(made, owner.data(), owner.size()) == static_cast<ssize_t>(owner.size());
+      ::close(made);
+      has_lock_beside_ = true;
+      if (is_written) return;
+      close();
+      fail("has no room for a lock beside it");
+    }
+    if (errno != EEXIST) fail("has no locks on this disk, and no file can be made beside it");
+    const LockOwner owner = owner_of(beside);
+    if (owner.has_ended())
+      ::unlink(beside.c_str());
+    else if (held_ == Held::wait)
+      ::usleep(100'000);
+    else
+      refuse_locked(beside, owner);
+  }
+}
+
+void LockedFile::refuse_locked(const fs::path& beside, const LockOwner& owner) {
+  is_made_ = false;
+  close();
+  throw FileHeld(path_.string(), "",
+                 "another run is writing here: " + owner.text() + ". This disk has no locks, so the file " +
+                     beside.string() + " stands for one; remove it if that run has ended, or name another file");
 }
 
 void LockedFile::close() {
+  release_file(descriptor_of(file_));
   if (file_ >= 0) ::close(descriptor_of(file_));
   file_ = -1;
+  if (has_lock_beside_) ::unlink(lock_path().c_str());
+  has_lock_beside_ = false;
+}
+
+fs::path LockedFile::lock_path() const {
+  return path_.string() + ".lock";
 }
 
 bool LockedFile::is_still_at_path() const {

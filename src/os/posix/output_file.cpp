@@ -90,17 +90,6 @@ class SignalsHandled {
   std::array<struct sigaction, k_ending_signals.size()> before_{};
 };
 
-// False, with errno, if not all is written.
-bool write_all(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t put = ::write(file, text.data(), text.size());
-    if (put < 0 && errno == EINTR) continue;
-    if (put < 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(put));
-  }
-  return true;
-}
-
 // Flushes to disk. True also for file systems and devices that do not support it.
 bool is_on_disk(int file) {
   return flush_to_disk(file) == 0 || errno == EINVAL || errno == ENOTSUP;
@@ -111,26 +100,47 @@ struct MadeFile {
   int descriptor = -1;  // -1: errno has the reason
 };
 
-// The first free name from PATH.NUMBER on (0 is PATH itself), shortened so that no folder rejects its length.
-MadeFile made_file(const fs::path& path, int number) {
+// Calls make(path), which returns a descriptor or -1 with errno, with the first free name from PATH.NUMBER on (0 is
+// PATH itself), shortened so that no folder rejects its length.
+template <class Make>
+MadeFile at_free_name(const fs::path& path, int number, Make&& make) {
   constexpr std::size_t k_longest_name = 220;
   const std::string name = path.filename().string();
   const fs::path first = path.parent_path() / (name.size() > k_longest_name ? name.substr(0, k_longest_name) : name);
   for (;; ++number) {
     MadeFile made{number == 0 ? first : fs::path(first.string() + "." + std::to_string(number))};
-    made.descriptor = ::open(made.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    made.descriptor = make(made.path);
     if (made.descriptor >= 0 || errno != EEXIST) return made;
   }
 }
 
-// A temporary file: it removes itself unless it gets the other file's name.
+MadeFile made_file(const fs::path& path, int number) {
+  return at_free_name(path, number, [](const fs::path& free) {
+    return ::open(free.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  });
+}
+
+// A file without a name in that folder, which ends with its process; -1 on file systems and systems that have none.
+int unnamed_file([[maybe_unused]] const fs::path& folder) {
+#ifdef O_TMPFILE
+  return ::open(folder.empty() ? "." : folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+#else
+  return -1;
+#endif
+}
+
+// A temporary file: it removes itself unless it gets the other file's name. It has no name before it is complete, where
+// the file system can do that, so that a killed process leaves none behind.
 class NewFile {
  public:
-  explicit NewFile(const fs::path& beside) : made_(made_file(beside.string() + ".new", 0)) {}
+  explicit NewFile(const fs::path& beside) : name_(beside.string() + ".new") {
+    made_.descriptor = unnamed_file(beside.parent_path());
+    if (made_.descriptor < 0) made_ = made_file(name_, 0);
+  }
   ~NewFile() {
     if (made_.descriptor < 0) return;
     ::close(made_.descriptor);
-    if (!is_renamed_) ::unlink(made_.path.c_str());
+    if (!is_renamed_ && !made_.path.empty()) ::unlink(made_.path.c_str());
   }
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
@@ -143,13 +153,26 @@ class NewFile {
     if (::fchown(made_.descriptor, status.st_uid, status.st_gid) != 0) errno = 0;  // only root may
     if (::fchmod(made_.descriptor, status.st_mode & 07777) != 0) errno = 0;
   }
-  bool fill(std::string_view text) const { return write_all(made_.descriptor, text) && is_on_disk(made_.descriptor); }
+  bool fill(std::string_view text) const {
+    return is_written_to(made_.descriptor, text) && is_on_disk(made_.descriptor);
+  }
   bool rename_to(const fs::path& path) {
+    if (made_.path.empty() && !give_name()) return false;
     is_renamed_ = ::rename(made_.path.c_str(), path.c_str()) == 0;
     return is_renamed_;
   }
 
  private:
+  bool give_name() {
+    const std::string opened = "/proc/self/fd/" + std::to_string(made_.descriptor);
+    const MadeFile named = at_free_name(name_, 0, [&](const fs::path& free) {
+      return ::linkat(AT_FDCWD, opened.c_str(), AT_FDCWD, free.c_str(), AT_SYMLINK_FOLLOW);
+    });
+    if (named.descriptor == 0) made_.path = named.path;
+    return named.descriptor == 0;
+  }
+
+  fs::path name_;
   MadeFile made_;
   bool is_renamed_ = false;
 };
@@ -226,7 +249,10 @@ void OutputFile::probe() {
     // a person reads this stream, and other text may come before
     const bool is_printed = name_.empty() || name_ == "-";
     const bool accepts_space = !is_printed && ::fstat(stream_, &status) == 0 && S_ISCHR(status.st_mode);
-    if (::fcntl(stream_, F_GETFD) < 0 || (accepts_space && !write_all(stream_, " "))) fail("cannot be written");
+    const int way = ::fcntl(stream_, F_GETFL);
+    if (way >= 0 && (way & O_ACCMODE) == O_RDONLY) errno = EBADF;  // that of a stream that was closed
+    if (way < 0 || (way & O_ACCMODE) == O_RDONLY || (accepts_space && !is_written_to(stream_, " ")))
+      fail("cannot be written");
     return;
   }
   const SignalsHandled held(hold_signal);
@@ -240,7 +266,7 @@ void OutputFile::write(std::string_view text) {
   std::cout << std::flush;
   std::fflush(stdout);
   const SignalsHandled ending(end_process);  // a reader that reads nothing must not block the exit
-  if (!write_all(stream_, text)) fail("could not be written whole");
+  if (!is_written_to(stream_, text)) fail("could not be written whole");
 }
 
 void OutputFile::replace(std::string_view text) const {

@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "os/kept_files.h"
 
 namespace clusterbench::os {
 
@@ -18,12 +19,15 @@ OwnOutput::OwnOutput() : descriptor_(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3))
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   ::dup2(nowhere, STDOUT_FILENO);
   ::close(nowhere);
+  keep_standard_files();
+  keep_file(descriptor_);
   constexpr rlim_t k_most_bytes = 1 << 20;
   const rlimit limit{k_most_bytes, k_most_bytes};
   ::setrlimit(RLIMIT_FSIZE, &limit);
 }
 
 OwnOutput::~OwnOutput() {
+  release_file(descriptor_);
   ::close(descriptor_);
 }
 

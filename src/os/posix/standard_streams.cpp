@@ -1,6 +1,7 @@
 #include "os/standard_streams.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "os/kept_files.h"
 
 namespace clusterbench::os {
 namespace {
@@ -33,14 +35,9 @@ class DescriptorText final : public std::streambuf {
     if (!traits_type::eq_int_type(one, traits_type::eof())) sputc(traits_type::to_char_type(one));
     return traits_type::not_eof(one);
   }
+  // After a failure, errno has the reason, and the text stays.
   int sync() override {
-    const char* at = pbase();
-    while (at < pptr()) {
-      const ssize_t bytes = ::write(descriptor_, at, static_cast<std::size_t>(pptr() - at));
-      if (bytes < 0 && errno == EINTR) continue;
-      if (bytes < 0) return -1;
-      at += bytes;
-    }
+    if (!is_written_to(descriptor_, {pbase(), static_cast<std::size_t>(pptr() - pbase())})) return -1;
     setp(buffer_.data(), buffer_.data() + buffer_.size());
     return 0;
   }
@@ -50,7 +47,30 @@ class DescriptorText final : public std::streambuf {
   std::array<char, 1 << 14> buffer_{};
 };
 
+// The C library takes it for a failure that a pipe is full which another program has set to O_NONBLOCK.
+void write_directly(std::ostream& stream, int descriptor) {
+  static std::array<DescriptorText*, 3> texts{};  // never destroyed: std::cout is flushed after all else has ended
+  DescriptorText*& text = texts.at(static_cast<std::size_t>(descriptor));
+  if (text == nullptr) text = new DescriptorText(descriptor);
+  stream.rdbuf(text);
+}
+
 }  // namespace
+
+bool is_written_to(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t put = ::write(descriptor, text.data(), text.size());
+    if (put >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(put));
+    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      pollfd full{descriptor, POLLOUT, 0};
+      ::poll(&full, 1, -1);
+    } else if (errno != EINTR) {
+      return false;
+    }
+  }
+  return true;
+}
 
 void keep_output_apart() {
   if (g_output != STDOUT_FILENO) return;
@@ -62,6 +82,8 @@ void keep_output_apart() {
   ::dup2(STDERR_FILENO, STDOUT_FILENO);
   std::cout.rdbuf(&text);
   g_output = kept;
+  keep_file(kept);
+  keep_standard_files();
 }
 
 int output_descriptor() {
@@ -72,6 +94,8 @@ void keep_standard_streams() {
   for (const auto& [stream, way] :
        {std::pair{STDIN_FILENO, O_WRONLY}, {STDOUT_FILENO, O_RDONLY}, {STDERR_FILENO, O_WRONLY}})
     if (::fcntl(stream, F_GETFD) < 0) ::open("/dev/null", way);  // uses the smallest free number
+  write_directly(std::cout, STDOUT_FILENO);
+  write_directly(std::cerr, STDERR_FILENO);
 }
 
 void report_size_limits_as_errors() {

@@ -102,7 +102,7 @@ void LockedFile::lock() {
   if (reason != ERROR_LOCK_VIOLATION && reason != ERROR_IO_PENDING) return;
   is_made_ = false;
   close();
-  throw Error(path_.string(), "", "another run is writing here; wait for its end, or name another file");
+  throw FileHeld(path_.string(), "", "another run is writing here; wait for its end, or name another file");
 }
 
 void LockedFile::close() {

@@ -20,4 +20,13 @@ NotesPage& share_notes() {
 
 void watch_for_crashes() {}
 
+// A process cannot be copied.
+bool is_forked_copy() {
+  return false;
+}
+void note_own_process() {}
+NotesPage* page_for_copies() {
+  return nullptr;
+}
+
 }  // namespace clusterbench::os

@@ -144,9 +144,13 @@ std::vector<NamedCase> distinct_cases(const std::vector<const Case*>& cases, Par
   return out;
 }
 
+std::string machine_part(const Case& result_case) {
+  return result_case.machine ? ", " + printable(*result_case.machine) : "";
+}
+
 std::string block_of(const Case& result_case) {
   return printable(result_case.grid.name) + ", camera " + printable(result_case.camera) + ", " +
-         viewport_text(result_case.viewport);
+         viewport_text(result_case.viewport) + machine_part(result_case);
 }
 
 std::vector<CaseBlock> blocks_of(const std::vector<Case>& cases, const Scene& scene) {

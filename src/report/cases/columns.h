@@ -68,7 +68,9 @@ using PartOfCase = nlohmann::ordered_json (*)(const result::Case& result_case);
 // The cases that have the part, without repetitions of method and part.
 std::vector<NamedCase> distinct_cases(const std::vector<const result::Case*>& cases, PartOfCase part);
 
-// The common properties of a block of cases: camera, viewport and grid.
+// ", machine 2", or "" if times are of one machine.
+std::string machine_part(const result::Case& result_case);
+// The common properties of a block of cases: camera, viewport and grid, and the machine if times are of several.
 std::string block_of(const result::Case& result_case);
 struct CaseBlock {
   std::string name;  // block_of() each case

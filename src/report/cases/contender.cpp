@@ -16,7 +16,7 @@ using result::Case;
 using result::Cost;
 
 std::string view_of(const Case& result_case) {
-  return result_case.camera + ", " + viewport_text(result_case.viewport);
+  return result_case.camera + ", " + viewport_text(result_case.viewport) + machine_part(result_case);
 }
 
 measure::Costs costs_of(const Case& result_case, RankBy by) {

@@ -195,7 +195,7 @@ std::string doubts_text(const Choice& choice) {
 // "street, camera walk, 1920x1080: ", the prefix of a conclusion.
 std::string view_text(const result::Conclusion& conclusion) {
   return shown(conclusion.scene) + ", camera " + shown(conclusion.camera) + ", " + viewport_text(conclusion.viewport) +
-         ": ";
+         (conclusion.machine ? ", " + shown(*conclusion.machine) : "") + ": ";
 }
 
 // Of a failed run.
@@ -243,6 +243,7 @@ result::Conclusion conclusion_of(const SceneView& view, const std::optional<resu
   result::Conclusion out;
   out.scene = view.scene;
   out.camera = view.camera;
+  out.machine = view.machine;
   out.viewport = {static_cast<std::int64_t>(view.viewport[0]), static_cast<std::int64_t>(view.viewport[1])};
   out.text = view_text(out);
   if (!unseen.empty()) {

@@ -49,11 +49,12 @@ std::vector<SceneView> scene_views(const result::Result& result, const Json& con
     if (result_case.preset) continue;
     const auto is_its = [&](const SceneView& view) {
       return result_case.scene == view.scene && result_case.camera == view.camera &&
-             result_case.viewport == view.viewport;
+             result_case.viewport == view.viewport && result_case.machine == view.machine;
     };
     auto view = std::ranges::find_if(views, is_its);
     if (view == views.end())
-      view = views.insert(views.end(), SceneView{result_case.scene, result_case.camera, result_case.viewport});
+      view = views.insert(views.end(),
+                          SceneView{result_case.scene, result_case.camera, result_case.viewport, result_case.machine});
     view->cases.push_back(&result_case);
     if (!loses_nothing_seen(result_case)) continue;
     WeighedCase weighed = weigh(result_case, config);

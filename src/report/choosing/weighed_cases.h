@@ -2,6 +2,7 @@
 // Cases with their costs, for a choice among those of one view.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -40,10 +41,11 @@ struct WeighedCase {
   const std::string& method() const { return result_case->assigner.name; }
 };
 
-// Cases that are compared with each other: those of one view.
+// Cases that are compared with each other: those of one view, and if times are of several machines, of one machine.
 struct SceneView {
   std::string scene, camera;
   result::Counts2 viewport{};
+  std::optional<std::string> machine{};
   std::vector<WeighedCase> sound{}, searched{};  // the cheapest first
   std::vector<WeighedCase> on_device{};          // the fastest by the device's clock first
   std::size_t unsampled = 0;                     // cases with unknown cost or losses

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -48,6 +49,20 @@ std::vector<OtherSetting> other_prices_of_costs(const Result& base, const Result
   return has_costs(base) && has_costs(next) ? other_prices(base, next) : std::vector<OtherSetting>();
 }
 
+// The names of machines in merged results: of each case the same machine, if any result is of several.
+bool are_on_same_machines(const Result& base, const Result& next) {
+  if (!base.machines && !next.machines) return true;
+  if (!base.machines || !next.machines || base.machines->size() != next.machines->size()) return false;
+  for (std::size_t i = 0; i < base.machines->size(); ++i)
+    if (!are_same((*base.machines)[i], (*next.machines)[i])) return false;
+  std::map<std::string, std::optional<std::string>> machine_of;
+  for (const Case& one : base.cases) machine_of[one.id] = one.machine;
+  return std::ranges::all_of(next.cases, [&](const Case& one) {
+    const auto found = machine_of.find(one.id);
+    return found == machine_of.end() || found->second == one.machine;
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> differing_margin(const Result& base, const Result& next) {
@@ -86,6 +101,9 @@ Obstacles obstacles(const Result& base, const Result& next) {
   out.to_instructions =
       differing({"/machine/cpu", "/machine/family", "/machine/model", "/machine/stepping", "/machine/caches",
                  "/tool/compiler", "/tool/flags", "/tool/build_type", "/tool/simd_target", "/config/timing/frames"});
+  if (!are_on_same_machines(base, next))
+    out.to_instructions.push_back(
+        "/machines differ: one has times of several machines, and its cases were not on those of the other");
   out.to_times = differing({"/machine/cores", "/machine/ram_bytes", "/machine/os"});
   const std::optional<std::string> base_caches = caches_of_times(base), next_caches = caches_of_times(next);
   if (base_caches && next_caches && *base_caches != *next_caches)

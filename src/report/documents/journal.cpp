@@ -90,7 +90,7 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
     if (number == 1)
       if (const std::string other = other_device(entry["header"], header); !other.empty()) refuse(other);
     if (number == 1 && entry["header"] != header)
-      refuse("is an interrupted run of another configuration, --count, scene or build");
+      refuse("is an interrupted run of another configuration, --count, --shard, scene or build");
     if (number > 1 && !(entry.is_object() && accept(entry))) refuse("is not what a run writes");
     begin = end + 1;
   }

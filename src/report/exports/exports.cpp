@@ -50,6 +50,14 @@ ExportCase read_case(const Case& result_case, std::size_t index, bool all) {
   return out;
 }
 
+// These formats have one machine; the result itself says which case was measured where.
+std::string machines_of(const result::Result& result) {
+  if (!result.machines) return machine_name(result.machine);
+  std::vector<std::string> names;
+  for (const result::MeasuredMachine& one : *result.machines) names.push_back(machine_name(one.machine));
+  return joined(names, " + ");
+}
+
 ExportResult read(const result::Result& result, bool all) {
   ExportResult out;
   out.all = all;
@@ -60,7 +68,7 @@ ExportResult read(const result::Result& result, bool all) {
   out.flags = result.tool.flags;
   out.build_type = result.tool.build_type;
   out.simd_target = result.tool.simd_target;
-  out.machine = machine_name(result.machine);
+  out.machine = machines_of(result);
   out.os = result.machine.os;
   out.cores = static_cast<int>(result.machine.cores);
   out.failed = result.failed.value_or(std::vector<std::string>());

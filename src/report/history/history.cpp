@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <set>
 #include <span>
+#include <thread>
 #include <tuple>
 
 #include "core/error.h"
@@ -177,13 +179,19 @@ HistoryEntry parsed_at(const std::string& path, const std::string& line, std::si
   }
 }
 
+// Editors leave blank lines, most often the last one.
+bool is_blank_line(std::string_view line) {
+  return line.find_first_not_of(" \t\r\n") == std::string_view::npos;
+}
+
 std::vector<HistoryEntry> parsed_file(const std::string& path, const std::string& text) {
   std::vector<HistoryEntry> history;
   for (std::size_t begin = 0, number = 1; begin < text.size(); ++number) {
     const std::size_t end = text.find('\n', begin);
+    const std::string line = text.substr(begin, end - begin);
     if (end == std::string::npos)
       throw Error(path, "line " + std::to_string(number), "has no end; was its writing interrupted?");
-    history.push_back(parsed_at(path, text.substr(begin, end - begin), number));
+    if (!is_blank_line(line)) history.push_back(parsed_at(path, line, number));
     begin = end + 1;
   }
   return history;
@@ -194,6 +202,28 @@ fs::path history_path(const std::string& path) {
   const os::OutputTarget target = os::output_target(path);
   if (target.is_stream) throw Error(path, "", "is no regular file; a history is one");
   return target.path;
+}
+
+// Others hold it for a moment, or are stopped and hold it without end.
+std::unique_ptr<os::LockedFile> locked_history(const std::string& path, const HistoryWait& wait) {
+  constexpr std::chrono::milliseconds k_pause(20);
+  bool is_told = false;
+  for (std::chrono::milliseconds waited(0);; waited += k_pause) {
+    try {
+      return std::make_unique<os::LockedFile>(history_path(path));
+    } catch (const os::FileHeld&) {
+      if (waited >= wait.longest)
+        throw Error(path, "",
+                    "is held by another process, still after " +
+                        number_of(static_cast<std::uint64_t>(wait.longest.count()), "second") +
+                        "; end that process (`fuser FILE` shows it), then add the result again");
+    }
+    if (!is_told && wait.on_long && waited >= wait.until_long) {
+      wait.on_long();
+      is_told = true;
+    }
+    std::this_thread::sleep_for(k_pause);
+  }
 }
 
 const Figure* exported_figure(const std::string& name) {
@@ -370,9 +400,11 @@ std::vector<HistoryEntry> read_history(const std::string& path) {
   return parsed_file(path, file_text(history_path(path)));
 }
 
-Addition add_to_history(const std::string& path, const result::Result& result, const std::string& commit) {
+Addition add_to_history(const std::string& path, const result::Result& result, const std::string& commit,
+                        const HistoryWait& wait) {
   os::require_folder_of(path);
-  os::LockedFile file(history_path(path), os::LockedFile::Held::wait);
+  const std::unique_ptr<os::LockedFile> locked = locked_history(path, wait);
+  os::LockedFile& file = *locked;
   std::string text = file.text();
   const std::vector<HistoryEntry> history = parsed_file(path, text);
   const std::string line = history_line(result, commit).dump() + "\n";
@@ -391,8 +423,12 @@ Addition add_to_history(const std::string& path, const result::Result& result, c
           return lights_of_scene(entry, scene.scene) != nullptr;
         }))
       addition.new_scenes.push_back(scene.scene);
-  for (const HistoryEntry& entry : history) {  // one line each
-    const std::size_t end = text.find('\n', begin) + 1;
+  for (const HistoryEntry& entry : history) {  // one line each, between blank ones
+    std::size_t end = text.find('\n', begin) + 1;
+    while (is_blank_line(std::string_view(text).substr(begin, end - begin))) {
+      begin = end;
+      end = text.find('\n', begin) + 1;
+    }
     if (entry.commit == commit) {
       ++addition.earlier;
       if (text.compare(begin, end - begin, line) == 0) addition.is_added = false;

@@ -1,6 +1,8 @@
 #pragma once
 // Results over commits: a file of JSON lines, one per result, with the headline figures of each case.
 
+#include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -78,11 +80,20 @@ struct Addition {
   std::vector<std::string> new_scenes = {};  // in no line of another commit, if there are such lines
   std::uint64_t other_names = 0;             // hard links of the file, which keep the old contents
 };
+
+// While another process holds the history: calls `on_long` once, after `until_long`, and gives up after `longest`.
+struct HistoryWait {
+  std::function<void()> on_long = {};
+  std::chrono::milliseconds until_long = std::chrono::seconds(1);
+  std::chrono::seconds longest = std::chrono::minutes(1);
+};
+
 // Adds the result as the file's last line, or after those of its commit if a job runs again; creates the file if
 // necessary. One process at a time: others wait. The file (or the target of a link) is replaced atomically by a
 // complete one, so a crash cannot leave a partial file. Throws Error for a file that is not a history, and on a failed
 // write.
-Addition add_to_history(const std::string& path, const result::Result& result, const std::string& commit);
+Addition add_to_history(const std::string& path, const result::Result& result, const std::string& commit,
+                        const HistoryWait& wait = {});
 
 // By case in order of first appearance, then by figure, without figures that repeat another in a different form; the
 // changes found by `rule`.

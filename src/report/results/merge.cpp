@@ -8,7 +8,9 @@
 #include "report/cases/json_values.h"
 #include "report/choosing/conclusion.h"
 #include "report/documents/machine_name.h"
+#include "report/results/merged_machines.h"
 #include "report/results/result_record.h"
+#include "report/results/sweep.h"
 
 namespace clusterbench::report {
 namespace {
@@ -18,22 +20,24 @@ using Json = nlohmann::ordered_json;
 // Parts of a configuration that must be equal for all cases of a result.
 constexpr const char* k_in_common[] = {"allocation", "cost", "rank_by", "reading"};
 
-bool is_measured(const result::Result& result) {
-  return std::ranges::any_of(result.cases,
-                             [](const result::Case& result_case) { return result_case.timing || result_case.count; });
+bool has_measured(const result::Result& result) {
+  return std::ranges::any_of(result.cases, is_measured);
+}
+
+// What a machine chooses itself is not the program's.
+result::Tool without_target(result::Tool tool) {
+  tool.simd_target.clear();
+  return tool;
 }
 
 void check_origin(const NamedPart& first, const NamedPart& next) {
   for (const char* key : k_in_common)
     if (first.result.config.value(key, Json()) != next.result.config.value(key, Json()))
       throw Error(next.file, std::string("/config/") + key, "is not that of " + first.file);
-  if (!is_measured(first.result) && !is_measured(next.result)) return;
-  const auto refuse = [&](const char* where) {
-    throw Error(next.file, where,
+  if (!has_measured(first.result) && !has_measured(next.result)) return;
+  if (!are_same(without_target(first.result.tool), without_target(next.result.tool)))
+    throw Error(next.file, "/tool",
                 "is not that of " + first.file + ": times and instructions of both have no place in one result");
-  };
-  if (!are_same(first.result.tool, next.result.tool)) refuse("/tool");
-  if (!are_same(without_state(first.result.machine), without_state(next.result.machine))) refuse("/machine");
 }
 
 // Appends items to `all` that it does not contain yet. `key` identifies an item, `key_name` is its name in messages,
@@ -125,7 +129,9 @@ std::optional<result::Device> common_device(const std::vector<NamedPart>& parts)
 
 }  // namespace
 
-result::Result merged(const std::vector<NamedPart>& parts) {
+result::Result merged(std::vector<NamedPart> parts) {
+  const bool is_sweep = is_any_shard(parts);
+  if (is_sweep) order_shards(parts);
   const result::Result& first = parts.front().result;
   result::Result out;
   out.schema_version = first.schema_version;
@@ -133,7 +139,8 @@ result::Result merged(const std::vector<NamedPart>& parts) {
   out.tool = first.tool;
   out.machine = without_state(first.machine);
   out.device = common_device(parts);
-  out.config = merged_config(parts);
+  out.config = is_sweep ? first.config : merged_config(parts);
+  MachinesOfParts machines(parts);
   std::vector<std::string> failed;
   Union<result::Scene> scenes(out.scenes, "scenes", &result::Scene::name, "name");
   std::vector<result::Plugin> all_plugins;
@@ -144,12 +151,16 @@ result::Result merged(const std::vector<NamedPart>& parts) {
     for (const result::Plugin& plugin : part.result.plugins.value_or(std::vector<result::Plugin>()))
       plugins.add(plugin, part.file, true);
     for (const result::Scene& scene : part.result.scenes) scenes.add(scene, part.file, true);
-    for (const result::Case& result_case : part.result.cases) cases.add(result_case, part.file, false);
+    for (result::Case result_case : part.result.cases) {
+      machines.name_in(result_case, part.result);
+      cases.add(result_case, part.file, false);
+    }
     add_skipped(out.skipped, part.result.skipped);
     add_broken(out, part.result);
     if (part.result.failed) failed.insert(failed.end(), part.result.failed->begin(), part.result.failed->end());
   }
   if (!all_plugins.empty()) out.plugins = std::move(all_plugins);
+  machines.add_to(out);
   out.pareto_front = fronts(out.scenes, out.cases, first);
   add_presets(out, first);
   out.conclusions = conclusions_of(out, first);

@@ -115,6 +115,7 @@ result::Result record_of(const run::Result& result, const std::vector<Case>& ear
     if (!out.plugins) out.plugins.emplace();
     out.plugins->push_back(run::record_of(*loaded));
   }
+  if (result.shard) out.shard = run::record_of(*result.shard);
   out.machine = run::record_of(result.machine);
   if (result.device) out.device = run::record_of(*result.device);
   if (out.device && result.arithmetic) out.device->arithmetic = run::record_of(*result.arithmetic);
@@ -125,9 +126,10 @@ result::Result record_of(const run::Result& result, const std::vector<Case>& ear
   add_extra_pairs(out.cases);
   add_costs(out.cases, out.config);
   add_device_frames(out.cases, out.config);
-  out.pareto_front = fronts(out.scenes, out.cases, out);
   for (const run::Skipped& skipped : result.skipped)
     out.skipped.push_back({skipped.name, skipped.reason, known(skipped.preset)});
+  if (out.shard) return out;  // what needs all cases is told of all
+  out.pareto_front = fronts(out.scenes, out.cases, out);
   add_presets(out, out);
   out.conclusions = conclusions_of(out, out);
   conclude_failures(out, {});

@@ -14,7 +14,8 @@ namespace clusterbench::report {
 inline constexpr int k_schema_version = 2;
 
 // `earlier_cases`, `earlier_broken`: those of an interrupted run. All cases are in the plan's order. A finished case
-// that broke afterwards, as its plug-in was unloaded, is among the cases, with a failure.
+// that broke afterwards, as its plug-in was unloaded, is among the cases, with a failure. A shard has no fronts, ranks
+// and conclusions: they are of all cases, and merged() draws them.
 result::Result record_of(const run::Result& result, const std::vector<result::Case>& earlier_cases,
                          const std::vector<result::BrokenCase>& earlier_broken = {});
 

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "report/cases/case_samples.h"
 #include "report/cases/columns.h"
+#include "report/documents/machine_name.h"
 
 namespace clusterbench::report {
 namespace {
@@ -98,10 +99,27 @@ std::string grid_notes(const std::vector<Case>& cases) {
   return out;
 }
 
+std::string shard_note(const result::Result& result) {
+  if (!result.shard) return "";
+  return "note: shard " + std::to_string(result.shard->index) + " of " + std::to_string(result.shard->count) +
+         " of a run: stars, ranks, budgets and conclusions are those of all, which `clusterbench merge` makes one "
+         "result of\n";
+}
+
+std::string machines_note(const result::Result& result) {
+  if (!result.machines) return "";
+  std::vector<std::string> machines;
+  for (const result::MeasuredMachine& one : *result.machines)
+    machines.push_back(shown(one.name) + ": " + shown(machine_name(one.machine)) + ", " +
+                       number_of(one.machine.cores, "core"));
+  return "note: times of several machines, each with stars, ranks and conclusions of its own. " +
+         joined(machines, "; ") + "\n";
+}
+
 }  // namespace
 
 std::string notes_text(const result::Result& result) {
-  std::string out;
+  std::string out = shard_note(result) + machines_note(result);
   for (const Scene& scene : result.scenes) {
     const result::RangeRule& rule = scene.range_rule;
     const std::uint64_t made = rule.from_intensity + rule.clamped;

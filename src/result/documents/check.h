@@ -35,6 +35,8 @@ struct ListErrors {
   FIELD(std::uint64_t, lost_pairs, "True pairs that are not listed", "pairs");
   FIELD(std::uint64_t, lost_within_rounding, "Of these, those that `rounding` of the dump allows for", "pairs");
   FIELD(std::uint64_t, lost_lights, "Lights that a cell has lost, each once", "lights");
+  FIELD(std::uint64_t, lost_in_full_lists, "Of the lost pairs, those of cells whose list is full (layout fixed)",
+        "pairs");
   FIELD(std::uint64_t, absent_lights, "Lights that reach a cell and are in no list at all", "lights");
   FIELD(std::uint64_t, undecided, "Pairs that exact arithmetic could not decide; counted as true", "pairs");
   FIELD(double, deepest_mm,
@@ -65,14 +67,17 @@ struct LostInCell {
 struct OtherReading {
   static About about() {
     return About(
-        "Another order of cells, another camera or another description of lists, which loses far fewer lights");
+        "Another order of cells, another camera, other ranges or another description of lists, which loses far fewer "
+        "lights, or makes far more of the listed pairs true");
   }
   RECORD(OtherReading);
   FIELD(std::string, axes, "As grid.axes of the dump");
   FIELD(std::string, first_row, "As grid.first_row");
   FIELD(std::string, first_slice, "As grid.first_slice");
+  FIELD(std::string, order, "What differs in these three; empty: nothing");
   FIELD(std::string, camera, "What differs in the camera; empty: nothing");
   FIELD(std::string, lists, "What differs in the description of the lists; empty: nothing");
+  FIELD(std::string, lights, "What differs in the lights' ranges; empty: nothing");
   FIELD(std::uint64_t, lost_pairs, "That it would lose", "pairs");
   END_RECORD;
 };
@@ -119,7 +124,7 @@ struct CheckedDump {
   FIELD(std::string, grid_kind, "Of the grid");
   FIELD(CellIndex, cells, "Numbers of columns, rows and slices");
   FIELD(std::vector<CheckedSet>, sets, "In the order of the dump");
-  FIELD(std::vector<CheckedMethod>, methods, "On the same frame; empty with --no-methods");
+  FIELD(std::vector<CheckedMethod>, methods, "On the same frame; empty with --methods none");
   FIELD(std::vector<std::string>, methods_left_out, "Of those that were asked for: would take too long on this frame");
   END_RECORD;
 };

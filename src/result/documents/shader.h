@@ -17,9 +17,9 @@ struct ShaderParameter {
   RECORD(ShaderParameter);
   FIELD(std::string, name, "Of small letters, digits and _");
   FIELD(std::string, summary, "What it is");
-  FIELD(double, standard, About("Its value where nobody sets it").finite());
-  FIELD(double, least, About("").finite());
-  FIELD(double, most, About("").finite());
+  FIELD_AS("default", double, default_value, About("Its value where nobody sets it").finite());
+  FIELD(double, min, About("").finite());
+  FIELD(double, max, About("").finite());
   FIELD(std::optional<bool>, whole, "Only whole numbers; absent: true");
   FIELD(std::optional<std::string>, unit, "Absent: none");
   END_RECORD;

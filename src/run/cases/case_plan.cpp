@@ -28,6 +28,13 @@ const assign::AssignerDescriptor& method_of(const config::Config& config, const 
   return *assign::find_assigner(config.assigners[case_plan.assigner].name);
 }
 
+bool runs_elsewhere(const config::Config& config, const GroupPlan& group) {
+  return std::ranges::any_of(group.cases, [&](const CasePlan& case_plan) {
+    const assign::AssignerDescriptor& method = method_of(config, case_plan);
+    return method.on_device || !method.plugin.empty();
+  });
+}
+
 assign::AssignerRun start_method(const config::Config& config, const Method& method) {
   const config::MethodRequest& request = config.assigners[method.assigner];
   os::note_label(label_of(method));

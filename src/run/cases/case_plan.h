@@ -55,6 +55,9 @@ std::vector<Method> methods_of(const GroupPlan& group);
 // A method of a group as the label of its calls (os/call_notes.h).
 std::uint64_t label_of(const Method& method);
 const assign::AssignerDescriptor& method_of(const config::Config& config, const CasePlan& case_plan);
+// Whether methods of the group run on a device, which serves one at a time, or in code of others, whose calls are told
+// apart by their order (os/call_notes.h).
+bool runs_elsewhere(const config::Config& config, const GroupPlan& group);
 // A case's method, ready to be built.
 assign::AssignerRun start_method(const config::Config& config, const Method& method);
 

@@ -11,6 +11,7 @@ std::shared_ptr<const depth::DepthImage> FrameDepths::of(const view::Frame& fram
 std::shared_ptr<const depth::DepthImage> FrameDepths::thinned(const view::Frame& frame, int divisor, int threads) {
   Shot shot{frame.time_s, frame.view_space.origin, frame.view_space.rotation, frame.projection, frame.viewport};
   const depth::PixelGrid pixels(frame.viewport, divisor);
+  const std::lock_guard one_at_a_time(casting_);
   if (const std::shared_ptr<const depth::DepthImage> all = kept(shot))
     return divisor == 1 ? all : std::make_shared<const depth::DepthImage>(depth::thinned(*all, pixels));
   shot.divisor = divisor;
@@ -35,6 +36,7 @@ std::shared_ptr<const depth::DepthImage> FrameDepths::kept(const Shot& shot) con
 
 depth::LayerImage FrameDepths::layers(const view::Frame& frame, const depth::DepthImage& opaque, int most_layers,
                                       int threads) {
+  const std::lock_guard one_at_a_time(casting_);
   caster_.pose(frame);
   return caster_.layers(frame, opaque, most_layers, threads);
 }

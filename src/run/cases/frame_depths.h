@@ -2,13 +2,15 @@
 // Depth images of a scene's frames: one source for methods and sample sets, shared by all grids.
 
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "depth/ray_caster.h"
 
 namespace clusterbench::run {
 
-// Depth images of one scene. Nothing is cast before the first request.
+// Depth images of one scene. Nothing is cast before the first request. Several threads may request images: they wait
+// for one another, since the scene stands as at one frame's time.
 class FrameDepths {
  public:
   // Both must outlive this object.
@@ -50,6 +52,7 @@ class FrameDepths {
 
   std::shared_ptr<const depth::DepthImage> kept(const Shot& shot) const;  // null: not cached
 
+  std::mutex casting_;
   depth::RayCaster caster_;
   std::vector<Kept> kept_;
   int images_cast_ = 0;

@@ -8,7 +8,7 @@ FrameSamples::FrameSamples(const config::Config& config, std::span<const config:
                            const SceneData& data, const PathFrames& path)
     : config_(config), sets_(sets), data_(data), path_(path) {}
 
-std::vector<FrameSampleSet> FrameSamples::of(const view::Frame& frame) {
+std::vector<FrameSampleSet> FrameSamples::of(const view::Frame& frame) const {
   std::vector<FrameSampleSet> out;
   for (const config::SampleSetRequest& request : sets_) {
     FrameSampleSet& set = out.emplace_back();

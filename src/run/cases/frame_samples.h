@@ -29,7 +29,8 @@ class FrameSamples {
                const PathFrames& path);
 
   // One per set, in the same order; sets that the scene does not have (set_obstacle()) are empty.
-  std::vector<FrameSampleSet> of(const view::Frame& frame);
+  // Several threads may call it.
+  std::vector<FrameSampleSet> of(const view::Frame& frame) const;
 
  private:
   std::vector<grid::Sample> points_of(const config::SampleSetRequest& request, const view::Frame& frame) const;

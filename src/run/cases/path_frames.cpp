@@ -144,7 +144,7 @@ std::vector<int> evenly_spaced(int wanted, int path_frames) {
 bool GridOfFrames::update(const PathFrames& path, const view::Frame& frame) {
   const grid::GridInputs inputs = path.inputs(spec_, frame);
   if (is_made_ && inputs == inputs_) return false;
-  grid_ = grid::make_grid(spec_, inputs);
+  grid_ = std::make_shared<const grid::Grid>(grid::make_grid(spec_, inputs));
   inputs_ = inputs;
   is_made_ = true;
   return true;

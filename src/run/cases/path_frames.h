@@ -118,12 +118,14 @@ class GridOfFrames {
 
   // True if the grid is a new one.
   bool update(const PathFrames& path, const view::Frame& frame);
-  const grid::Grid& grid() const { return grid_; }
+  const grid::Grid& grid() const { return *grid_; }
+  // Stays valid after the next update.
+  const std::shared_ptr<const grid::Grid>& shared() const { return grid_; }
 
  private:
   grid::GridSpec spec_;
   grid::GridInputs inputs_;
-  grid::Grid grid_;
+  std::shared_ptr<const grid::Grid> grid_ = std::make_shared<const grid::Grid>();
   bool is_made_ = false;
 };
 

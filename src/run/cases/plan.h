@@ -1,6 +1,8 @@
 #pragma once
 // The plan of a run: the product of a configuration's axes, as cases.
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +21,19 @@ struct Skipped {
   std::string preset = {};     // "" for the configuration's own clusterings
 };
 
+// Which part of a run a plan is (run/shards.h), and what identifies the whole run.
+struct PlannedShard {
+  std::uint64_t index = 1, count = 1;  // from 1
+  std::string sweep;                   // a digest of all that its shards have in common
+  std::string filter;                  // that selected its cases; "": none did
+  std::string host;                    // a digest of the machine's name
+};
+
 struct Plan {
   std::vector<SceneData> scenes;  // loaded, ranges resolved
   std::vector<GroupPlan> groups;
-  std::vector<Skipped> skipped;  // impossible combinations, each with its reason
+  std::vector<Skipped> skipped;       // impossible combinations, each with its reason
+  std::optional<PlannedShard> shard;  // none: the plan is the whole run
 
   Plan() = default;
   Plan(Plan&&) = default;

@@ -9,6 +9,7 @@ std::shared_ptr<const cull::VisibleSets> SceneVisibleSets::of(const scene::Camer
                                                               int threads) {
   std::vector<Eye> eyes;
   for (const scene::Shot& shot : path.shots) eyes.push_back({shot.time_s, shot.pose.eye});
+  const std::lock_guard one_at_a_time(building_);
   const auto found = std::ranges::find_if(
       kept_, [&](const Kept& kept) { return kept.eyes == eyes && kept.step == step && kept.seed == seed; });
   if (found != kept_.end()) return found->sets;

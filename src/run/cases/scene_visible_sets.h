@@ -2,13 +2,14 @@
 // Potentially visible sets of a scene (cull/visible_sets.h), each built once for all grids, viewports and passes.
 
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "cull/visible_sets.h"
 
 namespace clusterbench::run {
 
-// Sets of one scene. Nothing is built before the first request.
+// Sets of one scene. Nothing is built before the first request. Several threads may request sets: each is built once.
 class SceneVisibleSets {
  public:
   // Both must outlive this object.
@@ -34,6 +35,7 @@ class SceneVisibleSets {
 
   const scene::Scene& scene_;
   const scene::Geometry& geometry_;
+  std::mutex building_;
   std::vector<Kept> kept_;
 };
 

@@ -348,6 +348,7 @@ struct Result {
   std::vector<Skipped> skipped;
   std::vector<result::BrokenCase> broken;  // that this process found
   std::vector<std::string> planned_ids;    // of all cases of the plan, in its order
+  std::optional<PlannedShard> shard;       // the plan's
 };
 
 }  // namespace clusterbench::run

@@ -12,6 +12,7 @@
 #include "run/cases/impossible_cases.h"
 #include "run/cases/path_culls.h"
 #include "run/findings/light_shadows.h"
+#include "run/passes/frame_pipeline.h"
 
 namespace clusterbench::run {
 namespace {
@@ -24,15 +25,39 @@ std::uint32_t real_cells(const grid::Grid& grid) {
 
 // One frame, shared by all methods of the group.
 struct PreparedFrame {
+  int at = 0;  // its place among the frames of the pass
   view::Frame frame;
+  std::shared_ptr<const grid::Grid> grid;
   bool is_new_grid = false;
   FrameLights lights;
   std::shared_ptr<const depth::DepthImage> depth;  // if a method needs it
   bool has_truth = false;
   measure::Truth truth;                 // of the grid's cells, if something is compared with it
   std::vector<FrameSampleSet> samples;  // one per set of the configuration
+  // The lights that parts of the samples need, per set; none for frames with many samples (has_many_samples()).
+  std::vector<std::vector<measure::NeededLights>> needed;
   std::optional<measure::LookupFrame> lookup;
+
+  std::size_t bytes() const;
 };
+
+std::size_t bytes_of(const assign::Lists& lists) {
+  return lists.begin.size() * sizeof(lists.begin[0]) + lists.lights.size() * sizeof(lists.lights[0]);
+}
+
+std::size_t bytes_of(const FrameSampleSet& set) {
+  return set.samples.size() * sizeof(grid::Sample) + (set.picture ? set.picture->nearest.size() * sizeof(float) : 0);
+}
+
+// Of the parts that grow with cells, lights and samples.
+std::size_t PreparedFrame::bytes() const {
+  std::size_t sum = bytes_of(truth.lists) + frame.lights.size() * 2 * sizeof(scene::WorldLight);
+  if (depth) sum += depth->nearest.size() * sizeof(float);
+  for (const FrameSampleSet& set : samples) sum += bytes_of(set);
+  for (const std::vector<measure::NeededLights>& set : needed)
+    for (const measure::NeededLights& part : set) sum += bytes_of(part.lists) + part.lux.size() * sizeof(double);
+  return sum;
+}
 
 class MethodMeter {
  public:
@@ -55,7 +80,9 @@ class MethodMeter {
     if (over_frames == ListsOverFrames::compared && measures_.has_cells) list_changes_.emplace();
   }
 
-  void add(const PreparedFrame& now, const grid::Grid& grid) {
+  void add(const PreparedFrame& now) {
+    grid_ = now.grid;
+    const grid::Grid& grid = *grid_;
     const view::LightArrays& lights = now.lights.in_precision(measures_.method.precision);
     if (now.is_new_grid) run_.build(grid, assign::kinds_of(lights));
     run_.assign(now.frame, lights, now.depth.get());
@@ -128,6 +155,7 @@ class MethodMeter {
   int threads_;
   std::uint32_t most_lights_;  // most lights of a frame that the method gets
   LightShadows* shadows_;
+  std::shared_ptr<const grid::Grid> grid_;  // for which the method is built
   CulledRun run_;
   std::optional<PreCullMeter> cull_meter_;
   std::vector<ShadowCullMeter> shadow_culls_;  // one per way, for lists only
@@ -193,10 +221,10 @@ class CaseMeter {
     roomy_meter_.emplace(config);
   }
 
-  void add(const PreparedFrame& now, const grid::Grid& grid, const MethodMeter& method) {
+  void add(const PreparedFrame& now, const MethodMeter& method) {
     for (assign::Storage* storage : {storage_.get(), roomy_storage_.get()}) {
       if (storage == nullptr) continue;
-      if (now.is_new_grid) storage->start(grid, method.light_room(now.frame));
+      if (now.is_new_grid) storage->start(*now.grid, method.light_room(now.frame));
       method.run().store(*storage);
     }
     const assign::LightStructure& structure = storage_ ? *storage_ : *method.run().own_structure();
@@ -232,40 +260,63 @@ class CaseMeter {
 // Needed lights are stored for this many samples at a time: those of a full-resolution image would not fit in memory.
 constexpr std::size_t k_samples_at_once = 16384;
 
-void evaluate_samples(const PreparedFrame& now, std::vector<MethodMeter>& methods, std::vector<CaseMeter>& cases,
-                      const std::atomic<bool>& stop) {
-  for (std::size_t set = 0; set < now.samples.size(); ++set) {
-    const std::span<const grid::Sample> all = now.samples[set].samples;
-    for (std::size_t begin = 0; begin < all.size(); begin += k_samples_at_once) {
-      const std::span<const grid::Sample> some = all.subspan(begin, std::min(k_samples_at_once, all.size() - begin));
-      const measure::NeededLights needed = measure::needed_lights(now.frame, some);
-      for (MethodMeter& method : methods) method.add_needed(set, needed);
-      for (CaseMeter& meter : cases) {
-        if (stop) return;
-        meter.add_samples(set, now.frame.index, some, needed);
-      }
-    }
-    const std::optional<depth::DepthImage>& picture = now.samples[set].picture;
-    if (!picture || !picture->pixels.is_full_resolution()) continue;  // waves are made of neighbouring pixels
-    for (CaseMeter& meter : cases) {
-      if (stop) return;
-      meter.add_waves(set, now.samples[set]);
-    }
-  }
+std::size_t part_count(std::span<const grid::Sample> samples) {
+  return (samples.size() + k_samples_at_once - 1) / k_samples_at_once;
+}
+std::span<const grid::Sample> part_of(std::span<const grid::Sample> samples, std::size_t part) {
+  const std::size_t begin = part * k_samples_at_once;
+  return samples.subspan(begin, std::min(k_samples_at_once, samples.size() - begin));
 }
 
+// A method and its cases, which have nothing in common with other methods.
+class MethodWork {
+ public:
+  MethodWork(MethodMeter& method, std::vector<CaseMeter>& cases) : method_(method) {
+    for (CaseMeter& meter : cases)
+      if (meter.method() == method.method()) cases_.push_back(&meter);
+  }
+
+  // Lists, and samples whose needed lights are known.
+  void add(const PreparedFrame& now, const Stop& stop) const {
+    method_.add(now);
+    for (CaseMeter* meter : cases_)
+      if (!stop) meter->add(now, method_);
+    for (std::size_t set = 0; set < now.needed.size(); ++set) {
+      for (std::size_t part = 0; part < now.needed[set].size(); ++part)
+        add_samples(now, set, part, now.needed[set][part], stop);
+      add_waves(now, set, stop);
+    }
+  }
+  void add_samples(const PreparedFrame& now, std::size_t set, std::size_t part, const measure::NeededLights& needed,
+                   const Stop& stop) const {
+    method_.add_needed(set, needed);
+    for (CaseMeter* meter : cases_)
+      if (!stop) meter->add_samples(set, now.frame.index, part_of(now.samples[set].samples, part), needed);
+  }
+  // Waves are made of neighbouring pixels.
+  void add_waves(const PreparedFrame& now, std::size_t set, const Stop& stop) const {
+    const std::optional<depth::DepthImage>& picture = now.samples[set].picture;
+    if (!picture || !picture->pixels.is_full_resolution()) return;
+    for (CaseMeter* meter : cases_)
+      if (!stop) meter->add_waves(set, now.samples[set]);
+  }
+
+ private:
+  MethodMeter& method_;
+  std::vector<CaseMeter*> cases_;
+};
+
 // Finds by true shadow rays which of the needed lights are lit.
-void evaluate_lit_samples(const config::Config& config, const PreparedFrame& now, const grid::Grid& grid,
-                          const LightShadows& shadows, std::vector<MethodMeter>& methods,
-                          const std::atomic<bool>& stop) {
+void evaluate_lit_samples(const config::Config& config, const PreparedFrame& now, const LightShadows& shadows,
+                          std::vector<MethodMeter>& methods, const Stop& stop) {
   for (std::size_t set = 0; set < now.samples.size(); ++set) {
     if (config.sample_sets[set].set != measure::SampleSet::opaque) continue;
     const std::span<const grid::Sample> all = now.samples[set].samples;
-    for (std::size_t begin = 0; begin < all.size() && !stop; begin += k_samples_at_once) {
-      const std::span<const grid::Sample> some = all.subspan(begin, std::min(k_samples_at_once, all.size() - begin));
+    for (std::size_t part = 0; part < part_count(all) && !stop; ++part) {
+      const std::span<const grid::Sample> some = part_of(all, part);
       const measure::NeededLights needed = measure::needed_lights(now.frame, some);
       const std::vector<std::vector<bool>> is_lit = shadows.lit(some, needed);
-      for (MethodMeter& method : methods) method.add_lit_samples(grid, some, needed, is_lit);
+      for (MethodMeter& method : methods) method.add_lit_samples(*now.grid, some, needed, is_lit);
     }
   }
 }
@@ -282,22 +333,189 @@ measure::SharingLimits sharing_limits(const config::SharedFrustaRequest& request
   return {request.apart_m, glm::radians(request.turned_deg), request.growth};
 }
 
-PreparedFrame prepare(const config::Config& config, const GroupPlan& group, const PathFrames& path,
-                      FrameSamples& samples, GridOfFrames& grids, int index, bool needs_truth) {
-  PreparedFrame now;
-  now.frame = path.frame(index);
-  now.is_new_grid = grids.update(path, now.frame);
-  const grid::Grid& grid = grids.grid();
-  now.lights = FrameLights(config.precisions, view::lights_in(now.frame, grid::space_of(grid, now.frame)));
-  now.depth = depths_for(config, group, path, now.frame);
-  now.has_truth = needs_truth;
-  if (needs_truth) now.truth = measure::find_truth(now.frame, grid, config.threads);
-  const double far = sample_far(now.frame, path.far_m());
-  if (config.lookup)
-    now.lookup.emplace(now.frame, grid, config.lookup->ways(), far, config.lookup->samples, config.seed);
-  now.samples = samples.of(now.frame);
-  return now;
+bool has_many_samples(const config::Config& config, const PathFrames& path) {
+  return std::ranges::any_of(config.sample_sets, [&](const config::SampleSetRequest& request) {
+    return request.most_samples(path.viewport()) > static_cast<double>(k_samples_at_once);
+  });
 }
+
+// What all methods of a group share, over the frames of the pass.
+class FrameFacts {
+ public:
+  // All must outlive this object; `result` receives the facts.
+  FrameFacts(const config::Config& config, const grid::GridSpec& spec, const PathFrames& path, AccuracyResult& result)
+      : config_(config),
+        spec_(spec),
+        path_(path),
+        losses_(config.compares_precisions() ? config.precisions.size() : 0),
+        result_(result) {
+    if (config.shared_frusta) result.sharing.emplace();
+    if (spec.has_tiles() && spec.slices.fit)
+      moves_.emplace(spec.slices.scheme == grid::Scheme::exponential_first ? std::size_t{1} : std::size_t{0});
+  }
+
+  void add(const PreparedFrame& now) {
+    const grid::Grid& grid = *now.grid;
+    measure::add_frame(result_.lights_in_view, now.frame);
+    measure::add_frame(result_.lights_beyond_grid, now.frame, grid);
+    if (moves_) moves_->add(grid.screen(), path_.spans(spec_)[static_cast<std::size_t>(now.at)]);
+    for (std::size_t i = 0; i < losses_.size(); ++i) losses_[i].add_frame(now.lights.packed(i));
+    if (result_.sharing) measure::add_frame(*result_.sharing, now.frame, sharing_limits(*config_.shared_frusta));
+    if (grid.kind() == grid::Kind::frustum) add_depth_ranges(now, grid.screen(), result_);
+  }
+  void finish() {
+    for (const measure::PackingLossMeter& loss : losses_) result_.losses.push_back(loss.result());
+    if (moves_) result_.moves = moves_->result();
+  }
+
+ private:
+  const config::Config& config_;
+  const grid::GridSpec& spec_;
+  const PathFrames& path_;
+  std::optional<GridMoveMeter> moves_;
+  std::vector<measure::PackingLossMeter> losses_;
+  AccuracyResult& result_;
+};
+
+class AccuracyPass {
+ public:
+  AccuracyPass(const config::Config& config, const SceneData& data, const GroupPlan& group, const PathFrames& path,
+               const std::function<void(int frame)>& on_frame, const Stop& stop, ListsOverFrames over_frames)
+      : config_(config),
+        group_(group),
+        path_(path),
+        on_frame_(on_frame),
+        stop_(stop),
+        samples_(config, data, path),
+        culls_(config, group, path),
+        has_many_samples_(has_many_samples(config, path)),
+        grids_(config.grids[group.grid]),
+        facts_(config, config.grids[group.grid], path, result_) {
+    if (!config.shadow_culls.empty() && shadow_obstacle(data).empty()) shadows_.emplace(config, data, path);
+    make_meters(over_frames);
+  }
+
+  AccuracyResult run() {
+    const FrameWork<PreparedFrame> work = frame_work();
+    if (!FramePipeline<PreparedFrame>(work, path_.count(), config_.threads, stop_).run()) return std::move(result_);
+    for (const MethodMeter& method : methods_) result_.methods.push_back(method.result());
+    for (const CaseMeter& meter : cases_) result_.structures.push_back(meter.result());
+    facts_.finish();
+    result_.last_grid = grids_.grid();
+    result_.is_complete = true;
+    return std::move(result_);
+  }
+
+ private:
+  void make_meters(ListsOverFrames over_frames) {
+    const bool compares = compares_cells(config_, group_),
+               has_too_many_cells = !group_.cases.empty() && group_.cases.front().cells_not_compared > 0;
+    for (const Method& method : culls_.methods)
+      methods_.emplace_back(config_, method, culls_.path.of(method), culls_.max_lights_of(method), over_frames,
+                            shadows_ ? &*shadows_ : nullptr, compares, has_too_many_cells);
+    needs_truth_ = std::ranges::any_of(methods_, &MethodMeter::needs_grid_truth);
+    for (const CasePlan& case_plan : group_.cases) cases_.emplace_back(config_, case_plan);
+    for (MethodMeter& method : methods_) works_.emplace_back(method, cases_);
+  }
+
+  FrameWork<PreparedFrame> frame_work() {
+    FrameWork<PreparedFrame> work;
+    work.begin = [this](int index) { return begun(index); };
+    work.prepare = [this](PreparedFrame& now) { prepare(now); };
+    work.bytes = [](const PreparedFrame& now) { return now.bytes(); };
+    work.users.emplace_back([this](const PreparedFrame& now) { start(now); });
+    for (const MethodWork& method : works_)
+      work.users.emplace_back([this, &method](const PreparedFrame& now) { method.add(now, stop_); });
+    if (has_many_samples_ || shadows_) work.after = [this](const PreparedFrame& now) { finish(now); };
+    work.users_apart = !shadows_ && !runs_elsewhere(config_, group_);
+    return work;
+  }
+
+  std::unique_ptr<PreparedFrame> begun(int index) {
+    on_frame_(index);
+    auto now = std::make_unique<PreparedFrame>();
+    now->at = index;
+    now->frame = path_.frame(index);
+    now->is_new_grid = grids_.update(path_, now->frame);
+    now->grid = grids_.shared();
+    now->has_truth = needs_truth_;
+    return now;
+  }
+
+  void prepare(PreparedFrame& now) const {
+    const grid::Grid& grid = *now.grid;
+    now.lights = FrameLights(config_.precisions, view::lights_in(now.frame, grid::space_of(grid, now.frame)));
+    now.depth = depths_for(config_, group_, path_, now.frame);
+    if (needs_truth_) now.truth = measure::find_truth(now.frame, grid, config_.threads);
+    const double far = sample_far(now.frame, path_.far_m());
+    if (config_.lookup)
+      now.lookup.emplace(now.frame, grid, config_.lookup->ways(), far, config_.lookup->samples, config_.seed);
+    now.samples = samples_.of(now.frame);
+    if (!has_many_samples_) add_needed(now);
+  }
+
+  static void add_needed(PreparedFrame& now) {
+    for (const FrameSampleSet& set : now.samples) {
+      std::vector<measure::NeededLights>& parts = now.needed.emplace_back();
+      for (std::size_t part = 0; part < part_count(set.samples); ++part)
+        parts.push_back(measure::needed_lights(now.frame, part_of(set.samples, part)));
+    }
+  }
+
+  void start(const PreparedFrame& now) {
+    facts_.add(now);
+    if (shadows_) shadows_->start(now.frame);
+  }
+
+  void finish(const PreparedFrame& now) {
+    if (has_many_samples_)
+      for (std::size_t set = 0; set < now.samples.size(); ++set) evaluate_many(now, set);
+    if (shadows_) evaluate_lit_samples(config_, now, *shadows_, methods_, stop_);
+  }
+
+  // As many parts at a time as there are threads: first the lights that they need, then the methods.
+  void evaluate_many(const PreparedFrame& now, std::size_t set) {
+    ThreadPool pool(config_.threads);
+    const std::span<const grid::Sample> all = now.samples[set].samples;
+    const std::size_t parts = part_count(all), at_once = static_cast<std::size_t>(config_.threads);
+    for (std::size_t first = 0; first < parts && !stop_; first += at_once) {
+      std::vector<measure::NeededLights> needed(std::min(at_once, parts - first));
+      each_in_order(pool, needed.size(), [&](std::size_t i) {
+        if (!stop_) needed[i] = measure::needed_lights(now.frame, part_of(all, first + i));
+      });
+      if (stop_) return;
+      each_method(pool, [&](const MethodWork& method) {
+        for (std::size_t i = 0; i < needed.size() && !stop_; ++i)
+          method.add_samples(now, set, first + i, needed[i], stop_);
+      });
+    }
+    each_method(pool, [&](const MethodWork& method) { method.add_waves(now, set, stop_); });
+  }
+
+  // Those that run elsewhere are asked by the calling thread alone, too.
+  template <class Work>
+  void each_method(ThreadPool& pool, const Work& work) {
+    if (!runs_elsewhere(config_, group_))
+      return each_in_order(pool, works_.size(), [&](std::size_t i) { work(works_[i]); });
+    for (const MethodWork& method : works_) work(method);
+  }
+
+  const config::Config& config_;
+  const GroupPlan& group_;
+  const PathFrames& path_;
+  const std::function<void(int frame)>& on_frame_;
+  Stop stop_;
+  FrameSamples samples_;
+  GroupCulls culls_;
+  bool has_many_samples_, needs_truth_ = false;
+  std::optional<LightShadows> shadows_;
+  GridOfFrames grids_;
+  AccuracyResult result_;
+  FrameFacts facts_;
+  std::vector<MethodMeter> methods_;
+  std::vector<CaseMeter> cases_;
+  std::vector<MethodWork> works_;  // one per method
+};
 
 }  // namespace
 
@@ -312,59 +530,9 @@ CaseSide structure_side(const StructureMeasures& measures) {
 }
 
 AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,
-                             const PathFrames& path, const std::function<void(int frame)>& on_frame,
-                             const std::atomic<bool>& stop, ListsOverFrames over_frames) {
-  std::optional<LightShadows> shadows;
-  if (!config.shadow_culls.empty() && shadow_obstacle(data).empty()) shadows.emplace(config, data, path);
-  const GroupCulls culls(config, group, path);
-  const bool compares = compares_cells(config, group),
-             has_too_many_cells = !group.cases.empty() && group.cases.front().cells_not_compared > 0;
-  std::vector<MethodMeter> methods;
-  for (const Method& method : culls.methods)
-    methods.emplace_back(config, method, culls.path.of(method), culls.max_lights_of(method), over_frames,
-                         shadows ? &*shadows : nullptr, compares, has_too_many_cells);
-  const bool needs_truth = std::ranges::any_of(methods, &MethodMeter::needs_grid_truth);
-  std::vector<CaseMeter> cases;
-  for (const CasePlan& case_plan : group.cases) cases.emplace_back(config, case_plan);
-
-  std::vector<measure::PackingLossMeter> losses(config.compares_precisions() ? config.precisions.size() : 0);
-
-  AccuracyResult result;
-  if (config.shared_frusta) result.sharing.emplace();
-  FrameSamples samples(config, data, path);
-  const grid::GridSpec& spec = config.grids[group.grid];
-  GridOfFrames grids(spec);
-  std::optional<GridMoveMeter> moves;
-  if (spec.has_tiles() && spec.slices.fit)
-    moves.emplace(spec.slices.scheme == grid::Scheme::exponential_first ? std::size_t{1} : std::size_t{0});
-  for (int index = 0; index < path.count(); ++index) {
-    if (stop) return result;
-    on_frame(index);
-    const PreparedFrame now = prepare(config, group, path, samples, grids, index, needs_truth);
-    measure::add_frame(result.lights_in_view, now.frame);
-    measure::add_frame(result.lights_beyond_grid, now.frame, grids.grid());
-    if (moves) moves->add(grids.grid().screen(), path.spans(spec)[static_cast<std::size_t>(index)]);
-    for (std::size_t i = 0; i < losses.size(); ++i) losses[i].add_frame(now.lights.packed(i));
-    if (shadows) shadows->start(now.frame);
-    if (result.sharing) measure::add_frame(*result.sharing, now.frame, sharing_limits(*config.shared_frusta));
-    for (MethodMeter& method : methods) {
-      if (stop) return result;
-      method.add(now, grids.grid());
-      for (CaseMeter& meter : cases)
-        if (meter.method() == method.method()) meter.add(now, grids.grid(), method);
-    }
-    evaluate_samples(now, methods, cases, stop);
-    if (shadows) evaluate_lit_samples(config, now, grids.grid(), *shadows, methods, stop);
-    if (stop) return result;
-    if (grids.grid().kind() == grid::Kind::frustum) add_depth_ranges(now, grids.grid().screen(), result);
-  }
-  for (const MethodMeter& method : methods) result.methods.push_back(method.result());
-  for (const CaseMeter& meter : cases) result.structures.push_back(meter.result());
-  for (const measure::PackingLossMeter& loss : losses) result.losses.push_back(loss.result());
-  if (moves) result.moves = moves->result();
-  result.last_grid = grids.grid();
-  result.is_complete = true;
-  return result;
+                             const PathFrames& path, const std::function<void(int frame)>& on_frame, const Stop& stop,
+                             ListsOverFrames over_frames) {
+  return AccuracyPass(config, data, group, path, on_frame, stop, over_frames).run();
 }
 
 }  // namespace clusterbench::run

@@ -1,10 +1,10 @@
 #pragma once
 // The first pass over a group's frames: lists against truth, occupancy, buffers, samples. Timing comes later.
 
-#include <atomic>
 #include <functional>
 #include <memory>
 
+#include "core/stop.h"
 #include "run/cases/case_plan.h"
 #include "run/cases/path_frames.h"
 #include "run/cases/scene_data.h"
@@ -56,8 +56,10 @@ CaseSide structure_side(const StructureMeasures& measures);
 // Whether lists are compared with the lists of the previous frame.
 enum class ListsOverFrames { ignored, compared };
 
+// Frames are prepared, and methods work, on config.threads threads; results do not depend on their number. Methods that
+// run elsewhere (runs_elsewhere()) are called by the calling thread alone, and so is `on_frame`, before each frame.
 AccuracyResult accuracy_pass(const config::Config& config, const SceneData& data, const GroupPlan& group,
-                             const PathFrames& path, const std::function<void(int frame)>& on_frame,
-                             const std::atomic<bool>& stop, ListsOverFrames over_frames = ListsOverFrames::ignored);
+                             const PathFrames& path, const std::function<void(int frame)>& on_frame, const Stop& stop,
+                             ListsOverFrames over_frames = ListsOverFrames::ignored);
 
 }  // namespace clusterbench::run

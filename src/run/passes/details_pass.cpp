@@ -5,9 +5,19 @@
 #include "measure/truth/truth.h"
 #include "run/cases/frame_lights.h"
 #include "run/cases/path_culls.h"
+#include "run/passes/frame_pipeline.h"
 
 namespace clusterbench::run {
 namespace {
+
+struct DetailedFrame {
+  view::Frame frame;
+  std::shared_ptr<const grid::Grid> grid;
+  FrameLights lights;
+  measure::Truth truth;
+
+  std::size_t bytes() const { return (truth.lists.begin.size() + truth.lists.lights.size()) * sizeof(std::uint32_t); }
+};
 
 // The frames of one method, with their details.
 class Track {
@@ -25,14 +35,14 @@ class Track {
   const std::vector<int>& frames() const { return frames_; }
   const std::optional<Details>& details() const { return details_; }
 
-  void add(const view::Frame& frame, const scene::Scene& scene, const grid::Grid& grid, const grid::Grid& case_grid,
-           const FrameLights& lights, const measure::Truth& truth) {
-    if (!std::binary_search(frames_.begin(), frames_.end(), frame.index)) return;
-    const view::LightArrays& packed = lights.in_precision(method_.precision);
-    run_.build(grid, assign::kinds_of(packed));
-    run_.assign(frame, packed, nullptr);
-    const measure::FrameDetails found = measure::find_details(truth.lists, run_.cell_lists());
-    add_frame(*details_, packed_frame(frame, scene, grid, case_grid, found, with_pairs_));
+  void add(const DetailedFrame& now, const scene::Scene& scene, const grid::Grid& case_grid) {
+    if (!std::binary_search(frames_.begin(), frames_.end(), now.frame.index)) return;
+    grid_ = now.grid;
+    const view::LightArrays& packed = now.lights.in_precision(method_.precision);
+    run_.build(*grid_, assign::kinds_of(packed));
+    run_.assign(now.frame, packed, nullptr);
+    const measure::FrameDetails found = measure::find_details(now.truth.lists, run_.cell_lists());
+    add_frame(*details_, packed_frame(now.frame, scene, *grid_, case_grid, found, with_pairs_));
   }
 
  private:
@@ -46,6 +56,7 @@ class Track {
 
   Method method_;
   bool with_pairs_;
+  std::shared_ptr<const grid::Grid> grid_;  // for which the method is built
   CulledRun run_;
   std::vector<int> frames_;
   std::optional<Details> details_;  // none without cells, or if they are not the grid's
@@ -63,22 +74,31 @@ std::vector<int> frames_of(const std::vector<Track>& tracks) {
 
 std::vector<std::optional<Details>> details_pass(const config::Config& config, const GroupPlan& group,
                                                  const PathFrames& path, const scene::Scene& scene,
-                                                 const AccuracyResult& counted, const std::atomic<bool>& stop) {
+                                                 const AccuracyResult& counted, const Stop& stop) {
   std::vector<Track> tracks;
   const PathCulls culls(config, group, path);
   for (const MethodMeasures& method : counted.methods)
     tracks.emplace_back(config, method, culls.of(method.method), path.count());
 
   GridOfFrames grids(config.grids[group.grid]);
-  for (const int index : frames_of(tracks)) {
-    if (stop) return {};
-    const view::Frame frame = path.frame(index);
-    grids.update(path, frame);
-    const grid::Grid& grid = grids.grid();
-    const FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(grid, frame)));
-    const measure::Truth truth = measure::find_truth(frame, grid, config.threads);
-    for (Track& track : tracks) track.add(frame, scene, grid, counted.last_grid, lights, truth);
-  }
+  const std::vector<int> frames = frames_of(tracks);
+  FrameWork<DetailedFrame> work;
+  work.begin = [&](int number) {
+    auto now = std::make_unique<DetailedFrame>();
+    now->frame = path.frame(frames[static_cast<std::size_t>(number)]);
+    grids.update(path, now->frame);
+    now->grid = grids.shared();
+    return now;
+  };
+  work.prepare = [&](DetailedFrame& now) {
+    now.lights = FrameLights(config.precisions, view::lights_in(now.frame, grid::space_of(*now.grid, now.frame)));
+    now.truth = measure::find_truth(now.frame, *now.grid, config.threads);
+  };
+  work.bytes = [](const DetailedFrame& now) { return now.bytes(); };
+  for (Track& track : tracks)
+    work.users.emplace_back([&](const DetailedFrame& now) { track.add(now, scene, counted.last_grid); });
+  work.users_apart = !runs_elsewhere(config, group);
+  if (!FramePipeline<DetailedFrame>(work, static_cast<int>(frames.size()), config.threads, stop).run()) return {};
 
   std::vector<std::optional<Details>> results;
   for (const CasePlan& case_plan : group.cases)

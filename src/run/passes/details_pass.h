@@ -1,9 +1,9 @@
 #pragma once
 // Chosen frames once more, cell by cell, for readers who want details.
 
-#include <atomic>
 #include <optional>
 
+#include "core/stop.h"
 #include "run/findings/packed_details.h"
 #include "run/passes/accuracy_pass.h"
 
@@ -13,6 +13,6 @@ namespace clusterbench::run {
 // `counted` has each method's worst frame and the case's grid.
 std::vector<std::optional<Details>> details_pass(const config::Config& config, const GroupPlan& group,
                                                  const PathFrames& path, const scene::Scene& scene,
-                                                 const AccuracyResult& counted, const std::atomic<bool>& stop);
+                                                 const AccuracyResult& counted, const Stop& stop);
 
 }  // namespace clusterbench::run

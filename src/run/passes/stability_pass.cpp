@@ -7,6 +7,7 @@
 #include "measure/truth/truth.h"
 #include "run/cases/frame_lights.h"
 #include "run/cases/path_culls.h"
+#include "run/passes/frame_pipeline.h"
 #include "scene/fine_path.h"
 
 namespace clusterbench::run {
@@ -15,6 +16,18 @@ namespace {
 scene::FineSteps fine_steps(const config::StabilityRequest& request) {
   return {request.steps, request.step_mm / 1e3, glm::radians(request.step_deg)};
 }
+
+// A frame of the segment.
+struct Step {
+  view::Frame frame;
+  std::shared_ptr<const grid::Grid> grid;
+  bool is_new_grid = false;
+  FrameLights lights;
+  measure::Truth truth;
+  std::shared_ptr<const depth::DepthImage> depth;  // if a method needs it
+
+  std::size_t bytes() const { return (truth.lists.begin.size() + truth.lists.lights.size()) * sizeof(std::uint32_t); }
+};
 
 // One method along the segment.
 class StabilityTrack {
@@ -25,15 +38,16 @@ class StabilityTrack {
         meter_(config.stability->window),
         own_truth_(config.stability->window) {}
 
-  void add(const view::Frame& frame, const grid::Grid& grid, bool is_new_grid, const FrameLights& lights,
-           const depth::DepthImage* depth, int threads) {
+  void add(const Step& now, int threads) {
     if (!run_.has_cells()) return;
-    const view::LightArrays& packed = lights.in_precision(method_.precision);
-    if (is_new_grid) run_.build(grid, assign::kinds_of(packed));
-    run_.assign(frame, packed, depth);
+    grid_ = now.grid;
+    const view::LightArrays& packed = now.lights.in_precision(method_.precision);
+    if (now.is_new_grid) run_.build(*grid_, assign::kinds_of(packed));
+    run_.assign(now.frame, packed, now.depth.get());
     meter_.add(run_.cell_lists());
     if (!run_.has_occupied_cells()) return;
-    const measure::Truth truth = measure::find_truth(frame, grid, run_.own_structure()->occupied_cells(), threads);
+    const measure::Truth truth =
+        measure::find_truth(now.frame, *grid_, run_.own_structure()->occupied_cells(), threads);
     own_truth_.add(truth.lists);
     undecided_ += truth.undecided;
   }
@@ -52,6 +66,7 @@ class StabilityTrack {
 
  private:
   Method method_;
+  std::shared_ptr<const grid::Grid> grid_;  // for which the method is built
   CulledRun run_;
   measure::ChurnMeter meter_;
   measure::ChurnMeter own_truth_;  // of cells that are not the grid's
@@ -87,7 +102,7 @@ std::vector<std::optional<StabilityResult>> per_case(const GroupPlan& group, con
 std::vector<std::optional<StabilityResult>> stability_pass(const config::Config& config, const GroupPlan& group,
                                                            const PathFrames& path,
                                                            const std::function<void(double share)>& on_step,
-                                                           const std::atomic<bool>& stop) {
+                                                           const Stop& stop) {
   const scene::FinePath segment = scene::fine_path(path.camera_path(), fine_steps(*config.stability));
   const PathFrames steps = path.along(segment.path);
   StabilityResult common = segment_facts(segment, config.stability->window);
@@ -97,20 +112,30 @@ std::vector<std::optional<StabilityResult>> stability_pass(const config::Config&
 
   GridOfFrames grids(config.grids[group.grid]);
   measure::ChurnMeter truth_meter(config.stability->window);
-  for (int step = 0; step < steps.count(); ++step) {
-    if (stop) return {};
+  FrameWork<Step> work;
+  work.begin = [&](int step) {
     on_step(1.0 / steps.count());
-    const view::Frame frame = steps.frame(step);
-    const bool is_new_grid = grids.update(steps, frame);
-    const grid::Grid& grid = grids.grid();
-    const FrameLights lights(config.precisions, view::lights_in(frame, grid::space_of(grid, frame)));
-    const measure::Truth truth = measure::find_truth(frame, grid, config.threads);
-    truth_meter.add(truth.lists);
-    const std::shared_ptr<const depth::DepthImage> depth = depths_for(config, group, steps, frame);
-    for (StabilityTrack& track : tracks) track.add(frame, grid, is_new_grid, lights, depth.get(), config.threads);
-    common.grids += is_new_grid ? 1 : 0;
-    common.undecided += truth.undecided;
-  }
+    auto now = std::make_unique<Step>();
+    now->frame = steps.frame(step);
+    now->is_new_grid = grids.update(steps, now->frame);
+    now->grid = grids.shared();
+    return now;
+  };
+  work.prepare = [&](Step& now) {
+    now.lights = FrameLights(config.precisions, view::lights_in(now.frame, grid::space_of(*now.grid, now.frame)));
+    now.truth = measure::find_truth(now.frame, *now.grid, config.threads);
+    now.depth = depths_for(config, group, steps, now.frame);
+  };
+  work.bytes = [](const Step& now) { return now.bytes(); };
+  work.users.emplace_back([&](const Step& now) {
+    truth_meter.add(now.truth.lists);
+    common.grids += now.is_new_grid ? 1 : 0;
+    common.undecided += now.truth.undecided;
+  });
+  for (StabilityTrack& track : tracks)
+    work.users.emplace_back([&](const Step& now) { track.add(now, config.threads); });
+  work.users_apart = !runs_elsewhere(config, group);
+  if (!FramePipeline<Step>(work, steps.count(), config.threads, stop).run()) return {};
   common.truth = truth_meter.result();
   return per_case(group, tracks, common);
 }

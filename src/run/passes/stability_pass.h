@@ -1,10 +1,10 @@
 #pragma once
 // Lists and truth along a finely sampled piece of the path: changes from step to step, and changes back.
 
-#include <atomic>
 #include <functional>
 #include <optional>
 
+#include "core/stop.h"
 #include "run/cases/case_plan.h"
 #include "run/cases/path_frames.h"
 #include "run/findings/run_result.h"
@@ -16,6 +16,6 @@ namespace clusterbench::run {
 std::vector<std::optional<StabilityResult>> stability_pass(const config::Config& config, const GroupPlan& group,
                                                            const PathFrames& path,
                                                            const std::function<void(double share)>& on_step,
-                                                           const std::atomic<bool>& stop);
+                                                           const Stop& stop);
 
 }  // namespace clusterbench::run

@@ -183,4 +183,8 @@ result::Machine record_of(const MachineFacts& machine) {
   return out;
 }
 
+result::Shard record_of(const PlannedShard& shard) {
+  return {shard.index, shard.count, shard.sweep, known(shard.filter), known(shard.host)};
+}
+
 }  // namespace clusterbench::run

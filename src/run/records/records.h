@@ -15,6 +15,7 @@ result::Scene record_of(const SceneResult& scene);
 result::Tool record_of(const ToolFacts& tool);
 result::Plugin record_of(const plugin::LoadedPlugin& loaded);
 result::Machine record_of(const MachineFacts& machine);
+result::Shard record_of(const PlannedShard& shard);
 result::Device record_of(const gpu::DeviceFacts& device);
 result::DeviceArithmetic record_of(const gpu::Arithmetic& found);
 

@@ -1,6 +1,8 @@
 // A method that breaks down as it is told to, for tests of what a run does then. Without a fault it lists every light
 // in every cell.
 
+#include <unistd.h>
+
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -8,6 +10,7 @@
 #include <iterator>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "clusterbench_plugin.hpp"
@@ -24,6 +27,7 @@ namespace sdk = clusterbench::sdk;
 namespace {
 
 std::string g_fault_at_unloading;
+bool g_has_forked = false;
 
 [[noreturn]] void hang() {
   for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
@@ -59,6 +63,9 @@ void commit(const std::string& fault) {
   if (fault == "throw") throw std::runtime_error("cannot go on");
   if (fault == "hang") hang();
   if (fault == "eat") eat();
+  if (fault == "fork" && !std::exchange(g_has_forked, true)) ::fork();  // once a process: else it is a fork bomb
+  if (fault == "close")
+    for (int i = 1; i < 64; ++i) ::close(i);
   if (fault == "overflow") {
     volatile char first[1] = {0};
     overflow_stack(first);
@@ -85,7 +92,8 @@ class Faulty : public sdk::Method {
     out.flags = CLUSTERBENCH_CONSERVATIVE | CLUSTERBENCH_ORTHOGRAPHIC | CLUSTERBENCH_BY_NAME;
     out.parameters = {
         sdk::text("fault", FAULT,
-                  {"none", "segv", "fpe", "ill", "abort", "exit", "throw", "hang", "eat", "overflow", "twice"})
+                  {"none", "segv", "fpe", "ill", "abort", "exit", "throw", "hang", "eat", "overflow", "twice", "fork",
+                   "close"})
             .says("how it breaks down"),
         sdk::text("at", "assign", PLACES).says("in which function; rounds: in assign(), beside another program"),
         sdk::number("call", 1.0, 1.0, 1e9).whole().says("in which of its calls of assign()"),

@@ -1,7 +1,10 @@
 // Methods that do what none may do, one each, and otherwise nothing. They run only where they are named.
 
+#include <unistd.h>
+
 #include <atomic>
 #include <chrono>
+#include <clocale>
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
@@ -65,6 +68,29 @@ CLUSTERBENCH_HOSTILE(Throws, "throws", "throws a std::exception", throw std::run
 CLUSTERBENCH_HOSTILE(ThrowsOther, "throws-other", "throws what is no std::exception", throw 7;)
 CLUSTERBENCH_HOSTILE(Prints, "prints", "prints lines",
                      std::puts("clusterbench plugin check: {}\n{\"verdict\": \"passed\"}");)
+// Once a process: else it is a fork bomb.
+CLUSTERBENCH_HOSTILE(Forks, "forks", "comes back twice", {
+  static std::atomic<bool> has_forked{false};
+  if (!has_forked.exchange(true)) ::fork();
+})
+CLUSTERBENCH_HOSTILE(LeavesChild, "leaves-child", "leaves a process running", {
+  static std::atomic<bool> has_forked{false};
+  if (!has_forked.exchange(true) && ::fork() == 0) {
+    ::sleep(60);
+    ::_exit(0);
+  }
+})
+CLUSTERBENCH_HOSTILE(LeavesThread, "leaves-thread", "leaves threads running", {
+  static std::atomic<int> started{0};
+  if (started++ < 100)
+    std::thread([] {
+      for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+    }).detach();
+})
+CLUSTERBENCH_HOSTILE(Closes, "closes", "closes files of others", for (int i = 1; i < 64; ++i)::close(i);)
+CLUSTERBENCH_HOSTILE(Handles, "handles", "handles signals", std::signal(SIGALRM, [](int) {});)
+CLUSTERBENCH_HOSTILE(Moves, "moves", "changes the working directory", if (::chdir("/") != 0) std::abort();)
+CLUSTERBENCH_HOSTILE(Translates, "translates", "changes the locale", std::setlocale(LC_ALL, "C.UTF-8");)
 CLUSTERBENCH_HOSTILE(WritesBehind, "writes-behind", "writes behind its lists", out.begin[out.cell_count + 1] = 7;)
 CLUSTERBENCH_HOSTILE(WritesInput, "writes-input", "writes to its lights", const_cast<float*>(lights.x)[0] = 0.0f;)
 CLUSTERBENCH_HOSTILE(ReadsBehind, "reads-behind", "reads behind its lights",
@@ -190,4 +216,5 @@ class Good : public Empty {
 
 CLUSTERBENCH_PLUGIN("hostile", "What no plug-in may do", "1.0", Good, Crashes, Aborts, Exits, Hangs, Throws,
                     ThrowsOther, Prints, WritesBehind, WritesInput, ReadsBehind, ReadsBefore, NoIndex, Greedy, Late,
-                    Remembers, Shares, Leaks, Loses, Picky, Ghost, Races, CountsBuilds)
+                    Remembers, Shares, Leaks, Loses, Picky, Ghost, Races, CountsBuilds, Forks, LeavesChild,
+                    LeavesThread, Closes, Handles, Moves, Translates)

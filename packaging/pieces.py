@@ -1,0 +1,110 @@
+"""What of others is in the program: found in what the build has linked and read, not in a list."""
+
+import dataclasses
+import json
+import os
+import pathlib
+import re
+
+import binaries
+import debian
+from facts import Refused, output
+
+# Source packages of the compiler and the C library. The exception in their licences leaves programs free of it.
+TOOLCHAIN = re.compile(r"^(glibc|linux|gcc-\d+.*|gcc-defaults.*|cross-toolchain-base.*|libxcrypt)$")
+COMPILERS_OWN = re.compile(r"^/usr/(lib/(gcc|llvm)|[a-z0-9_]+-linux-gnu)|/c\+\+/")
+
+
+@dataclasses.dataclass
+class Piece:
+    name: str
+    version: str
+    licence: str  # an SPDX expression
+    how: str  # shared, static, headers, page
+    homepage: str
+    purl: str  # package URL
+    text: str  # its licences in full
+    files: dict = dataclasses.field(default_factory=dict)  # of shared libraries: {name in the package: file}
+
+
+def known_licences():
+    return json.loads((pathlib.Path(__file__).parent / "licences.json").read_text(encoding="utf-8"))
+
+
+def inputs(facts):
+    """Files that the program is made of, those that are made on the way to it included."""
+    return set(output(["ninja", "-C", str(facts.build), "-t", "inputs", "clusterbench"]).splitlines())
+
+
+def linked_archives(facts):
+    """Static libraries of others in the program."""
+    return sorted(path for path in inputs(facts) if path.startswith("/") and path.endswith(".a") and not is_own(facts, path))
+
+
+def read_headers(facts):
+    """Headers of others that were read for the program."""
+    made_of, paths, counts = inputs(facts), set(), False
+    for line in output(["ninja", "-C", str(facts.build), "-t", "deps"]).splitlines():
+        if not line.startswith(" "):  # OUTPUT: #deps 436, ..., and its files below
+            counts = line.split(": #deps")[0] in made_of
+        elif counts:
+            paths.add(os.path.normpath(facts.build / line.strip()))
+    return sorted(path for path in paths if not is_own(facts, path) and not COMPILERS_OWN.search(path))
+
+
+def is_own(facts, path):
+    ours = pathlib.Path(path).is_relative_to(facts.source) or pathlib.Path(path).is_relative_to(facts.build)
+    return ours and not (str(facts.sysroot) != "/" and pathlib.Path(path).is_relative_to(facts.sysroot))
+
+
+def first_comment(path):
+    return re.search(r"/\*.*?\*/", path.read_text(encoding="utf-8"), re.DOTALL).group(0)
+
+
+def licence_text(facts, package, only):
+    if only:
+        return first_comment(facts.sysroot / only)
+    path = facts.sysroot / package.copyright_file
+    if not path.exists():
+        raise Refused(f"{path} is missing, the licence of what is in the program (dpkg leaves it out where path-exclude says so)")
+    return path.read_text(encoding="utf-8")
+
+
+def piece_of(facts, package, how):
+    name = debian.project_name(package.source)
+    known = known_licences().get(name)
+    if known is None:
+        raise Refused(f"{name} is in the program, but packaging/licences.json does not name its licence")
+    version = package.version.replace("+", "%2B").replace(":", "%3A")
+    purl = f"pkg:deb/debian/{package.source}@{version}?arch=source"
+    return Piece(name, package.version, known["licence"], how, package.homepage, purl, licence_text(facts, package, known.get("only")))
+
+
+def debian_pieces(facts, shared):
+    """`shared`: {name: file} of the libraries that are packed. What is in several ways in the program is named by the first."""
+    ways = [("shared", shared.values()), ("static", linked_archives(facts)), ("headers", read_headers(facts))]
+    pieces = {}
+    for how, files in ways:
+        owner = debian.owners(facts, [str(path) for path in files])
+        for name in sorted(set(owner.values())):
+            package = debian.package(facts, name)
+            if not TOOLCHAIN.match(package.source) and debian.project_name(package.source) not in pieces:
+                pieces[debian.project_name(package.source)] = piece_of(facts, package, how)
+        if how == "shared":
+            for name, path in shared.items():
+                pieces[debian.project_name(debian.package(facts, owner[str(path)]).source)].files[name] = path
+    return list(pieces.values())
+
+
+def page_pieces(facts):
+    """The packages of npm in the pages of `report`, as page/build.mjs has found them; none where the pages are left out."""
+    path = facts.build / "page/packages.json"
+    if not path.exists():
+        return []
+    return [Piece(one["name"], one["version"], one["licence"], "page", one["homepage"],
+                  f"pkg:npm/{one['name'].replace('@', '%40')}@{one['version']}", one["text"])
+            for one in json.loads(path.read_text(encoding="utf-8"))]
+
+
+def all_pieces(facts, shared):
+    return sorted(debian_pieces(facts, shared) + page_pieces(facts), key=lambda piece: (piece.how == "page", piece.name))

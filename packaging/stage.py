@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Completes the folder that cpack packs: stage.py archive|deb FOLDER FACTS. cmake/package/Stage.cmake calls it.
+
+archive: the shared libraries beside the program, licences of all that is inside, an SBOM, a README.txt.
+deb: the same without the libraries, which are dependencies, in the forms that Debian asks for."""
+
+import gzip
+import os
+import pathlib
+import shutil
+import sys
+
+import binaries
+import notices
+import pieces
+import sbom
+from facts import Refused, read_facts
+
+README = """clusterbench {version} for {platform}, commit {commit}
+
+bin/clusterbench measures clustered light assignment on your own level. It starts from any folder and needs no installation:
+
+    bin/clusterbench run share/clusterbench/scenes/street.glb -o result.json
+    bin/clusterbench report result.json -o report.html
+    bin/clusterbench size share/clusterbench/scenes/street.glb
+
+It needs Linux with glibc {glibc} and libstdc++ with GLIBCXX_{libstdcxx}, or newer ones.
+Everything else lies in lib/. A GPU is found through the machine's own Vulkan loader, if there is one.
+
+share/doc/clusterbench/README.md       what it is for, and the commands
+share/doc/clusterbench/docs/           all documents
+share/doc/clusterbench/third-party/    software of others inside, with licences; the SBOM lies beside this folder
+include/, lib/cmake, lib/pkgconfig     the library for engines, and the headers of plug-ins
+"""
+
+
+def settle(folder, seconds):
+    """The same commit gives the same bytes: modes do not depend on the umask, nor times on the clock."""
+    for path in [folder, *folder.rglob("*")]:
+        if not path.is_symlink():
+            runs = path.is_dir() or path.parent.name == "bin"
+            path.chmod(0o755 if runs else 0o644)
+        os.utime(path, (seconds, seconds), follow_symlinks=False)
+
+
+def compress(path):
+    """As `gzip -9n`: without name and time."""
+    with open(path.with_name(path.name + ".gz"), "wb") as file, gzip.GzipFile("", "wb", 9, file, 0) as packed:
+        packed.write(path.read_bytes())
+    path.unlink()
+
+
+def add_documents(facts, root, found, program):
+    documents = root / "share/doc/clusterbench"
+    notices.write(found, documents / "third-party")
+    sbom.write(facts, root, found, program, documents / f"clusterbench-{facts.version}-{facts.platform}.spdx.json")
+
+
+def readme(facts, files):
+    return README.format(version=facts.version, platform=facts.platform, commit=facts.commit,
+                         glibc=binaries.newest_needed(facts, files, "GLIBC"),
+                         libstdcxx=binaries.newest_needed(facts, files, "GLIBCXX"))
+
+
+def stage_archive(facts, root):
+    program = root / "bin/clusterbench"
+    shared = binaries.libraries(facts, program)
+    binaries.put_beside(shared, program, root / "lib")
+    add_documents(facts, root, pieces.all_pieces(facts, shared), program)
+    (root / "README.txt").write_text(readme(facts, [program, *(root / "lib" / name for name in shared)]), encoding="utf-8")
+    settle(root, facts.seconds)
+
+
+def debian_documents(facts, folder, package):
+    documents = folder / "usr/share/doc" / package
+    documents.mkdir(parents=True, exist_ok=True)
+    shutil.copyfile(facts.source / "LICENSE", documents / "copyright")
+    shutil.copyfile(facts.source / "CHANGELOG.md", documents / "changelog")
+    compress(documents / "changelog")
+    for name in ("LICENSE", "CHANGELOG.md"):
+        (documents / name).unlink(missing_ok=True)
+
+
+def stage_deb(facts, root):
+    """`root` has a folder for each package."""
+    program = root / "Unspecified/usr/bin/clusterbench"
+    found = [piece for piece in pieces.all_pieces(facts, {}) if piece.how != "shared"]
+    add_documents(facts, root / "Unspecified/usr", found, program)
+    compress(root / "Unspecified/usr/share/man/man1/clusterbench.1")
+    debian_documents(facts, root / "Unspecified", "clusterbench")
+    debian_documents(facts, root / "library", "clusterbench-dev")
+    settle(root, facts.seconds)
+
+
+def main():
+    if len(sys.argv) != 4 or sys.argv[1] not in ("archive", "deb"):
+        sys.exit("usage: stage.py archive|deb FOLDER FACTS")
+    kind, folder, facts = sys.argv[1], pathlib.Path(sys.argv[2]), read_facts(sys.argv[3])
+    try:
+        {"archive": stage_archive, "deb": stage_deb}[kind](facts, folder)
+    except Refused as why:
+        sys.exit(f"no package: {why}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,134 @@
+#include "run/passes/frame_pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace clusterbench::run {
+namespace {
+
+struct Numbered {
+  int number = 0, square = 0;
+};
+
+// Each user's frames, in the order in which it got them.
+struct Log {
+  std::vector<std::vector<int>> squares;
+  std::atomic<int> alive = 0, most_alive = 0;
+};
+
+FrameWork<Numbered> squares_into(Log& log, std::size_t users) {
+  log.squares.resize(users);
+  FrameWork<Numbered> work;
+  work.begin = [](int index) { return std::make_unique<Numbered>(Numbered{index, 0}); };
+  work.prepare = [](Numbered& frame) { frame.square = frame.number * frame.number; };
+  work.bytes = [](const Numbered&) { return std::size_t{1}; };
+  for (std::size_t user = 0; user < users; ++user)
+    work.users.emplace_back([&log, user](const Numbered& frame) { log.squares[user].push_back(frame.square); });
+  return work;
+}
+
+class Pipelines : public ::testing::TestWithParam<int> {
+ protected:
+  bool run(const FrameWork<Numbered>& work, int frames) {
+    return FramePipeline<Numbered>(work, frames, GetParam(), stop).run();
+  }
+  // The text of what it throws.
+  std::string failure(const FrameWork<Numbered>& work, int frames) {
+    try {
+      run(work, frames);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "nothing";
+  }
+
+  std::atomic<bool> stop{false};
+};
+
+std::vector<int> first_squares(int count) {
+  std::vector<int> squares;
+  for (int i = 0; i < count; ++i) squares.push_back(i * i);
+  return squares;
+}
+
+TEST_P(Pipelines, give_each_user_all_prepared_frames_in_order) {
+  for (const bool apart : {true, false})
+    for (const int frames : {0, 1, 2, 7, 100}) {
+      Log log;
+      FrameWork<Numbered> work = squares_into(log, 3);
+      work.users_apart = apart;
+      EXPECT_TRUE(run(work, frames));
+      for (const std::vector<int>& squares : log.squares) EXPECT_EQ(squares, first_squares(frames));
+    }
+}
+
+TEST_P(Pipelines, call_what_comes_after_a_frame_when_all_users_have_it_and_none_has_the_next) {
+  Log log;
+  FrameWork<Numbered> work = squares_into(log, 3);
+  std::size_t seen = 0;
+  work.after = [&](const Numbered& frame) {
+    ++seen;
+    EXPECT_EQ(static_cast<std::size_t>(frame.number) + 1, seen);
+    for (const std::vector<int>& squares : log.squares) EXPECT_EQ(squares.size(), seen);
+  };
+  EXPECT_TRUE(run(work, 20));
+  EXPECT_EQ(seen, 20u);
+}
+
+TEST_P(Pipelines, throw_the_first_failure_by_frame_and_then_by_user) {
+  Log log;
+  FrameWork<Numbered> work = squares_into(log, 3);
+  const auto fail_at = [](int wanted, const std::string& name) {
+    return [=](const Numbered& frame) {
+      if (frame.number >= wanted) throw std::runtime_error(name + " " + std::to_string(frame.number));
+    };
+  };
+  work.users[0] = fail_at(18, "first user");
+  work.users[1] = fail_at(17, "second user");
+  work.users[2] = fail_at(17, "third user");
+  EXPECT_EQ(failure(work, 60), "second user 17");
+  work.prepare = fail_at(18, "preparation");
+  EXPECT_EQ(failure(work, 60), "second user 17");
+  work.prepare = fail_at(16, "preparation");
+  EXPECT_EQ(failure(work, 60), "preparation 16");
+  const auto begin = work.begin;
+  work.begin = [&](int index) {
+    if (index == 15) throw std::runtime_error("beginning 15");
+    return begin(index);
+  };
+  EXPECT_EQ(failure(work, 60), "beginning 15");
+}
+
+TEST_P(Pipelines, end_with_a_stop_without_another_frame) {
+  Log log;
+  FrameWork<Numbered> work = squares_into(log, 2);
+  work.users.emplace_back([&](const Numbered& frame) { stop = frame.number == 9; });
+  EXPECT_FALSE(run(work, 1000));
+  for (const std::vector<int>& squares : log.squares) EXPECT_LT(squares.size(), 10u + 8u * 4u);
+}
+
+TEST_P(Pipelines, keep_one_frame_ahead_if_frames_are_large) {
+  struct Counted {
+    explicit Counted(Log& of) : log(of) { log.most_alive = std::max(log.most_alive.load(), ++log.alive); }
+    ~Counted() { --log.alive; }
+    Log& log;
+  };
+  Log log;
+  FrameWork<Counted> work;
+  work.begin = [&](int) { return std::make_unique<Counted>(log); };
+  work.prepare = [](Counted&) {};
+  work.bytes = [](const Counted&) { return k_most_bytes_ahead; };
+  work.users.emplace_back([](const Counted&) {});
+  EXPECT_TRUE(FramePipeline<Counted>(work, 40, GetParam(), stop).run());
+  EXPECT_LE(log.most_alive, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, Pipelines, ::testing::Values(1, 2, 8));
+
+}  // namespace
+}  // namespace clusterbench::run

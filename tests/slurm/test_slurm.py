@@ -1,0 +1,235 @@
+#!/usr/bin/env python3
+"""scripts/slurm/ on a real Slurm: a controller and two nodes on the loopback interface, of the user that runs this, in a folder that goes
+with them. A task is killed, a task is put back into the queue, and the controller is killed, while shards are measured; each time the
+merged result has to be that of the undivided run, byte for byte. Exit code 77 with a sentence where Slurm is missing.
+
+usage: test_slurm.py PROGRAM [--keep]"""
+
+import getpass
+import json
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+SHARDS = 4
+DAEMONS = ("slurmctld", "slurmd", "sbatch", "scontrol", "squeue")
+# Half a second of work in a case, so that each shard takes some seconds.
+CONFIGURATION = {
+    "scenes": [{"path": str(ROOT / "scenes/hall-4096.glb"), "frames": 6}],
+    "viewport": [1920, 1080],
+    "grids": [{"kind": "frustum", "tiles": {"pixels": [[64, 64], [48, 48]]}, "slices": {"count": [16, 24, 32, 40], "far": 300}}],
+    "assigners": ["aabb-fast", "exact-fast"],
+}
+SETTINGS = """ClusterName=test
+SlurmctldHost=localhost(127.0.0.1)
+SlurmctldPort={ports[0]}
+SlurmUser={user}
+SlurmdUser={user}
+AuthType=auth/none
+CredType=cred/none
+AuthInfo=cred_expire=1
+CommunicationParameters=NoCtldInAddrAny,NoInAddrAny
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/%n
+SlurmctldPidFile={folder}/slurmctld.pid
+SlurmdPidFile={folder}/%n.pid
+SlurmctldLogFile={folder}/slurmctld.log
+SlurmdLogFile={folder}/%n.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SwitchType=switch/none
+MpiDefault=none
+SelectType=select/cons_res
+SelectTypeParameters=CR_Core
+SchedulerParameters=sched_interval=1,batch_sched_delay=0,sched_min_interval=0
+ReturnToService=2
+KillWait=1
+MessageTimeout=5
+NodeName=node1 NodeHostname=localhost NodeAddr=127.0.0.1 Port={ports[1]} CPUs=1 RealMemory=1000
+NodeName=node2 NodeHostname=localhost NodeAddr=127.0.0.1 Port={ports[2]} CPUs=1 RealMemory=1000
+PartitionName=all Nodes=node1,node2 Default=YES MaxTime=INFINITE State=UP
+"""
+
+
+def until(is_done, what, seconds=90):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if is_done():
+            return
+        time.sleep(0.1)
+    sys.exit(f"after {seconds} s still not: {what}")
+
+
+def free_ports(count):
+    sockets = [socket.socket() for _ in range(count)]
+    for one in sockets:
+        one.bind(("127.0.0.1", 0))
+    ports = [one.getsockname()[1] for one in sockets]
+    for one in sockets:
+        one.close()
+    return ports
+
+
+class Cluster:
+    """Two nodes with a processor each."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.processes = {}
+        for name in ("state", "node1", "node2"):
+            (folder / name).mkdir()
+        configuration = folder / "slurm.conf"
+        configuration.write_text(SETTINGS.format(folder=folder, user=getpass.getuser(), ports=free_ports(3)), encoding="utf-8")
+        self.environment = dict(os.environ, SLURM_CONF=str(configuration))
+        for name in [name for name in self.environment if name.startswith(("SLURM_", "SBATCH_")) and name != "SLURM_CONF"]:
+            del self.environment[name]
+
+    def start(self, name, *command):
+        with open(self.folder / f"{name}.out", "ab") as out:
+            self.processes[name] = subprocess.Popen(command, env=self.environment, stdout=out, stderr=out, start_new_session=True)
+
+    def start_controller(self):
+        self.start("slurmctld", "slurmctld", "-D")
+
+    def __enter__(self):
+        self.start_controller()
+        for node in ("node1", "node2"):
+            self.start(node, "slurmd", "-D", "-N", node)
+        until(lambda: self.ask("sinfo", "-h", "-t", "idle", "-o", "%D").strip() == "2", f"two idle nodes; logs are in {self.folder}")
+        return self
+
+    def __exit__(self, *_):
+        for process in self.processes.values():
+            process.kill()
+            process.wait()
+
+    def kill_controller(self):
+        self.processes["slurmctld"].kill()
+        self.processes["slurmctld"].wait()
+
+    def ask(self, *command):
+        return subprocess.run(command, env=self.environment, capture_output=True, text=True, check=False, timeout=60).stdout
+
+    def submit(self, program, *arguments):
+        done = subprocess.run([ROOT / "scripts/slurm/submit", *arguments], env=dict(self.environment, CLUSTERBENCH=str(program)),
+                              cwd=self.folder, capture_output=True, text=True, check=False, timeout=60)
+        if done.returncode != 0:
+            sys.exit(f"submit {arguments}: {done.returncode}\n{done.stderr}")
+        return done.stdout.strip().splitlines()[-1]
+
+    def wait_for(self, job):
+        until(lambda: self.ask("scontrol", "show", "job", job).find("JobState=COMPLETED") >= 0
+              or self.ask("scontrol", "show", "job", job).find("JobState=FAILED") >= 0, f"the end of job {job}")
+
+
+def finished_cases(folder, index):
+    journal = folder / f"shard-{index}.json.partial"
+    try:
+        return sum(line.startswith('{"case"') for line in journal.read_text(encoding="utf-8").splitlines())
+    except OSError:
+        return 0
+
+
+def process_of(folder, index):
+    """The clusterbench that measures the shard."""
+    wanted = str(folder / f"shard-{index}.json").encode()
+    for place in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            words = place.read_bytes().split(b"\0")
+        except OSError:
+            continue
+        if wanted in words and b"--shard" in words:
+            return int(place.parent.name)
+    return None
+
+
+def wait_until_begun(folder, index):
+    until(lambda: finished_cases(folder, index) > 0 and process_of(folder, index), f"a finished case of shard {index}")
+
+
+def expect(holds, what):
+    if not holds:
+        sys.exit(f"FAILED: {what}")
+
+
+def check_result(folder, whole):
+    expect((folder / "result.json").read_bytes() == whole, f"{folder}/result.json is the undivided run's")
+    ids = [one["id"] for index in range(1, SHARDS + 1) for one in json.loads((folder / f"shard-{index}.json").read_bytes())["cases"]]
+    expect(len(ids) == len(set(ids)), "no case was measured by two shards")
+    expect(not list(folder.glob("*.partial")), "no journal is left")
+
+
+def killed_task(cluster, program, folder, arguments, whole):
+    """Its task fails, the merge says that its shard is missing, and submit --again goes on with what it had finished."""
+    job = cluster.submit(program, str(SHARDS), folder, *arguments)
+    wait_until_begun(folder, 2)
+    os.kill(process_of(folder, 2), signal.SIGKILL)
+    cluster.wait_for(job)
+    said = (folder / "merge.log").read_text(encoding="utf-8")
+    expect(f"shard 2 of {SHARDS} is missing" in said, f"the merge names the missing shard, and not: {said}")
+    expect(not (folder / "result.json").exists(), "no result without all shards")
+    kept = finished_cases(folder, 2)
+    expect(kept > 0, "the killed task left its finished cases")
+    cluster.wait_for(cluster.submit(program, "--again", folder))
+    check_result(folder, whole)
+    return f"a killed task: {kept} finished cases were kept"
+
+
+def requeued_task(cluster, program, folder, arguments, whole):
+    """Slurm ends the task, and starts it again."""
+    job = cluster.submit(program, str(SHARDS), folder, *arguments)
+    wait_until_begun(folder, 1)
+    array = cluster.ask("squeue", "-h", "-r", "-t", "running", "-o", "%i %K %A").splitlines()
+    number = next(line.split()[2] for line in array if line.split()[1] == "1")
+    cluster.ask("scontrol", "requeue", number)
+    cluster.wait_for(job)
+    restarts = cluster.ask("scontrol", "show", "job", number)
+    expect("Restarts=1" in restarts, f"the task was started again: {restarts}")
+    check_result(folder, whole)
+    return "a requeued task: started again, and went on"
+
+
+def killed_controller(cluster, program, folder, arguments, whole):
+    """Tasks go on without it, and what waits is started once it is back."""
+    job = cluster.submit(program, str(SHARDS), folder, *arguments)
+    wait_until_begun(folder, 1)
+    cluster.kill_controller()
+    time.sleep(1)
+    cluster.start_controller()
+    until(lambda: job in cluster.ask("squeue", "-h", "-o", "%i"), "the controller is back, and knows the merge")
+    cluster.wait_for(job)
+    check_result(folder, whole)
+    return "a killed controller: all tasks ended, and the merge ran"
+
+
+def main():
+    missing = [name for name in DAEMONS if shutil.which(name) is None and not pathlib.Path("/usr/sbin", name).exists()]
+    if missing:
+        print(f"skipped: {', '.join(missing)} not found (Debian: slurmctld slurmd slurm-client)")
+        sys.exit(77)
+    os.environ["PATH"] += ":/usr/sbin"
+    program = pathlib.Path(sys.argv[1]).resolve()
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="clusterbench-slurm."))
+    (folder / "sweep.json").write_text(json.dumps(CONFIGURATION), encoding="utf-8")
+    arguments = ["sweep.json", "--no-timing"]
+    subprocess.run([program, "run", *arguments, "-q", "-o", "whole.json"], cwd=folder, check=True)
+    whole = (folder / "whole.json").read_bytes()
+    try:
+        with Cluster(folder) as cluster:
+            for name, check in (("kill", killed_task), ("requeue", requeued_task), ("controller", killed_controller)):
+                begin = time.monotonic()
+                print(check(cluster, program, folder / name, arguments, whole) + f" ({time.monotonic() - begin:.1f} s)", flush=True)
+    finally:
+        if "--keep" not in sys.argv:
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    main()
