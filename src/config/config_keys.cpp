@@ -75,7 +75,7 @@ KEY_TYPE(std::filesystem::path) {
   Type type;
   type.to_json = [](const void* value, bool) {
     const auto& given = *static_cast<const path*>(value);
-    return given.empty() ? Json() : Json(given.string());
+    return given.empty() ? Json() : Json(given.generic_string());
   };
   type.from_json = [](const Json& json, void* value) {
     *static_cast<path*>(value) = json.is_null() ? path() : path(json.get<std::string>());

@@ -93,7 +93,7 @@ void load_named(JsonText& text, std::span<const FlagValue> flags) {
     if (file.empty()) continue;
     load_from(file, "", "", plugin::k_path_variable);
     refuse_file_name(method, id);
-    text.value["plugins"].push_back(fs::absolute(file).string());
+    text.value["plugins"].push_back(fs::absolute(file).generic_string());
   }
 }
 
@@ -134,7 +134,7 @@ std::string plugin_path_for(const std::string& configuration, const std::string&
   std::error_code failed;
   const fs::path folder = fs::absolute(configuration).parent_path();
   const fs::path path = fs::proximate(fs::absolute(name.file), folder, failed);
-  name.file = (failed ? fs::absolute(name.file) : path).string();
+  name.file = (failed ? fs::absolute(name.file) : path).generic_string();
   return name.text();
 }
 

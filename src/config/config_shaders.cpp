@@ -37,7 +37,7 @@ std::string shader_path_for(const std::string& configuration, const std::string&
   std::error_code failed;
   const fs::path whole = fs::absolute(given), folder = fs::absolute(configuration).parent_path();
   const fs::path path = fs::proximate(whole, folder, failed);
-  return (failed ? whole : path).string();
+  return (failed ? whole : path).generic_string();
 }
 
 }  // namespace clusterbench::config

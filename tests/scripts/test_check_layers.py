@@ -46,6 +46,15 @@ class CheckLayers(unittest.TestCase):
         self.assertEqual(out, "src/geom/spot/a.h: includes geom/answer.h, but the files beside the folders of geom are "
                               "above them\n")
 
+    def test_a_header_of_one_system_is_found_outside_of_its_folder(self):
+        code, out = self.check({"os/windows/a.cpp": "#include <windows.h>\n", "os/linux/b.cpp": "#include <elf.h>\n",
+                                "os/posix/c.cpp": "#include <unistd.h>\n"})
+        self.assertEqual((code, out), (0, ""))
+        code, out = self.check({"os/a.h": "#include <unistd.h>\n", "os/linux/b.cpp": "#include <windows.h>\n"})
+        self.assertEqual(code, 1)
+        self.assertEqual(out, "src/os/a.h: includes unistd.h, which belongs into src/os/posix or src/os/linux or src/os/mac\n"
+                              "src/os/linux/b.cpp: includes windows.h, which belongs into src/os/windows\n")
+
     def test_files_beside_the_folders_may_be_below_them(self):
         code, out = self.check({"scene/scene.h": "", "scene/gltf_document/a.h": '#include "scene/scene.h"\n'})
         self.assertEqual((code, out), (0, ""))
@@ -61,7 +70,7 @@ class CheckLayers(unittest.TestCase):
 
     def test_a_header_of_the_system_outside_of_os_is_found(self):
         for header in ("unistd.h", "sys/wait.h", "linux/perf_event.h", "csignal"):
-            code, out = self.check({"cli/a.cpp": f"#include <{header}>\n", "os/b.cpp": f"#include <{header}>\n"})
+            code, out = self.check({"cli/a.cpp": f"#include <{header}>\n", "os/linux/b.cpp": f"#include <{header}>\n"})
             self.assertEqual((code, out), (1, f"src/cli/a.cpp: includes {header}, whose home is os\n"))
 
     def test_a_library_outside_its_home_is_found(self):

@@ -34,8 +34,7 @@ class DescriptorText final : public std::streambuf {
     return traits_type::not_eof(one);
   }
   int sync() override {
-    const std::string_view text(pbase(), static_cast<std::size_t>(pptr() - pbase()));
-    if (!write_all_to(handle_of(::_get_osfhandle(descriptor_)), text)) return -1;
+    if (!is_written_to(descriptor_, {pbase(), static_cast<std::size_t>(pptr() - pbase())})) return -1;
     setp(buffer_.data(), buffer_.data() + buffer_.size());
     return 0;
   }
@@ -100,6 +99,10 @@ void keep_standard_streams() {
     ::_setmode(stream, _O_BINARY);
   }
   set_up_console();
+}
+
+bool is_written_to(int descriptor, std::string_view text) {
+  return write_all_to(handle_of(::_get_osfhandle(descriptor)), text);
 }
 
 // Windows has no such limit.

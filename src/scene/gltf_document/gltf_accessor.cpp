@@ -77,10 +77,11 @@ std::string decoded(std::string_view base64, const JsonLocation& location) {
 }
 
 // Scenes may come from untrusted sources: they may name no file outside of their own folder.
-bool stays_in_folder(const std::filesystem::path& path) {
-  const std::filesystem::path plain = path.lexically_normal();
+bool stays_in_folder(const std::string& name) {
+  if (printable(name) != name) return false;  // what is no UTF-8 is no name on Windows
+  const std::filesystem::path plain = std::filesystem::path(name).lexically_normal();
   const bool escapes = plain.has_root_path() || (!plain.empty() && *plain.begin() == "..");
-  return !escapes && printable(path.generic_string()) == path.generic_string();
+  return !escapes;
 }
 
 std::size_t array_size(const JsonLocation& root, const std::string& key) {
@@ -317,12 +318,13 @@ std::string_view AccessorReader::buffer(std::size_t index) {
     if (comma == std::string::npos) location.at("uri").refuse("a data URI must be base64");
     bytes.owned = decoded(std::string_view(uri).substr(comma + 8), location.at("uri"));
   } else {
-    const std::filesystem::path relative = percent_decoded(uri);
-    if (has_scheme(uri) || !stays_in_folder(relative))
+    const std::string name = percent_decoded(uri);
+    if (has_scheme(uri) || !stays_in_folder(name))
       location.at("uri").refuse("found '" + uri + "'; only files beside this one or below, and data URIs, are read");
     if (length > external_bytes_left_) location.refuse("more than 2 GiB of external buffers");
     bytes.external = true;
-    const std::filesystem::path beside = std::filesystem::path(file_.name).parent_path() / relative.lexically_normal();
+    const std::filesystem::path beside =
+        std::filesystem::path(file_.name).parent_path() / std::filesystem::path(name).lexically_normal();
     bytes.owned = read_bytes(beside, file_.name, location.at("uri").pointer(), length);
     external_bytes_left_ -= bytes.owned.size();
   }

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/text.h"
 #include "scene/gltf_document/gltf_container.h"
 
 namespace clusterbench::scene {
@@ -44,7 +45,9 @@ std::vector<std::filesystem::path> files_named(const nlohmann::json& document, c
       const auto uri = entry.find("uri");
       if (uri == entry.end() || !uri->is_string()) continue;
       const std::string& name = uri->get_ref<const std::string&>();
-      if (!name.starts_with("data:") && !has_scheme(name)) files.push_back(path.parent_path() / percent_decoded(name));
+      if (name.starts_with("data:") || has_scheme(name)) continue;
+      const std::string file = percent_decoded(name);
+      if (printable(file) == file) files.push_back(path.parent_path() / file);  // others are refused when they are read
     }
   }
   return files;
