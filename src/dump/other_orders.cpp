@@ -142,10 +142,11 @@ class BestReading {
            (!is_lost_ || is_for_nothing_ ||
             k_times_chance * evidence.by_chance >= static_cast<double>(found_.lost_pairs));
   }
-  // Loses far fewer, and has no fewer than half as many pairs that are true.
+  // Loses far fewer, though chance would lose a good part of them (squares of ranges may lose any number), and has no
+  // fewer than half as many pairs that are true.
   bool explains_losses(std::uint64_t lost, const Evidence& evidence) const {
     return is_lost_ && lost <= found_.lost_pairs / k_times_fewer &&
-           k_times_chance * evidence.by_chance >= static_cast<double>(found_.lost_pairs) &&
+           (evidence.is_strict || k_times_chance * evidence.by_chance >= static_cast<double>(found_.lost_pairs)) &&
            2 * true_of(lost, evidence.truth) >= found_.true_pairs - found_.lost_pairs;
   }
   // Makes most of the listed pairs true, and many more than there were.
