@@ -11,7 +11,7 @@ class Orphans {
   Orphans();
 
   // Ends all that there are, once this process has waited for its own. Returns how many did not end by
-  // themselves within 20 ms.
+  // themselves within 200 ms.
   int end_all() const;
 
  private:

@@ -41,7 +41,7 @@ Orphans::Orphans() {
 }
 
 int Orphans::end_all() const {
-  constexpr int k_patient_tries = 10, k_most_tries = 1000, k_wait_ms = 2;  // some are about to end by themselves
+  constexpr int k_patient_tries = 100, k_most_tries = 1000, k_wait_ms = 2;  // some are about to end by themselves
   std::set<int> running;
   for (int tries = 0; tries < k_most_tries; ++tries) {
     bool is_left = false;
