@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace clusterbench::run {
 namespace {
@@ -31,6 +33,10 @@ FrameWork<Numbered> squares_into(Log& log, std::size_t users) {
   for (std::size_t user = 0; user < users; ++user)
     work.users.push_back({[&log, user](const Numbered& frame) { log.squares[user].push_back(frame.square); }});
   return work;
+}
+
+void pause_ms(int duration_ms) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(duration_ms));
 }
 
 class Pipelines : public ::testing::TestWithParam<int> {
@@ -86,7 +92,9 @@ TEST_P(Pipelines, throw_the_first_failure_by_frame_and_then_by_user) {
   FrameWork<Numbered> work = squares_into(log, 3);
   const auto fail_at = [](int wanted, const std::string& name) {
     return [=](const Numbered& frame) {
-      if (frame.number >= wanted) throw std::runtime_error(name + " " + std::to_string(frame.number));
+      if (frame.number < wanted) return;
+      pause_ms(wanted - 16);  // a later failure comes after those before it
+      throw std::runtime_error(name + " " + std::to_string(frame.number));
     };
   };
   work.users[0].use = fail_at(18, "first user");
@@ -115,6 +123,7 @@ TEST_P(Pipelines, let_users_behind_a_leader_use_what_it_left_two_frames_long) {
     std::array<int, 3> differing{};
     for (std::size_t i = 0; i < differing.size(); ++i)
       work.users.push_back({[&, i](const Numbered& frame) {
+                              if (i == 0 && frame.number % 100 == 0) pause_ms(1);  // the leader could go on
                               differing[i] += left[static_cast<std::size_t>(frame.number) % 2] != frame.square;
                             },
                             0});
