@@ -68,8 +68,9 @@ TEST(PlainValidator, knows_every_keyword_of_the_tools_schemas) {
   for (const DocumentRow& row : document_rows()) collect_keywords(row.schema(), keywords);
   EXPECT_GT(keywords.size(), 20u);
   for (const auto& [keyword, rule] : keywords)
-    if (keyword != "$ref" && keyword != "anyOf" && keyword != "oneOf")  // whose parts refer to the whole
+    if (keyword != "$ref" && keyword != "anyOf" && keyword != "oneOf") {  // whose parts refer to the whole
       EXPECT_NO_THROW(plain_violations({{keyword, rule}}, json())) << keyword;
+    }
 }
 
 // A document with something else at a random place.
