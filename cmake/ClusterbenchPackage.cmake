@@ -17,11 +17,15 @@ function(clusterbench_package_facts PLATFORM FILE)
   if(NOT SYSROOT)
     set(SYSROOT /)
   endif()
+  set(BUILT "") # libraries that were built from the source of a Debian package
+  if(CLUSTERBENCH_WINDOWS_ROOT)
+    set(BUILT "\"${CLUSTERBENCH_WINDOWS_ROOT}/lib/libhwy.a\": \"libhwy-dev\", \"${CLUSTERBENCH_WINDOWS_ROOT}/include/hwy/\": \"libhwy-dev\"")
+  endif()
   file(CONFIGURE OUTPUT ${FILE} CONTENT [[{
   "version": "@PROJECT_VERSION@", "platform": "@PLATFORM@", "triplet": "@CMAKE_LIBRARY_ARCHITECTURE@",
   "source": "@PROJECT_SOURCE_DIR@", "build": "@CMAKE_CURRENT_BINARY_DIR@", "sysroot": "@SYSROOT@",
   "dpkg": "@CLUSTERBENCH_SYSROOT_DPKG@", "readelf": "@CMAKE_READELF@",
-  "maintainer": "@CLUSTERBENCH_MAINTAINER@"
+  "maintainer": "@CLUSTERBENCH_MAINTAINER@", "program": "clusterbench@CMAKE_EXECUTABLE_SUFFIX@", "built": {@BUILT@}
 }
 ]] @ONLY)
 endfunction()
