@@ -1,4 +1,4 @@
-# clusterbench_package(): what `cpack` makes of a build. Generator TXZ (Windows: ZIP): an archive that needs glibc and libstdc++ alone.
+# clusterbench_package(): what `cpack` makes of a build. Generator External: an archive that needs glibc and libstdc++ alone.
 # Generator DEB: the packages clusterbench and clusterbench-dev, with dependencies. scripts/package calls it in a way that
 # gives the same bytes for the same commit. packaging/README.md says who adds what.
 set(CLUSTERBENCH_MAINTAINER "The clusterbench maintainers <clusterbench@localhost.localdomain>" CACHE STRING
@@ -41,9 +41,10 @@ function(clusterbench_package)
   set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/package/Stage.cmake)
   set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/package/Generator.cmake)
 
-  set(CPACK_GENERATOR TXZ)
+  set(CPACK_GENERATOR External)
+  set(CPACK_CLUSTERBENCH_ENDING .tar.xz)
   if(WIN32)
-    set(CPACK_GENERATOR ZIP)
+    set(CPACK_CLUSTERBENCH_ENDING .zip)
   endif()
   set(CPACK_PACKAGE_NAME clusterbench)
   set(CPACK_PACKAGE_VENDOR clusterbench)
