@@ -1,4 +1,4 @@
-# clusterbench_package(): what `cpack` makes of a build. Generator TXZ (Windows: ZIP): an archive that needs glibc and libstdc++ alone.
+# clusterbench_package(): what `cpack` makes of a build. Generator External: an archive that needs glibc and libstdc++ alone.
 # Generator DEB: the packages clusterbench and clusterbench-dev, with dependencies. scripts/package calls it in a way that
 # gives the same bytes for the same commit. packaging/README.md says who adds what.
 set(CLUSTERBENCH_MAINTAINER "The clusterbench maintainers <clusterbench@localhost.localdomain>" CACHE STRING
@@ -17,11 +17,15 @@ function(clusterbench_package_facts PLATFORM FILE)
   if(NOT SYSROOT)
     set(SYSROOT /)
   endif()
+  set(BUILT "") # libraries that were built from the source of a Debian package
+  if(CLUSTERBENCH_WINDOWS_ROOT)
+    set(BUILT "\"${CLUSTERBENCH_WINDOWS_ROOT}/lib/libhwy.a\": \"libhwy-dev\", \"${CLUSTERBENCH_WINDOWS_ROOT}/include/hwy/\": \"libhwy-dev\"")
+  endif()
   file(CONFIGURE OUTPUT ${FILE} CONTENT [[{
   "version": "@PROJECT_VERSION@", "platform": "@PLATFORM@", "triplet": "@CMAKE_LIBRARY_ARCHITECTURE@",
   "source": "@PROJECT_SOURCE_DIR@", "build": "@CMAKE_CURRENT_BINARY_DIR@", "sysroot": "@SYSROOT@",
   "dpkg": "@CLUSTERBENCH_SYSROOT_DPKG@", "readelf": "@CMAKE_READELF@",
-  "maintainer": "@CLUSTERBENCH_MAINTAINER@"
+  "maintainer": "@CLUSTERBENCH_MAINTAINER@", "program": "clusterbench@CMAKE_EXECUTABLE_SUFFIX@", "built": {@BUILT@}
 }
 ]] @ONLY)
 endfunction()
@@ -37,9 +41,10 @@ function(clusterbench_package)
   set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/package/Stage.cmake)
   set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/package/Generator.cmake)
 
-  set(CPACK_GENERATOR TXZ)
+  set(CPACK_GENERATOR External)
+  set(CPACK_CLUSTERBENCH_ENDING .tar.xz)
   if(WIN32)
-    set(CPACK_GENERATOR ZIP)
+    set(CPACK_CLUSTERBENCH_ENDING .zip)
   endif()
   set(CPACK_PACKAGE_NAME clusterbench)
   set(CPACK_PACKAGE_VENDOR clusterbench)
