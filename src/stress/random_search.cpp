@@ -84,6 +84,7 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
     each_in_order(threads, count, [&](std::size_t i) {
       if (is_over(first + i)) return;
       begin_one();
+      if (stop) return;
       os::note_setting("--random 1 --seed " + std::to_string(request.seed + first + i));
       trials[i] = random_setting(request.seed + first + i);
       reports[i] = check_setting(trials[i], methods);

@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"pre_culls", "slope",
             R"("assigners": ["aabb-fast"], "pre_cull": ["none", ["frustum", {"distance_m": 20}],
                 {"visible_set": {"view_cell_m": 4, "voxel_m": 2, "rays": 512}}])"},
-        Row{"presets", "street", R"("presets": ["godot", "bevy", "filament", "unity-urp"])"},
+        Row{"presets", "street", R"("presets": ["godot", "filament"])"},
         Row{"surfaces", "slope",
             R"("assigners": ["exact-fast", "tiled", "tiled-2.5d", "explicit", "flagged"], "samples": {"opaque": {}, "transparent": {}})"},
         Row{"shadows", "slope", R"("assigners": ["exact-fast"], "samples": {"opaque": {"divisor": 4}},

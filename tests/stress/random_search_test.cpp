@@ -214,8 +214,8 @@ TEST(RandomSearch, that_is_stopped_keeps_the_settings_done_by_then) {
   request.random = 1000;
   request.seed = 1;
   const std::vector<StressMethod> methods{flawed<Flaw::adds>()};
-  const auto stop_at_second_batch = [&](std::uint64_t settings, const std::string&) { stop = settings >= 64; };
-  const RandomSearch stopped = search_at_random(methods, request, stop_at_second_batch, stop);
+  const auto stop_at_65th = [&](std::uint64_t settings, const std::string&) { stop = settings >= 64; };
+  const RandomSearch stopped = search_at_random(methods, request, stop_at_65th, stop);
   EXPECT_EQ(stopped.counts.settings, 64U);
   const RandomSearch whole = searched_at_random(methods, 64);
   EXPECT_EQ(stopped.counts.pairs, whole.counts.pairs);
