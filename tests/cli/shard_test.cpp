@@ -177,10 +177,9 @@ TEST_F(ShardedRun, resumes_what_it_had_begun_and_no_other_shard) {
   const std::string sweep = config();
   ASSERT_EQ(run(sweep, "--shard 1/2", "s.json").code, 0);
   const std::string done = file_text(folder_ / "s.json");
-  const Outcome stopped =
-      tool("run " + sweep + " --no-timing -q --shard 1/2 -o " + path("t.json") + " & pid=$!; while [ $(cat " +
-           path("t.json.partial") +
-           " 2>/dev/null | wc -l) -lt 3 ] && kill -0 $pid 2>/dev/null; do :; done; kill -9 $pid; wait $pid");
+  tool("run " + sweep + " --no-timing -q --shard 1/2 -o " + path("t.json") + " & pid=$!; while [ $(cat " +
+       path("t.json.partial") +
+       " 2>/dev/null | wc -l) -lt 3 ] && kill -0 $pid 2>/dev/null; do :; done; kill -9 $pid; wait $pid");
   if (std::filesystem::exists(folder_ / "t.json.partial")) {
     const Outcome other = run(sweep, "--shard 2/2 --resume", "t.json");
     EXPECT_EQ(other.code, 2);
