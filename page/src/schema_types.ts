@@ -173,6 +173,13 @@ export type Result = {
     sha256: string; // Hash of the file: another one is another build
     interface_version: string; // That it was made for, as 1.0
   }>; // Shared libraries that cases' methods come from. Absent without any
+  shard?: {
+    index: number; // Its number, from 1
+    count: number; // Of all shards of the run [shards, over the run]
+    sweep: string; // SHA-256 of what all of its shards have in common: program, configuration, filter, scenes, cases
+    filter?: string; // That selected the run's cases (--filter); absent without one
+    host?: string; // Start of the SHA-256 of the machine's name: times of two machines of one kind stay apart. Absent where nothing is timed, and where the machine does not tell its name
+  }; // The result is this part of a run (`run --shard`), and `clusterbench merge` makes one result of all parts. Absent: it is whole
   machine: {
     cpu: string; // The processor's name
     family?: string; // The vendor's number, on ARM the implementer's; absent if unknown
@@ -190,7 +197,30 @@ export type Result = {
       end: number; // Just after; a run adds its own threads
     }; // Programs that run or wait to run. Absent where nothing is timed [programs, over one minute, the machine]
     os: string; // System, kernel and architecture
-  }; // Where it was measured
+  }; // Where it was measured; with `machines` the first of them
+  machines?: Array<{
+    name: string; // Of `machine` of its cases: machine 1, machine 2 ...
+    machine: {
+      cpu: string; // The processor's name
+      family?: string; // The vendor's number, on ARM the implementer's; absent if unknown
+      model?: string; // On ARM the part; absent if unknown
+      stepping?: string; // On ARM variant and revision, r3p1; absent if unknown
+      caches?: Record<string, number>; // Those that the first core uses; absent if unknown [bytes, over the first core]
+      cores: number; // Logical ones [cores, over the machine]
+      ram_bytes: number; // Main memory [bytes, over the machine]
+      clock_mhz?: {
+        now: number; // Mean when the run began [over all cores]
+        max?: number; // The highest that the system allows; absent if it does not say [over the first core]
+      }; // The processor's clock; absent if unknown, and where nothing is timed [MHz]
+      load?: {
+        begin: number; // Just before the run
+        end: number; // Just after; a run adds its own threads
+      }; // Programs that run or wait to run. Absent where nothing is timed [programs, over one minute, the machine]
+      os: string; // System, kernel and architecture
+    }; // As `machine` of a result
+    simd_target: string; // As `tool.simd_target`
+    host?: string; // As `shard.host`; absent where it is not known
+  }>; // Of a merged result the machines whose times, device's times or instructions it has; those of two are never compared, and every one has ranks, fronts and conclusions of its own. Absent where it is one
   device?: {
     name: string; // Its name, from its driver
     driver: string; // Name and version
@@ -315,6 +345,7 @@ export type Result = {
     storage: string; // What the lists are kept in; own: the assigner leaves a light structure of its own, without lists
     samples_search?: boolean; // true: the case is a light structure that each sample searches for its lights (a hierarchy, masks of bits) in place of reading a list. What that reads is counted and priced by config.cost, and no GPU has measured it: such a case stands on no front. Absent: it is none
     preset?: string; // The preset that the case is of (`clusterbench list presets`); absent for the configuration's own clusterings
+    machine?: string; // Name of one of machines, where its times and instructions were measured; absent where they are of one machine, and without any
     failures: Array<{
       kind: "lost_pairs" | "extra_pairs" | "lost_at_samples" | "dropped_pairs" | "wrong_readings" | "crashed" | "timed_out" | "out_of_memory" | "failed"; // Of a conservative or exact method: lost_pairs in lists, lost_at_samples without cells. extra_pairs: of an exact one. dropped_pairs: beyond limits.dropped_pairs of the configuration. wrong_readings: a device walked other lights than the structure has (reading). crashed, timed_out, out_of_memory, failed: of a plug-in, after the case was measured, as in broken
       text: string; // The same for people, without the case's name
@@ -919,6 +950,7 @@ export type Result = {
     scene: string; // Name of one of scenes
     camera: string; // As in cases
     viewport: [number, number]; // [width, height] [px, over the cases]
+    machine?: string; // As the cases'; absent where times are of one machine
     take: string | null; // Id of the case to take; null: no case is sound, nothing that they are ranked by sees a light, or the run failed (text says what)
     against: string | null; // Id of the cheapest case that is known to cost more; null: there is none
     ratio: number | null; // Cost of that / cost of the case to take [ratio, over the frame times]

@@ -64,7 +64,7 @@ TEST(Sweep, a_whole_result_is_no_shard) {
   parts[2].result.shard.reset();
   EXPECT_EQ(refusal_of(parts), "s3.json: /shard: is missing: it is a whole result, and s1.json is shard 1 of 3");
   std::swap(parts[0], parts[2]);
-  EXPECT_EQ(refusal_of(parts), "s3.json: /shard: is missing: it is a whole result, and s2.json is a shard");
+  EXPECT_EQ(refusal_of(parts), "s3.json: /shard: is missing: it is a whole result, and s2.json is shard 2 of 3");
 }
 
 TEST(Sweep, shards_of_other_programs_configurations_filters_and_numbers_are_refused_where_they_differ) {

@@ -20,11 +20,12 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SHARDS = 4
 DAEMONS = ("slurmctld", "slurmd", "sbatch", "scontrol", "squeue")
-# Half a second of work in a case, so that each shard takes some seconds.
+# Each shard has four grids, and takes some seconds.
 CONFIGURATION = {
-    "scenes": [{"path": str(ROOT / "scenes/hall-4096.glb"), "frames": 6}],
+    "scenes": [{"path": str(ROOT / "scenes/hall-4096.glb"), "frames": 96}],
     "viewport": [1920, 1080],
-    "grids": [{"kind": "frustum", "tiles": {"pixels": [[64, 64], [48, 48]]}, "slices": {"count": [16, 24, 32, 40], "far": 300}}],
+    "grids": [{"kind": "frustum", "tiles": {"pixels": [[32, 32], [24, 24]]},
+               "slices": {"count": [16, 20, 24, 28, 32, 36, 40, 44], "far": 300}}],
     "assigners": ["aabb-fast", "exact-fast"],
 }
 SETTINGS = """ClusterName=test

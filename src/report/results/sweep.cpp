@@ -55,9 +55,9 @@ Json program_of(const result::Result& result) {
   return tool;
 }
 
+// `first`: a shard.
 void check_of_one_run(const NamedPart& first, const NamedPart& next) {
   const result::Result &one = first.result, &other = next.result;
-  if (!one.shard) refuse(first, "/shard", "is missing: it is a whole result, and " + next.file + " is a shard");
   if (!other.shard)
     refuse(next, "/shard", "is missing: it is a whole result, and " + first.file + " is " + shard_text(*one.shard));
   if (one.shard->sweep == other.shard->sweep && one.shard->count == other.shard->count) return;
@@ -101,8 +101,9 @@ bool is_any_shard(const std::vector<NamedPart>& parts) {
 }
 
 void order_shards(std::vector<NamedPart>& parts) {
+  const auto first = std::ranges::find_if(parts, [](const NamedPart& part) { return part.result.shard.has_value(); });
   for (const NamedPart& part : parts) {
-    check_of_one_run(parts.front(), part);
+    check_of_one_run(*first, part);
     if (const result::Shard& shard = *part.result.shard; shard.index > shard.count)
       refuse(part, "/shard", "is " + shard_text(shard) + ", which is none of them");
   }

@@ -15,8 +15,9 @@ struct NamedPart {
 
 bool is_any_shard(const std::vector<NamedPart>& parts);
 
-// Brings the shards of one run into their order. Throws Error that names the files if a part is no shard, if parts are
-// of different programs, configurations, scenes or numbers of shards, if a shard is there twice, or if one is missing.
+// Brings the shards of one run into their order; at least one part is a shard. Throws Error that names the files if a
+// part is no shard, if parts are of different programs, configurations, scenes or numbers of shards, if a shard is
+// there twice, or if one is missing.
 void order_shards(std::vector<NamedPart>& parts);
 
 }  // namespace clusterbench::report
