@@ -133,7 +133,7 @@ class Packages(unittest.TestCase):
                 folder = self.folder / str(len(made)) / ending / "packed"
                 for name in names:
                     self.binary(folder / name, name)
-                os.utime(folder / "a", (len(made), len(made)))
+                os.utime(folder / "a", (len(made) * 2**32, len(made) * 2**32))
                 file = self.folder / f"{len(made)}.{ending}"
                 write(folder, file, 1000000000)
                 made.append(file.read_bytes())
