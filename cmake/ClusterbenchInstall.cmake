@@ -21,6 +21,9 @@ function(clusterbench_install)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/clusterbench
           PATTERN peers EXCLUDE)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md")
+  if(WIN32)
+    return() # which has neither man nor these shells
+  endif()
   clusterbench_install_output("man" ${CMAKE_INSTALL_MANDIR}/man1 clusterbench.1)
   clusterbench_install_output("completion bash" ${CMAKE_INSTALL_DATADIR}/bash-completion/completions clusterbench)
   clusterbench_install_output("completion zsh" ${CMAKE_INSTALL_DATADIR}/zsh/site-functions _clusterbench)

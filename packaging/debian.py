@@ -37,7 +37,8 @@ def spellings(path):
 
 def owners(facts, paths):
     """The package of each file: {path: name}. A file that no package has refuses the whole."""
-    names = {path: spellings(inside(facts, path)) for path in paths}
+    answer = {path: package for path in paths for start, package in facts.built.items() if path.startswith(start)}
+    names = {path: spellings(inside(facts, path)) for path in paths if path not in answer}
     found = {}
     admin = [f"--admindir={facts.dpkg}"] if facts.dpkg else []
     asked = sorted({name for spelled in names.values() for name in spelled})
@@ -47,7 +48,6 @@ def owners(facts, paths):
         packages, _, file = line.rpartition(": ")
         if not packages.startswith("diversion by"):
             found[file] = packages.split(", ")[0]
-    answer = {}
     for path, spelled in names.items():
         owner = next((found[name] for name in spelled if name in found), None)
         if owner is None:

@@ -20,6 +20,13 @@ class Facts:
     sysroot: pathlib.Path  # / or the folder with the libraries of another processor
     dpkg: str  # the folder of dpkg's records on the sysroot, "" for the machine's own
     readelf: str
+    maintainer: str  # of Debian's packages
+    program: str = "clusterbench"  # its file's name
+    built: dict = dataclasses.field(default_factory=dict)  # {beginning of a path: Debian package that it was built from}
+
+    @property
+    def is_windows(self):
+        return self.platform.startswith("windows")
 
     @property
     def commit(self):

@@ -11,8 +11,8 @@ import debian
 from facts import Refused, output
 
 # Source packages of the compiler and the C library. The exception in their licences leaves programs free of it.
-TOOLCHAIN = re.compile(r"^(glibc|linux|gcc-\d+.*|gcc-defaults.*|cross-toolchain-base.*|libxcrypt)$")
-COMPILERS_OWN = re.compile(r"^/usr/(lib/(gcc|llvm)|[a-z0-9_]+-linux-gnu)|/c\+\+/")
+TOOLCHAIN = re.compile(r"^(glibc|linux|gcc-\d+.*|gcc-defaults.*|cross-toolchain-base.*|libxcrypt|mingw-w64|gcc-mingw-w64)$")
+COMPILERS_OWN = re.compile(r"^/usr/(lib/(gcc|llvm)|[a-z0-9_]+-(linux-gnu|w64-mingw32))|/c\+\+/")
 
 
 @dataclasses.dataclass
@@ -53,8 +53,9 @@ def read_headers(facts):
 
 
 def is_own(facts, path):
-    ours = pathlib.Path(path).is_relative_to(facts.source) or pathlib.Path(path).is_relative_to(facts.build)
-    return ours and not (str(facts.sysroot) != "/" and pathlib.Path(path).is_relative_to(facts.sysroot))
+    """Of the sources or made by this build. Libraries for another processor or system lie in other folders of build/."""
+    path = pathlib.Path(path)
+    return path.is_relative_to(facts.build) or (path.is_relative_to(facts.source) and not path.is_relative_to(facts.source / "build"))
 
 
 def first_comment(path):
@@ -78,6 +79,12 @@ def piece_of(facts, package, how):
     version = package.version.replace("+", "%2B").replace(":", "%3A")
     purl = f"pkg:deb/debian/{package.source}@{version}?arch=source"
     return Piece(name, package.version, known["licence"], how, package.homepage, purl, licence_text(facts, package, known.get("only")))
+
+
+def runtimes(facts):
+    """Windows has no C library for programs of mingw-w64: it is in the program, with g++'s."""
+    return [piece_of(facts, debian.package(facts, name), "static") for name in ("mingw-w64-x86-64-dev", "gcc-mingw-w64-base")] \
+        if facts.is_windows else []
 
 
 def debian_pieces(facts, shared):
@@ -107,4 +114,4 @@ def page_pieces(facts):
 
 
 def all_pieces(facts, shared):
-    return sorted(debian_pieces(facts, shared) + page_pieces(facts), key=lambda piece: (piece.how == "page", piece.name))
+    return sorted(debian_pieces(facts, shared) + runtimes(facts) + page_pieces(facts), key=lambda piece: (piece.how == "page", piece.name))

@@ -4,6 +4,8 @@
 archive: the shared libraries beside the program, licences of all that is inside, an SBOM, a README.txt.
 deb: the same without the libraries, which are dependencies, in the forms that Debian asks for."""
 
+import datetime
+import email.utils
 import gzip
 import os
 import pathlib
@@ -18,20 +20,24 @@ from facts import Refused, read_facts
 
 README = """clusterbench {version} for {platform}, commit {commit}
 
-bin/clusterbench measures clustered light assignment on your own level. It starts from any folder and needs no installation:
+bin/{program} measures clustered light assignment on your own level. It starts from any folder and needs no installation:
 
-    bin/clusterbench run share/clusterbench/scenes/street.glb -o result.json
-    bin/clusterbench report result.json -o report.html
-    bin/clusterbench size share/clusterbench/scenes/street.glb
+    bin/{program} run share/clusterbench/scenes/street.glb -o result.json
+    bin/{program} report result.json -o report.html
+    bin/{program} size share/clusterbench/scenes/street.glb
 
-It needs Linux with glibc {glibc} and libstdc++ with GLIBCXX_{libstdcxx}, or newer ones.
-Everything else lies in lib/. A GPU is found through the machine's own Vulkan loader, if there is one.
+{needs}
 
 share/doc/clusterbench/README.md       what it is for, and the commands
 share/doc/clusterbench/docs/           all documents
 share/doc/clusterbench/third-party/    software of others inside, with licences; the SBOM lies beside this folder
 include/, lib/cmake, lib/pkgconfig     the library for engines, and the headers of plug-ins
 """
+
+LINUX_NEEDS = """It needs Linux with glibc {glibc} and libstdc++ with GLIBCXX_{libstdcxx}, or newer ones. Everything else lies in lib/. A GPU is found
+through the machine's own Vulkan loader, if there is one."""
+
+WINDOWS_NEEDS = "It needs 64-bit Windows 10 or later and nothing else. docs/systems.md says what is not in it."
 
 
 def settle(folder, seconds):
@@ -57,18 +63,33 @@ def add_documents(facts, root, found, program):
 
 
 def readme(facts, files):
-    return README.format(version=facts.version, platform=facts.platform, commit=facts.commit,
-                         glibc=binaries.newest_needed(facts, files, "GLIBC"),
-                         libstdcxx=binaries.newest_needed(facts, files, "GLIBCXX"))
+    needs = WINDOWS_NEEDS if facts.is_windows else LINUX_NEEDS.format(glibc=binaries.newest_needed(facts, files, "GLIBC"),
+                                                                      libstdcxx=binaries.newest_needed(facts, files, "GLIBCXX"))
+    return README.format(version=facts.version, platform=facts.platform, commit=facts.commit, program=facts.program, needs=needs)
+
+
+def shared_beside(facts, root, program):
+    """Windows: all libraries are linked into the program."""
+    if facts.is_windows:
+        return {}
+    shared = binaries.libraries(facts, program)
+    binaries.put_beside(shared, program, root / "lib")
+    return shared
 
 
 def stage_archive(facts, root):
-    program = root / "bin/clusterbench"
-    shared = binaries.libraries(facts, program)
-    binaries.put_beside(shared, program, root / "lib")
+    program = root / "bin" / facts.program
+    shared = shared_beside(facts, root, program)
     add_documents(facts, root, pieces.all_pieces(facts, shared), program)
     (root / "README.txt").write_text(readme(facts, [program, *(root / "lib" / name for name in shared)]), encoding="utf-8")
     settle(root, facts.seconds)
+
+
+def debian_changelog(facts, package):
+    date = email.utils.format_datetime(datetime.datetime.fromtimestamp(facts.seconds, datetime.timezone.utc))
+    return (f"{package} ({facts.version}-1) unstable; urgency=medium\n\n"
+            f"  * Made of commit\n    {facts.commit}.\n    Its changes are in changelog.gz.\n\n"
+            f" -- {facts.maintainer}  {date}\n")
 
 
 def debian_documents(facts, folder, package):
@@ -76,7 +97,9 @@ def debian_documents(facts, folder, package):
     documents.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(facts.source / "LICENSE", documents / "copyright")
     shutil.copyfile(facts.source / "CHANGELOG.md", documents / "changelog")
-    compress(documents / "changelog")
+    (documents / "changelog.Debian").write_text(debian_changelog(facts, package), encoding="utf-8")
+    for name in ("changelog", "changelog.Debian"):
+        compress(documents / name)
     for name in ("LICENSE", "CHANGELOG.md"):
         (documents / name).unlink(missing_ok=True)
 

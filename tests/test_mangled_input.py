@@ -93,9 +93,12 @@ def mangled_document(text, draw):
 
 
 def mangled_lines(text, draw):
-    """Of a file with a JSON value per line one line."""
+    """Of a file with a JSON value per line one line, or a blank one more."""
     lines = text.split(b"\n")
     place = draw.randrange(len(lines))
+    if draw.random() < 0.15:
+        lines.insert(place, draw.choice([b"", b" ", b"\r", b"\t\r"]))
+        return b"\n".join(lines)
     lines[place] = mangled_document(lines[place], draw) if lines[place] else b"{}"
     return b"\n".join(lines)
 

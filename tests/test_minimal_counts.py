@@ -15,8 +15,8 @@ SCENES = ROOT / "scenes"
 RUNS = {
     "a level": [SCENES / "street.glb"],
     "patterns": [SCENES / "street.glb", "--filter", "(aabb|exact)(-fast)?/(packed|bitfield)$"],
-    "presets": [SCENES / "street.glb", "--presets"],
-    "depth": [ROOT / "configs/depth.json", "--set", "scenes.*.frames=2"],
+    "presets": [SCENES / "street.glb", "--presets", "--set", "scenes.*.frames=2", "--set", "viewport=[480,270]"],
+    "depth": [ROOT / "configs/depth.json", "--set", "scenes.*.frames=1", "--set", "viewport=[480,270]"],
     "two threads": [SCENES / "street.glb", "--threads", "2"],
 }
 FOREIGN = "this clusterbench was built without"

@@ -6,6 +6,7 @@ other files stay as they are, and that nothing is left behind.
 usage: test_output_files.py PROGRAM [--tries N] [--seed N]"""
 
 import argparse
+import fcntl
 import json
 import os
 import pathlib
@@ -224,6 +225,41 @@ class Trial:
 
         self.reader = end
 
+    def full_pipe(self):
+        """One that does not block, as another program may have set it, with a reader that is slow to begin."""
+        if self.name == "scene views" or self.is_history:  # its ending says what is written; no history
+            return
+        read, write = os.pipe()
+        os.set_blocking(write, False)
+        fcntl.fcntl(write, fcntl.F_SETPIPE_SZ, 4096)
+        self.target, self.written = pathlib.Path(f"/dev/fd/{write}"), None
+        self.options["pass_fds"] = (write,)
+        taken = []
+
+        def take():
+            time.sleep(0.3)
+            with os.fdopen(read, "rb") as pipe:
+                taken.append(pipe.read())
+
+        reader = threading.Thread(target=take, daemon=True)
+        reader.start()
+
+        def end():
+            os.close(write)
+            reader.join(5)
+            assert taken and is_whole(taken[0], self.ending), f"through the pipe came {taken}"
+
+        self.reader = end
+
+    def held(self):
+        """For a moment, by another process that adds to it."""
+        if not self.is_history:
+            return
+        self.file()
+        holder = self.target.open("ab")
+        fcntl.flock(holder, fcntl.LOCK_EX)
+        threading.Timer(0.3, holder.close).start()
+
     def device(self):
         try:
             os.mknod(self.target, stat.S_IFCHR | 0o666, os.makedev(1, 3))
@@ -250,7 +286,8 @@ class Trial:
     def run(self, kind):
         getattr(self, kind)()
         before = state(self.folder)
-        out = os.path.relpath(self.target, self.folder) if self.draw.random() < 0.5 else str(self.target)
+        is_near = self.target.is_relative_to(self.folder) and self.draw.random() < 0.5
+        out = os.path.relpath(self.target, self.folder) if is_near else str(self.target)
         words = [self.program] + self.arguments.format(out).split()
         with subprocess.Popen(words, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               **self.options) as process:
@@ -294,7 +331,8 @@ class Trial:
 
 
 KINDS = ["missing", "file", "other_text", "link", "dangling_link", "circle_of_links", "target_is_input", "folder_there",
-         "missing_folder", "read_only_folder", "names_beside", "partial_that_is_a_link", "pipe", "device", "full_disk", "signal"]
+         "missing_folder", "read_only_folder", "names_beside", "partial_that_is_a_link", "pipe",
+         "full_pipe", "held", "device", "full_disk", "signal"]
 
 
 def prepared(program, base):

@@ -19,13 +19,14 @@ std::span<const AcceptanceTest> acceptance_tests();
 // Null if there is none of that name.
 const AcceptanceTest* find_test(const std::string& name);
 
-// Runs a test. What it throws becomes a fault.
+// Runs a test. What it throws becomes a fault, as does a call that forked.
 Findings run_test(const AcceptanceTest& test, const Subject& subject);
 
 // The tests of each file.
 std::vector<AcceptanceTest> instance_tests();
 std::vector<AcceptanceTest> list_tests();
 std::vector<AcceptanceTest> memory_tests();
+std::vector<AcceptanceTest> surrounding_tests();
 std::vector<AcceptanceTest> truth_tests();
 
 }  // namespace clusterbench::acceptance

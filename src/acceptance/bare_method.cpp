@@ -6,7 +6,18 @@
 
 namespace clusterbench::acceptance {
 
-BareMethod::BareMethod(const plugin::MethodFacts& method) : method_(method) {
+template <class Function>
+auto BareMethod::noted(os::CallStep step, const Function& function) {
+  struct Checked {
+    ~Checked() { os::end_if_files_are_lost(); }
+  };
+  const os::ForeignCall call(caller_, step);
+  const Checked checked;
+  return function();
+}
+
+BareMethod::BareMethod(const plugin::MethodFacts& method)
+    : method_(method), caller_{os::note_code(method.descriptor.plugin), 0} {
   error_ = {sizeof error_, static_cast<std::uint32_t>(text_.size()), text_.data()};
 }
 
@@ -20,8 +31,10 @@ void BareMethod::clear() {
 
 clusterbench_status BareMethod::create(const std::vector<clusterbench_value>& values) {
   clear();
-  last_ =
-      method_.table.create(method_.own, values.data(), static_cast<std::uint32_t>(values.size()), &instance_, &error_);
+  last_ = noted(os::CallStep::create, [&] {
+    return method_.table.create(method_.own, values.data(), static_cast<std::uint32_t>(values.size()), &instance_,
+                                &error_);
+  });
   is_there_ = last_ == CLUSTERBENCH_OK;
   return last_;
 }
@@ -33,17 +46,19 @@ clusterbench_status BareMethod::create() {
 
 clusterbench_status BareMethod::build(const clusterbench_grid& grid, std::uint32_t light_types) {
   clear();
-  return last_ = method_.table.build(instance_, &grid, light_types, &error_);
+  return last_ =
+             noted(os::CallStep::build, [&] { return method_.table.build(instance_, &grid, light_types, &error_); });
 }
 
 clusterbench_status BareMethod::assign(const clusterbench_frame& frame, const clusterbench_lights& lights,
                                        clusterbench_lists& lists) {
   clear();
-  return last_ = method_.table.assign(instance_, &frame, &lights, &lists, &error_);
+  return last_ = noted(os::CallStep::assign,
+                       [&] { return method_.table.assign(instance_, &frame, &lights, &lists, &error_); });
 }
 
 void BareMethod::destroy() {
-  if (is_there_) method_.table.destroy(instance_);
+  if (is_there_) noted(os::CallStep::destroy, [&] { method_.table.destroy(instance_); });
   is_there_ = false;
 }
 

@@ -30,9 +30,13 @@ class BareMethod {
   std::string outcome() const;
 
  private:
+  // A call, noted as those of the program are.
+  template <class Function>
+  auto noted(os::CallStep step, const Function& function);
   void clear();
 
   const plugin::MethodFacts& method_;
+  os::Caller caller_;
   std::array<char, 1024> text_{};
   clusterbench_error error_{};
   void* instance_ = nullptr;

@@ -6,6 +6,7 @@
 #include "acceptance/bare_method.h"
 #include "acceptance/guarded_inputs.h"
 #include "core/error.h"
+#include "os/call_notes.h"
 
 namespace clusterbench::acceptance {
 namespace {
@@ -51,6 +52,7 @@ class GuardedCall {
  public:
   GuardedCall(const Subject& subject, const SubjectFrame& frame, Guard guard)
       : frame_(frame), guard_(guard), inputs_(frame, guard), method_(*subject.method) {
+    os::note_setting(frame.label);
     if (method_.create() != CLUSTERBENCH_OK || method_.build(inputs_.grid(), inputs_.light_types()) != CLUSTERBENCH_OK)
       throw Error("", frame.label, "create() or build() gave " + method_.outcome());
   }

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "os/call_notes.h"
 #include "stress/random_setting.h"
 
 namespace clusterbench::acceptance {
@@ -72,6 +73,7 @@ SubjectFrame with_lights(const SubjectFrame& from, const std::function<bool(std:
 
 assign::Lists lists_of(const Subject& subject, const SubjectFrame& frame) {
   const stress::StressMethod method = subject.with_defaults();
+  os::note_setting(frame.label);
   assign::AssignerRun run = method.start();
   run.build(frame.grid, frame.kinds());
   run.assign(frame.input());

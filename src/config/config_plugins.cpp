@@ -66,7 +66,17 @@ void refuse_absent(const NamedMethod& method, const std::string& id) {
   throw Error(method.file, method.where,
               "'" + method.name + "' is a method of the plug-in '" + id +
                   "', which is not there: name its file by --plugin FILE or the key \"plugins\", or have it as " + id +
-                  ".so in a folder of the variable " + plugin::k_path_variable);
+                  ".so in a folder of the variable " + plugin::k_path_variable + ", which " + plugin::path_text());
+}
+
+// A file can be named otherwise than its plug-in.
+void refuse_file_name(const NamedMethod& method, const std::string& name) {
+  const plugin::LoadedPlugin* loaded = plugin::find_plugin_of_file(name);
+  if (loaded == nullptr || loaded->facts.id == name) return;
+  throw Error(method.file, method.where,
+              "'" + method.name + "': " + name + ".so has the id '" + loaded->facts.id + "'; name its method " +
+                  loaded->facts.id + method.name.substr(name.size()) + ", or have the file as --plugin " + name +
+                  "=FILE");
 }
 
 void load_named(JsonText& text, std::span<const FlagValue> flags) {
@@ -77,10 +87,12 @@ void load_named(JsonText& text, std::span<const FlagValue> flags) {
     const std::string id = name.substr(0, name.find('.'));
     const bool is_known = assign::find_assigner(name) != nullptr || plugin::find_plugin(id) != nullptr;
     if (id == name || id.empty() || is_known) continue;
+    refuse_file_name(method, id);
     const fs::path file = plugin::file_on_path(id);
     if (file.empty() && !has_shaders) refuse_absent(method, id);  // theirs are read later
     if (file.empty()) continue;
     load_from(file, "", "", plugin::k_path_variable);
+    refuse_file_name(method, id);
     text.value["plugins"].push_back(fs::absolute(file).generic_string());
   }
 }

@@ -22,8 +22,13 @@ Error::Error(std::string file, std::string where, std::string message, ExitCode 
       message_(std::move(message)),
       code_(code) {}
 
+std::string reason_text(int error) {
+  const bool is_limit = error == EMFILE || error == ENFILE;
+  return std::strerror(error) + std::string(is_limit ? "; allow more of them (ulimit -n 256)" : "");
+}
+
 std::string errno_text(const std::string& action) {
-  return action + ": " + std::strerror(errno);
+  return action + ": " + reason_text(errno);
 }
 
 }  // namespace clusterbench

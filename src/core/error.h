@@ -34,6 +34,9 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
+// The system's reason for an errno, with the way out of a limit that a user sets.
+std::string reason_text(int error);
+
 // The failed action with the system's reason from errno: "cannot be written: No space left on device".
 std::string errno_text(const std::string& action);
 

@@ -58,7 +58,8 @@ class Counter {
       } else if (c == '\0' &&
                  text_.find_first_not_of(std::string_view("\0 \t\r\n", 5), at_) != std::string_view::npos) {
         // The library takes it for the end. Writers of glb fill up with it.
-        return JsonFault{at_, "is a NUL byte with more text behind it"};
+        return JsonFault{at_, at_ < 2 ? "is a NUL byte, as in UTF-16; JSON is UTF-8: save it as that"
+                                      : "is a NUL byte with more text behind it"};
       }
     }
     check_memory("values of a JSON document", values_, k_json_value_bytes, "split the file");

@@ -44,8 +44,12 @@ bool is_built_in(Library library) {
   return row_of(library).is_built_in;
 }
 
+std::string built_without(Library library) {
+  return std::string("this clusterbench was built without ") + row_of(library).name;
+}
+
 std::string missing_library(Library library) {
-  return is_built_in(library) ? "" : std::string("this clusterbench was built without ") + row_of(library).name;
+  return is_built_in(library) ? "" : built_without(library);
 }
 
 void need_library(Library library, const std::string& option, std::string_view purpose) {

@@ -34,7 +34,9 @@ struct OptionalLibrary {
 std::span<const OptionalLibrary> optional_libraries();
 bool is_built_in(Library library);
 
-// "this clusterbench was built without Embree"; "" if it is built in. A reason for a case under `skipped`.
+// "this clusterbench was built without Embree": the reason for a case under `skipped` in the result of such a build.
+std::string built_without(Library library);
+// The same of this build; "" if the library is built in.
 std::string missing_library(Library library);
 // Throws Error with `option` as its location if the library is missing: "--images: pictures need libpng, and this
 // clusterbench was built without it".

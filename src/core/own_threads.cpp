@@ -120,7 +120,8 @@ struct ThreadPool::Arena {
 };
 
 ThreadPool::ThreadPool(int threads) : threads_(threads) {
-  if (helpers_for(threads) > 0 && shared_threads() == nullptr) arena_ = std::make_unique<Arena>(helpers_for(threads));
+  if (helpers_for(threads) > 0 && !is_at_work && shared_threads() == nullptr)
+    arena_ = std::make_unique<Arena>(helpers_for(threads));
 }
 ThreadPool::~ThreadPool() = default;
 ThreadPool::ThreadPool(ThreadPool&&) noexcept = default;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "dump/lost_lights.h"
 #include "dump/other_orders.h"
 
@@ -158,7 +159,7 @@ constexpr std::array k_verdicts = {"right", "rounding", "empty",     "twice",
 result::CheckedDump judged(const DumpFile& dump, const JudgeOptions& options) {
   const DumpFrame frame = frame_of(dump);
   result::CheckedDump out;
-  out.dump = dump.path.string();
+  out.dump = printable(dump.path.string());
   out.name = dump.name();
   out.engine = dump.record.engine.value_or("");
   out.points = frame.frame.points;

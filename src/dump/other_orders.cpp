@@ -142,10 +142,11 @@ class BestReading {
            (!is_lost_ || is_for_nothing_ ||
             k_times_chance * evidence.by_chance >= static_cast<double>(found_.lost_pairs));
   }
-  // Loses far fewer, and has no fewer than half as many pairs that are true.
+  // Loses far fewer, though chance would lose a good part of them (squares of ranges may lose any number), and has no
+  // fewer than half as many pairs that are true.
   bool explains_losses(std::uint64_t lost, const Evidence& evidence) const {
     return is_lost_ && lost <= found_.lost_pairs / k_times_fewer &&
-           k_times_chance * evidence.by_chance >= static_cast<double>(found_.lost_pairs) &&
+           (evidence.is_strict || k_times_chance * evidence.by_chance >= static_cast<double>(found_.lost_pairs)) &&
            2 * true_of(lost, evidence.truth) >= found_.true_pairs - found_.lost_pairs;
   }
   // Makes most of the listed pairs true, and many more than there were.
@@ -154,19 +155,23 @@ class BestReading {
     return is_for_nothing_ && lost <= found_.listed_pairs / k_times_fewer &&
            2 * are_true > evidence.listed.pair_count() && 2 * are_true >= 3 * were_true;
   }
-  bool fits_both_ways(std::uint64_t lost, const Evidence& evidence) const {
-    const std::uint64_t wrong = lost + evidence.listed.pair_count() - true_of(lost, evidence.truth);
-    return 3 * wrong <= found_.lost_pairs + found_.false_positives;
+  // Lost and for nothing.
+  static std::uint64_t wrong_of(std::uint64_t lost, const Evidence& evidence) {
+    return lost + evidence.listed.pair_count() - true_of(lost, evidence.truth);
   }
+  bool fits_both_ways(std::uint64_t wrong) const { return 3 * wrong <= found_.lost_pairs + found_.false_positives; }
 
   void take(std::uint64_t lost, const Evidence& evidence, result::OtherReading reading) {
-    if (lost > most_ || (best_ && lost >= best_->lost_pairs)) return;
+    if (lost > most_) return;
+    const std::uint64_t wrong = wrong_of(lost, evidence);
+    if (best_ && (evidence.is_strict ? wrong >= best_wrong_ : lost >= best_->lost_pairs)) return;
     if (k_times_chance * static_cast<double>(lost + 1) > evidence.by_chance) return;
     const bool loses_fewer = explains_losses(lost, evidence), has_more_true = explains_excess(lost, evidence);
-    if (evidence.is_strict && (!fits_both_ways(lost, evidence) || (is_lost_ && !loses_fewer))) return;
+    if (evidence.is_strict && (!fits_both_ways(wrong) || (is_lost_ && !loses_fewer))) return;
     if (!loses_fewer && !has_more_true) return;
     reading.lost_pairs = lost;
     best_ = std::move(reading);
+    best_wrong_ = wrong;
   }
 
   layout::CellOrder given_;
@@ -175,7 +180,7 @@ class BestReading {
   std::size_t lights_;
   bool is_lost_ = found_.lost_pairs >= k_too_few;
   bool is_for_nothing_ = found_.listed_pairs >= k_too_few && are_for_nothing(found_);
-  std::uint64_t most_ = 0;
+  std::uint64_t most_ = 0, best_wrong_ = 0;
   std::optional<result::OtherReading> best_;
 };
 
@@ -205,7 +210,8 @@ void try_frames(const DumpFile& dump, const DumpFrame& frame, const assign::List
   });
   if (best.best()) return;
   each_other_range(dump, frame, best.wanted_ranges(), [&](const DumpFrame& other, const std::string& change) {
-    return tried(other, [&](const assign::Lists& truth) { best.try_ranges(truth, listed, change); });
+    tried(other, [&](const assign::Lists& truth) { best.try_ranges(truth, listed, change); });
+    return false;  // several may fit: the best is said
   });
 }
 

@@ -73,6 +73,8 @@ ForeignCall::ForeignCall(const Caller& caller, CallStep step, int frame) : calle
     step_before_ = notes.step;
     frame_before_ = notes.frame;
   }
+  if (step == CallStep::create)
+    g_page->has_made[std::min<std::size_t>(caller.code, NotesPage::k_codes - 1)].store(true, k_relaxed);
   notes.code.store(caller.code, k_relaxed);
   notes.label.store(caller.label, k_relaxed);
   notes.step.store(static_cast<std::uint32_t>(step), k_relaxed);
@@ -117,6 +119,13 @@ std::uint32_t note_code(std::string_view name) {
   const std::uint32_t index = std::min<std::uint32_t>(g_page->codes.fetch_add(1), NotesPage::k_codes - 1);
   g_page->names[index].set(index + 1 < NotesPage::k_codes ? name : "one of more than 32 plug-ins");
   return index;
+}
+
+std::vector<std::string> codes_that_made() {
+  std::vector<std::string> names;
+  for (std::size_t code = 0; code < NotesPage::k_codes; ++code)
+    if (g_page->has_made[code]) names.push_back(g_page->names[code].text());
+  return names;
 }
 
 void note_group(std::string_view case_id) {
@@ -217,6 +226,7 @@ void clear_notes(NotesPage& page) {
   page.has_forked = false;
   page.has_child_status = false;
   page.codes = 0;
+  for (std::atomic<bool>& made : page.has_made) made = false;
   page.group.set("");
   page.pass.set("");
   for (ThreadNotes& notes : page.threads) notes.process = 0;

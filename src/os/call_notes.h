@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace clusterbench::os {
 
@@ -43,6 +44,9 @@ class ForeignCall {
 
 // Gives foreign code a number. All after the 32nd have one number in common. Texts in notes are cut to 100 bytes.
 std::uint32_t note_code(std::string_view name);
+
+// The names of those that have made an object (CallStep::create) in this process, or in one that has joined its notes.
+std::vector<std::string> codes_that_made();
 
 // What later calls belong to. A group of cases, by the id of one of them, and a pass over its frames: of the process. A
 // label and a setting ("seed 17"), with which a person can try the same again: of this thread.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "os/call_notes.h"
 
@@ -31,6 +32,7 @@ struct GuardedEnd {
   bool has_ended_thread = false;  // ... because foreign code ended the thread that called it
   int lost_descriptor = -1;       // ... because foreign code closed or replaced a file that the process needs
   bool has_forked = false;        // ... because foreign code forked it, and the copy came back from the call
+  std::vector<std::string> made;  // codes of which it had made an object, if it died
   int orphans = 0;                // processes that it left running, and that were ended
   // Of a process that did not end by itself: the call that was running, or the last one before; none if it made none.
   std::optional<NotedCall> call;
@@ -62,7 +64,11 @@ class ProcessGuard {
   Limits limits_;
 };
 
-// The end of a process that this one has started, and that has joined its notes.
+// Notes for the next process that this one starts, which joins them (os/call_notes.h). Throws Error.
+void begin_notes();
+// How much more memory it has than when it first made something, in bytes, if it is in a call; else 0.
+std::uint64_t noted_growth();
+// The end of such a process.
 GuardedEnd noted_end(int wait_status);
 
 // In the copy: says how far it has come, as its last act before it ends like any process.

@@ -68,6 +68,7 @@ struct NotesPage {
   std::atomic<int> forked_frame;
   std::atomic<std::uint32_t> codes;
   std::array<NotedText<101>, k_codes> names;
+  std::array<std::atomic<bool>, k_codes> has_made;  // an object
   NotedText<101> group, pass;
   NotedText<1000> message;  // for the next process of the same guard
   std::array<ThreadNotes, k_threads> threads;

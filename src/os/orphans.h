@@ -11,7 +11,7 @@ class Orphans {
   Orphans();
 
   // Ends all that there are, once this process has waited for its own. Returns how many did not end by
-  // themselves within 20 ms.
+  // themselves within 200 ms.
   int end_all() const;
 
  private:
@@ -20,7 +20,7 @@ class Orphans {
 
 // Processes that this one has started, or taken over, and that have not been waited for.
 std::vector<int> child_processes();
-// Threads of this process.
+// Of this process.
 int thread_count();
 
 }  // namespace clusterbench::os

@@ -28,7 +28,8 @@ OutputTarget output_target(const std::filesystem::path& name);
 // Throws Error if the folder for the file does not exist.
 void require_folder_of(const std::filesystem::path& name);
 
-// By errno: no room, or a failing disk, is `internal`; an error that another name avoids is `usage`.
+// By errno: no room, too many open files, or a failing disk, is `internal`; an error that another name avoids is
+// `usage`.
 ExitCode code_of_failed_write(int error);
 
 // All functions throw Error.

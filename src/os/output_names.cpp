@@ -24,7 +24,7 @@ ExitCode code_of_failed_write(int error) {
 #ifdef EDQUOT
   if (error == EDQUOT) return ExitCode::internal;
 #endif
-  for (const int known : {ENOSPC, EFBIG, EIO, EBADF, EPIPE})
+  for (const int known : {ENOSPC, EFBIG, EIO, EBADF, EPIPE, EMFILE, ENFILE})
     if (error == known) return ExitCode::internal;
   return ExitCode::usage;
 }

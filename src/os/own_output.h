@@ -5,8 +5,8 @@
 
 namespace clusterbench::os {
 
-// From now on what is printed to standard output goes nowhere, and no file of this process (standard error in memory,
-// too) grows beyond a megabyte.
+// From now on what is printed to standard output goes to standard error, and no file of this process (standard error in
+// memory, too) grows beyond a megabyte.
 class OwnOutput {
  public:
   OwnOutput();

@@ -175,7 +175,9 @@ class Drawing {
       out.scene_line += ", one of " + std::to_string(divisor) + "x" + std::to_string(divisor) + " pixels";
     if (surface.plane_m)
       out.scene_line += ", all at depth " + short_number(*surface.plane_m) + " m" +
-                        (request_.plane_m ? "" : ": there are no triangles");
+                        (request_.plane_m               ? ""
+                         : is_built_in(Library::embree) ? ": there are no triangles"
+                                                        : ": no Embree sees surfaces");
     return out;
   }
 

@@ -155,6 +155,12 @@ const LoadedPlugin* find_plugin(const std::string& id) {
   return nullptr;
 }
 
+const LoadedPlugin* find_plugin_of_file(const std::string& name) {
+  for (const Registered& one : loaded())
+    if (one.plugin.file.filename() == name + ".so") return &one.plugin;
+  return nullptr;
+}
+
 PluginFacts describe_plugin(const fs::path& given) {
   const fs::path file = absolute_path(given);
   content_of_library(file);
@@ -166,6 +172,19 @@ fs::path file_on_path(const std::string& id) {
   for (const fs::path& folder : folders_on_path())
     if (fs::path file = folder / (id + ".so"); fs::is_regular_file(file, failed)) return file;
   return {};
+}
+
+std::string path_text() {
+  std::string text;
+  for (const fs::path& folder : folders_on_path()) {
+    std::error_code none;
+    const bool is_there = fs::is_directory(folder, none);
+    text += (text.empty() ? "has " : ", ") + folder.string() +
+            (is_there                   ? ""
+             : fs::exists(folder, none) ? " (is no folder)"
+                                        : " (does not exist)");
+  }
+  return text.empty() ? "is not set" : text;
 }
 
 std::vector<fs::path> files_on_path() {

@@ -36,6 +36,8 @@ const LoadedPlugin& load_plugin(const std::filesystem::path& file, const std::st
 
 // The loaded plug-in with this id; null if there is none.
 const LoadedPlugin* find_plugin(const std::string& id);
+// That of a file NAME.so, whatever its id is. Null if none is loaded.
+const LoadedPlugin* find_plugin_of_file(const std::string& name);
 
 // Loads a plug-in's file and reads what it says, without registering anything.
 PluginFacts describe_plugin(const std::filesystem::path& file);
@@ -44,6 +46,8 @@ PluginFacts describe_plugin(const std::filesystem::path& file);
 inline constexpr const char* k_path_variable = "CLUSTERBENCH_PLUGIN_PATH";
 // The first ID.so in these folders; "" if there is none.
 std::filesystem::path file_on_path(const std::string& id);
+// "is not set", or "has /a, /b (does not exist)": for messages.
+std::string path_text();
 // All *.so in them, the first of each name, in the order of folders and names.
 std::vector<std::filesystem::path> files_on_path();
 

@@ -168,11 +168,17 @@ bool has_gone(const std::string& script) {
 TEST(Baseline, a_program_that_dies_is_told_with_its_last_words) {
   const Place place;
   const Outcome done = place.run(place.script(killed_after_greeting() + "echo 'out of luck' >&2; kill -SEGV $$"));
-  EXPECT_EQ(done.code, 2);
+  EXPECT_EQ(done.code, 70) << "as for a launch that dies";
   EXPECT_NE(done.err.find("ended (signal 11 (Segmentation fault)) at 'lists "), std::string::npos) << done.err;
   EXPECT_NE(done.err.find("out of luck"), std::string::npos) << done.err;
   EXPECT_NE(done.err.find("; what was measured is in " + place.out + ".partial, --resume goes on"), std::string::npos)
       << done.err;
+}
+
+TEST(Baseline, a_program_that_is_interrupted_or_gives_up_is_told_apart) {
+  const Place place;
+  EXPECT_EQ(place.run(place.script(killed_after_greeting() + "kill -INT $$")).code, 70);
+  EXPECT_EQ(place.run(place.script(killed_after_greeting() + "exit 3")).code, 2);
 }
 
 TEST(Baseline, a_program_that_hangs_is_ended) {

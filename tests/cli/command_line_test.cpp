@@ -108,6 +108,29 @@ TEST(CommandLine, no_option_takes_a_blank_text) {
   }
 }
 
+TEST(CommandLine, files_whose_names_are_not_utf8_are_read_and_text_that_is_not_is_refused) {
+  const Folder folder;
+  const std::string result = (folder / "\xff.json").string(), dumps = (folder / "\xfe").string();
+  const std::string run = "run " + source_file("scenes/street.glb") +
+                          " --grid frustum --assigner aabb-fast --set 'scenes.*.frames=1' --no-timing -q ";
+  ASSERT_EQ(tool(run + "-o " + result).code, 0);
+  ASSERT_EQ(tool(run + "--write-dump " + dumps).code, 0);
+  for (const std::string& arguments :
+       {"report " + result, "compare " + result + " " + result + " --json -", "merge " + result, "validate " + result,
+        "check " + dumps + " --methods none --json -", "export --format lnt " + result,
+        "size --format json " + result}) {
+    const Outcome done = tool(arguments);
+    EXPECT_EQ(done.code, 0) << arguments << ": " << done.err;
+  }
+  for (const std::string& arguments :
+       {std::string("worst-case x.glb --path \xff.gltf"), std::string("plugin check \xff.so"),
+        std::string("stress --plugin \xff.so"), std::string("stress --shader \xff.json")}) {
+    const Outcome refused = tool(arguments);
+    EXPECT_EQ(refused.code, 2) << arguments;
+    EXPECT_NE(refused.err.find("takes text in UTF-8"), std::string::npos) << arguments << ": " << refused.err;
+  }
+}
+
 TEST(CommandLine, no_random_settings_are_not_all_hard_cases) {
   const Outcome done = tool("stress --random 0");
   EXPECT_EQ(done.code, 2);

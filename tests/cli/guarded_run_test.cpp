@@ -198,10 +198,39 @@ TEST(GuardedRun, loses_only_the_case_of_a_plug_in_that_closes_files_of_the_progr
 }
 
 TEST(GuardedRun, of_a_search_says_which_plug_in_closed_files_of_the_program) {
-  const Outcome done = tool("stress -q --random 3 --seed 7 --threads 1 --methods hostile.closes --plugin " +
+  const Outcome done = tool("stress -q --cases '^H1$' --threads 1 --tries 0 --methods hostile.closes --plugin " +
                             plugin_folder() + "/hostile.so");
   EXPECT_EQ(done.code, 1) << done.out;
   EXPECT_NE(done.err.find("the plug-in hostile closed a file of the program"), std::string::npos) << done.err;
+}
+
+TEST(GuardedRun, names_the_other_plug_ins_where_memory_can_be_theirs) {
+  GuardedPlace place;
+  std::string text = guarded_config({R"(, "fault": "abort")", R"(, "fault": "twice")", R"(, "fault": "throw")"});
+  text.insert(text.find(R"("aabb", "bounds")"), R"("example.cell-boxes", )");
+  const std::string config = place.folder.write("two.json", text).string();
+  const Outcome done =
+      tool("run -q --no-timing --plugin " + plugin_folder() + "/example.so " + config + " -o " + place.out);
+  EXPECT_EQ(done.code, 1) << done.err;
+  const Json result = place.result();
+  ASSERT_EQ(result["broken"].size(), 3u) << done.err;
+  for (const Json& one : result["broken"]) {
+    const std::string reason = one["reason"];
+    const bool is_thrown = reason.find("cannot go on") != std::string::npos;
+    EXPECT_EQ(reason.find("; the plug-in example ran in the same process") != std::string::npos, !is_thrown) << reason;
+  }
+}
+
+TEST(GuardedRun, of_a_search_for_the_best_names_the_frame_and_the_way_without_the_plug_in) {
+  for (const char* fault : {"throw", "abort"}) {
+    GuardedPlace place;
+    const Outcome done =
+        tool("recommend -q --no-timing " + place.config({std::string(R"(, "fault": ")") + fault + "\""}));
+    EXPECT_EQ(done.code, 1) << done.err;
+    EXPECT_NE(done.err.find("frame "), std::string::npos) << done.err;
+    EXPECT_NE(done.err.find("; recommend ends where a method fails: name the others by --assigner"), std::string::npos)
+        << done.err;
+  }
 }
 
 TEST(GuardedRun, keeps_the_figures_of_a_case_whose_plug_in_crashes_as_it_is_unloaded) {

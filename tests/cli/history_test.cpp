@@ -36,14 +36,19 @@ TEST(HistoryCommand, a_commit_that_no_json_can_hold_is_refused) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
+// Which goes on until that is told.
 TEST(HistoryCommand, that_another_process_holds_says_that_it_waits) {
   const Folder folder;
-  const std::string file = folder.write("h.jsonl", "").string();
-  ASSERT_EQ(std::system(("flock " + file + " sleep 3 & sleep 0.3").c_str()), 0);
-  const Outcome added = tool("history add " + k_small_result + " " + file + " --commit c1");
-  EXPECT_EQ(added.code, 0) << added.err;
-  EXPECT_NE(added.err.find("h.jsonl is held by another process; waiting a minute for its end"), std::string::npos)
-      << added.err;
+  const std::string add = test::program() + " history add " + k_small_result + " h.jsonl --commit c1 2>err";
+  const int status =
+      std::system(("cd " + folder.path().string() + " && touch h.jsonl err && { flock h.jsonl sh -c 'touch held; " +
+                   "for i in $(seq 300); do grep -q held err && break; sleep 0.1; done' & while [ ! -e held ]; do "
+                   "sleep 0.05; done; " +
+                   add + "; }")
+                      .c_str());
+  const std::string err = file_text(folder / "err");
+  EXPECT_EQ(WEXITSTATUS(status), 0) << err;
+  EXPECT_NE(err.find("h.jsonl is held by another process; waiting a minute for its end"), std::string::npos) << err;
 }
 
 TEST(HistoryCommand, a_history_in_the_place_of_a_result_is_named_with_what_reads_it) {

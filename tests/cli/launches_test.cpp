@@ -198,6 +198,22 @@ TEST(RunInLaunches, a_process_that_dies_ends_the_run_and_what_was_measured_is_ke
   EXPECT_NE(err.find("what was measured is in r.json.partial, --resume goes on"), std::string::npos) << err;
 }
 
+TEST(RunInLaunches, too_few_files_that_may_be_open_are_one_error_that_says_how_many_to_allow) {
+  const LaunchPlace place;
+  std::size_t refused = 0;
+  for (int files = 4; files <= 12; ++files) {
+    const Outcome done =
+        shell(place.folder, "ulimit -n " + std::to_string(files) + " && $run run -q c.json --rounds 4 -o r.json");
+    if (done.code == 0) break;
+    if (done.err.find("shared libraries") != std::string::npos) continue;  // not yet this program
+    ++refused;
+    EXPECT_EQ(done.code, 70) << files << ": " << done.err;
+    EXPECT_NE(done.err.find("Too many open files; allow more of them (ulimit -n 256)"), std::string::npos) << done.err;
+    EXPECT_EQ(done.err.find("/proc/self"), std::string::npos) << done.err;
+  }
+  EXPECT_GE(refused, 3u);
+}
+
 TEST(RunInLaunches, resumed_it_measures_what_no_launch_has_measured) {
   const LaunchPlace place;
   Running run(place.folder, "run -q c.json --rounds 40 -o r.json");

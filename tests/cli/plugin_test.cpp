@@ -211,6 +211,33 @@ TEST(PluginRun, a_method_of_a_plugin_that_is_not_there_says_where_it_is_looked_f
   EXPECT_TRUE(mentions(tool(plugin_run("--dry-run --assigner tiled-2.5")).err, "tiled-2.5d"));
 }
 
+TEST(PluginRun, folders_that_were_searched_are_named) {
+  const Folder folder;
+  const std::string arguments = plugin_run("--dry-run --assigner foo.bar");
+  EXPECT_TRUE(mentions(tool(arguments).err, "CLUSTERBENCH_PLUGIN_PATH, which is not set"));
+  setenv("CLUSTERBENCH_PLUGIN_PATH", (folder.path().string() + ":/no/such").c_str(), 1);
+  const Outcome refused = tool(arguments);
+  unsetenv("CLUSTERBENCH_PLUGIN_PATH");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(mentions(refused.err, "which has " + folder.path().string() + ", /no/such (does not exist)"))
+      << refused.err;
+}
+
+TEST(PluginRun, a_method_by_the_name_of_a_file_says_the_id_of_its_plugin) {
+  const Folder folder;
+  fs::copy_file(plugin_file("example"), folder / "renamed.so");
+  const std::string says = "'renamed.cell-boxes': renamed.so has the id 'example'; name its method example.cell-boxes",
+                    arguments = plugin_run("--dry-run --assigner renamed.cell-boxes");
+  const Outcome named = tool(arguments + " --plugin " + (folder / "renamed.so").string());
+  EXPECT_EQ(named.code, 2);
+  EXPECT_TRUE(mentions(named.err, says)) << named.err;
+  setenv("CLUSTERBENCH_PLUGIN_PATH", folder.path().c_str(), 1);
+  const Outcome found = tool(arguments);
+  unsetenv("CLUSTERBENCH_PLUGIN_PATH");
+  EXPECT_EQ(found.code, 2);
+  EXPECT_TRUE(mentions(found.err, says)) << found.err;
+}
+
 TEST(PluginRun, what_a_plugin_prints_is_not_in_the_result) {
   const Outcome printed = tool(plugin_run("-q --plugin " + plugin_file("hostile") + " --assigner hostile.prints,aabb"));
   EXPECT_EQ(printed.code, 0) << printed.err;
@@ -218,6 +245,11 @@ TEST(PluginRun, what_a_plugin_prints_is_not_in_the_result) {
   ASSERT_TRUE(result.is_object()) << printed.out.substr(0, 300);
   EXPECT_EQ(result["cases"].size(), 2u);
   EXPECT_TRUE(mentions(printed.err, "clusterbench plugin check: {}"));
+  const Outcome here =
+      tool(plugin_run("-q --plugin-in-process --plugin " + plugin_file("hostile") + " --assigner hostile.prints,aabb"));
+  EXPECT_EQ(here.code, 0) << here.err;
+  EXPECT_TRUE(Json::parse(here.out, nullptr, false).is_object()) << here.out.substr(0, 300);
+  EXPECT_TRUE(mentions(here.err, "clusterbench plugin check: {}"));
 }
 
 // --- Plug-ins that break down as they are loaded ---
@@ -358,6 +390,27 @@ TEST(PluginBuilds, of_an_interrupted_run_are_not_mixed) {
   EXPECT_TRUE(mentions(refused.err, "is an interrupted run of another")) << refused.err;
 }
 
+TEST(PluginBuilds, of_a_complete_result_are_not_replaced_by_resume) {
+  const Folder folder;
+  const fs::path plugin = folder / "p.so";
+  fs::copy_file(plugin_file("example"), plugin);
+  const std::string result = (folder / "r.json").string(),
+                    run = plugin_run("--plugin " + plugin.string() + " --assigner example.cell-boxes -q -o " + result);
+  ASSERT_EQ(tool(run).code, 0);
+  const std::string before = file_text(result);
+  EXPECT_EQ(tool(run + " --resume").code, 0) << "the same build";
+  fs::remove(plugin);
+  fs::copy_file(other_build(folder), plugin);
+  const Outcome refused = tool(run + " --resume");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(mentions(refused.err, "is a complete result, with another build of the plug-in example (sha256 "))
+      << refused.err;
+  EXPECT_EQ(Json::parse(file_text(result))["plugins"], Json::parse(before)["plugins"]);
+  EXPECT_FALSE(fs::exists(result + ".partial"));
+  EXPECT_EQ(tool(run).code, 0);
+  EXPECT_NE(Json::parse(file_text(result))["plugins"], Json::parse(before)["plugins"]);
+}
+
 TEST(PluginTimes, launches_load_the_same_plugins) {
   const Folder folder;
   const Json result =
@@ -442,8 +495,23 @@ struct Caught {
 
 const Caught k_caught[] = {
     {"crashes", "grids", "crashed", "signal 11"},
+    {"crashes", "capacity", "crashed", "ended its process in assign, with seed "},
     {"aborts", "grids", "crashed", "signal 6"},
-    {"exits", "grids", "crashed", "ended its process"},
+    {"exits", "grids", "crashed", "ended its process in assign, with seed "},
+    {"exits", "guards", "crashed", ": exit code 0"},
+    {"forks", "processes", "failed", "came back twice from assign: it forked"},
+    {"leaves-child", "processes", "failed", "leaves a process running"},
+    {"leaves-thread", "processes", "failed", " more threads after "},
+    {"spins", "processes", "failed", " % of a processor busy after destroy()"},
+    {"closes", "grids", "crashed",
+     "closed a file of the program, or put another in its place (descriptor 1) in assign"},
+    {"closes", "guards", "crashed",
+     "closed a file of the program, or put another in its place (descriptor 1) in assign"},
+    {"handles", "surroundings", "failed", "changes the handler of SIGALRM"},
+    {"moves", "surroundings", "failed", "changes the working directory, to /"},
+    {"translates", "surroundings", "failed", "changes the locale, to C.UTF-8"},
+    {"prints", "surroundings", "failed",
+     "prints to standard output, which is for results: \\\"clusterbench plugin check"},
     {"throws", "grids", "failed", "assign() failed: no such tile"},
     {"throws-other", "grids", "failed", "threw what is no std::exception"},
     {"writes-behind", "guards", "crashed", "touched memory 0 bytes behind the end of `lists.begin`"},
@@ -516,8 +584,56 @@ TEST(PluginCheck, ends_a_method_that_hangs) {
       tool("plugin check " + plugin_file("hostile") + " --method hostile.hangs --test grids --timeout 0.5");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_TRUE(mentions(outcome.out, "TIMED OUT grids")) << outcome.out;
-  EXPECT_TRUE(mentions(outcome.out, "was not done within 0.5 s")) << outcome.out;
+  EXPECT_TRUE(mentions(outcome.out, "was not done within 0.5 s; it was in assign, with seed ")) << outcome.out;
+  EXPECT_TRUE(mentions(outcome.out, "; --timeout SECONDS gives it longer")) << outcome.out;
   EXPECT_TRUE(mentions(outcome.out, "gdb --args clusterbench plugin check ")) << outcome.out;
+}
+
+TEST(PluginCheck, ends_a_method_that_takes_too_much_memory) {
+  const Outcome outcome =
+      tool("plugin check " + plugin_file("hostile") + " --method hostile.eats --test grids --memory 200");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(mentions(outcome.out, "CRASHED   grids")) << outcome.out;
+  EXPECT_TRUE(mentions(outcome.out, "took more than 200 MiB of memory in assign, with seed ")) << outcome.out;
+  EXPECT_TRUE(mentions(outcome.out, "; --memory MIB gives it more")) << outcome.out;
+}
+
+TEST(PluginCheck, passes_on_what_a_plugin_prints) {
+  const Outcome outcome = tool("plugin check " + plugin_file("hostile") + " --method hostile.prints --test grids");
+  EXPECT_EQ(outcome.code, 0) << outcome.out;
+  EXPECT_TRUE(mentions(outcome.err, "hostile.prints, grids: {\"verdict\": \"passed\"}")) << outcome.err;
+}
+
+TEST(PluginCheck, makes_slow_instances_less_often) {
+  const Outcome outcome =
+      tool("plugin check " + plugin_file("hostile") + " --method hostile.slow --test create-destroy --timeout 6");
+  EXPECT_EQ(outcome.code, 0) << outcome.out;
+  EXPECT_TRUE(mentions(outcome.out, "passed    create-destroy: ")) << outcome.out;
+}
+
+TEST(PluginCheck, leaves_no_process_of_a_method_that_hangs_with_its_child) {
+  const Outcome outcome = tool("plugin check " + plugin_file("hostile") +
+                               " --method hostile.hangs-with-child --test grids --timeout 1 && exit 7; "
+                               "for i in /proc/[0-9]*; do tr '\\0' ' ' 2>/dev/null < $i/cmdline; echo; done");
+  EXPECT_TRUE(mentions(outcome.out, "plugin check")) << "no command lines are seen";
+  EXPECT_FALSE(mentions(outcome.out, "hostile.hangs-with-child/grids")) << outcome.out;
+}
+
+TEST(PluginCheck, that_is_interrupted_writes_the_tests_so_far) {
+  const Folder folder;
+  const std::string file = (folder / "c.json").string(), said = (folder / "err").string();
+  const int status =
+      std::system(("timeout --foreground -s TERM 8 " + test::program() + " plugin check " + plugin_file("example") +
+                   " --test grids --test fuzz --seconds 60 -q --json " + file + " 2>" + said)
+                      .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 124) << "timeout's own";
+  const Json check = Json::parse(file_text(file), nullptr, false);
+  ASSERT_TRUE(check.is_object()) << file_text(said);
+  EXPECT_EQ(check["verdict"], "incomplete");
+  EXPECT_EQ(check["tests"].size(), 1u);
+  EXPECT_TRUE(
+      mentions(file_text(said), "interrupted after 1 test; " + file + " has them, with the verdict 'incomplete'"));
+  EXPECT_EQ(tool("validate " + file).code, 0);
 }
 
 TEST(PluginCheck, tells_a_plugin_that_cannot_be_loaded_from_one_that_fails) {
@@ -526,7 +642,7 @@ TEST(PluginCheck, tells_a_plugin_that_cannot_be_loaded_from_one_that_fails) {
   EXPECT_TRUE(mentions(version.err, "is made for version 2.0")) << version.err;
   const Outcome crashes = tool("plugin check " + plugin_file("entry-crashes"));
   EXPECT_EQ(crashes.code, 1);
-  EXPECT_TRUE(mentions(crashes.err, "cannot be loaded: it ended its process: signal 6")) << crashes.err;
+  EXPECT_TRUE(mentions(crashes.err, "cannot be loaded: it ended its process in load: signal 6")) << crashes.err;
   const Outcome hangs = tool("plugin check --timeout 0.5 " + plugin_file("entry-hangs"));
   EXPECT_EQ(hangs.code, 1);
   EXPECT_TRUE(mentions(hangs.err, "is not loaded within 0.5 s")) << hangs.err;

@@ -146,10 +146,10 @@ TEST(Run, folders_that_cannot_be_made_are_refused_and_those_of_a_refused_run_do_
       tool("run " + source_file("scenes/street.glb") + " --grid cascades --assigner cascades --write-dump " + made)
           .code,
       2);
-  EXPECT_EQ(tool(run + " --images " + made + " --image-frames 999999").code, 2);
+  EXPECT_EQ(tool(run + " --images " + made + " --resume").code, 2);
   EXPECT_FALSE(exists(folder / "new"));
   std::filesystem::create_directory(folder / "mine");
-  EXPECT_EQ(tool(run + " --image-frames 999999 --images " + (folder / "mine" / "new").string()).code, 2);
+  EXPECT_EQ(tool(run + " --resume --images " + (folder / "mine" / "new").string()).code, 2);
   EXPECT_TRUE(exists(folder / "mine"));
   EXPECT_FALSE(exists(folder / "mine" / "new"));
 }

@@ -21,6 +21,18 @@ TEST(Stress, on_a_terminal_the_table_is_shown_and_the_result_only_on_request) {
   EXPECT_NE(tool(k_little).out.find("schema_version"), std::string::npos) << "into a pipe";
 }
 
+TEST(Stress, takes_several_methods_with_commas) {
+  const auto methods = [](const std::string& names) {
+    const Outcome done = tool("stress -q --cases 'H1$' --tries 0 --methods " + names);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return nlohmann::json::parse(done.out, nullptr, false);
+  };
+  const nlohmann::json with_comma = methods("'^exact-fast$,^bounds$'"), with_bar = methods("'^exact-fast$|^bounds$'");
+  ASSERT_TRUE(with_comma.is_object());
+  EXPECT_EQ(with_comma["cases"], with_bar["cases"]);
+  EXPECT_GE(with_comma["cases"].size(), 2u);
+}
+
 TEST(Stress, a_search_without_a_fault_says_that_nothing_was_written) {
   const Folder folder;
   const std::string place = (folder / "faults").string();

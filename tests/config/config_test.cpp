@@ -78,7 +78,9 @@ const Broken k_broken[] = {
      "timing, "
      "viewport, viewports"},
     {R"({"scenes": ["a.glb"], "threads": 0})", "1:34 /threads: found 0, allowed: an integer from 1 to 1024"},
-    {R"({"scenes": ["a.glb"], "threads": "2"})", "1:34 /threads: found '2', allowed: an integer from 1 to 1024"},
+    {R"({"scenes": ["a.glb"], "threads": "2"})",
+     "1:34 /threads: found '2', allowed: an integer from 1 to 1024 or null"},
+    {R"({"scenes": ["a.glb"], "threads": 1025})", "1:34 /threads: found 1025, allowed: an integer from 1 to 1024"},
     {R"({"scenes": ["a.glb"], "seed": 1.5})", "1:31 /seed: found 1.5, allowed: an integer from 0 to 9007199254740991"},
     {R"({"scenes": ["a.glb"], "accuracy": {"check": 1}})", "1:45 /accuracy/check: found 1, allowed: true or false"},
     {R"({"scenes": ["a.glb"], "allocation": {"margin": 0.5}})",

@@ -39,7 +39,7 @@ TEST(PlainValidator, names_the_place_of_each_violation) {
   EXPECT_EQ(found(R"({"a": [0, 0.0]})"), Lines{"/a: Two items are the same, and each must differ from the others."});
   EXPECT_EQ(found(R"({"a": [], "b": "z"})"), Lines{"/b: Failed to match against any enum values."});
   EXPECT_EQ(found(R"({"a": [], "c": "z"})").size(), 1u);
-  EXPECT_EQ(found(R"({"a": [], "d": 1})").front().substr(0, 39), "/: Object contains a property that could");
+  EXPECT_EQ(found(R"({"a": [], "d": 1})").front().substr(0, 40), "/: Object contains a property that could");
 }
 
 // A keyword that it ignored would accept too much.
@@ -68,8 +68,9 @@ TEST(PlainValidator, knows_every_keyword_of_the_tools_schemas) {
   for (const DocumentRow& row : document_rows()) collect_keywords(row.schema(), keywords);
   EXPECT_GT(keywords.size(), 20u);
   for (const auto& [keyword, rule] : keywords)
-    if (keyword != "$ref" && keyword != "anyOf" && keyword != "oneOf")  // whose parts refer to the whole
+    if (keyword != "$ref" && keyword != "anyOf" && keyword != "oneOf") {  // whose parts refer to the whole
       EXPECT_NO_THROW(plain_violations({{keyword, rule}}, json())) << keyword;
+    }
 }
 
 // A document with something else at a random place.
@@ -109,8 +110,8 @@ TEST(PlainValidator, decides_as_valijson_does) {
   SplitMix64 random(3);
   const std::filesystem::path source = test::source_dir();
   for (const char* name : {"details", "fit", "pre-cull", "quick"})
-    compare_with_library(config_schema(), json_file(source / "configs" / (std::string(name) + ".json")), random, 100);
-  compare_with_library(result_schema(), json_file(source / "results/amd-epyc/peers-w5.json"), random, 100);
+    compare_with_library(config_schema(), json_file(source / "configs" / (std::string(name) + ".json")), random, 50);
+  compare_with_library(result_schema(), json_file(source / "results/amd-epyc/peers-w5.json"), random, 15);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ TEST_F(Shaders, are_refused_where_nothing_would_run_them_or_nothing_is_there) {
 
 TEST_F(Shaders, of_the_examples_fulfil_their_schema_and_others_do_not) {
   const nlohmann::json schema = row_of(Document::shader).schema();
-  for (const char* name : {"tutorial", "append"}) {
+  for (const char* name : {"tutorial", "append", "counted"}) {
     const std::string file = test::source_dir() + "/configs/shaders/" + name + ".json";
     nlohmann::json example = read_json<nlohmann::json>(file_text(file), file);
     EXPECT_EQ(document_of(example), Document::shader);

@@ -80,6 +80,9 @@ TEST(JsonDocument, a_key_stands_once_in_an_object) {
 TEST(JsonDocument, no_text_stands_behind_a_nul_byte) {
   using namespace std::string_literals;
   EXPECT_EQ(refusal<Sorted>("[1]\0[2]"s), "f: byte 3: is a NUL byte with more text behind it");
+  for (const std::string& wide : {"{\0}\0"s, "\0{\0}"s, "[\0]\0"s})
+    EXPECT_NE(refusal<Sorted>(wide).find("is a NUL byte, as in UTF-16; JSON is UTF-8: save it as that"),
+              std::string::npos);
   EXPECT_EQ(refusal<Sorted>("[1] \0\0 \0x"s), "f: byte 4: is a NUL byte with more text behind it");
   EXPECT_EQ(refusal<Sorted>("[1]\0\0\0"s), "accepted");
 }

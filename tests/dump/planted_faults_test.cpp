@@ -301,13 +301,17 @@ TEST(PlantedFaults, bits_of_other_things_are_no_better_reading_of_a_lost_light) 
   EXPECT_EQ(set.verdict, "lost") << (set.other_reading ? set.other_reading->lists : "");
 }
 
-// Points just ahead of the eye. Seen behind it they still reach into some of their cells, and into no others.
+// Points ahead of the eye. Seen behind it they still reach into some of their cells, and into no others.
 TEST(PlantedFaults, a_wrong_handedness_that_loses_nothing_is_found) {
   Made near = made_frame();
-  std::erase_if(near.frame.lights, [&](const scene::WorldLight& light) {
-    const double z = (near.frame.view_space.rotation * (light.position - near.frame.view_space.origin)).z;
-    return z > 0.0 || z < -2.5 || light.type != scene::LightType::point;
-  });
+  near.frame.lights.resize(10);
+  for (int i = 0; i < 10; ++i) {
+    scene::WorldLight& light = near.frame.lights[static_cast<std::size_t>(i)];
+    ASSERT_EQ(light.type, scene::LightType::point);
+    const Vec3d seen{0.35 * i - 1.6, 0.3 * (i % 3) - 0.3, -2.2 - 0.1 * i};
+    light.position = near.frame.view_space.origin + glm::transpose(near.frame.view_space.rotation) * seen;
+    light.range_m = 4.0;
+  }
   near.frame.count_types();
   near.truth = measure::find_truth(near.frame, near.grid, 1).lists;
   DumpFile dump = dump_of(near, near.truth);

@@ -148,7 +148,8 @@ class Examples(unittest.TestCase):
             results = []
             for place in (SHADERS, folder.path):
                 result, done = folder.run(configuration(grids=[TUTORIAL_GRID]), "--shader", f"{place}/tutorial.json",
-                                          "--shader", f"{place}/append.json", "--no-timing")
+                                          "--shader", f"{place}/append.json",
+                                          "--shader", f"{place}/counted.json", "--no-timing")
                 self.assertEqual(done.returncode, 0, done.stderr)
                 results.append(result)
             for one, other in zip(*(result["cases"] for result in results)):
@@ -159,11 +160,12 @@ class Examples(unittest.TestCase):
         with Folder() as folder:
             twin = {"name": "gpu-cells-fixed", "cap": 100, "spot": "range"}
             result, done = folder.run(configuration(grids=[TUTORIAL_GRID], assigners=[twin, {"name": "brute-force", "spot": "range"}]),
-                                      "--shader", f"{SHADERS}/tutorial.json", "--shader", f"{SHADERS}/append.json")
+                                      "--shader", f"{SHADERS}/tutorial.json", "--shader", f"{SHADERS}/append.json",
+                                      "--shader", f"{SHADERS}/counted.json")
         self.assertEqual(done.returncode, 0, done.stderr)
         pairs = {case["assigner"]["name"]: case["occupancy"]["pairs"]["mean"] for case in result["cases"]}
-        self.assertEqual(len(pairs), 4)
-        for name in ("tutorial-loop", "append", "gpu-cells-fixed"):
+        self.assertEqual(len(pairs), 5)
+        for name in ("tutorial-loop", "append", "counted", "gpu-cells-fixed"):
             self.assertLess(abs(pairs[name] / pairs["brute-force"] - 1), 1e-3, pairs)
             self.assertEqual(case_of(result, name)["error"]["false_negatives"], 0, name)
         mine = case_of(result, "tutorial-loop")
@@ -236,7 +238,7 @@ class Examples(unittest.TestCase):
                 self.assertGreater(case_of(result, "tutorial-loop")["error"]["miss_ratio"], 0.1)
 
     def test_validate_reads_all_of_it(self):
-        for name in ("tutorial", "append"):
+        for name in ("tutorial", "append", "counted"):
             done = subprocess.run([PROGRAM, "validate", f"{SHADERS}/{name}.json"], capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertRegex(done.stdout, r"valid, method '.*' with \d pass(es)?, \d buffers$")
@@ -459,6 +461,12 @@ class Faults(unittest.TestCase):
                    COUNTED.replace("COUNT", "1000"), failed=True)
         self.ended(METHOD, r"byte \d+, cell \(.*\): index \d+ is not below the \d+ lights",
                    COUNTED.replace("COUNT", "count").replace("= light;", "= light + 5000;"), failed=True)
+
+    def test_a_count_above_its_room_names_the_parameter_and_the_key(self):
+        record = changed(METHOD, parameters=[{"name": "cap", "summary": "room", "default": 2, "min": 1, "max": 199}])
+        record["lists"][0]["per_cell"] = "cap"
+        self.ended(record, r"is above per_cell, 2; .*; per_cell is 'cap', of which a parameter can be larger; \"counts_dropped\": true",
+                   COUNTED.replace("COUNT", "count"), failed=True)
 
     def test_writes_beyond_buffers_hurt_nobody(self):
         body = COUNTED.replace("COUNT", "count") + "\n  lists[cell * 200 + 100000000] = 7;\n  lists[0x3fffffff] = 9;"

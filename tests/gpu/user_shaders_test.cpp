@@ -206,6 +206,12 @@ TEST(UserShaders, have_all_known_values_in_their_document) {
     EXPECT_NE(page.find("`" + std::string(value.name) + "`"), std::string::npos) << value.name;
 }
 
+TEST(UserShaders, have_their_documents_example_beside_its_shader) {
+  const std::string page = file_text(test::source_dir() + "/docs/shaders.md"),
+                    file = file_text(test::source_dir() + "/configs/shaders/counted.json");
+  EXPECT_NE(page.find("```json\n" + file + "```"), std::string::npos);
+}
+
 // What the example says of itself, with other values at these places.
 std::string refusal_of_append(const std::vector<std::pair<const char*, const char*>>& changes) {
   const std::string folder = test::source_dir() + "/configs/shaders/";
@@ -243,6 +249,8 @@ TEST(UserShaders, whose_description_cannot_be_right_in_any_frame_are_refused) {
       {{{"/buffers/indices/bytes", "64"}, {"/lists/0/entries/at", "64"}},
        "/lists/0/entries/at: is 64; buffer 'indices' has 64 bytes"},
       {{{"/buffers/indices/bytes", "0"}}, "/buffers/indices/bytes: is 0; allowed: at least 1, or a formula"},
+      {{{"/passes/0/groups/0", "0"}}, "/passes/0/groups/0: is 0, and nothing would run; allowed: at least 1"},
+      {{{"/passes/0/groups/0", R"("4 - 4")"}}, "/passes/0/groups/0: is 0, and nothing would run"},
       {{{"/buffers/indices/bytes", R"("4 - 8")"}},
        "/buffers/indices/bytes: '4 - 8' is -4 here; allowed: a whole number"},
       {{{"/lists/0/rows/at", R"("8 / 3")"}}, "/lists/0/rows/at: '8 / 3' is 2.6"},
@@ -252,8 +260,7 @@ TEST(UserShaders, whose_description_cannot_be_right_in_any_frame_are_refused) {
        "/passes/0/push: say nothing of byte 12, which the push constants of append.spv have"},
       {{{"/passes/0/constants/0/type", R"("f32")"}},
        "/passes/0/constants/0/type: is f32; constant 0 of append.spv is u32"},
-      {{{"/parameters/0/default", "5000"}},
-       "/parameters/0/default: is 5000; allowed: from min to max, here 1 to 4096"},
+      {{{"/parameters/0/default", "5000"}}, "/parameters/0/default: is 5000; allowed: from min to max, here 1 to 4096"},
       {{{"/bufers", "{}"}}, "/bufers: is not known (did you mean 'buffers'?); allowed: shader_version, name"}};
   EXPECT_EQ(refusal_of_append({}), "");
   for (const auto& [changes, message] : rows)

@@ -6,6 +6,7 @@
 
 #include "config/schema/documents.h"
 #include "config/schema/schema_verdict.h"
+#include "core/libraries.h"
 #include "records.h"
 #include "report/choosing/answer_conclusion.h"
 #include "report/result_by_hand.h"
@@ -68,6 +69,17 @@ TEST(Conclusion, short_lists_pay_for_the_time_to_make_them) {
   EXPECT_TRUE(has_words(conclusion, "Fastest to make: frustum 64px/aabb/packed, 3.50 us")) << conclusion["text"];
   EXPECT_TRUE(has_words(conclusion, "samples are at random depths")) << conclusion["text"];
   EXPECT_TRUE(has_words(conclusion, "samples.opaque.ground=lowest")) << conclusion["text"];
+}
+
+TEST(Conclusion, of_a_build_that_sees_no_surfaces_does_not_blame_the_scene) {
+  run::Result result = result_by_hand();
+  result.config["cost"] = k_usual_model;
+  result.config["samples"] = {{"opaque", nlohmann::json::object()}};
+  EXPECT_TRUE(has_words(only_conclusion(result), "since the scene has no triangles"));
+  result.skipped.push_back({"hall/samples opaque", built_without(Library::embree)});
+  const Json conclusion = only_conclusion(result);
+  EXPECT_FALSE(has_words(conclusion, "no triangles")) << conclusion["text"];
+  EXPECT_TRUE(has_words(conclusion, "since clusterbench was built without Embree")) << conclusion["text"];
 }
 
 TEST(Conclusion, times_whose_intervals_overlap_show_no_difference_and_the_smaller_one_is_taken) {

@@ -37,8 +37,13 @@ std::string written(const result::Result& result) {
 }
 
 // As a run writes it.
+std::string sealed(const Json& entry) {
+  const std::string json = entry.dump(), text = json.substr(0, json.size() - 1);
+  return text + R"(,"sha256":")" + sha256_hex(text) + "\"}";
+}
+
 std::string line_of(const Json& finished) {
-  return Json{{"case", finished}, {"sha256", sha256_hex(finished.dump())}}.dump();
+  return sealed({{"case", finished}});
 }
 
 std::string line_of(const result::Case& finished) {
@@ -194,8 +199,7 @@ TEST_F(JournalTest, a_run_that_died_before_its_first_case_leaves_nothing_to_keep
                                              << "\n";
   const Journal fresh(file_, k_header, false, 100);
   EXPECT_EQ(fresh.set_aside(), "");
-  EXPECT_EQ(text_of(fresh.partial_path()), R"({"header":{"config":"a"}})"
-                                           "\n");
+  EXPECT_EQ(text_of(fresh.partial_path()), sealed({{"header", k_header}}) + "\n");
 }
 
 TEST_F(JournalTest, a_line_that_was_edited_and_a_case_twice_are_not_gone_on_with) {
@@ -212,6 +216,50 @@ TEST_F(JournalTest, a_line_that_was_edited_and_a_case_twice_are_not_gone_on_with
   edited[digit] = static_cast<char>(edited[digit] == '9' ? '1' : edited[digit] + 1);
   is_refused(edited);
   is_refused(kept + kept.substr(kept.find('\n') + 1));
+}
+
+// Whatever is changed, not only what a case holds; but each line stands for itself.
+TEST_F(JournalTest, a_change_anywhere_in_a_line_is_not_gone_on_with) {
+  {
+    Journal journal(file_, k_header, false, 100);
+    journal.add_case(case_named("first"));
+    journal.add_case(case_named("second"));
+    journal.add_answer({{"ids", {"third"}}}, {{"methods", {1, 2}}});
+  }
+  const std::string partial = file_.string() + ".partial", kept = text_of(partial);
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < kept.size(); begin += lines.back().size())
+    lines.push_back(kept.substr(begin, kept.find('\n', begin) + 1 - begin));
+  ASSERT_EQ(lines.size(), 4u);
+  const auto refusal_of = [&](const std::string& text) -> std::string {
+    std::ofstream(partial, std::ios::binary) << text;
+    try {
+      Journal(file_, k_header, true, 100);
+    } catch (const Error& error) {
+      EXPECT_THROW(finished_ids(file_, k_header), Error);
+      return error.where();
+    }
+    return "";
+  };
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const auto with = [&](std::string line) {
+      std::string text;
+      for (std::size_t k = 0; k < lines.size(); ++k) text += k == i ? line : lines[k];
+      return text;
+    };
+    const std::string& line = lines[i];
+    const std::string at = "line " + std::to_string(i + 1);
+    EXPECT_EQ(refusal_of(with(R"({"note":1,)" + line.substr(1))), at) << "a key more";
+    EXPECT_EQ(refusal_of(with(line.substr(0, line.size() - 2) + R"(,"note":1})" + "\n")), at) << "behind the digest";
+    EXPECT_EQ(refusal_of(with("{ " + line.substr(1))), at) << "a blank within";
+    EXPECT_EQ(refusal_of(with(" " + line)), at) << "a blank before";
+    EXPECT_EQ(refusal_of(with(line.substr(0, line.size() - 1) + "\r\n")), at);
+    EXPECT_EQ(refusal_of(with("\xEF\xBB\xBF" + line)), at) << "a byte order mark";
+    EXPECT_EQ(refusal_of(with("\n" + line)), at) << "an empty line";
+    EXPECT_EQ(refusal_of(with(line)), "");
+  }
+  EXPECT_EQ(refusal_of(lines[0] + lines[2] + lines[3] + lines[1]), "") << "in another order";
+  EXPECT_EQ(refusal_of(lines[0] + lines[2]), "") << "measured again";
 }
 
 // Texts that no run has left, with and without an end of line.

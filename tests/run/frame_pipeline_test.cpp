@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace clusterbench::run {
 namespace {
@@ -28,8 +31,12 @@ FrameWork<Numbered> squares_into(Log& log, std::size_t users) {
   work.prepare = [](Numbered& frame) { frame.square = frame.number * frame.number; };
   work.bytes = [](const Numbered&) { return std::size_t{1}; };
   for (std::size_t user = 0; user < users; ++user)
-    work.users.emplace_back([&log, user](const Numbered& frame) { log.squares[user].push_back(frame.square); });
+    work.users.push_back({[&log, user](const Numbered& frame) { log.squares[user].push_back(frame.square); }});
   return work;
+}
+
+void pause_ms(int duration_ms) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(duration_ms));
 }
 
 class Pipelines : public ::testing::TestWithParam<int> {
@@ -85,12 +92,14 @@ TEST_P(Pipelines, throw_the_first_failure_by_frame_and_then_by_user) {
   FrameWork<Numbered> work = squares_into(log, 3);
   const auto fail_at = [](int wanted, const std::string& name) {
     return [=](const Numbered& frame) {
-      if (frame.number >= wanted) throw std::runtime_error(name + " " + std::to_string(frame.number));
+      if (frame.number < wanted) return;
+      pause_ms(wanted - 16);  // a later failure comes after those before it
+      throw std::runtime_error(name + " " + std::to_string(frame.number));
     };
   };
-  work.users[0] = fail_at(18, "first user");
-  work.users[1] = fail_at(17, "second user");
-  work.users[2] = fail_at(17, "third user");
+  work.users[0].use = fail_at(18, "first user");
+  work.users[1].use = fail_at(17, "second user");
+  work.users[2].use = fail_at(17, "third user");
   EXPECT_EQ(failure(work, 60), "second user 17");
   work.prepare = fail_at(18, "preparation");
   EXPECT_EQ(failure(work, 60), "second user 17");
@@ -104,10 +113,30 @@ TEST_P(Pipelines, throw_the_first_failure_by_frame_and_then_by_user) {
   EXPECT_EQ(failure(work, 60), "beginning 15");
 }
 
+// What a leader leaves has two places: it must not overwrite one that is still read, nor be read before it writes.
+TEST_P(Pipelines, let_users_behind_a_leader_use_what_it_left_two_frames_long) {
+  for (const bool has_after : {false, true}) {
+    Log log;
+    FrameWork<Numbered> work = squares_into(log, 1);
+    std::array<int, 2> left{-1, -1};  // not guarded: beside one another they are a race
+    work.users[0].use = [&](const Numbered& frame) { left[static_cast<std::size_t>(frame.number) % 2] = frame.square; };
+    std::array<int, 3> differing{};
+    for (std::size_t i = 0; i < differing.size(); ++i)
+      work.users.push_back({[&, i](const Numbered& frame) {
+                              if (i == 0 && frame.number % 100 == 0) pause_ms(1);  // the leader could go on
+                              differing[i] += left[static_cast<std::size_t>(frame.number) % 2] != frame.square;
+                            },
+                            0});
+    if (has_after) work.after = [](const Numbered&) {};
+    EXPECT_TRUE(run(work, 2000));
+    EXPECT_EQ(differing, (std::array<int, 3>{}));
+  }
+}
+
 TEST_P(Pipelines, end_with_a_stop_without_another_frame) {
   Log log;
   FrameWork<Numbered> work = squares_into(log, 2);
-  work.users.emplace_back([&](const Numbered& frame) { stop = frame.number == 9; });
+  work.users.push_back({[&](const Numbered& frame) { stop = frame.number == 9; }});
   EXPECT_FALSE(run(work, 1000));
   for (const std::vector<int>& squares : log.squares) EXPECT_LT(squares.size(), 10u + 8u * 4u);
 }
@@ -123,7 +152,7 @@ TEST_P(Pipelines, keep_one_frame_ahead_if_frames_are_large) {
   work.begin = [&](int) { return std::make_unique<Counted>(log); };
   work.prepare = [](Counted&) {};
   work.bytes = [](const Counted&) { return k_most_bytes_ahead; };
-  work.users.emplace_back([](const Counted&) {});
+  work.users.push_back({[](const Counted&) {}});
   EXPECT_TRUE(FramePipeline<Counted>(work, 40, GetParam(), stop).run());
   EXPECT_LE(log.most_alive, 2);
 }

@@ -76,7 +76,7 @@ std::string soup() {
   return file.text();
 }
 
-Result run_of(
+Result shadowed_run_of(
     const std::string& scene, const std::string& rest,
     const std::string& grids = R"({"tiles": {"count": [16, 12]}, "slices": {"count": 24, "near": 0.1, "far": 40}})") {
   const scene::test::Folder folder;
@@ -102,7 +102,7 @@ constexpr const char* k_all_kinds =
        {"kind": "cascades", "levels": 5, "cells": [16, 16, 16], "finest": 0.5}, {"kind": "world", "cells": [32, 32, 32]})";
 
 TEST(LightShadows, pairs_behind_walls_go_and_no_visible_lit_light_goes_with_them) {
-  const Result result = run_of(walls(), k_asks);
+  const Result result = shadowed_run_of(walls(), k_asks);
   ASSERT_EQ(result.cases.size(), 2u);
   for (const CaseResult& of : result.cases) {
     ASSERT_EQ(of.shadow_culls.size(), 4u);
@@ -126,7 +126,7 @@ TEST(LightShadows, pairs_behind_walls_go_and_no_visible_lit_light_goes_with_them
 }
 
 TEST(LightShadows, proven_maps_lose_no_lit_light_in_any_kind_of_grid) {
-  const Result result = run_of(soup(), k_asks, k_all_kinds);
+  const Result result = shadowed_run_of(soup(), k_asks, k_all_kinds);
   std::uint64_t removed = 0;
   for (const CaseResult& of : result.cases)
     for (const ShadowCullResult& cull : of.shadow_culls) {
@@ -147,9 +147,10 @@ TEST(LightShadows, counts_do_not_depend_on_threads_nor_on_what_else_is_measured)
     return std::vector<std::uint64_t>{c.pairs, c.kept,    c.true_kept, c.evaluated_kept, c.lit,
                                       c.wrong, maps.made, maps.texels, maps.unlimited,   maps.bytes};
   };
-  const Result one = run_of(soup(), k_asks), more = run_of(soup(), std::string(k_asks) + R"(, "threads": 4)");
+  const Result one = shadowed_run_of(soup(), k_asks),
+               more = shadowed_run_of(soup(), std::string(k_asks) + R"(, "threads": 4)");
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(counts(one, i), counts(more, i)) << i;
-  const Result alone = run_of(
+  const Result alone = shadowed_run_of(
       soup(), R"(, "samples": {"opaque": {"divisor": 1}}, "shadow_cull": {"resolution": 64, "texels": "sampled"})");
   EXPECT_EQ(counts(one, 3), counts(alone, 0));
 }
@@ -174,7 +175,7 @@ TEST(LightShadows, a_light_that_moves_gets_a_new_map_in_each_frame) {
   moving["accessors"][accessors + times]["max"] = {1};
   moving["animations"] = {{{"samplers", {{{"input", accessors + times}, {"output", accessors + places}}}},
                            {"channels", {{{"sampler", 0}, {"target", {{"node", 2}, {"path", "translation"}}}}}}}};
-  const Result result = run_of(moving.dump(), k_asks);
+  const Result result = shadowed_run_of(moving.dump(), k_asks);
   const ShadowCullResult& cull = result.cases.at(0).shadow_culls.at(0);
   const auto frames = static_cast<std::uint64_t>(result.cases.at(0).frames);
   ASSERT_GT(frames, 1u);
@@ -183,7 +184,8 @@ TEST(LightShadows, a_light_that_moves_gets_a_new_map_in_each_frame) {
 }
 
 TEST(LightShadows, without_the_key_cases_are_what_they_were_and_with_it_they_are_others) {
-  const Result plain = run_of(walls(), ""), asked = run_of(walls(), R"(, "shadow_cull": {}, "shadow_frusta": {})");
+  const Result plain = shadowed_run_of(walls(), ""),
+               asked = shadowed_run_of(walls(), R"(, "shadow_cull": {}, "shadow_frusta": {})");
   EXPECT_FALSE(plain.config.contains("shadow_cull"));
   EXPECT_TRUE(plain.cases.at(0).shadow_culls.empty());
   EXPECT_FALSE(plain.cases.at(0).shared_frusta);
@@ -198,7 +200,7 @@ TEST(LightShadows, a_scene_without_triangles_is_named_and_has_none) {
   MeshFile file;
   begin(file);
   add_light(file, {0, 0, -5});
-  const Result result = run_of(file.text(), R"(, "shadow_cull": {})");
+  const Result result = shadowed_run_of(file.text(), R"(, "shadow_cull": {})");
   ASSERT_EQ(result.skipped.size(), 1u);
   EXPECT_EQ(result.skipped[0].name, "walls/shadow_cull");
   EXPECT_EQ(result.skipped[0].reason, "the scene has no triangles");
@@ -209,8 +211,8 @@ TEST(LightShadows, a_scene_without_triangles_is_named_and_has_none) {
 TEST(LightShadows, maps_of_all_lights_are_counted_before_they_take_memory) {
   const auto run = [](int resolution) {
     const MemoryLimitScope limit(memory_limit());  // back to it: a configuration's limit stays
-    run_of(walls(), R"(, "limits": {"memory_mib": 1}, "shadow_cull": {"texels": "sampled", "resolution": )" +
-                        std::to_string(resolution) + "}");
+    shadowed_run_of(walls(), R"(, "limits": {"memory_mib": 1}, "shadow_cull": {"texels": "sampled", "resolution": )" +
+                                 std::to_string(resolution) + "}");
   };
   EXPECT_NO_THROW(run(16));
   try {

@@ -43,6 +43,9 @@ TEST(FileKinds, of_other_programs_are_named_with_the_way_to_gltf) {
       {"a.OBJ", "# lines\nv 0 0 0\n", "meshes alone"},
       {"a.dae", "<?xml version=\"1.0\"?><COLLADA>", "COLLADA"},
       {"a.gltf", std::string("\xFF\xFE{\0", 4), "UTF-16"},
+      {"a.gltf", std::string("{\0\"\0", 4), "JSON in UTF-16; glTF is UTF-8"},
+      {"a.gltf", std::string("\0{\0\"", 4), "JSON in UTF-16; glTF is UTF-8"},
+      {"a.gltf", std::string("\n\0{\0", 4), "JSON in UTF-16; glTF is UTF-8"},
   };
   const Folder folder;
   for (const auto& file : files) {

@@ -93,5 +93,31 @@ TEST(LargeFiles, are_refused_where_small_ones_are) {
   }
 }
 
+TEST(LargeFiles, tell_a_key_that_stands_twice_within_an_element_as_small_ones_do) {
+  std::string many;  // more than are compared one by one
+  for (int i = 0; i < 40; ++i) many += "\"k" + std::to_string(i) + "\": 0, ";
+  const struct {
+    std::string last, says;
+  } cases[] = {
+      {R"({"camera": 0, "name": "a", "name": "b"})", R"( is the key "name" for the second time in its object)"},
+      {R"({"camera": 0, "name": "a", "na\u006de": "b"})", " has an object with a key twice, in different spellings"},
+      {R"({"camera": 0, "extras": {"a": {"x": 1}, "b": {"x": 1, "y": 2, "x": 3}}})",
+       R"( is the key "x" for the second)"},
+      {R"({"camera": 0, "extras": {)" + many + R"("k3": 1}})", R"( is the key "k3" for the second time)"},
+      {R"({"camera": 0, "extras": {)" + many + R"("a": {"a": 1}}})", ""},
+  };
+  for (const auto& twice : cases)
+    for (const std::size_t bytes : {std::size_t{1}, k_large}) {
+      const std::string text = level(k_lamps, bytes, twice.last);
+      std::string told;
+      for (const std::string& warning : loaded(text).warnings) told += warning + "\n";
+      EXPECT_EQ(told.find("the later value counts") != std::string::npos, !twice.says.empty()) << told;
+      EXPECT_NE(told.find(twice.says), std::string::npos) << twice.last << ": " << told;
+      const std::size_t byte = told.find("byte ");
+      if (byte == std::string::npos || told.find("for the second") == std::string::npos) continue;
+      EXPECT_EQ(text[std::stoul(told.substr(byte + 5))], '"') << told;
+    }
+}
+
 }  // namespace
 }  // namespace clusterbench::scene::test

@@ -2,17 +2,20 @@
 """What a package says of its contents is what is in it: test_packaging.py [BUILD_FOLDER]."""
 
 import json
+import os
 import pathlib
 import shutil
 import stat
 import subprocess
 import sys
+import tarfile
 import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "packaging"))
 
+import archive  # noqa: E402
 import binaries  # noqa: E402
 import debian  # noqa: E402
 import notices  # noqa: E402
@@ -35,7 +38,7 @@ class Packages(unittest.TestCase):
         readelf = self.folder / "readelf"
         readelf.write_text(READELF, encoding="utf-8")
         readelf.chmod(0o755)
-        self.facts = Facts("1.2.3", "linux-some", "some-linux-gnu", ROOT, self.folder / "build", self.folder, "", str(readelf))
+        self.facts = Facts("1.2.3", "linux-some", "some-linux-gnu", ROOT, self.folder / "build", self.folder, "", str(readelf), "x <x@localhost>")
 
     def binary(self, path, *needed):
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -121,6 +124,22 @@ class Packages(unittest.TestCase):
         stage.settle(self.folder / "packed", 1000)
         for path, mode in ((program, 0o755), (text, 0o644), (program.parent, 0o755)):
             self.assertEqual((stat.S_IMODE(path.stat().st_mode), path.stat().st_mtime), (mode, 1000), path)
+
+
+    def test_an_archive_does_not_depend_on_who_made_the_files_in_which_order(self):
+        for write, ending in ((archive.write_tar, "tar.xz"), (archive.write_zip, "zip")):
+            made = []
+            for names in (("a", "b/c"), ("b/c", "a")):
+                folder = self.folder / str(len(made)) / ending / "packed"
+                for name in names:
+                    self.binary(folder / name, name)
+                os.utime(folder / "a", (len(made), len(made)))
+                file = self.folder / f"{len(made)}.{ending}"
+                write(folder, file, 1000000000)
+                made.append(file.read_bytes())
+            self.assertEqual(made[0], made[1], ending)
+        with tarfile.open(self.folder / "0.tar.xz") as packed:
+            self.assertEqual(packed.getnames(), ["packed", "packed/a", "packed/b", "packed/b/c"])
 
 
 class OfThisBuild(unittest.TestCase):

@@ -34,7 +34,6 @@ SlurmUser={user}
 SlurmdUser={user}
 AuthType=auth/none
 CredType=cred/none
-AuthInfo=cred_expire=1
 CommunicationParameters=NoCtldInAddrAny,NoInAddrAny
 StateSaveLocation={folder}/state
 SlurmdSpoolDir={folder}/%n
@@ -189,6 +188,8 @@ def requeued_task(cluster, program, folder, arguments, whole):
     array = cluster.ask("squeue", "-h", "-r", "-t", "running", "-o", "%i %K %A").splitlines()
     number = next(line.split()[2] for line in array if line.split()[1] == "1")
     cluster.ask("scontrol", "requeue", number)
+    until(lambda: "JobState=PENDING" in cluster.ask("scontrol", "show", "job", number), "the task is back in the queue")
+    cluster.ask("scontrol", "update", f"JobId={number}", "StartTime=now")  # Slurm would wait two minutes
     cluster.wait_for(job)
     restarts = cluster.ask("scontrol", "show", "job", number)
     expect("Restarts=1" in restarts, f"the task was started again: {restarts}")

@@ -66,6 +66,15 @@ std::vector<std::string> chosen_methods(const PluginFlags& flags, const std::vec
   return flags.methods.empty() ? all : flags.methods;
 }
 
+// Keeps the tests that were run.
+ExitCode stopped_check(const PluginFlags& flags, LaterOutput& output, result::PluginCheck& done) {
+  done.verdict = "incomplete";
+  if (!flags.json.empty()) output.write(result::to_json(done));
+  print_message("interrupted after " + number_of(done.tests.size(), "test") +
+                (flags.json.empty() ? "" : "; " + flags.json + " has them, with the verdict 'incomplete'"));
+  return os::stopped_exit_code();
+}
+
 ExitCode check(const PluginFlags& flags) {
   if (!flags.asked.empty()) {
     serve_test(flags.request, flags.asked);
@@ -82,7 +91,7 @@ ExitCode check(const PluginFlags& flags) {
     if (!flags.quiet) out << method << std::endl;
     for (const std::string& test : chosen_tests(flags)) {
       const std::optional<result::PluginTest> one = stop ? std::nullopt : tested(flags.request, method, test, stop);
-      if (!one) return os::stopped_exit_code();
+      if (!one) return stopped_check(flags, output, done);
       if (!is_passed(*one)) done.verdict = "failed";
       if (!flags.quiet) out << printable_lines(text_of(*one)) << std::flush;
       done.tests.push_back(*one);
@@ -108,7 +117,7 @@ void add_plugin(Command& program, Action& action) {
   group.needs_command();
   auto flags = std::make_shared<PluginFlags>();
   Command command = group.add_command("check", "Check that the methods of a plug-in keep their contract");
-  command.add_option("PLUGIN", flags->request.file, "Shared library (.so), see docs/plugins.md").required();
+  command.add_option("PLUGIN", flags->request.file, "Shared library (.so), see docs/plugins.md").required().utf8();
   std::vector<std::string> names;
   for (const acceptance::AcceptanceTest& test : acceptance::acceptance_tests()) names.emplace_back(test.name);
   command.add_option("--test", flags->tests, "NAME, repeatable: only these tests").once_a_name().one_of(names);
@@ -120,10 +129,16 @@ void add_plugin(Command& program, Action& action) {
   command.add_option("--timeout", flags->request.timeout_s, "Longest time for a test beside that, in seconds")
       .range(0.1, 1e6)
       .shows_standard();
+  command
+      .add_option("--memory", flags->request.memory_mib,
+                  "Most memory that a test's process may take in calls, beyond what it had at the first one, in MiB")
+      .range(1, 1 << 30)
+      .shows_standard();
   command.add_flag("--in-process", flags->request.in_process,
                    "All tests in this process, for a debugger; a crash then ends it");
   command.add_option("--json", flags->json, "Write the verdict as JSON to this file; -: standard output");
   command.add_option(k_serve_test, flags->asked, "").hidden();
+  command.add_option(k_notes, flags->request.notes, "").hidden();
   command.add_flag("-q,--quiet", flags->quiet, "No text; the exit code is the verdict");
   command.footer(tests_text());
   command.when_named([flags, &action] { action = [flags] { return check(*flags); }; });

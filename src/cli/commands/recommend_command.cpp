@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "assign/contract/assigner.h"
+#include "assign/contract/method_error.h"
 #include "cli/command_line/commands.h"
 #include "cli/options/guarded_command.h"
 #include "cli/options/run_inputs.h"
@@ -17,13 +18,16 @@
 #include "config/config.h"
 #include "config/config_plugins.h"
 #include "config/presets/preset_library.h"
+#include "core/libraries.h"
 #include "core/text.h"
+#include "os/call_notes.h"
 #include "os/stop_signals.h"
 #include "report/choosing/recommend_report.h"
 #include "report/choosing/recommended_config.h"
 #include "result/figures/case_figure.h"
 #include "run/cases/impossible_cases.h"
 #include "run/cases/plan.h"
+#include "run/findings/broken_cases.h"
 #include "search/recommend.h"
 #include "search/recommend_space.h"
 
@@ -239,11 +243,14 @@ void print_notes(const config::Config& config, const run::Plan& plan, const std:
 }
 
 void warn_of_random_depths() {
+  const std::string unseen = missing_library(Library::embree);
   print_message(
-      "warning: the scene has no triangles: each pixel is shaded at a random depth, where no surface is, and surfaces "
-      "can "
-      "make another clustering the best; export the level's meshes with its lights, or take a floor: --set "
-      "samples.opaque.ground=lowest, or =Y for one at that height");
+      "warning: " + (unseen.empty() ? "the scene has no triangles" : unseen) +
+      ": each pixel is shaded at a random depth, where no surface is, and surfaces can make another clustering "
+      "the best; " +
+      (unseen.empty() ? "export the level's meshes with its lights, or take a floor: --set "
+                        "samples.opaque.ground=lowest, or =Y for one at that height"
+                      : "take a build with it"));
 }
 
 bool needs_cost(const report::Question& question) {
@@ -273,6 +280,10 @@ std::optional<ExitCode> search_all(const RecommendFlags& flags, const config::Co
   }
   return std::nullopt;
 }
+
+// A search compares the costs of all its candidates.
+constexpr const char* k_without_it =
+    "; recommend ends where a method fails: name the others by --assigner; `clusterbench run` goes on without it";
 
 ExitCode recommend(const RecommendFlags& flags) {
   refuse_overwriting({flags.output, flags.written}, flags.inputs.paths);
@@ -309,6 +320,16 @@ ExitCode recommend(const RecommendFlags& flags) {
     write_output(flags.written, report::recommended_config(config, searches.views.front(), answers[0], question,
                                                            flags.written_runners_up, flags.written));
   return code;
+}
+
+ExitCode advised_recommend(const RecommendFlags& flags) {
+  try {
+    return recommend(flags);
+  } catch (const assign::MethodError& error) {
+    const std::string frame = run::frame_text(os::last_call().frame);
+    throw Error(error.file(), error.where(), error.message() + (frame.empty() ? "" : " (" + frame + ")") + k_without_it,
+                error.code());
+  }
 }
 
 }  // namespace
@@ -353,7 +374,10 @@ void add_recommend(Command& program, Action& action) {
   command.add_flag("--no-timing", flags->no_timing, "Nothing is timed; the answer is then the same on every machine");
   command.add_flag("-q,--quiet", flags->quiet, "No progress; warnings stay");
   command.when_named([flags, &action] {
-    action = [flags] { return guarded_if_needed(flags->inputs, flags->guard, [&] { return recommend(*flags); }); };
+    action = [flags] {
+      return guarded_if_needed(
+          flags->inputs, flags->guard, [&] { return advised_recommend(*flags); }, k_without_it);
+    };
   });
 }
 

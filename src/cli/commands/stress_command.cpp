@@ -1,5 +1,6 @@
 // `clusterbench stress`: every assigner on every hard case.
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -102,12 +103,19 @@ bool takes_device(const std::string& wanted) {
   return !wanted.empty();
 }
 
+// "a,b" as "a|b", where it is names alone: a regular expression can have commas of its own.
+std::string alternatives(std::string methods) {
+  constexpr const char* k_of_names = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_,^$*";
+  if (methods.find_first_not_of(k_of_names) == std::string::npos) std::ranges::replace(methods, ',', '|');
+  return methods;
+}
+
 // Without a name all methods, or those of --shader alone.
 std::string methods_of(const StressFlags& flags) {
   std::string own;
   for (const std::string& shader : flags.shaders)
     own += (own.empty() ? "^(" : "|") + gpu::add_shader_method(shader).name;
-  if (!flags.methods.empty()) return flags.methods;
+  if (!flags.methods.empty()) return alternatives(flags.methods);
   return own.empty() ? ".*" : own + ")$";
 }
 
@@ -169,12 +177,14 @@ void add_stress(Command& program, Action& action) {
   command.add_option("--cases", flags->cases,
                      "Only hard cases of this name, or that match it as a regular expression (H1 .. H35)");
   command.add_option("--methods", flags->methods,
-                     "Only methods whose name has this in it, or matches it as a regular expression");
+                     "Only methods whose name has this in it, or matches it as a regular expression; several: A,B");
   add_plugin_option(command, flags->plugins);
   add_guard_options(command, flags->guard);
-  command.add_option("--shader", flags->shaders,
-                     "FILE, repeatable: your own compute shaders as a method (docs/shaders.md); without --methods only "
-                     "these");
+  command
+      .add_option("--shader", flags->shaders,
+                  "FILE, repeatable: your own compute shaders as a method (docs/shaders.md); without --methods only "
+                  "these")
+      .utf8();
   command.add_option("--device", flags->device,
                      "NAME, UUID or number: also methods that run on a device, on this one, as `clusterbench list "
                      "devices` shows it; without it only those that --methods names, on the best one");

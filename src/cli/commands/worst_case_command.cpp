@@ -139,9 +139,11 @@ void add_worst_case(Command& program, Action& action) {
   command.add_option("INPUT", flags->inputs.paths, "One configuration (.json), or a scene (.glb, .gltf)").required();
   command.add_option("-o,--output", flags->output,
                      "JSON file; -: standard output. Without it a terminal shows the text only, a pipe gets the JSON");
-  command.add_option("--path", flags->path,
-                     "Write the frames found as a scene with a camera path (.gltf), and beside it a configuration "
-                     "(.json) that `clusterbench run` replays it with");
+  command
+      .add_option("--path", flags->path,
+                  "Write the frames found as a scene with a camera path (.gltf), and beside it a configuration "
+                  "(.json) that `clusterbench run` replays it with")
+      .utf8();
   command.add_option("--measure", flags->measure, "What is to be as large as possible")
       .one_of(measure_names())
       .shows_standard();

@@ -9,10 +9,12 @@
 
 #include "cli/output/output.h"
 #include "core/text.h"
+#include "os/standard_streams.h"
 #include "os/stop_signals.h"
 #include "os/terminal.h"
 #include "plugin/plugins.h"
 #include "report/cases/columns.h"
+#include "run/findings/broken_cases.h"
 
 namespace clusterbench::cli {
 namespace {
@@ -54,8 +56,9 @@ std::string call_text(const os::GuardedEnd& end) {
 
 Casualty casualty_of(const os::GuardedEnd& end, const GuardFlags& flags) {
   if (!end.call) throw Error("", "", "ended without a call of a plug-in: " + death_text(end), ExitCode::internal);
-  return {*end.call, kind_of(end.how), "the plug-in " + end.call->code + " " + end_text(end, flags) + call_text(end),
-          end.signal != 0 ? os::signal_name(end.signal) : ""};
+  std::string reason = "the plug-in " + end.call->code + " " + end_text(end, flags) + call_text(end);
+  if (end.signal != 0) reason += run::suspects_text(end.made, end.call->code);
+  return {*end.call, kind_of(end.how), reason, end.signal != 0 ? os::signal_name(end.signal) : ""};
 }
 
 // Of processes that plug-ins have started.
@@ -106,9 +109,9 @@ ExitCode stopped(const os::GuardedEnd& end, const char* advice) {
   return os::stopped_exit_code();
 }
 
-[[noreturn]] void refuse(const Casualty& casualty, ExitCode code) {
+[[noreturn]] void refuse(const Casualty& casualty, ExitCode code, const std::string& advice = "") {
   const std::string setting = casualty.call.setting.empty() ? "" : "; with " + casualty.call.setting;
-  throw Error("", "", casualty.reason + setting, code);
+  throw Error("", "", casualty.reason + setting + advice, code);
 }
 
 }  // namespace
@@ -128,7 +131,9 @@ void add_guard_options(Command& command, GuardFlags& flags) {
 
 bool calls_in_process(const GuardFlags& flags) {
   static const std::string obstacle = os::guard_obstacle();
-  if (flags.is_in_process || obstacle.empty()) return flags.is_in_process;
+  if (!flags.is_in_process && obstacle.empty()) return false;
+  os::keep_output_apart();
+  if (flags.is_in_process) return true;
   static std::once_flag is_said;
   std::call_once(is_said, [] { print_message("warning: " + obstacle); });
   return true;
@@ -161,7 +166,8 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
   }
 }
 
-ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::function<ExitCode()>& command) {
+ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::function<ExitCode()>& command,
+                          const std::string& advice) {
   if (calls_in_process(flags)) return command();
   const std::atomic<bool>& stop = os::stop_on_signals();
   os::ProcessGuard guard(limits_of(flags));
@@ -172,7 +178,7 @@ ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::fun
   clear_line();
   if (stop) return stopped(*end, "");
   const Casualty casualty = casualty_of(*end, flags);
-  refuse(casualty, code_of(casualty, code));
+  refuse(casualty, code_of(casualty, code), advice);
 }
 
 GuardFlags loading_limits() {
@@ -252,9 +258,10 @@ std::string loading_fault(const std::filesystem::path& plugin) {
   return message.empty() ? plugin.string() + ": cannot be loaded" : message;
 }
 
-ExitCode guarded_if_needed(const RunInputs& inputs, const GuardFlags& flags, const std::function<ExitCode()>& command) {
+ExitCode guarded_if_needed(const RunInputs& inputs, const GuardFlags& flags, const std::function<ExitCode()>& command,
+                           const std::string& advice) {
   if (!os::guard_obstacle().empty() && !names_plugins(inputs)) return command();
-  return may_name_plugins(inputs) ? run_guarded_once(flags, ExitCode::gate_failed, command) : command();
+  return may_name_plugins(inputs) ? run_guarded_once(flags, ExitCode::gate_failed, command, advice) : command();
 }
 
 }  // namespace clusterbench::cli

@@ -50,7 +50,9 @@ ExitCode run_guarded(const GuardFlags& flags, const std::function<void()>& befor
                      const std::function<std::optional<ExitCode>(const GuardedPart& part)>& part);
 
 // The same for a command of one part: if it dies, throws Error with the reason, and `code`.
-ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::function<ExitCode()>& command);
+// `advice`: ends that reason.
+ExitCode run_guarded_once(const GuardFlags& flags, ExitCode code, const std::function<ExitCode()>& command,
+                          const std::string& advice = "");
 
 // Runs a part of a command in a process of its own that ends with it, and returns its exit code; its errors are
 // printed. For parts that load plug-ins and call no method. Throws Error as run_guarded_once() does.
@@ -64,6 +66,7 @@ GuardFlags loading_limits();
 
 // The same for a command with these inputs, if they name plug-ins or come through a pipe; else it stays in this
 // process.
-ExitCode guarded_if_needed(const RunInputs& inputs, const GuardFlags& flags, const std::function<ExitCode()>& command);
+ExitCode guarded_if_needed(const RunInputs& inputs, const GuardFlags& flags, const std::function<ExitCode()>& command,
+                           const std::string& advice = "");
 
 }  // namespace clusterbench::cli

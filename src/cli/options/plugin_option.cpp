@@ -7,7 +7,8 @@ namespace clusterbench::cli {
 
 void add_plugin_option(Command& command, std::vector<std::string>& plugins) {
   command.add_option(k_plugin_flag, plugins, "[ID=]FILE, repeatable: also the methods of a plug-in (docs/plugins.md)")
-      .once_a_name();
+      .once_a_name()
+      .utf8();
 }
 
 void load_plugins(const std::vector<std::string>& plugins) {

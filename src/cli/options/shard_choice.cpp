@@ -17,7 +17,7 @@ namespace {
 constexpr const char* k_flag = "--shard";
 
 // The largest number for a larger one, which is refused as such.
-std::optional<std::uint64_t> number_in(std::string_view text) {
+std::optional<std::uint64_t> whole_number(std::string_view text) {
   std::uint64_t number = 0;
   const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (text.empty() || end != text.data() + text.size()) return std::nullopt;
@@ -60,14 +60,14 @@ class Environment {
   std::uint64_t number(const char* name) const {
     const char* text = variable_(name);
     if (text == nullptr) refuse(std::string("auto: ") + name + " is not set, though others of its service are");
-    const std::optional<std::uint64_t> number = number_in(text);
+    const std::optional<std::uint64_t> number = whole_number(text);
     if (!number) refuse(std::string("auto: ") + name + " is '" + printable(text) + "', which is no number");
     return *number;
   }
 
   bool is_number(const char* name) const {
     const char* text = variable_(name);
-    return text != nullptr && number_in(text);
+    return text != nullptr && whole_number(text);
   }
 
  private:
@@ -175,8 +175,8 @@ ShardChoice shard_choice(const std::string& text, const Variable& variable) {
   const std::size_t slash = text.find('/');
   const std::string first = text.substr(0, slash);
   std::optional<std::uint64_t> count;
-  if (slash != std::string::npos) count = number_in(std::string_view(text).substr(slash + 1));
-  const std::optional<std::uint64_t> index = number_in(first);
+  if (slash != std::string::npos) count = whole_number(std::string_view(text).substr(slash + 1));
+  const std::optional<std::uint64_t> index = whole_number(first);
   const bool has_form = slash == std::string::npos ? first == "auto" : count && (index || first == "auto");
   if (!has_form) refuse("'" + printable(text) + "' is no shard; it is I/N, as 2/7, or auto, or auto/N");
   if (count) check_count(text, *count);

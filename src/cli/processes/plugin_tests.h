@@ -16,13 +16,17 @@ struct PluginCheckRequest {
   std::uint64_t seed = 1;
   double seconds = 5.0;     // for tests that draw until time is over
   double timeout_s = 60.0;  // for the rest of each test
+  int memory_mib = 4096;    // that the process of a test may grow by in calls
   bool in_process = false;
+  std::string notes;  // of the process that asks, for that which is asked
 };
 
 // The hidden option by which the other process is asked for a test, as METHOD/TEST; or for the description of the
 // plug-in. It answers with a line of JSON.
 inline constexpr const char* k_serve_test = "--serve-test";
 inline constexpr const char* k_description = "description";
+// The hidden option with the path of the notes of the process that asks.
+inline constexpr const char* k_notes = "--notes";
 
 // The plug-in and the names of its methods.
 struct PluginDescription {

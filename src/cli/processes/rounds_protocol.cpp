@@ -69,13 +69,14 @@ void RemoteProgram::fail(const std::string& problem) const {
 }
 
 // A request is "measure ID", "frame ID NUMBER" or the like.
-void RemoteProgram::fail_at(const std::string& request, const std::string& problem, bool has_timed_out) const {
+void RemoteProgram::fail_at(const std::string& request, const std::string& problem, bool has_timed_out,
+                            ExitCode code) const {
   if (stop_ || tool_.is_null()) fail(problem);
   std::istringstream words(request);
   std::string verb, id;
   words >> verb >> id;
   const std::string errors = child_.error_tail();
-  throw ProgramEnded(name_, problem + (errors.empty() ? "" : ": " + errors), id, has_timed_out);
+  throw ProgramEnded(name_, problem + (errors.empty() ? "" : ": " + errors), id, has_timed_out, code);
 }
 
 void RemoteProgram::greet() {
@@ -101,15 +102,16 @@ Json RemoteProgram::answer(const std::string& request) {
     case os::Conversation::Received::stop:
       fail("interrupted");
     case os::Conversation::Received::timeout:
-      fail_at(request, "gave no answer to '" + request + "' in " + std::to_string(std::lround(timeout_s_)) + " s",
-              true);
+      fail_at(request, "gave no answer to '" + request + "' in " + std::to_string(std::lround(timeout_s_)) + " s", true,
+              ExitCode::usage);
     case os::Conversation::Received::end: {
-      const std::string ending = child_.end().how;
-      const std::string how = ending.empty() ? "" : " (" + ending + ")";
+      const os::Ending ending = child_.end();
+      const std::string how = ending.how.empty() ? "" : " (" + ending.how + ")";
+      const bool is_by_signal = !ending.how.empty() && ending.exit_code < 0;  // as where a launch dies
       fail_at(request,
               tool_.is_null() ? "is no clusterbench that can be measured beside this one; it ended at once" + how
                               : "ended" + how + " at '" + request + "'",
-              false);
+              false, is_by_signal ? ExitCode::internal : ExitCode::usage);
     }
   }
   Json read = json_or_discarded<Json>(line);

@@ -25,8 +25,11 @@ void serve_rounds(const config::Config& config, const run::Plan& plan);
 // A program that ended, or gave no answer, when it was asked about a case.
 class ProgramEnded : public Error {
  public:
-  ProgramEnded(const std::string& program, const std::string& problem, std::string case_id, bool has_timed_out)
-      : Error(program, "--baseline-binary", problem), case_id_(std::move(case_id)), has_timed_out_(has_timed_out) {}
+  ProgramEnded(const std::string& program, const std::string& problem, std::string case_id, bool has_timed_out,
+               ExitCode code)
+      : Error(program, "--baseline-binary", problem, code),
+        case_id_(std::move(case_id)),
+        has_timed_out_(has_timed_out) {}
 
   const std::string& case_id() const { return case_id_; }
   bool has_timed_out() const { return has_timed_out_; }
@@ -55,7 +58,8 @@ class RemoteProgram : public run::Program {
   nlohmann::ordered_json answer(const std::string& request);
   void greet();
   [[noreturn]] void fail(const std::string& problem) const;
-  [[noreturn]] void fail_at(const std::string& request, const std::string& problem, bool has_timed_out) const;
+  [[noreturn]] void fail_at(const std::string& request, const std::string& problem, bool has_timed_out,
+                            ExitCode code) const;
 
   std::string name_;
   double timeout_s_;

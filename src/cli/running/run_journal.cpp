@@ -1,7 +1,13 @@
 #include "cli/running/run_journal.h"
 
+#include <filesystem>
+
 #include "cli/output/output.h"
 #include "config/config_plugins.h"
+#include "core/error.h"
+#include "core/file_text.h"
+#include "core/json_document.h"
+#include "core/text.h"
 #include "os/stop_signals.h"
 #include "run/records/records.h"
 #include "run/runner.h"
@@ -48,6 +54,24 @@ Json journal_header(const RunFlags& flags, const config::Config& config, const r
   return header;
 }
 
+// A complete result of another build of a plug-in is a baseline that --resume would replace.
+void refuse_other_builds(const std::string& file, const config::Config& config) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) return;
+  const Json result = json_or_discarded<Json>(file_text(file));
+  if (!result.is_object() || !result.contains("plugins") || !result["plugins"].is_array()) return;
+  for (const Json& one : result["plugins"])
+    for (const plugin::LoadedPlugin* loaded : config::plugins_of(config)) {
+      const bool is_other = one.is_object() && one.value("id", Json()) == loaded->facts.id &&
+                            one.value("sha256", Json()) != loaded->sha256;
+      if (is_other)
+        throw Error(file, "--resume",
+                    "is a complete result, with another build of the plug-in " + loaded->facts.id + " (sha256 " +
+                        printable(one.value("sha256", Json()).dump()) + ", now \"" + loaded->sha256 +
+                        "\"); name another file, or leave out --resume, and it is replaced");
+    }
+}
+
 // Whether the output is a file. Throws Error if --resume needs one.
 bool has_journal(const RunFlags& flags) {
   if (!is_stream(flags.output)) return true;
@@ -72,6 +96,7 @@ RunJournal::RunJournal(const RunFlags& flags, const config::Config& config, cons
   journal_ = std::make_unique<report::Journal>(file, journal_header(flags, config, plan), flags.resume || goes_on,
                                                per_case * plan.case_count());
   if (goes_on) return;
+  if (flags.resume && journal_->is_empty()) refuse_other_builds(file, config);
   if (flags.resume && journal_->is_empty())
     print_message("--resume begins anew: nothing that an interrupted run has measured is in " +
                   journal_->partial_path().string());

@@ -213,14 +213,29 @@ class MethodCheck {
     }
   }
 
+  static bool is_constant_zero(const Json& count, const std::string& where) {
+    if (!count.is_string()) return count == 0;
+    static constexpr double k_any = 1.0;
+    bool is_constant = true;
+    const NumberOf number = [&is_constant](const std::string&) {
+      is_constant = false;
+      return &k_any;
+    };
+    const double value = number_of_formula(count.get<std::string>(), number, where);
+    return is_constant && value == 0.0;
+  }
+
   void check_pass(std::size_t index) const {
     const ShaderPass& pass = method_.passes[index];
     const std::string where = "/passes/" + std::to_string(index);
     if (pass.groups.has_value() == pass.invocations.has_value())
       throw Error("", where, "has to have one of groups and invocations");
     const std::vector<Json>& counts = pass.groups ? *pass.groups : *pass.invocations;
-    for (std::size_t i = 0; i < counts.size(); ++i)
-      check_amount(counts[i], names_, where + (pass.groups ? "/groups/" : "/invocations/") + std::to_string(i));
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      const std::string at = where + (pass.groups ? "/groups/" : "/invocations/") + std::to_string(i);
+      check_amount(counts[i], names_, at);
+      if (is_constant_zero(counts[i], at)) throw Error("", at, "is 0, and nothing would run; allowed: at least 1");
+    }
     check_entry(pass, where);
     if (!file_.module(pass).group_size(file_.entry(pass), {}))
       throw Error(

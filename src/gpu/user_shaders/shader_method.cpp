@@ -441,7 +441,16 @@ class ShaderAssigner final : public assign::StructureAssigner {
   [[noreturn]] void refuse_faults(const layout::Faults& faults, Vec3i cells) const {
     std::string text = fault_text(faults.first.front(), cells);
     if (faults.count > 1) text += "; " + number_of(faults.count - 1, "value") + " more cannot be right";
-    throw ShaderFault(file_->path.string() + ": /lists: " + text);
+    throw ShaderFault(file_->path.string() + ": /lists: " + text + advice_for(faults.first.front()));
+  }
+  // Where a count is above its room.
+  std::string advice_for(const layout::Fault& fault) const {
+    if (fault.message.find(" is above ") == std::string::npos || record().counts_dropped.value_or(false)) return "";
+    std::string text;
+    for (const result::Json& part : record().lists)
+      if (part.contains("per_cell") && part["per_cell"].is_string())
+        text += "; per_cell is '" + part["per_cell"].get<std::string>() + "', of which a parameter can be larger";
+    return text + "; \"counts_dropped\": true allows counts that go on where there is no more room";
   }
   static std::string fault_text(const layout::Fault& fault, Vec3i cells) {
     const auto cell = static_cast<int>(fault.cell);

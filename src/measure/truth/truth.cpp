@@ -1,6 +1,5 @@
 #include "measure/truth/truth.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -36,11 +35,12 @@ LightCells cells_of_light(const geom::LightVolume& light, const TruthCells& cell
   return std::move(search).found();
 }
 
-// For a sum that several threads make: its value at the error depends on them, so the error says the least that is
-// beyond the limit.
-void check_sum(const char* name, std::uint64_t sum, std::uint64_t bytes) {
-  const std::uint64_t most = memory_limit() / bytes;
-  check_memory(name, std::min(sum, most + 1), bytes);
+// Of the runs of true cells that were found, and of the pairs in them. Which of the two sums is too large first depends
+// on the threads that add to them, and so does its value: the error says neither.
+void check_sums(std::uint64_t runs, std::uint64_t pairs) {
+  const std::uint64_t most_pairs = memory_limit() / sizeof(std::uint32_t);
+  if (runs > memory_limit() / sizeof(LightCells::Run) || pairs > most_pairs)
+    check_memory("true pairs", most_pairs + 1, sizeof(std::uint32_t));
 }
 
 // Throws Error beyond the limit on memory.
@@ -50,10 +50,9 @@ std::vector<LightCells> cells_of_lights(const view::Frame& frame, const TruthCel
   parallel_ranges(found.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t light = begin; light < end; ++light) {
       found[light] = cells_of_light(view::volume_of(frame.lights[light], cells.space()), cells);
-      check_sum("runs of true cells", runs += found[light].runs.size(), sizeof(LightCells::Run));
       std::uint64_t now = 0;
       for (const LightCells::Run& run : found[light].runs) now += run.count;
-      check_sum("true pairs", true_pairs += now, sizeof(std::uint32_t));
+      check_sums(runs += found[light].runs.size(), true_pairs += now);
     }
   });
   return found;

@@ -14,8 +14,6 @@
 namespace clusterbench::os {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* k_tasks = "/proc/self/task";
 
 }  // namespace
@@ -23,7 +21,7 @@ constexpr const char* k_tasks = "/proc/self/task";
 std::vector<int> child_processes() {
   std::vector<int> children;
   std::error_code failed;
-  for (const fs::directory_entry& task : fs::directory_iterator(k_tasks, failed)) {
+  for (const std::filesystem::directory_entry& task : std::filesystem::directory_iterator(k_tasks, failed)) {
     std::ifstream list(task.path() / "children");
     for (int child = 0; list >> child;) children.push_back(child);
   }
@@ -33,7 +31,8 @@ std::vector<int> child_processes() {
 
 int thread_count() {
   std::error_code failed;
-  return static_cast<int>(std::distance(fs::directory_iterator(k_tasks, failed), fs::directory_iterator()));
+  return static_cast<int>(
+      std::distance(std::filesystem::directory_iterator(k_tasks, failed), std::filesystem::directory_iterator()));
 }
 
 Orphans::Orphans() {
@@ -42,7 +41,7 @@ Orphans::Orphans() {
 }
 
 int Orphans::end_all() const {
-  constexpr int k_patient_tries = 10, k_most_tries = 1000, k_wait_ms = 2;  // some are about to end by themselves
+  constexpr int k_patient_tries = 100, k_most_tries = 1000, k_wait_ms = 2;  // some are about to end by themselves
   std::set<int> running;
   for (int tries = 0; tries < k_most_tries; ++tries) {
     bool is_left = false;

@@ -27,6 +27,11 @@ namespace {
 
 using WatchClock = std::chrono::steady_clock;
 
+std::uint64_t grown_bytes(const ThreadNotes& notes) {
+  const std::uint64_t now = resident_bytes(notes.process), before = notes.resident_before;
+  return now > before && before > 0 ? now - before : 0;
+}
+
 // Watches the calls of a copy for those that last too long or take too much.
 class CallWatch {
  public:
@@ -64,11 +69,6 @@ class CallWatch {
   };
 
   double most_seconds() const { return is_hurried_ ? std::min(2.0, limits_.call_s) : limits_.call_s; }
-
-  static std::uint64_t grown_bytes(const ThreadNotes& notes) {
-    const std::uint64_t now = resident_bytes(notes.process), before = notes.resident_before;
-    return now > before && before > 0 ? now - before : 0;
-  }
 
   // Foreign code can also hang where the process ends.
   std::optional<GuardedEnd::How> look_at_end(double seconds) {
@@ -153,6 +153,7 @@ GuardedEnd end_of(int status) {
     end.signal = WTERMSIG(status);
   end.has_ended_thread = page.has_ended_thread;
   end.lost_descriptor = page.lost_descriptor;
+  end.made = codes_that_made();
   add_call(end, -1);
   return end;
 }
@@ -241,6 +242,16 @@ std::optional<GuardedEnd> ProcessGuard::run(const std::atomic<bool>& stop) {
 
 std::string ProcessGuard::message() const {
   return notes_page().message.text();
+}
+
+void begin_notes() {
+  clear_notes(share_notes());
+}
+
+std::uint64_t noted_growth() {
+  const NotesPage& page = notes_page();
+  const int thread = running_thread(page);
+  return thread < 0 ? 0 : grown_bytes(page.threads[static_cast<std::size_t>(thread)]);
 }
 
 GuardedEnd noted_end(int wait_status) {

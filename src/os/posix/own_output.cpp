@@ -16,9 +16,7 @@ namespace clusterbench::os {
 OwnOutput::OwnOutput() : descriptor_(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3)) {
   if (descriptor_ < 0) throw Error("", "standard output", errno_text("cannot be kept"));
   std::fflush(stdout);
-  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  ::dup2(nowhere, STDOUT_FILENO);
-  ::close(nowhere);
+  ::dup2(STDERR_FILENO, STDOUT_FILENO);
   keep_standard_files();
   keep_file(descriptor_);
   constexpr rlim_t k_most_bytes = 1 << 20;

@@ -27,7 +27,8 @@ int number(std::intptr_t known) {
 }
 
 [[noreturn]] void refuse_start(const std::string& program, const std::string& action, int error) {
-  throw Error(program, "", action + ": " + std::strerror(error), ExitCode::internal);
+  throw Error(program == this_program() ? "clusterbench" : program, "", action + ": " + reason_text(error),
+              ExitCode::internal);
 }
 
 // The standard streams of the new process; all above 2.
@@ -76,7 +77,7 @@ Started start(const std::vector<std::string>& command, const Streams& streams) {
 }
 
 std::string start_error_text(int error) {
-  return std::string("cannot be started: ") + std::strerror(error);
+  return "cannot be started: " + reason_text(error);
 }
 
 // Waits for its end, and describes it.
@@ -207,6 +208,8 @@ Conversation::Conversation(const std::vector<std::string>& command) {
   process_ = started.pid;
   if (started.error == 0) return;
   ::close(number(to_));
+  if (started.error == EMFILE || started.error == ENFILE)
+    refuse_start(command.front(), "cannot be started", started.error);
   throw Error(command.front(), "", start_error_text(started.error));
 }
 
@@ -235,10 +238,13 @@ Conversation::Received Conversation::receive_line(std::string& line, double seco
       return Received::line;
     }
     pollfd waiting{number(from_), POLLIN, 0};
+    const bool has_ended =
+        has_exited(number(process_));  // before the last look at its output, which a child of it can hold open
     const bool is_ready = ::poll(&waiting, 1, k_wait_ms) > 0;
     if (stop) return Received::stop;
     if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds)
       return Received::timeout;
+    if (!is_ready && has_ended) return Received::end;
     if (!is_ready) continue;
     const ssize_t bytes = ::recv(number(from_), some.data(), some.size(), 0);
     if (bytes == 0 || (bytes < 0 && errno != EINTR)) return Received::end;

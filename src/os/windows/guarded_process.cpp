@@ -21,6 +21,12 @@ std::string ProcessGuard::message() const {
   return notes_page().message.text();
 }
 
+void begin_notes() {}
+
+std::uint64_t noted_growth() {
+  return 0;
+}
+
 GuardedEnd noted_end(int) {
   return {};
 }

@@ -1,6 +1,5 @@
 #include "os/own_output.h"
 
-#include <fcntl.h>
 #include <io.h>
 
 #include <cstdio>
@@ -14,9 +13,7 @@ namespace clusterbench::os {
 OwnOutput::OwnOutput() : descriptor_(::_dup(1)) {
   if (descriptor_ < 0) throw Error("", "standard output", errno_text("cannot be kept"));
   std::fflush(stdout);
-  const int nowhere = ::_open("NUL", _O_WRONLY);
-  ::_dup2(nowhere, 1);
-  ::_close(nowhere);
+  ::_dup2(2, 1);
 }
 
 OwnOutput::~OwnOutput() {

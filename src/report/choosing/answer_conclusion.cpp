@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/libraries.h"
 #include "core/text.h"
 #include "measure/statistics/frame_cost.h"
 #include "measure/statistics/time_statistics.h"
@@ -180,7 +181,9 @@ std::string answer_conclusion(const Answer& answer, const Objective& objective) 
     out += ". Without " + std::string(names.size() == 1 ? "camera " : "cameras ") + joined(names) +
            ", in whose frames no light that shines is in view";
   }
-  if (answer.random_depths) out += ". Samples are at random depths, " + remedy_text(true);
+  if (answer.random_depths)
+    out += ". Samples are at random depths, " +
+           remedy_text(is_built_in(Library::embree) ? UnseenSurfaces::no_triangles : UnseenSurfaces::no_embree);
   return out + ".";
 }
 

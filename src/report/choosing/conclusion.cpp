@@ -185,7 +185,7 @@ std::string doubts_text(const Choice& choice) {
     out += ". " + case_title(*choice.searched->result_case) + ", which samples search, would cost " +
            ns_text(choice.searched->ns()) + " by the model; no GPU has measured such a search";
   if (take.has_random_depths)
-    out += ". Its samples are at random depths, " + remedy_text(take.has_no_triangles) +
+    out += ". Its samples are at random depths, " + remedy_text(take.unseen) +
            (take.is_modelled && !take.result_case->cost
                 ? "; --set cost.weights.volume=pixels shows each case's cost at random depths"
                 : "");

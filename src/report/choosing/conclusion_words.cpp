@@ -70,11 +70,20 @@ std::string few_samples_text(double needed, const std::vector<std::string>& sets
          "shading.samples), tell more";
 }
 
-std::string remedy_text(bool has_no_triangles) {
-  return std::string(has_no_triangles ? "since the scene has no triangles; samples.opaque.ground=lowest shades a floor"
-                                      : "where no surface is; --set 'samples.opaque={}' (levels with triangles) or "
-                                        "samples.opaque.ground=lowest shades surfaces") +
-         ", and can change the choice";
+std::string remedy_text(UnseenSurfaces why) {
+  const auto why_text = [&]() -> std::string {
+    switch (why) {
+      case UnseenSurfaces::not_requested:
+        return "where no surface is; --set 'samples.opaque={}' (levels with triangles) or samples.opaque.ground=lowest "
+               "shades surfaces";
+      case UnseenSurfaces::no_triangles:
+        return "since the scene has no triangles; samples.opaque.ground=lowest shades a floor";
+      case UnseenSurfaces::no_embree:
+        return "since clusterbench was built without Embree, which sees surfaces; a build with it shades them";
+    }
+    return "";
+  };
+  return why_text() + ", and can change the choice";
 }
 
 }  // namespace clusterbench::report

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "measure/statistics/time_statistics.h"
+#include "report/choosing/weighed_cases.h"
 #include "result/case.h"
 
 namespace clusterbench::report {
@@ -26,6 +27,6 @@ std::string samples_text(const std::vector<std::string>& sets);
 // A remark on samples that need few lights. "" if they need enough.
 std::string few_samples_text(double needed, const std::vector<std::string>& sets);
 // A setting that shades surfaces instead of points at random depths.
-std::string remedy_text(bool has_no_triangles);
+std::string remedy_text(UnseenSurfaces why);
 
 }  // namespace clusterbench::report

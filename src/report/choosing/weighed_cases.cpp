@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "core/libraries.h"
 #include "report/cases/case_samples.h"
 #include "report/cases/json_values.h"
 #include "result/at.h"
@@ -14,7 +15,7 @@ namespace {
 using result::Case;
 using result::Json;
 
-WeighedCase weigh(const Case& result_case, const Json& config) {
+WeighedCase weigh(const Case& result_case, const Json& config, UnseenSurfaces unseen) {
   WeighedCase out;
   out.result_case = &result_case;
   out.contender = contender_of(result_case);
@@ -22,7 +23,7 @@ WeighedCase weigh(const Case& result_case, const Json& config) {
     out.cost = frame->cost;
     out.is_modelled = true;
     out.has_random_depths = frame->has_random_depths;
-    out.has_no_triangles = value_at(config, "/samples/opaque") != nullptr;
+    out.unseen = unseen;
   }
   out.cost.assign_ns = result::number<&Case::timing, &result::Timing::frame_ns, &result::Time::median>(result_case);
   for (double& ns : out.contender.rounds_ns) ns += out.cost.gpu_ns();
@@ -40,10 +41,19 @@ Json lists_of(const Case& result_case) {
 
 }  // namespace
 
+UnseenSurfaces unseen_surfaces(const result::Result& result, const Json& config) {
+  if (value_at(config, "/samples/opaque") == nullptr) return UnseenSurfaces::not_requested;
+  const auto lacks_embree = [](const result::Skipped& skipped) {
+    return skipped.name.ends_with("/samples opaque") && skipped.reason == built_without(Library::embree);
+  };
+  return std::ranges::any_of(result.skipped, lacks_embree) ? UnseenSurfaces::no_embree : UnseenSurfaces::no_triangles;
+}
+
 std::vector<SceneView> scene_views(const result::Result& result, const Json& config) {
   std::set<std::string> front;
   for (const result::Front& of_scene : result.pareto_front) front.insert(of_scene.ids.begin(), of_scene.ids.end());
   const std::set<std::string> without_samples = ids_without_samples(result.cases);
+  const UnseenSurfaces unseen = unseen_surfaces(result, config);
   std::vector<SceneView> views;
   for (const Case& result_case : result.cases) {
     if (result_case.preset) continue;
@@ -57,7 +67,7 @@ std::vector<SceneView> scene_views(const result::Result& result, const Json& con
                           SceneView{result_case.scene, result_case.camera, result_case.viewport, result_case.machine});
     view->cases.push_back(&result_case);
     if (!loses_nothing_seen(result_case)) continue;
-    WeighedCase weighed = weigh(result_case, config);
+    WeighedCase weighed = weigh(result_case, config, unseen);
     weighed.is_on_front = front.contains(result_case.id);
     // Drawn lights have no lists whose size could be an advantage.
     if (without_samples.contains(result_case.id) || (draws_lights(result_case) && !weighed.is_modelled)) {

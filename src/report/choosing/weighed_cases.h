@@ -16,13 +16,18 @@
 
 namespace clusterbench::report {
 
+// Why samples are at random depths: no surfaces were requested, the scene has none, or the program that made the
+// result lacks Embree.
+enum class UnseenSurfaces : std::uint8_t { not_requested, no_triangles, no_embree };
+UnseenSurfaces unseen_surfaces(const result::Result& result, const result::Json& config);
+
 // A case with the costs that rank it.
 struct WeighedCase {
   const result::Case* result_case = nullptr;
   run::Contender contender;  // its times include modelled costs
   measure::FrameCost cost;
   bool is_modelled = false, has_random_depths = false, is_on_front = false;
-  bool has_no_triangles = false;  // if surfaces are requested
+  UnseenSurfaces unseen = UnseenSurfaces::not_requested;  // if it has random depths
 
   bool is_timed() const { return cost.assign_ns.has_value(); }
   double bytes() const { return static_cast<double>(result_case->buffers.bytes.high_water); }

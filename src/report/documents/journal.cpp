@@ -26,29 +26,42 @@ bool begins_as_an_entry(std::string_view line) {
   return line.find_first_not_of('\0') == std::string_view::npos;  // zeros after a power failure
 }
 
+// The end of a line: the digest of all that stands before it.
+std::string seal_of(std::string_view text) {
+  return R"(,"sha256":")" + sha256_hex(text) + R"("})";
+}
+
+std::string sealed_line(const Json& entry) {
+  std::string text = entry.dump();
+  text.pop_back();  // its brace, which the seal has
+  return text + seal_of(text) + '\n';
+}
+
+bool is_sealed(std::string_view line) {
+  const std::size_t begin = line.rfind(R"(,"sha256":")");
+  return begin != std::string_view::npos && line.substr(begin) == seal_of(line.substr(0, begin));
+}
+
 std::string header_line(const Json& header) {
-  return Json{{"header", header}}.dump() + '\n';
+  return sealed_line({{"header", header}});
 }
 
 // A single header line, of this program or an older one.
 bool is_header_alone(std::string_view text) {
   if (!text.ends_with('\n') || text.find('\n') + 1 != text.size()) return false;
   const Json line = json_or_discarded<Json>(text);
-  return line.is_object() && line.size() == 1 && line.contains("header") && line["header"].is_object() &&
-         line["header"].contains("config");
+  return line.is_object() && line.size() == (line.contains("sha256") ? 2 : 1) && line.contains("header") &&
+         line["header"].is_object() && line["header"].contains("config");
 }
 
-// Whether a line contains an intact case with an id that is not in `ids` yet; adds the id.
+// Whether a line contains a case with an id that is not in `ids` yet; adds the id.
 bool accepts_case(const Json& entry, std::set<std::string>& ids) {
   const Json* id = value_at(entry, "/case/id");
-  return id != nullptr && entry.value("sha256", Json()) == sha256_hex(entry["case"].dump()) &&
-         ids.insert(id->dump()).second;
+  return id != nullptr && ids.insert(id->dump()).second;
 }
 
-// Whether a line contains an intact broken case.
 bool is_broken_case(const Json& entry) {
-  return value_at(entry, "/broken/id") != nullptr &&
-         entry.value("sha256", Json()) == sha256_hex(entry["broken"].dump());
+  return value_at(entry, "/broken/id") != nullptr;
 }
 
 std::string device_name(const Json& header) {
@@ -80,17 +93,20 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
     const bool is_cut = end == std::string::npos;  // the line that was being written when the run ended
     if (is_cut && number > 1 && begins_as_an_entry(std::string_view(text).substr(begin))) break;
     if (is_cut && number == 1 && header_line(header).starts_with(text)) break;
-    Json entry = json_or_discarded<Json>(std::string_view(text).substr(begin, end - begin));
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    Json entry = json_or_discarded<Json>(line);
     const auto refuse = [&](const std::string& what) {
       throw Error(path.string(), "line " + std::to_string(number),
                   what + "; without --resume the run begins anew and the file is kept under another name");
     };
+    if (line.find_first_not_of(" \t\r") == std::string_view::npos) refuse("is empty; remove it to go on");
     if (is_cut) refuse("is not what a run writes");
     if (number == 1 && (!entry.is_object() || !entry.contains("header"))) refuse("does not say what was run");
     if (number == 1)
       if (const std::string other = other_device(entry["header"], header); !other.empty()) refuse(other);
     if (number == 1 && entry["header"] != header)
       refuse("is an interrupted run of another configuration, --count, --shard, scene or build");
+    if (entry.is_object() && !is_sealed(line)) refuse("is not what a run writes; it was changed");
     if (number > 1 && !(entry.is_object() && accept(entry))) refuse("is not what a run writes");
     begin = end + 1;
   }
@@ -205,10 +221,9 @@ std::vector<std::string> Journal::earlier_ids() const {
   return ids;
 }
 
-// Checked by its digest: answers of launches have no schema.
+// Checked by the line's digest alone: answers of launches have no schema.
 bool Journal::accept_answer(Json& entry) {
   if (!entry.contains("request") || !entry.contains("answer")) return false;
-  if (entry.value("sha256", Json()) != sha256_hex(entry["request"].dump() + entry["answer"].dump())) return false;
   earlier_answers_[entry["request"].dump()] = std::move(entry["answer"]);
   return true;
 }
@@ -219,23 +234,20 @@ std::optional<Json> Journal::earlier_answer(const Json& request) const {
 }
 
 void Journal::add_answer(const Json& request, const Json& answer) {
-  const std::string digest = sha256_hex(request.dump() + answer.dump());
-  add({{"request", request}, {"answer", answer}, {"sha256", digest}});
+  add({{"request", request}, {"answer", answer}});
 }
 
 void Journal::add(const Json& entry) {
   has_added_ = true;
-  partial_.append(entry.dump() + '\n');
+  partial_.append(sealed_line(entry));
 }
 
 void Journal::add_case(const result::Case& finished) {
-  const Json json = result::to_json(finished);
-  add({{"case", json}, {"sha256", sha256_hex(json.dump())}});
+  add({{"case", result::to_json(finished)}});
 }
 
 void Journal::add_broken(const result::BrokenCase& broken) {
-  const Json json = result::to_json(broken);
-  add({{"broken", json}, {"sha256", sha256_hex(json.dump())}});
+  add({{"broken", result::to_json(broken)}});
 }
 
 void Journal::finish(const result::Result& result) {

@@ -1,8 +1,8 @@
 #pragma once
 // Results on disk while they arrive: FILE.partial has a header line, a line per finished or broken case and, for cases
-// that are timed in several launches, a line per answer of a launch. Each line is written immediately, so a crash loses
-// at most the current measurement. finish() replaces FILE atomically. If FILE is a link, all this happens at its
-// target, and the link stays.
+// that are timed in several launches, a line per answer of a launch. Each line ends with a digest of itself and is
+// written immediately, so a crash loses at most the current measurement. finish() replaces FILE atomically. If FILE is
+// a link, all this happens at its target, and the link stays.
 
 #include <filesystem>
 #include <map>

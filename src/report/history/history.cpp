@@ -207,18 +207,18 @@ fs::path history_path(const std::string& path) {
 // Others hold it for a moment, or are stopped and hold it without end.
 std::unique_ptr<os::LockedFile> locked_history(const std::string& path, const HistoryWait& wait) {
   constexpr std::chrono::milliseconds k_pause(20);
-  bool is_told = false;
-  for (std::chrono::milliseconds waited(0);; waited += k_pause) {
+  const auto start = std::chrono::steady_clock::now();
+  for (bool is_told = false;;) {
     try {
       return std::make_unique<os::LockedFile>(history_path(path));
     } catch (const os::FileHeld&) {
-      if (waited >= wait.longest)
+      if (std::chrono::steady_clock::now() - start >= wait.longest)
         throw Error(path, "",
                     "is held by another process, still after " +
                         number_of(static_cast<std::uint64_t>(wait.longest.count()), "second") +
                         "; end that process (`fuser FILE` shows it), then add the result again");
     }
-    if (!is_told && wait.on_long && waited >= wait.until_long) {
+    if (!is_told && wait.on_long && std::chrono::steady_clock::now() - start >= wait.until_long) {
       wait.on_long();
       is_told = true;
     }

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "report/cases/timing_warnings.h"
 #include "report/comparing/ratios.h"
 #include "report/page/page_costs.h"
@@ -45,7 +46,7 @@ std::string page(const std::vector<NamedResult>& results, const std::string& com
                  const std::vector<PagePicture>& pictures) {
   result::PageData data{.command = command, .figures = figure_words(), .pictures = pictures};
   for (const NamedResult& named : results)
-    data.results.push_back({.file = named.file,
+    data.results.push_back({.file = printable(named.file),
                             .recorded = named.result,
                             .cases = page_cases(named.result),
                             .doubts = timing_doubts(named.result.cases),

@@ -11,7 +11,8 @@ struct PluginTest {
   FIELD(std::string, method, "As configurations name it");
   FIELD(std::string, test, "Its name, for --test");
   FIELD(std::string, verdict,
-        About("crashed: a signal ended its process, or the plug-in did. timed_out: it was not done in time. skipped: "
+        About("crashed: a signal ended its process, or the plug-in did, or it took too much memory. timed_out: it was "
+              "not done in time. skipped: "
               "it does "
               "not apply")
             .one_of({"passed", "failed", "crashed", "timed_out", "skipped"}));
@@ -28,7 +29,9 @@ struct PluginCheck {
   FIELD(double, seconds,
         About("For each of the tests that draw until time is over", "s").finite().at_least(0).as_fraction());
   FIELD(std::vector<PluginTest>, tests, "Method by method, in the order in which they were run");
-  FIELD(std::string, verdict, About("passed: no test failed").one_of({"passed", "failed"}));
+  FIELD(std::string, verdict,
+        About("passed: no test failed. incomplete: interrupted before all tests were run")
+            .one_of({"passed", "failed", "incomplete"}));
   END_RECORD;
 };
 

@@ -76,6 +76,8 @@ class CulledRun {
   // Writes the method's lists into a storage as an engine does: with the indices of the lights that the method got. Not
   // for a method with its own structure.
   void store(assign::Storage& storage) const;
+  // As the method filled them, with the indices of the lights that it got; null if it makes its own structure.
+  const assign::Lists* filled_lists() const { return run_.filled_lists(); }
   // As the method made it; null if it fills lists.
   const assign::LightStructure* own_structure() const { return run_.structure(); }
   // Converts the answers of a structure of this frame's lights (the method's own or a storage's) to the rig's indices;

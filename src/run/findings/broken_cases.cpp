@@ -1,5 +1,7 @@
 #include "run/findings/broken_cases.h"
 
+#include "core/text.h"
+
 namespace clusterbench::run {
 namespace {
 
@@ -7,10 +9,25 @@ std::optional<std::string> text_if_any(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional(text);
 }
 
+// Where another plug-in, or a thread of one, could have written.
+bool is_of_memory(const assign::MethodError& error) {
+  for (const char* fault : {"left lists that are none", " wrote to ", "says that it wrote "})
+    if (error.message().find(fault) != std::string::npos) return true;
+  return false;
+}
+
 }  // namespace
 
 std::string frame_text(int frame) {
   return frame < 0 ? "" : "frame " + std::to_string(frame);
+}
+
+std::string suspects_text(const std::vector<std::string>& made, const std::string& blamed) {
+  std::vector<std::string> others = made;
+  std::erase(others, blamed);
+  if (others.empty()) return "";
+  return std::string("; the plug-in") + (others.size() == 1 ? " " : "s ") + joined(others) +
+         " ran in the same process, and can have written to its memory: --assigner with this method alone tells";
 }
 
 result::BrokenCase broken_case(const config::Config& config, const Plan& plan, const CasePlan& case_plan,
@@ -39,7 +56,8 @@ Breakdown breakdown_of(const assign::MethodError& error, const std::string& plug
   const std::string frame = frame_text(call.frame);
   return {"failed",
           "the plug-in " + plugin + ": " + error.message() + " (" + os::name_of(call.step) +
-              (frame.empty() ? "" : ", " + frame) + ")",
+              (frame.empty() ? "" : ", " + frame) + ")" +
+              (is_of_memory(error) ? suspects_text(os::codes_that_made(), plugin) : ""),
           call.step,
           call.frame,
           call.pass,

@@ -23,6 +23,10 @@ struct Breakdown {
 // "frame 12": of a call, "" where it is of none.
 std::string frame_text(int frame);
 
+// The other plug-ins that can be what a fault is of, if it is one of memory: "; the plug-in acme ran before ...". ""
+// without any. `made`: os::codes_that_made().
+std::string suspects_text(const std::vector<std::string>& made, const std::string& blamed);
+
 result::BrokenCase broken_case(const config::Config& config, const Plan& plan, const CasePlan& case_plan,
                                const Breakdown& breakdown);
 // Of a method that failed in the last call of this thread.

@@ -3,6 +3,7 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -59,6 +60,15 @@ std::size_t PreparedFrame::bytes() const {
   return sum;
 }
 
+// A method's lists of one frame, copied for those that use them while the method is at the next frame.
+struct ListsOfFrame {
+  assign::Lists filled;                    // as the method filled them
+  std::optional<assign::Lists> ascending;  // if those are not
+  std::size_t scratch_bytes = 0;
+
+  const assign::Lists& cells() const { return ascending ? *ascending : filled; }
+};
+
 class MethodMeter {
  public:
   // `shadows`: null if no shadow cull is requested. `compares`: compare cells with the truth. If the cells are too many
@@ -81,16 +91,31 @@ class MethodMeter {
   }
 
   void add(const PreparedFrame& now) {
+    assign(now);
+    if (measures_.has_cells) measure(now, run_.cell_lists());
+  }
+  void assign(const PreparedFrame& now) {
     grid_ = now.grid;
-    const grid::Grid& grid = *grid_;
     const view::LightArrays& lights = now.lights.in_precision(measures_.method.precision);
-    if (now.is_new_grid) run_.build(grid, assign::kinds_of(lights));
+    if (now.is_new_grid) run_.build(*grid_, assign::kinds_of(lights));
     run_.assign(now.frame, lights, now.depth.get());
     if (cull_meter_) cull_meter_->add_frame(*run_.cull(), now.frame, run_.cull_is_conservative(now.frame, lights));
     measures_.tests_done += run_.tests_done();
     measures_.fallbacks += run_.fallbacks();
-    if (!measures_.has_cells) return;
-    lists_ = &run_.cell_lists();
+  }
+  // Whether the lists are all that cases and measures need of the method.
+  bool is_done_with_lists() const { return run_.filled_lists() != nullptr && run_.cull() == nullptr; }
+  void copy_lists(ListsOfFrame& out) const {
+    const assign::Lists& filled = *run_.filled_lists();
+    out.filled = filled;
+    out.ascending.reset();
+    if (const assign::Lists& cells = run_.cell_lists(); &cells != &filled) out.ascending = cells;
+    out.scratch_bytes = run_.scratch_bytes();
+  }
+  // `lists`: of the cells; they must stay until the next call.
+  void measure(const PreparedFrame& now, const assign::Lists& lists) {
+    const grid::Grid& grid = *now.grid;
+    lists_ = &lists;
     measures_.has_grid_cells = !run_.has_occupied_cells();
     if (!occupancy_) occupancy_.emplace(0);
     if (now.is_new_grid)
@@ -176,8 +201,12 @@ class StructureMeter {
 
   void add(int frame, const assign::LightStructure& made, const MethodMeter& method) {
     mapped_ = method.run().mapped(made);
-    const assign::LightStructure& structure = mapped_ ? static_cast<const assign::LightStructure&>(*mapped_) : made;
-    buffers_.add_frame(frame, structure, method.cell_lists(), method.run().scratch_bytes());
+    add(frame, mapped_ ? static_cast<const assign::LightStructure&>(*mapped_) : made, method.cell_lists(),
+        method.run().scratch_bytes());
+  }
+  // `lists`: of the cells; null without cells.
+  void add(int frame, const assign::LightStructure& structure, const assign::Lists* lists, std::size_t scratch_bytes) {
+    buffers_.add_frame(frame, structure, lists, scratch_bytes);
     structure_ = &structure;
   }
   void add_lookup(const measure::LookupFrame& lookup) { lookup.add(*structure_, measures_.lookup); }
@@ -232,6 +261,12 @@ class CaseMeter {
     if (roomy_storage_) roomy_meter_->add(now.frame.index, *roomy_storage_, method);
     if (now.lookup && evaluates_lookup_ && !structure.has_occupied_cells()) meter_.add_lookup(*now.lookup);
   }
+  // The same with a copy of the lists, without the method.
+  void add(const PreparedFrame& now, const ListsOfFrame& lists) {
+    add(now, lists, *storage_, meter_);
+    if (roomy_storage_) add(now, lists, *roomy_storage_, *roomy_meter_);
+    if (now.lookup && evaluates_lookup_) meter_.add_lookup(*now.lookup);
+  }
 
   void add_samples(std::size_t set, int frame, std::span<const grid::Sample> samples,
                    const measure::NeededLights& needed) {
@@ -248,6 +283,13 @@ class CaseMeter {
   }
 
  private:
+  static void add(const PreparedFrame& now, const ListsOfFrame& lists, assign::Storage& storage,
+                  StructureMeter& meter) {
+    if (now.is_new_grid) storage.start(*now.grid, now.frame.ranges());
+    storage.store(lists.filled);
+    meter.add(now.frame.index, storage, &lists.cells(), lists.scratch_bytes);
+  }
+
   Method method_;
   bool evaluates_lookup_;                     // its samples are anywhere in the view
   std::unique_ptr<assign::Storage> storage_;  // none: the method's own structure
@@ -268,42 +310,82 @@ std::span<const grid::Sample> part_of(std::span<const grid::Sample> samples, std
   return samples.subspan(begin, std::min(k_samples_at_once, samples.size() - begin));
 }
 
+// Samples whose needed lights are known, for one case.
+void add_samples(CaseMeter& meter, const PreparedFrame& now, std::size_t set, std::size_t part,
+                 const measure::NeededLights& needed) {
+  meter.add_samples(set, now.frame.index, part_of(now.samples[set].samples, part), needed);
+}
+// Waves are made of neighbouring pixels.
+void add_waves(CaseMeter& meter, const PreparedFrame& now, std::size_t set) {
+  const std::optional<depth::DepthImage>& picture = now.samples[set].picture;
+  if (picture && picture->pixels.is_full_resolution()) meter.add_waves(set, now.samples[set]);
+}
+void add_known_samples(CaseMeter& meter, const PreparedFrame& now, const Stop& stop) {
+  for (std::size_t set = 0; set < now.needed.size() && !stop; ++set) {
+    for (std::size_t part = 0; part < now.needed[set].size() && !stop; ++part)
+      add_samples(meter, now, set, part, now.needed[set][part]);
+    add_waves(meter, now, set);
+  }
+}
+
 // A method and its cases, which have nothing in common with other methods.
 class MethodWork {
  public:
+  using User = FrameUser<PreparedFrame>;
+
   MethodWork(MethodMeter& method, std::vector<CaseMeter>& cases) : method_(method) {
     for (CaseMeter& meter : cases)
       if (meter.method() == method.method()) cases_.push_back(&meter);
   }
 
-  // Lists, and samples whose needed lights are known.
-  void add(const PreparedFrame& now, const Stop& stop) const {
-    method_.add(now);
+  // One user for all; or the method, and behind it its measures and each of its cases, if these need its lists alone.
+  void add_users(std::vector<User>& users, bool shares, const Stop& stop) {
+    if (!shares || !method_.is_done_with_lists())
+      return users.push_back({[this, stop](const PreparedFrame& now) { add(now, stop); }});
+    const std::size_t leader = users.size();
+    users.push_back({[this](const PreparedFrame& now) {
+      method_.assign(now);
+      method_.copy_lists(lists_of(now));
+    }});
+    users.push_back({[this](const PreparedFrame& now) { method_.measure(now, lists_of(now).cells()); }, leader});
     for (CaseMeter* meter : cases_)
-      if (!stop) meter->add(now, method_);
-    for (std::size_t set = 0; set < now.needed.size(); ++set) {
-      for (std::size_t part = 0; part < now.needed[set].size(); ++part)
-        add_samples(now, set, part, now.needed[set][part], stop);
-      add_waves(now, set, stop);
-    }
+      users.push_back({[this, meter, stop](const PreparedFrame& now) {
+                         meter->add(now, lists_of(now));
+                         add_known_samples(*meter, now, stop);
+                       },
+                       leader});
   }
+
+  // For frames with many samples.
   void add_samples(const PreparedFrame& now, std::size_t set, std::size_t part, const measure::NeededLights& needed,
                    const Stop& stop) const {
     method_.add_needed(set, needed);
     for (CaseMeter* meter : cases_)
-      if (!stop) meter->add_samples(set, now.frame.index, part_of(now.samples[set].samples, part), needed);
+      if (!stop) run::add_samples(*meter, now, set, part, needed);
   }
-  // Waves are made of neighbouring pixels.
   void add_waves(const PreparedFrame& now, std::size_t set, const Stop& stop) const {
-    const std::optional<depth::DepthImage>& picture = now.samples[set].picture;
-    if (!picture || !picture->pixels.is_full_resolution()) return;
     for (CaseMeter* meter : cases_)
-      if (!stop) meter->add_waves(set, now.samples[set]);
+      if (!stop) run::add_waves(*meter, now, set);
   }
 
  private:
+  void add(const PreparedFrame& now, const Stop& stop) const {
+    method_.add(now);
+    for (const std::vector<measure::NeededLights>& set : now.needed)
+      for (const measure::NeededLights& part : set)
+        method_.add_needed(static_cast<std::size_t>(&set - now.needed.data()), part);
+    for (CaseMeter* meter : cases_) {
+      if (stop) return;
+      meter->add(now, method_);
+      add_known_samples(*meter, now, stop);
+    }
+  }
+  // The method is at most two frames ahead of its cases.
+  ListsOfFrame& lists_of(const PreparedFrame& now) { return lists_[static_cast<std::size_t>(now.at) % lists_.size()]; }
+
   MethodMeter& method_;
   std::vector<CaseMeter*> cases_;
+  std::array<ListsOfFrame, User::k_most_ahead> lists_;
 };
 
 // Finds by true shadow rays which of the needed lights are lit.
@@ -423,11 +505,11 @@ class AccuracyPass {
     work.begin = [this](int index) { return begun(index); };
     work.prepare = [this](PreparedFrame& now) { prepare(now); };
     work.bytes = [](const PreparedFrame& now) { return now.bytes(); };
-    work.users.emplace_back([this](const PreparedFrame& now) { start(now); });
-    for (const MethodWork& method : works_)
-      work.users.emplace_back([this, &method](const PreparedFrame& now) { method.add(now, stop_); });
     if (has_many_samples_ || shadows_) work.after = [this](const PreparedFrame& now) { finish(now); };
     work.users_apart = !shadows_ && !runs_elsewhere(config_, group_);
+    const bool shares = config_.threads > 1 && work.users_apart;
+    work.users.push_back({[this](const PreparedFrame& now) { start(now); }});
+    for (MethodWork& method : works_) method.add_users(work.users, shares, stop_);
     return work;
   }
 

@@ -96,7 +96,7 @@ std::vector<std::optional<Details>> details_pass(const config::Config& config, c
   };
   work.bytes = [](const DetailedFrame& now) { return now.bytes(); };
   for (Track& track : tracks)
-    work.users.emplace_back([&](const DetailedFrame& now) { track.add(now, scene, counted.last_grid); });
+    work.users.push_back({[&](const DetailedFrame& now) { track.add(now, scene, counted.last_grid); }});
   work.users_apart = !runs_elsewhere(config, group);
   if (!FramePipeline<DetailedFrame>(work, static_cast<int>(frames.size()), config.threads, stop).run()) return {};
 

@@ -69,7 +69,18 @@ class FrameLanes {
   bool can_go_on(std::size_t user) {
     const User& one = users_[user];
     return !one.is_busy && one.next < end_of_alive() && alive(one.next).is_prepared &&
-           !is_after_failure({one.next, user + 1});
+           !is_after_failure({one.next, user + 1}) && is_led(user) && is_followed(user);
+  }
+  bool is_led(std::size_t user) const {
+    const std::size_t leader = work_.users[user].leader;
+    return leader == FrameUser<Frame>::k_none || users_[leader].next > users_[user].next;
+  }
+  // Whether all users behind this one are near enough.
+  bool is_followed(std::size_t user) const {
+    for (std::size_t other = user + 1; other < users_.size(); ++other)
+      if (work_.users[other].leader == user && users_[user].next - users_[other].next >= FrameUser<Frame>::k_most_ahead)
+        return false;
+    return true;
   }
 
   // The following return false if there is nothing of the kind to do now.
@@ -81,7 +92,7 @@ class FrameLanes {
     User& user = users_[last];
     const Frame& frame = *alive(user.next).frame;
     user.is_busy = true;
-    do_part(lock, {user.next, last + 1}, [&] { work_.users[last](frame); });
+    do_part(lock, {user.next, last + 1}, [&] { work_.users[last].use(frame); });
     user.is_busy = false;
     --alive(user.next++).users_left;
     drop_used();

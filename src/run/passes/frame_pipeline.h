@@ -88,16 +88,23 @@ class FramePipeline {
 
   void use(const Block& block) {
     for (const std::unique_ptr<Frame>& frame : block) {
-      each_user([&](std::size_t user) {
-        if (!stop_) work_.users[user](*frame);
-      });
+      if (work_.users_apart)
+        use_apart(*frame);
+      else
+        for (const FrameUser<Frame>& user : work_.users) use(user, *frame);
       if (work_.after && !stop_) work_.after(*frame);
     }
   }
-  template <class Work>
-  void each_user(const Work& work) {
-    if (work_.users_apart) return each_in_order(pool_, work_.users.size(), work);
-    for (std::size_t user = 0; user < work_.users.size(); ++user) work(user);
+  // Leaders first.
+  void use_apart(const Frame& frame) {
+    for (const bool is_led : {false, true})
+      each_in_order(pool_, work_.users.size(), [&](std::size_t i) {
+        const FrameUser<Frame>& user = work_.users[i];
+        if ((user.leader != FrameUser<Frame>::k_none) == is_led) use(user, frame);
+      });
+  }
+  void use(const FrameUser<Frame>& user, const Frame& frame) {
+    if (!stop_) user.use(frame);
   }
 
   const FrameWork<Frame>& work_;

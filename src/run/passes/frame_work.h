@@ -8,6 +8,17 @@
 
 namespace clusterbench::run {
 
+// Gets all frames of a pass in order, on any thread.
+template <class Frame>
+struct FrameUser {
+  static constexpr std::size_t k_none = static_cast<std::size_t>(-1);
+  // A leader is at most this many frames ahead of the users behind it: what it leaves for them has two places.
+  static constexpr int k_most_ahead = 2;
+
+  std::function<void(const Frame&)> use;
+  std::size_t leader = k_none;  // an earlier user, which has each frame before this one
+};
+
 template <class Frame>
 struct FrameWork {
   // Makes a frame: one at a time, in the path's order.
@@ -16,8 +27,8 @@ struct FrameWork {
   std::function<void(Frame&)> prepare;
   // The size of a prepared frame.
   std::function<std::size_t(const Frame&)> bytes;
-  // Each gets all frames in order. Different users work at the same time, on any thread.
-  std::vector<std::function<void(const Frame&)>> users = {};
+  // Different users work at the same time.
+  std::vector<FrameUser<Frame>> users = {};
   // After all users of a frame, on the calling thread. If it is set, no user is ahead of the others.
   std::function<void(const Frame&)> after = {};
   // False: begin and the users are called by the calling thread, one after the other.

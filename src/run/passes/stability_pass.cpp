@@ -127,13 +127,12 @@ std::vector<std::optional<StabilityResult>> stability_pass(const config::Config&
     now.depth = depths_for(config, group, steps, now.frame);
   };
   work.bytes = [](const Step& now) { return now.bytes(); };
-  work.users.emplace_back([&](const Step& now) {
+  work.users.push_back({[&](const Step& now) {
     truth_meter.add(now.truth.lists);
     common.grids += now.is_new_grid ? 1 : 0;
     common.undecided += now.truth.undecided;
-  });
-  for (StabilityTrack& track : tracks)
-    work.users.emplace_back([&](const Step& now) { track.add(now, config.threads); });
+  }});
+  for (StabilityTrack& track : tracks) work.users.push_back({[&](const Step& now) { track.add(now, config.threads); }});
   work.users_apart = !runs_elsewhere(config, group);
   if (!FramePipeline<Step>(work, steps.count(), config.threads, stop).run()) return {};
   common.truth = truth_meter.result();

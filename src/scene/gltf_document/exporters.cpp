@@ -67,9 +67,16 @@ bool begins_as_json(std::string_view bytes) {
   return first != std::string_view::npos && (bytes[first] == '{' || bytes[first] == '[');
 }
 
+// Also without a byte order mark: its first character is one of ASCII, and half of it zero.
+bool is_json_in_utf16(std::string_view bytes) {
+  if (bytes.size() < 2 || (bytes[0] == '\0') == (bytes[1] == '\0')) return false;
+  return std::string_view("{[ \t\r\n").find(bytes[0] == '\0' ? bytes[1] : bytes[0]) != std::string_view::npos;
+}
+
 }  // namespace
 
 std::string other_format(std::string_view bytes, const std::filesystem::path& path) {
+  if (is_json_in_utf16(bytes)) return k_utf16;
   if (begins_as_json(bytes) || bytes.starts_with("glTF")) return "";
   const std::string ending = extension_of(path);
   for (const Signature& known : k_signatures)

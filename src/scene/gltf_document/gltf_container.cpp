@@ -81,6 +81,10 @@ std::optional<std::string> long_arrays_left_out(const std::filesystem::path& pat
   return without_long_arrays(text, offset, file.name, source, file.lazy);
 }
 
+void note_repeated_key(GltfFile& file, const std::optional<JsonFault>& fault, std::size_t offset) {
+  if (fault) file.repeated_key = "byte " + std::to_string(offset + fault->byte) + " " + fault->text();
+}
+
 void parse(const std::filesystem::path& path, GltfFile& file, std::string_view text, std::size_t lazy_from_bytes) {
   constexpr std::string_view k_mark = "\xEF\xBB\xBF";
   file.has_byte_order_mark = text.starts_with(k_mark);
@@ -89,15 +93,15 @@ void parse(const std::filesystem::path& path, GltfFile& file, std::string_view t
   if (text.size() >= lazy_from_bytes) {
     const std::optional<std::string> rest = long_arrays_left_out(path, file, text, offset);
     if (rest && !parse_json(*rest, file.json)) {
+      note_repeated_key(file, file.lazy.repeated_key, offset);
       if (!file.binary) std::string().swap(file.bytes);
       return;
     }
     file.lazy = {};  // the parser reports the error with its place in the whole text
   }
   const std::optional<JsonFault> fault = parse_json(text, file.json);
-  if (!fault) return;
-  if (!fault->is_repeated_key) refuse_at(file, offset + fault->byte, fault->text());
-  file.repeated_key = "byte " + std::to_string(offset + fault->byte) + " " + fault->text();
+  if (fault && !fault->is_repeated_key) refuse_at(file, offset + fault->byte, fault->text());
+  note_repeated_key(file, fault, offset);
 }
 
 }  // namespace

@@ -93,6 +93,57 @@ class Walker {
   std::string_view text_;
 };
 
+// Reads JSON text without keeping its values, and finds keys that stand twice in an object, in any spelling.
+class KeyCheck {
+ public:
+  bool is_json(std::string_view text) {
+    count_ = 0;
+    begins_.clear();
+    may_repeat_a_key_ = false;
+    return json::sax_parse(text, this);
+  }
+  // After is_json(). Also true for an object with more keys than are compared here.
+  bool may_repeat_a_key() const { return may_repeat_a_key_; }
+
+  bool null() { return true; }
+  bool boolean(bool) { return true; }
+  bool number_integer(json::number_integer_t) { return true; }
+  bool number_unsigned(json::number_unsigned_t) { return true; }
+  bool number_float(json::number_float_t, const json::string_t&) { return true; }
+  bool string(const json::string_t&) { return true; }
+  bool binary(const json::binary_t&) { return true; }
+  bool start_object(std::size_t) {
+    begins_.push_back(count_);
+    return true;
+  }
+  bool key(const json::string_t& key) {
+    constexpr std::size_t k_most_compared = 32;
+    const std::size_t begin = begins_.back();
+    if (count_ - begin >= k_most_compared) {
+      may_repeat_a_key_ = true;
+      return true;
+    }
+    for (std::size_t i = begin; i < count_; ++i) may_repeat_a_key_ |= keys_[i] == key;
+    if (count_ == keys_.size()) keys_.emplace_back();
+    keys_[count_++] = key;
+    return true;
+  }
+  bool end_object() {
+    count_ = begins_.back();
+    begins_.pop_back();
+    return true;
+  }
+  bool start_array(std::size_t) { return true; }
+  bool end_array() { return true; }
+  bool parse_error(std::size_t, const std::string&, const json::exception&) { return false; }
+
+ private:
+  std::vector<std::string> keys_;    // the first `count_`: of the open objects
+  std::vector<std::size_t> begins_;  // of each of them
+  std::size_t count_ = 0;
+  bool may_repeat_a_key_ = false;
+};
+
 // Finds the long arrays, element by element.
 class LazyReader {
  public:
@@ -123,7 +174,7 @@ class LazyReader {
     lights_.shrink_to_fit();
     // One window each: a node and its light are read in turn.
     return {LazyArray(std::move(nodes_), file, std::make_shared<TextSource>(source)),
-            LazyArray(std::move(lights_), file, std::make_shared<TextSource>(source))};
+            LazyArray(std::move(lights_), file, std::make_shared<TextSource>(source)), std::move(repeated_key_)};
   }
 
  private:
@@ -146,15 +197,27 @@ class LazyReader {
       constexpr std::size_t k_longest = std::size_t{1} << 24, k_farthest = std::size_t{1} << 40;
       const std::string_view element = text_.substr(at, element_end - at);
       if (element.size() >= k_longest || offset_ + at >= k_farthest) return false;
-      if (json_excess(element, JsonComments::refused) || !json::accept(element)) return false;
+      if (json_excess(element, JsonComments::refused) || !check_.is_json(element)) return false;
+      if (check_.may_repeat_a_key()) note_repeated_key(element, at);
       array.push_back({offset_ + at, element.size()});
       return true;
     });
   }
 
+  // The first one of the text.
+  void note_repeated_key(std::string_view element, std::size_t at) {
+    json value;
+    const std::optional<JsonFault> fault = parse_json(element, value);
+    if (!fault || (repeated_key_ && repeated_key_->byte < at)) return;
+    repeated_key_ = fault;
+    repeated_key_->byte += at;
+  }
+
   std::string_view text_;
   std::uint64_t offset_;
   Walker walker_;
+  KeyCheck check_;
+  std::optional<JsonFault> repeated_key_;
   std::vector<LazyArray::Range> nodes_, lights_;
   std::vector<std::pair<std::size_t, std::size_t>> cuts_;
 };
@@ -176,10 +239,8 @@ std::string_view TextSource::at(std::uint64_t begin, std::size_t size) {
 
 json LazyArray::element(std::size_t index) const {
   const Range range = elements_[index];
-  json value;
-  const std::optional<JsonFault> fault = parse_json(source_->at(range.begin, range.size), value);
-  if (fault && !fault->is_repeated_key)
-    throw Error(file_, "byte " + std::to_string(range.begin), "has changed while it was read");
+  json value = json::parse(source_->at(range.begin, range.size), nullptr, false);
+  if (value.is_discarded()) throw Error(file_, "byte " + std::to_string(range.begin), "has changed while it was read");
   return value;
 }
 

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/json_document.h"
+
 namespace clusterbench::scene {
 
 // Bytes of a file, with a window in memory; or of a string in memory.
@@ -53,6 +55,7 @@ class LazyArray {
 // By their JSON pointers.
 struct LazyArrays {
   LazyArray nodes, lights;
+  std::optional<JsonFault> repeated_key;  // within an element, by its byte in the text
 
   const LazyArray* at(const std::string& pointer) const;
 };

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "clusterbench_plugin.hpp"
 
@@ -86,6 +87,18 @@ CLUSTERBENCH_HOSTILE(LeavesThread, "leaves-thread", "leaves threads running", {
     std::thread([] {
       for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
     }).detach();
+})
+CLUSTERBENCH_HOSTILE(Spins, "spins", "leaves a thread that never rests", {
+  static std::atomic<bool> has_started{false};
+  if (!has_started.exchange(true))
+    std::thread([] {
+      for (volatile unsigned i = 0;;) i = i + 1;
+    }).detach();
+})
+CLUSTERBENCH_HOSTILE(HangsWithChild, "hangs-with-child", "never returns, and neither does its child", {
+  static std::atomic<bool> has_forked{false};
+  if (!has_forked.exchange(true)) ::fork();
+  for (;;) ::sleep(1);
 })
 CLUSTERBENCH_HOSTILE(Closes, "closes", "closes files of others", for (int i = 1; i < 64; ++i)::close(i);)
 CLUSTERBENCH_HOSTILE(Handles, "handles", "handles signals", std::signal(SIGALRM, [](int) {});)
@@ -206,6 +219,26 @@ class Picky : public Empty {
   }
 };
 
+// No more than two gigabytes: nobody may end it.
+class Eats : public Empty {
+ public:
+  explicit Eats(const sdk::Values&) {}
+  static sdk::Description description() { return named("eats", "takes more memory all the time"); }
+  void misbehave(const clusterbench_frame&, const clusterbench_lights&, clusterbench_lists&) override {
+    std::vector<std::vector<char>> all;
+    while (all.size() < 256) {
+      all.emplace_back(std::size_t{8} << 20, 'x');
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+};
+
+class Slow : public Empty {
+ public:
+  explicit Slow(const sdk::Values&) { std::this_thread::sleep_for(std::chrono::milliseconds(100)); }
+  static sdk::Description description() { return named("slow", "takes its time to be made"); }
+};
+
 class Good : public Empty {
  public:
   explicit Good(const sdk::Values&) {}
@@ -217,4 +250,4 @@ class Good : public Empty {
 CLUSTERBENCH_PLUGIN("hostile", "What no plug-in may do", "1.0", Good, Crashes, Aborts, Exits, Hangs, Throws,
                     ThrowsOther, Prints, WritesBehind, WritesInput, ReadsBehind, ReadsBefore, NoIndex, Greedy, Late,
                     Remembers, Shares, Leaks, Loses, Picky, Ghost, Races, CountsBuilds, Forks, LeavesChild,
-                    LeavesThread, Closes, Handles, Moves, Translates)
+                    LeavesThread, Closes, Handles, Moves, Translates, Spins, Slow, HangsWithChild, Eats)
