@@ -42,11 +42,6 @@ bool is_at(HANDLE file, std::int64_t position) {
   return ::SetFilePointerEx(file, to, nullptr, FILE_BEGIN) != 0;
 }
 
-void mark_as_removed(HANDLE file) {
-  FILE_DISPOSITION_INFO removed{TRUE};
-  ::SetFileInformationByHandle(file, FileDispositionInfo, &removed, sizeof removed);
-}
-
 }  // namespace
 
 LockedFile::LockedFile(fs::path path, Held held) : path_(std::move(path)), held_(held) {
@@ -55,7 +50,7 @@ LockedFile::LockedFile(fs::path path, Held held) : path_(std::move(path)), held_
 
 LockedFile::~LockedFile() {
   const HANDLE file = handle_of(file_);
-  if (is_made_ && file_ != -1 && size_of(file) == 0 && is_still_at_path()) mark_as_removed(file);
+  if (is_made_ && file_ != -1 && size_of(file) == 0 && is_still_at_path()) ::DeleteFileW(long_path(path_).c_str());
   close();
 }
 
@@ -70,7 +65,7 @@ void LockedFile::open() {
 
 // False if another process has created or removed it meanwhile.
 bool LockedFile::has_opened() {
-  constexpr DWORD k_access = GENERIC_READ | GENERIC_WRITE | DELETE;
+  constexpr DWORD k_access = GENERIC_READ | GENERIC_WRITE;  // with DELETE, C libraries could not read it beside us
   file_ = number_of(opened_file(path_, k_access, OPEN_EXISTING));
   is_made_ = false;
   if (file_ == -1 && ::GetLastError() == ERROR_FILE_NOT_FOUND) {
@@ -181,7 +176,7 @@ std::uint64_t LockedFile::other_names() const {
 }
 
 void LockedFile::remove() {
-  mark_as_removed(handle_of(file_));
+  ::DeleteFileW(long_path(path_).c_str());
   close();
 }
 

@@ -46,13 +46,12 @@ std::string narrow(std::wstring_view utf16) {
 
 std::wstring long_path(const fs::path& path) {
   constexpr std::size_t k_short = 240;  // 259 less what is added to names of files beside it
-  std::error_code failed;
-  const std::wstring given = path.wstring();
+  std::wstring given = path.wstring();
   if (given.starts_with(L"\\\\?\\") || given.starts_with(L"\\\\.\\")) return given;
-  const fs::path absolute = fs::absolute(path, failed).lexically_normal().make_preferred();
-  const std::wstring text = absolute.wstring();
-  if (failed || text.size() < k_short) return given;
-  return text.starts_with(L"\\\\") ? L"\\\\?\\UNC" + text.substr(1) : L"\\\\?\\" + text;
+  std::wstring whole(::GetFullPathNameW(given.c_str(), 0, nullptr, nullptr), L'\0');
+  whole.resize(::GetFullPathNameW(given.c_str(), static_cast<DWORD>(whole.size()), whole.data(), nullptr));
+  if (whole.size() < k_short) return given;
+  return whole.starts_with(L"\\\\") ? L"\\\\?\\UNC" + whole.substr(1) : L"\\\\?\\" + whole;
 }
 
 void take_last_error() {
