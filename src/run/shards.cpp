@@ -10,8 +10,8 @@
 namespace clusterbench::run {
 namespace {
 
-// Rough times of one thread, of which only the proportions count. They were fitted to the counting passes of the
-// project's own scenes.
+// Rough times of one thread, of which only the proportions count: those of a machine would divide a run in another way
+// on each.
 constexpr double k_ns_per_light = 300.0;       // of a frame, for each method and for the truth
 constexpr double k_ns_per_true_pair = 60.0;    // decided
 constexpr double k_ns_per_listed_pair = 10.0;  // listed, compared and stored

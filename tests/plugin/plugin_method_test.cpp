@@ -15,6 +15,7 @@
 #include "core/memory.h"
 #include "core/text.h"
 #include "effort.h"
+#include "os/call_notes.h"
 #include "plugin/exported_method.h"
 #include "plugin/plugin_by_hand.h"
 
@@ -284,8 +285,12 @@ TEST(KeptInputs, puts_back_what_was_written) {
 }
 
 TEST(PluginMethod, that_ends_its_thread_ends_the_process_with_a_sentence_and_no_success) {
-  EXPECT_EXIT(fault_of([](const auto&, auto&, auto&) -> clusterbench_status { pthread_exit(nullptr); }),
-              ::testing::ExitedWithCode(static_cast<int>(ExitCode::internal)), "a plug-in ended the thread");
+  const auto in_a_copy_on_purpose = [] {
+    os::note_own_process();
+    fault_of([](const auto&, auto&, auto&) -> clusterbench_status { pthread_exit(nullptr); });
+  };
+  EXPECT_EXIT(in_a_copy_on_purpose(), ::testing::ExitedWithCode(static_cast<int>(ExitCode::internal)),
+              "a plug-in ended the thread");
 }
 
 TEST(PluginMethod, takes_lists_that_are_right) {
