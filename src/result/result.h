@@ -45,6 +45,7 @@ struct Load {
 };
 
 struct Machine {
+  static constexpr const char* k_definition = "machine";
   RECORD(Machine);
   FIELD(std::string, cpu, "The processor's name");
   FIELD(std::optional<std::string>, family, "The vendor's number, on ARM the implementer's; absent if unknown");
@@ -91,7 +92,7 @@ struct MeasuredMachine {
 
 struct Shard {
   RECORD(Shard);
-  FIELD(std::uint64_t, index, About("Its number, from 1").at_least(1));
+  FIELD(std::uint64_t, index, About("Its number, from 1", "shards", "the run").at_least(1));
   FIELD(std::uint64_t, count, About("Of all shards of the run", "shards", "the run").at_least(1));
   FIELD(std::string, sweep,
         "SHA-256 of what all of its shards have in common: program, configuration, filter, scenes, cases");
