@@ -212,7 +212,8 @@ TEST_F(JournalTest, a_line_that_was_edited_and_a_case_twice_are_not_gone_on_with
     EXPECT_EQ(text_of(partial), text);
   };
   std::string edited = kept;
-  const std::size_t digit = edited.find_last_of("123456789", edited.find("sha256"));
+  const std::size_t digit = edited.find_last_of("123456789", edited.rfind("sha256"));
+  ASSERT_NE(digit, std::string::npos);
   edited[digit] = static_cast<char>(edited[digit] == '9' ? '1' : edited[digit] + 1);
   is_refused(edited);
   is_refused(kept + kept.substr(kept.find('\n') + 1));
