@@ -34,7 +34,7 @@ TEST(CommandLine, what_is_unknown_or_missing_is_told_in_one_line_with_the_neares
       {"man all", "man: 'all' is one argument too many; see `clusterbench man --help`"},
       {"list preset",
        "list: SECTION: no 'preset' (did you mean 'presets'?); there are: assigners, storages, grids, pre_culls, "
-       "scenes, presets, figures, devices; "
+       "scenes, presets, figures, libraries, devices; "
        "see `clusterbench list --help`"},
       {"compare a.json", "compare: NEW is required; see `clusterbench compare --help`"},
       {"run", "run: INPUT is required; see `clusterbench run --help`"},

@@ -67,7 +67,7 @@ void expect_others_measured(const Json& result) {
   for (const char* name : {"aabb", "bounds"}) {
     const Json measured = case_of(result, name);
     ASSERT_TRUE(measured.is_object()) << name;
-    EXPECT_EQ(measured["timing"]["frame_ns"]["samples"].size(), 3u);
+    EXPECT_GE(measured["timing"]["frame_ns"]["samples"].size(), 3u);  // of each launch two at least
     EXPECT_EQ(measured["failures"].size(), 0u);
   }
 }
