@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <set>
 #include <tuple>
 
 #include "core/work_in_order.h"
@@ -56,6 +57,32 @@ std::string RandomFault::name() const {
   return text + "-" + type_name(fault.type);
 }
 
+// Tells of the settings at work, each 64: after a crash it is one from that seed on.
+class SettingsAtWork {
+ public:
+  using Tell = std::function<void(std::uint64_t settings, const std::string& doing)>;
+  SettingsAtWork(std::uint64_t first, const Tell& tell) : first_(first), next_told_(first), tell_(tell) {}
+
+  void begin(std::uint64_t seed) {
+    const std::lock_guard lock(lock_);
+    seeds_.insert(seed);
+    const std::uint64_t least = *seeds_.begin();
+    if (least < next_told_) return;
+    tell_(least - first_, "settings from seed " + std::to_string(least) + " on");
+    next_told_ = least + 64;
+  }
+  void end(std::uint64_t seed) {
+    const std::lock_guard lock(lock_);
+    seeds_.erase(seed);
+  }
+
+ private:
+  std::mutex lock_;
+  std::uint64_t first_, next_told_;
+  std::set<std::uint64_t> seeds_;
+  const Tell& tell_;
+};
+
 RandomSearch search_at_random(std::span<const StressMethod> methods, const StressRequest& request,
                               const std::function<void(std::uint64_t settings, const std::string& doing)>& on_progress,
                               const std::atomic<bool>& stop) {
@@ -71,23 +98,20 @@ RandomSearch search_at_random(std::span<const StressMethod> methods, const Stres
   // All threads wait for the last setting of a batch. A device that fails is opened anew after its batch.
   const bool is_on_device = std::ranges::any_of(methods, [](const auto& method) { return method.assigner->on_device; });
   const std::uint64_t most = is_on_device ? 64 : 1024;
-  std::mutex telling;
-  std::uint64_t begun = 0;
-  const auto begin_one = [&] {
-    const std::lock_guard lock(telling);
-    on_progress(begun++, "settings from seed " + std::to_string(request.seed) + " on");
-  };
+  SettingsAtWork at_work(request.seed, on_progress);
   while (!is_over(search.counts.settings)) {
     const std::uint64_t first = search.counts.settings, count = std::min(most, request.random - first);
     std::vector<Trial> trials(count);
     std::vector<std::optional<SettingReport>> reports(count);
     each_in_order(threads, count, [&](std::size_t i) {
       if (is_over(first + i)) return;
-      begin_one();
+      const std::uint64_t seed = request.seed + first + i;
+      at_work.begin(seed);
       if (stop) return;
-      os::note_setting("--random 1 --seed " + std::to_string(request.seed + first + i));
-      trials[i] = random_setting(request.seed + first + i);
+      os::note_setting("--random 1 --seed " + std::to_string(seed));
+      trials[i] = random_setting(seed);
       reports[i] = check_setting(trials[i], methods);
+      at_work.end(seed);
     });
     const bool has_failed = std::ranges::any_of(reports, [](const std::optional<SettingReport>& report) {
       return report && std::ranges::any_of(report->faults, &SettingFault::is_of_device);

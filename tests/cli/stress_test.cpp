@@ -47,12 +47,13 @@ TEST(Stress, a_termination_signal_ends_it_with_what_is_done_and_75) {
   const std::string at_work = (folder / "faults/at_work.txt").string(), out = (folder / "out.json").string();
   const std::string search = test::program() + " stress -q --random 100000 --methods '^bounds$' --failures " +
                              (folder / "faults").string() + " -o " + out + " 2>" + (folder / "err").string();
-  const std::string wait = "until grep -qs ' from seed 65 ' " + at_work + "; do sleep 0.01; done";
+  const std::string wait =
+      "until grep -qsE ' from seed (6[5-9]|[7-9][0-9]|[0-9]{3,}) ' " + at_work + "; do sleep 0.01; done";
   const int status = std::system((search + " & pid=$!; " + wait + "; kill -TERM $pid; wait $pid").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 75) << file_text(folder / "err");
   const auto result = nlohmann::json::parse(file_text(out));
   EXPECT_EQ(result["interrupted"], true);
-  EXPECT_GE(result["random"]["settings"], 64);
+  EXPECT_GE(result["random"]["settings"], 64);  // all before the first that was at work
   EXPECT_EQ(tool("validate " + out).code, 0);
 }
 
