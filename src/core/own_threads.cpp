@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -57,11 +58,11 @@ int helpers_for(int threads) {
 
 struct ThreadPool::Arena {
   explicit Arena(int helper_count) {
+    helpers.reserve(static_cast<std::size_t>(helper_count));
     try {
       for (int i = 0; i < helper_count; ++i) helpers.emplace_back([this] { help(); });
-    } catch (...) {
-      stop();
-      throw;
+    } catch (const std::system_error&) {
+      // The system allows no more: those that it has started do all.
     }
   }
   ~Arena() { stop(); }

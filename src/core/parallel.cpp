@@ -1,11 +1,16 @@
 #include "core/parallel.h"
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <future>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 #include "core/shared_threads.h"
 
@@ -49,9 +54,29 @@ class SharedWork {
   char begun_ = 0, done_ = 0;
 };
 
-// With more workers than processors oneTBB would print a warning on standard error.
+// How many of so many threads, with this one, the system allows now.
+int allowed_threads(int wanted) {
+  std::promise<void> all_tried;
+  const std::shared_future<void> tried = all_tried.get_future().share();
+  std::vector<std::thread> helpers;
+  helpers.reserve(static_cast<std::size_t>(wanted));
+  try {
+    while (static_cast<int>(helpers.size()) + 1 < wanted) helpers.emplace_back([tried] { tried.wait(); });
+  } catch (const std::system_error&) {
+    // as many as there are by now
+  }
+  all_tried.set_value();
+  for (std::thread& helper : helpers) helper.join();
+  return static_cast<int>(helpers.size()) + 1;
+}
+
+// With more workers than processors oneTBB would print a warning on standard error, and where the system allows fewer
+// (`ulimit -u`, memory) it would end the process.
 int workers(int threads) {
-  return std::min(threads, oneapi::tbb::info::default_concurrency());
+  using oneapi::tbb::global_control;
+  static const int most = allowed_threads(oneapi::tbb::info::default_concurrency());
+  static const global_control limit(global_control::max_allowed_parallelism, static_cast<std::size_t>(most));
+  return std::min(threads, most);
 }
 
 }  // namespace

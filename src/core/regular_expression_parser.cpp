@@ -184,12 +184,15 @@ class Parser {
     rest_ = before;
     return false;
   }
+  // Without leading zeros, and below 100 million, as RE2 reads them; else it is no number.
   bool number(int& out) {
+    constexpr std::size_t k_most_digits = 8;
     std::size_t digits = 0;
     int value = 0;
     constexpr int k_too_many = RegularExpression::k_most_repetitions + 1;
     while (digits < rest_.size() && rest_[digits] >= '0' && rest_[digits] <= '9')
       value = std::min(k_too_many, 10 * value + (rest_[digits++] - '0'));
+    if (digits > k_most_digits || (digits > 1 && rest_.front() == '0')) return false;
     rest_.remove_prefix(digits);
     out = value;
     return digits > 0;

@@ -38,6 +38,9 @@ constexpr Row k_rows[] = {
     {"^a{2,3}$", "aaaa", false, false},
     {"a{2,}", "aaaaa", true, true},
     {"a{0}b", "b", true, true},
+    {"^a{01}$", "a{01}", true, true},  // with a leading zero it is text
+    {"^a{01}$", "a", false, false},
+    {"^a{999999999}$", "a{999999999}", true, true},
     {"a{,2}", "a{,2}", true, true},
     {"x{", "x{", true, true},
     {"[a-c-]+", "b-c", true, true},

@@ -61,7 +61,7 @@ void add_run_options(Command& command, RunFlags& flags) {
       .needs(dumps)
       .range(1, 100000)
       .shows_standard();
-  command.add_flag("--no-timing", flags.no_timing, "Count only; the output is then the same on every machine");
+  command.add_flag("--no-timing", flags.no_timing, "Count only; what is counted is the same on every machine");
   command.add_flag("-q,--quiet", flags.quiet, "No progress and no table; warnings stay");
 }
 
