@@ -15,7 +15,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HIDDEN = ["TBB", "OpenSSL", "glm", "Boost", "nlohmann_json", "CLI11", "embree", "PNG", "NLopt", "meshoptimizer", "draco", "GTest", "Vulkan",
           "benchmark", "Python3"]
-ALLOWED = ("hwy/",)
+ALLOWED = ("hwy/", "intrin.h")  # that of Microsoft's compiler, for Windows alone
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Compiled: small files that include much.
 COMPILED = ["core/text.cpp", "core/own_threads.cpp", "scene/boxes.cpp", "view/frame.cpp", "depth/depth_image.cpp",
