@@ -102,7 +102,8 @@ struct Shard {
   FIELD(std::uint64_t, index, About("Its number, from 1", "shards", "the run").at_least(1));
   FIELD(std::uint64_t, count, About("Of all shards of the run", "shards", "the run").at_least(1));
   FIELD(std::string, sweep,
-        "SHA-256 of what all of its shards have in common: program, configuration, filter, scenes, cases");
+        "SHA-256 of what all of its shards have in common: program, configuration, baseline, filter, scenes, "
+        "cases");
   FIELD(std::optional<std::string>, filter, "That selected the run's cases (--filter); absent without one");
   FIELD(std::optional<std::string>, host,
         "Start of the SHA-256 of the machine's name: times of two machines of one kind stay apart. Absent where "
