@@ -90,16 +90,27 @@ struct MeasuredMachine {
   END_RECORD;
 };
 
+struct ShardBaseline {
+  RECORD(ShardBaseline);
+  FIELD(std::string, file, "As the shard opened it: relative to the folder that it ran in");
+  FIELD(std::string, sha256, "SHA-256 of the file: `merge` takes no other");
+  END_RECORD;
+};
+
 struct Shard {
   RECORD(Shard);
   FIELD(std::uint64_t, index, About("Its number, from 1", "shards", "the run").at_least(1));
   FIELD(std::uint64_t, count, About("Of all shards of the run", "shards", "the run").at_least(1));
   FIELD(std::string, sweep,
-        "SHA-256 of what all of its shards have in common: program, configuration, filter, scenes, cases");
+        "SHA-256 of what all of its shards have in common: program, configuration, baseline, filter, scenes, "
+        "cases");
   FIELD(std::optional<std::string>, filter, "That selected the run's cases (--filter); absent without one");
   FIELD(std::optional<std::string>, host,
         "Start of the SHA-256 of the machine's name: times of two machines of one kind stay apart. Absent where "
         "nothing is timed, and where the machine does not tell its name");
+  FIELD(std::uint64_t, cases, "Of this result, when it was written: `merge` counts them", "cases", "the result");
+  FIELD(std::optional<ShardBaseline>, baseline,
+        "The result that `merge` holds all cases against (--baseline, limits.baseline); absent without one");
   END_RECORD;
 };
 

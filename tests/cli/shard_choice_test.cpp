@@ -91,7 +91,17 @@ TEST(ShardChoice, of_which_the_environment_says_half_is_refused) {
                  "CI_NODE_INDEX is 'x', which is no number");
   expect_refused(choice("auto", {{"SLURM_ARRAY_TASK_ID", "3"}}), "SLURM_ARRAY_TASK_MIN is not set");
   expect_refused(choice("auto", {{"JOB_COMPLETION_INDEX", "3"}}), "write --shard auto/N with the Job's completions");
-  expect_refused(choice("auto/3", {{"JOB_COMPLETION_INDEX", "3"}}), "'auto/3' is none of the shards");
+}
+
+TEST(ShardChoice, names_the_variable_that_says_a_wrong_number) {
+  expect_refused(choice("auto", {{"CI_NODE_INDEX", "4"}, {"CI_NODE_TOTAL", "3"}}),
+                 "auto: CI_NODE_INDEX is 4, which is none of 1 to 3 of 3 shards (GitLab)");
+  expect_refused(choice("auto", {{"CI_NODE_INDEX", "1"}, {"CI_NODE_TOTAL", "0"}}),
+                 "auto: CI_NODE_TOTAL makes 0 shards; it is 1 to 100000");
+  expect_refused(choice("auto/4", {{"JOB_COMPLETION_INDEX", "4"}}),
+                 "auto/4: JOB_COMPLETION_INDEX is 4, which is none of 0 to 3 of 4 shards (Kubernetes)");
+  expect_refused(choice("auto", {{"AWS_BATCH_JOB_ARRAY_INDEX", "2"}}),
+                 "write --shard auto/N with the array's size: AWS_BATCH_JOB_ARRAY_SIZE is not set");
 }
 
 TEST(ShardChoice, by_two_environments_is_taken_only_if_they_agree) {

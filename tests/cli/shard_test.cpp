@@ -148,6 +148,115 @@ TEST_F(ShardedRun, holds_its_cases_against_a_baseline_at_the_merge) {
   EXPECT_EQ(run(sweep, "--fail-if 'longest > +5 %' --shard 1/2", "s.json").code, 2);  // told before it measures
 }
 
+// conf/sweep.json, r/ for the shards, and two baselines: of these cases, and of the same with short lists.
+class ShardsAgainstBaseline : public ShardedRun {
+ protected:
+  ShardsAgainstBaseline() {
+    for (const char* name : {"conf", "r"}) std::filesystem::create_directory(folder_ / name);
+    set_limits("");
+    EXPECT_EQ(in_folder("run conf/sweep.json --no-timing -q -o same.json").code, 0);
+    Json low = read("same.json");
+    for (Json& one : low["cases"]) one["occupancy"]["lights_per_cell"]["max"] = 1;
+    folder_.write("low.json", low.dump());
+  }
+
+  void set_limits(const std::string& limits) const { folder_.write("conf/sweep.json", small_config(limits)); }
+  Outcome in_folder(const std::string& arguments) const { return tool_in(folder_.path(), arguments); }
+  void copy(const std::string& from, const std::string& to) const {
+    std::filesystem::copy_file(folder_ / from, folder_ / to, std::filesystem::copy_options::overwrite_existing);
+  }
+
+  // whole.json, and r/1.json and r/2.json.
+  void run_all(const std::string& flags) const {
+    const std::string run = "run conf/sweep.json --no-timing -q " + flags;
+    EXPECT_EQ(in_folder(run + " -o whole.json").code, 1);
+    for (const char* shard : {"1", "2"})
+      EXPECT_EQ(in_folder(run + " --shard " + shard + "/2 -o r/" + shard + ".json").code, 0) << shard;
+  }
+
+  void expect_as_whole(const Outcome& merged) const {
+    EXPECT_EQ(merged.code, 1) << merged.err;
+    EXPECT_EQ(file_text(folder_ / "merged.json"), file_text(folder_ / "whole.json"));
+  }
+};
+
+TEST_F(ShardsAgainstBaseline, finds_that_of_the_flag_in_the_working_folder_and_not_beside_the_shards) {
+  copy("low.json", "base.json");
+  copy("same.json", "r/base.json");
+  run_all("--baseline base.json --fail-if 'longest > +5 %'");
+  for (const char* shards : {"r/1.json r/2.json", "r/2.json r/1.json"})
+    expect_as_whole(in_folder(std::string("merge ") + shards + " -o merged.json"));
+}
+
+TEST_F(ShardsAgainstBaseline, finds_that_of_the_configuration_beside_the_configuration) {
+  copy("low.json", "conf/base.json");
+  copy("same.json", "base.json");
+  set_limits(R"(, "limits": {"baseline": "base.json", "fail_if": ["longest > +5 %"]})");
+  run_all("");
+  expect_as_whole(in_folder("merge r/1.json r/2.json -o merged.json"));
+}
+
+TEST_F(ShardsAgainstBaseline, takes_the_same_file_from_elsewhere_and_no_other) {
+  copy("low.json", "base.json");
+  run_all("--baseline base.json --fail-if 'longest > +5 %'");
+  std::filesystem::rename(folder_ / "base.json", folder_ / "moved.json");
+  const Outcome gone = in_folder("merge r/1.json r/2.json -o merged.json");
+  EXPECT_EQ(gone.code, 2);
+  EXPECT_EQ(gone.err.find("clusterbench: base.json: --baseline: "), 0u) << gone.err;
+  EXPECT_NE(gone.err.find("name that file with --baseline FILE"), std::string::npos) << gone.err;
+  copy("same.json", "base.json");
+  const Outcome other = in_folder("merge r/1.json r/2.json -o merged.json");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("base.json: --baseline: is another file: the shards were measured against base.json"),
+            std::string::npos)
+      << other.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "merged.json"));
+  expect_as_whole(in_folder("merge r/1.json r/2.json --baseline moved.json -o merged.json"));
+}
+
+TEST_F(ShardsAgainstBaseline, is_named_only_for_shards_that_have_one) {
+  for (const char* shard : {"1", "2"})
+    ASSERT_EQ(
+        in_folder(std::string("run conf/sweep.json --no-timing -q --shard ") + shard + "/2 -o r/" + shard + ".json")
+            .code,
+        0);
+  const Outcome none = in_folder("merge r/1.json r/2.json --baseline low.json");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("names where the baseline of the shards lies, and r/1.json has none"), std::string::npos)
+      << none.err;
+  const Outcome whole = in_folder("merge same.json --baseline low.json");
+  EXPECT_EQ(whole.code, 2);
+  EXPECT_NE(whole.err.find("--baseline: goes with shards"), std::string::npos) << whole.err;
+}
+
+TEST_F(ShardsAgainstBaseline, refuses_a_whole_result_before_shards_and_names_both) {
+  ASSERT_EQ(in_folder("run conf/sweep.json --no-timing -q --shard 2/2 -o r/2.json").code, 0);
+  for (const char* files : {"same.json r/2.json", "r/2.json same.json"}) {
+    const Outcome mixed = in_folder(std::string("merge ") + files);
+    EXPECT_EQ(mixed.code, 2);
+    EXPECT_NE(mixed.err.find("same.json: /shard: is missing: it is a whole result, and r/2.json is shard 2 of 2"),
+              std::string::npos)
+        << mixed.err;
+  }
+}
+
+TEST_F(ShardedRun, is_merged_with_the_warnings_of_the_whole_run) {
+  const std::string sweep =
+      folder_.write("dropping.json", small_config(R"(, "storages": [{"name": "fixed", "cap": 1}])")).string();
+  const Outcome whole = run(sweep, "", "whole.json");
+  ASSERT_NE(whole.err.find("warning: "), std::string::npos) << whole.err;
+  for (const char* shard : {"1", "2"}) run(sweep, std::string("--shard ") + shard + "/2", std::string(shard) + ".json");
+  const Outcome merged = tool("merge " + path("1.json") + " " + path("2.json") + " -o " + path("merged.json"));
+  EXPECT_EQ(merged.err, whole.err);
+}
+
+TEST_F(ShardedRun, without_cases_writes_no_dumps_and_says_so) {
+  const std::string sweep = folder_.write("small.json", small_config()).string();
+  const Outcome empty = tool("run " + sweep + " --write-dump " + path("dumps") + " --shard 4/4");
+  EXPECT_EQ(empty.code, 0) << empty.err;
+  EXPECT_NE(empty.err.find("no dump: shard 4 of 4 has no cases"), std::string::npos) << empty.err;
+}
+
 TEST_F(ShardedRun, fails_for_cases_of_its_own_that_lose_lights) {
   const std::string sweep =
       folder_.write("naive.json", small_config(R"(, "storages": [{"name": "fixed", "cap": 1}])")).string();

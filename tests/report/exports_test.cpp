@@ -91,6 +91,30 @@ TEST(Exports, the_headline_is_part_of_everything) {
     EXPECT_LT(measured(test::case_of(entry), false).size(), measured(test::case_of(entry), true).size());
 }
 
+TEST(Exports, times_of_several_machines_have_a_column_that_names_them_or_are_refused) {
+  result::Result merged = test::result_of(result());
+  merged.machines = {{"machine 1", merged.machine, "AVX2", {}}, {"machine 2", merged.machine, "SCALAR", {}}};
+  merged.cases[0].machine = "machine 1";
+  merged.cases[1].machine = "machine 2";
+  const std::string table = exported(merged, export_format("csv"), false);
+  EXPECT_NE(table.find(",storage,machine,"), std::string::npos) << table;
+  EXPECT_NE(table.find(",packed,machine 2,"), std::string::npos) << table;
+  const std::string markdown = exported(merged, export_format("markdown"), false);
+  EXPECT_NE(markdown.find(" machine 2 |"), std::string::npos) << markdown;
+  EXPECT_EQ(written("csv").find("machine"), std::string::npos);
+  for (const char* format : {"google-benchmark", "github-smaller", "github-bigger", "bencher", "lnt"}) {
+    std::string said = "accepted";
+    try {
+      exported(merged, export_format(format), false);
+    } catch (const Error& error) {
+      said = error.what();
+    }
+    EXPECT_NE(said.find("/machines: has times of several machines, and " + std::string(format) + " is of one"),
+              std::string::npos)
+        << said;
+  }
+}
+
 TEST(Exports, a_case_without_its_name_is_named_by_its_place) {
   Json broken = result();
   broken["cases"][1].erase("name");

@@ -158,7 +158,7 @@ TEST(Merge, a_merged_result_of_two_machines_is_merged_on_with_those_of_a_third) 
 TEST(Merge, two_hosts_of_one_kind_are_two_machines) {
   const auto part = [](const std::string& file, const std::string& id, std::uint64_t index, const std::string& host) {
     NamedPart out = shard(file, id);
-    out.result.shard = {index, 2, std::string(64, '0'), {}, host};
+    out.result.shard = {index, 2, std::string(64, '0'), {}, host, out.result.cases.size(), {}};
     return out;
   };
   EXPECT_TRUE(merged({part("a", "slow", 1, "aa"), part("b", "fast", 2, "bb")}).machines);

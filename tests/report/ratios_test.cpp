@@ -70,6 +70,19 @@ TEST(Ratios, any_two_methods_of_a_grid_have_one) {
   EXPECT_TRUE(takes_longer(result, cases[2], cases[0]));
 }
 
+TEST(Ratios, of_several_machines_are_in_a_block_for_each_that_names_it_across_grids_too) {
+  result::Result result = three_methods();
+  for (std::size_t i = 0; i < 3; ++i) result.cases[i].machine = i < 2 ? "machine 1" : "machine 2";
+  for (const RatioRequest& request : {RatioRequest(), over_all_grids()}) {
+    const result::Ratios ratios = ratios_of(result, request);
+    ASSERT_EQ(ratios.blocks.size(), 2u);
+    EXPECT_EQ(ratios.blocks[0].cases.size(), 2u);
+    EXPECT_TRUE(ratios.blocks[0].name.ends_with(", machine 1")) << ratios.blocks[0].name;
+    EXPECT_TRUE(ratios.blocks[1].name.ends_with(", machine 2")) << ratios.blocks[1].name;
+    EXPECT_NE(ratio_csv(ratios).find("machine 1"), std::string::npos);
+  }
+}
+
 TEST(Ratios, are_not_formed_over_grids_caches_or_unequal_rounds) {
   const result::Result result = three_methods();
   const result::Case &first = result.cases[0], &second = result.cases[1];

@@ -32,6 +32,21 @@ std::string best_of(const run::Result& result, const std::string& format = "cpp"
   return size_report(record, {"", false, format});
 }
 
+TEST(Size, of_times_of_several_machines_the_smallest_structure_is_shown_and_no_conclusion) {
+  run::Result by_hand = result_by_hand();
+  by_hand.cases[0].buffers.each[0].high_water = 20;  // brute-force, the slower one
+  result::Result merged = record_of(by_hand, {});
+  const SizeRequest request{"", false, "cpp", "none"};
+  EXPECT_NE(size_report(without_times_of_machines(merged), request).find("/aabb/packed"), std::string::npos);
+  merged.machines = {{"machine 1", merged.machine, "AVX2", {}}, {"machine 2", merged.machine, "SCALAR", {}}};
+  merged.cases[0].machine = "machine 1";
+  merged.cases[1].machine = "machine 2";
+  const std::string shown = size_report(without_times_of_machines(merged), request);
+  EXPECT_NE(shown.find("/brute-force/packed"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("the smallest structure that loses no light"), std::string::npos) << shown;
+  EXPECT_EQ(shown.find("the conclusion of the result"), std::string::npos) << shown;
+}
+
 TEST(Size, of_each_grid_the_fastest_structure_that_loses_nothing_is_shown_under_the_name_of_the_grid) {
   run::Result result = result_by_hand();
   run::CaseResult lossy = testing::case_by_hand("lossy", "broken", 0.5),

@@ -13,7 +13,7 @@ namespace {
 
 NamedPart shard_of_three(std::uint64_t index) {
   NamedPart part{"s" + std::to_string(index) + ".json", record_of(testing::result_by_hand(), {})};
-  part.result.shard = {index, 3, std::string(64, 'a'), {}, {}};
+  part.result.shard = {index, 3, std::string(64, 'a'), {}, {}, part.result.cases.size(), {}};
   return part;
 }
 
@@ -83,6 +83,37 @@ TEST(Sweep, shards_of_other_programs_configurations_filters_and_numbers_are_refu
             "s2.json: /shard: is shard 2 of 4, and s1.json is shard 1 of 3");
   EXPECT_EQ(refusal_of_other([](result::Result&) {}),
             "s2.json: /shard/sweep: is of another run than s1.json: scenes, plug-ins or cases differ");
+}
+
+TEST(Sweep, shards_that_were_changed_after_their_run_are_refused_though_their_sweep_is_one) {
+  std::vector<NamedPart> parts = shards({1, 2, 3});
+  parts[1].result.config["seed"] = 77;
+  EXPECT_EQ(refusal_of(parts).find("s2.json: /config/seed: is 77, and "), 0u) << refusal_of(parts);
+  parts = shards({1, 2, 3});
+  parts[2].result.tool.git_sha = "another";
+  EXPECT_EQ(refusal_of(parts).find("s3.json: /tool/git_sha: is \"another\""), 0u) << refusal_of(parts);
+  parts = shards({1, 2, 3});
+  parts[1].result.cases.pop_back();
+  EXPECT_EQ(refusal_of(parts),
+            "s2.json: /cases: has 1 case, and the shard was written with 2 cases: the file was changed");
+}
+
+TEST(Sweep, of_lists_of_two_lengths_the_first_item_that_one_lacks_is_named) {
+  std::vector<NamedPart> parts = shards({1, 2, 3});
+  parts[0].result.config["limits"]["fail_if"] = {"longest > 1"};
+  parts[1].result.config["limits"]["fail_if"] = {"longest > 1", "pairs > 2"};
+  EXPECT_EQ(refusal_of(parts).find("s2.json: /config/limits/fail_if/1: is \"pairs > 2\", and absent in s1.json"), 0u)
+      << refusal_of(parts);
+  std::swap(parts[0].result.config, parts[1].result.config);
+  EXPECT_EQ(refusal_of(parts).find("s2.json: /config/limits/fail_if/1: is absent, and \"pairs > 2\" in s1.json"), 0u)
+      << refusal_of(parts);
+}
+
+TEST(Sweep, shards_against_two_baselines_are_refused) {
+  std::vector<NamedPart> parts = shards({1, 2, 3});
+  for (NamedPart& part : parts) part.result.shard->baseline = {"base.json", std::string(64, 'c')};
+  parts[2].result.shard->baseline->sha256 = std::string(64, 'd');
+  EXPECT_EQ(refusal_of(parts).find("s3.json: /shard/baseline: is "), 0u) << refusal_of(parts);
 }
 
 TEST(Sweep, a_number_beyond_the_last_is_refused) {

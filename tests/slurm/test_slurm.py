@@ -211,7 +211,47 @@ def killed_controller(cluster, program, folder, arguments, whole):
     return "a killed controller: all tasks ended, and the merge ran"
 
 
+def submitted(folder, *arguments, sbatch="echo 7", squeue="true"):
+    """Exit code and words of `submit`, with stand-ins for Slurm's programs."""
+    programs = folder / "programs"
+    programs.mkdir(exist_ok=True)
+    for name, script in (("sbatch", sbatch), ("squeue", squeue)):
+        (programs / name).write_text(f"#!/bin/bash\n{script}\n", encoding="utf-8")
+        (programs / name).chmod(0o755)
+    done = subprocess.run([ROOT / "scripts/slurm/submit", *arguments], cwd=folder, env=dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}"),
+                          capture_output=True, text=True, check=False, timeout=60)
+    return done.returncode, done.stdout + done.stderr
+
+
+def refusals(folder):
+    """What `submit` refuses before Slurm has anything to do, and what it leaves then."""
+    def expect_refused(part, *arguments, **programs):
+        code, said = submitted(folder, *arguments, **programs)
+        expect(code == 2 and part in said, f"submit {arguments} is refused with '{part}', and not: {code} {said}")
+
+    for flag in ("-o", "-ofile", "--output=x", "--shard", "--shard=1/2"):
+        expect_refused(f"'{flag}' is not for ARGUMENTS", "2", "new", "level.glb", flag)
+    expect_refused("has a %", "2", "100%", "level.glb")
+    expect_refused("sbatch took no task", "2", "new", "level.glb", sbatch="exit 1")
+    expect(not (folder / "new").exists(), "a folder that was made for nothing is gone")
+    (folder / "old").mkdir()
+    expect_refused("sbatch took no task", "2", "old", "level.glb", sbatch="exit 1")
+    expect((folder / "old").exists() and not list((folder / "old").iterdir()), "a folder of the user's stays, as it was")
+    expect_refused("did not take the merge, and took the tasks (job 7)", "2", "half", "level.glb",
+                   sbatch="case $* in *-merge*) exit 1 ;; *) echo 7 ;; esac")
+    expect(submitted(folder, "2", "run", "level.glb")[0] == 0, "a run is submitted")
+    expect_refused("tasks of job 7 are still waiting or running", "--again", "run", squeue="echo 7_1")
+    expect_refused("squeue does not say whether job 7 has ended: no controller", "--again", "run", squeue="echo no controller; exit 1")
+    (folder / "run/shard-1.json").write_text("{}", encoding="utf-8")
+    (folder / "run/shard-2.json").write_text("", encoding="utf-8")
+    code, said = submitted(folder, "--again", "run", sbatch='echo "$*" >&2; echo 8', squeue="echo Invalid job id specified; exit 1")
+    expect(code == 0 and "--array=2 " in said, f"an empty file is a missing shard: {code} {said}")
+
+
 def main():
+    with tempfile.TemporaryDirectory() as place:
+        refusals(pathlib.Path(place))
+    print("submit: refuses what cannot go well", flush=True)
     missing = [name for name in DAEMONS if shutil.which(name) is None and not pathlib.Path("/usr/sbin", name).exists()]
     if missing:
         print(f"skipped: {', '.join(missing)} not found (Debian: slurmctld slurmd slurm-client)")

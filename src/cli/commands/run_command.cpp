@@ -89,6 +89,11 @@ void refuse_unguarded(const RunFlags& flags, const config::Config& config) {
 
 ExitCode write_dumps_alone(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
   warn_of_budgets(config);
+  if (plan.shard && plan.case_count() == 0) {
+    print_message("no dump: shard " + std::to_string(plan.shard->index) + " of " + std::to_string(plan.shard->count) +
+                  " has no cases");
+    return ExitCode::ok;
+  }
   const WrittenDumps written = write_dumps(config, plan, flags.dump_folder, flags.dump_frames);
   for (const std::string& line : written.remarks) print_message(printable(line));
   if (!flags.quiet)

@@ -166,6 +166,11 @@ ExitCode size(SizeFlags flags) {
   } else {
     check_for_result(flags);
     result = report::read_result(flags.inputs.paths.front());
+    if (result.machines && !request.all)
+      print_message("note: " + flags.inputs.paths.front() +
+                    " has times of several machines, which are not compared: of each grid the smallest structure "
+                    "that loses no light, and no conclusion; --all has all");
+    result = report::without_times_of_machines(std::move(result));
   }
   for (const std::string& file : flags.found) {
     request.scope.found.push_back(report::read_found(file, result));

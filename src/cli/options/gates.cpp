@@ -62,8 +62,9 @@ void keep_counted_budgets(config::Config& config, const std::string& doing) {
       ": it counts lists and lights alone, without times, truth, samples and a baseline; `clusterbench run` does");
 }
 
-Gates::Gates(const config::LimitsRequest& limits, const std::string& filter) : limits_(limits), filter_(filter) {
-  if (!limits_.baseline.empty()) base_ = report::read_result(limits_.baseline.string());
+Gates::Gates(const config::LimitsRequest& limits, const std::string& filter, const std::string& place)
+    : limits_(limits), filter_(filter) {
+  if (!limits_.baseline.empty()) base_ = report::read_result(place.empty() ? limits_.baseline.string() : place);
   for (const config::LimitRule& rule : limits_.fail_if)
     if (rule.is_relative && !base_)
       throw Error("", "limits.fail_if",

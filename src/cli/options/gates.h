@@ -29,8 +29,9 @@ void keep_counted_budgets(config::Config& config, const std::string& doing);
 class Gates {
  public:
   // Reads the baseline, so that the user learns of errors in it before minutes of measuring. Throws Error for a budget
-  // in percent without a baseline. `limits` must outlive this object.
-  Gates(const config::LimitsRequest& limits, const std::string& filter);
+  // in percent without a baseline. `limits` must outlive this object. `place`: where the baseline lies, if it is not
+  // there where messages say that it is; "": it is.
+  Gates(const config::LimitsRequest& limits, const std::string& filter, const std::string& place = "");
 
   // The figures that have changed since the baseline; "" without one.
   std::string changes(const result::Result& result) const;

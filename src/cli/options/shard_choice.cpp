@@ -46,9 +46,15 @@ void check_range(const std::string& text, const ShardChoice& choice) {
 
 // A service's numbering of the jobs of an array, as its variables tell it.
 struct ArrayJob {
-  std::string service, index_name;  // for messages
-  std::uint64_t index = 1;          // from 1
+  std::string service, index_name, count_name;  // for messages
+  std::uint64_t index = 1;                      // from 1
   std::optional<std::uint64_t> count = {};
+  std::uint64_t first = 1;  // of the variable
+
+  std::string untold_count() const {
+    return service == "Kubernetes" ? "with the Job's completions"
+                                   : "with the array's size: " + count_name + " is not set";
+  }
 };
 
 class Environment {
@@ -80,7 +86,8 @@ std::optional<ArrayJob> gitlab_job(const Environment& environment) {
   if (!environment.has("CI_NODE_INDEX") && !environment.has("CI_NODE_TOTAL")) return std::nullopt;
   const std::uint64_t count = environment.number("CI_NODE_TOTAL");
   const bool is_alone = count == 1 && !environment.has("CI_NODE_INDEX");
-  return ArrayJob{"GitLab", "CI_NODE_INDEX", is_alone ? 1 : environment.number("CI_NODE_INDEX"), count};
+  return ArrayJob{"GitLab", "CI_NODE_INDEX", "CI_NODE_TOTAL", is_alone ? 1 : environment.number("CI_NODE_INDEX"),
+                  count};
 }
 
 // The numbers FIRST, FIRST + STEP ... LAST. Throws Error for an index that is none of them.
@@ -109,7 +116,7 @@ std::optional<ArrayJob> slurm_job(const Environment& environment) {
            std::to_string(range.first) + " to " + std::to_string(range.last) + " are " + std::to_string(range.count()) +
            ": an array with gaps does not say which shard is which; submit --array=1-N, and to repeat a single shard " +
            "take --shard I/N");
-  return ArrayJob{"Slurm", "SLURM_ARRAY_TASK_ID", index, count};
+  return ArrayJob{"Slurm", "SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", index, count};
 }
 
 // qsub(1) of Grid Engine; SGE_TASK_ID is "undefined" outside of an array job.
@@ -118,19 +125,24 @@ std::optional<ArrayJob> grid_engine_job(const Environment& environment) {
   const ArrayRange range{"SGE_TASK_ID", environment.number("SGE_TASK_ID"), environment.number("SGE_TASK_FIRST"),
                          environment.number("SGE_TASK_LAST"), environment.number("SGE_TASK_STEPSIZE")};
   const std::uint64_t index = range.position();
-  return ArrayJob{"Grid Engine", "SGE_TASK_ID", index, range.count()};
+  return ArrayJob{"Grid Engine", "SGE_TASK_ID", "SGE_TASK_LAST", index, range.count()};
 }
 
 // An indexed Job of Kubernetes; its completions are in no variable.
 std::optional<ArrayJob> kubernetes_job(const Environment& environment) {
   if (!environment.has("JOB_COMPLETION_INDEX")) return std::nullopt;
-  return ArrayJob{"Kubernetes", "JOB_COMPLETION_INDEX", environment.number("JOB_COMPLETION_INDEX") + 1};
+  return ArrayJob{"Kubernetes", "JOB_COMPLETION_INDEX", "", environment.number("JOB_COMPLETION_INDEX") + 1, {}, 0};
 }
 
 // https://docs.aws.amazon.com/batch/latest/userguide/job_env_vars.html
 std::optional<ArrayJob> aws_job(const Environment& environment) {
   if (!environment.has("AWS_BATCH_JOB_ARRAY_INDEX")) return std::nullopt;
-  ArrayJob job{"AWS Batch", "AWS_BATCH_JOB_ARRAY_INDEX", environment.number("AWS_BATCH_JOB_ARRAY_INDEX") + 1};
+  ArrayJob job{"AWS Batch",
+               "AWS_BATCH_JOB_ARRAY_INDEX",
+               "AWS_BATCH_JOB_ARRAY_SIZE",
+               environment.number("AWS_BATCH_JOB_ARRAY_INDEX") + 1,
+               {},
+               0};
   if (environment.has("AWS_BATCH_JOB_ARRAY_SIZE")) job.count = environment.number("AWS_BATCH_JOB_ARRAY_SIZE");
   return job;
 }
@@ -153,6 +165,17 @@ void check_agreement(const ArrayJob& one, const ArrayJob& other) {
   refuse("auto: " + text_of(one) + ", and " + text_of(other) + "; write --shard I/N");
 }
 
+// Names the variable that says what no shard can be.
+void check_job(const std::string& text, const ArrayJob& job, std::uint64_t count) {
+  if (job.count && (*job.count == 0 || *job.count > run::k_most_shards))
+    refuse("auto: " + job.count_name + " makes " + std::to_string(*job.count) + " shards; it is 1 to " +
+           std::to_string(run::k_most_shards));
+  if (job.index >= 1 && job.index <= count) return;
+  refuse(printable(text) + ": " + job.index_name + " is " + std::to_string(job.index - 1 + job.first) +
+         ", which is none of " + std::to_string(job.first) + " to " + std::to_string(count - 1 + job.first) + " of " +
+         std::to_string(count) + " shards (" + job.service + ")");
+}
+
 ShardChoice automatic(const std::string& text, std::optional<std::uint64_t> count, const Environment& environment) {
   const std::vector<ArrayJob> jobs = array_jobs(environment);
   if (jobs.empty())
@@ -165,7 +188,9 @@ ShardChoice automatic(const std::string& text, std::optional<std::uint64_t> coun
     if (job.count && !count) count = job.count;
   }
   if (!count)
-    refuse("auto: " + text_of(jobs.front()) + ", but not of how many; write --shard auto/N with the Job's completions");
+    refuse("auto: " + text_of(jobs.front()) + ", but not of how many; write --shard auto/N " +
+           jobs.front().untold_count());
+  for (const ArrayJob& job : jobs) check_job(text, job, *count);
   return {jobs.front().index, *count};
 }
 

@@ -26,8 +26,10 @@ std::string shard_name(std::uint64_t index, std::uint64_t count) {
 }
 
 // The digest of what all shards have in common: the same on all machines, wherever the scenes' files are.
-std::string sweep_digest(const RunFlags& flags, const config::Config& config, const run::Plan& plan) {
+std::string sweep_digest(const RunFlags& flags, const config::Config& config, const run::Plan& plan,
+                         const std::string& baseline_sha256) {
   Json common = run_identity(flags, config, plan);
+  if (!baseline_sha256.empty()) common["baseline"] = baseline_sha256;
   common["config"]["limits"] = config.resolved["limits"];  // the merge goes by them
   for (Json& scene : common["config"]["scenes"])
     if (scene.is_object()) scene.erase("path");
@@ -39,6 +41,17 @@ std::string sweep_digest(const RunFlags& flags, const config::Config& config, co
     for (const run::CasePlan& one : group.cases) ids.push_back(one.id);
   common["cases"] = ids;
   return sha256_hex(common.dump());
+}
+
+// "" where nothing is held against it: without one, and where nothing is measured.
+std::string digest_of_baseline(const RunFlags& flags, const config::Config& config) {
+  const fs::path& baseline = config.limits.baseline;
+  if (baseline.empty() || flags.dry_run || !flags.dump_folder.empty()) return "";
+  std::error_code none;
+  if (fs::exists(baseline, none) && !fs::is_regular_file(baseline, none))
+    throw Error(baseline.string(), "--baseline",
+                "is no file that `clusterbench merge` could read, too; with --shard a baseline is a regular file");
+  return sha256_hex(file_text(baseline));
 }
 
 // Results that cannot be read are replaced, as those of any run.
@@ -71,8 +84,14 @@ std::string digest_of_host() {
 }  // namespace
 
 run::Plan sharded_plan(const RunFlags& flags, const config::Config& config, run::Plan plan, const ShardChoice& choice) {
-  const run::PlannedShard shard{choice.index, choice.count, sweep_digest(flags, config, plan), flags.filter,
-                                config.timing.measure || !flags.count.empty() ? digest_of_host() : ""};
+  const std::string baseline = digest_of_baseline(flags, config);
+  const run::PlannedShard shard{choice.index,
+                                choice.count,
+                                sweep_digest(flags, config, plan, baseline),
+                                flags.filter,
+                                config.timing.measure || !flags.count.empty() ? digest_of_host() : "",
+                                baseline.empty() ? "" : config.limits.baseline.string(),
+                                baseline};
   refuse_other_shard(flags.output, shard);
   const std::vector<std::size_t> ends = run::shard_ends(run::predicted_work(config, plan), shard.count);
   run::Plan part = run::part_of(std::move(plan), shard.index == 1 ? 0 : ends[shard.index - 2], ends[shard.index - 1]);

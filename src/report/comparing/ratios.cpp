@@ -44,8 +44,8 @@ std::string name_of_case(const Case& result_case, bool across_grids) {
 }
 
 std::string name_of_block(const Case& result_case, bool across_grids) {
-  return across_grids ? "camera " + result_case.camera + ", " + viewport_text(result_case.viewport)
-                      : block_of(result_case);
+  if (!across_grids) return block_of(result_case);
+  return "camera " + result_case.camera + ", " + viewport_text(result_case.viewport) + machine_part(result_case);
 }
 
 // In the order of the cases.

@@ -15,11 +15,13 @@ using result::Case;
 
 constexpr ExportFormat k_formats[] = {
     {"google-benchmark", "Google Benchmark's JSON, a repetition per round, for its compare.py", "json",
-     google_benchmark, true},
-    {"github-smaller", "github-action-benchmark, tool customSmallerIsBetter", "json", github_smaller_is_better},
-    {"github-bigger", "github-action-benchmark, tool customBiggerIsBetter", "json", github_bigger_is_better, true},
-    {"bencher", "Bencher Metric Format", "json", bencher},
-    {"lnt", "LLVM's LNT, report format 2, test suite nts", "json", lnt},
+     google_benchmark, true, true},
+    {"github-smaller", "github-action-benchmark, tool customSmallerIsBetter", "json", github_smaller_is_better, false,
+     true},
+    {"github-bigger", "github-action-benchmark, tool customBiggerIsBetter", "json", github_bigger_is_better, true,
+     true},
+    {"bencher", "Bencher Metric Format", "json", bencher, false, true},
+    {"lnt", "LLVM's LNT, report format 2, test suite nts", "json", lnt, false, true},
     {"csv", "A row per case, comma-separated (RFC 4180)", "csv", csv},
     {"markdown", "What failed and a table, for comments and pages", "md", markdown},
 };
@@ -50,14 +52,6 @@ ExportCase read_case(const Case& result_case, std::size_t index, bool all) {
   return out;
 }
 
-// These formats have one machine; the result itself says which case was measured where.
-std::string machines_of(const result::Result& result) {
-  if (!result.machines) return machine_name(result.machine);
-  std::vector<std::string> names;
-  for (const result::MeasuredMachine& one : *result.machines) names.push_back(machine_name(one.machine));
-  return joined(names, " + ");
-}
-
 ExportResult read(const result::Result& result, bool all) {
   ExportResult out;
   out.all = all;
@@ -68,13 +62,17 @@ ExportResult read(const result::Result& result, bool all) {
   out.flags = result.tool.flags;
   out.build_type = result.tool.build_type;
   out.simd_target = result.tool.simd_target;
-  out.machine = machines_of(result);
+  out.machine = machine_name(result.machine);
+  out.has_machines = result.machines.has_value();
   out.os = result.machine.os;
   out.cores = static_cast<int>(result.machine.cores);
   out.failed = result.failed.value_or(std::vector<std::string>());
   for (const result::BrokenCase& broken : result.broken.value_or(std::vector<result::BrokenCase>()))
     out.failed.push_back(broken.name + ": " + broken.reason);
-  for (const Case& result_case : result.cases) out.cases.push_back(read_case(result_case, out.cases.size(), all));
+  for (const Case& result_case : result.cases) {
+    out.cases.push_back(read_case(result_case, out.cases.size(), all));
+    if (out.has_machines) out.cases.back().parts.emplace_back("machine", result_case.machine.value_or(""));
+  }
   return out;
 }
 
@@ -94,6 +92,10 @@ const ExportFormat& export_format(const std::string& name) {
 }
 
 std::string exported(const result::Result& result, const ExportFormat& format, bool all) {
+  if (format.is_of_one_machine && result.machines)
+    throw Error("", "/machines",
+                "has times of several machines, and " + std::string(format.name) +
+                    " is of one; export the results that were merged, or take csv or markdown");
   return format.write(read(result, all));
 }
 

@@ -128,7 +128,10 @@ result::Result record_of(const run::Result& result, const std::vector<Case>& ear
   add_device_frames(out.cases, out.config);
   for (const run::Skipped& skipped : result.skipped)
     out.skipped.push_back({skipped.name, skipped.reason, known(skipped.preset)});
-  if (out.shard) return out;  // what needs all cases is told of all
+  if (out.shard) {  // what needs all cases is told of all
+    out.shard->cases = out.cases.size();
+    return out;
+  }
   out.pareto_front = fronts(out.scenes, out.cases, out);
   add_presets(out, out);
   out.conclusions = conclusions_of(out, out);

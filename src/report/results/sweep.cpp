@@ -27,7 +27,12 @@ Json without_places(Json config) {
 // "/timing/rounds" where two documents differ first; "" if they are equal.
 std::string first_difference(const Json& one, const Json& other) {
   const Json changes = Json::diff(one, other);
-  return changes.empty() ? "" : changes.front()["path"].get<std::string>();
+  if (changes.empty()) return "";
+  const std::string path = changes.front()["path"].get<std::string>();
+  if (!path.ends_with("/-")) return path;
+  const std::string list = path.substr(0, path.size() - 2);  // the other one is longer
+  const Json* shorter = value_at(one, list);
+  return shorter == nullptr ? list : list + "/" + std::to_string(shorter->size());
 }
 
 std::string value_text(const Json& from, const std::string& pointer) {
@@ -55,17 +60,30 @@ Json program_of(const result::Result& result) {
   return tool;
 }
 
+std::string digest_of_baseline(const result::Result& result) {
+  return result.shard->baseline ? result.shard->baseline->sha256 : "";
+}
+
+void check_cases(const NamedPart& part) {
+  const std::uint64_t wanted = part.result.shard->cases, found = part.result.cases.size();
+  if (found == wanted) return;
+  refuse(part, "/cases",
+         "has " + number_of(found, "case") + ", and the shard was written with " + number_of(wanted, "case") +
+             ": the file was changed");
+}
+
 // `first`: a shard.
 void check_of_one_run(const NamedPart& first, const NamedPart& next) {
   const result::Result &one = first.result, &other = next.result;
   if (!other.shard)
     refuse(next, "/shard", "is missing: it is a whole result, and " + first.file + " is " + shard_text(*one.shard));
-  if (one.shard->sweep == other.shard->sweep && one.shard->count == other.shard->count) return;
   check_same(first, next, "/tool", program_of(one), program_of(other));
   check_same(first, next, "/config", without_places(one.config), without_places(other.config));
   if (one.shard->count != other.shard->count)
     refuse(next, "/shard", "is " + shard_text(*other.shard) + ", and " + first.file + " is " + shard_text(*one.shard));
   check_same(first, next, "/shard/filter", one.shard->filter.value_or(""), other.shard->filter.value_or(""));
+  check_same(first, next, "/shard/baseline", digest_of_baseline(one), digest_of_baseline(other));
+  if (one.shard->sweep == other.shard->sweep) return;
   refuse(next, "/shard/sweep", "is of another run than " + first.file + ": scenes, plug-ins or cases differ");
 }
 
@@ -106,6 +124,7 @@ void order_shards(std::vector<NamedPart>& parts) {
     check_of_one_run(*first, part);
     if (const result::Shard& shard = *part.result.shard; shard.index > shard.count)
       refuse(part, "/shard", "is " + shard_text(shard) + ", which is none of them");
+    check_cases(part);
   }
   std::ranges::stable_sort(parts, {}, [](const NamedPart& part) { return part.result.shard->index; });
   for (std::size_t i = 1; i < parts.size(); ++i)

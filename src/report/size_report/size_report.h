@@ -52,6 +52,10 @@ std::vector<SizedCase> sized_cases(const result::Result& result, const SizeReque
 // found any: name and reason.
 std::vector<std::string> sized_from_nothing(const result::Result& result, const SizeRequest& request);
 
+// Times of several machines are never compared: without times and conclusions, if it has those of several, so that of
+// each grid the smallest structure is shown.
+result::Result without_times_of_machines(result::Result result);
+
 // Throws Error if the filter is no regex or matches no case, and for a name that is not valid in any language, that a
 // table would not show, or that several structures would have.
 std::string size_report(const result::Result& result, const SizeRequest& request);

@@ -184,7 +184,9 @@ result::Machine record_of(const MachineFacts& machine) {
 }
 
 result::Shard record_of(const PlannedShard& shard) {
-  return {shard.index, shard.count, shard.sweep, known(shard.filter), known(shard.host)};
+  result::Shard out{shard.index, shard.count, shard.sweep, known(shard.filter), known(shard.host), 0, {}};
+  if (!shard.baseline_file.empty()) out.baseline = {shard.baseline_file, shard.baseline_sha256};
+  return out;
 }
 
 }  // namespace clusterbench::run
