@@ -187,7 +187,7 @@ export const heatMapSection: Section = (view, redraw) => {
     figureView({
       id: "heat-map",
       title: `${measure.label} by tiling and slicing`,
-      lead: `One map per method${view.filters.scene === null ? ", the geometric mean of all scenes" : ""}. Dark is less. ${coloursText(cells, cases, measure)}${leftOut > 0 ? ` ${format.plural(leftOut, "map")} less than half filled ${leftOut === 1 ? "is" : "are"} left out; the table has all.` : ""}`,
+      lead: `One map per method${view.filters.scene === null ? ", the geometric mean of all scenes" : ""}. Dark is less. ${coloursText(cells, cases, measure)}${leftOut > 0 ? ` ${format.plural(leftOut, "map")} of one cell or less than half filled ${leftOut === 1 ? "is" : "are"} left out; the table has all.` : ""}`,
       controls: [control],
       chart: multiples(
         maps.map(([title, some]) => ({ title, chart: map(some, measure, ranges.get(some[0]!.machine)!) })),

@@ -99,7 +99,6 @@ describe("the page", () => {
     ["two", "light"],
     ["against", "dark"],
     ["merged", "light"],
-    ["mergedAgainst", "light"],
     ["pictures", "light"],
     ["presets", "light"],
     ["history", "light"],
@@ -997,7 +996,7 @@ describe("on paper", () => {
 });
 
 describe("a screen of 400 pixels", () => {
-  for (const name of ["quick", "sweep", "lossy", "presets", "pictures", "against"])
+  for (const name of ["quick", "sweep", "lossy", "presets", "pictures", "against", "merged"])
     it(`holds ${name}, whose tables scroll in their boxes`, async () => {
       const page = await open(pages[name], { viewport: { width: 400, height: 800 } });
       for (const summary of await page.locator("main figure summary").all()) await summary.click();
@@ -1215,6 +1214,7 @@ describe("a result of two machines", () => {
   it("is held against another result without times", async () => {
     const page = await open(pages.mergedAgainst);
     assert.match(await page.locator("#against-first figcaption").innerText(), /Times are left out/);
+    assert.deepEqual(page.faults, []);
     const heads = await textsOf(page, "#against-first thead th");
     assert.ok(!heads.some((head) => /time|µs/.test(head)), String(heads));
   });

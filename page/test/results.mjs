@@ -168,7 +168,7 @@ export const onAnotherMachine = (file, folder) =>
       }
   });
 
-// What `merge` makes of shards of two machines: the scenes' first grid is of one, on the other everything takes a hundred times
+// What `merge` makes of shards of two machines: half of the grids are of one, on the other everything takes a hundred times
 // as long. Both have what the sweep has of conclusions: none.
 export const ofTwoMachines = (file, folder) =>
   changed(file, folder, "merged", (result) => {
@@ -182,9 +182,9 @@ export const ofTwoMachines = (file, folder) =>
       simd_target: result.tool.simd_target,
     }));
     delete result.conclusions;
-    const first = result.cases[0].grid.name;
+    const grids = [...new Set(result.cases.map(({ grid }) => grid.name))];
     for (const one of result.cases) {
-      const at = one.grid.name === first ? 0 : 1;
+      const at = 2 * grids.indexOf(one.grid.name) < grids.length ? 0 : 1;
       one.machine = names[at];
       if (at === 0) continue;
       for (const time of Object.values(one.timing)) {
