@@ -5,15 +5,17 @@ import { choice, type Option } from "./controls.ts";
 import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
+import { hasMachines } from "./machines.ts";
 import type { Case, Run } from "./model.ts";
 import { chart, chartWidth, namesAside, Plot } from "./plots.ts";
 import type { Maybe } from "./result.ts";
+import type { Column } from "./table.ts";
 import type { Section, View } from "./view.ts";
 
 interface Both {
   first: Case;
   second: Case;
-  time: Maybe; // second by first
+  time: Maybe; // second by first; none where a result is of several machines, as `compare` has it
   bytes: Maybe;
 }
 
@@ -28,7 +30,7 @@ function bothOf(cases: Case[], first: Run, second: Run): Both[] {
       return {
         first: other,
         second: aCase,
-        time: by(aCase.frameUs, other.frameUs),
+        time: hasMachines([aCase, other]) ? null : by(aCase.frameUs, other.frameUs),
         bytes: by(figure(aCase, "bytes"), figure(other, "bytes")),
       };
     });
@@ -78,6 +80,18 @@ function ratios(view: View, rows: Both[], first: Run, second: Run): Element {
   });
 }
 
+const lead =
+  "A dot is a case that both results have; left of the line the second is faster. Times of two runs of one program can differ several-fold: hints only. `clusterbench compare` says what has changed.";
+const leadOfSeveral =
+  "Cases that both results have. Times are left out: one of the results is of several machines. `clusterbench compare` on the results of their shards compares times.";
+
+const timeColumn: Column<Both> = {
+  label: "time",
+  about: "Change of the frame time",
+  value: (row) => row.time,
+  show: (row) => change(row.time),
+};
+
 export const againstSection: Section = (view, redraw) => {
   if (!view.hasRuns) return null;
   const { runs } = view.model;
@@ -99,6 +113,7 @@ export const againstSection: Section = (view, redraw) => {
         `No cases: ${second.label} and ${first.label} have none in common, or none that the filters leave. A level before and after a change: clusterbench run LEVEL --baseline BEFORE.json.`,
       ),
     );
+  const isOfSeveral = hasMachines(rows.flatMap((row) => [row.first, row.second]));
   const isTimed = rows.some((row) => row.time !== null);
   const ofFirst = columnsOf(view.model.words, (row: Both) => row.first),
     ofSecond = columnsOf(view.model.words, (row: Both) => row.second);
@@ -109,23 +124,19 @@ export const againstSection: Section = (view, redraw) => {
     figureView({
       id: "against-first",
       title: `${second.label} against ${first.label}`,
-      lead: "A dot is a case that both results have; left of the line the second is faster. Times of two runs of one program can differ several-fold: hints only. `clusterbench compare` says what has changed.",
+      lead: isOfSeveral ? leadOfSeveral : lead,
       controls: [control],
       chart: isTimed ? ratios(view, rows, first, second) : undefined,
       table: () => ({
         caption: `${second.label} against ${first.label}`,
         columns: [
           { label: "method", value: (row) => row.second.assigner },
-          {
-            label: "time",
-            about: "Change of the frame time",
-            value: (row) => row.time,
-            show: (row) => change(row.time),
-          },
+          ...(isOfSeveral ? [] : [timeColumn]),
           ofFirst("excess", `excess, ${first.label}`, { format: format.percent }),
           ofSecond("excess", `excess, ${second.label}`, { format: format.percent }),
-          ofFirst("frame_us", `frame µs, ${first.label}`),
-          ofSecond("frame_us", `frame µs, ${second.label}`),
+          ...(isOfSeveral
+            ? []
+            : [ofFirst("frame_us", `frame µs, ${first.label}`), ofSecond("frame_us", `frame µs, ${second.label}`)]),
           {
             label: "bytes",
             about: "Change of the high-water mark",

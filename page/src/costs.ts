@@ -56,7 +56,11 @@ export function costs(view: View, cases: Case[]): HTMLElement | null {
     const { label, about } = perFrameWords[name];
     return column(name, label, { about, value, show: (aCase) => write(value(aCase)) });
   };
-  const whose = view.hasRuns ? ` · ${timed[0]!.run.label}` : ""; // a setting is of one result
+  const { run, machine } = timed[0]!; // a setting is of one result and machine
+  const whose = [view.hasRuns && run.label, machine]
+    .filter(Boolean)
+    .map((name) => ` · ${name}`)
+    .join("");
   return figureView({
     id: "costs",
     title: `Where a frame's time goes${whose}`,

@@ -2,6 +2,7 @@
 
 import { h, withCode } from "./dom.ts";
 import { plural } from "./format.ts";
+import { placesOf, placeText } from "./machines.ts";
 import type { Model } from "./model.ts";
 import type { Result } from "./result.ts";
 import { themeControl } from "./theme.ts";
@@ -57,10 +58,19 @@ function conclusionView(text: string): HTMLElement {
     : h("p", { class: "conclusion" }, ...withCode(text));
 }
 
+// Names are those of one result: of several, each says whose it is.
+function machinesOf({ runs }: Model): string[] {
+  const most = 3;
+  const all = runs.flatMap((run) =>
+    placesOf(run).map((place) => `${place.name && runs.length > 1 ? `${run.label}, ` : ""}${placeText(place)}`),
+  );
+  const machines = [...new Set(all)];
+  const more = machines.length - most;
+  return more > 0 ? [...machines.slice(0, most), `${plural(more, "more machine")}`] : machines;
+}
+
 export function header(model: Model): HTMLElement {
-  const machines = [
-    ...new Set(model.runs.map((run) => `${run.result.machine.cpu}, ${plural(run.result.machine.cores, "core")}`)),
-  ];
+  const machines = machinesOf(model);
   return h(
     "header",
     {},
@@ -82,7 +92,7 @@ export function header(model: Model): HTMLElement {
     h(
       "p",
       { class: "summary" },
-      `${plural(model.cases.length, "case")} in ${plural(model.scenes.length, "scene")} on ${machines.slice(0, 3).join("; ")}${machines.length > 3 ? "; …" : ""}. `,
+      `${plural(model.cases.length, "case")} in ${plural(model.scenes.length, "scene")} on ${machines.join("; ")}. `,
       verdict(model),
       ".",
     ),

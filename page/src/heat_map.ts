@@ -5,22 +5,29 @@ import { choice } from "./controls.ts";
 import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
+import { hasMachines, machineKey } from "./machines.ts";
 import type { Case } from "./model.ts";
 import { meanOf } from "./overall.ts";
 import { chart, columnWidth, multiples, Plot } from "./plots.ts";
 import type { Grid, Maybe } from "./result.ts";
 import type { Section } from "./view.ts";
 
-interface Measure {
+export interface Measure {
   label: string;
   of: (aCase: Case) => Maybe;
   show: (value: Maybe) => string;
   isShare?: boolean; // can be 0
+  isOfMachine?: boolean; // never compared, nor averaged, between two
 }
 
-const measures: Record<string, Measure> = {
-  time: { label: "frame µs", of: (aCase) => aCase.frameUs, show: format.microseconds },
-  instructions: { label: "instructions", of: (aCase) => figure(aCase, "assign_instructions"), show: format.short },
+export const measures: Record<string, Measure> = {
+  time: { label: "frame µs", of: (aCase) => aCase.frameUs, show: format.microseconds, isOfMachine: true },
+  instructions: {
+    label: "instructions",
+    of: (aCase) => figure(aCase, "assign_instructions"),
+    show: format.short,
+    isOfMachine: true,
+  },
   overshade: { label: "overshade", of: (aCase) => figure(aCase, "overshade"), show: format.factor },
   excess: { label: "excess", of: (aCase) => figure(aCase, "excess"), show: format.percent, isShare: true },
   bytes: { label: "bytes", of: (aCase) => figure(aCase, "bytes"), show: format.short },
@@ -28,10 +35,11 @@ const measures: Record<string, Measure> = {
   pairs: { label: "pairs", of: pairsOf, show: format.short },
 };
 
-interface Cell {
-  method: string; // with its result, the grid's kind and the storage, where there are several
+export interface Cell {
+  method: string; // with its result, its machine where the measure is of one, the grid's kind and the storage, where there are several
   tiling: string;
   slicing: string;
+  machine: string; // whose colours it has; "" where all maps share them
   value: number; // geometric mean over the scenes
   scenes: number;
 }
@@ -41,7 +49,7 @@ const cut = (grid: Grid) => /^(?:frustum|distance) (\S+) x (.+)$/.exec(grid.name
 
 const unique = (values: string[]) => [...new Set(values)];
 
-function cellsOf(cases: Case[], measure: Measure): Cell[] {
+export function cellsOf(cases: Case[], measure: Measure): Cell[] {
   const hasKinds = unique(cases.filter((aCase) => cut(aCase.raw.grid)).map((aCase) => aCase.raw.grid.kind)).length > 1;
   const hasStorages = unique(cases.map((aCase) => aCase.storage)).length > 1;
   const hasRuns = unique(cases.map((aCase) => aCase.run.label)).length > 1;
@@ -49,6 +57,7 @@ function cellsOf(cases: Case[], measure: Measure): Cell[] {
     [
       aCase.assigner,
       ...(hasRuns ? [aCase.run.label] : []),
+      ...(measure.isOfMachine && aCase.machine ? [aCase.machine] : []),
       ...(hasKinds ? [aCase.raw.grid.kind] : []),
       ...(hasStorages ? [aCase.storage] : []),
     ].join(" / ");
@@ -62,6 +71,7 @@ function cellsOf(cases: Case[], measure: Measure): Cell[] {
     method: methodOf(group[0]!.aCase),
     tiling: group[0]!.tiling,
     slicing: group[0]!.slicing,
+    machine: measure.isOfMachine ? machineKey(group[0]!.aCase) : "",
     ...mean(
       group.map(({ aCase }) => aCase),
       measure,
@@ -126,6 +136,32 @@ function isHalfFilled(cells: Cell[]): boolean {
   return 2 * cells.length >= tilings.length * slicings.length;
 }
 
+// From the least that is not 0 to the most, of the maps that have the same colours: all, or those of a machine.
+export function rangesOf(cells: Cell[]): Map<string, [number, number]> {
+  const positive = Map.groupBy(
+    cells.filter((cell) => cell.value > 0),
+    (cell) => cell.machine,
+  );
+  return new Map(
+    [...positive].map(([machine, some]) => [
+      machine,
+      [
+        some.reduce((least, { value }) => Math.min(least, value), Infinity),
+        some.reduce((most, { value }) => Math.max(most, value), 0),
+      ],
+    ]),
+  );
+}
+
+function coloursText(cells: Cell[], cases: Case[], measure: Measure): string {
+  const colours =
+    measure.isOfMachine && hasMachines(cases)
+      ? "The same colours in all maps of one machine; two machines have colours of their own, since their figures are not compared."
+      : "The same colours in all maps.";
+  const isUneven = unique(cells.map(({ scenes }) => String(scenes))).length > 1;
+  return `${colours}${isUneven ? " Some are means of fewer scenes than others: the table says of how many." : ""}`;
+}
+
 export const heatMapSection: Section = (view, redraw) => {
   const cases = view.cases();
   const offered = Object.entries(measures).filter(([, measure]) => cellsOf(cases, measure).length > 0);
@@ -139,15 +175,11 @@ export const heatMapSection: Section = (view, redraw) => {
   );
   const measure = measures[key]!;
   const cells = cellsOf(cases, measure);
-  const positive = cells.map((cell) => cell.value).filter((value) => value > 0);
-  const range: [number, number] = [
-    positive.reduce((a, b) => Math.min(a, b), Infinity),
-    positive.reduce((a, b) => Math.max(a, b), 0),
-  ];
+  const ranges = rangesOf(cells);
   const all = [...Map.groupBy(cells, (cell) => cell.method)];
-  const maps = all.filter(([, some]) => some.length > 1 && isHalfFilled(some));
+  const maps = all.filter(([, some]) => some.length > 1 && isHalfFilled(some) && ranges.has(some[0]!.machine));
   const leftOut = all.length - maps.length;
-  if (positive.length === 0 || maps.length === 0) return null; // no sweep of tilings and slicings: the ranking has all
+  if (maps.length === 0) return null; // no sweep of tilings and slicings: the ranking has all
   return h(
     "section",
     { id: "grids" },
@@ -155,9 +187,11 @@ export const heatMapSection: Section = (view, redraw) => {
     figureView({
       id: "heat-map",
       title: `${measure.label} by tiling and slicing`,
-      lead: `One map per method${view.filters.scene === null ? ", the geometric mean of all scenes" : ""}. Dark is less. The same colours in all maps.${leftOut > 0 ? ` ${format.plural(leftOut, "map")} less than half filled ${leftOut === 1 ? "is" : "are"} left out; the table has all.` : ""}`,
+      lead: `One map per method${view.filters.scene === null ? ", the geometric mean of all scenes" : ""}. Dark is less. ${coloursText(cells, cases, measure)}${leftOut > 0 ? ` ${format.plural(leftOut, "map")} of one cell or less than half filled ${leftOut === 1 ? "is" : "are"} left out; the table has all.` : ""}`,
       controls: [control],
-      chart: multiples(maps.map(([title, some]) => ({ title, chart: map(some, measure, range) }))),
+      chart: multiples(
+        maps.map(([title, some]) => ({ title, chart: map(some, measure, ranges.get(some[0]!.machine)!) })),
+      ),
       table: () => ({
         caption: `${measure.label} by method, tiling and slicing`,
         columns: [

@@ -17,6 +17,7 @@ export type Standing = "taken" | "alike"; // alike: not known to cost more than 
 export interface Case {
   raw: CaseResult;
   run: Run;
+  machine: string; // whose times it has, of a result of several machines; "" of others, and without times
   scene: string;
   grid: string; // its name, or "no grid"
   assigner: string; // with its preset, and the parameters that differ from their defaults
@@ -105,13 +106,16 @@ function toCase(raw: CaseResult, { figures, sets }: PageCase, run: Run, known: K
   return {
     raw,
     run,
+    machine: raw.machine ?? "",
     scene: raw.scene,
     grid,
     assigner: raw.preset ? `${raw.preset}: ${raw.assigner.label}` : raw.assigner.label,
     family: raw.assigner.name.replace(/-fast$/, ""),
     isFast: raw.assigner.name.endsWith("-fast"),
     storage,
-    setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), grid, storage, raw.machine ?? []].flat().join(" · "),
+    setting: [run.label, raw.scene, raw.camera, raw.viewport.join("×"), grid, storage, raw.machine ?? []]
+      .flat()
+      .join(" · "),
     isOnFront: front.has(raw.id),
     isEligible: raw.eligible && !raw.samples_search,
     isSearched: raw.samples_search === true,

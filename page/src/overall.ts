@@ -1,5 +1,6 @@
 // The ranking over all scenes: each method on each grid. All means are geometric over the scenes, each scene counted once:
-// none outweighs the others by its size, and a ratio of two means is the mean of the ratios.
+// none outweighs the others by its size, and a ratio of two means is the mean of the ratios. Of a result of several machines
+// each has standings and ranks of its own.
 
 import { figure } from "./case_figures.ts";
 import { type Case, seenBy } from "./model.ts";
@@ -17,9 +18,10 @@ export interface Standing {
   grid: string;
   storage: string;
   run: string;
+  machine: string; // as the cases'
   cases: Case[];
   scenes: number;
-  rank: Maybe; // by timeByBest among the standings of its result, whatever is filtered out
+  rank: Maybe; // by timeByBest among the standings of its result and machine, whatever is filtered out
   costByBest: Mean; // none of what samples search, whose cost no GPU has measured
   timeByBest: Mean; // below 1 where it is faster than all that may stand on a front
   worstTimeByBest: Maybe;
@@ -93,6 +95,7 @@ function standing(cases: Case[], { times, costs }: Least): Standing {
     grid: first.grid,
     storage: first.storage,
     run: first.run.label,
+    machine: first.machine,
     cases,
     scenes: new Set(cases.map((aCase) => aCase.scene)).size,
     rank: null,
@@ -112,7 +115,7 @@ function standing(cases: Case[], { times, costs }: Least): Standing {
   };
 }
 
-const keyOf = (aCase: Case) => [aCase.run.label, aCase.assigner, aCase.grid, aCase.storage].join("\n");
+const keyOf = (aCase: Case) => [aCase.run.label, aCase.machine, aCase.assigner, aCase.grid, aCase.storage].join("\n");
 
 function allStandings(cases: Case[], best: Least): Map<string, Standing> {
   return new Map([...Map.groupBy(cases, keyOf)].map(([key, group]) => [key, standing(group, best)]));
@@ -122,7 +125,7 @@ function allStandings(cases: Case[], best: Least): Map<string, Standing> {
 export function standings(cases: Case[], all: Case[]): Standing[] {
   const best = { times: bestTimes(all), costs: leastOf(all, rankedCost) };
   const ranked = allStandings(all, best);
-  for (const some of Map.groupBy(ranked.values(), (row) => row.run).values())
+  for (const some of Map.groupBy(ranked.values(), (row) => [row.run, row.machine].join("\n")).values())
     some
       .filter((row) => row.timeByBest.value !== null && !row.cases.some((aCase) => aCase.isSearched))
       .sort((a, b) => a.timeByBest.value! - b.timeByBest.value!)

@@ -94,11 +94,17 @@ function columnsIn(view: View): Column<Row>[] {
     },
     column("assign_us", "assign µs", {
       isScreenOnly: true,
-      note: "on one core of this machine, of engines that assign on the CPU: of others a time here would not be theirs",
+      note: "on one core, of engines that assign on the CPU: of others a time here would not be theirs",
       value: ({ aCase, facts }) => (facts?.assigns_on === "gpu" ? null : figure(aCase, "assign_us")),
       show: ({ aCase, facts }) =>
         facts?.assigns_on === "gpu" ? "GPU" : format.microseconds(figure(aCase, "assign_us")),
     }),
+    {
+      label: "machine",
+      isScreenOnly: true,
+      about: "Where the assignment was timed",
+      value: ({ aCase }) => aCase.machine || null,
+    },
     { label: "why", value: ({ line }) => line.why, show: ({ line }) => h("span", {}, line.why) },
   ];
 }

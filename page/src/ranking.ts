@@ -4,6 +4,7 @@ import { aboutOf, columnsOf, figure, meaningOf, pairsOf, type Words } from "./ca
 import { breakable, h } from "./dom.ts";
 import * as format from "./format.ts";
 import { copyButton, csv, downloadButton } from "./handover.ts";
+import { blocksOf, hasMachines } from "./machines.ts";
 import { type Case, isRankedByCost } from "./model.ts";
 import { type Mean, type Standing, standings } from "./overall.ts";
 import { icon } from "./palette.ts";
@@ -164,15 +165,17 @@ function errorColumns(view: View, rows: Case[]): (Column<Case> | false)[] {
   ];
 }
 
+const machineColumn = {
+  label: "machine",
+  about: "Where it was timed: times of two machines are not compared",
+  value: ({ machine }: { machine: string }) => machine || null,
+};
+
 // A result, scene, camera, viewport, grid or storage, unless all cases share it.
 function namesOf(view: View, rows: Case[], hasGrids: boolean): (Column<Case> | false)[] {
   return [
     view.hasRuns && { label: "result", value: (row) => row.run.label },
-    rows.some((row) => row.raw.machine !== undefined) && {
-      label: "machine",
-      about: "Where it was timed: times of two machines are not compared",
-      value: (row) => row.raw.machine ?? "",
-    },
+    hasMachines(rows) && machineColumn,
     differ(rows, (row) => row.scene) && { label: "scene", value: (row) => row.scene },
     differ(rows, (row) => row.raw.camera) && { label: "camera", value: (row) => row.raw.camera },
     differ(rows, (row) => String(row.raw.viewport)) && {
@@ -327,10 +330,12 @@ function overallColumns(view: View, rows: Standing[]): Column<Standing>[] {
     },
     timed && {
       label: "rank by time",
-      about: "By time / best among all methods and grids, those that are filtered out as well",
+      about:
+        "By time / best among all methods and grids of a result, and of a machine, those that are filtered out as well",
       value: (row) => row.rank,
     },
     view.hasRuns && { label: "result", value: (row) => row.run },
+    rows.some((row) => row.machine) && machineColumn,
     { label: "grid", value: (row) => row.grid, isUnderFirst: hasGrids },
     differ(rows, (row) => row.storage) && { label: "storage", value: (row) => row.storage },
     differ(rows, (row) => row.scenes) && {
@@ -425,14 +430,25 @@ function wholeControl(view: View, redraw: () => void, isWhole: boolean): HTMLEle
   return h("label", { class: "control check" }, input, h("span", {}, "All columns"));
 }
 
+// A table of the ranking: one, or one for each machine.
+interface Block<Row> {
+  title: string;
+  rows: Row[];
+}
+
+const blocksNote =
+  "Times of two machines are not compared: each has a table, with ranks, ratios and a front of its own.";
+
 function ranking<Row extends { isUnlit: boolean }>(
   view: View,
   redraw: () => void,
   caption: string,
-  all: Column<Row>[],
-  rows: Row[],
+  columnsOf: (rows: Row[]) => Column<Row>[],
+  blocks: Block<Row>[],
 ): HTMLElement {
   const isWhole = view.choices.get(allColumns) === "1";
+  const rows = blocks.flatMap((block) => block.rows);
+  const all = columnsOf(rows);
   const columns = all.filter((column) => isWhole || !column.isDetail);
   const text = () => csv(all, rows);
   return h(
@@ -441,7 +457,17 @@ function ranking<Row extends { isUnlit: boolean }>(
     h("h2", {}, titleOf(view)),
     h("p", { class: "note" }, legend(view, columns, rows)),
     all.some((column) => column.isDetail) && h("div", { class: "controls" }, wholeControl(view, redraw, isWhole)),
-    tableView({ caption, columns, rows, sort: sortedBy(columns), most: 200 }),
+    blocks.some(({ title }) => title) && h("p", { class: "note" }, blocksNote),
+    ...blocks.flatMap(({ title, rows: some }) => [
+      ...(title ? [h("h3", {}, title)] : []),
+      tableView({
+        caption: title ? `${caption}, ${title}` : caption,
+        columns,
+        rows: some,
+        sort: sortedBy(columns),
+        most: 200,
+      }),
+    ]),
     h(
       "p",
       { class: "tools" },
@@ -455,11 +481,18 @@ export const rankingSection: Section = (view, redraw) => {
   const cases = view.cases();
   if (cases.length === 0) return nothing(view);
   const { scene } = view.filters;
-  if (scene !== null) return ranking(view, redraw, `Cases of ${scene}`, caseColumns(view, cases), cases);
-  const rows = standings(view.casesOfAnyFront(), view.model.cases).filter(
-    (row) => !view.filters.frontOnly || row.fronts > 0,
-  );
-  return ranking(view, redraw, "Methods over all scenes", overallColumns(view, rows), rows);
+  const isAlone = !view.hasRuns;
+  if (scene !== null) {
+    const blocks = blocksOf(cases, isAlone).map(({ title, cases: rows }) => ({ title, rows }));
+    return ranking(view, redraw, `Cases of ${scene}`, (rows) => caseColumns(view, rows), blocks);
+  }
+  const blocks = blocksOf(view.casesOfAnyFront(), isAlone)
+    .map(({ title, cases: some }) => ({
+      title,
+      rows: standings(some, view.model.cases).filter((row) => !view.filters.frontOnly || row.fronts > 0),
+    }))
+    .filter(({ rows }) => rows.length > 0);
+  return ranking(view, redraw, "Methods over all scenes", (rows) => overallColumns(view, rows), blocks);
 };
 
 function nothing(view: View): HTMLElement {

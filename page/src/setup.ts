@@ -3,6 +3,7 @@
 import { h } from "./dom.ts";
 import * as format from "./format.ts";
 import { copyButton, downloadButton } from "./handover.ts";
+import { type Place, placesOf } from "./machines.ts";
 import type { Run } from "./model.ts";
 import { tableView } from "./table.ts";
 import type { Section } from "./view.ts";
@@ -29,49 +30,66 @@ function configView(run: Run): HTMLElement {
   return details;
 }
 
+function machineFacts({ machine, simdTarget }: Place): [string, string][] {
+  return [
+    [
+      "processor",
+      [
+        machine.cpu,
+        ...(["family", "model", "stepping"] as const).flatMap((key) => (machine[key] ? `${key} ${machine[key]}` : [])),
+      ].join(", "),
+    ],
+    [
+      "caches",
+      Object.entries(machine.caches ?? {})
+        .map(([level, size]) => `${level.toUpperCase()} ${format.memory(size)}`)
+        .join(", ") || "unknown",
+    ],
+    ["cores", String(machine.cores)],
+    ["memory", format.memory(machine.ram_bytes)],
+    ["system", machine.os],
+    [
+      "clock",
+      machine.clock_mhz
+        ? `${machine.clock_mhz.now} MHz${machine.clock_mhz.max ? ` of ${machine.clock_mhz.max}` : ""}`
+        : "unknown",
+    ],
+    ["load", machine.load ? `${machine.load.begin} before the run, ${machine.load.end} after` : "unknown"],
+    ["instruction set", simdTarget],
+  ];
+}
+
+// Of several machines of a result, each with its name and its share of the cases.
+function machineViews(run: Run, isAlone: boolean): HTMLElement[] {
+  return placesOf(run).flatMap((place) => {
+    const cases = run.result.cases.filter(({ machine }) => machine === place.name).length;
+    const heading = place.name && h(isAlone ? "h3" : "h4", {}, place.name);
+    const more: [string, string][] = place.name ? [["times", format.plural(cases, "case")]] : [];
+    return [...(heading ? [heading] : []), facts([...machineFacts(place), ...more])];
+  });
+}
+
 function runView(run: Run, isAlone: boolean): HTMLElement {
-  const { tool, plugins = [], machine, scenes, cases, name, date, command } = run.result;
+  const { tool, plugins = [], scenes, cases, name, date, command } = run.result;
   const libraries = Object.entries(tool.libraries)
     .map((library) => library.join(" "))
     .join(", ");
+  const hasNames = (run.result.machines ?? []).length > 0;
+  const undated = hasNames ? "in shards, whose results say when" : "without times, so it does not say when";
   return h(
     "article",
     {},
     isAlone ? null : h("h3", {}, run.label),
+    ...machineViews(run, isAlone),
+    hasNames && h(isAlone ? "h3" : "h4", {}, "all machines"),
     facts([
-      [
-        "processor",
-        [
-          machine.cpu,
-          ...(["family", "model", "stepping"] as const).flatMap((key) =>
-            machine[key] ? `${key} ${machine[key]}` : [],
-          ),
-        ].join(", "),
-      ],
-      [
-        "caches",
-        Object.entries(machine.caches ?? {})
-          .map(([level, size]) => `${level.toUpperCase()} ${format.memory(size)}`)
-          .join(", ") || "unknown",
-      ],
-      ["cores", String(machine.cores)],
-      ["memory", format.memory(machine.ram_bytes)],
-      ["system", machine.os],
-      [
-        "clock",
-        machine.clock_mhz
-          ? `${machine.clock_mhz.now} MHz${machine.clock_mhz.max ? ` of ${machine.clock_mhz.max}` : ""}`
-          : "unknown",
-      ],
-      ["load", machine.load ? `${machine.load.begin} before the run, ${machine.load.end} after` : "unknown"],
-      ["measured", [date, command].filter(Boolean).join(", ") || "without times, so it does not say when"],
+      ["measured", [date, command].filter(Boolean).join(", ") || undated],
       ["clusterbench", `${tool.version}, commit ${tool.git_sha}`],
       ...plugins.map(({ id, version, file, sha256 }): [string, string] => [
         `plug-in ${id}`,
         `${version}, ${file}, SHA-256 ${sha256.slice(0, 12)}`,
       ]),
       ["compiler", `${tool.compiler} ${tool.flags}`],
-      ["instruction set", tool.simd_target],
       ["build", tool.build_type],
       ["libraries", libraries],
       ["configuration", `${name}, ${format.plural(cases.length, "case")}`],

@@ -5,6 +5,7 @@ import { choice, type Option } from "./controls.ts";
 import { h } from "./dom.ts";
 import { figureView } from "./figure.ts";
 import * as format from "./format.ts";
+import { hasMachines, machineKey } from "./machines.ts";
 import type { Case } from "./model.ts";
 import { placed, placements } from "./names.ts";
 import { chart, chartWidth, multiples, Plot } from "./plots.ts";
@@ -251,17 +252,24 @@ export const speedErrorSection: Section = (view, redraw) => {
   const [key, control] = choice(view, redraw, "speed-error-measure", "Error", options);
   const measure = measures[key]!;
   const all = points(cases, measure);
-  const x = timeExtent(all); // the same in all panels
+  const extents = new Map(
+    [...Map.groupBy(all, ({ aCase }) => machineKey(aCase))].map(([of, some]) => [of, timeExtent(some)]),
+  );
+  const isOfSeveral = hasMachines(all.map(({ aCase }) => aCase));
   // No front runs across results and machines.
   const scenes = [
     ...Map.groupBy(all, ({ aCase }) =>
-      [aCase.scene, view.hasRuns ? aCase.run.label : [], aCase.raw.machine ?? []].flat().join(" · "),
+      [aCase.scene, view.hasRuns && aCase.run.label, aCase.machine].filter(Boolean).join(" · "),
     ),
   ];
   const width = chartWidth(Math.min(2, scenes.length));
+  const scalesOf = (some: Point[]): Scales => ({
+    x: extents.get(machineKey(some[0]!.aCase))!, // the same in all panels of a machine
+    y: upwards(some.map(({ error }) => error)),
+  });
   const panels = scenes.slice(0, mostPanels).map(([title, some]) => ({
     title,
-    chart: panel(view, some, measure, { x, y: upwards(some.map(({ error }) => error)) }, width),
+    chart: panel(view, some, measure, scalesOf(some), width),
   }));
   const keys = [...new Map(all.map(({ aCase }) => [aCase.assigner, view.palette(aCase)]))].map(([label, look]) => ({
     label,
@@ -278,7 +286,7 @@ export const speedErrorSection: Section = (view, redraw) => {
     figureView({
       id: "speed-error",
       title: `Frame time against ${measure.label}`,
-      lead: `Down and left is better. ${capitalised(measure.label)}: ${wordsOf(view, measure)}. A ring: on the Pareto front, as * in the ranking. The grey line joins the ringed marks that no other ringed mark beats in both. Bars are 95 % intervals of the median time of ringed marks, hidden where the mark is wider; those of others show at the pointer. Each panel has its own vertical axis, logarithmic where some marks are far from the others.${more}`,
+      lead: `Down and left is better. ${capitalised(measure.label)}: ${wordsOf(view, measure)}. A ring: on the Pareto front, as * in the ranking. The grey line joins the ringed marks that no other ringed mark beats in both. Bars are 95 % intervals of the median time of ringed marks, hidden where the mark is wider; those of others show at the pointer. Each panel has its own vertical axis, logarithmic where some marks are far from the others.${isOfSeveral ? " Panels of two machines have axes of their own: their times are not compared." : ""}${more}`,
       controls: [control],
       chart: multiples(panels),
       methods: keys,
@@ -287,6 +295,7 @@ export const speedErrorSection: Section = (view, redraw) => {
         columns: [
           { label: "method", value: ({ aCase }) => aCase.assigner },
           ...(view.hasRuns ? [{ label: "result", value: ({ aCase }: Point) => aCase.run.label }] : []),
+          ...(isOfSeveral ? [{ label: "machine", value: ({ aCase }: Point) => aCase.machine || null }] : []),
           { label: "scene", value: ({ aCase }) => aCase.scene },
           { label: "grid", value: ({ aCase }) => aCase.grid },
           { label: "frame µs", value: ({ us }) => us, show: ({ us }) => format.microseconds(us) },
@@ -305,7 +314,7 @@ export const speedErrorSection: Section = (view, redraw) => {
           { label: measure.label, value: ({ error }) => error, show: ({ error }) => measure.show(error) },
         ],
         rows: all,
-        sort: { column: view.hasRuns ? 4 : 3, descending: false },
+        sort: { column: 3 + Number(view.hasRuns) + Number(isOfSeveral), descending: false },
       }),
       cases: all.map(({ aCase }) => aCase),
     }),

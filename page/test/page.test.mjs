@@ -13,6 +13,7 @@ import {
   limited,
   lossy,
   measureSweep,
+  ofTwoMachines,
   onAnotherMachine,
   presets,
   rankedByCost,
@@ -45,6 +46,9 @@ before(async () => {
   pages.wide = makePage(tool, [widened(committedResult, place)], join(place, "wide.html"));
   pages.cameras = makePage(tool, [withTwoCameras(committedResult, place)], join(place, "cameras.html"));
   pages.against = makePage(tool, [sweepFile, onAnotherMachine(sweepFile, place)], join(place, "against.html"));
+  const mergedFile = ofTwoMachines(sweepFile, place);
+  pages.merged = makePage(tool, [mergedFile], join(place, "merged.html"));
+  pages.mergedAgainst = makePage(tool, [sweepFile, mergedFile], join(place, "merged-against.html"));
   const pictured = withPictures(tool, place);
   pages.pictures = makePage(tool, [pictured.file], join(place, "pictures.html"), "--images", pictured.images);
   pages.byCost = makePage(tool, [rankedByCost(committedResult, place)], join(place, "by-cost.html"));
@@ -94,6 +98,7 @@ describe("the page", () => {
     ["sweep", "light"],
     ["two", "light"],
     ["against", "dark"],
+    ["merged", "light"],
     ["pictures", "light"],
     ["presets", "light"],
     ["history", "light"],
@@ -991,7 +996,7 @@ describe("on paper", () => {
 });
 
 describe("a screen of 400 pixels", () => {
-  for (const name of ["quick", "sweep", "lossy", "presets", "pictures", "against"])
+  for (const name of ["quick", "sweep", "lossy", "presets", "pictures", "against", "merged"])
     it(`holds ${name}, whose tables scroll in their boxes`, async () => {
       const page = await open(pages[name], { viewport: { width: 400, height: 800 } });
       for (const summary of await page.locator("main figure summary").all()) await summary.click();
@@ -1150,6 +1155,68 @@ describe("several results", () => {
   it("without a case in common say so", async () => {
     const page = await open(pages.two);
     assert.match(await page.locator("#against").innerText(), /No cases: sweep and quick have none in common/);
+  });
+});
+
+describe("a result of two machines", () => {
+  const places = ["machine 1: fast processor", "machine 2: slow processor"];
+  const ranks = (page) =>
+    page.locator("#ranking .table").evaluateAll((tables) =>
+      tables.map((table) => {
+        const heads = [...table.querySelectorAll("thead th")].map((head) => head.innerText.replace(/ [↑↓]$/, ""));
+        const at = (label) => heads.indexOf(label);
+        return [...table.querySelectorAll("tbody tr")].map(({ children }) => ({
+          machine: children[at("machine")].innerText,
+          rank: children[at("rank by time")].innerText,
+        }));
+      }),
+    );
+
+  it("names both with their processors where it says what was measured, and describes both", async () => {
+    const page = await open(pages.merged);
+    const summary = await page.locator(".summary").innerText();
+    for (const name of places) assert.ok(summary.includes(name), summary);
+    assert.deepEqual(await textsOf(page, "#setup article h3"), ["machine 1", "machine 2", "all machines"]);
+    const text = await page.locator("#setup").innerText();
+    for (const cpu of ["fast processor", "slow processor"]) assert.ok(text.includes(cpu), text);
+  });
+
+  it("has a ranking for each, over all scenes and of one, with ranks from 1 on", async () => {
+    const page = await open(pages.merged);
+    for (const scene of [null, "street"]) {
+      if (scene) await page.getByRole("radio", { name: scene }).check();
+      const titles = await textsOf(page, "#ranking h3");
+      assert.deepEqual(
+        titles.map((title) => title.replace(/, \d+ cores?$/, "")),
+        places,
+      );
+      for (const [at, rows] of (await ranks(page)).entries()) {
+        assert.deepEqual([...new Set(rows.map((row) => row.machine))], [`machine ${at + 1}`]);
+        const given = rows.map((row) => Number(row.rank)).filter((rank) => rank > 0);
+        assert.deepEqual(
+          given.sort((a, b) => a - b),
+          given.map((_, place) => place + 1),
+        );
+      }
+    }
+  });
+
+  it("has panels, maps and settings that say whose times they are of", async () => {
+    const page = await open(pages.merged);
+    for (const selector of ["#speed-error h4", "#heat-map h4", "#setting option"])
+      for (const text of await textsOf(page, selector)) assert.match(text, /machine [12]/, selector);
+    const ranges = await page
+      .locator("#heat-map svg[role=img]")
+      .evaluateAll((all) => all.map((one) => /colours from .*/.exec(one.getAttribute("aria-label"))[0]));
+    assert.equal(new Set(ranges).size, 2, String(ranges));
+  });
+
+  it("is held against another result without times", async () => {
+    const page = await open(pages.mergedAgainst);
+    assert.match(await page.locator("#against-first figcaption").innerText(), /Times are left out/);
+    assert.deepEqual(page.faults, []);
+    const heads = await textsOf(page, "#against-first thead th");
+    assert.ok(!heads.some((head) => /time|µs/.test(head)), String(heads));
   });
 });
 

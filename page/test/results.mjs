@@ -168,6 +168,32 @@ export const onAnotherMachine = (file, folder) =>
       }
   });
 
+// What `merge` makes of shards of two machines: half of the grids are of one, on the other everything takes a hundred times
+// as long. Both have what the sweep has of conclusions: none.
+export const ofTwoMachines = (file, folder) =>
+  changed(file, folder, "merged", (result) => {
+    const { clock_mhz: _clock, load: _load, ...machine } = result.machine;
+    const names = ["machine 1", "machine 2"];
+    const cpus = ["fast processor", "slow processor"];
+    result.machine = { ...machine, cpu: cpus[0] };
+    result.machines = names.map((name, at) => ({
+      name,
+      machine: { ...machine, cpu: cpus[at] },
+      simd_target: result.tool.simd_target,
+    }));
+    delete result.conclusions;
+    const grids = [...new Set(result.cases.map(({ grid }) => grid.name))];
+    for (const one of result.cases) {
+      const at = 2 * grids.indexOf(one.grid.name) < grids.length ? 0 : 1;
+      one.machine = names[at];
+      if (at === 0) continue;
+      for (const time of Object.values(one.timing)) {
+        if (time?.median) time.median *= 100;
+        if (time?.ci95) time.ci95 = time.ci95.map((end) => end && 100 * end);
+      }
+    }
+  });
+
 // Of 14 commits; with the seventh all times became longer.
 export function historyPage(tool, folder) {
   const history = join(folder, "history.jsonl"),
