@@ -40,8 +40,10 @@ def common_licences(pieces):
 def debian_copyright(licence, pieces, package):
     """The file `copyright` of a Debian package: ours, and where those of others are."""
     names = "".join(f"  {piece.name} {piece.version}: {piece.licence}\n" for piece in pieces)
+    common = "".join(f"  {COMMON / name}\n" for name in common_licences(pieces))
+    shared = f"\nOn Debian, licences that these texts name are\n\n{common}" if common else ""
     return (f"{licence.rstrip()}\n\nThe files of this package contain code of others, or are linked with it. Versions, licences and how each is\n"
-            f"used are in /usr/share/doc/{package}/third-party/README.md, the licences in full beside it:\n\n{names}")
+            f"used are in /usr/share/doc/{package}/third-party/README.md, the licences in full beside it:\n\n{names}{shared}")
 
 
 def write(pieces, folder):

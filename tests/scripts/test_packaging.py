@@ -170,6 +170,7 @@ class Packages(unittest.TestCase):
         text = notices.debian_copyright("MIT License\n", [self.piece("headers")], "clusterbench-dev")
         self.assertIn("/usr/share/doc/clusterbench-dev/third-party/README.md", text)
         self.assertIn("  one 2.0-3: MIT\n", text)
+        self.assertEqual("  /usr/share/common-licenses/GPL-2\n" in text, (notices.COMMON / "GPL-2").exists())
 
     def test_the_note_on_the_lgpl_says_where_the_source_is(self):
         for how, place in (("shared", "in `lib/`"), ("system", "of the system")):
