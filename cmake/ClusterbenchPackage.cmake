@@ -1,6 +1,6 @@
 # clusterbench_package(): what `cpack` makes of a build. Generator External: an archive that needs glibc and libstdc++ alone.
 # Generator DEB: the packages clusterbench and clusterbench-dev, with dependencies. scripts/package calls it in a way that
-# gives the same bytes for the same commit. packaging/README.md says who adds what.
+# gives the same bytes for the same commit and the same Debian packages. packaging/README.md says who adds what.
 set(CLUSTERBENCH_MAINTAINER "The clusterbench maintainers <clusterbench@localhost.localdomain>" CACHE STRING
   "Who made the Debian packages: NAME <ADDRESS>")
 

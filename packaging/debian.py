@@ -3,6 +3,7 @@
 import dataclasses
 import pathlib
 import re
+import shutil
 
 from facts import Refused, output
 
@@ -65,3 +66,17 @@ def package(facts, name):
 def project_name(source):
     """The name of the project behind a source package. Some of these have the version in it: boost1.74."""
     return re.sub(r"^(boost|libpng|nlohmann-json|embree)[\d.]+$", r"\1", source)
+
+
+def updates(policy):
+    """Of what `apt-cache policy` prints: packages that have a newer version than the installed one: [(name, installed, candidate)]."""
+    found = re.findall(r"^(\S+):\n  Installed: (\S+)\n  Candidate: (\S+)$", policy, re.MULTILINE)
+    return [entry for entry in found if entry[1] not in ("(none)", entry[2]) and entry[2] != "(none)"]
+
+
+def pending_updates(facts, paths):
+    """Updates of the packages that these files are of, as far as this machine's lists of packages know of them."""
+    if facts.dpkg or not paths or not shutil.which("apt-cache"):
+        return []
+    names = sorted(set(owners(facts, [str(path) for path in paths]).values()))
+    return updates(output(["env", "LC_ALL=C", "apt-cache", "policy", *names]))

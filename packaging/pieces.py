@@ -20,11 +20,12 @@ class Piece:
     name: str
     version: str
     licence: str  # an SPDX expression
-    how: str  # shared, static, headers, page
+    how: str  # shared: packed; system: a shared library that is not; static, headers, page
     homepage: str
     purl: str  # package URL
     text: str  # its licences in full
-    files: dict = dataclasses.field(default_factory=dict)  # of shared libraries: {name in the package: file}
+    files: dict = dataclasses.field(default_factory=dict)  # of shared libraries that are packed: {name in the package: file}
+    source: str = ""  # where Debian keeps the source of this version
 
 
 def known_licences():
@@ -36,14 +37,20 @@ def inputs(facts):
     return set(output(["ninja", "-C", str(facts.build), "-t", "inputs", "clusterbench"]).splitlines())
 
 
+def library_objects(facts):
+    """Files in the library for engines; `-t inputs` would name what has to be built before it, too."""
+    text = output(["ninja", "-C", str(facts.build), "-t", "query", "libclusterbench_assign.a"])
+    return set(re.findall(r"^    ([^|\s].*\.o)$", text, re.MULTILINE))
+
+
 def linked_archives(facts):
     """Static libraries of others in the program."""
     return sorted(path for path in inputs(facts) if path.startswith("/") and path.endswith(".a") and not is_own(facts, path))
 
 
-def read_headers(facts):
-    """Headers of others that were read for the program."""
-    made_of, paths, counts = inputs(facts), set(), False
+def read_headers(facts, made_of):
+    """Headers of others that were read for these files."""
+    paths, counts = set(), False
     for line in output(["ninja", "-C", str(facts.build), "-t", "deps"]).splitlines():
         if not line.startswith(" "):  # OUTPUT: #deps 436, ..., and its files below
             counts = line.split(": #deps")[0] in made_of
@@ -78,7 +85,8 @@ def piece_of(facts, package, how):
         raise Refused(f"{name} is in the program, but packaging/licences.json does not name its licence")
     version = package.version.replace("+", "%2B").replace(":", "%3A")
     purl = f"pkg:deb/debian/{package.source}@{version}?arch=source"
-    return Piece(name, package.version, known["licence"], how, package.homepage, purl, licence_text(facts, package, known.get("only")))
+    return Piece(name, package.version, known["licence"], how, package.homepage, purl, licence_text(facts, package, known.get("only")),
+                 source=f"https://snapshot.debian.org/package/{package.source}/{version}/")
 
 
 def runtimes(facts):
@@ -87,20 +95,23 @@ def runtimes(facts):
         if facts.is_windows else []
 
 
-def debian_pieces(facts, shared):
-    """`shared`: {name: file} of the libraries that are packed. What is in several ways in the program is named by the first."""
-    ways = [("shared", shared.values()), ("static", linked_archives(facts)), ("headers", read_headers(facts))]
+def debian_pieces(facts, ways):
+    """`ways`: (how, files) in turn. What is in several ways in the program is named by the first."""
     pieces = {}
     for how, files in ways:
-        owner = debian.owners(facts, [str(path) for path in files])
+        owner = debian.owners(facts, [str(path) for path in (files.values() if how == "shared" else files)])
         for name in sorted(set(owner.values())):
             package = debian.package(facts, name)
             if not TOOLCHAIN.match(package.source) and debian.project_name(package.source) not in pieces:
                 pieces[debian.project_name(package.source)] = piece_of(facts, package, how)
-        if how == "shared":
-            for name, path in shared.items():
+        if how == "shared":  # {name in the package: file}
+            for name, path in files.items():
                 pieces[debian.project_name(debian.package(facts, owner[str(path)]).source)].files[name] = path
-    return list(pieces.values())
+    return sorted(pieces.values(), key=lambda piece: piece.name)
+
+
+def compiled(facts):
+    return [("static", linked_archives(facts)), ("headers", read_headers(facts, inputs(facts)))]
 
 
 def page_pieces(facts):
@@ -114,4 +125,21 @@ def page_pieces(facts):
 
 
 def all_pieces(facts, shared):
-    return sorted(debian_pieces(facts, shared) + runtimes(facts) + page_pieces(facts), key=lambda piece: (piece.how == "page", piece.name))
+    """Of the program. `shared`: {name: file} of the libraries that are packed."""
+    found = debian_pieces(facts, [("shared", shared), *compiled(facts)]) + runtimes(facts)
+    return sorted(found, key=lambda piece: piece.name) + sorted(page_pieces(facts), key=lambda piece: piece.name)
+
+
+def pieces_beside_the_system(facts, program):
+    """Of a program whose shared libraries are dependencies, and not in its package."""
+    system = [binaries.find_library(facts, name) for name in binaries.needed(facts, program) if not binaries.OF_THE_MACHINE.match(name)]
+    found = debian_pieces(facts, [("system", system), *compiled(facts)])
+    return found + sorted(page_pieces(facts), key=lambda piece: piece.name)
+
+
+def library_pieces(facts):
+    """Of the static library for engines, which is linked with Highway's shared one."""
+    found = debian_pieces(facts, [("headers", read_headers(facts, library_objects(facts)))])
+    for piece in found:
+        piece.how = "system" if piece.name == "highway" else piece.how
+    return found

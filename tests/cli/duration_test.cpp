@@ -54,6 +54,12 @@ TEST(Progress, says_how_many_are_done_what_share_how_long_is_left_and_what_is_do
   EXPECT_NE(begun.find("[0/8] 0 %  level: truth"), std::string::npos) << begun;
 }
 
+TEST(Progress, counts_no_cases_where_there_are_none) {
+  const std::regex words(R"(\r\x1b\[K46 %, \d+:\d\d left  pictures of a\r\S*)");
+  const std::string line = shown({0, 0, 46.0, 100.0, "pictures of a"});
+  EXPECT_TRUE(std::regex_match(line, words)) << line;
+}
+
 // A level that takes no time, which every command says of itself in its first line.
 TEST(Duration, is_told_in_the_first_line_of_each_command_that_somebody_waits_for) {
   const Folder folder;

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What a package says of its contents is what is in it: test_packaging.py [BUILD_FOLDER]."""
 
+import hashlib
 import json
 import os
 import pathlib
@@ -18,6 +19,7 @@ sys.path.insert(0, str(ROOT / "packaging"))
 import archive  # noqa: E402
 import binaries  # noqa: E402
 import debian  # noqa: E402
+import links  # noqa: E402
 import notices  # noqa: E402
 import pieces  # noqa: E402
 import sbom  # noqa: E402
@@ -93,22 +95,127 @@ class Packages(unittest.TestCase):
         for source, project in (("boost1.74", "boost"), ("libpng1.6", "libpng"), ("nlohmann-json3", "nlohmann-json"), ("re2", "re2")):
             self.assertEqual(debian.project_name(source), project)
 
-    def piece(self):
-        file = self.binary(self.folder / "lib/libone.so.1")
-        return pieces.Piece("one", "2.0-3", "MIT", "shared", "", "pkg:deb/debian/one@2.0-3", "see /usr/share/common-licenses/GPL-2.",
-                            {"libone.so.1": file})
+    def piece(self, how="shared"):
+        file = self.binary(self.folder / "root/lib/libone.so.1")
+        return pieces.Piece("one", "2.0-3", "MIT", how, "", "pkg:deb/debian/one@2.0-3", "see /usr/share/common-licenses/GPL-2.",
+                            {"libone.so.1": file} if how == "shared" else {}, "https://snapshot.debian.org/package/one/2.0-3/")
+
+    def bill(self, piece, name="clusterbench", kind=""):
+        return sbom.document(self.facts, self.folder / "root", [piece], self.folder / "root/x.spdx.json", name, kind)
 
     def test_the_bill_of_materials_names_each_thing_once_and_relates_what_it_names(self):
-        program = self.binary(self.folder / "bin/clusterbench")
-        document = sbom.document(self.facts, self.folder, [self.piece()], program)
+        self.binary(self.folder / "root/bin/clusterbench")
+        document = self.bill(self.piece())
         names = [entry["SPDXID"] for kind in ("packages", "files") for entry in document[kind]] + [document["SPDXID"]]
         self.assertEqual(len(names), len(set(names)))
         related = {name for relation in document["relationships"] for name in (relation["spdxElementId"], relation["relatedSpdxElement"])}
         self.assertEqual(related, set(names))
-        sums = subprocess.run(["sha256sum", self.folder / "lib/libone.so.1"], check=True, capture_output=True, text=True).stdout
+        sums = subprocess.run(["sha256sum", self.folder / "root/lib/libone.so.1"], check=True, capture_output=True, text=True).stdout
         file = next(entry for entry in document["files"] if entry["fileName"] == "./lib/libone.so.1")
         self.assertIn({"algorithm": "SHA256", "checksumValue": sums.split()[0]}, file["checksums"])
         self.assertEqual([entry["versionInfo"] for entry in document["packages"]], ["1.2.3", "2.0-3"])
+
+    def test_the_bill_of_materials_has_all_files_and_their_sum(self):
+        self.binary(self.folder / "root/bin/clusterbench", "x")
+        self.binary(self.folder / "root/lib/libclusterbench_assign.a", "y")
+        self.binary(self.folder / "root/a/b-c")
+        self.binary(self.folder / "root/a-b/c")
+        self.binary(self.folder / "root/x.spdx.json")
+        document = self.bill(self.piece())
+        self.assertEqual([entry["fileName"] for entry in document["files"]],
+                         ["./a/b-c", "./a-b/c", "./bin/clusterbench", "./lib/libclusterbench_assign.a", "./lib/libone.so.1"])
+        self.assertEqual(len({entry["SPDXID"] for entry in document["files"]}), 5)
+        sums = sorted(entry["checksums"][0]["checksumValue"] for entry in document["files"])
+        code = document["packages"][0]["packageVerificationCode"]
+        self.assertEqual(code, {"packageVerificationCodeValue": hashlib.sha1("".join(sums).encode()).hexdigest(),
+                                "packageVerificationCodeExcludedFiles": ["./x.spdx.json"]})
+
+    def test_only_a_package_whose_files_were_analyzed_contains_files(self):
+        self.binary(self.folder / "root/bin/clusterbench")
+        document = self.bill(self.piece())
+        analyzed = {entry["SPDXID"] for entry in document["packages"] if entry["filesAnalyzed"]}
+        files = {entry["SPDXID"] for entry in document["files"]}
+        holders = {relation["spdxElementId"] for relation in document["relationships"]
+                   if relation["relationshipType"] == "CONTAINS" and relation["relatedSpdxElement"] in files}
+        self.assertEqual(holders, analyzed)
+
+    def test_a_library_of_the_system_is_linked_dynamically_and_not_in_the_package(self):
+        self.binary(self.folder / "root/bin/clusterbench")
+        kinds = {relation["relationshipType"] for relation in self.bill(self.piece("system"))["relationships"]
+                 if relation["relatedSpdxElement"].endswith("-one")}
+        self.assertEqual(kinds, {"DYNAMIC_LINK"})
+        self.assertIn("shared library of the system, not in this package", notices.table([self.piece("system")]))
+
+    @unittest.skipUnless(shutil.which("dpkg-query"), "this system has no dpkg")
+    def test_libraries_that_a_program_needs_and_does_not_bring_are_of_the_system(self):
+        program = self.binary(self.folder / "bin/clusterbench", "libone.so.1", "libc.so.6")
+        library = self.binary(self.libraries / "libone.so.1", "libtwo.so.2")
+        self.binary(self.folder / "usr/share/doc/zlib1g/copyright", "licence")
+        self.dpkg("zlib1g", "zlib", [f"/{library.relative_to(self.folder)}"])
+        pieces_compiled, pieces.compiled = pieces.compiled, lambda facts: [("static", []), ("headers", [str(library)])]
+        self.addCleanup(setattr, pieces, "compiled", pieces_compiled)
+        self.assertEqual([(piece.name, piece.how, piece.files) for piece in pieces.pieces_beside_the_system(self.facts, program)],
+                         [("zlib", "system", {})])
+
+    def test_two_bills_of_materials_are_two_documents(self):
+        self.binary(self.folder / "root/bin/clusterbench")
+        one = self.piece()
+        bills = [self.bill(one), self.bill(one, kind="-deb"), self.bill(one, name="clusterbench-dev", kind="-deb")]
+        one.version = "2.0-4"
+        bills.append(self.bill(one))
+        self.assertEqual(len({bill["documentNamespace"] for bill in bills}), 4)
+        self.assertEqual(len({bill["name"] for bill in bills}), 3)
+
+    def test_the_copyright_of_a_debian_package_names_others(self):
+        text = notices.debian_copyright("MIT License\n", [self.piece("headers")], "clusterbench-dev")
+        self.assertIn("/usr/share/doc/clusterbench-dev/third-party/README.md", text)
+        self.assertIn("  one 2.0-3: MIT\n", text)
+        self.assertEqual("  /usr/share/common-licenses/GPL-2\n" in text, (notices.COMMON / "GPL-2").exists())
+
+    def test_the_note_on_the_lgpl_says_where_the_source_is(self):
+        for how, place in (("shared", "in `lib/`"), ("system", "of the system")):
+            piece = self.piece(how)
+            piece.licence = "LGPL-2.1-or-later AND MIT"
+            self.assertRegex(notices.lgpl_note([piece]), f"{place}.*https://snapshot.debian.org/package/one/2.0-3/")
+        self.assertEqual(notices.lgpl_note([self.piece()]), "")
+
+    def test_updates_that_are_there_are_found(self):
+        policy = ("libone1:\n  Installed: 1.0-1\n  Candidate: 1.0-2\n  Version table:\n     1.0-2 500\n"
+                  "libtwo2:\n  Installed: 2.0\n  Candidate: 2.0\n  Version table:\nlibthree3:\n  Installed: (none)\n  Candidate: 3.0\n")
+        self.assertEqual(debian.updates(policy), [("libone1", "1.0-1", "1.0-2")])
+
+    def test_links_of_packed_documents_lead_to_what_is_packed(self):
+        documents, data = self.folder / "share/doc/clusterbench", self.folder / "share/clusterbench"
+        for path in (data / "configs/a.json", documents / "docs/b.md", documents / "copyright"):
+            self.binary(path)
+        (documents / "README.md").write_text("# title\n\n[b](docs/b.md#x) [b](#x) [c](https://x/) [a](configs/a.json) [MIT](LICENSE)\n"
+                                             "![cells of `x`](results/x.svg) [`page/y`](page/y) [z](page/z)\n```cpp\n[](int)\n```\n",
+                                             encoding="utf-8")
+        links.settle(documents, data, "0123", {"LICENSE": "copyright"})
+        text = (documents / "README.md").read_text(encoding="utf-8")
+        self.assertTrue(text.startswith("# title\n\n*From a package of commit 0123"), text)
+        self.assertTrue(text.endswith(
+            "[b](docs/b.md#x) [b](#x) [c](https://x/) [a](../../clusterbench/configs/a.json) [MIT](copyright)\n"
+            "(In the sources a picture, `results/x.svg`: cells of `x`) `page/y` z (`page/z` in the sources)\n```cpp\n[](int)\n```\n"), text)
+
+    def test_debian_packages_have_notices_bills_of_materials_and_names_in_usr(self):
+        for path in ("Unspecified/usr/bin/clusterbench", "Unspecified/usr/share/man/man1/clusterbench.1",
+                     "Unspecified/usr/share/doc/clusterbench/README.md", "library/usr/lib/libclusterbench_assign.a",
+                     "library/usr/lib/pkgconfig/clusterbench-assign.pc"):
+            self.binary(self.folder / path)
+        for name in ("pieces_beside_the_system", "library_pieces"):
+            self.addCleanup(setattr, pieces, name, getattr(pieces, name))
+        pieces.pieces_beside_the_system = lambda facts, program: [self.piece("system")]
+        pieces.library_pieces = lambda facts: [self.piece("headers")]
+        stage.stage_deb(self.facts, self.folder)
+        for folder, package, file in (("Unspecified", "clusterbench", "./usr/bin/clusterbench"),
+                                      ("library", "clusterbench-dev", "./usr/lib/libclusterbench_assign.a")):
+            documents = self.folder / folder / "usr/share/doc" / package
+            self.assertIn("| one |", (documents / "third-party/README.md").read_text(encoding="utf-8"))
+            bill = json.loads((documents / f"{package}-1.2.3-linux-some.spdx.json").read_text(encoding="utf-8"))
+            self.assertIn(file, [entry["fileName"] for entry in bill["files"]])
+            self.assertIn("third-party/README.md", (documents / "copyright").read_text(encoding="utf-8"))
+        self.assertTrue((self.folder / "library/usr/share/pkgconfig/clusterbench-assign.pc").exists())
 
     def test_notices_hold_the_texts_and_what_these_refer_to(self):
         notices.write([self.piece()], self.folder / "third-party")
@@ -124,7 +231,6 @@ class Packages(unittest.TestCase):
         stage.settle(self.folder / "packed", 1000)
         for path, mode in ((program, 0o755), (text, 0o644), (program.parent, 0o755)):
             self.assertEqual((stat.S_IMODE(path.stat().st_mode), path.stat().st_mtime), (mode, 1000), path)
-
 
     def test_an_archive_does_not_depend_on_who_made_the_files_in_which_order(self):
         for write, ending in ((archive.write_tar, "tar.xz"), (archive.write_zip, "zip")):
@@ -157,6 +263,8 @@ class OfThisBuild(unittest.TestCase):
         for name, how in (("nlohmann-json", "headers"), ("glm", "headers"), ("highway", "shared")):
             self.assertEqual(found[name].how, how)
         self.assertTrue(all(piece.text and piece.version for piece in found.values()))
+        library = {piece.name for piece in pieces.library_pieces(facts)} if (self.build / "libclusterbench_assign.a").exists() else set()
+        self.assertLessEqual(library, {"boost", "glm", "highway"})
         documented = (ROOT / "docs/third-party.md").read_text(encoding="utf-8").lower().replace(" ", "-")
         names = {name: pieces.known_licences()[name].get("documented", name) for name, piece in found.items() if piece.how != "page"}
         self.assertEqual([name for name, written in names.items() if f"[{written}]" not in documented], [])

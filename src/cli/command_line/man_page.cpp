@@ -27,20 +27,28 @@ std::string italic(const std::string& text) {
   return "\\fI" + escaped(text) + "\\fR";
 }
 
+// "DIR" of "DIR: pictures of each case": the name that an option's text gives its value, else that of its kind.
+std::string value_name(const OptionNode& option) {
+  const std::string named = option.description.substr(0, option.description.find(':'));
+  const bool is_name = named.size() > 1 && named.size() < option.description.size() &&
+                       named.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ=,[]") == std::string::npos;
+  return is_name ? named : placeholder(option);
+}
+
 std::string option_heading(const OptionNode& option) {
   std::string heading;
   for (const std::string& name : option.names) heading += (heading.empty() ? "" : ", ") + bold(name);
   if (!option.needs_value) return heading;
-  return heading +
-         (option.is_value_optional ? "[=" + italic(placeholder(option)) + "]" : " " + italic(placeholder(option)));
+  const std::string name = italic(value_name(option));
+  return heading + (option.is_value_optional ? "[=" + name + "]" : " " + name);
 }
 
 std::string entry(const std::string& heading, const std::string& text, const Values& values) {
-  std::string out = ".TP\n" + heading + "\n" + escaped(text) + "\n";
-  if (values.words.empty()) return out;
+  const std::string out = ".TP\n" + heading + "\n" + escaped(text);
+  if (values.words.empty()) return out + "\n";
   std::string words;
   for (const std::string& word : values.words) words += (words.empty() ? "" : ", ") + bold(word);
-  return out + "One of " + words + ".\n";
+  return out + (text.empty() || text.ends_with('.') ? "\n" : ".\n") + "One of " + words + ".\n";
 }
 
 std::string usage(const CommandNode& command) {

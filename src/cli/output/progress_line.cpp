@@ -33,8 +33,10 @@ ProgressLine::~ProgressLine() {
 std::string ProgressLine::line() const {
   const double share = last_.cost_total > 0 ? last_.cost_done / last_.cost_total : 0.0;
   const double elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
-  std::string out = "[" + std::to_string(last_.cases_done) + "/" + std::to_string(last_.cases_total) + "] " +
-                    std::to_string(static_cast<int>(100.0 * share)) + " %";
+  std::string out;
+  if (last_.cases_total > 0)  // pictures have none
+    out = "[" + std::to_string(last_.cases_done) + "/" + std::to_string(last_.cases_total) + "] ";
+  out += std::to_string(static_cast<int>(100.0 * share)) + " %";
   if (share > 0.01) out += ", " + minutes_and_seconds(elapsed_s * (1.0 - share) / share) + " left";
   return out + "  " + printable(last_.doing);
 }
