@@ -23,7 +23,8 @@ int main(int argc, char** argv) {
     clusterbench::cli::print_message(clusterbench::printable(error.what()));
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
-    clusterbench::cli::print_message("out of memory; measure fewer lights, cells or cases at once, or count with --threads 1, which takes least");
+    clusterbench::cli::print_message(
+        "out of memory; measure fewer lights, cells or cases at once, or count with --threads 1, which takes least");
     return static_cast<int>(ExitCode::internal);
   } catch (const std::exception& error) {
     clusterbench::cli::print_message(std::string("internal error: ") + error.what());

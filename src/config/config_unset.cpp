@@ -47,7 +47,8 @@ void UnsetDefaults::add_to(Json& document) const {
 Json document_of_scenes(std::span<const std::filesystem::path> scenes) {
   Json list = Json::array();
   for (const std::filesystem::path& path : scenes)
-    list.push_back({{"path", path.generic_string()}, {"frames", {{"most", k_usual_frames}, {"lights", k_usual_lights}}}});
+    list.push_back(
+        {{"path", path.generic_string()}, {"frames", {{"most", k_usual_frames}, {"lights", k_usual_lights}}}});
   return {{"name", scenes.size() == 1 ? printable(scenes.front().stem().string()) : "scenes"},
           {"scenes", list},
           {"timing", {{"rounds", 15}, {"min_time_ms", 2}, {"frames", 4}}}};

@@ -40,7 +40,7 @@ struct StressRequest {
   std::uint64_t random = 0;      // random settings to check, with the seeds from `seed` on
   Pattern cases, methods;
   bool takes_device = false;  // methods that run on the device of the process; without it only those that are named
-  int threads = 1;  // results do not depend on it
+  int threads = 1;            // results do not depend on it
 };
 
 // A miss that `run` can reproduce.

@@ -41,7 +41,8 @@ Json scene_json(const config::Config& config, std::size_t scene, const std::stri
     return entry;
   }
   const fs::path folder = fs::absolute(file).parent_path();
-  entry["path"] = fs::absolute(request.path).lexically_normal().lexically_proximate(folder.lexically_normal()).generic_string();
+  entry["path"] =
+      fs::absolute(request.path).lexically_normal().lexically_proximate(folder.lexically_normal()).generic_string();
   return entry;
 }
 
