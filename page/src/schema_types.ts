@@ -10,6 +10,25 @@ export type Tool = {
   libraries: Record<string, string>; // Version of each library
 };
 
+export type Machine = {
+  cpu: string; // The processor's name
+  family?: string; // The vendor's number, on ARM the implementer's; absent if unknown
+  model?: string; // On ARM the part; absent if unknown
+  stepping?: string; // On ARM variant and revision, r3p1; absent if unknown
+  caches?: Record<string, number>; // Those that the first core uses; absent if unknown [bytes, over the first core]
+  cores: number; // Logical ones [cores, over the machine]
+  ram_bytes: number; // Main memory [bytes, over the machine]
+  clock_mhz?: {
+    now: number; // Mean when the run began [over all cores]
+    max?: number; // The highest that the system allows; absent if it does not say [over the first core]
+  }; // The processor's clock; absent if unknown, and where nothing is timed [MHz]
+  load?: {
+    begin: number; // Just before the run
+    end: number; // Just after; a run adds its own threads
+  }; // Programs that run or wait to run. Absent where nothing is timed [programs, over one minute, the machine]
+  os: string; // System, kernel and architecture
+};
+
 // [x, y, z]
 export type Vector = [number, number, number];
 
@@ -174,50 +193,21 @@ export type Result = {
     interface_version: string; // That it was made for, as 1.0
   }>; // Shared libraries that cases' methods come from. Absent without any
   shard?: {
-    index: number; // Its number, from 1
+    index: number; // Its number, from 1 [shards, over the run]
     count: number; // Of all shards of the run [shards, over the run]
-    sweep: string; // SHA-256 of what all of its shards have in common: program, configuration, filter, scenes, cases
+    sweep: string; // SHA-256 of what all of its shards have in common: program, configuration, baseline, filter, scenes, cases
     filter?: string; // That selected the run's cases (--filter); absent without one
     host?: string; // Start of the SHA-256 of the machine's name: times of two machines of one kind stay apart. Absent where nothing is timed, and where the machine does not tell its name
+    cases: number; // Of this result, when it was written: `merge` counts them [cases, over the result]
+    baseline?: {
+      file: string; // As the shard opened it: relative to the folder that it ran in
+      sha256: string; // SHA-256 of the file: `merge` takes no other
+    }; // The result that `merge` holds all cases against (--baseline, limits.baseline); absent without one
   }; // The result is this part of a run (`run --shard`), and `clusterbench merge` makes one result of all parts. Absent: it is whole
-  machine: {
-    cpu: string; // The processor's name
-    family?: string; // The vendor's number, on ARM the implementer's; absent if unknown
-    model?: string; // On ARM the part; absent if unknown
-    stepping?: string; // On ARM variant and revision, r3p1; absent if unknown
-    caches?: Record<string, number>; // Those that the first core uses; absent if unknown [bytes, over the first core]
-    cores: number; // Logical ones [cores, over the machine]
-    ram_bytes: number; // Main memory [bytes, over the machine]
-    clock_mhz?: {
-      now: number; // Mean when the run began [over all cores]
-      max?: number; // The highest that the system allows; absent if it does not say [over the first core]
-    }; // The processor's clock; absent if unknown, and where nothing is timed [MHz]
-    load?: {
-      begin: number; // Just before the run
-      end: number; // Just after; a run adds its own threads
-    }; // Programs that run or wait to run. Absent where nothing is timed [programs, over one minute, the machine]
-    os: string; // System, kernel and architecture
-  }; // Where it was measured; with `machines` the first of them
+  machine: Machine; // Where it was measured; with `machines` the first of them
   machines?: Array<{
     name: string; // Of `machine` of its cases: machine 1, machine 2 ...
-    machine: {
-      cpu: string; // The processor's name
-      family?: string; // The vendor's number, on ARM the implementer's; absent if unknown
-      model?: string; // On ARM the part; absent if unknown
-      stepping?: string; // On ARM variant and revision, r3p1; absent if unknown
-      caches?: Record<string, number>; // Those that the first core uses; absent if unknown [bytes, over the first core]
-      cores: number; // Logical ones [cores, over the machine]
-      ram_bytes: number; // Main memory [bytes, over the machine]
-      clock_mhz?: {
-        now: number; // Mean when the run began [over all cores]
-        max?: number; // The highest that the system allows; absent if it does not say [over the first core]
-      }; // The processor's clock; absent if unknown, and where nothing is timed [MHz]
-      load?: {
-        begin: number; // Just before the run
-        end: number; // Just after; a run adds its own threads
-      }; // Programs that run or wait to run. Absent where nothing is timed [programs, over one minute, the machine]
-      os: string; // System, kernel and architecture
-    }; // As `machine` of a result
+    machine: Machine; // As `machine` of a result
     simd_target: string; // As `tool.simd_target`
     host?: string; // As `shard.host`; absent where it is not known
   }>; // Of a merged result the machines whose times, device's times or instructions it has; those of two are never compared, and every one has ranks, fronts and conclusions of its own. Absent where it is one
