@@ -65,7 +65,13 @@ function notices(inputs) {
 function packageFacts(name) {
   const facts = JSON.parse(readFileSync(join(root, "node_modules", name, "package.json"), "utf8"));
   if (!facts.license) throw new Error(`${name}/package.json names no licence`);
-  return { name, version: facts.version, licence: facts.license, homepage: facts.homepage ?? "", text: licenceText(name) };
+  return {
+    name,
+    version: facts.version,
+    licence: facts.license,
+    homepage: facts.homepage ?? "",
+    text: licenceText(name),
+  };
 }
 
 function filled(text, values) {
