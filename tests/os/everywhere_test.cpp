@@ -157,7 +157,18 @@ TEST(Everywhere, a_temporary_folder_goes_with_what_is_in_it) {
 
 // --- Processes: this program again, which runs one of the tests below ---
 
+// The child is one test, whatever part of all tests this process runs.
+void run_children_whole() {
+  for (const char* name : {"GTEST_TOTAL_SHARDS", "GTEST_SHARD_INDEX"})
+#ifdef _WIN32
+    _putenv_s(name, "");
+#else
+    ::unsetenv(name);
+#endif
+}
+
 std::vector<std::string> child_command(const std::string& test, const std::vector<std::string>& words = {}) {
+  run_children_whole();
   std::vector<std::string> command{this_program(), "--gtest_filter=Child.DISABLED_" + test,
                                    "--gtest_also_run_disabled_tests", "--gtest_brief=1", "--"};
   command.insert(command.end(), words.begin(), words.end());
