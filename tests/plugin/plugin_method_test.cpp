@@ -16,6 +16,7 @@
 #include "core/text.h"
 #include "effort.h"
 #include "os/call_notes.h"
+#include "os/kept_files.h"
 #include "plugin/exported_method.h"
 #include "plugin/plugin_by_hand.h"
 
@@ -287,6 +288,7 @@ TEST(KeptInputs, puts_back_what_was_written) {
 TEST(PluginMethod, that_ends_its_thread_ends_the_process_with_a_sentence_and_no_success) {
   const auto in_a_copy_on_purpose = [] {
     os::note_own_process();
+    os::keep_standard_files();  // the test reads standard error
     fault_of([](const auto&, auto&, auto&) -> clusterbench_status { pthread_exit(nullptr); });
   };
   EXPECT_EXIT(in_a_copy_on_purpose(), ::testing::ExitedWithCode(static_cast<int>(ExitCode::internal)),
