@@ -45,7 +45,7 @@ std::string place_of_baseline(const MergeFlags& flags, const report::NamedPart& 
     if (flags.baseline.empty()) return "";
     throw Error("", "--baseline", "names where the baseline of the shards lies, and " + shard.file + " has none");
   }
-  const std::string place = flags.baseline.empty() ? baseline->file : flags.baseline;
+  std::string place = flags.baseline.empty() ? baseline->file : flags.baseline;
   const std::string wanted = "the shards were measured against " + baseline->file + " with SHA-256 " +
                              baseline->sha256 + "; name that file with --baseline FILE";
   std::string found;
