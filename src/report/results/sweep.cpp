@@ -28,7 +28,7 @@ Json without_places(Json config) {
 std::string first_difference(const Json& one, const Json& other) {
   const Json changes = Json::diff(one, other);
   if (changes.empty()) return "";
-  const std::string path = changes.front()["path"].get<std::string>();
+  std::string path = changes.front()["path"].get<std::string>();
   if (!path.ends_with("/-")) return path;
   const std::string list = path.substr(0, path.size() - 2);  // the other one is longer
   const Json* shorter = value_at(one, list);
