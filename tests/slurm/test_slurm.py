@@ -111,6 +111,9 @@ class Cluster:
             process.wait()
 
     def kill_controller(self):
+        """Once it has written its jobs to the disk, which it does some seconds after they came."""
+        began, jobs = time.time(), self.folder / "state" / "job_state"
+        until(lambda: jobs.exists() and jobs.stat().st_mtime > began, "the controller's jobs are on the disk", 30)
         self.processes["slurmctld"].kill()
         self.processes["slurmctld"].wait()
 
