@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "os/locked_file.h"
+#include "report/history/history_lines.h"
 #include "report/history/history_page.h"
 #include "report/page/page_template.h"
 #include "report/result_by_hand.h"
@@ -471,6 +472,47 @@ TEST_F(History, a_corrupt_line_is_named_by_its_number) {
   EXPECT_EQ(where_refused(), "line 2");
   write(good + good);
   EXPECT_EQ(where_refused(), "accepted");
+}
+
+// A history of years is added to once per commit: its cases, most of its text, are not parsed again each time.
+TEST_F(History, adding_reads_the_heads_of_earlier_lines_and_showing_all_of_them) {
+  add("c1", 3000.0);
+  Json line = Json::parse(text());
+  line["cases"][0]["figures"] = "none";
+  write(line.dump() + "\n");
+  add("c2", 3000.0);
+  EXPECT_EQ(where_refused(), "line 1: /cases/0/figures");
+  // In another order of keys, as an editor or jq leaves them, a line is read as a whole.
+  line.erase("commit");
+  line["commit"] = "c1";
+  write(line.dump() + "\n");
+  EXPECT_THROW(add("c2", 3000.0), Error);
+}
+
+TEST_F(History, heads_are_their_lines_without_cases) {
+  const auto written = [&](const run::Result& result, const std::string& commit) {
+    return written_line(record_of(result, {}), commit);
+  };
+  run::Result named = hall_with(200, 1000);
+  named.scenes[0].name = R"(a","cases":[{"id":1}]})";
+  Json moved = Json::parse(written(hall_with(300, 1000), "c"));
+  moved.erase("commit");
+  moved["commit"] = "c";
+  const std::string other_order = moved.dump();
+  for (const std::string& line : {written(testing::result_by_hand(), "c1"), written(named, R"(,"cases":[)"),
+                                  written(named, "\\\"\n"), other_order}) {
+    const HistoryLine stored{line, 1, line.size()};
+    const HistoryEntry head = stored.head("f"), whole = stored.whole("f");
+    EXPECT_EQ(head.commit, whole.commit);
+    EXPECT_EQ(head.machine + head.counter + head.caches + head.device,
+              whole.machine + whole.counter + whole.caches + whole.device);
+    ASSERT_EQ(head.scenes.size(), whole.scenes.size());
+    EXPECT_EQ(head.scenes[0].scene + head.scenes[0].counts, whole.scenes[0].scene + whole.scenes[0].counts);
+    EXPECT_EQ(head.cases.empty(), line != other_order) << line.substr(0, 60);
+  }
+  for (const char* cut :
+       {R"({"history_version":1,"commit":"c","cases":[{"id")", R"({"history_version":1,"commit":"c")"})
+    EXPECT_THROW((HistoryLine{cut, 1, 0}.head("f")), Error) << cut;
 }
 
 TEST_F(History, what_is_no_history_is_not_added_to) {
