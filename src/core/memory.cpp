@@ -14,7 +14,9 @@ std::atomic<std::uint64_t>& limit() {
   return bytes;
 }
 
-std::string mib(std::uint64_t bytes) {
+std::string size_text(std::uint64_t bytes) {
+  if (bytes < std::uint64_t{1} << 10) return std::to_string(bytes) + " bytes";
+  if (bytes < std::uint64_t{1} << 20) return std::to_string(bytes >> 10) + " KiB";
   return std::to_string(bytes >> 20) + " MiB";
 }
 
@@ -34,8 +36,8 @@ void check_memory(const char* name, std::uint64_t entries, std::uint64_t entry_b
   const std::uint64_t bytes = overflows ? k_most : entries * entry_bytes;
   if (bytes <= memory_limit()) return;
   throw Error("", "limits.memory_mib",
-              std::to_string(entries) + " " + name + " would take " + mib(bytes) + ", and " + mib(memory_limit()) +
-                  " are allowed; raise the limit, or " + remedy);
+              std::to_string(entries) + " " + name + " would take " + size_text(bytes) + ", and " +
+                  size_text(memory_limit()) + " are allowed; raise the limit, or " + remedy);
 }
 
 }  // namespace clusterbench

@@ -71,8 +71,8 @@ struct View {
   // The sides of the picture: slopes (offset / depth) of a perspective camera, metres of an orthographic one.
   double left = -1.0, right = 1.0, bottom = -1.0, top = 1.0;
   double near_m = 0.1, far_m = 1000.0;  // far may be +inf for a perspective camera
-  // Only for methods that need a depth buffer: width x height depths along `forward` in metres, row by row from the top
-  // left, +inf where there is no surface; 0 or more for a perspective camera.
+  // Only for methods that need a depth buffer, others do not look at them: width x height depths along `forward` in
+  // metres, row by row from the top left, +inf where there is no surface; 0 or more for a perspective camera.
   std::span<const float> depths{};
 
   // Sets all but width, height and depths from 16 numbers of the view matrix (world to view: a rotation and a
@@ -109,7 +109,7 @@ struct Grid {
   Slicing slicing = Slicing::exponential_first;
   int slices = 16;
   double near_m = 0.0, far_m = 0.0;           // 0: the camera's
-  double first_m = 5.0, lambda = 0.5;         // of the schemes that use them; lambda is 0 to 1
+  double first_m = 5.0, lambda = 0.5;         // lambda is 0 to 1; each is looked at where the scheme has one
   std::span<const double> boundaries_m = {};  // of Slicing::list alone: ascending; `slices` is then their number - 1
   // cascades: cells of a level, multiples of 4, 4 and 2. world: cells of the whole box.
   int cells[3] = {16, 16, 16};
@@ -176,10 +176,11 @@ struct Buffer {
 };
 
 // What a shader needs to find a cell of a frustum or distance grid; depth is the distance from the eye in a distance
-// grid. Outside of the viewport, beyond boundaries' last number and, with a perspective camera, at 0 or less there is
-// no cell. Otherwise
+// grid. Outside of the viewport, whose edges are inside, beyond boundaries' last number and, with a perspective camera,
+// at 0 or less there is no cell. Otherwise
 //   tile = int(pixel * tile_scale), at most the last tile; pixels from the top left
 //   slice = 0 where depth < first_m and first_slice is 1
+//   slice = 0 in the form `log2` where depth is 0 or less (an orthographic camera's)
 //   slice = int(clamp(f(depth) * scale + bias, 0, slices - 1)) for all other depths; bias contains first_slice
 //   cell = (slice * rows + row of tiles) * columns + column
 // In the form `search` slice is the last of 0 .. slices - 1 whose near boundary is not above depth, or 0.

@@ -51,6 +51,12 @@ grid::Tiling tiling_of(const Grid& given) {
   grid::Tiling tiling;
   tiling.pixels = given.columns == 0 ? Vec2i(given.tile_width, given.tile_height) : Vec2i(0, 0);
   tiling.count = Vec2i(given.columns, given.rows);
+  const auto check_least = [](const char* where, int number) {
+    if (number < 1) refuse(where, "is " + std::to_string(number) + "; allowed: 1 or more");
+  };
+  const bool is_by_count = given.columns != 0;
+  check_least(is_by_count ? "grid.columns" : "grid.tile_width", is_by_count ? given.columns : given.tile_width);
+  check_least(is_by_count ? "grid.rows" : "grid.tile_height", is_by_count ? given.rows : given.tile_height);
   return tiling;
 }
 
@@ -60,6 +66,10 @@ void check_slicing(const Grid& given) {
     refuse("grid.boundaries_m", "are given, and grid.slicing is not list; allowed: none");
   if (given.slicing == Grid::Slicing::power && !(given.lambda >= 0.0 && given.lambda <= 1.0))
     refuse("grid.lambda", "is " + short_number(given.lambda) + "; allowed: 0 to 1");
+  for (std::size_t i = 1; i < given.boundaries_m.size(); ++i)
+    if (!(given.boundaries_m[i - 1] < given.boundaries_m[i]))
+      refuse("grid.boundaries_m", "have " + short_number(given.boundaries_m[i]) + " after " +
+                                      short_number(given.boundaries_m[i - 1]) + "; allowed: ascending numbers");
 }
 
 grid::Slicing slicing_of(const Grid& given) {
@@ -253,7 +263,11 @@ assign::Params params_of(const char* where, std::span<const assign::ParamSpec> s
   for (const Parameter& parameter : given)
     if (!values.emplace(parameter.name, value_of(where, parameter)).second)
       refuse(where, "have '" + std::string(parameter.name) + "' twice; allowed: each once");
-  return {specs, values};
+  try {
+    return {specs, values};
+  } catch (const Error& error) {
+    refuse(where + std::string(": ") + error.where(), error.message());
+  }
 }
 
 void set_camera(const View& view, view::Frame& frame) {

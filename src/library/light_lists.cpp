@@ -43,12 +43,29 @@ const assign::ParamSpec* threads_param(const assign::AssignerDescriptor& method)
   return nullptr;
 }
 
+std::vector<std::string> threaded_methods() {
+  std::vector<std::string> names;
+  for (const assign::AssignerDescriptor* method : assign::assigner_descriptors())
+    if (threads_param(*method) != nullptr) names.push_back(method->name);
+  return names;
+}
+
+// "frustum, distance"
+std::string kinds_of(const assign::AssignerDescriptor& method) {
+  std::vector<std::string> names;
+  for (const grid::Kind kind : {grid::Kind::frustum, grid::Kind::distance, grid::Kind::cascades, grid::Kind::world})
+    if (method.takes(kind)) names.push_back(grid::kind_name(kind));
+  return joined(names);
+}
+
 assign::Params method_params(const assign::AssignerDescriptor& method, const Settings& settings) {
   const assign::ParamSpec* const threads = threads_param(method);
   if (settings.threads != 1 && threads == nullptr)
-    throw Error(
-        "", "threads",
-        "is " + std::to_string(settings.threads) + "; allowed: 1, since " + method.name + " works on one thread");
+    throw Error("", "threads",
+                "is " + std::to_string(settings.threads) + "; allowed: 1, since " + method.name +
+                    " works on one thread; those that share a frame: " + joined(threaded_methods()));
+  if (threads != nullptr)
+    assign::Params(std::span(threads, 1), {{threads->name, static_cast<double>(settings.threads)}});
   std::vector<Parameter> given(settings.method_parameters.begin(), settings.method_parameters.end());
   for (const Parameter& parameter : given)
     if (threads != nullptr && parameter.name == threads->name)
@@ -277,7 +294,8 @@ void LightLists::State::start(const Settings& settings) {
   spec = grid_spec_of(settings.grid);
   if (!wanted.takes(spec.kind))
     throw Error("", "grid.kind",
-                std::string("is ") + grid::kind_name(spec.kind) + ", on which " + wanted.name + " does not work");
+                std::string("is ") + grid::kind_name(spec.kind) + ", on which " + wanted.name +
+                    " does not work; allowed: " + kinds_of(wanted));
   if (settings.jobs.run != nullptr) lent.emplace(settings.jobs);
   wants_lists = settings.wants_lists_of_structures;
   const SharedThreadsScope lend(threads());

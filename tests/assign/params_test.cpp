@@ -80,7 +80,7 @@ TEST(Params, a_method_without_parameters_says_so) {
 }
 
 TEST(Params, a_wrong_type_is_refused_with_what_was_found_and_what_it_must_be) {
-  EXPECT_EQ(refusal("spot", 1.0), "spot: is 1; it must be a text");
+  EXPECT_EQ(refusal("spot", 1.0), "spot: is 1; it must be a text, one of: sphere, both");
   EXPECT_EQ(refusal("margin", std::string("wide")), "margin: is 'wide'; it must be a number");
   EXPECT_EQ(refusal("fast", 1.0), "fast: is 1; it must be true or false");
   EXPECT_EQ(refusal("cap", true), "cap: is true; it must be a number");

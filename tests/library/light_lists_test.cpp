@@ -657,24 +657,25 @@ TEST(LightLists, refuse_bad_input_in_one_sentence_and_go_on) {
       {"method: is 'exact-fats' (did you mean 'exact-fast'?)",
        [](Settings& s, EngineFrame&) { s.method = "exact-fats"; }},
       {"storage: is 'pack'", [](Settings& s, EngineFrame&) { s.storage = "pack"; }},
-      {"index_bit: is not a parameter (did you mean 'index_bits'?)",
+      {"storage_parameters: index_bit: is not a parameter (did you mean 'index_bits'?)",
        [](Settings& s, EngineFrame&) {
          s.storage = "packed", s.storage_parameters = {&k_unknown, 1};
        }},
-      {"index_bits: is 16; it must be a text",
+      {"storage_parameters: index_bits: is 16; it must be a text, one of: auto, 8, 16, 32",
        [](Settings& s, EngineFrame&) {
          s.storage = "packed", s.storage_parameters = {&k_wrong, 1};
        }},
-      {"index_bits: is '17' (did you mean '16'?); allowed: auto, 8, 16, 32",
+      {"storage_parameters: index_bits: is '17' (did you mean '16'?); allowed: auto, 8, 16, 32",
        [](Settings& s, EngineFrame&) {
          s.storage = "packed", s.storage_parameters = {&k_no, 1};
        }},
       {"storage: is given, and z-binning leaves a structure",
        [](Settings& s, EngineFrame&) { s.method = "z-binning", s.storage = "packed"; }},
       {"threads: is 0; allowed: whole numbers from 1 to 256", [](Settings& s, EngineFrame&) { s.threads = 0; }},
-      {"threads: is 2; allowed: 1, since aabb-fast",
+      {"threads: is 2; allowed: 1, since aabb-fast works on one thread; those that share a frame: exact-fast",
        [](Settings& s, EngineFrame&) { s.method = "aabb-fast", s.threads = 2; }},
-      {"grid.kind: is world, on which exact-fast", [](Settings& s, EngineFrame&) { s.grid.kind = Grid::Kind::world; }},
+      {"grid.kind: is world, on which exact-fast does not work; allowed: frustum",
+       [](Settings& s, EngineFrame&) { s.grid.kind = Grid::Kind::world; }},
       {"grid.kind: is none", [](Settings& s, EngineFrame&) { s.grid.kind = static_cast<Grid::Kind>(9); }},
       {"method_parameters: have 'threads', which Settings::threads gives; allowed: the other parameters of exact-fast",
        [](Settings& s, EngineFrame&) {
@@ -702,12 +703,12 @@ TEST(LightLists, refuse_bad_input_in_one_sentence_and_go_on) {
        "scheme (grid.slicing)",
        [](Settings& s, EngineFrame&) { s.grid.slicing = Grid::Slicing::exponential_first, s.grid.first_m = 200.0; }},
       {"grid.columns, grid.rows: are 16 and 0; allowed: both 0", [](Settings& s, EngineFrame&) { s.grid.rows = 0; }},
-      {"grid.columns, grid.rows: ", [](Settings& s, EngineFrame&) { s.grid.columns = -1; }},
-      {"grid.tile_width, grid.tile_height: ",
+      {"grid.columns: is -1; allowed: 1 or more", [](Settings& s, EngineFrame&) { s.grid.columns = -1; }},
+      {"grid.tile_width: is 0; allowed: 1 or more",
        [](Settings& s, EngineFrame&) { s.grid.columns = s.grid.rows = s.grid.tile_width = 0; }},
       {"grid.slices: is 0; allowed: 1 to 4096", [](Settings& s, EngineFrame&) { s.grid.slices = -5; }},
       {"grid.boundaries_m: are fewer than 2", [](Settings& s, EngineFrame&) { s.grid.slicing = Grid::Slicing::list; }},
-      {"grid.boundaries_m: ",
+      {"grid.boundaries_m: have 0.5 after 1; allowed: ascending numbers",
        [](Settings& s, EngineFrame&) { s.grid.slicing = Grid::Slicing::list, s.grid.boundaries_m = k_descending; }},
       {"grid.near_m: ", [](Settings& s, EngineFrame&) { s.grid.near_m = 500.0; }},
       {"grid.far_m: is not given, and the camera has no far plane",
@@ -778,7 +779,7 @@ TEST(LightLists, that_would_need_more_than_the_limit_on_memory_fail) {
   set_memory_limit(10'000);
   EXPECT_FALSE(lists.update(frame.view, frame.lights()));
   EXPECT_TRUE(lists.error().starts_with("set_memory_limit: ")) << lists.error();
-  EXPECT_NE(lists.error().find("would take"), std::string_view::npos) << lists.error();
+  EXPECT_NE(lists.error().find("KiB, and 9 KiB are allowed"), std::string_view::npos) << lists.error();
   set_memory_limit(before);
   EXPECT_TRUE(lists.update(frame.view, frame.lights())) << lists.error();
 }

@@ -83,7 +83,7 @@ TEST(Record, names_the_place_of_what_it_cannot_read) {
     Json json = Json::parse(k_outer);
     json[Json::json_pointer(pointer)] = value;
     try {
-      from_json<Outer>(json, "/case");
+      result::from_json<Outer>(json, "/case");
     } catch (const Error& error) {
       return error.where() + " " + error.message();
     }

@@ -129,7 +129,11 @@ TEST(Meshopt, the_filters_of_rotations_and_of_floats_are_undone) {
   EXPECT_NEAR(scene.channels.at(0).values[4].y, std::sin(1.0), 1e-3);
   EXPECT_NEAR(scene.channels.at(0).values[4].w, std::cos(1.0), 1e-3);
   filtered.assign(12 * times.size(), '\0');
+#if MESHOPTIMIZER_VERSION >= 190
+  meshopt_encodeFilterExp(filtered.data(), times.size(), 12, 20, heights.data(), meshopt_EncodeExpSharedVector);
+#else
   meshopt_encodeFilterExp(filtered.data(), times.size(), 12, 20, heights.data());
+#endif
   file = CompressedFile();
   file.view(encoded_vertices(bytes_of(times), 5, 4), 5, 4);
   file.view(encoded_vertices(filtered, 5, 12), 5, 12, "ATTRIBUTES", "EXPONENTIAL");

@@ -53,7 +53,9 @@ const ParamSpec& spec_of(std::span<const ParamSpec> specs, const std::string& na
 
 void check(const ParamSpec& spec, const ParamValue& value) {
   if (value.index() != spec.default_value.index())
-    throw Error("", spec.name, "is " + shown(value) + "; it must be " + type_name(spec.default_value));
+    throw Error("", spec.name,
+                "is " + shown(value) + "; it must be " + type_name(spec.default_value) +
+                    (spec.choices.empty() ? "" : ", one of: " + joined(spec.choices)));
   if (const auto* given = std::get_if<double>(&value)) check_number(spec, *given);
   if (const auto* given = std::get_if<std::string>(&value)) check_choice(spec, *given);
 }

@@ -60,7 +60,7 @@ ReceivedRun received_run(const std::string& line, const std::string& file) {
   run.config.scenes = std::move(scenes);
   run.plan = run::make_plan(run.config, "");
   for (std::size_t i = 0; i < run.plan.scenes.size(); ++i)
-    if (run.plan.scenes[i].contents_sha256() != given["scenes"][i]["sha256"])
+    if (run.plan.scenes[i].contents_sha256() != given["scenes"][i]["sha256"].get<std::string>())
       throw Error(run.config.scenes[i].path.string(), "", "has changed since the run began; run again");
   return run;
 }
