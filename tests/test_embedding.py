@@ -58,7 +58,7 @@ def check_example_by_cmake(cmake, cxx, prefix, folder):
     project.mkdir()
     (project / "CMakeLists.txt").write_text(blocks["cmake"])
     (project / "engine.cpp").write_text(blocks["cpp"])
-    run([cmake, "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_CXX_COMPILER={cxx}"]
+    run([cmake, "-G", "Ninja", "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_CXX_COMPILER={cxx}"]
         + [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in OTHERS])
     run([cmake, "--build", project / "build"])
     printed = run([project / "build" / "engine"])
@@ -85,7 +85,7 @@ def check_version(cmake, prefix, folder):
     project = folder / "later"
     project.mkdir()
     (project / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(later NONE)\nfind_package(clusterbench 0.2 REQUIRED)\n")
-    done = subprocess.run([cmake, "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={prefix}"], capture_output=True,
+    done = subprocess.run([cmake, "-G", "Ninja", "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={prefix}"], capture_output=True,
                           text=True, check=False)
     assert done.returncode != 0 and 'requested version "0.2"' in done.stderr, done.stderr
 

@@ -18,7 +18,7 @@ class Surroundings {
 
  private:
   static constexpr std::size_t k_signals = 65;
-  std::array<const void*, k_signals> handlers_{};
+  [[maybe_unused]] std::array<const void*, k_signals> handlers_{};  // not on Windows
   std::string folder_, locale_;
 };
 
@@ -35,7 +35,7 @@ class CaughtOutput {
 
  private:
   MemoryFile file_;
-  int before_;
+  [[maybe_unused]] int before_;  // not on Windows
 };
 
 }  // namespace clusterbench::os

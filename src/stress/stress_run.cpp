@@ -1,6 +1,7 @@
 #include "stress/stress_run.h"
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 
 #include "assign/contract/method_error.h"
@@ -150,17 +151,22 @@ std::string label_of(const assign::AssignerDescriptor& assigner, const assign::P
   return config::MethodRequest{assigner.name, params}.label();
 }
 
-// With its defaults and with every other choice, in each form that has cells.
-void add_choices(const assign::AssignerDescriptor& assigner, std::vector<StressMethod>& methods) {
-  const auto add = [&](const assign::Params& params) {
-    const bool conservative = assign::is_conservative(assigner, params);
-    for (const assign::Answer answer : assign::answers_with_cells(assigner, params))
-      methods.push_back({label_of(assigner, params), &assigner, params, conservative, answer});
-  };
-  add(assign::Params(assigner.params));
+// With its defaults and with every other choice.
+std::vector<assign::Params> choices_of(const assign::AssignerDescriptor& assigner) {
+  std::vector<assign::Params> choices{assign::Params(assigner.params)};
   for (const assign::ParamSpec& spec : assigner.params)
     for (const std::string& choice : spec.choices)
-      if (assign::ParamValue(choice) != spec.default_value) add(assign::Params(assigner.params, {{spec.name, choice}}));
+      if (assign::ParamValue(choice) != spec.default_value)
+        choices.emplace_back(assigner.params, std::map<std::string, assign::ParamValue>{{spec.name, choice}});
+  return choices;
+}
+
+// In each form that has cells; a method on a device is started for that.
+void add_forms(const assign::AssignerDescriptor& assigner, const assign::Params& params,
+               std::vector<StressMethod>& methods) {
+  const bool conservative = assign::is_conservative(assigner, params);
+  for (const assign::Answer answer : assign::answers_with_cells(assigner, params))
+    methods.push_back({label_of(assigner, params), &assigner, params, conservative, answer});
 }
 
 // Adds those that run on a device, if it is asked for, by itself or by their names, and they can do so here.
@@ -173,15 +179,14 @@ void add_device_methods(const StressRequest& request, StressResult& result) {
       others += (others.empty() ? "" : ", ") + assigner->name;
       continue;
     }
-    std::vector<StressMethod> choices;
-    add_choices(*assigner, choices);
-    std::erase_if(choices, [&](const StressMethod& method) { return !request.methods.is_in(method.label); });
+    std::vector<assign::Params> choices = choices_of(*assigner);
+    std::erase_if(choices, [&](const auto& params) { return !request.methods.is_in(label_of(*assigner, params)); });
     if (choices.empty()) continue;
-    const std::string reason = assign::unavailability(*assigner, choices.front().params);
-    if (reason.empty())
-      result.methods.insert(result.methods.end(), choices.begin(), choices.end());
-    else
+    if (const std::string reason = assign::unavailability(*assigner, choices.front()); !reason.empty()) {
       result.left_out.push_back(assigner->name + ": " + reason);
+      continue;
+    }
+    for (const assign::Params& params : choices) add_forms(*assigner, params, result.methods);
   }
   if (!others.empty()) result.left_out.push_back(others + ": run on a device, and none is named");
 }
@@ -198,7 +203,8 @@ void choose_methods(const StressRequest& request, StressResult& result) {
 
 std::vector<StressMethod> stress_methods() {
   std::vector<StressMethod> methods;
-  for (const assign::AssignerDescriptor* assigner : checked_methods()) add_choices(*assigner, methods);
+  for (const assign::AssignerDescriptor* assigner : checked_methods())
+    for (const assign::Params& params : choices_of(*assigner)) add_forms(*assigner, params, methods);
   return methods;
 }
 

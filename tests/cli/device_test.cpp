@@ -153,5 +153,29 @@ TEST_F(OnDevice, stress_takes_methods_of_a_named_one_alone_and_says_so) {
       << gone.err;
 }
 
+// As on most machines that count: what asks for no device goes on, and what does says why it cannot.
+TEST(WithoutADriver, commands_go_on_unless_they_ask_for_a_device) {
+  const Folder folder;
+  const std::string out = " -q -o " + (folder / "out").string(), scene = source_file("scenes/methods.gltf");
+  use_driver((folder / "none.json").string());
+  for (const std::string& words :
+       {"stress --cases H1 --methods aabb-fast --tries 0" + out, "stress --random 2 --methods 'aabb|exact-fast'" + out,
+        "stress --random 2 --cases H2 --methods gpu-cells,aabb-fast" + out,
+        "run --no-timing --filter 16x9 --set 'scenes.*.frames=1' " + scene + out,
+        "run --no-timing --presets --set 'scenes.*.frames=1' " + scene + out,
+        "size --all --filter 'aabb-fast' --set 'scenes.*.frames=1' " + scene, std::string("list assigners")}) {
+    const Outcome done = tool(words);
+    EXPECT_EQ(done.code, 0) << words << "\n" << done.err;
+  }
+  for (const std::string& words :
+       {"stress --random 2 --methods gpu-cells" + out, "stress --random 2 --device llvmpipe" + out,
+        "run --no-timing --assigner gpu-cells " + scene + out, std::string("list devices")}) {
+    const Outcome done = tool(words);
+    EXPECT_EQ(done.code, 2) << words << "\n" << done.err;
+    EXPECT_NE(done.err.find("Vulkan"), std::string::npos) << words << "\n" << done.err;
+  }
+  for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"}) unsetenv(name);
+}
+
 }  // namespace
 }  // namespace clusterbench::test

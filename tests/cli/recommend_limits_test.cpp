@@ -130,7 +130,7 @@ TEST(Recommend, tells_what_comes_nearest_where_nothing_satisfies) {
   const Recommended found = recommended(one_frame, "--no-timing --by bytes --bytes 1");
   const Json& nearest = found.answer["constraints"][0]["nearest"];
   EXPECT_EQ(nearest["figure"], figure(nearest_case, "bytes"));
-  EXPECT_EQ("street/walk/" + nearest["name"].get<std::string>(), nearest_case["name"]);
+  EXPECT_EQ("street/walk/" + nearest["name"].get<std::string>(), nearest_case["name"].get<std::string>());
   const std::string told = "nearest to bytes <= 1 of those that it rejects: " + nearest["figure"].dump() +
                            " on 1 frame, " + nearest["name"].get<std::string>();
   EXPECT_NE(found.outcome.out.find(told), std::string::npos) << found.outcome.out;

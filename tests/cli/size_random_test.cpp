@@ -197,7 +197,7 @@ void hold_table_against(const RandomJson& structure, const std::string& table) {
     const std::vector<std::string> words = words_of(line);
     ASSERT_GE(words.size(), 12u) << line;
     const std::size_t n = words.size(), high_water = n - (words[n - 6] == "%" ? 8 : 7);
-    EXPECT_EQ(words[0], buffer["name"]);
+    EXPECT_EQ(words[0], buffer["name"].get<std::string>());
     EXPECT_EQ(words[1], buffer["frames"]["min"].dump()) << line;
     EXPECT_EQ(words[2], buffer["frames"]["p50"].dump()) << line;
     EXPECT_EQ(words[high_water], buffer["high_water"].dump()) << line;

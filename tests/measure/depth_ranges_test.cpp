@@ -85,6 +85,7 @@ TEST(DepthRanges, a_plane_is_a_slope_however_it_lies) {
 
 // A ray for each 8 or 16 pixels leaves four or two across a tile; a gap is more than one step of a slope all the same.
 TEST(DepthRanges, a_slope_stays_one_and_a_gap_another_with_few_rays_in_a_tile) {
+  using Splits = std::pair<std::uint64_t, std::uint64_t>;
   const auto split = [](int divisor, const auto& depth) {
     const view::Frame frame = frame_of({32, 32}, true);
     depth::DepthImage image{depth::PixelGrid(frame.viewport, divisor), {}};
@@ -92,12 +93,12 @@ TEST(DepthRanges, a_slope_stays_one_and_a_gap_another_with_few_rays_in_a_tile) {
       for (int x = 0; x < 32 / divisor; ++x) image.nearest.push_back(depth(x * divisor));
     DepthRanges ranges;
     add_frame(ranges, image, opaque_samples(frame, image), octaves(frame));
-    return std::pair(ranges.slopes.tiles, ranges.discontinuities.tiles);
+    return Splits(ranges.slopes.tiles, ranges.discontinuities.tiles);
   };
   const auto slope = [](int x) { return 2.0f + 0.25f * static_cast<float>(x); };
   const auto gap = [](int x) { return x < 16 ? 3.0f : 12.0f; };
-  for (const int divisor : {1, 2, 4, 8, 16, 32}) EXPECT_EQ(split(divisor, slope), std::pair(1ul, 0ul)) << divisor;
-  for (const int divisor : {1, 2, 4, 8}) EXPECT_EQ(split(divisor, gap), std::pair(0ul, 1ul)) << divisor;
+  for (const int divisor : {1, 2, 4, 8, 16, 32}) EXPECT_EQ(split(divisor, slope), Splits(1, 0)) << divisor;
+  for (const int divisor : {1, 2, 4, 8}) EXPECT_EQ(split(divisor, gap), Splits(0, 1)) << divisor;
 }
 
 TEST(DepthRanges, sky_and_what_lies_beside_the_grid_cover_nothing) {
