@@ -4,110 +4,26 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 #include <set>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/text.h"
-#include "geom/shapes/domain.h"
 #include "gpu/device/device.h"
 #include "measure/lists/lights_in_view_counts.h"
 #include "search/best_frames.h"
+#include "search/frame_rater.h"
 #include "search/optimizer.h"
+#include "search/search_progress.h"
+#include "search/worst_case_request.h"
 
 namespace clusterbench::search {
 namespace {
 
-using SearchClock = std::chrono::steady_clock;
-
 // Parts of the work that are the same for any number of threads.
 constexpr int k_tasks = 16;
 constexpr int k_global_searches = 4, k_local_searches = 4;
-
-// Ends the search early.
-class Clockwork {
- public:
-  Clockwork(double seconds, const std::atomic<bool>& stop) : stop_(stop) {
-    if (seconds > 0.0)
-      deadline_ = SearchClock::now() +
-                  std::chrono::duration_cast<SearchClock::duration>(std::chrono::duration<double>(seconds));
-  }
-  // Call it before each evaluation.
-  bool is_over() {
-    if (!is_over_ && (stop_ || (deadline_ && SearchClock::now() >= *deadline_))) is_over_ = true;
-    return is_over_;
-  }
-  const std::atomic<bool>& over() const { return is_over_; }
-  // From any thread; the first reason is kept.
-  void fail(const std::string& reason) {
-    const std::lock_guard lock(failing_);
-    if (!has_failed_) failure_ = reason;
-    has_failed_ = is_over_ = true;
-  }
-  bool has_failed() const { return has_failed_; }
-  const std::string& failure() const { return failure_; }  // of threads that have ended
-  Ended ended() const {
-    if (has_failed_) return Ended::device;
-    return stop_ ? Ended::signal : is_over_ ? Ended::seconds : Ended::evaluations;
-  }
-
- private:
-  const std::atomic<bool>& stop_;
-  std::optional<SearchClock::time_point> deadline_;
-  std::atomic<bool> is_over_{false}, has_failed_{false};
-  std::mutex failing_;
-  std::string failure_;
-};
-
-class SearchProgress {
- public:
-  SearchProgress(const WorstCaseListener& listener, int whole) : listener_(listener), whole_(whole) {}
-  void begin(const std::string& doing) {
-    const std::lock_guard lock(mutex_);
-    doing_ = doing;
-  }
-  void step() {
-    const std::lock_guard lock(mutex_);
-    ++done_;
-    if (listener_.on_progress) listener_.on_progress(doing_, done_, whole_);
-  }
-
- private:
-  const WorstCaseListener& listener_;
-  int whole_;
-  std::mutex mutex_;
-  std::string doing_;
-  int done_ = 0;
-};
-
-// Measures single frames; one object for each task.
-class FrameRater {
- public:
-  FrameRater(const config::Config& config, const run::CasePlan& plan, Measure measure, const LightRig& rig,
-             const scene::CameraProjection& projection)
-      : rig_(rig),
-        request_(config.scenes[plan.scene].camera),
-        viewport_(config.viewports[plan.viewport]),
-        scene_(rig.scene(1, projection)),
-        meter_(config, plan, measure) {}
-
-  double rate(const FrameChoice& choice) {
-    rig_.set_frame(scene_, 0, choice);
-    const scene::CameraPath path = path_of(scene_, request_);
-    return meter_.value({scene_, path, viewport_}, 0);
-  }
-  std::optional<double> theoretical_max() const { return meter_.theoretical_max(); }
-  std::vector<assign::BufferNeed> buffers() const { return meter_.buffers(); }
-
- private:
-  const LightRig& rig_;
-  const scene::PathRequest& request_;
-  Vec2i viewport_;
-  scene::Scene scene_;
-  FrameMeter meter_;
-};
 
 Box box_of(const LightRig& rig, const scene::CameraPath& path) {
   Box box{path.shots.front().pose.eye, path.shots.front().pose.eye};
@@ -570,59 +486,7 @@ class WorstCaseSearch {
   int used_ = 0;
 };
 
-void check_request(const run::SceneData& data, const WorstCaseRequest& request) {
-  if (request.keep_height && (request.walkable || request.within))
-    throw Error("", "--keep-height",
-                "says how high the camera stands, as --walkable and --within do; give one of them");
-  if (std::ranges::any_of(data.scene.lights,
-                          [](const scene::Light& light) { return light.type == scene::LightType::box; }))
-    throw Error(
-        data.scene.path.string(), "",
-        "is measured with its boxes (\"boxes\": true), which worst-case cannot move or write; leave the key out");
-  const bool has_lights = std::ranges::any_of(
-      data.scene.lights, [](const scene::Light& light) { return light.type != scene::LightType::directional; });
-  if (!has_lights && request.extra_ranges_m.empty())
-    throw Error(data.scene.path.string(), "", "has no point or spot light, and none is added (--add-lights)");
-  if (!request.within) return;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double lo = request.within->lo[axis], hi = request.within->hi[axis];
-    if (!(lo <= hi)) throw Error("", "--within", "must have its minimum not above its maximum on each axis");
-    if (!geom::is_in_domain(lo) || !geom::is_in_domain(hi))
-      throw Error("", "--within", "must be within 1e15 m from the origin");
-  }
-}
-
 }  // namespace
-
-const run::CasePlan& case_to_search(const config::Config& config, const run::Plan& plan) {
-  const run::CasePlan* found = nullptr;
-  for (const run::GroupPlan& group : plan.groups)
-    for (const run::CasePlan& case_plan : group.cases) {
-      const assign::AssignerDescriptor& assigner = *assign::find_assigner(config.assigners[case_plan.assigner].name);
-      const std::optional<grid::Fit>& fit = config.grids[case_plan.grid].slices.fit;
-      if (assigner.needs.depth || assigner.at_surfaces || (fit && fit->needs_surfaces())) continue;
-      if (!assigner.all_pairs) return case_plan;
-      if (found == nullptr) found = &case_plan;
-    }
-  if (found != nullptr) return *found;
-  throw Error(config.file.string(), "", "all cases need depth, and a written path holds no triangles to see it from");
-}
-
-std::string space_flags(const WorstCaseRequest& request) {
-  std::vector<std::string> flags;
-  if (request.within) {
-    std::vector<std::string> ends;
-    for (const Vec3d& end : {request.within->lo, request.within->hi})
-      for (int axis = 0; axis < 3; ++axis) ends.push_back(grid::number_name(end[axis]));
-    flags.push_back("--within=" + joined(ends, ","));
-  }
-  if (request.walkable) flags.push_back("--walkable --eye-height " + grid::number_name(request.eye_height_m));
-  if (request.keep_height) flags.emplace_back("--keep-height");
-  if (request.keep_direction) flags.emplace_back("--keep-direction");
-  for (const double range_m : request.extra_ranges_m) flags.push_back("--add-lights " + grid::number_name(range_m));
-  if (request.move_m > 0.0) flags.push_back("--move-lights " + grid::number_name(request.move_m));
-  return joined(flags, " ");
-}
 
 WorstCase find_worst_case(const config::Config& config, const run::Plan& plan, const run::CasePlan& case_plan,
                           const WorstCaseRequest& request, const WorstCaseListener& listener,
