@@ -36,6 +36,38 @@ TEST(HistoryCommand, a_commit_that_no_json_can_hold_is_refused) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
+TEST(HistoryCommand, a_result_without_cases_or_in_the_place_of_a_history_is_refused) {
+  const Folder folder;
+  auto empty = nlohmann::ordered_json::parse(file_text(k_small_result));
+  empty["cases"] = empty["scenes"] = nlohmann::ordered_json::array();
+  const std::string without = folder.write("without.json", empty.dump()).string(), file = (folder / "h.jsonl").string();
+  ASSERT_EQ(tool("history add " + k_small_result + " " + file + " --commit c1").code, 0);
+  const Outcome refused = tool("history add " + without + " " + file + " --commit c2");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("without.json: /cases: is empty"), std::string::npos) << refused.err;
+  const Outcome shown = tool("history show " + k_small_result);
+  EXPECT_EQ(shown.code, 2);
+  EXPECT_NE(shown.err.find("is a result, not a history; `clusterbench history add"), std::string::npos) << shown.err;
+}
+
+TEST(HistoryCommand, validate_knows_histories_and_results_with_a_case_twice) {
+  const Folder folder;
+  const std::string file = (folder / "h.jsonl").string();
+  for (const char* commit : {"c1", "c2"})
+    ASSERT_EQ(tool("history add " + k_small_result + " " + file + " --commit " + commit).code, 0);
+  EXPECT_EQ(tool("validate " + file).out, file + ": valid, a history with 2 results\n");
+  auto line = nlohmann::ordered_json::parse(file_text(file).substr(0, file_text(file).find('\n')));
+  line["cases"].push_back(line["cases"][0]);
+  const Outcome twice = tool("validate " + folder.write("twice.jsonl", line.dump() + "\n").string());
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_NE(twice.err.find("/id: found '"), std::string::npos) << twice.err;
+  auto result = nlohmann::ordered_json::parse(file_text(k_small_result));
+  result["cases"].push_back(result["cases"][0]);
+  const Outcome refused = tool("validate " + folder.write("twice.json", result.dump()).string());
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find(result["cases"][0]["id"].get<std::string>()), std::string::npos) << refused.err;
+}
+
 // Which goes on until that is told.
 TEST(HistoryCommand, that_another_process_holds_says_that_it_waits) {
   const Folder folder;

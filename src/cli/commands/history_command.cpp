@@ -32,6 +32,9 @@ ExitCode add(const AddFlags& flags) {
   if (result.machines)
     throw Error(flags.result, "/machines",
                 "has times of several machines, and a line of a history is of one; add the results that were merged");
+  if (result.cases.empty())
+    throw Error(flags.result, "/cases",
+                "is empty: a history keeps the figures of cases, and of this result there are none");
   const std::string commit = flags.commit.empty() ? result.tool.git_sha : flags.commit;
   const report::Addition addition = report::add_to_history(
       flags.file, result, commit,

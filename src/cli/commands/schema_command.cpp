@@ -19,6 +19,8 @@
 #include "core/json_document.h"
 #include "core/text.h"
 #include "gpu/user_shaders/shader_obstacles.h"
+#include "report/documents/result_file.h"
+#include "report/history/history.h"
 #include "result/result.h"
 #include "run/cases/plan.h"
 
@@ -30,6 +32,7 @@ ExitCode validate_written(const std::string& path, const nlohmann::json& documen
   const std::vector<std::string> violations = config::schema_violations(row.schema(), document);
   for (const std::string& violation : violations) print_message(path + ": " + violation);
   if (!violations.empty()) return ExitCode::usage;
+  if (row.document == config::Document::result) report::read_result(path);  // cases that are there twice
   for (const char* part : {"case", "block", "answer", "frame", "structure", "scene", "list", "test"}) {
     const std::string parts = std::string(part) + "s";
     if (!document.contains(parts)) continue;
@@ -58,8 +61,15 @@ ExitCode validate_shader(const std::string& path) {
   return ExitCode::ok;
 }
 
+ExitCode validate_history(const std::string& path) {
+  std::cout << path << ": valid, a history with " << number_of(report::read_history(path).size(), "result") << "\n";
+  return ExitCode::ok;
+}
+
 ExitCode validate(const std::string& path) {
-  const nlohmann::json document = json_or_discarded<nlohmann::json>(file_text(path), JsonComments::allowed);
+  const std::string text = file_text(path);
+  if (report::is_history(text)) return validate_history(path);
+  const nlohmann::json document = json_or_discarded<nlohmann::json>(text, JsonComments::allowed);
   const config::DocumentRow& row = config::row_of(config::document_of(document));
   if (row.document == config::Document::shader) return validate_shader(path);
   return row.document == config::Document::config ? validate_config(path) : validate_written(path, document, row);
@@ -121,8 +131,8 @@ void add_validate(Command& program, Action& action) {
   auto paths = std::make_shared<std::vector<std::string>>();
   command
       .add_option("FILE", *paths,
-                  "Configurations, methods of --shader, results, comparisons, ratios, recommendations, results of "
-                  "stress, worst-case and light-map, checks of plug-ins")
+                  "Configurations, methods of --shader, results, histories, comparisons, ratios, recommendations, "
+                  "results of stress, worst-case and light-map, checks of plug-ins")
       .required();
   command.when_named([paths, &action] {
     action = [paths] {

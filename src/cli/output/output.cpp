@@ -65,8 +65,11 @@ void refuse_overwriting(const std::vector<std::string>& outputs, const std::vect
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k)
       if (are_mixed(outputs[i], outputs[k]))
-        throw Error(outputs[i] == "-" ? "standard output" : outputs[i], "",
-                    "is to hold two outputs of this command (--path X.gltf writes X.json, too): name a file for each");
+        throw Error(
+            outputs[i] == "-" ? "standard output" : outputs[i], "",
+            std::string("is to hold two outputs of this command") +
+                (outputs[i] == "-" ? ", and a result without -o FILE is one" : " (--path X.gltf writes X.json, too)") +
+                ": name a file for each");
     const os::OutputTarget target = os::output_target(outputs[i]);
     os::require_folder_of(outputs[i]);
     for (const std::string& input : inputs) {

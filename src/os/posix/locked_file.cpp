@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "os/call_notes.h"
 #include "os/host_name.h"
 #include "os/kept_files.h"
 #include "os/output_file.h"
@@ -67,7 +68,7 @@ void LockedFile::open() {
     }
     lock();
   } while (!is_still_at_path());
-  keep_file(descriptor_of(file_));
+  keep_file_and_length(descriptor_of(file_));
 }
 
 // False if another process has created or removed it meanwhile.
@@ -82,6 +83,8 @@ bool LockedFile::has_opened() {
   }
   if (file_ < 0 && errno == ELOOP)
     throw Error(path_.string(), "", "is a symbolic link, through which nothing is written; remove it");
+  if (file_ < 0 && errno == EISDIR)
+    throw Error(path_.string(), "", "is a folder, and a file is written here; remove it");
   struct stat opened {};
   if (file_ < 0 || ::fstat(descriptor_of(file_), &opened) != 0) fail("cannot be written");
   if (S_ISREG(opened.st_mode)) return true;
@@ -174,6 +177,8 @@ std::string LockedFile::text() const {
 }
 
 void LockedFile::append(std::string_view text) {
+  if (has_called()) end_if_files_are_lost();  // a plug-in's own writing is not to be taken for a line of this program
+  const FileChange change(descriptor_of(file_));
   while (!text.empty()) {
     const ssize_t put = ::write(descriptor_of(file_), text.data(), text.size());
     if (put < 0 && errno == EINTR) continue;
@@ -183,6 +188,7 @@ void LockedFile::append(std::string_view text) {
 }
 
 void LockedFile::cut_to(std::size_t bytes) {
+  const FileChange change(descriptor_of(file_));
   if (::ftruncate(descriptor_of(file_), static_cast<off_t>(bytes)) != 0) fail("cannot be cut");
 }
 
@@ -193,15 +199,17 @@ void LockedFile::empty() {
 
 // Reserves the room and frees it again.
 void LockedFile::check_room(std::uint64_t bytes) const {
+  const FileChange change(descriptor_of(file_));
   const off_t size = ::lseek(descriptor_of(file_), 0, SEEK_END);
   const int failed = reserve_room(descriptor_of(file_), size, static_cast<off_t>(bytes));
   const bool restored = ::ftruncate(descriptor_of(file_), size) == 0;
   if (failed == EFBIG)
     throw Error(path_.string(), "",
-                "no file may have the " + std::to_string(bytes >> 10) + " KiB that the result takes (ulimit -f)",
+                "no file may have the " + std::to_string(bytes >> 10) + " KiB that the result may take (ulimit -f)",
                 ExitCode::internal);
   if (failed == ENOSPC || failed == EDQUOT || !restored)
-    throw Error(path_.string(), "", "no room on the disk for a result of about " + std::to_string(bytes >> 10) + " KiB",
+    throw Error(path_.string(), "",
+                "no room on the disk for the " + std::to_string(bytes >> 10) + " KiB that the result may take",
                 ExitCode::internal);
 }
 

@@ -151,7 +151,8 @@ void LockedFile::check_room(std::uint64_t bytes) const {
   const fs::path folder = fs::absolute(path_, failed).parent_path();
   ULARGE_INTEGER room{};
   if (::GetDiskFreeSpaceExW(folder.c_str(), &room, nullptr, nullptr) == 0 || room.QuadPart >= bytes) return;
-  throw Error(path_.string(), "", "no room on the disk for a result of about " + std::to_string(bytes >> 10) + " KiB",
+  throw Error(path_.string(), "",
+              "no room on the disk for the " + std::to_string(bytes >> 10) + " KiB that the result may take",
               ExitCode::internal);
 }
 

@@ -107,7 +107,9 @@ std::size_t each_entry(const std::string& text, const fs::path& path, const Json
     if (number == 1 && entry["header"] != header)
       refuse("is an interrupted run of another configuration, --count, --shard, scene or build");
     if (entry.is_object() && !is_sealed(line)) refuse("is not what a run writes; it was changed");
-    if (number > 1 && !(entry.is_object() && accept(entry))) refuse("is not what a run writes");
+    if (number > 1 && !(entry.is_object() && accept(entry)))
+      refuse(value_at(entry, "/case/id") != nullptr ? "has a case that an earlier line has; remove one of the two"
+                                                    : "is not what a run writes");
     begin = end + 1;
   }
   return begin;
@@ -172,7 +174,8 @@ Journal::Journal(const fs::path& file, const Json& header, bool resume, std::uin
     read_earlier(header);
   else
     set_earlier_aside(header_line(header));
-  partial_.check_room(expected_bytes);
+  const std::uint64_t kept = partial_.text().size();
+  partial_.check_room(expected_bytes > kept ? expected_bytes - kept : 0);
   if (!partial_.text().empty()) return;
   try {
     partial_.append(header_line(header));
@@ -190,10 +193,12 @@ Journal::~Journal() {
 void Journal::set_earlier_aside(const std::string& header) {
   const std::string text = partial_.text();
   if (text.empty()) return;
-  if (header.starts_with(text) || is_header_alone(text))
+  if (header.starts_with(text) || is_header_alone(text)) {
     partial_.empty();
-  else
-    set_aside_ = partial_.move_text_beside();
+    return;
+  }
+  is_set_aside_of_run_ = text.starts_with(R"({"header":)");
+  set_aside_ = partial_.move_text_beside();
 }
 
 void Journal::read_earlier(const Json& header) {

@@ -45,6 +45,8 @@ class Journal {
 
   // The file with the finished cases of an earlier run; "" if there were none, or if this run continues with them.
   const std::filesystem::path& set_aside() const { return set_aside_; }
+  // Whether that was left by a run.
+  bool is_set_aside_of_run() const { return is_set_aside_of_run_; }
 
   void add_case(const result::Case& finished);
   void add_broken(const result::BrokenCase& broken);
@@ -70,6 +72,7 @@ class Journal {
   bool accept_answer(nlohmann::ordered_json& entry);
 
   std::filesystem::path file_, set_aside_;
+  bool is_set_aside_of_run_ = false;
   os::LockedFile partial_;
   bool has_added_ = false, is_finished_ = false;
   std::vector<result::Case> earlier_cases_;

@@ -68,6 +68,9 @@ struct Series {
   std::vector<measure::ChangePoint> changes;
 };
 
+// Whether the text of a file begins as a history does.
+bool is_history(std::string_view text);
+
 // Throws Error, with the line, for a line that is not an entry of a history, including an unfinished last line.
 std::vector<HistoryEntry> read_history(const std::string& path);
 

@@ -146,8 +146,13 @@ HistoryEntry parsed(std::string_view line) {
                      text_or_none(json, "", "caches"),
                      {}};
   std::size_t number = 0;
-  for (const Json& stored : list_in(json, "", "cases"))
-    entry.cases.push_back(parsed_case(stored, "/cases/" + std::to_string(number++)));
+  std::set<std::string> ids;
+  for (const Json& stored : list_in(json, "", "cases")) {
+    const std::string at = "/cases/" + std::to_string(number++);
+    entry.cases.push_back(parsed_case(stored, at));
+    if (const std::string id = text_or_none(stored, at, "id"); !id.empty() && !ids.insert(id).second)
+      refuse_value(at + "/id", "'" + id + "' twice", "each case once");
+  }
   number = 0;
   if (json.contains("scenes"))
     for (const Json& stored : list_in(json, "", "scenes"))
@@ -179,10 +184,19 @@ std::string head_of(std::string_view line) {
   return std::string(line.substr(0, cases)) + k_cases.data() + "]}";
 }
 
+// Which is a document of many lines. Its first keys are enough.
+bool is_result(std::string_view text) {
+  return text.substr(0, 400).find("\"schema_version\"") != std::string_view::npos && text.starts_with("{\n");
+}
+
 }  // namespace
 
 bool is_kept(const Figure& figure) {
   return figure.is_exported() && figure.basis != Basis::derived && (figure.is_headline || figure.is_kept);
+}
+
+bool is_history(std::string_view text) {
+  return text.starts_with(R"({"history_version")");
 }
 
 std::string written_line(const result::Result& result, const std::string& commit) {
@@ -199,11 +213,14 @@ HistoryEntry HistoryLine::whole(const std::string& path) const {
 }
 
 std::vector<HistoryLine> history_lines(const std::string& path, std::string_view text) {
+  if (is_result(text))
+    throw Error(path, "", "is a result, not a history; `clusterbench history add RESULT HISTORY` adds it to one");
   std::vector<HistoryLine> lines;
   for (std::size_t begin = 0, number = 1; begin < text.size(); ++number) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string_view::npos)
-      throw Error(path, "line " + std::to_string(number), "has no end; was its writing interrupted?");
+      throw Error(path, "line " + std::to_string(number),
+                  "has no end: if it is whole, add a line break behind it, otherwise remove it");
     const std::string_view line = text.substr(begin, end - begin);
     if (!is_blank_line(line)) lines.push_back({line, number, end + 1});
     begin = end + 1;
