@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/text.h"
 #include "os/call_notes.h"
 
 namespace clusterbench::acceptance {
@@ -28,7 +29,7 @@ Findings run_test(const AcceptanceTest& test, const Subject& subject) {
   try {
     test.run(subject, findings);
   } catch (const std::exception& error) {
-    findings.fault(error.what());
+    findings.fault(printable(error.what()));
   }
   if (const auto step = os::forked_step())
     findings.fault(std::string("came back twice from ") + os::name_of(*step) + ": it forked");

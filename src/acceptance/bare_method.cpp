@@ -2,18 +2,29 @@
 
 #include <cstring>
 
+#include "assign/contract/method_error.h"
 #include "core/text.h"
+#include "plugin/plugin_call.h"
 
 namespace clusterbench::acceptance {
 
 template <class Function>
-auto BareMethod::noted(os::CallStep step, const Function& function) {
+void BareMethod::noted(os::CallStep step, const char* doing, const Function& function) {
   struct Checked {
     ~Checked() { os::end_if_files_are_lost(); }
   };
-  const os::ForeignCall call(caller_, step);
-  const Checked checked;
-  return function();
+  plugin::CallEnd end;
+  {
+    const os::ForeignCall call(caller_, step);
+    const Checked checked;
+    if (step == os::CallStep::destroy)
+      plugin::expect_return(doing, function);
+    else
+      plugin::returned(end, function);
+  }
+  if (!end.exception.empty())
+    throw assign::MethodError("", method_.descriptor.name,
+                              "an exception left " + std::string(doing) + ": " + end.exception);
 }
 
 BareMethod::BareMethod(const plugin::MethodFacts& method)
@@ -31,9 +42,9 @@ void BareMethod::clear() {
 
 clusterbench_status BareMethod::create(const std::vector<clusterbench_value>& values) {
   clear();
-  last_ = noted(os::CallStep::create, [&] {
-    return method_.table.create(method_.own, values.data(), static_cast<std::uint32_t>(values.size()), &instance_,
-                                &error_);
+  noted(os::CallStep::create, "create()", [&] {
+    const auto count = static_cast<std::uint32_t>(values.size());
+    last_ = method_.table.create(method_.own, values.data(), count, &instance_, &error_);
   });
   is_there_ = last_ == CLUSTERBENCH_OK;
   return last_;
@@ -46,19 +57,20 @@ clusterbench_status BareMethod::create() {
 
 clusterbench_status BareMethod::build(const clusterbench_grid& grid, std::uint32_t light_types) {
   clear();
-  return last_ =
-             noted(os::CallStep::build, [&] { return method_.table.build(instance_, &grid, light_types, &error_); });
+  noted(os::CallStep::build, "build()", [&] { last_ = method_.table.build(instance_, &grid, light_types, &error_); });
+  return last_;
 }
 
 clusterbench_status BareMethod::assign(const clusterbench_frame& frame, const clusterbench_lights& lights,
                                        clusterbench_lists& lists) {
   clear();
-  return last_ = noted(os::CallStep::assign,
-                       [&] { return method_.table.assign(instance_, &frame, &lights, &lists, &error_); });
+  noted(os::CallStep::assign, "assign()",
+        [&] { last_ = method_.table.assign(instance_, &frame, &lights, &lists, &error_); });
+  return last_;
 }
 
 void BareMethod::destroy() {
-  if (is_there_) noted(os::CallStep::destroy, [&] { method_.table.destroy(instance_); });
+  if (is_there_) noted(os::CallStep::destroy, "destroy()", [&] { method_.table.destroy(instance_); });
   is_there_ = false;
 }
 

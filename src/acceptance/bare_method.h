@@ -30,9 +30,9 @@ class BareMethod {
   std::string outcome() const;
 
  private:
-  // A call, noted as those of the program are.
+  // A call, noted as those of the program are. Throws MethodError if an exception left it.
   template <class Function>
-  auto noted(os::CallStep step, const Function& function);
+  void noted(os::CallStep step, const char* doing, const Function& function);
   void clear();
 
   const plugin::MethodFacts& method_;

@@ -48,7 +48,7 @@ void take_parameters(const Subject& subject, Findings& findings) {
       findings.fault("with " + values_text(values) + ": " + error.what());
     }
   }
-  findings.detail = std::to_string(all.size()) + " sets of values";
+  findings.detail = number_of(all.size(), "set") + " of values";
 }
 
 void refuse_parameters(const Subject& subject, Findings& findings) {

@@ -76,7 +76,8 @@ void leave_surroundings_alone(const Subject& subject, Findings& findings) {
 std::vector<AcceptanceTest> surrounding_tests() {
   return {
       {"processes", "does not fork, and leaves no process and no busy thread behind", false, leave_nothing_running},
-      {"surroundings", "leaves handlers of signals, the working directory, the locale and standard output alone", false,
+      {"surroundings",
+       "leaves signals, the working directory, the locale, the environment, limits and standard output alone", false,
        leave_surroundings_alone},
   };
 }

@@ -51,6 +51,7 @@ void prepare_for_copies() {
     std::memcpy(static_cast<void*>(page), static_cast<const void*>(g_page), sizeof(NotesPage));
     g_page = page;
     g_page->lost_descriptor = -1;
+    g_page->is_file_changed = false;
     return true;
   }();
   static_cast<void>(is_prepared);
@@ -183,16 +184,25 @@ std::optional<CallStep> forked_step_of(std::uint32_t code) {
   return g_page->forked_code == code ? forked_step() : std::nullopt;
 }
 
+bool has_called() {
+  return g_page->has_called;
+}
+
+std::string lost_file_text(int descriptor, bool is_changed) {
+  return std::string(is_changed ? "wrote to a file of the program, or cut it"
+                                : "closed a file of the program, or put another in its place") +
+         " (descriptor " + std::to_string(descriptor) + ")";
+}
+
 void end_if_files_are_lost() {
   if (is_forked_copy()) return;  // it ends soon
-  const int lost = lost_file();
-  if (lost < 0) return;
-  g_page->lost_descriptor = lost;
+  const LostFile lost = lost_file();
+  if (lost.descriptor < 0) return;
+  g_page->is_file_changed = lost.is_changed;
+  g_page->lost_descriptor = lost.descriptor;
   note_crash();
   if (!is_guarded())
-    std::fprintf(stderr,
-                 "clusterbench: a plug-in closed a file of the program, or put another in its place (descriptor %d)\n",
-                 lost);
+    std::fprintf(stderr, "clusterbench: a plug-in %s\n", lost_file_text(lost.descriptor, lost.is_changed).c_str());
   std::_Exit(static_cast<int>(is_guarded() ? ExitCode::internal : ExitCode::gate_failed));
 }
 
@@ -223,6 +233,7 @@ void clear_notes(NotesPage& page) {
   page.has_called = false;
   page.has_ended_thread = false;
   page.lost_descriptor = -1;
+  page.is_file_changed = false;
   page.has_forked = false;
   page.has_child_status = false;
   page.codes = 0;

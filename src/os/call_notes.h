@@ -90,8 +90,13 @@ std::optional<CallStep> forked_step();
 // This process is no copy that a call has forked: to be said in one that was forked on purpose.
 void note_own_process();
 
-// Ends this process at once, for its guard, if the call that is running has closed or replaced a file that this
-// process needs (os/kept_files.h). Without a guard it says so, where standard error is left.
+// Whether this process, or one whose notes it has joined, has called foreign code.
+bool has_called();
+
+// Ends this process at once, for its guard, if the call that is running has closed, replaced, written to or cut a file
+// that this process needs (os/kept_files.h). Without a guard it says so, where standard error is left.
 void end_if_files_are_lost();
+// What it did: "closed a file of the program, or put another in its place (descriptor 1)".
+std::string lost_file_text(int descriptor, bool is_changed);
 
 }  // namespace clusterbench::os

@@ -10,6 +10,9 @@ namespace clusterbench::os {
 // nullopt if it is not set.
 std::optional<std::string> variable(const std::string& name);
 
+// All of them, as "NAME=VALUE".
+std::vector<std::string> environment_variables();
+
 // The folders in a variable like PATH, without empty ones; none if it is not set.
 std::vector<std::string> folders_in_variable(const std::string& name);
 

@@ -30,7 +30,8 @@ struct GuardedEnd {
   int signal = 0;                 // by which it died; 0: by exit()
   int died_with_code = 0;         // of exit()
   bool has_ended_thread = false;  // ... because foreign code ended the thread that called it
-  int lost_descriptor = -1;       // ... because foreign code closed or replaced a file that the process needs
+  int lost_descriptor = -1;       // ... because foreign code closed, replaced or changed a file that the process needs
+  bool is_file_changed = false;   // ... its length
   bool has_forked = false;        // ... because foreign code forked it, and the copy came back from the call
   std::vector<std::string> made;  // codes of which it had made an object, if it died
   int orphans = 0;                // processes that it left running, and that were ended

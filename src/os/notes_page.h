@@ -61,7 +61,8 @@ struct NotesPage {
   std::atomic<int> last_thread;  // that began a call
   std::atomic<bool> has_called;
   std::atomic<bool> has_ended_thread;  // foreign code ended the thread that called it
-  std::atomic<int> lost_descriptor;    // that foreign code closed or replaced; -1: none
+  std::atomic<int> lost_descriptor;    // that foreign code closed, replaced or changed; -1: none
+  std::atomic<bool> is_file_changed;   // ... its length
   std::atomic<bool> has_forked;        // a copy of the process has come back from the call below
   std::atomic<std::uint64_t> forked_label;
   std::atomic<std::uint32_t> forked_code, forked_step;
@@ -88,6 +89,9 @@ NotesPage* page_for_copies();
 bool is_forked_copy();
 // Makes new ones, which processes share that this one forks, and uses them. Throws Error.
 NotesPage& share_notes();
+// In a copy, which has the memory: foreign code there could cut the file, and whoever reads the memory would die.
+// `path`: path_of_notes() of the process that keeps it open.
+void close_notes_file(const std::string& path);
 // Forgets all but the names of codes and the message.
 void clear_notes(NotesPage& page);
 // Notes the thread that crashes. Signals that others handle stay theirs.

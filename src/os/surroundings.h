@@ -1,7 +1,6 @@
 #pragma once
 // What foreign code shares with the rest of its process, and what it prints.
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -9,17 +8,25 @@
 
 namespace clusterbench::os {
 
-// Handlers of signals, the working directory and the locale, as they are when this is made.
+// What a process has once, as it is when this is made: handlers and mask of signals, the working directory, the locale,
+// the environment, the mask of new files, limits, the group of processes, priority and processors of this thread. On
+// Windows: the working directory, the locale and the environment.
 class Surroundings {
  public:
   Surroundings();
-  // What is different now: "the handler of SIGALRM".
+  // What is different now: "the handler of SIGALRM", "the working directory, to /".
   std::vector<std::string> changes() const;
 
  private:
-  static constexpr std::size_t k_signals = 65;
-  [[maybe_unused]] std::array<const void*, k_signals> handlers_{};  // not on Windows
-  std::string folder_, locale_;
+  struct Part {
+    std::string name, value;
+    bool is_shown = false;  // the value, in a message
+  };
+  // In the same order each time.
+  static std::vector<Part> parts();
+
+  std::vector<Part> before_;
+  std::vector<std::string> variables_;  // of the environment, sorted: "NAME=VALUE"
 };
 
 // What this process prints to standard output while this lives. At its end it goes to standard error.

@@ -22,12 +22,15 @@
  * it does, it has a parameter with CLUSTERBENCH_PARAMETER_THREADS.
  *
  * Errors. Functions return a clusterbench_status and write the reason into `error`. No C++ exception may leave a
- * function (clusterbench_plugin.hpp catches them all). A plug-in ends no process, and handles no signals.
+ * function (clusterbench_plugin.hpp catches them all): one that leaves create(), build() or assign() fails the method,
+ * one that leaves destroy() is a crash. A plug-in ends no process, and handles no signals.
  *
- * Rules. A call leaves what it did not make as it was: what it was given (arrays of grids, lights and depth are to be
- * read only), the thread that called it, and that thread's mode of floating-point numbers (rounding, denormals, traps).
- * Other methods use them next. The program sets the mode back after each call, and fails the method that changed it; it
- * fails one that wrote to its inputs, where it finds that: at the first call for each frame.
+ * Rules. A call leaves what it did not make as it was: what it was given (structs and arrays of grids, frames, lights
+ * and depth are to be read only), the thread that called it, that thread's mode of floating-point numbers (rounding,
+ * denormals, traps), empty registers of the x87 (MMX code ends with emms), and what the process has once (working
+ * directory, environment, limits, files of others). Other methods use them next. The program sets mode and registers
+ * back after each call, and fails the method that changed them; it fails one that wrote to its inputs, where it finds
+ * that: at the first call for each frame.
  *
  * Units: metres and radians. View space is right-handed, x to the right, y up, and the camera looks along -z: depth =
  * -z. Space of the lights and of box cells: view space for frustum and distance grids and cascades, the world's axes

@@ -32,13 +32,14 @@ std::string name_of(clusterbench_status status) {
 }
 
 // Every light in every cell.
-std::uint64_t most_pairs(const clusterbench_grid& grid, const view::LightRanges& lights) {
-  return std::uint64_t{grid.cell_count} * lights.size();
+std::uint64_t most_pairs(std::uint32_t cell_count, const view::LightRanges& lights) {
+  return std::uint64_t{cell_count} * lights.size();
 }
 
-// The boundaries, which the grid owns.
+// The struct itself, which the plug-in sees until the next build, and the boundaries, which the grid owns.
 KeptInputs kept_of(const clusterbench_grid& grid) {
   KeptInputs out;
+  out.keep("the grid's struct", &grid, 1);
   if (grid.x != nullptr) out.keep("grid.x", grid.x, grid.cells[0] + std::size_t{1});
   if (grid.y != nullptr) out.keep("grid.y", grid.y, grid.cells[1] + std::size_t{1});
   if (grid.z != nullptr) out.keep("grid.z", grid.z, grid.cells[2] + std::size_t{1});
@@ -66,47 +67,61 @@ PluginMethod::PluginMethod(const MethodFacts& facts, std::string file, const ass
 }
 
 PluginMethod::~PluginMethod() {
-  bool keeps_mode = true;  // set back if not; a destructor fails no more
-  called(caller_, os::CallStep::destroy, -1, keeps_mode, [&] {
-    facts_.table.destroy(instance_);
+  destroy();
+}
+
+void PluginMethod::destroy() const {
+  CallEnd end;  // what is not as before is set back; a destructor fails no more
+  called(caller_, os::CallStep::destroy, -1, end, [&] {
+    expect_return("destroy()", [&] { facts_.table.destroy(instance_); });
     os::end_if_files_are_lost();
   });
 }
 
+template <class Function>
+PluginMethod::Returned PluginMethod::call(os::CallStep step, bool looks_at_files, const Function& function) const {
+  Returned out;
+  called(caller_, step, step == os::CallStep::assign ? frame_ : -1, out.end, [&] {
+    returned(out.end, [&] { out.status = function(); });
+    if (looks_at_files) os::end_if_files_are_lost();
+  });
+  return out;
+}
+
 void PluginMethod::create(const assign::Params& params) {
   const std::vector<clusterbench_value> values = values_of(facts_.descriptor.params, params);
-  bool keeps_mode = true;
-  const clusterbench_status status = called(caller_, os::CallStep::create, -1, keeps_mode, [&] {
+  const Returned left = call(os::CallStep::create, true, [&] {
     const auto count = static_cast<std::uint32_t>(values.size());
-    const clusterbench_status left = facts_.table.create(facts_.own, values.data(), count, &instance_, &error_);
-    os::end_if_files_are_lost();
-    return left;
+    return facts_.table.create(facts_.own, values.data(), count, &instance_, &error_);
   });
-  expect(status, "create()");
-  if (keeps_mode) return;
-  called(caller_, os::CallStep::destroy, -1, keeps_mode, [&] { facts_.table.destroy(instance_); });
-  expect_mode(false, "create()");
+  expect_success(left, "create()");
+  if (left.end.keeps_mode && left.end.empties_numbers) return;
+  destroy();
+  expect_mode(left.end, "create()");
 }
 
 void PluginMethod::fail(const std::string& message) const {
   throw assign::MethodError(file_, facts_.descriptor.name, message);
 }
 
-void PluginMethod::expect(clusterbench_status status, const char* doing) const {
+void PluginMethod::expect_success(const Returned& left, const char* doing) const {
   if (!os::is_guarded())  // else the guard ends this process
     if (const auto step = os::forked_step_of(caller_.code))
       fail(std::string("came back twice from ") + os::name_of(*step) + ": it forked");
-  if (status == CLUSTERBENCH_OK) return;
+  if (!left.end.exception.empty()) fail("an exception left " + std::string(doing) + ": " + left.end.exception);
+  if (left.status == CLUSTERBENCH_OK) return;
   const std::string reason(text_.data(), strnlen(text_.data(), text_.size()));
-  fail(std::string(doing) + " " + name_of(status) + (reason.empty() ? "" : ": " + printable(reason)));
+  fail(std::string(doing) + " " + name_of(left.status) + (reason.empty() ? "" : ": " + printable(reason)));
 }
 
-void PluginMethod::expect_mode(bool is_kept, const char* doing) const {
-  if (!is_kept)
+void PluginMethod::expect_mode(const CallEnd& end, const char* doing) const {
+  if (!end.keeps_mode)
     fail(std::string(doing) +
          " left another rounding mode, or other denormals or traps, of floating-point numbers; allowed: the mode that "
-         "it "
-         "was called with");
+         "it was called with");
+  if (!end.empties_numbers)
+    fail(std::string(doing) +
+         " left the x87 registers in use (MMX code without emms); allowed: empty ones, as it was called with");
 }
 
 void PluginMethod::refuse_written(const KeptInputs& before, const char* doing) const {
@@ -116,31 +131,24 @@ void PluginMethod::refuse_written(const KeptInputs& before, const char* doing) c
 
 void PluginMethod::build(const grid::Grid& grid, const assign::LightKinds& kinds) {
   grid_ = view_of(grid);
+  cell_count_ = grid_.cell_count;
   text_.front() = '\0';
   kept_grid_ = kept_of(grid_);
-  bool keeps_mode = true;
-  const clusterbench_status status = called(caller_, os::CallStep::build, -1, keeps_mode, [&] {
-    const clusterbench_status left = facts_.table.build(instance_, &grid_, light_types_of(kinds), &error_);
-    os::end_if_files_are_lost();
-    return left;
-  });
+  const Returned left = call(os::CallStep::build, true,
+                             [&] { return facts_.table.build(instance_, &grid_, light_types_of(kinds), &error_); });
   refuse_written(kept_grid_, "build()");
-  expect(status, "build()");
-  expect_mode(keeps_mode, "build()");
+  expect_success(left, "build()");
+  expect_mode(left.end, "build()");
 }
 
 bool PluginMethod::fill(const clusterbench_frame& frame, const clusterbench_lights& lights, assign::Lists& out) {
-  last_ = {sizeof last_, grid_.cell_count, out.begin.data(), out.lights.data(), out.lights.size(), 0, 0, 0, 0};
+  last_ = {sizeof last_, cell_count_, out.begin.data(), out.lights.data(), out.lights.size(), 0, 0, 0, 0};
   text_.front() = '\0';
-  bool keeps_mode = true;
-  const clusterbench_status status = called(caller_, os::CallStep::assign, frame_, keeps_mode, [&] {
-    const clusterbench_status left = facts_.table.assign(instance_, &frame, &lights, &last_, &error_);
-    if (is_first_) os::end_if_files_are_lost();
-    return left;
-  });
-  if (!keeps_mode) expect_mode(false, "assign()");
-  if (status == CLUSTERBENCH_MORE) return false;
-  expect(status, "assign()");
+  const Returned left = call(os::CallStep::assign, is_first_,
+                             [&] { return facts_.table.assign(instance_, &frame, &lights, &last_, &error_); });
+  if (left.status != CLUSTERBENCH_MORE) expect_success(left, "assign()");
+  expect_mode(left.end, "assign()");
+  if (left.status == CLUSTERBENCH_MORE) return false;
   if (last_.count > out.lights.size())
     fail("says that it wrote " + std::to_string(last_.count) + " pairs where there is room for " +
          std::to_string(out.lights.size()));
@@ -177,13 +185,18 @@ KeptInputs PluginMethod::kept(const assign::FrameInput& input) const {
 
 void PluginMethod::assign(const assign::FrameInput& input, assign::Lists& out) {
   is_first_ = is_first_of(input.frame.index);
+  frame_ = input.frame.index;
+  const clusterbench_frame frame = view_of(input.frame, input.depth);
+  const clusterbench_lights lights = view_of(input.lights);
   if (!is_first_) {
-    fill_lists(input, out);
+    fill_lists(input, frame, lights, out);
     return;
   }
-  const KeptInputs before = kept(input);
+  KeptInputs before = kept(input);
+  before.keep("the frame's struct", &frame, 1);
+  before.keep("the lights' struct", &lights, 1);
   try {
-    fill_lists(input, out);
+    fill_lists(input, frame, lights, out);
   } catch (...) {
     before.put_back();
     throw;
@@ -191,12 +204,10 @@ void PluginMethod::assign(const assign::FrameInput& input, assign::Lists& out) {
   refuse_written(before, "assign()");
 }
 
-void PluginMethod::fill_lists(const assign::FrameInput& input, assign::Lists& out) {
-  frame_ = input.frame.index;
-  const clusterbench_frame frame = view_of(input.frame, input.depth);
-  const clusterbench_lights lights = view_of(input.lights);
-  const std::uint64_t most = most_pairs(grid_, input.lights);
-  out.begin.resize(grid_.cell_count + std::size_t{1});
+void PluginMethod::fill_lists(const assign::FrameInput& input, const clusterbench_frame& frame,
+                              const clusterbench_lights& lights, assign::Lists& out) {
+  const std::uint64_t most = most_pairs(cell_count_, input.lights);
+  out.begin.resize(cell_count_ + std::size_t{1});
   // Lists that were made before have room for the same frame again. So while a frame is timed again and again, the
   // method is called once, and no memory is made or cleared.
   const bool is_new = out.lights.capacity() == 0;
@@ -226,7 +237,7 @@ void PluginMethod::check(const assign::Lists& lists, const view::LightRanges& ra
   check_number("tests_done", last_.tests_done);
   check_number("fallbacks", last_.fallbacks);
   check_number("scratch_bytes", last_.scratch_bytes);
-  const std::string fault = assign::lists_fault(lists, grid_.cell_count, ranges, checked_);
+  const std::string fault = assign::lists_fault(lists, cell_count_, ranges, checked_);
   if (!fault.empty()) fail("left lists that are none: " + fault);
 }
 

@@ -9,6 +9,7 @@
 #include "assign/contract/assigner.h"
 #include "os/call_notes.h"
 #include "plugin/kept_inputs.h"
+#include "plugin/plugin_call.h"
 #include "plugin/read_plugin.h"
 
 namespace clusterbench::plugin {
@@ -32,16 +33,25 @@ class PluginMethod final : public assign::ListAssigner {
   std::size_t scratch_bytes() const override { return last_.scratch_bytes; }
 
  private:
+  // How one of its functions came back.
+  struct Returned {
+    clusterbench_status status = CLUSTERBENCH_FAILED;  // also where an exception left it
+    CallEnd end;
+  };
+  template <class Function>
+  Returned call(os::CallStep step, bool looks_at_files, const Function& function) const;
   void create(const assign::Params& params);
-  // Throws MethodError unless the method succeeded, and no call of the plug-in has forked.
-  void expect(clusterbench_status status, const char* doing) const;
+  void destroy() const;
+  // Throws MethodError unless the method succeeded, without an exception, and no call of the plug-in has forked.
+  void expect_success(const Returned& left, const char* doing) const;
   [[noreturn]] void fail(const std::string& message) const;
-  void expect_mode(bool is_kept, const char* doing) const;
+  void expect_mode(const CallEnd& end, const char* doing) const;
   // Whether this is the first time that this frame comes: it is not timed.
   bool is_first_of(int frame);
   KeptInputs kept(const assign::FrameInput& input) const;
   void refuse_written(const KeptInputs& before, const char* doing) const;
-  void fill_lists(const assign::FrameInput& input, assign::Lists& out);
+  void fill_lists(const assign::FrameInput& input, const clusterbench_frame& frame, const clusterbench_lights& lights,
+                  assign::Lists& out);
   // One call. False if there was too little room.
   bool fill(const clusterbench_frame& frame, const clusterbench_lights& lights, assign::Lists& out);
 
@@ -49,7 +59,8 @@ class PluginMethod final : public assign::ListAssigner {
   std::string file_;
   std::array<char, 1024> text_{};
   clusterbench_error error_{};
-  clusterbench_grid grid_{};
+  clusterbench_grid grid_{};      // as the plug-in sees it, and may have written to it
+  std::uint32_t cell_count_ = 0;  // of the grid
   clusterbench_lists last_{};
   os::Caller caller_;
   KeptInputs kept_grid_;

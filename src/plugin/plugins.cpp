@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
+#include <optional>
 #include <set>
 
 #include "core/error.h"
@@ -44,16 +45,40 @@ std::string content_of_library(const fs::path& file) {
   return content;
 }
 
+[[noreturn]] void refuse_exception(const fs::path& file, const std::string& doing, const CallEnd& end) {
+  throw Error(file.string(), "",
+              "an exception left " + doing + ": " + end.exception + "; allowed: none leaves a function of a plug-in");
+}
+
+// Runs what the library runs as it is loaded (constructors).
+os::SharedLibrary loaded_library(const fs::path& file) {
+  CallEnd end;
+  std::optional<os::SharedLibrary> library;
+  std::optional<Error> refused;
+  const bool is_loaded = returned(end, [&] {
+    try {
+      library.emplace(file);
+    } catch (const Error& error) {
+      refused = error;
+    }
+  });
+  if (!is_loaded) refuse_exception(file, "what it runs as it is loaded", end);
+  if (refused) throw Error(*refused);
+  return *library;
+}
+
 PluginFacts facts_of(const fs::path& file, const std::string& id) {
   // Libraries that are built with -ffast-math change the mode of numbers as they are loaded; it is set back.
-  bool keeps_mode = true;
-  return called({os::note_code(file.filename().string()), 0}, os::CallStep::load, -1, keeps_mode, [&] {
-    const os::SharedLibrary library(file);
+  CallEnd end;
+  return called({os::note_code(file.filename().string()), 0}, os::CallStep::load, -1, end, [&] {
+    const os::SharedLibrary library = loaded_library(file);
     using Entry = const clusterbench_plugin* (*)(const clusterbench_host*);
     const auto entry = reinterpret_cast<Entry>(library.symbol(k_entry));
     if (entry == nullptr)
       throw Error(file.string(), "", std::string("is no plug-in: it exports no function ") + k_entry + "()");
-    return read_plugin(file.string(), entry(&host()), id);
+    const clusterbench_plugin* given = nullptr;
+    if (!returned(end, [&] { given = entry(&host()); })) refuse_exception(file, std::string(k_entry) + "()", end);
+    return read_plugin(file.string(), given, id);
   });
 }
 

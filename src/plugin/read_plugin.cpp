@@ -24,7 +24,7 @@ struct Place {
 // The members that the plug-in has; the others are 0. `least`: the size of version 1.0.
 template <class Struct>
 Struct known_part(const Struct* given, std::size_t least, const Place& place) {
-  if (given == nullptr) place.fail("is a null pointer");
+  if (given == nullptr) place.fail("is a null pointer; takes a struct");
   const std::uint32_t size = given->struct_size;
   if (size < least || size > k_largest_struct)
     place.fail("struct_size is " + std::to_string(size) + "; takes " + std::to_string(least) + " to " +
@@ -37,9 +37,10 @@ Struct known_part(const Struct* given, std::size_t least, const Place& place) {
 std::string text_of(const char* given, std::size_t longest, const Place& place) {
   if (given == nullptr) place.fail("is a null pointer; takes a text");
   const std::size_t length = strnlen(given, longest + 1);
-  if (length > longest) place.fail("is longer than " + std::to_string(longest) + " bytes");
+  const std::string allowed = "; takes a text of 1 to " + std::to_string(longest) + " bytes";
+  if (length > longest) place.fail("is longer than " + std::to_string(longest) + " bytes" + allowed);
   std::string text(given, length);
-  if (text.empty()) place.fail("is empty");
+  if (text.empty()) place.fail("is empty" + allowed);
   if (printable(text) != text) place.fail("has a character that is none: takes one line of UTF-8");
   return text;
 }
@@ -93,7 +94,7 @@ void read_choices(const clusterbench_parameter& given, const Place& place, assig
   if (given.choice_count == 0 || given.choice_count > k_most_choices)
     place.fail("choice_count is " + std::to_string(given.choice_count) + "; takes 1 to " +
                std::to_string(k_most_choices));
-  if (given.choices == nullptr) place.fail("choices is a null pointer");
+  if (given.choices == nullptr) place.fail("choices is a null pointer; takes choice_count texts");
   for (std::uint32_t i = 0; i < given.choice_count; ++i) {
     const Place choice = place.at("choice " + std::to_string(i));
     out.choices.push_back(text_of(given.choices[i], k_longest_name, choice));
@@ -170,7 +171,8 @@ void read_parameters(const clusterbench_method& given, const Place& place, std::
   if (given.parameter_count > k_most_parameters)
     place.fail("parameter_count is " + std::to_string(given.parameter_count) + "; takes at most " +
                std::to_string(k_most_parameters));
-  if (given.parameter_count > 0 && given.parameters == nullptr) place.fail("parameters is a null pointer");
+  if (given.parameter_count > 0 && given.parameters == nullptr)
+    place.fail("parameters is a null pointer; takes parameter_count of them, or a parameter_count of 0");
   for (std::uint32_t i = 0; i < given.parameter_count; ++i) {
     out.push_back(read_parameter(given.parameters[i], place.at("parameter " + std::to_string(i))));
     if (std::ranges::count(out, out.back().name, &assign::ParamSpec::name) > 1)
@@ -224,7 +226,9 @@ PluginFacts read_plugin(const std::string& file, const clusterbench_plugin* give
   const Place place{file, ""};
   if (given == nullptr) place.fail("does not work with this program: clusterbench_plugin_entry() returned no plug-in");
   if (given->struct_size < offsetof(clusterbench_plugin, method_count))
-    place.fail("is no plug-in: its struct_size is " + std::to_string(given->struct_size));
+    place.fail("is no plug-in: its struct_size is " + std::to_string(given->struct_size) + "; takes " +
+               std::to_string(sizeof(clusterbench_plugin)) + " to " + std::to_string(k_largest_struct) +
+               ", and then major and minor");
   if (given->major != CLUSTERBENCH_PLUGIN_MAJOR)
     place.fail("is made for version " + version_text(given->major, given->minor) +
                " of the interface; this program takes versions " + std::to_string(CLUSTERBENCH_PLUGIN_MAJOR) +
@@ -239,7 +243,7 @@ PluginFacts read_plugin(const std::string& file, const clusterbench_plugin* give
   if (known.method_count == 0 || known.method_count > k_most_methods)
     place.fail("method_count is " + std::to_string(known.method_count) + "; takes 1 to " +
                std::to_string(k_most_methods));
-  if (known.methods == nullptr) place.fail("methods is a null pointer");
+  if (known.methods == nullptr) place.fail("methods is a null pointer; takes method_count of them");
   for (std::uint32_t i = 0; i < known.method_count; ++i) {
     out.methods.push_back(read_method(known.methods[i], out.id, place.at("method " + std::to_string(i))));
     const std::string& name = out.methods.back().descriptor.name;

@@ -12,11 +12,14 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/file_text.h"
 #include "os/call_notes.h"
 #include "os/kept_files.h"
+#include "os/locked_file.h"
 #include "os/orphans.h"
 #include "os/process.h"
 #include "os/process_memory.h"
+#include "os/temporary_folder.h"
 
 namespace clusterbench::os {
 namespace {
@@ -283,6 +286,63 @@ TEST(GuardedProcess, of_which_a_call_closes_files_tells_that_call) {
     ASSERT_TRUE(end.call);
     EXPECT_EQ(end.call->step, CallStep::build);
   }
+}
+
+// The journal of a run: what was written behind it is cut off again.
+TEST(GuardedProcess, of_which_a_call_writes_to_a_file_or_cuts_it_tells_that_call) {
+  for (const bool is_cut : {false, true}) {
+    const TemporaryFolder folder;
+    const auto path = folder / "journal";
+    ProcessGuard guard({});
+    const GuardedEnd end = end_after(guard, [&] {
+      LockedFile journal(path);
+      journal.append("one\n");
+      const ForeignCall call(caller_of("acme"), CallStep::assign, 3);
+      for (int file = 3; file < 20; ++file)
+        if (is_cut ? ::ftruncate(file, 0) == 0 : ::write(file, "JUNK\n", 5) == 5) continue;
+      end_if_files_are_lost();
+      note_done(0);
+    });
+    EXPECT_EQ(end.how, How::died);
+    EXPECT_TRUE(end.is_file_changed);
+    EXPECT_GE(end.lost_descriptor, 3);
+    ASSERT_TRUE(end.call);
+    EXPECT_EQ(end.call->step, CallStep::assign);
+    EXPECT_EQ(file_text(path), is_cut ? "" : "one\n");
+  }
+}
+
+TEST(GuardedProcess, may_write_to_its_own_journal_after_calls) {
+  const TemporaryFolder folder;
+  ProcessGuard guard({});
+  const GuardedEnd end = end_after(guard, [&] {
+    LockedFile journal(folder / "journal");
+    for (int i = 0; i < 3; ++i) {
+      { const ForeignCall call(caller_of("acme"), CallStep::assign, i); }
+      journal.append("one\n");
+      journal.check_room(1000);
+      end_if_files_are_lost();
+    }
+    journal.cut_to(4);
+    journal.append("two\n");
+    end_if_files_are_lost();
+    note_done(0);
+  });
+  EXPECT_EQ(end.how, How::done);
+  EXPECT_EQ(file_text(folder / "journal"), "one\ntwo\n");
+}
+
+TEST(GuardedProcess, has_no_descriptor_of_the_notes_that_a_child_can_still_join) {
+  ProcessGuard guard({});
+  const GuardedEnd end = end_after(guard, [] {
+    for (int file = 3; file < 64; ++file)
+      if (::ftruncate(file, 0) == 0) continue;
+    join_notes(path_of_notes());
+    const ForeignCall call(caller_of("acme", 5), CallStep::assign, 8);
+    note_done(7);
+  });
+  EXPECT_EQ(end.how, How::done);
+  EXPECT_EQ(end.exit_code, 7);
 }
 
 TEST(GuardedProcess, may_close_and_open_files_of_its_own) {

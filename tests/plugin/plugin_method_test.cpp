@@ -8,6 +8,7 @@
 
 #include <cfenv>
 #include <functional>
+#include <stdexcept>
 
 #include "assign/contract.h"
 #include "assign/contract/assigner_run.h"
@@ -262,6 +263,130 @@ TEST(PluginMethod, that_changes_the_rounding_mode_fails_and_the_mode_is_set_back
   std::fesetround(FE_TONEAREST);
   EXPECT_EQ(mode, FE_TONEAREST);
   EXPECT_NE(fault.find("assign() left another rounding mode"), std::string::npos) << fault;
+}
+
+// An exception is of the call that it left, and of nothing else.
+TEST(PluginMethod, that_an_exception_leaves_fails_with_its_words) {
+  using Work = decltype(assigns);
+  const std::pair<Work, std::string> k_thrown[] = {
+      {[](const auto&, auto&, auto&) -> clusterbench_status { throw std::out_of_range("range check"); }, "range check"},
+      {[](const auto&, auto&, auto&) -> clusterbench_status { throw std::runtime_error(""); },
+       "of the type std::runtime_error"},
+      {[](const auto&, auto&, auto&) -> clusterbench_status { throw 42; }, "of the type int"},
+      {[](const auto&, auto&, auto&) -> clusterbench_status { throw std::runtime_error("a\xff\nb"); },
+       printable("a\xff\nb")},
+      {[](const auto&, auto&, auto&) -> clusterbench_status { throw Error("f", "w", "m"); }, "f: w: m"}};
+  for (const auto& [work, words] : k_thrown)
+    EXPECT_EQ(fault_of(work), "one.so: hand.cells: an exception left assign(): " + words);
+}
+
+TEST(PluginMethod, that_an_exception_leaves_has_its_mode_and_inputs_set_back) {
+  const std::string fault = fault_of([](const clusterbench_lights& lights, auto&, auto&) -> clusterbench_status {
+    const_cast<float*>(lights.x)[0] += 1.0f;
+    std::fesetround(FE_UPWARD);
+    throw 42;
+  });
+  EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+  EXPECT_NE(fault.find("an exception left assign()"), std::string::npos) << fault;
+}
+
+TEST(PluginMethod, that_an_exception_leaves_in_create_and_build_fails) {
+  PluginByHand hand;
+  hand.method.grid_kinds = CLUSTERBENCH_FRUSTUM;
+  hand.method.build = [](void*, const clusterbench_grid*, std::uint32_t, clusterbench_error*) -> clusterbench_status {
+    throw std::runtime_error("no table");
+  };
+  const PluginFacts facts = read_plugin("hand.so", &hand.plugin);
+  const assign::AssignerDescriptor descriptor = runnable(facts.methods[0]);
+  const std::vector<Setting> settings = settings_for(descriptor, 3);
+  const auto fault = [&] {
+    try {
+      assign::AssignerRun run(descriptor, assign::Params(descriptor.params), assign::Answer::lists);
+      run.build(settings.front().grid);
+      return std::string();
+    } catch (const assign::MethodError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(fault(), "one.so: hand.cells: an exception left build(): no table");
+  hand.method.create = [](const clusterbench_method*, const clusterbench_value*, std::uint32_t, void**,
+                          clusterbench_error*) -> clusterbench_status { throw std::runtime_error("no licence"); };
+  hand.method.destroy = [](void*) { ADD_FAILURE() << "destroys what it did not create"; };
+  const PluginFacts changed = read_plugin("hand.so", &hand.plugin);
+  const assign::AssignerDescriptor other = runnable(changed.methods[0]);
+  EXPECT_THROW(assign::AssignerRun(other, assign::Params(other.params), assign::Answer::lists), assign::MethodError);
+}
+
+TEST(PluginMethod, that_an_exception_leaves_in_destroy_aborts_with_its_words) {
+  const auto in_a_copy_on_purpose = [] {
+    os::note_own_process();
+    os::keep_standard_files();  // the test reads standard error
+    PluginByHand hand;
+    hand.method.destroy = [](void*) { throw std::runtime_error("no end"); };
+    const PluginFacts facts = read_plugin("hand.so", &hand.plugin);
+    PluginMethod(facts.methods[0], "hand.so", assign::Params(facts.methods[0].descriptor.params));
+  };
+  EXPECT_DEATH(in_a_copy_on_purpose(), "an exception left destroy\\(\\): no end");
+}
+
+#if defined(__x86_64__)
+// Sums in the 80 bits of the x87 are NaN while its registers are in use.
+long double sum_of_x87(long double a, long double b) {
+  const volatile long double x = a, y = b;
+  return x + y;
+}
+
+TEST(PluginMethod, that_leaves_the_x87_in_use_fails_and_the_registers_are_emptied) {
+  const std::pair<const char*, void (*)()> k_ways[] = {
+      {"MMX without emms", [] { asm volatile("pxor %mm0, %mm0"); }},
+      {"a full stack", [] { asm volatile("fld1\n\tfld1\n\tfld1\n\tfld1\n\tfld1\n\tfld1\n\tfld1\n\tfld1"); }},
+      {"one number", [] { asm volatile("fldz"); }}};
+  for (const auto& [name, leave] : k_ways) {
+    const std::string fault = fault_of([leave = leave](const auto&, auto&, auto&) -> clusterbench_status {
+      leave();
+      return CLUSTERBENCH_OK;
+    });
+    EXPECT_EQ(sum_of_x87(1.0L, 2.0L), 3.0L) << name;
+    EXPECT_NE(fault.find("assign() left the x87 registers in use (MMX code without emms)"), std::string::npos)
+        << name << ": " << fault;
+  }
+}
+
+TEST(PluginMethod, that_uses_mmx_and_empties_it_is_right) {
+  EXPECT_EQ(fault_of([](const auto&, auto&, auto&) -> clusterbench_status {
+              asm volatile("pxor %mm0, %mm0\n\temms");
+              return CLUSTERBENCH_OK;
+            }),
+            "");
+}
+#endif
+
+TEST(PluginMethod, that_writes_to_a_struct_fails) {
+  const std::string fault = fault_of([](const clusterbench_lights& lights, auto&, auto&) {
+    const_cast<clusterbench_lights&>(lights).point_count = 0;
+    return CLUSTERBENCH_OK;
+  });
+  EXPECT_NE(fault.find("assign() wrote to the lights' struct, which is to be read only"), std::string::npos) << fault;
+}
+
+TEST(PluginMethod, that_writes_to_its_grid_changes_no_other_number) {
+  PluginByHand hand;
+  hand.method.grid_kinds = CLUSTERBENCH_FRUSTUM;
+  hand.method.build = [](void*, const clusterbench_grid* grid, std::uint32_t,
+                         clusterbench_error*) -> clusterbench_status {
+    const_cast<clusterbench_grid*>(grid)->cell_count = 1;
+    return CLUSTERBENCH_OK;
+  };
+  const PluginFacts facts = read_plugin("hand.so", &hand.plugin);
+  const assign::AssignerDescriptor descriptor = runnable(facts.methods[0]);
+  const std::vector<Setting> settings = settings_for(descriptor, 3);
+  assign::AssignerRun run(descriptor, assign::Params(descriptor.params), assign::Answer::lists);
+  try {
+    run.build(settings.front().grid);
+    ADD_FAILURE() << "takes it";
+  } catch (const assign::MethodError& error) {
+    EXPECT_STREQ(error.what(), "one.so: hand.cells: build() wrote to the grid's struct, which is to be read only");
+  }
 }
 
 TEST(PluginMethod, that_writes_to_its_lights_fails) {

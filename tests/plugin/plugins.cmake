@@ -26,6 +26,10 @@ clusterbench_test_plugin(entry-ends-thread hostile/entry.c ENTRY_ENDS_THREAD)
 clusterbench_test_plugin(entry-null hostile/entry.c ENTRY_NULL)
 clusterbench_test_plugin(entry-hangs hostile/entry.c ENTRY_HANGS)
 clusterbench_test_plugin(no-entry hostile/entry.c)
+clusterbench_test_plugin(bare hostile/bare.cpp)
+clusterbench_test_plugin(entry-throws hostile/bare.cpp ENTRY_THROWS)
+clusterbench_test_plugin(create-throws hostile/bare.cpp CREATE_THROWS)
+clusterbench_test_plugin(destroy-throws hostile/bare.cpp DESTROY_THROWS)
 
 # The interface as a C compiler sees it, for test_plugin.
 add_library(plugin_interface_in_c STATIC ${CMAKE_CURRENT_SOURCE_DIR}/plugin/interface_in_c.c)

@@ -138,6 +138,10 @@ ExitCode check_sizes(const SizeFlags& flags, const SizeCounts* counts, const res
     print_searched_budgets(config, result, request.scope.found);
     code = report_findings(findings_with_searches(Gates(config.limits, request.filter), result, request.scope.found));
   }
+  const std::vector<result::BrokenCase> broken_cases = result.broken.value_or(std::vector<result::BrokenCase>());
+  if (result.cases.empty() || !broken_cases.empty()) code = ExitCode::gate_failed;
+  for (const result::BrokenCase& broken : broken_cases)
+    print_message("FAILED " + broken.name + ": " + broken.reason + "; it is not sized");
   for (const std::string& name : report::sized_from_nothing(result, request)) {
     if (!allows_no_lights) code = ExitCode::gate_failed;
     print_message((allows_no_lights ? "warning: " : "FAILED ") + name +

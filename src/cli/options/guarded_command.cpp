@@ -26,9 +26,7 @@ std::string death_text(const os::GuardedEnd& end) {
   const std::string signal = os::signal_name(end.signal);
   if (signal == "SIGKILL") return "was killed (SIGKILL), as where memory runs out,";
   if (end.signal != 0) return "crashed (" + signal + ")";
-  if (end.lost_descriptor >= 0)
-    return "closed a file of the program, or put another in its place (descriptor " +
-           std::to_string(end.lost_descriptor) + ")";
+  if (end.lost_descriptor >= 0) return os::lost_file_text(end.lost_descriptor, end.is_file_changed);
   if (end.has_ended_thread) return "ended the process by ending its thread (pthread_exit)";
   return "ended the process (exit code " + std::to_string(end.died_with_code) + ")";
 }
@@ -197,7 +195,7 @@ namespace {
     print_message(printable(error.what()));
     code = error.code();
   } catch (const std::exception& error) {
-    print_message(std::string("internal error: ") + error.what());
+    print_message(printable(std::string("internal error: ") + error.what()));
     code = ExitCode::internal;
   }
   std::cout << std::flush;

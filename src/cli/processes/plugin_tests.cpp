@@ -132,8 +132,7 @@ std::string ending_text(const Answer& answer) {
   std::string text = "ended its process", call;
   const std::optional<os::GuardedEnd>& noted = answer.noted;
   if (noted && noted->lost_descriptor >= 0)
-    return "closed a file of the program, or put another in its place (descriptor " +
-           std::to_string(noted->lost_descriptor) + ")" + place_text(noted->call, true);
+    return os::lost_file_text(noted->lost_descriptor, noted->is_file_changed) + place_text(noted->call, true);
   if (noted && noted->has_forked) return "came back twice (it forked)" + place_text(noted->call, true);
   if (noted && noted->has_ended_thread) text += " by ending its thread (pthread_exit)";
   if (noted) text += place_text(noted->call, noted->is_call_running);

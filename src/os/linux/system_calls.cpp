@@ -1,6 +1,7 @@
 #include "os/posix/system_calls.h"
 
 #include <fcntl.h>
+#include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -47,6 +48,16 @@ bool end_with_parent(pid_t parent) {
 
 std::string path_for_children(int descriptor) {
   return "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(descriptor);
+}
+
+std::string allowed_processors() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  if (::sched_getaffinity(0, sizeof allowed, &allowed) != 0) return "";
+  std::string text;
+  for (int i = 0; i < CPU_SETSIZE; ++i)
+    if (CPU_ISSET(i, &allowed)) text += (text.empty() ? "" : " ") + std::to_string(i);
+  return text;
 }
 
 std::string name_of_signal(int number) {

@@ -75,6 +75,10 @@ std::string path_for_children(int) {
   return "";
 }
 
+std::string allowed_processors() {
+  return "";
+}
+
 std::string name_of_signal(int number) {
   if (number <= 0 || number >= NSIG || sys_signame[number] == nullptr) return "";
   std::string name = "SIG";

@@ -3,11 +3,19 @@
 #include <cstdlib>
 #include <sstream>
 
+extern "C" char** environ;  // POSIX asks for it, and has it in no header
+
 namespace clusterbench::os {
 
 std::optional<std::string> variable(const std::string& name) {
   const char* value = std::getenv(name.c_str());
   return value == nullptr ? std::nullopt : std::optional<std::string>(value);
+}
+
+std::vector<std::string> environment_variables() {
+  std::vector<std::string> all;
+  for (char** one = environ; one != nullptr && *one != nullptr; ++one) all.emplace_back(*one);
+  return all;
 }
 
 std::vector<std::string> folders_in_variable(const std::string& name) {

@@ -153,6 +153,7 @@ GuardedEnd end_of(int status) {
     end.signal = WTERMSIG(status);
   end.has_ended_thread = page.has_ended_thread;
   end.lost_descriptor = page.lost_descriptor;
+  end.is_file_changed = page.is_file_changed;
   end.made = codes_that_made();
   add_call(end, -1);
   return end;
@@ -223,6 +224,7 @@ std::optional<GuardedEnd> ProcessGuard::run(const std::atomic<bool>& stop) {
   std::cerr << std::flush;
   std::fflush(nullptr);
   const Orphans orphans;
+  const std::string notes = path_of_notes();
   const pid_t self = ::getpid(), copy = ::fork();
   if (copy < 0) throw Error("", "", errno_text("no process for plug-ins could be started"), ExitCode::internal);
   if (copy > 0) {
@@ -232,6 +234,7 @@ std::optional<GuardedEnd> ProcessGuard::run(const std::atomic<bool>& stop) {
     return end;
   }
   note_own_process();
+  close_notes_file(notes);
   if (!end_with_parent(self)) ::_exit(static_cast<int>(ExitCode::internal));
   stop_on_signals_of(self);
   watch_for_crashes();

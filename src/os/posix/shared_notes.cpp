@@ -18,6 +18,7 @@ namespace {
 
 // As the notes, they belong to the process.
 int g_notes_file = -1;
+bool g_are_notes_shared = false;
 std::string g_joined_notes;  // NOLINT(cert-err58-cpp): an empty string throws nothing
 
 NotesPage& mapped_page(int file) {
@@ -53,13 +54,20 @@ void join_notes(const std::string& path) {
 }
 
 NotesPage& share_notes() {
-  if (g_notes_file >= 0) return notes_page();
+  if (g_are_notes_shared) return notes_page();
   g_notes_file = memory_file();
   if (g_notes_file < 0 || ::ftruncate(g_notes_file, sizeof(NotesPage)) != 0)
     throw Error("memory", "", errno_text("no notes could be shared"), ExitCode::internal);
   use_notes(mapped_page(g_notes_file));
   begin_notes(notes_page());
+  g_are_notes_shared = true;
   return notes_page();
+}
+
+void close_notes_file(const std::string& path) {
+  g_joined_notes = path;
+  if (g_notes_file >= 0) ::close(g_notes_file);
+  g_notes_file = -1;
 }
 
 void watch_for_crashes() {

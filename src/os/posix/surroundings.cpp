@@ -1,23 +1,41 @@
 #include "os/surroundings.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <clocale>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "os/guarded_process.h"
 #include "os/kept_files.h"
+#include "os/posix/system_calls.h"
 
 namespace clusterbench::os {
 namespace {
 
-const void* handler_of(int number) {
+constexpr int k_signals = 65;
+
+std::string handler_of(int number) {
   struct sigaction action {};
-  if (::sigaction(number, nullptr, &action) != 0) return nullptr;
-  return reinterpret_cast<const void*>(action.sa_handler);
+  if (::sigaction(number, nullptr, &action) != 0) return "";
+  return std::to_string(reinterpret_cast<std::uintptr_t>(action.sa_handler));
+}
+
+// Of this thread.
+std::string blocked_signals() {
+  sigset_t blocked;
+  sigemptyset(&blocked);
+  ::pthread_sigmask(SIG_SETMASK, nullptr, &blocked);
+  std::string text;
+  for (int i = 1; i < k_signals; ++i)
+    if (sigismember(&blocked, i) == 1) text += (text.empty() ? "" : " ") + signal_name(i);
+  return text.empty() ? "none" : text;
 }
 
 std::string working_folder() {
@@ -30,19 +48,42 @@ std::string locale_name() {
   return name == nullptr ? "" : name;
 }
 
-}  // namespace
-
-Surroundings::Surroundings() : folder_(working_folder()), locale_(locale_name()) {
-  for (std::size_t i = 1; i < k_signals; ++i) handlers_[i] = handler_of(static_cast<int>(i));
+// It can only be read by setting it.
+std::string mask_of_files() {
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  char text[16];
+  std::snprintf(text, sizeof text, "%03o", static_cast<unsigned>(mask));
+  return text;
 }
 
-std::vector<std::string> Surroundings::changes() const {
-  std::vector<std::string> all;
-  for (std::size_t i = 1; i < k_signals; ++i)
-    if (handler_of(static_cast<int>(i)) != handlers_[i])
-      all.push_back("the handler of " + signal_name(static_cast<int>(i)));
-  if (const std::string now = working_folder(); now != folder_) all.push_back("the working directory, to " + now);
-  if (const std::string now = locale_name(); now != locale_) all.push_back("the locale, to " + now);
+constexpr std::pair<const char*, int> k_limits[] = {
+    {"RLIMIT_AS", RLIMIT_AS},         {"RLIMIT_CORE", RLIMIT_CORE},   {"RLIMIT_CPU", RLIMIT_CPU},
+    {"RLIMIT_DATA", RLIMIT_DATA},     {"RLIMIT_FSIZE", RLIMIT_FSIZE}, {"RLIMIT_MEMLOCK", RLIMIT_MEMLOCK},
+    {"RLIMIT_NOFILE", RLIMIT_NOFILE}, {"RLIMIT_NPROC", RLIMIT_NPROC}, {"RLIMIT_STACK", RLIMIT_STACK},
+};
+
+std::string limit_of(int resource) {
+  rlimit limit{};
+  if (::getrlimit(static_cast<decltype(RLIMIT_AS)>(resource), &limit) != 0) return "";
+  const auto text = [](rlim_t value) { return value == RLIM_INFINITY ? "no limit" : std::to_string(value); };
+  return text(limit.rlim_cur) + " (at most " + text(limit.rlim_max) + ")";
+}
+
+}  // namespace
+
+std::vector<Surroundings::Part> Surroundings::parts() {
+  std::vector<Part> all;
+  for (int i = 1; i < k_signals; ++i) all.push_back({"the handler of " + signal_name(i), handler_of(i), false});
+  all.push_back({"the blocked signals", blocked_signals(), true});
+  all.push_back({"the working directory", working_folder(), true});
+  all.push_back({"the locale", locale_name(), true});
+  all.push_back({"the mask of new files (umask)", mask_of_files(), true});
+  for (const auto& [name, resource] : k_limits)
+    all.push_back({"the limit " + std::string(name), limit_of(resource), true});
+  all.push_back({"the group of processes", std::to_string(::getpgrp()), true});
+  all.push_back({"the priority", std::to_string(::getpriority(PRIO_PROCESS, 0)), true});
+  all.push_back({"the processors that it may run on", allowed_processors(), true});
   return all;
 }
 

@@ -31,6 +31,9 @@ bool end_with_parent(pid_t parent);
 // The path of a descriptor of this process, by which a child can open it; "" where there is none.
 std::string path_for_children(int descriptor);
 
+// The processors that this thread may run on: "0 1 2"; "" where nobody can say.
+std::string allowed_processors();
+
 // "SIGSEGV"; "" without a name.
 std::string name_of_signal(int number);
 

@@ -17,6 +17,15 @@ std::optional<std::string> variable(const std::string& name) {
   return narrow(value);
 }
 
+std::vector<std::string> environment_variables() {
+  std::vector<std::string> all;
+  wchar_t* const block = ::GetEnvironmentStringsW();
+  for (const wchar_t* one = block; one != nullptr && *one != L'\0'; one += std::wstring(one).size() + 1)
+    all.push_back(narrow(one));
+  if (block != nullptr) ::FreeEnvironmentStringsW(block);
+  return all;
+}
+
 std::vector<std::string> folders_in_variable(const std::string& name) {
   std::istringstream list(variable(name).value_or(""));
   std::vector<std::string> folders;

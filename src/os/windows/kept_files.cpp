@@ -7,8 +7,13 @@ namespace clusterbench::os {
 void keep_file(int) {}
 void keep_standard_files() {}
 void release_file(int) {}
-int lost_file() {
-  return -1;
+void keep_file_and_length(int) {}
+FileChange::FileChange(int descriptor) : descriptor_(descriptor) {}
+FileChange::~FileChange() {
+  static_cast<void>(descriptor_);
+}
+LostFile lost_file() {
+  return {};
 }
 
 }  // namespace clusterbench::os

@@ -19,13 +19,8 @@ std::string locale_name() {
 }  // namespace
 
 // Handlers of signals cannot be asked for.
-Surroundings::Surroundings() : folder_(working_folder()), locale_(locale_name()) {}
-
-std::vector<std::string> Surroundings::changes() const {
-  std::vector<std::string> all;
-  if (const std::string now = working_folder(); now != folder_) all.push_back("the working directory, to " + now);
-  if (const std::string now = locale_name(); now != locale_) all.push_back("the locale, to " + now);
-  return all;
+std::vector<Surroundings::Part> Surroundings::parts() {
+  return {{"the working directory", working_folder(), true}, {"the locale", locale_name(), true}};
 }
 
 // What a plug-in prints is not looked at.

@@ -92,10 +92,10 @@ void print_random(std::ostream& out, const stress::RandomSearch& random) {
       << "\n  " << number_of(counts.pairs, "pair") << ", " << counts.true_pairs << " true; " << counts.decisions
       << " decided one by one, " << counts.undecided << " undecided; " << number_of(random.faults.size(), "fault")
       << "\n";
-  if (counts.settings > 0 && counts.pairs == 0 && random.faults.empty())
-    out << "  nothing was checked: no setting has a grid and lights that one of the methods takes; --random with a "
-           "larger "
-           "number draws more\n";
+  if (counts.settings > 0 && counts.compared_pairs == 0 && random.faults.empty())
+    out << "  nothing was checked of any method: no conservative one takes the grid and the lights of a setting, or "
+           "lists "
+           "a pair; --random with a larger number draws more\n";
   for (const stress::RandomFault& found : random.faults) out << "  " << in_lines(found) << "\n";
 }
 
