@@ -67,14 +67,18 @@ CascadesGrid make_cascades_grid(const GridSpec& spec, const GridInputs&) {
   const Vec3i& n = spec.cells;
   if (n.x < 4 || n.y < 4 || n.z < 2 || n.x % 4 != 0 || n.y % 4 != 0 || n.z % 2 != 0)
     throw Error("", "cells",
-                "of cascades must be multiples of 4, 4 and 2, so that a level's cells are wholly inside or outside of "
-                "the finer level");
-  if (spec.levels < 1 || spec.levels > 24) throw Error("", "levels", "must be 1 to 24");
+                "of cascades are " + cells_name(n) +
+                    "; allowed: multiples of 4, 4 and 2, so that a level's cells are wholly inside or outside of the "
+                    "finer level");
+  if (spec.levels < 1 || spec.levels > 24)
+    throw Error("", "levels", "are " + std::to_string(spec.levels) + "; allowed: 1 to 24");
   const auto finest_m = static_cast<float>(spec.finest_m);
   const double coarsest_m = std::ldexp(static_cast<double>(finest_m), spec.levels - 1);
   if (!(static_cast<double>(finest_m) >= geom::k_nearest_m) ||
       !geom::is_in_domain(coarsest_m * std::max({n.x, n.y, n.z})))
-    throw Error("", "finest", "must be at least 1e-15 m, and small enough for the coarsest level to end within 1e15 m");
+    throw Error("", "finest",
+                "is " + metres(spec.finest_m) + "; allowed: at least 1e-15 m, and so small that the coarsest of " +
+                    std::to_string(spec.levels) + " levels, with " + cells_name(n) + " cells, ends within 1e15 m");
   return {spec.levels, n, finest_m};
 }
 

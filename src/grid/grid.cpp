@@ -1,6 +1,7 @@
 #include "grid/grid.h"
 
 #include <charconv>
+#include <cstdio>
 #include <span>
 
 #include "core/error.h"
@@ -41,7 +42,8 @@ const KindRow& row_of(Kind kind) {
 
 void check_cell_count(const Grid& grid) {
   const Vec3i cells = grid.cells();
-  if (static_cast<double>(cells.x) * cells.y * cells.z > 1e9) throw Error("", "cells", "are more than 10^9");
+  if (static_cast<double>(cells.x) * cells.y * cells.z > 1e9)
+    throw Error("", "cells", "are more than 10^9: " + cells_name(cells));
 }
 
 }  // namespace
@@ -75,6 +77,12 @@ std::string number_name(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
   return {text, end};
+}
+
+std::string metres(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g m", value);
+  return text;
 }
 
 std::string cells_name(Vec3i cells) {

@@ -83,6 +83,8 @@ struct FrameReach {
 
 // The shortest text for names that identifies the number.
 std::string number_name(double value);
+// For messages: "0.1 m", "1e+300 m".
+std::string metres(double value);
 // "64x16x64"
 std::string cells_name(Vec3i cells);
 

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "geom/numbers/round_to_float.h"
 #include "geom/shapes/domain.h"
+#include "grid/grid_spec.h"
 
 namespace clusterbench::grid {
 namespace {
@@ -20,13 +21,6 @@ double exponential_at(double near, double far, double share) {
 
 void require(bool holds, const char* key, const std::string& message) {
   if (!holds) throw Error("", key, message);
-}
-
-std::string metres(double value) {
-  std::string text = std::to_string(value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text + " m";
 }
 
 struct Reach {
@@ -58,18 +52,32 @@ Reach reach_of(const Slicing& slicing, const SliceRange& range) {
   return reach;
 }
 
+// A list's own ends are its near and far; otherwise an end is the camera's where none is given.
+void check_reach(const Slicing& slicing, const Reach& reach) {
+  const bool is_list = slicing.scheme == Scheme::list;
+  const char* const near_key = is_list ? "slices.boundaries" : "slices.near";
+  require(geom::is_in_domain(reach.far), is_list ? "slices.boundaries" : "slices.far",
+          (is_list ? "end at " : "is ") + metres(reach.far) + "; allowed: at most 1e15 m" +
+              (is_list ? "" : "; where the camera's far plane is infinite, name one"));
+  require(geom::is_in_domain(reach.near), near_key,
+          (is_list ? "begin at " : "is ") + metres(reach.near) + "; allowed: at most 1e15 m from the eye");
+  if (reach.near < reach.far) return;
+  if (!is_list && slicing.far_m != 0.0 && slicing.near_m == 0.0)
+    throw Error("", "slices.far",
+                "is " + metres(reach.far) + ", which is not above the camera's near, " + metres(reach.near));
+  throw Error("", near_key, "is " + metres(reach.near) + ", which is not below far, " + metres(reach.far));
+}
+
 void check(const Slicing& slicing, const Reach& reach, bool orthographic) {
-  require(slicing.count >= 1, "slices.count", "must be at least 1");
-  require(geom::is_in_domain(reach.far), "slices.far",
-          "must be finite and at most 1e15 m; where the camera's far plane is infinite, name one");
-  require(geom::is_in_domain(reach.near), "slices.near", "must be finite and at most 1e15 m from the eye");
-  require(reach.near < reach.far, "slices.near",
-          "is " + metres(reach.near) + ", which is not below far, " + metres(reach.far));
-  const bool logarithmic = slicing.scheme != Scheme::linear && slicing.scheme != Scheme::list &&
-                           !(slicing.scheme == Scheme::power && slicing.lambda == 0.0);
+  require(slicing.count >= 1, "slices.count", "is " + std::to_string(slicing.count) + "; allowed: 1 or more");
+  check_reach(slicing, reach);
+  const bool is_list = slicing.scheme == Scheme::list;
+  const bool logarithmic =
+      slicing.scheme != Scheme::linear && !is_list && !(slicing.scheme == Scheme::power && slicing.lambda == 0.0);
   require(orthographic || !logarithmic || reach.near > 0.0, "slices.near",
           "is " + metres(reach.near) + "; exponential slices need a near above 0");
-  require(orthographic || reach.near >= 0.0, "slices.near", "must not be negative for a perspective camera");
+  require(orthographic || reach.near >= 0.0, is_list ? "slices.boundaries" : "slices.near",
+          (is_list ? "begin at " : "is ") + metres(reach.near) + "; allowed with a perspective camera: 0 m or more");
   if (slicing.scheme == Scheme::exponential_first) {
     require(reach.near < slicing.first_m && slicing.first_m < reach.far, "slices.first",
             "is " + metres(slicing.first_m) + (slicing.first_m == Slicing{}.first_m ? " where none is given" : "") +
@@ -77,7 +85,8 @@ void check(const Slicing& slicing, const Reach& reach, bool orthographic) {
                 ": name one (grids.*.slices.first), or another scheme (grids.*.slices.scheme)");
     require(slicing.first_m > 0.0, "slices.first",
             "is " + metres(slicing.first_m) + "; exponential slices begin there and need a number above 0");
-    require(slicing.count >= 2, "slices.count", "must be at least 2 for exponential-first");
+    require(slicing.count >= 2, "slices.count",
+            "is " + std::to_string(slicing.count) + "; exponential-first has at least 2");
   }
 }
 
@@ -98,10 +107,18 @@ Slicing with_linear_start(Slicing slicing, const Reach& reach) {
 
 // A first slice that begins below the domain's smallest depth begins at the eye instead; other slices must not begin
 // there.
-void check_nearest(std::vector<float>& boundaries) {
+void check_nearest(const char* key, std::vector<float>& boundaries) {
   if (static_cast<double>(boundaries.front()) < geom::k_nearest_m) boundaries.front() = 0.0f;
-  require(static_cast<double>(boundaries[1]) >= geom::k_nearest_m, "slices",
-          "must end at no less than 1e-15 m from the eye");
+  require(static_cast<double>(boundaries[1]) >= geom::k_nearest_m, key,
+          "end the first slice at " + metres(static_cast<double>(boundaries[1])) +
+              "; allowed: at least 1e-15 m from the eye");
+}
+
+void check_thickness(const char* key, const std::vector<float>& boundaries) {
+  for (std::size_t i = 1; i < boundaries.size(); ++i)
+    require(
+        boundaries[i - 1] < boundaries[i], key,
+        "are too thin: two boundaries coincide in single precision, at " + metres(static_cast<double>(boundaries[i])));
 }
 
 double boundary(const Slicing& slicing, const Reach& reach, int i) {
@@ -369,10 +386,9 @@ Slices make_slices(const Slicing& requested, const SliceRange& range, bool ortho
     slices.boundaries.back() = std::max(slices.boundaries.back(), geom::rounded_up(reach.far));
   // Depths between the camera's near plane and the first boundary are looked up in slice 0, so they belong to it.
   slices.boundaries.front() = geom::rounded_down(std::min(reach.near, range.camera_near_m));
-  if (!orthographic) check_nearest(slices.boundaries);
-  for (int i = 0; i < slicing.count; ++i)
-    require(slices.boundaries[static_cast<std::size_t>(i)] < slices.boundaries[static_cast<std::size_t>(i) + 1],
-            "slices", "are too thin: two boundaries coincide in single precision");
+  const char* const key = is_list ? "slices.boundaries" : "slices";
+  if (!orthographic) check_nearest(key, slices.boundaries);
+  check_thickness(key, slices.boundaries);
   slices.lookup = make_lookup(slicing, reach);
   return slices;
 }

@@ -39,12 +39,12 @@ std::vector<float> tile_planes(int count, int tile_pixels, int viewport_pixels, 
   return planes;
 }
 
-void check(const char* key, int tiles, int viewport_pixels) {
-  if (tiles < 1) throw Error("", key, "must be at least 1");
+void check(const char* key, const char* direction, int tiles, int viewport_pixels) {
+  if (tiles < 1) throw Error("", key, "is " + std::to_string(tiles) + " " + direction + "; allowed: 1 or more");
   if (tiles > viewport_pixels)
     throw Error("", key,
                 "gives " + std::to_string(tiles) + " tiles along " + std::to_string(viewport_pixels) +
-                    " pixels; at most one tile per pixel");
+                    " pixels; at most one tile per pixel " + direction);
 }
 
 }  // namespace
@@ -71,7 +71,8 @@ Tiling resolved_aspect(const Tiling& tiling, double ratio, const view::Projectio
 
 Vec2i tile_counts(const Tiling& tiling, Vec2i viewport) {
   if (tiling.is_by_count()) return tiling.count;
-  return {(viewport.x + tiling.pixels.x - 1) / tiling.pixels.x, (viewport.y + tiling.pixels.y - 1) / tiling.pixels.y};
+  const auto rounded_up = [](int pixels, int tile) { return (pixels - 1) / tile + 1; };  // any tile: none overflows
+  return {rounded_up(viewport.x, tiling.pixels.x), rounded_up(viewport.y, tiling.pixels.y)};
 }
 
 Tiles make_tiles(const Tiling& tiling, const view::Projection& projection, Vec2i viewport) {
@@ -79,15 +80,17 @@ Tiles make_tiles(const Tiling& tiling, const view::Projection& projection, Vec2i
   const char* key = by_count ? "tiles.count" : "tiles.pixels";
   const Vec2i pixels = by_count ? Vec2i{0, 0} : tiling.pixels;
   if (viewport.x < 1 || viewport.y < 1) throw Error("", "viewport", "must be at least 1 x 1 pixels");
-  if (!by_count && (pixels.x < 1 || pixels.y < 1)) throw Error("", key, "must be at least 1");
+  if (!by_count && (pixels.x < 1 || pixels.y < 1))
+    throw Error("", key,
+                "is " + std::to_string(pixels.x) + " x " + std::to_string(pixels.y) + "; allowed: 1 or more each");
 
   Tiles tiles;
   tiles.orthographic = projection.orthographic;
   tiles.pixels = pixels;
   tiles.viewport = viewport;
   tiles.count = tile_counts(tiling, viewport);
-  check(key, tiles.count.x, viewport.x);
-  check(key, tiles.count.y, viewport.y);
+  check(key, "across", tiles.count.x, viewport.x);
+  check(key, "down", tiles.count.y, viewport.y);
   tiles.x = tile_planes(tiles.count.x, pixels.x, viewport.x, projection.left, projection.right);
   tiles.y = tile_planes(tiles.count.y, pixels.y, viewport.y, projection.top, projection.bottom);
   tiles.scale_x = by_count ? static_cast<float>(tiles.count.x) / static_cast<float>(viewport.x)

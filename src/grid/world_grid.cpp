@@ -53,10 +53,11 @@ Axis axis_around_camera(double size_m, double camera_cell, int count) {
   return axis;
 }
 
-Axis axis_between(double lo, double hi, int count, bool is_given) {
-  if (is_given && !(lo < hi)) throw Error("", "bounds", "must have its minimum below its maximum on each axis");
-  if (is_given && !(geom::is_in_domain(lo) && geom::is_in_domain(hi)))
-    throw Error("", "bounds", "must be within 1e15 m from the origin");
+Axis axis_between(int axis, double lo, double hi, int count, bool is_given) {
+  if (is_given && !(lo < hi && geom::is_in_domain(lo) && geom::is_in_domain(hi)))
+    throw Error("", "bounds",
+                "are from " + metres(lo) + " to " + metres(hi) + " along " + "xyz"[axis] +
+                    "; allowed: the first below the second, both within 1e15 m from the origin");
   if (!(lo < hi)) {  // a rig without extent
     lo -= 0.5;
     hi += 0.5;
@@ -94,9 +95,10 @@ WorldGrid make_world_grid(const GridSpec& spec, const GridInputs& inputs) {
   WorldGrid grid;
   std::vector<float>* axes[3] = {&grid.x, &grid.y, &grid.z};
   for (int i = 0; i < 3; ++i) {
-    if (spec.cells[i] < 1) throw Error("", "cells", "must be at least 1 along each axis");
+    if (spec.cells[i] < 1)
+      throw Error("", "cells", "are " + cells_name(spec.cells) + "; allowed: at least 1 along each axis");
     Axis axis = spec.follows_camera(i) ? axis_around_camera(spec.cell_size_m[i], inputs.camera_cell[i], spec.cells[i])
-                                       : axis_between(lo[i], hi[i], spec.cells[i], spec.has_bounds);
+                                       : axis_between(i, lo[i], hi[i], spec.cells[i], spec.has_bounds);
     grid.origin[i] = axis.origin;
     *axes[i] = std::move(axis.planes);
   }

@@ -31,6 +31,7 @@ struct SpotLight {
   float outer_angle = 0.0f;
 };
 
+// Taken by box-bounds, box-refined, box-separating-axis, brute-force alone, and so on frustum grids.
 // A decal or a probe: all center + a * half_axes[0] + b * half_axes[1] + c * half_axes[2] with a, b and c from -1 to 1.
 struct Box {
   float center[3] = {};
@@ -67,12 +68,15 @@ struct View {
   // The axes of the picture in the world: each product of two axes within 1e-3 of 1 (an axis with itself) or 0. Their
   // numbers are taken as they are.
   double to_right[3] = {1.0, 0.0, 0.0}, to_top[3] = {0.0, 1.0, 0.0}, forward[3] = {0.0, 0.0, -1.0};
-  bool is_orthographic = false;
-  // The sides of the picture: slopes (offset / depth) of a perspective camera, metres of an orthographic one.
+  bool is_orthographic = false;  // not with a distance grid, whose shells lie around an eye
+  // The sides of the picture: slopes (offset / depth) of a perspective camera, -1e5 to 1e5; metres of an orthographic
+  // one, -1e15 to 1e15.
   double left = -1.0, right = 1.0, bottom = -1.0, top = 1.0;
-  double near_m = 0.1, far_m = 1000.0;  // far may be +inf for a perspective camera
-  // Only for methods that need a depth buffer, others do not look at them: width x height depths along `forward` in
-  // metres, row by row from the top left, +inf where there is no surface; 0 or more for a perspective camera.
+  // near is above 0 for a perspective camera, and at most 1e15 m away; far may be +inf for a perspective camera.
+  double near_m = 0.1, far_m = 1000.0;
+  // Needed by deferred, explicit, flagged, naive-mask, tile-slices, tiled, tiled-2.5d; others do not
+  // look at them: width x height depths along `forward` in metres, row by row from the top left, +inf where there is no
+  // surface; 0 or more for a perspective camera.
   std::span<const float> depths{};
 
   // Sets all but width, height and depths from 16 numbers of the view matrix (world to view: a rotation and a
@@ -108,7 +112,7 @@ struct Grid {
   int tile_width = 64, tile_height = 64;  // pixels; tiles at the right and the bottom edge are clipped
   Slicing slicing = Slicing::exponential_first;
   int slices = 16;
-  double near_m = 0.0, far_m = 0.0;           // 0: the camera's
+  double near_m = 0.0, far_m = 0.0;           // 0: the camera's; 0 with `list`
   double first_m = 5.0, lambda = 0.5;         // lambda is 0 to 1; each is looked at where the scheme has one
   std::span<const double> boundaries_m = {};  // of Slicing::list alone: ascending; `slices` is then their number - 1
   // cascades: cells of a level, multiples of 4, 4 and 2. world: cells of the whole box.
@@ -135,7 +139,8 @@ struct Parameter {
 };
 
 // An engine's own threads. run() calls part(context, i) for 0 <= i < count, each once, on any thread at any time, and
-// returns after all of them. Parts throw nothing and wait for nothing.
+// returns after all of them; update() fails if a part was skipped or called twice. Parts throw nothing and wait for
+// nothing.
 struct JobSystem {
   void* user = nullptr;
   void (*run)(void* user, std::uint32_t count, void (*part)(void* context, std::uint32_t i), void* context) = nullptr;
@@ -208,7 +213,8 @@ class LightLists {
   LightLists(LightLists&&) noexcept;
   LightLists& operator=(LightLists&&) noexcept;
 
-  // Once, or again for other settings. Starts threads - 1 threads, unless they are lent.
+  // Once, or again for other settings. Starts threads - 1 threads, unless they are lent. Refuses what would fail in
+  // every update().
   [[nodiscard]] bool start(const Settings& settings) noexcept;
   // Every frame. Allocates nothing while viewport, projection and kinds of lights stay the same and there are not more
   // lights, or pairs of cell and light, than ever before (but for the exact decision of a light that touches a cell to

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -10,104 +9,14 @@
 
 #include "core/error.h"
 #include "core/memory.h"
+#include "core/text.h"
 #include "geom/shapes/domain.h"
+#include "library/engine_words.h"
 
 namespace clusterbench::library {
 namespace {
 
-std::string short_number(double value) {
-  if (std::isnan(value)) return "nan";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
-
-[[noreturn]] void refuse(const std::string& where, const std::string& problem) {
-  throw Error("", where, problem);
-}
-
-// --- Grid and parameters ---
-
-grid::Scheme scheme_of(Grid::Slicing slicing) {
-  switch (slicing) {
-    case Grid::Slicing::linear:
-      return grid::Scheme::linear;
-    case Grid::Slicing::exponential:
-      return grid::Scheme::exponential;
-    case Grid::Slicing::exponential_first:
-      return grid::Scheme::exponential_first;
-    case Grid::Slicing::power:
-      return grid::Scheme::power;
-    case Grid::Slicing::list:
-      return grid::Scheme::list;
-  }
-  refuse("grid.slicing", "is none; allowed: linear, exponential, exponential_first, power, list");
-}
-
-grid::Tiling tiling_of(const Grid& given) {
-  if ((given.columns == 0) != (given.rows == 0))
-    refuse("grid.columns, grid.rows", "are " + std::to_string(given.columns) + " and " + std::to_string(given.rows) +
-                                          "; allowed: both 0, or both above 0");
-  grid::Tiling tiling;
-  tiling.pixels = given.columns == 0 ? Vec2i(given.tile_width, given.tile_height) : Vec2i(0, 0);
-  tiling.count = Vec2i(given.columns, given.rows);
-  const auto check_least = [](const char* where, int number) {
-    if (number < 1) refuse(where, "is " + std::to_string(number) + "; allowed: 1 or more");
-  };
-  const bool is_by_count = given.columns != 0;
-  check_least(is_by_count ? "grid.columns" : "grid.tile_width", is_by_count ? given.columns : given.tile_width);
-  check_least(is_by_count ? "grid.rows" : "grid.tile_height", is_by_count ? given.rows : given.tile_height);
-  return tiling;
-}
-
-// What make_grid does not check.
-void check_slicing(const Grid& given) {
-  if (given.slicing != Grid::Slicing::list && !given.boundaries_m.empty())
-    refuse("grid.boundaries_m", "are given, and grid.slicing is not list; allowed: none");
-  if (given.slicing == Grid::Slicing::power && !(given.lambda >= 0.0 && given.lambda <= 1.0))
-    refuse("grid.lambda", "is " + short_number(given.lambda) + "; allowed: 0 to 1");
-  for (std::size_t i = 1; i < given.boundaries_m.size(); ++i)
-    if (!(given.boundaries_m[i - 1] < given.boundaries_m[i]))
-      refuse("grid.boundaries_m", "have " + short_number(given.boundaries_m[i]) + " after " +
-                                      short_number(given.boundaries_m[i - 1]) + "; allowed: ascending numbers");
-}
-
-grid::Slicing slicing_of(const Grid& given) {
-  check_slicing(given);
-  grid::Slicing slices;
-  slices.scheme = scheme_of(given.slicing);
-  slices.count = given.slices;
-  slices.near_m = given.near_m;
-  slices.far_m = given.far_m;
-  slices.first_m = given.first_m;
-  slices.lambda = given.lambda;
-  slices.boundaries_m.assign(given.boundaries_m.begin(), given.boundaries_m.end());
-  return slices;
-}
-
-void check_count(const char* where, std::size_t count, std::size_t most) {
-  if (count < 1 || count > most)
-    refuse(where, "is " + std::to_string(count) + "; allowed: 1 to " + std::to_string(most));
-}
-
-// As in a configuration; the product of cells is limited where the grid is made.
-void check_counts(const Grid& given) {
-  constexpr int k_most_cells = 65536, k_most_slices = 4096;
-  const auto count_of = [](int count) { return count < 0 ? 0 : static_cast<std::size_t>(count); };
-  switch (given.kind) {
-    case Grid::Kind::frustum:
-    case Grid::Kind::distance:
-      if (given.slicing != Grid::Slicing::list)
-        return check_count("grid.slices", count_of(given.slices), k_most_slices);
-      if (given.boundaries_m.size() < 2) refuse("grid.boundaries_m", "are fewer than 2; allowed: 2 to 4097");
-      return check_count("grid.boundaries_m", given.boundaries_m.size(), k_most_slices + 1);
-    case Grid::Kind::cascades:
-    case Grid::Kind::world:
-      for (const int cells : given.cells) check_count("grid.cells", count_of(cells), k_most_cells);
-      return;
-  }
-  refuse("grid.kind", "is none; allowed: frustum, distance, cascades, world");
-}
+// --- Parameters ---
 
 assign::ParamValue value_of(const char* where, const Parameter& parameter) {
   switch (parameter.type) {
@@ -119,6 +28,12 @@ assign::ParamValue value_of(const char* where, const Parameter& parameter) {
       return parameter.number;
   }
   refuse(where, "have '" + std::string(parameter.name) + "' of no type; allowed: number, text, flag");
+}
+
+std::string allowed_names(std::span<const assign::ParamSpec> specs) {
+  std::vector<std::string> names;
+  for (const assign::ParamSpec& spec : specs) names.push_back(spec.name);
+  return names.empty() ? "; allowed: none" : "; allowed: " + joined(names);
 }
 
 // --- Camera ---
@@ -136,29 +51,44 @@ void check_axes(const Mat3d& rotation) {
     }
 }
 
-void check_sides(const view::Projection& projection) {
-  try {
-    view::check_projection(projection);
-  } catch (const Error& error) {
-    refuse("view", error.message());
-  }
+// The first below the second.
+void check_order(const char* where, double first, double second, const char* allowed) {
+  if (!(first < second))
+    refuse(where, "are " + short_number(first) + " and " + short_number(second) + "; allowed: " + allowed);
+}
+
+void check_side(const char* where, double side, bool is_orthographic) {
+  if (std::abs(side) <= (is_orthographic ? geom::k_farthest_m : geom::k_steepest_slope)) return;
+  refuse(where, "is " + short_number(side) + "; allowed: " +
+                    (is_orthographic ? "-1e15 to 1e15 m" : "slopes from -1e5 to 1e5, which is 89.9994 degrees"));
+}
+
+// As view::check_projection(), which names no side.
+void check_sides(const View& view) {
+  check_side("view.left", view.left, view.is_orthographic);
+  check_side("view.right", view.right, view.is_orthographic);
+  check_side("view.bottom", view.bottom, view.is_orthographic);
+  check_side("view.top", view.top, view.is_orthographic);
+  check_order("view.left, view.right", view.left, view.right, "left < right");
+  check_order("view.bottom, view.top", view.bottom, view.top, "bottom < top");
 }
 
 void check_range_of_depths(const View& view) {
-  const bool has_near = view.is_orthographic ? std::isfinite(view.near_m) : view.near_m > 0.0;
+  const bool has_near = geom::is_in_domain(view.near_m) && (view.is_orthographic || view.near_m > 0.0);
   const bool has_far = view.near_m < view.far_m && (!view.is_orthographic || std::isfinite(view.far_m));
   if (has_near && has_far) return;
   refuse("view.near_m, view.far_m",
          "are " + short_number(view.near_m) + " and " + short_number(view.far_m) +
-             "; allowed: 0 < near < far, far may be infinite; of an orthographic camera near < far, both "
-             "finite");
+             "; allowed: 0 < near < far, near up to 1e15 m, far may be infinite; of an orthographic camera near < "
+             "far, both finite");
 }
 
-void check_depth(float depth, bool is_orthographic) {
+void check_depth(std::size_t index, float depth, bool is_orthographic) {
   const float least = is_orthographic ? std::numeric_limits<float>::lowest() : 0.0f;
   if (depth >= least) return;
-  refuse("view.depths", "have " + short_number(static_cast<double>(depth)) + "; allowed: " +
-                            (is_orthographic ? "metres" : "0 m or more") + ", and +inf without a surface");
+  refuse("view.depths[" + std::to_string(index) + "]",
+         "is " + short_number(static_cast<double>(depth)) +
+             "; allowed: " + (is_orthographic ? "metres" : "0 m or more") + ", and +inf without a surface");
 }
 
 // --- Lights ---
@@ -167,7 +97,8 @@ std::string name_of(const char* kind, std::size_t index, const char* member) {
   return std::string("lights.") + kind + "[" + std::to_string(index) + "]." + member;
 }
 
-std::string text_of(const float (&numbers)[3]) {
+template <class Number>
+std::string text_of(const Number (&numbers)[3]) {
   return "(" + short_number(static_cast<double>(numbers[0])) + ", " + short_number(static_cast<double>(numbers[1])) +
          ", " + short_number(static_cast<double>(numbers[2])) + ")";
 }
@@ -214,12 +145,14 @@ void set_box(std::size_t index, const Box& box, scene::WorldLight& out) {
   }
   out.range_m = geom::range_in_domain(scene::corner_distance_m(out.half_axes_m));
   if (!std::isfinite(out.range_m))
-    refuse(name_of("boxes", index, "half_axes"), "reach farther than 1e15 m from the center");
+    refuse(name_of("boxes", index, "half_axes"), "are " + text_of(box.half_axes[0]) + ", " + text_of(box.half_axes[1]) +
+                                                     " and " + text_of(box.half_axes[2]) +
+                                                     "; allowed: corners up to 1e15 m from the center");
 }
 
 void check_light_count(std::size_t count) {
   if (count > std::numeric_limits<std::uint32_t>::max() / 2)
-    refuse("lights", "are " + std::to_string(count) + "; allowed: 2^31 - 1");
+    refuse("lights", "are " + std::to_string(count) + "; allowed: at most 2^31 - 1");
   check_memory("lights", count, sizeof(scene::WorldLight));
 }
 
@@ -240,29 +173,14 @@ void set_types(const Lights& lights, view::Frame& frame) {
 
 }  // namespace
 
-grid::GridSpec grid_spec_of(const Grid& given) {
-  check_counts(given);
-  grid::GridSpec spec;
-  spec.kind = static_cast<grid::Kind>(given.kind);
-  if (spec.has_tiles()) {
-    spec.tiles = tiling_of(given);
-    spec.slices = slicing_of(given);
-  }
-  spec.cells = Vec3i(given.cells[0], given.cells[1], given.cells[2]);
-  spec.levels = given.levels;
-  spec.finest_m = given.finest_m;
-  spec.has_bounds = true;
-  spec.bounds_lo_m = Vec3d(given.lo_m[0], given.lo_m[1], given.lo_m[2]);
-  spec.bounds_hi_m = Vec3d(given.hi_m[0], given.hi_m[1], given.hi_m[2]);
-  return spec;
-}
-
 assign::Params params_of(const char* where, std::span<const assign::ParamSpec> specs,
                          std::span<const Parameter> given) {
   std::map<std::string, assign::ParamValue> values;
-  for (const Parameter& parameter : given)
+  for (const Parameter& parameter : given) {
+    if (parameter.name.empty()) refuse(where, "have one without a name" + allowed_names(specs));
     if (!values.emplace(parameter.name, value_of(where, parameter)).second)
       refuse(where, "have '" + std::string(parameter.name) + "' twice; allowed: each once");
+  }
   try {
     return {specs, values};
   } catch (const Error& error) {
@@ -275,15 +193,14 @@ void set_camera(const View& view, view::Frame& frame) {
   if (view.width < 1 || view.height < 1 || view.width > k_widest || view.height > k_widest)
     refuse("view.width, view.height", "are " + std::to_string(view.width) + " and " + std::to_string(view.height) +
                                           "; allowed: 1 to 1048576 pixels");
-  if (!(view.left < view.right) || !(view.bottom < view.top))
-    refuse("view.left, view.right, view.bottom, view.top", "are no picture; allowed: left < right, bottom < top");
+  check_sides(view);
   check_range_of_depths(view);
   frame.viewport = {view.width, view.height};
   frame.projection = {view.is_orthographic, view.left, view.right, view.bottom, view.top, view.near_m, view.far_m};
-  check_sides(frame.projection);
   view::Space& space = frame.view_space;
   space.origin = Vec3d(view.eye[0], view.eye[1], view.eye[2]);
-  if (!is_position(space.origin)) refuse("view.eye", "is farther than 1e15 m from the origin along an axis");
+  if (!is_position(space.origin))
+    refuse("view.eye", "is " + text_of(view.eye) + "; allowed: up to 1e15 m from the origin along each axis");
   for (int i = 0; i < 3; ++i) space.rotation[i] = Vec3d(view.to_right[i], view.to_top[i], -view.forward[i]);
   check_axes(space.rotation);
 }
@@ -304,7 +221,7 @@ void set_depths(const View& view, depth::DepthImage& image) {
     refuse("view.depths", "are " + std::to_string(view.depths.size()) + ", and this method needs one for each of " +
                               std::to_string(image.pixels.count()) + " pixels");
   image.nearest.assign(view.depths.begin(), view.depths.end());
-  for (const float depth : image.nearest) check_depth(depth, view.is_orthographic);
+  for (std::size_t i = 0; i < image.nearest.size(); ++i) check_depth(i, image.nearest[i], view.is_orthographic);
 }
 
 }  // namespace clusterbench::library

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <new>
 #include <optional>
 #include <string>
@@ -14,6 +13,7 @@
 #include "core/float_environment.h"
 #include "core/memory.h"
 #include "core/text.h"
+#include "library/engine_words.h"
 #include "library/given.h"
 #include "library/jobs.h"
 
@@ -110,63 +110,33 @@ void repeat_in_slices(std::uint32_t cell_count, assign::Lists& lists) {
     lists.begin[cell] = lists.begin[cell - tiles] + static_cast<std::uint32_t>(pairs);
 }
 
-void check_lights(const assign::AssignerDescriptor& method, const Lights& lights) {
-  const auto refuse_if = [&](bool is_refused, const char* kind) {
-    if (is_refused) throw Error("", std::string("lights.") + kind, "are given, and " + method.name + " takes none");
-  };
-  refuse_if(!method.points && !lights.points.empty(), "points");
-  refuse_if(!method.spots && !lights.spots.empty(), "spots");
-  refuse_if(!method.boxes && !lights.boxes.empty(), "boxes");
+// The methods on this kind of grid of which `takes` holds.
+template <class Takes>
+std::string methods_on(grid::Kind kind, Takes&& takes) {
+  std::vector<std::string> names;
+  for (const assign::AssignerDescriptor* method : assign::assigner_descriptors())
+    if (method->takes(kind) && takes(*method)) names.push_back(method->name);
+  return names.empty() ? "none" : joined(names);
+}
+
+// `takes`: the member of a descriptor that tells whether a method takes lights of this type.
+void check_lights(const assign::AssignerDescriptor& method, grid::Kind kind, const char* type, bool is_given,
+                  bool assign::AssignerDescriptor::*takes) {
+  if (!is_given || method.*takes) return;
+  refuse(std::string("lights.") + type,
+         "are given, and " + method.name + " takes none; methods on a " + grid::kind_name(kind) + " grid that do: " +
+             methods_on(kind, [&](const assign::AssignerDescriptor& other) { return other.*takes; }));
+}
+
+void check_lights(const assign::AssignerDescriptor& method, grid::Kind kind, const Lights& lights) {
+  using Row = assign::AssignerDescriptor;
+  check_lights(method, kind, "points", !lights.points.empty(), &Row::points);
+  check_lights(method, kind, "spots", !lights.spots.empty(), &Row::spots);
+  check_lights(method, kind, "boxes", !lights.boxes.empty(), &Row::boxes);
 }
 
 bool are_equal(const view::LightRanges& a, const view::LightRanges& b) {
   return a.points.count == b.points.count && a.spots.count == b.spots.count && a.boxes.count == b.boxes.count;
-}
-
-// Errors of grids and methods name keys of a configuration. "": none of these.
-std::string argument_of(const std::string& key) {
-  static const std::map<std::string, const char*> k_arguments{
-      {"tiles.pixels", "grid.tile_width, grid.tile_height"},
-      {"tiles.count", "grid.columns, grid.rows"},
-      {"tiles", "grid.tile_width, grid.tile_height, grid.columns, grid.rows"},
-      {"slices.scheme", "grid.slicing"},
-      {"slices.near", "grid.near_m"},
-      {"slices.far", "grid.far_m"},
-      {"slices.first", "grid.first_m"},
-      {"slices.lambda", "grid.lambda"},
-      {"slices.count", "grid.slices"},
-      {"slices.boundaries", "grid.boundaries_m"},
-      {"bounds", "grid.lo_m, grid.hi_m"},
-      {"finest", "grid.finest_m"},
-      {"cells", "grid.cells"},
-      {"camera", "view"},
-      {"limits.memory_mib", "set_memory_limit"}};
-  const auto found = k_arguments.find(key);
-  return found == k_arguments.end() ? "" : found->second;
-}
-
-grid::Grid made_grid(const grid::GridSpec& spec, const grid::GridInputs& inputs) {
-  try {
-    return grid::make_grid(spec, inputs);
-  } catch (const Error& error) {
-    const std::string argument = argument_of(error.where());
-    throw Error("", argument.empty() ? "grid." + error.where() : argument, error.message());
-  }
-}
-
-void replace_words(const std::string& words, const std::string& by, std::string& text) {
-  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + by.size()))
-    text.replace(at, words.size(), by);
-}
-
-// The same error with an engine's names in place of keys of a configuration.
-std::string text_for_engines(const Error& error) {
-  if (!error.file().empty()) return error.what();
-  std::string message = error.message();
-  replace_words("grids.*.slices.first", "grid.first_m", message);
-  replace_words("grids.*.slices.scheme", "grid.slicing", message);
-  const std::string argument = argument_of(error.where()), where = argument.empty() ? error.where() : argument;
-  return where.empty() ? message : where + ": " + message;
 }
 
 std::size_t kept_by(const view::LightArrays& a) {
@@ -243,10 +213,11 @@ struct LightLists::State {
   void start(const Settings& settings);
   void make_method(const Settings& settings);
   void update(const View& view, const Lights& lights);
-  void check_grid(const View& view) const;
+  void check_projection(const View& view) const;
   void prepare_grid();
   void build(const grid::GridInputs& now, const assign::LightKinds& wanted);
   void prepare_storage();
+  void start_storage();
   void assign();
   void show_buffers();
   void forget_frame();
@@ -291,11 +262,12 @@ struct LightLists::State {
 void LightLists::State::start(const Settings& settings) {
   *this = State();
   const assign::AssignerDescriptor& wanted = method_named(settings.method);
-  spec = grid_spec_of(settings.grid);
-  if (!wanted.takes(spec.kind))
+  const grid::Kind kind = kind_of(settings.grid);
+  if (!wanted.takes(kind))
     throw Error("", "grid.kind",
-                std::string("is ") + grid::kind_name(spec.kind) + ", on which " + wanted.name +
+                std::string("is ") + grid::kind_name(kind) + ", on which " + wanted.name +
                     " does not work; allowed: " + kinds_of(wanted));
+  spec = grid_spec_of(settings.grid, wanted.orthographic);
   if (settings.jobs.run != nullptr) lent.emplace(settings.jobs);
   wants_lists = settings.wants_lists_of_structures;
   const SharedThreadsScope lend(threads());
@@ -321,9 +293,10 @@ void LightLists::State::make_method(const Settings& settings) {
 
 void LightLists::State::update(const View& view, const Lights& lights) {
   if (method == nullptr) throw Error("", "update", "was called before a start() that did not fail");
-  check_lights(*method, lights);
-  check_grid(view);
+  check_lights(*method, spec.kind, lights);
   set_camera(view, frame);
+  check_grid_in_view(spec, view);
+  check_projection(view);
   set_lights(lights, frame);
   if (method->needs.depth) set_depths(view, depths);
   prepare_grid();
@@ -332,12 +305,12 @@ void LightLists::State::update(const View& view, const Lights& lights) {
   show_buffers();
 }
 
-void LightLists::State::check_grid(const View& view) const {
-  if (view.is_orthographic && !method->orthographic)
-    throw Error("", "view.is_orthographic", "is true, and " + method->name + " takes perspective cameras only");
-  const bool has_end = spec.slices.scheme == grid::Scheme::list || spec.slices.far_m > 0.0;
-  if (spec.has_tiles() && !has_end && std::isinf(view.far_m))
-    throw Error("", "grid.far_m", "is not given, and the camera has no far plane; give one of the two");
+void LightLists::State::check_projection(const View& view) const {
+  if (!view.is_orthographic || method->orthographic) return;
+  refuse("view.is_orthographic",
+         "is true, and " + method->name + " takes perspective cameras only; methods on a " +
+             grid::kind_name(spec.kind) + " grid that take both: " +
+             methods_on(spec.kind, [](const assign::AssignerDescriptor& other) { return other.orthographic; }));
 }
 
 // Builds if the projection changed, or if there is a light of a kind that the last build did not know.
@@ -356,14 +329,22 @@ void LightLists::State::build(const grid::GridInputs& now, const assign::LightKi
   assigner().build(grid, kinds);
   ++builds;
   stored = {};
-  if (storage) storage->start(grid, frame.ranges());
-  stored = frame.ranges();
+  start_storage();
   inputs = now;
 }
 
 void LightLists::State::prepare_storage() {
-  if (are_equal(stored, frame.ranges())) return;
-  if (storage) storage->start(grid, frame.ranges());
+  if (!are_equal(stored, frame.ranges())) start_storage();
+}
+
+// A storage's errors name its parameters.
+void LightLists::State::start_storage() {
+  try {
+    if (storage) storage->start(grid, frame.ranges());
+  } catch (const Error& error) {
+    if (error.where() == "limits.memory_mib") throw;
+    refuse("storage_parameters: " + error.where(), error.message());
+  }
   stored = frame.ranges();
 }
 

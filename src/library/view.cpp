@@ -133,6 +133,8 @@ const char* set_projection(Matrix m, const Conventions& conventions, double forw
   const ClipEnds clip = clip_ends(conventions.depth);
   out.near_m = depth_at(m, forward, out.is_orthographic, clip.near);
   out.far_m = depth_at(m, forward, out.is_orthographic, clip.far);
+  if (!out.is_orthographic && out.near_m == 0.0)
+    return "projection: has its near plane at the eye; the last number of its third row must not be 0";
   if (out.near_m < out.far_m) return nullptr;
   return "projection: its near plane is beyond its far plane, as if another Conventions::depth were meant";
 }
@@ -150,6 +152,8 @@ const char* fault_of_conventions(const Conventions& conventions) {
 
 template <class Number>
 const char* set_all(View& view, const Number* world_to_view, const Number* projection, const Conventions& conventions) {
+  if (world_to_view == nullptr) return "world_to_view: is null; allowed: 16 numbers";
+  if (projection == nullptr) return "projection: is null; allowed: 16 numbers";
   if (const char* fault = fault_of_conventions(conventions)) return fault;
   const Matrix pose(world_to_view, conventions.order);
   if (const char* fault = fault_of_view_matrix(pose)) return fault;

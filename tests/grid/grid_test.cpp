@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "core/error.h"
@@ -265,6 +266,44 @@ TEST(Grids, whose_numbers_single_precision_cannot_hold_are_refused) {
   EXPECT_THROW(grid_for(world, frame), Error);
 }
 
+TEST(Grids, that_are_refused_have_their_values_in_the_error) {
+  const view::Frame frame = frame_of({640, 360}, k_perspective);
+  const auto text = [&](const GridSpec& spec) -> std::string {
+    try {
+      grid_for(spec, frame);
+    } catch (const Error& error) {
+      return error.where() + ": " + error.message();
+    }
+    return "not refused";
+  };
+  GridSpec cascades = spec_of(Kind::cascades), world = spec_of(Kind::world), screen = spec_of(Kind::frustum);
+  cascades.cells = {16, 16, 16};
+  cascades.levels = 99;
+  EXPECT_EQ(text(cascades), "levels: are 99; allowed: 1 to 24");
+  cascades.levels = 2;
+  cascades.cells.z = 3;
+  EXPECT_TRUE(text(cascades).starts_with("cells: of cascades are 16x16x3; allowed: multiples of 4, 4 and 2"));
+  world.has_bounds = true;
+  world.bounds_lo_m = Vec3d(2.0);
+  world.bounds_hi_m = Vec3d(1.0);
+  EXPECT_TRUE(text(world).starts_with("bounds: are from 2 m to 1 m along x; allowed: the first below the second"));
+  world.bounds_hi_m = Vec3d(3.0);
+  world.cells = {2000, 2000, 2000};
+  EXPECT_EQ(text(world), "cells: are more than 10^9: 2000x2000x2000");
+  screen.tiles = {{0, 0}, {8, 361}};
+  EXPECT_EQ(text(screen), "tiles.count: gives 361 tiles along 360 pixels; at most one tile per pixel down");
+  screen.tiles.count = {8, -1};
+  EXPECT_EQ(text(screen), "tiles.count: is -1 down; allowed: 1 or more");
+  screen.tiles = {{0, 64}, {0, 0}};
+  EXPECT_EQ(text(screen), "tiles.pixels: is 0 x 64; allowed: 1 or more each");
+}
+
+// The sum of viewport and tile is beyond the whole numbers.
+TEST(Tiles, of_any_size_are_counted) {
+  constexpr int k_most = std::numeric_limits<int>::max();
+  EXPECT_EQ(tile_counts({{k_most, 64}, {0, 0}}, {640, 360}), (Vec2i{1, 6}));
+}
+
 TEST(Grids, are_held_to_the_domain) {
   view::Frame frame = frame_of({640, 360}, k_perspective);
   const auto refused_key = [&](const GridSpec& spec) -> std::string {
@@ -287,7 +326,7 @@ TEST(Grids, are_held_to_the_domain) {
   frame.projection.right = 1.0;
   screen.slices.scheme = Scheme::list;
   screen.slices.boundaries_m = {0, 1e-16, 1};
-  EXPECT_EQ(refused_key(screen), "slices");
+  EXPECT_EQ(refused_key(screen), "slices.boundaries");
   screen.slices.boundaries_m = {1e-16, 1e-14, 1};
   EXPECT_EQ(refused_key(screen), "");
   EXPECT_EQ(grid_for(screen, frame).screen().slices.boundaries.front(), 0.0F) << "nearer than the domain: at the eye";

@@ -235,6 +235,27 @@ TEST(Slicing, what_cannot_be_is_refused_by_its_key) {
   list.scheme = Scheme::list;
   list.boundaries_m = {1.0, 3.0, 3.0};
   EXPECT_EQ(key(list, endless, false), "slices.boundaries");
+  for (const auto& boundaries : {std::vector{-1.0, 2.0}, std::vector{1.0, 1e300}, std::vector{1.0, 2.0, 2.0 + 1e-12}}) {
+    list.boundaries_m = boundaries;
+    EXPECT_EQ(key(list, endless, false), "slices.boundaries");
+  }
+}
+
+// Of two ends that do not fit the one that is given is named, with its value.
+TEST(Slicing, an_end_that_does_not_fit_the_cameras_is_named) {
+  const auto text = [](const Slicing& asked) -> std::string {
+    try {
+      make_slices(asked, {0.1, 50.0, 0.0, 0.0}, false);
+    } catch (const Error& error) {
+      return error.where() + ": " + error.message();
+    }
+    return "not refused";
+  };
+  EXPECT_EQ(text(slicing(Scheme::linear, 8, 0.0, -5.0)),
+            "slices.far: is -5 m, which is not above the camera's near, 0.1 m");
+  EXPECT_EQ(text(slicing(Scheme::linear, 8, 60.0, 0.0)), "slices.near: is 60 m, which is not below far, 50 m");
+  EXPECT_EQ(text(slicing(Scheme::linear, 8, 0.0, 1e300)),
+            "slices.far: is 1e+300 m; allowed: at most 1e15 m; where the camera's far plane is infinite, name one");
 }
 
 TEST(Slicing, without_an_end_and_without_lights_behind_their_beginning_are_made_all_the_same) {

@@ -159,6 +159,19 @@ TEST(View, refuses_what_is_no_camera_and_stays_as_it_was) {
   EXPECT_TRUE(fault_with(v, changed(p, 5, -1.0)).starts_with("projection: turns the picture"));
   EXPECT_TRUE(fault_with(v, p, {.looks_along_positive_z = true}).starts_with("projection: is that of a camera"));
   EXPECT_TRUE(fault_with(v, perspective(1.0, 0.0, -1.0, 1.0)).starts_with("projection: its near plane"));
+  const Conventions reverse{.depth = Conventions::Depth::one_to_zero};
+  EXPECT_EQ(fault_with(v, changed(perspective(1.0, 0.0, -1.0, 1.0, k_endless), 14, 0.0), reverse),
+            "projection: has its near plane at the eye; the last number of its third row must not be 0");
+}
+
+TEST(View, refuses_matrices_that_are_not_there) {
+  const Numbers numbers{};
+  const double* none = nullptr;
+  const float* neither = nullptr;
+  View view;
+  EXPECT_STREQ(view.set_matrices(none, numbers.data()), "world_to_view: is null; allowed: 16 numbers");
+  EXPECT_STREQ(view.set_matrices(numbers.data(), none), "projection: is null; allowed: 16 numbers");
+  EXPECT_STREQ(view.set_matrices(neither, neither), "world_to_view: is null; allowed: 16 numbers");
 }
 
 TEST(View, refuses_conventions_that_are_none) {
